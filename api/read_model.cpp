@@ -1,0 +1,414 @@
+/// The structure: each function is the table of one entity's fields.
+
+#include <algorithm>
+
+#include "api/read_parts.h"
+#include "solver/model/limits.h"
+
+namespace snapthrough::api {
+
+// The functions are static, not in an unnamed namespace, so that the templates of api/value.h find them.
+
+static void read(const Value& value, Pattern& out) {
+  static constexpr Named<Pattern> kNames[] = {{"proportional", Pattern::proportional},
+                                              {"constant", Pattern::constant}};
+  read_named(value, kNames, out);
+}
+
+static void read(const Value& value, Reaction& out) {
+  static constexpr Named<Reaction> kNames[] = {{"bilateral", Reaction::bilateral},
+                                               {"compression_only", Reaction::compression_only},
+                                               {"tension_only", Reaction::tension_only}};
+  read_named(value, kNames, out);
+}
+
+static void read(const Value& value, Side& out) {
+  static constexpr Named<Side> kNames[] = {{"left", Side::left}, {"right", Side::right}};
+  read_named(value, kNames, out);
+}
+
+static void read(const Value& value, LoadMeasure& out) {
+  static constexpr Named<LoadMeasure> kNames[] = {{"length", LoadMeasure::length},
+                                                  {"horizontal", LoadMeasure::horizontal},
+                                                  {"vertical", LoadMeasure::vertical}};
+  read_named(value, kNames, out);
+}
+
+static void read(const Value& value, Component& out) {
+  static constexpr Named<Component> kNames[] = {{"x", Component::x},
+                                                {"y", Component::y},
+                                                {"rotation", Component::rotation},
+                                                {"normal", Component::normal}};
+  read_named(value, kNames, out);
+}
+
+static void read(const Value& value, Location& out) {
+  Object in(value);
+  const auto node = in.find("node");
+  const auto member = in.find("member");
+  if (node) {
+    read(*node, out.node);
+  }
+  if (member) {
+    read(*member, out.member);
+    in.required("fraction", out.fraction);
+  }
+  if (node && member) {
+    value.report("ambiguous", "a location is either a node or a member with a fraction, not both");
+  } else if (in.is_readable() && !node && !member) {
+    value.report("missing_field", "a location needs a node, or a member and a fraction");
+  }
+  in.finish();
+}
+
+/// A set of names, such as ["x", "y"]; reports a name that is there twice.
+template <std::size_t n>
+static std::array<bool, n> read_set(const Value& value, const std::array<std::string_view, n>& names) {
+  std::array<bool, n> out{};
+  if (!value.is_array()) {
+    value.report_type("an array");
+    return out;
+  }
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const Value item = value.item(i);
+    const auto choice = read_choice(item, names);
+    if (choice && out[*choice]) {
+      item.report("duplicate", std::string(names[*choice]) + " is there twice");
+    } else if (choice) {
+      out[*choice] = true;
+    }
+  }
+  return out;
+}
+
+/// A fixed direction, or the one name that stands for the default (then empty).
+static void read_direction(const Value& value, std::string_view default_name,
+                           std::optional<std::array<double, 2>>& out) {
+  out.reset();
+  if (value.is_string()) {
+    read_choice(value, std::array{default_name});
+  } else if (value.is_array()) {
+    read(value, out);
+  } else {
+    value.report_type("[dx, dy] or \"" + std::string(default_name) + "\"");
+  }
+}
+
+static void read(const Value& value, Node& out) {
+  Object in(value);
+  in.required("id", out.id);
+  in.required("x", out.x);
+  in.required("y", out.y);
+  in.finish();
+}
+
+/// A field that must be there and positive; NaN when it is not.
+static void read_positive(Object& in, std::string_view key, double& out) {
+  in.required(key, out);
+  if (!(out > 0.0) && out == out) {
+    in.find(key)->report("out_of_range", std::string(key) + " must be positive");
+    set_unread(out);
+  }
+}
+
+/// Sections by material and shape: EA = E A, EI = E I, GA = shear_area E / (2 (1 + nu)).
+static void read_material_section(Object& in, Section& out) {
+  double E = 0.0, A = 0.0, I = 0.0, nu = 0.0, shear_area = 0.0;
+  read_positive(in, "E", E);
+  read_positive(in, "A", A);
+  read_positive(in, "I", I);
+  const bool has_shear = in.find("shear_area").has_value();
+  if (in.find("nu") || has_shear) {
+    in.required("nu", nu);
+  }
+  if (nu <= -1.0 || nu > 0.5) {
+    in.find("nu")->report("out_of_range", "nu must be above -1 and at most 0.5");
+    set_unread(nu);
+  }
+  if (has_shear) {
+    read_positive(in, "shear_area", shear_area);
+    out.GA = shear_area * (E / (2.0 * (1.0 + nu)));
+  }
+  out.EA = E * A;
+  out.EI = E * I;
+  const auto is_usable = [](double v) { return v > 0.0 && v <= kMaxMagnitude; };
+  const auto is_nan = [](double v) { return v != v; };
+  if (is_nan(out.EA) || is_nan(out.EI) || is_nan(out.GA.value_or(0.0))) {
+    in.value().document_report().mark_unreadable(in.value().pointer());
+  } else if (!is_usable(out.EA) || !is_usable(out.EI) || !is_usable(out.GA.value_or(1.0))) {
+    in.value().report("out_of_range", "the products E A, E I and G shear_area must be positive and finite");
+  }
+}
+
+static void read(const Value& value, Section& out) {
+  Object in(value);
+  in.required("id", out.id);
+  const auto has_any = [&in](std::initializer_list<std::string_view> keys) {
+    return std::any_of(keys.begin(), keys.end(),
+                       [&in](std::string_view key) { return in.is_readable() && in.value().member(key); });
+  };
+  const bool by_stiffness = has_any({"EA", "EI", "GA"});
+  const bool by_material = has_any({"E", "A", "I", "nu", "shear_area"});
+  if (by_stiffness && by_material) {
+    value.report("ambiguous", "a section is given by EA, EI, GA or by E, A, I, nu, shear_area, not by both");
+  }
+  if (by_stiffness || !by_material) {
+    in.required("EA", out.EA);
+    in.required("EI", out.EI);
+    in.optional("GA", out.GA);
+  }
+  if (by_material) {
+    read_material_section(in, out);
+  }
+  in.finish();
+}
+
+static Curve read_line(Object&) { return LineCurve{}; }
+
+static Curve read_arc(Object& in) {
+  ArcCurve arc;
+  in.required("sweep_degrees", arc.sweep_degrees);
+  return arc;
+}
+
+static Curve read_parabola(Object& in) {
+  ParabolaCurve parabola;
+  in.required("rise", parabola.rise);
+  return parabola;
+}
+
+static Curve read_sine_curve(Object& in) {
+  SineCurve sine;
+  in.required("rise", sine.rise);
+  in.optional("half_waves", sine.half_waves);
+  return sine;
+}
+
+static Curve read_points_curve(Object& in) {
+  PointsCurve curve;
+  in.required("points", curve.points);
+  return curve;
+}
+
+static void read(const Value& value, Curve& out) {
+  static constexpr Named<Curve (*)(Object&)> kForms[] = {{"line", read_line},
+                                                         {"arc", read_arc},
+                                                         {"parabola", read_parabola},
+                                                         {"sine", read_sine_curve},
+                                                         {"points", read_points_curve}};
+  read_tagged(value, kForms, out);
+}
+
+static void read_release(const Value& value, Member& out) {
+  static constexpr std::array<std::string_view, 1> kNames{"rotation"};
+  Object in(value);
+  if (const auto start = in.find("start")) {
+    out.release_start_rotation = read_set(*start, kNames)[0];
+  }
+  if (const auto end = in.find("end")) {
+    out.release_end_rotation = read_set(*end, kNames)[0];
+  }
+  in.finish();
+}
+
+static void read(const Value& value, Member& out) {
+  Object in(value);
+  in.required("id", out.id);
+  in.required("start", out.start);
+  in.required("end", out.end);
+  in.required("section", out.section);
+  in.optional("curve", out.curve);
+  if (const auto release = in.find("release")) {
+    read_release(*release, out);
+  }
+  in.finish();
+}
+
+static void read(const Value& value, PrescribedDisplacement& out) {
+  Object in(value);
+  in.optional("x", out.x);
+  in.optional("y", out.y);
+  in.optional("rotation", out.rotation);
+  in.optional("pattern", out.pattern);
+  in.finish();
+}
+
+/// `pattern` may stand in the displacement or beside it, not in both.
+static void read_displacement(Object& in, Support& out) {
+  const auto displacement = in.find("displacement");
+  const auto pattern = in.find("pattern");
+  if (displacement) {
+    read(*displacement, out.displacement);
+  }
+  if (!pattern) {
+    return;
+  }
+  if (!displacement) {
+    pattern->report("missing_field", "pattern needs a displacement");
+  } else if (displacement->is_object() && displacement->member("pattern")) {
+    pattern->report("ambiguous", "pattern is given in the displacement already");
+  } else {
+    read(*pattern, out.displacement->pattern);
+  }
+}
+
+static void read(const Value& value, Support& out) {
+  static constexpr std::array<std::string_view, 3> kComponents{"x", "y", "rotation"};
+  Object in(value);
+  in.required("node", out.node);
+  if (const auto fixed = in.find_required("fixed")) {
+    const auto set = read_set(*fixed, kComponents);
+    out.x = set[0];
+    out.y = set[1];
+    out.rotation = set[2];
+  }
+  in.optional("angle_degrees", out.angle_degrees);
+  read_displacement(in, out);
+  in.finish();
+}
+
+static void read(const Value& value, Spring& out) {
+  Object in(value);
+  in.required("id", out.id);
+  in.required("at", out.at);
+  if (const auto direction = in.find_required("direction")) {
+    read_direction(*direction, "rotation", out.direction);
+  }
+  in.required("stiffness", out.stiffness);
+  in.optional("reaction", out.reaction);
+  in.optional("gap", out.gap);
+  in.finish();
+}
+
+static void read(const Value& value, Foundation& out) {
+  Object in(value);
+  in.required("id", out.id);
+  in.required("member", out.member);
+  in.required("stiffness", out.stiffness);
+  in.optional("shear_stiffness", out.shear_stiffness);
+  in.optional("reaction", out.reaction);
+  in.optional("range", out.range);
+  in.optional("gap", out.gap);
+  if (const auto direction = in.find("direction")) {
+    read_direction(*direction, "normal", out.direction);
+  }
+  if (const auto side = in.find("side")) {
+    read(*side, out.side);
+    if (out.direction) {
+      side->report("ambiguous", "a fixed direction points into the medium already: leave side out");
+    }
+  }
+  in.finish();
+}
+
+static Load read_point_load(Object& in) {
+  PointLoad load;
+  in.required("at", load.at);
+  in.required("force", load.force);
+  in.optional("moment", load.moment);
+  in.optional("pattern", load.pattern);
+  return load;
+}
+
+static Load read_distributed_load(Object& in) {
+  DistributedLoad load;
+  in.required("member", load.member);
+  in.required("force", load.force);
+  in.optional("range", load.range);
+  in.optional("per", load.per);
+  in.optional("pattern", load.pattern);
+  return load;
+}
+
+static Load read_pressure_load(Object& in) {
+  PressureLoad load;
+  in.required("member", load.member);
+  in.required("value", load.value);
+  in.optional("side", load.side);
+  in.optional("pattern", load.pattern);
+  return load;
+}
+
+static Load read_initial_strain(Object& in) {
+  InitialStrain load;
+  in.required("member", load.member);
+  in.optional("axial", load.axial);
+  in.optional("curvature", load.curvature);
+  in.optional("pattern", load.pattern);
+  return load;
+}
+
+static void read(const Value& value, Load& out) {
+  static constexpr Named<Load (*)(Object&)> kForms[] = {{"point", read_point_load},
+                                                        {"distributed", read_distributed_load},
+                                                        {"pressure", read_pressure_load},
+                                                        {"initial_strain", read_initial_strain}};
+  read_tagged(value, kForms, out);
+}
+
+static Imperfection read_sine_imperfection(Object& in) {
+  SineImperfection imperfection;
+  in.required("member", imperfection.member);
+  in.required("half_waves", imperfection.half_waves);
+  in.required("amplitude", imperfection.amplitude);
+  return imperfection;
+}
+
+static Imperfection read_mode_imperfection(Object& in) {
+  ModeImperfection imperfection;
+  in.required("number", imperfection.number);
+  in.required("amplitude", imperfection.amplitude);
+  return imperfection;
+}
+
+static Imperfection read_points_imperfection(Object& in) {
+  PointsImperfection imperfection;
+  in.required("member", imperfection.member);
+  in.required("offsets", imperfection.offsets);
+  return imperfection;
+}
+
+static void read(const Value& value, Imperfection& out) {
+  static constexpr Named<Imperfection (*)(Object&)> kForms[] = {{"sine", read_sine_imperfection},
+                                                                {"mode", read_mode_imperfection},
+                                                                {"points", read_points_imperfection}};
+  read_tagged(value, kForms, out);
+}
+
+static void read(const Value& value, Monitor& out) {
+  Object in(value);
+  in.required("id", out.id);
+  in.required("at", out.at);
+  in.required("component", out.component);
+  in.finish();
+}
+
+static void read_units(const Value& value, std::vector<std::pair<std::string, std::string>>& out) {
+  if (!value.is_object()) {
+    value.report_type("an object of strings");
+    return;
+  }
+  for (const std::string& key : value.keys()) {
+    read(*value.member(key), out.emplace_back(key, "").second);
+  }
+}
+
+void read(const Value& value, Model& model) {
+  Object in(value);
+  in.optional("title", model.title);
+  if (const auto units = in.find("units")) {
+    read_units(*units, model.units);
+  }
+  in.required("nodes", model.nodes);
+  in.required("sections", model.sections);
+  in.required("members", model.members);
+  in.optional("supports", model.supports);
+  in.optional("springs", model.springs);
+  in.optional("foundations", model.foundations);
+  in.optional("loads", model.loads);
+  in.optional("imperfections", model.imperfections);
+  in.optional("monitors", model.monitors);
+  in.finish();
+}
+
+}  // namespace snapthrough::api

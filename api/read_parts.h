@@ -1,0 +1,14 @@
+#pragma once
+/// @file
+/// The two halves of a request document.
+
+#include "api/value.h"
+#include "solver/model/analysis.h"
+#include "solver/model/model.h"
+
+namespace snapthrough::api {
+
+void read(const Value& value, Model& model);
+void read(const Value& value, Analysis& analysis);
+
+}  // namespace snapthrough::api

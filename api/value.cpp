@@ -1,0 +1,226 @@
+#include "api/value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "solver/model/check_place.h"
+#include "solver/model/pointer.h"
+
+namespace snapthrough::api {
+
+namespace {
+
+using checks::in_quotes;
+
+/// Levenshtein's distance: insertions, deletions and replacements of a byte that turn one into the other.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+std::string join(std::span<const std::string_view> names) {
+  std::string all;
+  for (const std::string_view name : names) {
+    all += (all.empty() ? "" : ", ") + std::string(name);
+  }
+  return all;
+}
+
+/// ' - did you mean "x"?' or what there is to choose from.
+std::string suggest(std::string_view nearest, std::span<const std::string_view> names) {
+  return nearest.empty() ? "; known here: " + join(names) : "; did you mean " + in_quotes(nearest) + "?";
+}
+
+}  // namespace
+
+std::string_view nearest_name(std::string_view written, std::span<const std::string_view> names) {
+  constexpr std::size_t kLongest = 40;
+  std::string_view best;
+  std::size_t best_distance = std::max<std::size_t>(2, written.size() / 3) + 1;
+  if (written.size() > kLongest) {
+    return best;
+  }
+  for (const std::string_view name : names) {
+    const std::size_t distance = edit_distance(written, name);
+    if (distance < best_distance && distance < name.size()) {
+      best = name;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+void Report::mark_unreadable(const std::string& pointer) {
+  unreadable_.insert(pointer);
+  for (std::size_t end = pointer.rfind('/'); end != std::string::npos && end > 0;
+       end = pointer.rfind('/', end - 1)) {
+    if (!above_unreadable_.insert(pointer.substr(0, end)).second) {
+      break;
+    }
+  }
+}
+
+void Report::add(const std::string& pointer, std::string_view code, std::string detail) {
+  findings_.push_back({pointer, std::string(code), std::move(detail)});
+  mark_unreadable(pointer);
+}
+
+void Report::add_unknown_field(const std::string& pointer, const std::string& meant, std::string detail) {
+  findings_.push_back({pointer, "unknown_field", std::move(detail)});
+  if (!meant.empty()) {
+    mark_unreadable(meant);
+  }
+}
+
+bool Report::covers(const std::string& pointer) const {
+  if (above_unreadable_.contains(pointer) || unreadable_.contains(pointer) || unreadable_.contains("")) {
+    return true;
+  }
+  for (std::size_t end = pointer.rfind('/'); end != std::string::npos && end > 0;
+       end = pointer.rfind('/', end - 1)) {
+    if (unreadable_.contains(pointer.substr(0, end))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Value::is_object() const { return json_->is_object(); }
+bool Value::is_array() const { return json_->is_array(); }
+bool Value::is_string() const { return json_->is_string(); }
+bool Value::is_number() const { return json_->is_number(); }
+std::size_t Value::size() const { return json_->size(); }
+
+Value Value::item(std::size_t i) const { return {(*json_)[i], pointer_ + "/" + std::to_string(i), *report_}; }
+
+std::optional<Value> Value::member(std::string_view key) const {
+  const auto found = json_->find(key);
+  if (found == json_->end()) {
+    return std::nullopt;
+  }
+  return Value(*found, pointer_ + "/" + escape_pointer_token(key), *report_);
+}
+
+std::vector<std::string> Value::keys() const {
+  std::vector<std::string> result;
+  for (const auto& member : json_->items()) {
+    result.push_back(member.key());
+  }
+  return result;
+}
+
+void Value::report_type(std::string_view expected) const {
+  report("wrong_type", "expected " + std::string(expected) + ", got " + json_->type_name());
+}
+
+void read(const Value& value, std::string& out) {
+  if (value.is_string()) {
+    out = value.json().get_ref<const std::string&>();
+  } else {
+    value.report_type("a string");
+  }
+}
+
+void read(const Value& value, double& out) {
+  set_unread(out);
+  if (!value.is_number()) {
+    value.report_type("a number");
+  } else if (const double number = value.json().get<double>(); std::isfinite(number)) {
+    out = number;
+  } else {
+    value.report("out_of_range", "the number must be finite");
+  }
+}
+
+void read(const Value& value, int& out) {
+  if (!value.is_number()) {
+    value.report_type("an integer");
+    return;
+  }
+  const double number = value.json().get<double>();  // exact up to 2^53, and monotonic beyond
+  if (!(std::floor(number) == number)) {
+    value.report("wrong_type", "expected an integer, got " + checks::text(number));
+  } else if (number < std::numeric_limits<int>::min() || number > std::numeric_limits<int>::max()) {
+    value.report("out_of_range", "the integer " + checks::text(number) + " is too large");
+  } else {
+    out = static_cast<int>(number);
+  }
+}
+
+void read(const Value& value, std::array<double, 2>& out) {
+  set_unread(out);
+  if (!value.is_array() || value.size() != 2) {
+    const std::string got =
+        value.is_array() ? std::to_string(value.size()) + " elements" : value.json().type_name();
+    value.report("wrong_type", "expected an array of two numbers, got " + got);
+    return;
+  }
+  read(value.item(0), out[0]);
+  read(value.item(1), out[1]);
+}
+
+std::optional<std::size_t> read_choice(const Value& value, std::span<const std::string_view> names) {
+  if (!value.is_string()) {
+    value.report_type("one of " + join(names));
+    return std::nullopt;
+  }
+  const auto& written = value.json().get_ref<const std::string&>();
+  const auto found = std::find(names.begin(), names.end(), written);
+  if (found == names.end()) {
+    value.report("unknown_value",
+                 in_quotes(written) + " is not allowed here" + suggest(nearest_name(written, names), names));
+    return std::nullopt;
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+Object::Object(const Value& value) : value_(value), readable_(value.is_object()) {
+  if (!readable_) {
+    value.report_type("an object");
+  }
+}
+
+std::optional<Value> Object::find(std::string_view key) {
+  known_.push_back(key);
+  return readable_ ? value_.member(key) : std::nullopt;
+}
+
+std::optional<Value> Object::find_required(std::string_view key) {
+  auto found = find(key);
+  if (readable_ && !found) {
+    value_.document_report().add(value_.pointer() + "/" + escape_pointer_token(key), "missing_field",
+                                 std::string(key) + " is required");
+  }
+  return found;
+}
+
+void Object::finish() const {
+  if (!readable_) {
+    return;
+  }
+  for (const auto& member : value_.json().items()) {
+    const std::string& key = member.key();
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
+      continue;
+    }
+    const std::string_view nearest = nearest_name(key, known_);
+    value_.document_report().add_unknown_field(
+        value_.pointer() + "/" + escape_pointer_token(key),
+        nearest.empty() ? "" : value_.pointer() + "/" + std::string(nearest),
+        "unknown field " + in_quotes(key) + suggest(nearest, known_));
+  }
+}
+
+}  // namespace snapthrough::api

@@ -1,0 +1,202 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "api/api.h"
+
+namespace snapthrough::api {
+
+namespace {
+
+using Json = nlohmann::json;
+
+// to_json(x): one function a type. Optional values that are empty, and counts that were not filled, are null.
+
+const char* to_name(CriticalType type) {
+  switch (type) {
+    case CriticalType::bifurcation:
+      return "bifurcation";
+    case CriticalType::limit_max:
+      return "limit_max";
+    case CriticalType::limit_min:
+      return "limit_min";
+  }
+  throw std::invalid_argument("critical type out of range");
+}
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+template <class T>
+Json count_or_null(T count) {
+  return count < 0 ? Json(nullptr) : Json(count);
+}
+
+Json write(const Summary& summary) {
+  return {{"critical_load_factor", or_null(summary.critical_load_factor)},
+          {"critical_type", summary.critical_type ? Json(to_name(*summary.critical_type)) : Json(nullptr)},
+          {"error_estimate", or_null(summary.error_estimate)},
+          {"termination", summary.termination},
+          {"message", summary.message}};
+}
+
+Json write(const std::vector<NamedValue>& values) {
+  Json object = Json::object();
+  for (const NamedValue& value : values) {
+    object[value.id] = value.value;
+  }
+  return object;
+}
+
+Json write(const std::vector<NamedSeries>& series) {
+  Json object = Json::object();
+  for (const NamedSeries& one : series) {
+    object[one.id] = one.values;
+  }
+  return object;
+}
+
+Json write(const CriticalPoint& point) {
+  return {{"branch", point.branch},
+          {"type", to_name(point.type)},
+          {"load_factor", point.load_factor},
+          {"error_estimate", or_null(point.error_estimate)},
+          {"arc_length", point.arc_length},
+          {"monitors", write(point.monitors)},
+          {"negative_before", count_or_null(point.negative_before)},
+          {"negative_after", count_or_null(point.negative_after)},
+          {"multiplicity", point.multiplicity},
+          {"state", or_null(point.state)}};
+}
+
+Json write(const Branch& branch) {
+  return {{"id", branch.id},
+          {"parent", or_null(branch.parent)},
+          {"load_factor", branch.load_factor},
+          {"arc_length", branch.arc_length},
+          {"monitors", write(branch.monitors)},
+          {"negative_eigenvalues", branch.negative_eigenvalues},
+          {"contact_fraction", write(branch.contact_fraction)}};
+}
+
+Json write_shape(const MemberState& member) {
+  return {{"s", member.s}, {"x", member.x}, {"y", member.y}, {"rotation", member.rotation}};
+}
+
+Json write(const State& state) {
+  Json members = Json::object();
+  for (const MemberState& member : state.members) {
+    Json& entry = members[member.id] = write_shape(member);
+    entry["axial_force"] = member.axial_force;
+    entry["shear_force"] = member.shear_force;
+    entry["bending_moment"] = member.bending_moment;
+  }
+  Json foundations = Json::object();
+  for (const FoundationState& foundation : state.foundations) {
+    foundations[foundation.id] = {
+        {"s", foundation.s}, {"reaction", foundation.reaction}, {"contact", foundation.contact}};
+  }
+  return {{"branch", state.branch},
+          {"load_factor", state.load_factor},
+          {"members", std::move(members)},
+          {"foundations", std::move(foundations)}};
+}
+
+Json write(const BucklingMode& mode) {
+  Json members = Json::object();
+  for (const MemberState& member : mode.members) {
+    members[member.id] = write_shape(member);
+  }
+  return {{"members", std::move(members)}};
+}
+
+template <class T>
+Json write_all(const std::vector<T>& items) {
+  Json array = Json::array();
+  for (const T& item : items) {
+    array.push_back(write(item));
+  }
+  return array;
+}
+
+Json write(const MeshReport& mesh) {
+  return {
+      {"elements", count_or_null(mesh.elements)},
+      {"order", count_or_null(mesh.order)},
+      {"unknowns", count_or_null(mesh.unknowns)},
+      {"refinements", count_or_null(mesh.refinements)},
+      {"accuracy",
+       {{"requested", or_null(mesh.requested_accuracy)}, {"estimated", or_null(mesh.estimated_accuracy)}}}};
+}
+
+Json write(const Diagnostics& diagnostics, double wall_time_s) {
+  return {{"steps", count_or_null(diagnostics.steps)},
+          {"rejected_steps", count_or_null(diagnostics.rejected_steps)},
+          {"iterations", count_or_null(diagnostics.iterations)},
+          {"factorizations", count_or_null(diagnostics.factorizations)},
+          {"max_relative_residual", count_or_null(diagnostics.max_relative_residual)},
+          {"wall_time_s", wall_time_s},
+          {"skipped", diagnostics.skipped}};
+}
+
+Json write(const Model& model) {
+  Json units = Json::object();
+  for (const auto& [quantity, unit] : model.units) {
+    units[quantity] = unit;
+  }
+  return {{"title", model.title}, {"units", std::move(units)}};
+}
+
+/// JSON has no NaN and no infinity, and the library would write null without a word. Depth is that of the
+/// contract.
+void require_finite_numbers(const Json& json, const std::string& pointer) {
+  if (json.is_number_float() && !std::isfinite(json.get<double>())) {
+    throw std::runtime_error("the result has a number that is not finite at " + pointer);
+  }
+  if (json.is_array()) {
+    for (std::size_t i = 0; i < json.size(); ++i) {
+      if (json[i].is_structured() || json[i].is_number_float()) {
+        require_finite_numbers(json[i], pointer + "/" + std::to_string(i));
+      }
+    }
+  } else if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) {
+      require_finite_numbers(value, pointer + "/" + key);
+    }
+  }
+}
+
+}  // namespace
+
+nlohmann::json write_result(const Request& request, const Result& result, double wall_time_s) {
+  Json document{{"model", write(request.model)},
+                {"summary", write(result.summary)},
+                {"critical_points", write_all(result.critical_points)},
+                {"branches", write_all(result.branches)},
+                {"states", write_all(result.states)},
+                {"discretization", write(result.discretization)},
+                {"diagnostics", write(result.diagnostics, wall_time_s)}};
+  if (result.buckling) {
+    document["buckling"] = {{"load_factors", result.buckling->load_factors},
+                            {"modes", write_all(result.buckling->modes)}};
+  }
+  if (result.failure) {
+    document["failure"] = {{"code", result.failure->code}, {"detail", result.failure->detail}};
+  }
+  require_finite_numbers(document, "");
+  return document;
+}
+
+nlohmann::json write_findings(const std::vector<Finding>& findings) {
+  Json array = Json::array();
+  for (const Finding& finding : findings) {
+    array.push_back({{"pointer", finding.pointer}, {"code", finding.code}, {"detail", finding.detail}});
+  }
+  return array;
+}
+
+}  // namespace snapthrough::api

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""Checks that dependencies point one way: solver <- api <- server, and which libraries each layer sees.
+
+  check_includes.py              exit status 1 names the includes that are not allowed
+  check_includes.py --self-test  checks the checker
+"""
+import pathlib
+import re
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from lib.cpp_text import strip_comments  # noqa: E402
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*([<"][^>"]*[>"]|\S+)?', re.MULTILINE)
+
+# The standard headers that computing needs. No threads, clocks, files, streams or randomness: a result depends on
+# its request alone, and the caller decides where it runs.
+SOLVER_STANDARD = set("""
+    algorithm any array atomic bit bitset cassert cctype cfloat charconv cinttypes climits cmath compare complex
+    concepts cstddef cstdint cstdlib cstring deque exception forward_list functional initializer_list iterator
+    limits list map memory memory_resource new numbers numeric optional queue ranges ratio set source_location span
+    stack stdexcept stop_token string string_view system_error tuple type_traits typeindex typeinfo unordered_map
+    unordered_set utility valarray variant vector version
+    immintrin.h
+""".split())
+
+FORBIDDEN_SOLVER = ("thread", "chrono", "iostream", "fstream", "random", "mutex", "future", "filesystem", "ctime",
+                    "cstdio", "ostream", "istream", "iomanip", "sstream", "condition_variable", "regex")
+API_STANDARD = SOLVER_STANDARD | {"sstream", "iosfwd", "cstdio", "regex"}
+
+
+def is_eigen(name):
+    return re.fullmatch(r"(?:unsupported/)?Eigen/\w+", name) is not None
+
+
+def is_json(name):
+    return name in ("nlohmann/json.hpp", "nlohmann/json_fwd.hpp")
+
+
+def allowed(layer, quoted, name):
+    """Whether a file of that layer may include this."""
+    if quoted:
+        layers = {"solver": ("solver/",), "api": ("solver/", "api/"), "server": ("solver/", "api/", "server/")}
+        return name.startswith(layers[layer])
+    if layer == "solver":
+        return name in SOLVER_STANDARD or is_eigen(name)
+    if layer == "api":
+        return name in API_STANDARD or is_json(name)
+    return not is_eigen(name)
+
+
+def check_source(source, layer):
+    found = []
+    text = strip_comments(source)
+    for match in INCLUDE.finditer(text):
+        line = text.count("\n", 0, match.start()) + 1
+        target = match[1] or ""
+        if target[:1] not in ('"', "<") or not allowed(layer, target[0] == '"', target[1:-1]):
+            found.append((line, f"{layer} must not include {target or 'this'}"))
+    return found
+
+
+GOOD = [
+    ("solver", "#include <vector>\n#include <Eigen/Core>\n#include <stop_token>\n#include \"solver/solve.h\"\n"),
+    ("solver", "// #include <thread>\n/* #include <iostream> */\n"),
+    ("api", "#include <nlohmann/json.hpp>\n#include \"api/api.h\"\n#include \"solver/solve.h\"\n"),
+    ("server", "#include <sqlite3.h>\n#include <thread>\n#include \"server/x.h\"\n#include \"api/api.h\"\n"),
+]
+BAD = [("solver", f"#include <{name}>") for name in FORBIDDEN_SOLVER] + [
+    ("solver", "#include <nlohmann/json.hpp>"),
+    ("solver", "#include <nlohmann/json_fwd.hpp>"),
+    ("solver", "#include \"api/api.h\""),
+    ("solver", "#include \"server/status.h\""),
+    ("solver", "#include \"../api/api.h\""),
+    ("solver", "#include HEADER"),
+    ("solver", "  #  include <thread>"),
+    ("solver", "/* comment */ \n#include <spdlog/spdlog.h>"),
+    ("api", "#include <httplib.h>"),
+    ("api", "#include <sqlite3.h>"),
+    ("api", "#include <Eigen/Core>"),
+    ("api", "#include <fstream>"),
+    ("api", "#include \"server/status.h\""),
+    ("server", "#include <Eigen/Dense>"),
+    ("server", "#include \"tests/server/x.h\""),
+]
+
+
+def self_test():
+    wrong = [f"not found: {layer}: {source}" for layer, source in BAD if not check_source(source, layer)]
+    wrong += [f"{layer}: {text}" for layer, source in GOOD for _, text in check_source(source, layer)]
+    print("\n".join(wrong) if wrong else f"check_includes: self-test of {len(BAD) + len(GOOD)} snippets passed")
+    return 1 if wrong else 0
+
+
+def main(arguments):
+    if arguments == ["--self-test"]:
+        return self_test()
+    offenders = 0
+    files = 0
+    for layer in ("solver", "api", "server"):
+        for path in sorted((ROOT / layer).rglob("*")):
+            if path.suffix not in (".h", ".cpp"):
+                continue
+            files += 1
+            for line, text in check_source(path.read_text(encoding="utf-8"), layer):
+                offenders += 1
+                print(f"{path.relative_to(ROOT)}:{line}: {text}")
+    print(f"check_includes: {files} files, {offenders} includes that are not allowed")
+    return 1 if offenders else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,21 @@
+#pragma once
+/// @file
+/// What each command does once its arguments are known. Each returns the exit status.
+
+#include <string>
+
+#include "server/cli/app.h"
+#include "server/config.h"
+
+namespace snapthrough::server::cli {
+
+/// Result document on `out`; progress on `err` when `show_progress`. "-" reads `in`.
+int solve_command(const std::string& path, const Streams& streams, bool show_progress);
+
+/// Findings on `err`, one line each; a line on `out` when there are none.
+int check_command(const std::string& path, const Streams& streams);
+
+/// Runs the service until SIGTERM or SIGINT.
+int serve_command(const ServiceConfig& config, const Streams& streams);
+
+}  // namespace snapthrough::server::cli

@@ -1,0 +1,73 @@
+#include <csignal>
+#include <ostream>
+#include <system_error>
+
+#include "server/cli/commands.h"
+#include "server/environment.h"
+#include "server/log/log.h"
+#include "server/service.h"
+#include "solver/solve.h"
+
+namespace snapthrough::server::cli {
+namespace {
+
+/// Holds SIGTERM and SIGINT back from every thread made after it, so that one place waits for them.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    std::signal(SIGPIPE, SIG_IGN);
+    sigemptyset(&signals_);
+    sigaddset(&signals_, SIGTERM);
+    sigaddset(&signals_, SIGINT);
+    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+  }
+  ~HeldSignals() { release(); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+  HeldSignals(HeldSignals&&) = delete;
+  HeldSignals& operator=(HeldSignals&&) = delete;
+
+  /// The first signal that comes.
+  [[nodiscard]] int wait() const {
+    int signal = 0;
+    sigwait(&signals_, &signal);
+    return signal;
+  }
+  /// From now on a signal ends the process at once.
+  void release() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+ private:
+  sigset_t signals_{};
+  sigset_t before_{};
+};
+
+bool usable(const ServiceConfig& config, const Streams& streams) {
+  const std::vector<ConfigMistake> mistakes = config.check();
+  for (const ConfigMistake& mistake : mistakes) {
+    streams.err << mistake.field << ": " << mistake.detail << '\n';
+  }
+  return mistakes.empty();
+}
+
+}  // namespace
+
+int serve_command(const ServiceConfig& config, const Streams& streams) {
+  if (!usable(config, streams)) {
+    return kOther;
+  }
+  HeldSignals signals;
+  const Environment environment = Environment::system();
+  Log log(config.log_level, environment.now);
+  Service service(config, environment, solve, log);
+  if (const Status status = service.start(); !status.ok()) {
+    streams.err << "snapthrough: " << status.message() << '\n';
+    return kOther;
+  }
+  const int signal = signals.wait();
+  signals.release();  // who signals twice does not want to wait
+  log.write(LogLevel::info, "stopping", {{"signal", static_cast<std::int64_t>(signal)}});
+  service.stop();
+  return kDone;
+}
+
+}  // namespace snapthrough::server::cli

@@ -1,0 +1,39 @@
+#pragma once
+/// @file
+/// What can be set for the service.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/http/listener.h"
+#include "server/http/routes.h"
+#include "server/log/log.h"
+
+namespace snapthrough::server {
+
+/// A field of the configuration that cannot be used.
+struct ConfigMistake {
+  std::string field;   ///< as in ServiceConfig, e.g. "workers"
+  std::string detail;  ///< a sentence with the rule
+};
+
+/// Settings of the service; every field has a working default.
+struct ServiceConfig {
+  http::ListenerOptions listener;             ///< a loopback address: requests are not authenticated
+  http::WaitLimits waits;                     ///< how long clients may wait for results
+  std::string store_path = "snapthrough.db";  ///< SQLite file; its folder must exist
+  int workers = 1;                            ///< analyses at the same time, 1 to 1024
+  int max_crashes = 3;  ///< a job during which the service died so often is given up, >= 1
+  LogLevel log_level = LogLevel::info;
+
+  /// One worker for each core.
+  [[nodiscard]] static ServiceConfig defaults();
+  /// Every field that cannot be used.
+  [[nodiscard]] std::vector<ConfigMistake> check() const;
+};
+
+/// Splits "host:port" or "[ipv6]:port"; nothing when it has another form or the port is not 0 to 65535.
+[[nodiscard]] std::optional<std::pair<std::string, int>> parse_address(std::string_view text);
+
+}  // namespace snapthrough::server

@@ -1,0 +1,166 @@
+#include "server/http/wire.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include "server/http/message.h"
+
+namespace snapthrough::server::http {
+namespace {
+
+constexpr std::string_view kLineEnd = "\r\n";
+
+/// Takes the first line, without its end, off the text.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find(kLineEnd);
+  if (end == std::string_view::npos) {
+    return std::exchange(text, {});
+  }
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end + kLineEnd.size());
+  return line;
+}
+
+Head refuse(Head head, int status, std::string detail) {
+  head.refusal = Refusal{status, std::move(detail)};
+  return head;
+}
+
+/// What the headers say, before it is judged.
+struct Facts {
+  std::size_t count = 0;
+  std::optional<std::string_view> content_length;
+  bool malformed = false;
+  bool transfer_encoding = false;
+  bool content_encoding = false;
+  bool expects_continue = false;
+};
+
+void note_header(std::string_view name, std::string_view value, Facts& facts) {
+  if (equal_ignoring_case(name, "Content-Length")) {
+    facts.malformed |= facts.content_length.has_value();
+    facts.content_length = value;
+  } else if (equal_ignoring_case(name, "Transfer-Encoding")) {
+    facts.transfer_encoding = true;
+  } else if (equal_ignoring_case(name, "Content-Encoding")) {
+    facts.content_encoding = !equal_ignoring_case(value, "identity");
+  } else if (equal_ignoring_case(name, "Expect")) {
+    facts.expects_continue = equal_ignoring_case(value, "100-continue");
+  }
+}
+
+Facts read_headers(std::string_view lines) {
+  Facts facts;
+  while (!lines.empty()) {
+    const std::string_view line = take_line(lines);
+    if (line.empty()) {
+      break;
+    }
+    ++facts.count;
+    const std::size_t colon = line.find(':');
+    const std::string_view name = line.substr(0, colon);
+    // A space in or before the name is how headers are smuggled past one of two parsers.
+    if (colon == std::string_view::npos || name.empty() || name.find_first_of(" \t\r\n") != name.npos) {
+      facts.malformed = true;
+      return facts;
+    }
+    note_header(name, trimmed(line.substr(colon + 1)), facts);
+  }
+  return facts;
+}
+
+std::optional<std::size_t> length_of(std::string_view digits) {
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc::result_out_of_range) {
+    return static_cast<std::size_t>(-1);
+  }
+  const bool whole = error == std::errc() && end == digits.data() + digits.size();
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+bool read_request_line(std::string_view line, Head& head) {
+  const std::size_t first = line.find(' ');
+  const std::size_t last = line.rfind(' ');
+  if (first == std::string_view::npos || first == last || !line.substr(last + 1).starts_with("HTTP/1.")) {
+    return false;
+  }
+  head.method = line.substr(0, first);
+  head.target = line.substr(first + 1, last - first - 1);
+  return !head.target.empty() && head.target.find(' ') == std::string::npos;
+}
+
+bool is_known_method(std::string_view method) {
+  static constexpr std::array<std::string_view, 7> kMethods{"GET",   "HEAD",   "POST",   "PUT",
+                                                            "PATCH", "DELETE", "OPTIONS"};
+  return std::find(kMethods.begin(), kMethods.end(), method) != kMethods.end();
+}
+
+Head judge(Head head, const Facts& facts, const WireLimits& limits) {
+  if (!is_known_method(head.method)) {
+    return refuse(std::move(head), 501, "This method is not known here.");
+  }
+  if (head.target.size() > limits.target_bytes) {
+    return refuse(std::move(head), 414,
+                  "The path and query may have " + std::to_string(limits.target_bytes) + " bytes.");
+  }
+  if (facts.count > limits.header_count) {
+    return refuse(std::move(head), 431,
+                  "A request may have " + std::to_string(limits.header_count) + " headers.");
+  }
+  if (facts.malformed) {
+    return refuse(std::move(head), 400, "The headers are malformed.");
+  }
+  const bool has_body = head.method == "POST" || head.method == "PUT" || head.method == "PATCH";
+  if (facts.transfer_encoding || (has_body && !facts.content_length)) {
+    return refuse(std::move(head), 411, "A request body needs a Content-Length.");
+  }
+  if (facts.content_encoding) {
+    return refuse(std::move(head), 415, "A request body is not compressed here.");
+  }
+  const std::optional<std::size_t> length = length_of(facts.content_length.value_or("0"));
+  if (!length) {
+    return refuse(std::move(head), 400, "The Content-Length is no number.");
+  }
+  if (*length > limits.body_bytes) {
+    return refuse(std::move(head), 413,
+                  "A request body may have " + std::to_string(limits.body_bytes) + " bytes.");
+  }
+  head.body_bytes = *length;
+  head.expects_continue = facts.expects_continue && *length > 0;
+  return head;
+}
+
+}  // namespace
+
+Head read_head(std::string_view head_text, const WireLimits& limits) {
+  Head head;
+  if (!read_request_line(take_line(head_text), head)) {
+    return refuse(std::move(head), 400, "The request line is malformed.");
+  }
+  return judge(std::move(head), read_headers(head_text), limits);
+}
+
+std::string cleaned_head(std::string_view head) {
+  static constexpr std::array<std::string_view, 8> kDropped{"Range",       "Accept-Encoding", "Expect",
+                                                            "REMOTE_ADDR", "REMOTE_PORT",     "LOCAL_ADDR",
+                                                            "LOCAL_PORT",  "If-Range"};
+  std::string cleaned;
+  cleaned.reserve(head.size());
+  cleaned.append(take_line(head)).append(kLineEnd);
+  while (!head.empty()) {
+    const std::string_view line = take_line(head);
+    const std::string_view name = line.substr(0, line.find(':'));
+    const bool dropped = std::any_of(kDropped.begin(), kDropped.end(), [&](std::string_view other) {
+      return equal_ignoring_case(name, other);
+    });
+    if (!dropped) {
+      cleaned.append(line).append(kLineEnd);
+    }
+  }
+  return cleaned;
+}
+
+}  // namespace snapthrough::server::http

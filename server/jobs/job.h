@@ -1,0 +1,68 @@
+#pragma once
+/// @file
+/// A job and what is kept of it. Plain data.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/environment.h"
+#include "server/jobs/state.h"
+#include "solver/result.h"
+
+namespace snapthrough::server {
+
+/// Why a job failed.
+struct JobFailure {
+  std::string code;     ///< e.g. "no_convergence", "internal_error"
+  std::string detail;   ///< a sentence
+  std::string reached;  ///< result document (JSON text) of what was reached; empty: nothing
+};
+
+/// What is known of a job without its documents.
+struct Job {
+  std::string id;
+  JobState state = JobState::accepted;
+  int attempt = 0;  ///< how often it was claimed
+  int crashes = 0;  ///< how many of these claims ended with the death of the process
+  std::string title;
+  std::string analysis_type;
+  Time created;
+  std::optional<Time> started;        ///< of the latest claim
+  std::optional<Time> finished;       ///< exactly in a final state
+  std::optional<JobFailure> failure;  ///< exactly when failed; get() fills it, list() leaves it out
+};
+
+/// A job as it is handed in.
+struct NewJob {
+  std::string id;             ///< from new_id()
+  std::string title;          ///< of the model, for lists
+  std::string analysis_type;  ///< e.g. "path"
+  std::string document;       ///< the request, JSON text as received
+  Time created;
+};
+
+/// What a worker holds of a job it works on, and what proves that it still does: a job that was given to
+/// somebody else has a higher attempt.
+struct Claim {
+  std::string id;
+  int attempt = 0;
+  std::string document;  ///< the request
+};
+
+/// What a finished job leaves: the document that is served, and its parts for queries.
+struct JobResult {
+  std::string document;  ///< result document, JSON text
+  double wall_time_s = 0.0;
+  Summary summary;
+  std::vector<Branch> branches;
+  std::vector<CriticalPoint> critical_points;
+};
+
+/// The stored path of a job: series without loss, critical points without their monitor values and state.
+struct StoredPath {
+  std::vector<Branch> branches;
+  std::vector<CriticalPoint> critical_points;
+};
+
+}  // namespace snapthrough::server

@@ -1,0 +1,164 @@
+#include "server/store/sqlite/connection.h"
+
+#include <sqlite3.h>
+
+#include <bit>
+#include <cstring>
+
+namespace snapthrough::server::sqlite {
+namespace {
+
+// Series are stored as little-endian float64; a big-endian machine would have to swap here.
+static_assert(std::endian::native == std::endian::little);
+static_assert(sizeof(double) == 8);
+
+[[noreturn]] void raise(sqlite3* database, int code) {
+  const char* message = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code);
+  throw Error(code, message);
+}
+
+}  // namespace
+
+void Statement::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+
+Statement::Statement(sqlite3* database, std::string_view sql) : database_(database) {
+  sqlite3_stmt* statement = nullptr;
+  const int code =
+      sqlite3_prepare_v2(database, sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
+  statement_.reset(statement);
+  check(code);
+}
+
+void Statement::check(int code) const {
+  if (code != SQLITE_OK) {
+    raise(database_, code);
+  }
+}
+
+Statement& Statement::bind(std::int64_t value) {
+  check(sqlite3_bind_int64(statement_.get(), ++bound_, value));
+  return *this;
+}
+
+Statement& Statement::bind(double value) {
+  check(sqlite3_bind_double(statement_.get(), ++bound_, value));
+  return *this;
+}
+
+Statement& Statement::bind(std::string_view text) {
+  // An empty view may hold a null pointer, which SQLite would take for NULL.
+  const char* data = text.empty() ? "" : text.data();
+  check(sqlite3_bind_text64(statement_.get(), ++bound_, data, text.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
+  return *this;
+}
+
+Statement& Statement::bind_null() {
+  check(sqlite3_bind_null(statement_.get(), ++bound_));
+  return *this;
+}
+
+Statement& Statement::bind_series(std::span<const double> values) {
+  const void* data = values.empty() ? static_cast<const void*>("") : values.data();
+  check(sqlite3_bind_blob64(statement_.get(), ++bound_, data, values.size_bytes(), SQLITE_TRANSIENT));
+  return *this;
+}
+
+bool Statement::step() {
+  const int code = sqlite3_step(statement_.get());
+  if (code != SQLITE_ROW && code != SQLITE_DONE) {
+    raise(database_, code);
+  }
+  return code == SQLITE_ROW;
+}
+
+void Statement::run() {
+  if (step()) {
+    throw Error(SQLITE_MISUSE, "a statement without result returned a row");
+  }
+}
+
+bool Statement::is_null(int column) const {
+  return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
+}
+
+std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(statement_.get(), column); }
+
+double Statement::real(int column) const { return sqlite3_column_double(statement_.get(), column); }
+
+std::string Statement::text(int column) const {
+  const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
+  const int size = sqlite3_column_bytes(statement_.get(), column);
+  return data == nullptr ? std::string() : std::string(data, static_cast<std::size_t>(size));
+}
+
+std::vector<double> Statement::series(int column) const {
+  const void* data = sqlite3_column_blob(statement_.get(), column);
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
+  std::vector<double> values(size / sizeof(double));
+  if (!values.empty()) {
+    std::memcpy(values.data(), data, values.size() * sizeof(double));
+  }
+  return values;
+}
+
+std::optional<std::int64_t> Statement::optional_integer(int column) const {
+  return is_null(column) ? std::nullopt : std::optional(integer(column));
+}
+
+std::optional<double> Statement::optional_real(int column) const {
+  return is_null(column) ? std::nullopt : std::optional(real(column));
+}
+
+void Connection::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+
+Connection::Connection(const std::string& path, Access access) {
+  const int flags =
+      SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE |
+      (access == Access::read_write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY);
+  sqlite3* handle = nullptr;
+  const int code = sqlite3_open_v2(path.c_str(), &handle, flags, nullptr);
+  handle_.reset(handle);
+  if (code != SQLITE_OK) {
+    raise(handle, code);
+  }
+  sqlite3_busy_timeout(handle, 5000);
+  if (access == Access::read_write) {
+    execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA secure_delete = OFF;");
+  } else {
+    execute("PRAGMA query_only = ON;");
+  }
+  execute("PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA mmap_size = 0;");
+}
+
+void Connection::execute(const std::string& sql) {
+  const int code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) {
+    raise(handle_.get(), code);
+  }
+}
+
+std::int64_t Connection::changes() const { return sqlite3_changes64(handle_.get()); }
+
+std::int64_t Connection::last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }
+
+Transaction::Transaction(Connection& connection) : connection_(connection) {
+  connection_.execute("BEGIN IMMEDIATE");
+}
+
+Transaction::~Transaction() {
+  if (!open_) {
+    return;
+  }
+  try {
+    connection_.execute("ROLLBACK");
+  } catch (const Error&) {
+    // SQLite has rolled back by itself already (disk full, I/O error): nothing is left to undo.
+  }
+}
+
+void Transaction::commit() {
+  connection_.execute("COMMIT");
+  open_ = false;
+}
+
+}  // namespace snapthrough::server::sqlite

@@ -1,0 +1,111 @@
+#pragma once
+/// @file
+/// Thin owners of SQLite's handles. Inside the driver an error is an exception; the store's verbs turn it
+/// into a Status. sqlite3.h is not included here.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace snapthrough::server::sqlite {
+
+/// SQLite refused something; `code()` is its (extended) result code.
+class Error : public std::runtime_error {
+ public:
+  Error(int code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  [[nodiscard]] int code() const { return code_; }
+
+ private:
+  int code_;
+};
+
+/// @brief A prepared statement: bind in order, step, read columns from 0. Not thread-safe.
+/// Every member throws Error.
+class Statement {
+ public:
+  Statement(sqlite3* database, std::string_view sql);
+
+  /// Binds the next parameter. Text and blobs are copied.
+  Statement& bind(std::int64_t value);
+  Statement& bind(int value) { return bind(static_cast<std::int64_t>(value)); }
+  Statement& bind(double value);
+  Statement& bind(std::string_view text);
+  Statement& bind_null();
+  /// Little-endian float64, one after the other.
+  Statement& bind_series(std::span<const double> values);
+  template <class T>
+  Statement& bind(const std::optional<T>& value) {
+    return value ? bind(*value) : bind_null();
+  }
+
+  /// To the next row; false when there is none.
+  bool step();
+  /// Steps a statement that returns no rows.
+  void run();
+
+  [[nodiscard]] bool is_null(int column) const;
+  [[nodiscard]] std::int64_t integer(int column) const;
+  [[nodiscard]] double real(int column) const;
+  [[nodiscard]] std::string text(int column) const;
+  [[nodiscard]] std::vector<double> series(int column) const;
+  [[nodiscard]] std::optional<std::int64_t> optional_integer(int column) const;
+  [[nodiscard]] std::optional<double> optional_real(int column) const;
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  void check(int code) const;
+
+  sqlite3* database_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  int bound_ = 0;
+};
+
+enum class Access { read_write, read_only };
+
+/// @brief One connection with the pragmas of this project. Not thread-safe. Members throw Error.
+class Connection {
+ public:
+  /// Opens, and with read_write creates, the database.
+  Connection(const std::string& path, Access access);
+
+  /// Runs statements that return nothing.
+  void execute(const std::string& sql);
+  [[nodiscard]] Statement prepare(std::string_view sql) const { return {handle_.get(), sql}; }
+  /// Rows changed by the latest insert, update or delete.
+  [[nodiscard]] std::int64_t changes() const;
+  [[nodiscard]] std::int64_t last_row() const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::unique_ptr<sqlite3, Close> handle_;
+};
+
+/// @brief A write transaction (BEGIN IMMEDIATE): rolled back when it is destroyed without commit().
+class Transaction {
+ public:
+  explicit Transaction(Connection& connection);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  Transaction(Transaction&&) = delete;
+  Transaction& operator=(Transaction&&) = delete;
+  void commit();
+
+ private:
+  Connection& connection_;
+  bool open_ = true;
+};
+
+}  // namespace snapthrough::server::sqlite

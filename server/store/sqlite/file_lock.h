@@ -1,0 +1,30 @@
+#pragma once
+/// @file
+/// Exclusive ownership of a file for one process.
+
+#include <optional>
+#include <string>
+
+#include "server/status.h"
+
+namespace snapthrough::server::sqlite {
+
+/// @brief An advisory lock on a file, held until destruction; the kernel releases it when the process dies.
+/// Movable, not copyable.
+class FileLock {
+ public:
+  /// Creates the file if need be. `unavailable` when another holder has it.
+  [[nodiscard]] static StatusOr<FileLock> acquire(const std::string& path);
+
+  FileLock(FileLock&& other) noexcept;
+  FileLock& operator=(FileLock&& other) noexcept;
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+  ~FileLock();
+
+ private:
+  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+  int descriptor_ = -1;
+};
+
+}  // namespace snapthrough::server::sqlite

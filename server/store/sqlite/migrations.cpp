@@ -1,0 +1,64 @@
+#include "server/store/sqlite/migrations.h"
+
+namespace snapthrough::server::sqlite {
+namespace {
+
+constexpr const char* kHistoryTable =
+    "CREATE TABLE IF NOT EXISTS schema_migrations ("
+    " version INTEGER PRIMARY KEY,"
+    " name TEXT NOT NULL,"
+    " checksum TEXT NOT NULL,"
+    " applied_us INTEGER NOT NULL"
+    ") STRICT";
+
+/// How many steps the database has, or why it cannot be used.
+StatusOr<std::size_t> applied_steps(Connection& connection, std::span<const Migration> migrations) {
+  Statement rows =
+      connection.prepare("SELECT version, name, checksum FROM schema_migrations ORDER BY version");
+  std::size_t applied = 0;
+  while (rows.step()) {
+    const std::string name = rows.text(1);
+    if (applied >= migrations.size()) {
+      return Status(StatusCode::unsupported,
+                    "the store was written by a newer version of the program: it has schema step " + name +
+                        ", this program knows " + std::to_string(migrations.size()) + " steps");
+    }
+    const Migration& known = migrations[applied];
+    if (rows.integer(0) != known.version || rows.text(2) != known.checksum) {
+      return Status(
+          StatusCode::unsupported,
+          "the store's schema step " + name + " differs from this program's step " + std::string(known.name));
+    }
+    ++applied;
+  }
+  return applied;
+}
+
+void apply(Connection& connection, const Migration& migration, Time now) {
+  Transaction transaction(connection);
+  connection.execute(std::string(migration.sql));
+  connection
+      .prepare("INSERT INTO schema_migrations (version, name, checksum, applied_us) VALUES (?, ?, ?, ?)")
+      .bind(migration.version)
+      .bind(migration.name)
+      .bind(migration.checksum)
+      .bind(static_cast<std::int64_t>(now.time_since_epoch().count()))
+      .run();
+  transaction.commit();
+}
+
+}  // namespace
+
+Status migrate(Connection& connection, std::span<const Migration> migrations, Time now) {
+  connection.execute(kHistoryTable);
+  const StatusOr<std::size_t> applied = applied_steps(connection, migrations);
+  if (!applied.ok()) {
+    return applied.status();
+  }
+  for (const Migration& migration : migrations.subspan(*applied)) {
+    apply(connection, migration, now);
+  }
+  return {};
+}
+
+}  // namespace snapthrough::server::sqlite

@@ -1,0 +1,33 @@
+#pragma once
+/// @file
+/// The schema's history: numbered steps, each applied once, in order, in a transaction of its own.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/environment.h"
+#include "server/status.h"
+#include "server/store/sqlite/connection.h"
+
+namespace snapthrough::server::sqlite {
+
+/// One step, from the file migrations/sqlite/<name>.sql.
+struct Migration {
+  int version = 0;            ///< 1, 2, ... without gaps
+  std::string_view name;      ///< file name without ending, e.g. "0001_jobs"
+  std::string_view checksum;  ///< SHA-256 of the file, to notice that an applied step was edited later
+  std::string_view sql;
+};
+
+/// The steps this program knows, in order. Defined in a source generated at build time.
+[[nodiscard]] const std::vector<Migration>& embedded_migrations();
+
+/// @brief Brings a database up to date and records each step in schema_migrations.
+/// @return `unsupported` when the database has a step that this program does not know (a newer version wrote
+/// it) or an applied step differs from the one known here; nothing is changed then. A step that fails leaves
+/// the database as it was before this step. Throws Error when the database can't be read or written.
+Status migrate(Connection& connection, std::span<const Migration> migrations, Time now);
+
+}  // namespace snapthrough::server::sqlite

@@ -1,0 +1,187 @@
+#include "server/store/sqlite/rows.h"
+
+#include <array>
+#include <utility>
+
+namespace snapthrough::server::sqlite {
+namespace {
+
+constexpr std::array kCriticalTypes{std::pair{CriticalType::bifurcation, std::string_view("bifurcation")},
+                                    std::pair{CriticalType::limit_max, std::string_view("limit_max")},
+                                    std::pair{CriticalType::limit_min, std::string_view("limit_min")}};
+
+CriticalType critical_type(std::string_view name) {
+  for (const auto& [type, text] : kCriticalTypes) {
+    if (text == name) {
+      return type;
+    }
+  }
+  throw Error(0, "unknown kind of critical point in the store: " + std::string(name));
+}
+
+Time time_from_row(std::int64_t microseconds) { return Time(std::chrono::microseconds(microseconds)); }
+
+std::optional<Time> optional_time(const Statement& row, int column) {
+  return row.is_null(column) ? std::nullopt : std::optional(time_from_row(row.integer(column)));
+}
+
+std::optional<int> optional_int(const Statement& row, int column) {
+  return row.is_null(column) ? std::nullopt : std::optional(static_cast<int>(row.integer(column)));
+}
+
+void insert_series(Connection& connection, std::int64_t job, int branch, std::string_view kind,
+                   const std::vector<NamedSeries>& all) {
+  int number = 0;
+  for (const NamedSeries& series : all) {
+    connection
+        .prepare(
+            "INSERT INTO branch_series (job, branch, kind, number, id, samples) VALUES (?, ?, ?, ?, ?, ?)")
+        .bind(job)
+        .bind(branch)
+        .bind(kind)
+        .bind(number++)
+        .bind(series.id)
+        .bind_series(series.values)
+        .run();
+  }
+}
+
+void insert_branch(Connection& connection, std::int64_t job, const Branch& branch) {
+  const std::vector<double> negative(branch.negative_eigenvalues.begin(), branch.negative_eigenvalues.end());
+  connection
+      .prepare(
+          "INSERT INTO branches (job, branch, parent, points, load_factor, arc_length, negative_eigenvalues)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?)")
+      .bind(job)
+      .bind(branch.id)
+      .bind(branch.parent)
+      .bind(static_cast<std::int64_t>(branch.load_factor.size()))
+      .bind_series(branch.load_factor)
+      .bind_series(branch.arc_length)
+      .bind_series(negative)
+      .run();
+  insert_series(connection, job, branch.id, "monitor", branch.monitors);
+  insert_series(connection, job, branch.id, "contact_fraction", branch.contact_fraction);
+}
+
+void insert_critical_point(Connection& connection, std::int64_t job, int number, const CriticalPoint& point) {
+  connection
+      .prepare(
+          "INSERT INTO critical_points (job, number, branch, type, load_factor, error_estimate, arc_length,"
+          " negative_before, negative_after, multiplicity) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+      .bind(job)
+      .bind(number)
+      .bind(point.branch)
+      .bind(to_row(point.type))
+      .bind(point.load_factor)
+      .bind(point.error_estimate)
+      .bind(point.arc_length)
+      .bind(point.negative_before)
+      .bind(point.negative_after)
+      .bind(point.multiplicity)
+      .run();
+}
+
+std::vector<NamedSeries> read_series(const Connection& connection, std::int64_t job, int branch,
+                                     std::string_view kind) {
+  Statement rows = connection.prepare(
+      "SELECT id, samples FROM branch_series WHERE job = ? AND branch = ? AND kind = ? ORDER BY number");
+  rows.bind(job).bind(branch).bind(kind);
+  std::vector<NamedSeries> all;
+  while (rows.step()) {
+    all.push_back({rows.text(0), rows.series(1)});
+  }
+  return all;
+}
+
+}  // namespace
+
+const char* const kJobColumns =
+    "jobs.id, jobs.status, jobs.attempt, jobs.crashes, jobs.title, jobs.analysis_type, jobs.created_us,"
+    " jobs.started_us, jobs.finished_us";
+
+std::int64_t to_row(Time time) { return time.time_since_epoch().count(); }
+
+std::string_view to_row(CriticalType type) {
+  for (const auto& [candidate, text] : kCriticalTypes) {
+    if (candidate == type) {
+      return text;
+    }
+  }
+  return "";
+}
+
+Job read_job(const Statement& row) {
+  const std::optional<JobState> state = job_state_from(row.text(1));
+  if (!state) {
+    throw Error(0, "unknown job status in the store: " + row.text(1));
+  }
+  Job job;
+  job.id = row.text(0);
+  job.state = *state;
+  job.attempt = static_cast<int>(row.integer(2));
+  job.crashes = static_cast<int>(row.integer(3));
+  job.title = row.text(4);
+  job.analysis_type = row.text(5);
+  job.created = time_from_row(row.integer(6));
+  job.started = optional_time(row, 7);
+  job.finished = optional_time(row, 8);
+  return job;
+}
+
+void insert_path(Connection& connection, std::int64_t job, const std::vector<Branch>& branches,
+                 const std::vector<CriticalPoint>& critical_points) {
+  for (const Branch& branch : branches) {
+    insert_branch(connection, job, branch);
+  }
+  int number = 0;
+  for (const CriticalPoint& point : critical_points) {
+    insert_critical_point(connection, job, number++, point);
+  }
+}
+
+std::vector<Branch> read_branches(const Connection& connection, std::int64_t job) {
+  Statement rows = connection.prepare(
+      "SELECT branch, parent, load_factor, arc_length, negative_eigenvalues FROM branches WHERE job = ?"
+      " ORDER BY branch");
+  rows.bind(job);
+  std::vector<Branch> branches;
+  while (rows.step()) {
+    Branch branch;
+    branch.id = static_cast<int>(rows.integer(0));
+    branch.parent = optional_int(rows, 1);
+    branch.load_factor = rows.series(2);
+    branch.arc_length = rows.series(3);
+    for (const double count : rows.series(4)) {
+      branch.negative_eigenvalues.push_back(static_cast<int>(count));
+    }
+    branch.monitors = read_series(connection, job, branch.id, "monitor");
+    branch.contact_fraction = read_series(connection, job, branch.id, "contact_fraction");
+    branches.push_back(std::move(branch));
+  }
+  return branches;
+}
+
+std::vector<CriticalPoint> read_critical_points(const Connection& connection, std::int64_t job) {
+  Statement rows = connection.prepare(
+      "SELECT branch, type, load_factor, error_estimate, arc_length, negative_before, negative_after, "
+      "multiplicity"
+      " FROM critical_points WHERE job = ? ORDER BY number");
+  rows.bind(job);
+  std::vector<CriticalPoint> points;
+  while (rows.step()) {
+    CriticalPoint point;
+    point.branch = static_cast<int>(rows.integer(0));
+    point.type = critical_type(rows.text(1));
+    point.load_factor = rows.real(2);
+    point.error_estimate = rows.optional_real(3);
+    point.arc_length = rows.real(4);
+    point.negative_before = static_cast<int>(rows.integer(5));
+    point.negative_after = static_cast<int>(rows.integer(6));
+    point.multiplicity = static_cast<int>(rows.integer(7));
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+}  // namespace snapthrough::server::sqlite

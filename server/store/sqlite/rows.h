@@ -1,0 +1,32 @@
+#pragma once
+/// @file
+/// Rows of the SQLite schema to and from the service's types. Everything here throws Error.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "server/jobs/job.h"
+#include "server/store/sqlite/connection.h"
+
+namespace snapthrough::server::sqlite {
+
+/// Microseconds since 1970, as times are stored.
+[[nodiscard]] std::int64_t to_row(Time time);
+
+/// The columns that read_job() reads, for SELECT; needs the table `jobs`.
+extern const char* const kJobColumns;
+/// The job in the current row of a statement that selects kJobColumns first, and the column after the last.
+[[nodiscard]] Job read_job(const Statement& row);
+inline constexpr int kJobColumnCount = 9;
+
+/// Inserts branches with their series, and critical points.
+void insert_path(Connection& connection, std::int64_t job, const std::vector<Branch>& branches,
+                 const std::vector<CriticalPoint>& critical_points);
+[[nodiscard]] std::vector<Branch> read_branches(const Connection& connection, std::int64_t job);
+[[nodiscard]] std::vector<CriticalPoint> read_critical_points(const Connection& connection, std::int64_t job);
+
+/// The name of a kind of critical point in the database: "bifurcation", "limit_max", "limit_min".
+[[nodiscard]] std::string_view to_row(CriticalType type);
+
+}  // namespace snapthrough::server::sqlite

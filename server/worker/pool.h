@@ -1,0 +1,48 @@
+#pragma once
+/// @file
+/// The threads that claim, solve and complete jobs.
+
+#include <functional>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "server/jobs/desk.h"
+#include "solver/solve.h"
+
+namespace snapthrough::server {
+
+/// What runs one analysis: snapthrough::solve, or a test's stand-in. Must be reentrant.
+using SolveFunction = std::function<Result(const Model&, const Analysis&, const Hooks&)>;
+
+/// @brief Works on one claimed job to its end and stores the outcome.
+///
+/// A numerical failure or an exception makes the job failed; a stop that interrupts the analysis gives the
+/// job back to the queue. A claim that was lost meanwhile changes nothing.
+void work_on(const Claim& claim, JobDesk& desk, const SolveFunction& solve, Log& log,
+             const std::stop_token& stop);
+
+/// @brief A fixed number of working threads. Thread-safe; the parts it is given must outlive it.
+class WorkerPool {
+ public:
+  WorkerPool(int threads, JobDesk& desk, SolveFunction solve, Log& log);
+  /// Stops first if need be.
+  ~WorkerPool();
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+  WorkerPool(WorkerPool&&) = delete;
+  WorkerPool& operator=(WorkerPool&&) = delete;
+
+  /// Asks running analyses to stop, and returns when their jobs are back in the queue. Repeatable.
+  void stop();
+
+ private:
+  void run(const std::stop_token& stop);
+
+  JobDesk& desk_;
+  SolveFunction solve_;
+  Log& log_;
+  std::vector<std::jthread> threads_;
+};
+
+}  // namespace snapthrough::server

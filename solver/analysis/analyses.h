@@ -1,0 +1,45 @@
+#pragma once
+/// @file
+/// The kinds of analysis, each from a checked request to its result. Called by solve().
+
+#include <optional>
+#include <string>
+
+#include "solver/assembly/structural_problem.h"
+#include "solver/assembly/structure.h"
+#include "solver/path/continuation.h"
+#include "solver/path/path_point.h"
+#include "solver/solve.h"
+
+namespace snapthrough {
+
+/// `path` and `critical`: follows the equilibrium path.
+void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
+              Result& result);
+/// `static`: equilibrium at given load factors, small displacements or not.
+void run_static(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
+                Result& result);
+/// `buckling`: linearised eigenvalues about the reference load.
+void run_buckling(const Model& model, const Analysis& analysis, const Structure& structure, Result& result);
+
+/// @brief Offsets of the model's mode imperfections, from the linearised buckling of the same model without
+/// imperfections; empty when it has none.
+/// @throws std::runtime_error when the structure has fewer modes than an imperfection names
+[[nodiscard]] ModeOffsets mode_offsets(const Model& model, const Analysis& analysis);
+
+/// A number in a message: six significant digits.
+[[nodiscard]] std::string number(double value);
+/// Copies the counts of a continuation into a result, adding to what is there.
+void add_statistics(const ContinuationStatistics& statistics, Result& result);
+/// Makes a result that of a failed analysis.
+void fail(Result& result, const char* code, const std::string& detail);
+
+/// @brief The start of the path: the unloaded state, or the equilibrium under the constant actions.
+///
+/// Constant actions are put on by a path of their own, from nothing to their full size.
+/// @return empty, with the failure in `result`, when there is no such state or it is not stable
+[[nodiscard]] std::optional<PathPoint> start_of_path(const Structure& structure, StructuralProblem& problem,
+                                                     Continuation& continuation, double direction,
+                                                     const Hooks& hooks, Result& result);
+
+}  // namespace snapthrough

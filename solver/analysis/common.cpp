@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "solver/analysis/analyses.h"
+#include "solver/path/trace.h"
+
+namespace snapthrough {
+
+std::string number(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
+  return {text, end.ptr};
+}
+
+void add_statistics(const ContinuationStatistics& statistics, Result& result) {
+  Diagnostics& d = result.diagnostics;
+  d.steps += statistics.steps;
+  d.rejected_steps += statistics.rejected_steps;
+  d.iterations += statistics.iterations;
+  d.factorizations += statistics.factorizations;
+  d.max_relative_residual = std::max(d.max_relative_residual, statistics.max_relative_residual);
+}
+
+void fail(Result& result, const char* code, const std::string& detail) {
+  result.failure = Failure{code, detail};
+  result.summary.termination = code;
+  result.summary.message = detail;
+}
+
+std::optional<PathPoint> start_of_path(const Structure& structure, StructuralProblem& problem,
+                                       Continuation& continuation, double direction, const Hooks& hooks,
+                                       Result& result) {
+  const char* nothing =
+      "no equilibrium was found for the first small load: contact alone may not hold the structure";
+  if (!structure.has_constant) {
+    auto start = continuation.start(direction);
+    if (!start) fail(result, "no_start", nothing);
+    return start;
+  }
+  problem.set_stage(StructuralProblem::Stage::constant);
+  Continuation loading(problem, {});
+  TraceRules rules;
+  rules.load = {{-1.0, 1.0}};
+  rules.limit_points = 1;
+  const TraceOutcome outcome = trace(loading, loading.start(), rules, {}, {}, hooks.stop);
+  problem.set_stage(StructuralProblem::Stage::proportional);
+  add_statistics(loading.statistics(), result);
+  if (outcome.end == TraceEnd::cancelled) {
+    fail(result, "cancelled", "cancelled while the constant actions were put on");
+    return std::nullopt;
+  }
+  if (outcome.end != TraceEnd::load_factor) {
+    fail(result, "constant_actions",
+         "the constant actions can't be put on: equilibrium was followed to " + number(outcome.last.lambda) +
+             " of them");
+    return std::nullopt;
+  }
+  auto start = continuation.start_at(outcome.last.y, direction);
+  if (!start) fail(result, "no_start", nothing);
+  return start;
+}
+
+}  // namespace snapthrough

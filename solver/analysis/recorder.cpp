@@ -1,0 +1,100 @@
+#include "solver/analysis/recorder.h"
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "solver/assembly/structure.h"
+#include "solver/post/state.h"
+
+namespace snapthrough {
+
+std::vector<NamedValue> Recorder::monitors(const PathPoint& point) const {
+  std::vector<NamedValue> out;
+  for (const MonitorRow& monitor : structure_.monitors) out.push_back({monitor.id, monitor.row.dot(point.y)});
+  return out;
+}
+
+double Recorder::user_load(const PathPoint& point) const { return point.lambda / structure_.scales.load; }
+
+int Recorder::add_state(const PathPoint& point) {
+  State state = make_state(structure_, model_, point.y, point.lambda, analysis_.output.points_per_member);
+  state.load_factor = user_load(point);
+  result_.states.push_back(std::move(state));
+  return static_cast<int>(result_.states.size()) - 1;
+}
+
+void Recorder::start_branch() {
+  Branch branch;
+  for (const MonitorRow& monitor : structure_.monitors) branch.monitors.push_back({monitor.id, {}});
+  for (const Foundation& base : model_.foundations) branch.contact_fraction.push_back({base.id, {}});
+  result_.branches.push_back(std::move(branch));
+}
+
+void Recorder::add_point(const PathPoint& point) {
+  const OutputOptions& output = analysis_.output;
+  if (output.states == StateOutput::all ||
+      (output.states == StateOutput::every && points_ % output.every == 0))
+    add_state(point);
+  ++points_;
+  if (analysis_.type != AnalysisType::path) return;
+  Branch& branch = result_.branches.back();
+  branch.load_factor.push_back(user_load(point));
+  branch.arc_length.push_back(point.arc_length);
+  branch.negative_eigenvalues.push_back(point.negative);
+  for (std::size_t i = 0; i < structure_.monitors.size(); ++i)
+    branch.monitors[i].values.push_back(structure_.monitors[i].row.dot(point.y));
+  const auto contact = contact_fractions(structure_, model_, point.y);
+  for (std::size_t i = 0; i < contact.size(); ++i) branch.contact_fraction[i].values.push_back(contact[i]);
+}
+
+void Recorder::add_critical(const CriticalEvent& event) {
+  CriticalPoint point;
+  point.type = event.type;
+  point.load_factor = user_load(event.point);
+  point.arc_length = event.point.arc_length;
+  point.monitors = monitors(event.point);
+  point.negative_before = event.negative_before;
+  point.negative_after = event.negative_after;
+  point.multiplicity = event.multiplicity;
+  if (analysis_.output.states != StateOutput::none && analysis_.output.states != StateOutput::at_load_factors)
+    point.state = add_state(event.point);
+  const bool loses_stability =
+      event.negative_before == 0 && event.negative_after > 0 && point.load_factor > 0.0;
+  if (loses_stability && !result_.summary.critical_load_factor) {
+    result_.summary.critical_load_factor = point.load_factor;
+    result_.summary.critical_type = point.type;
+  }
+  result_.critical_points.push_back(std::move(point));
+}
+
+void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
+  for (const double factor : analysis_.output.at_load_factors) {
+    const double target = factor * structure_.scales.load;
+    const double va = from.lambda - target;
+    const double vb = to.lambda - target;
+    if ((va > 0.0) == (vb > 0.0)) continue;
+    const auto value = [target](const PathPoint& at) { return at.lambda - target; };
+    const auto done = [&](const PathPoint&, const PathPoint&, double v) {
+      return std::abs(v) <= 1e-12 * std::abs(vb - va);
+    };
+    add_state(find_root(continuation_, from, va, to, vb, value, done).root);
+  }
+}
+
+TraceSink Recorder::sink(const Hooks& hooks) {
+  TraceSink sink;
+  if (analysis_.type == AnalysisType::path) start_branch();
+  const auto progress = hooks.on_progress;
+  sink.on_point = [this, progress, step = 0](const PathPoint& point) mutable {
+    add_point(point);
+    if (progress) progress({0, step, user_load(point), point.negative});
+    ++step;
+  };
+  sink.on_critical = [this](const CriticalEvent& event) { add_critical(event); };
+  if (analysis_.output.states == StateOutput::at_load_factors)
+    sink.on_step = [this](const PathPoint& from, const PathPoint& to) { add_states_at_loads(from, to); };
+  return sink;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "solver/analysis/analyses.h"
+#include "solver/post/state.h"
+#include "solver/stability/buckling.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::VectorXd;
+
+/// Displacements of a mode at equally spaced places, the largest of them one, its first large component
+/// positive.
+BucklingMode shape_of_mode(const Structure& structure, const Model& model, const VectorXd& mode, int points) {
+  BucklingMode out{mode_displacements(structure, model, mode, points)};
+  double largest = 0.0;
+  double sign = 1.0;
+  for (const MemberState& member : out.members) {
+    for (std::size_t i = 0; i < member.s.size(); ++i) {
+      const double size = std::hypot(member.x[i], member.y[i]);
+      if (size <= largest * (1.0 + 1e-6)) continue;
+      largest = size;
+      sign = std::abs(member.x[i]) > std::abs(member.y[i]) ? member.x[i] : member.y[i];
+    }
+  }
+  const double scale = largest == 0.0 ? 1.0 : (sign < 0.0 ? -1.0 : 1.0) / largest;
+  for (MemberState& member : out.members)
+    for (auto* values : {&member.x, &member.y, &member.rotation})
+      for (double& value : *values) value *= scale;
+  return out;
+}
+
+/// Which one-sided bases count as glued, in words.
+std::string contact_text(const Structure& structure, const Model& model) {
+  std::string text;
+  for (std::size_t i = 0; i < model.foundations.size(); ++i) {
+    const Foundation& base = model.foundations[i];
+    if (base.reaction == Reaction::bilateral || base.stiffness == 0.0) continue;
+    double glued = 0.0;
+    double all = 0.0;
+    for (const FoundationPart& part : structure.foundation_parts) {
+      if (part.foundation != static_cast<int>(i)) continue;
+      const double length = length_of_element(structure, part.element);
+      all += length * (part.range[1] - part.range[0]);
+      glued += length * structure.elements->frozen_share(part.element, part.foundation);
+    }
+    text += "; one-sided foundation " + base.id + " counted as glued on " + number(100.0 * glued / all) +
+            " % of its range";
+  }
+  return text;
+}
+
+}  // namespace
+
+void run_buckling(const Model& model, const Analysis& analysis, const Structure& structure, Result& result) {
+  StructuralProblem problem(structure);
+  const LinearBuckling buckling = linear_buckling(structure, problem, analysis.modes, structure.scales.load);
+  result.diagnostics.factorizations += buckling.factorizations;
+  BucklingResult out;
+  for (std::size_t i = 0; i < buckling.loads.size(); ++i) {
+    out.load_factors.push_back(buckling.loads[i] / structure.scales.load);
+    out.modes.push_back(
+        shape_of_mode(structure, model, buckling.modes[i], analysis.output.points_per_member));
+  }
+  Summary& summary = result.summary;
+  if (buckling.negative_at_start > 0) {
+    summary.termination = "unstable_at_start";
+    summary.message =
+        "the constant actions alone exceed " + std::to_string(buckling.negative_at_start) + " buckling loads";
+  } else if (out.load_factors.empty()) {
+    summary.termination = "no_buckling";
+    summary.message = "no positive load factor makes the structure buckle";
+  } else {
+    summary.critical_load_factor = out.load_factors.front();
+    summary.critical_type = CriticalType::bifurcation;
+    summary.termination = "modes";
+    summary.message = "linearised about the reference load";
+  }
+  if (static_cast<int>(out.load_factors.size()) < analysis.modes && !out.load_factors.empty())
+    fail(result, "fewer_modes",
+         "only " + std::to_string(out.load_factors.size()) + " of " + std::to_string(analysis.modes) +
+             " buckling modes exist on this mesh");
+  summary.message += contact_text(structure, model);
+  result.buckling = std::move(out);
+}
+
+ModeOffsets mode_offsets(const Model& model, const Analysis& analysis) {
+  int highest = 0;
+  for (const Imperfection& imperfection : model.imperfections)
+    if (const auto* mode = std::get_if<ModeImperfection>(&imperfection))
+      highest = std::max(highest, mode->number);
+  if (highest == 0) return {};
+  Model perfect = model;
+  perfect.imperfections.clear();
+  const Structure structure = make_structure(perfect, analysis.discretization, Geometry::nonlinear);
+  StructuralProblem problem(structure);
+  const LinearBuckling buckling = linear_buckling(structure, problem, highest, structure.scales.load);
+  if (static_cast<int>(buckling.loads.size()) < highest)
+    throw std::runtime_error("an imperfection names buckling mode " + std::to_string(highest) +
+                             ", but only " + std::to_string(buckling.loads.size()) + " exist");
+  ModeOffsets offsets(model.members.size());
+  for (const Imperfection& imperfection : model.imperfections) {
+    const auto* mode = std::get_if<ModeImperfection>(&imperfection);
+    if (mode == nullptr || mode->amplitude == 0.0) continue;
+    const auto splines = normal_offsets(structure, model, buckling.modes[mode->number - 1], mode->amplitude);
+    for (std::size_t m = 0; m < splines.size(); ++m) offsets[m].push_back(splines[m]);
+  }
+  return offsets;
+}
+
+}  // namespace snapthrough

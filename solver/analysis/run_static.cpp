@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solver/analysis/analyses.h"
+#include "solver/path/trace.h"
+#include "solver/post/state.h"
+#include "solver/stability/locate.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::VectorXd;
+
+/// Keeps the states that were asked for, in the order they were asked for.
+class StaticStates {
+ public:
+  StaticStates(const Model& model, const Analysis& analysis, const Structure& structure)
+      : model_(model), analysis_(analysis), structure_(structure), found_(analysis.load_factors.size()) {}
+
+  void set(std::size_t index, const VectorXd& y) {
+    State state = make_state(structure_, model_, y, analysis_.load_factors[index] * structure_.scales.load,
+                             analysis_.output.points_per_member);
+    state.load_factor = analysis_.load_factors[index];
+    found_[index] = std::move(state);
+  }
+  [[nodiscard]] bool has(std::size_t index) const { return found_[index].has_value(); }
+  void move_to(Result& result) {
+    for (auto& state : found_)
+      if (state) result.states.push_back(std::move(*state));
+  }
+
+ private:
+  const Model& model_;
+  const Analysis& analysis_;
+  const Structure& structure_;
+  std::vector<std::optional<State>> found_;
+};
+
+/// Equilibrium at one load factor by Newton's method from the unloaded state: small displacements, contact
+/// unilateral.
+bool solve_linear(const Structure& structure, StructuralProblem& problem, double factor, VectorXd& y,
+                  Result& result) {
+  const PathMetric metric{&structure.metric, 0.0};
+  Workspace work;
+  CorrectorOptions options;
+  options.max_iterations = 100;
+  options.largest_correction = std::numeric_limits<double>::infinity();
+  for (const bool bonded : {true, false}) {
+    y = VectorXd::Zero(problem.size());
+    double lambda = factor * structure.scales.load;
+    problem.set_bonded(bonded);
+    problem.linearise(y, lambda, work.residual);
+    problem.set_bonded(false);
+    ++result.diagnostics.factorizations;
+    y = -work.residual;
+    problem.solve(y);
+    const double size = metric.norm(y, 0.0);
+    if (!std::isfinite(size)) continue;
+    if (size == 0.0 && y.isZero(0.0)) return true;
+    const auto outcome = correct(problem, metric, {}, std::max(size, 1e-14), options, y, lambda, work);
+    result.diagnostics.factorizations += outcome.factorisations;
+    result.diagnostics.iterations += outcome.factorisations;
+    result.diagnostics.max_relative_residual =
+        std::max(result.diagnostics.max_relative_residual, outcome.relative_residual);
+    if (outcome.status == CorrectorStatus::converged) return true;
+  }
+  return false;
+}
+
+/// Follows the path towards the factors of one sign and keeps the states it passes; false when it ends before
+/// the last.
+bool follow(const Analysis& analysis, const Structure& structure, double direction, const Hooks& hooks,
+            StaticStates& states, Result& result) {
+  double last = 0.0;
+  for (const double factor : analysis.load_factors)
+    if (factor * direction > 0.0 || factor == 0.0) last = std::max(last, factor * direction);
+  StructuralProblem problem(structure);
+  Continuation continuation(problem, {});
+  const auto start = start_of_path(structure, problem, continuation, direction, hooks, result);
+  if (!start) return false;
+  for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
+    if (analysis.load_factors[i] == 0.0) states.set(i, start->y);
+  if (last == 0.0) return true;
+  TraceRules rules;
+  const double bound = last * structure.scales.load;
+  rules.load = {{-bound, bound}};
+  rules.limit_points = 1;
+  TraceSink sink;
+  sink.on_step = [&](const PathPoint& from, const PathPoint& to) {
+    for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
+      const double target = analysis.load_factors[i] * structure.scales.load;
+      const double size = std::abs(to.lambda - from.lambda);
+      const bool reached = std::abs(to.lambda - target) <= 1e-11 * std::abs(target);
+      if (states.has(i) || (!reached && (from.lambda - target) * (to.lambda - target) > 0.0)) continue;
+      if (reached) {
+        states.set(i, to.y);
+        continue;
+      }
+      const auto value = [target](const PathPoint& at) { return at.lambda - target; };
+      const auto done = [size](const PathPoint&, const PathPoint&, double v) {
+        return std::abs(v) <= 1e-12 * size;
+      };
+      states.set(i, find_root(continuation, from, value(from), to, value(to), value, done).root.y);
+    }
+  };
+  const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);
+  add_statistics(continuation.statistics(), result);
+  if (outcome.end == TraceEnd::load_factor) return true;
+  const std::string where = number(outcome.last.lambda / structure.scales.load);
+  if (outcome.end == TraceEnd::cancelled)
+    fail(result, "cancelled", "cancelled at load factor " + where);
+  else if (outcome.end == TraceEnd::limit_points)
+    fail(result, "beyond_limit_point",
+         "the path has a limit point at load factor " + where + ", before the asked ones");
+  else
+    fail(result, "no_convergence", "the path could not be followed beyond load factor " + where);
+  return false;
+}
+
+}  // namespace
+
+void run_static(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
+                Result& result) {
+  StaticStates states(model, analysis, structure);
+  result.summary.termination = "load_factors";
+  result.summary.message = "equilibrium at " + std::to_string(analysis.load_factors.size()) + " load factors";
+  if (analysis.geometry == Geometry::linear) {
+    StructuralProblem problem(structure);
+    for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
+      VectorXd y;
+      if (solve_linear(structure, problem, analysis.load_factors[i], y, result))
+        states.set(i, y);
+      else
+        fail(result, "no_convergence",
+             "no contact state was found at load factor " + number(analysis.load_factors[i]));
+    }
+  } else {
+    const bool falling = std::any_of(analysis.load_factors.begin(), analysis.load_factors.end(),
+                                     [](double factor) { return factor < 0.0; });
+    const bool growing = std::any_of(analysis.load_factors.begin(), analysis.load_factors.end(),
+                                     [](double factor) { return factor >= 0.0; });
+    if (growing) static_cast<void>(follow(analysis, structure, 1.0, hooks, states, result));
+    if (falling) static_cast<void>(follow(analysis, structure, -1.0, hooks, states, result));
+  }
+  for (std::size_t i = 0; i < analysis.load_factors.size() && !result.failure; ++i)
+    if (!states.has(i))
+      fail(result, "no_convergence", "load factor " + number(analysis.load_factors[i]) + " was not reached");
+  states.move_to(result);
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,301 @@
+#include "solver/assembly/structural_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+namespace snapthrough {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::VectorXd;
+
+StructuralProblem::StructuralProblem(const Structure& structure)
+    : structure_(structure), members_(structure.mesh.first.size() - 1) {
+  condensed_.resize(structure.dofs.size());
+  chains_.resize(members_);
+  spring_active_.assign(structure.joint_springs.size(), 0);
+  // a node's rotation is nobody's when every member there is released and neither support nor spring turns
+  // with it
+  free_rotation_.assign(static_cast<std::size_t>(structure.joints), 1);
+  for (const ElementDofs& dofs : structure.dofs) {
+    for (const int dof : {dofs.a[2], dofs.b[2]})
+      if (dof < 3 * structure.joints) free_rotation_[dof / 3] = 0;
+  }
+  for (const JointSpring& spring : structure.joint_springs)
+    if (spring.row[2] != 0.0) free_rotation_[spring.joint] = 0;
+  const Index n = 3 * structure.joints + structure.releases + 3 * static_cast<Index>(members_);
+  for (Index i = 0; i < n; ++i) (is_fixed(i) ? fixed_ : free_).push_back(i);
+  joint_matrix_.resize(n, n);
+  free_matrix_.resize(static_cast<Index>(free_.size()), static_cast<Index>(free_.size()));
+}
+
+bool StructuralProblem::is_fixed(Index scalar) const {
+  if (scalar >= 3 * structure_.joints) return false;
+  if (scalar % 3 == 2 && free_rotation_[scalar / 3]) return true;
+  return structure_.supports[scalar / 3].fixed[scalar % 3];
+}
+
+/// Cosine and sine of the support angle at the node of a displacement unknown.
+std::array<double, 2> StructuralProblem::turn_of(int dof) const {
+  if (dof >= 3 * structure_.joints) return {1.0, 0.0};
+  const double angle = structure_.supports[dof / 3].angle;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// Columns: the support's axes in global ones.
+Matrix3d StructuralProblem::axes_of(const std::array<int, 3>& dofs) const {
+  const auto [c, s] = turn_of(dofs[0]);
+  Matrix3d axes = Matrix3d::Identity();
+  axes(0, 0) = c;
+  axes(0, 1) = -s;
+  axes(1, 0) = s;
+  axes(1, 1) = c;
+  return axes;
+}
+
+void StructuralProblem::add_joint_springs(const VectorXd& y, VectorXd& f) {
+  for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
+    const JointSpring& spring = structure_.joint_springs[i];
+    double w = bonded_ ? 0.0 : -spring.gap;
+    for (int c = 0; c < 3; ++c) w += spring.row[c] * y[3 * spring.joint + c];
+    if (!frozen_) spring_active_[i] = bonded_ || !spring.one_sided || w > 0.0;
+    if (!spring_active_[i]) continue;
+    for (int c = 0; c < 3; ++c) f[3 * spring.joint + c] += spring.stiffness * w * spring.row[c];
+  }
+}
+
+/// Turns the rows of nodes into the axes of their supports.
+void StructuralProblem::turn_to_supports(VectorXd& f) const {
+  for (int j = 0; j < structure_.joints; ++j) {
+    const auto [c, s] = turn_of(3 * j);
+    const double fx = f[3 * j];
+    const double fy = f[3 * j + 1];
+    f[3 * j] = c * fx + s * fy;
+    f[3 * j + 1] = -s * fx + c * fy;
+  }
+}
+
+/// Turns the rows of nodes into the axes of their supports and puts the constraints into the fixed ones.
+void StructuralProblem::constrain_residual(const VectorXd& y, double lambda, VectorXd& f) const {
+  turn_to_supports(f);
+  const auto [proportional, constant] = factors(lambda);
+  for (int j = 0; j < structure_.joints; ++j) {
+    const JointSupport& support = structure_.supports[j];
+    const auto [c, s] = turn_of(3 * j);
+    const double local[3] = {c * y[3 * j] + s * y[3 * j + 1], -s * y[3 * j] + c * y[3 * j + 1], y[3 * j + 2]};
+    for (int k = 0; k < 3; ++k)
+      if (is_fixed(3 * j + k))
+        f[3 * j + k] = local[k] - proportional * support.proportional[k] - constant * support.constant[k];
+  }
+}
+
+/// Minus the dead loads; tells the elements the factors on follower pressures.
+void StructuralProblem::start_residual(double lambda, VectorXd& f) const {
+  const auto [proportional, constant] = factors(lambda);
+  f = -proportional * structure_.proportional_load - constant * structure_.constant_load;
+  structure_.elements->set_load_factors(proportional, constant);
+}
+
+void StructuralProblem::residual(const VectorXd& y, double lambda, VectorXd& f) {
+  start_residual(lambda, f);
+  structure_.elements->add_residual(y, f);
+  add_joint_springs(y, f);
+  constrain_residual(y, lambda, f);
+}
+
+VectorXd StructuralProblem::reactions(const VectorXd& y, double lambda) {
+  VectorXd f;
+  start_residual(lambda, f);
+  structure_.elements->add_residual(y, f);
+  add_joint_springs(y, f);
+  return f.head(3 * structure_.joints);
+}
+
+void StructuralProblem::load(const VectorXd& y, double, VectorXd& out) {
+  const bool constant = stage_ == Stage::constant;
+  out = constant ? structure_.constant_load : structure_.proportional_load;
+  structure_.elements->add_pressure_load(y, constant ? 0.0 : 1.0, constant ? 1.0 : 0.0, out);
+  turn_to_supports(out);
+  for (int j = 0; j < structure_.joints; ++j) {
+    const JointSupport& support = structure_.supports[j];
+    for (int k = 0; k < 3; ++k)
+      if (is_fixed(3 * j + k)) out[3 * j + k] = constant ? support.constant[k] : support.proportional[k];
+  }
+}
+
+void StructuralProblem::add_member(std::size_t member) {
+  const CondensedElement& ends = chains_[member].ends();
+  const ElementDofs& first = structure_.dofs[structure_.mesh.first[member]];
+  const ElementDofs& last = structure_.dofs[structure_.mesh.first[member + 1] - 1];
+  const Matrix3d Ta = axes_of(first.a);
+  const Matrix3d Tb = axes_of(last.b);
+  const Matrix3d K = Ta.transpose() * ends.K * Ta;
+  const Matrix3d X = ends.X * Ta;
+  const Index m = multiplier(member);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      joint_matrix_(first.a[i], first.a[j]) += K(i, j);
+      joint_matrix_(m + i, first.a[j]) += X(i, j);
+      joint_matrix_(first.a[j], m + i) += X(i, j);
+      joint_matrix_(m + i, m + j) -= ends.F(i, j);
+      joint_matrix_(m + i, last.b[j]) += Tb(i, j);
+      joint_matrix_(last.b[j], m + i) += Tb(i, j);
+    }
+  }
+}
+
+void StructuralProblem::assemble_joints() {
+  joint_matrix_.setZero();
+  for (std::size_t member = 0; member < members_; ++member) add_member(member);
+  for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
+    if (!spring_active_[i]) continue;
+    const JointSpring& spring = structure_.joint_springs[i];
+    const std::array<int, 3> dofs{3 * spring.joint, 3 * spring.joint + 1, 3 * spring.joint + 2};
+    const Eigen::Vector3d row =
+        axes_of(dofs).transpose() * Eigen::Vector3d(spring.row[0], spring.row[1], spring.row[2]);
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) joint_matrix_(dofs[r], dofs[c]) += spring.stiffness * row[r] * row[c];
+  }
+  const auto n = static_cast<Index>(free_.size());
+  for (Index j = 0; j < n; ++j)
+    for (Index i = j; i < n; ++i) free_matrix_(i, j) = joint_matrix_(free_[i], free_[j]);
+}
+
+TangentReport StructuralProblem::linearise(const VectorXd& y, double lambda, VectorXd& f) {
+  start_residual(lambda, f);
+  structure_.elements->linearise(y, f, condensed_);
+  add_joint_springs(y, f);
+  TangentReport report;
+  for (std::size_t m = 0; m < members_; ++m) {
+    const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
+    const auto count = static_cast<std::size_t>(structure_.mesh.first[m + 1]) - first;
+    chains_[m].factorise(std::span(condensed_).subspan(first, count));
+    report.negative += chains_[m].ends().negative;
+    report.log_abs_det += chains_[m].ends().log_det;
+  }
+  assemble_joints();
+  factor_.factorise(free_matrix_);
+  report.negative += factor_.inertia().negative - 3 * static_cast<int>(members_);
+  report.log_abs_det += factor_.log_abs_det();
+  constrain_residual(y, lambda, f);
+  return report;
+}
+
+void StructuralProblem::solve(VectorXd& x) {
+  structure_.elements->reduce(x, condensed_);
+  VectorXd rhs = VectorXd::Zero(joint_matrix_.rows());
+  rhs.head(3 * structure_.joints + structure_.releases) = x.head(3 * structure_.joints + structure_.releases);
+  for (std::size_t m = 0; m < members_; ++m) {
+    const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
+    const auto count = static_cast<std::size_t>(structure_.mesh.first[m + 1]) - first;
+    chains_[m].reduce(std::span(condensed_).subspan(first, count),
+                      std::span(structure_.dofs).subspan(first, count), x);
+    const ElementDofs& element = structure_.dofs[first];
+    const Eigen::Vector3d ra = axes_of(element.a).transpose() * chains_[m].ends().ra;
+    for (int c = 0; c < 3; ++c) {
+      if (!is_fixed(element.a[c])) rhs[element.a[c]] += ra[c];
+      rhs[multiplier(m) + c] = chains_[m].ends().rm[c];
+    }
+  }
+  VectorXd reduced(static_cast<Index>(free_.size()));
+  for (Index i = 0; i < reduced.size(); ++i) {
+    double sum = rhs[free_[i]];
+    for (const Index k : fixed_) sum -= joint_matrix_(free_[i], k) * rhs[k];
+    reduced[i] = sum;
+  }
+  factor_.solve(reduced);
+  for (Index i = 0; i < reduced.size(); ++i) rhs[free_[i]] = reduced[i];
+  // back to global axes, then inwards
+  for (int j = 0; j < structure_.joints; ++j) {
+    const auto [c, s] = turn_of(3 * j);
+    x[3 * j] = c * rhs[3 * j] - s * rhs[3 * j + 1];
+    x[3 * j + 1] = s * rhs[3 * j] + c * rhs[3 * j + 1];
+    x[3 * j + 2] = rhs[3 * j + 2];
+  }
+  for (int r = 3 * structure_.joints; r < 3 * structure_.joints + structure_.releases; ++r) x[r] = rhs[r];
+  for (std::size_t m = 0; m < members_; ++m) {
+    const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
+    const auto count = static_cast<std::size_t>(structure_.mesh.first[m + 1]) - first;
+    x.segment<3>(structure_.dofs[first + count - 1].m) = rhs.segment<3>(multiplier(m));
+    chains_[m].recover(std::span(condensed_).subspan(first, count),
+                       std::span(structure_.dofs).subspan(first, count), x);
+  }
+  structure_.elements->recover(x);
+}
+
+void StructuralProblem::set_bonded(bool bonded) {
+  bonded_ = bonded;
+  structure_.elements->set_bonded(bonded);
+}
+
+void StructuralProblem::freeze_contact(const VectorXd& y, double tolerance) {
+  structure_.elements->freeze_contact(y, tolerance);
+  for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
+    const JointSpring& spring = structure_.joint_springs[i];
+    double w = -spring.gap;
+    for (int c = 0; c < 3; ++c) w += spring.row[c] * y[3 * spring.joint + c];
+    spring_active_[i] = !spring.one_sided || w > -tolerance;
+  }
+  frozen_ = true;
+}
+
+double StructuralProblem::critical_load_scale(const VectorXd& unit_response) const {
+  double scale = std::numeric_limits<double>::infinity();
+  const int p = structure_.mesh.order;
+  for (std::size_t m = 0; m < members_; ++m) {
+    double compression = 0.0;
+    for (int e = structure_.mesh.first[m]; e < structure_.mesh.first[m + 1]; ++e)
+      for (int q = 0; q < p; ++q)
+        compression = std::max(compression, std::abs(unit_response[structure_.dofs[e].s + q]));
+    const double load = structure_.euler_loads[m];
+    if (compression > 0.0) scale = std::min(scale, load / compression);
+  }
+  return scale;
+}
+
+double StructuralProblem::relative_residual(const VectorXd& f, const VectorXd& y, double lambda) {
+  const int p = structure_.mesh.order;
+  double force = std::abs(lambda) * structure_.proportional_load.lpNorm<Eigen::Infinity>();
+  double displacement = 1.0;
+  for (const ElementDofs& dofs : structure_.dofs)
+    force = std::max(force, y.segment<3>(dofs.m).lpNorm<Eigen::Infinity>());
+  double forces = f.head(3 * structure_.joints + structure_.releases).lpNorm<Eigen::Infinity>();
+  double gaps = 0.0;
+  for (const ElementDofs& dofs : structure_.dofs) {
+    forces = std::max(forces, f.segment(dofs.v, 3 * p).lpNorm<Eigen::Infinity>());
+    for (const int a : dofs.a) forces = std::max(forces, std::abs(f[a]));
+    gaps = std::max(gaps, f.segment(dofs.s, 3 * p + 3).lpNorm<Eigen::Infinity>());
+    for (const int a : dofs.a) displacement = std::max(displacement, std::abs(y[a]));
+  }
+  return std::max(force > 0.0 ? forces / force : forces, gaps / displacement);
+}
+
+VectorXd StructuralProblem::tangent_product(const VectorXd& y, double lambda, const VectorXd& direction) {
+  VectorXd out;
+  start_residual(lambda, out);  // tells the elements the factors on pressures
+  out.setZero();
+  structure_.elements->add_tangent_product(y, direction, out);
+  VectorXd scratch = VectorXd::Zero(y.size());
+  add_joint_springs(y, scratch);
+  for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
+    if (!spring_active_[i]) continue;
+    const JointSpring& spring = structure_.joint_springs[i];
+    double w = 0.0;
+    for (int c = 0; c < 3; ++c) w += spring.row[c] * direction[3 * spring.joint + c];
+    for (int c = 0; c < 3; ++c) out[3 * spring.joint + c] += spring.stiffness * w * spring.row[c];
+  }
+  turn_to_supports(out);
+  for (int j = 0; j < structure_.joints; ++j) {
+    const auto [c, s] = turn_of(3 * j);
+    const double local[3] = {c * direction[3 * j] + s * direction[3 * j + 1],
+                             -s * direction[3 * j] + c * direction[3 * j + 1], direction[3 * j + 2]};
+    for (int k = 0; k < 3; ++k)
+      if (is_fixed(3 * j + k)) out[3 * j + k] = local[k];
+  }
+  return out;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,94 @@
+#pragma once
+/// @file
+/// The equilibrium problem of a structure.
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "solver/assembly/chain.h"
+#include "solver/assembly/structure.h"
+#include "solver/linalg/symmetric_indefinite.h"
+#include "solver/path/equilibrium_problem.h"
+
+namespace snapthrough {
+
+/// @brief Mixed equilibrium equations of a Structure, factorised in three levels.
+///
+/// Element interiors (ElementSet), then the nodes inside members (Chain), then a dense symmetric system for
+/// the nodes' displacements, released rotations and the forces at members' ends:
+///
+///   [ K_s + springs   X^T   .  ] [u_joints]
+///   [ X               -F    I  ] [m_member]     (one row block a member; I acts on its end node)
+///
+/// Rows of a node with a turned support, and of its fixed components, are in the support's axes; a fixed
+/// component's row is u - lambda d - d_0. The inertia is the sum over the levels minus one negative for each
+/// stress and multiplier (Haynsworth), so it counts the negative eigenvalues of the constrained displacement
+/// stiffness.
+class StructuralProblem final : public EquilibriumProblem {
+ public:
+  /// @param structure kept by reference, must outlive this
+  explicit StructuralProblem(const Structure& structure);
+
+  [[nodiscard]] Eigen::Index size() const override { return structure_.size; }
+  [[nodiscard]] const Eigen::VectorXd& metric() const override { return structure_.metric; }
+  void residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) override;
+  TangentReport linearise(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) override;
+  void load(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& out) override;
+  void solve(Eigen::VectorXd& x) override;
+  [[nodiscard]] double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd& y,
+                                         double lambda) override;
+
+  [[nodiscard]] bool one_sided() const override { return structure_.one_sided; }
+  void set_bonded(bool bonded) override;
+  /// Euler's load of the most compressed member: pi^2 EI / (N l^2).
+  [[nodiscard]] double critical_load_scale(const Eigen::VectorXd& unit_response) const override;
+
+  /// What the load factor multiplies: the proportional actions, with the constant ones on; or, to put these
+  /// on, the constant ones alone.
+  enum class Stage { proportional, constant };
+  void set_stage(Stage stage) { stage_ = stage; }
+  /// J times a vector, with J's rows as linearise() uses them; independent of the factorisation.
+  [[nodiscard]] Eigen::VectorXd tangent_product(const Eigen::VectorXd& y, double lambda,
+                                                const Eigen::VectorXd& direction);
+  /// @brief From now on one-sided supports are glued where they touch at y, and absent elsewhere.
+  void freeze_contact(const Eigen::VectorXd& y, double tolerance);
+  /// @brief Forces of the supports on the structure at y: global x, y, moment of each node, scaled units.
+  [[nodiscard]] Eigen::VectorXd reactions(const Eigen::VectorXd& y, double lambda);
+
+ private:
+  /// Factors on the proportional and the constant actions at a load factor.
+  [[nodiscard]] std::array<double, 2> factors(double lambda) const {
+    return stage_ == Stage::proportional ? std::array{lambda, 1.0} : std::array{0.0, lambda};
+  }
+  void start_residual(double lambda, Eigen::VectorXd& f) const;
+  void turn_to_supports(Eigen::VectorXd& f) const;
+  void add_joint_springs(const Eigen::VectorXd& y, Eigen::VectorXd& f);
+  void constrain_residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) const;
+  void assemble_joints();
+  void add_member(std::size_t member);
+  /// Position of a displacement unknown's scalar in the joint system is its index; multipliers follow.
+  [[nodiscard]] Eigen::Index multiplier(std::size_t member) const {
+    return 3 * structure_.joints + structure_.releases + 3 * static_cast<Eigen::Index>(member);
+  }
+  [[nodiscard]] std::array<double, 2> turn_of(int dof) const;
+  [[nodiscard]] Eigen::Matrix3d axes_of(const std::array<int, 3>& dofs) const;
+  [[nodiscard]] bool is_fixed(Eigen::Index scalar) const;
+
+  const Structure& structure_;
+  std::size_t members_;
+  std::vector<CondensedElement> condensed_;
+  std::vector<Chain> chains_;
+  Eigen::MatrixXd joint_matrix_;    ///< all joint scalars and multipliers
+  std::vector<Eigen::Index> free_;  ///< rows of joint_matrix_ that are unknown
+  std::vector<Eigen::Index> fixed_;
+  std::vector<char> free_rotation_;  ///< node rotations that nothing holds: all members released there
+  Eigen::MatrixXd free_matrix_;
+  SymmetricIndefinite factor_;
+  std::vector<char> spring_active_;
+  Stage stage_ = Stage::proportional;
+  bool bonded_ = false;
+  bool frozen_ = false;  ///< spring_active_ and the elements' contact stay as they are
+};
+
+}  // namespace snapthrough

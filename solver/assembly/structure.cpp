@@ -1,0 +1,572 @@
+#include "solver/assembly/structure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <variant>
+
+#include "solver/assembly/axis_offset.h"
+
+namespace snapthrough {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+
+/// Builds a Structure stage by stage; one object a call of make_structure.
+class Builder {
+ public:
+  Builder(const Model& model, Structure& out) : model_(model), out_(out) {}
+
+  void set_scales();
+  void number_unknowns();
+  void add_elements(Geometry geometry);
+  void add_supports();
+  void add_loads();
+  void set_metric();
+  void add_monitors();
+
+ private:
+  void add_element_supports(int element);
+  void add_foundation(int element, int index);
+  void add_lumped(int element, const Foundation& base, double modulus, std::span<const double> range);
+  void add_bilateral(int element, const Foundation& base, double modulus, std::array<double, 2> range);
+  [[nodiscard]] ContactStrip make_strip(int element, int index, double modulus,
+                                        std::array<double, 2> range) const;
+  void add_point_spring(int element, const Spring& spring);
+  [[nodiscard]] Station station_at(int element, double xi, Vec3 row) const;
+  [[nodiscard]] std::array<double, 2> base_direction(const Foundation& base, int element, double xi) const;
+  void add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const;
+  void add_distributed(const DistributedLoad& load);
+  [[nodiscard]] Eigen::VectorXd& pattern(Pattern p) {
+    return p == Pattern::proportional ? out_.proportional_load : out_.constant_load;
+  }
+  void add_shear_layer(int element, const Foundation& base, std::array<double, 2> range);
+  void add_pressure(const PressureLoad& load);
+  void add_initial_strain(const InitialStrain& load);
+  void scale_loads();
+  [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
+
+  /// Follower pressures of the elements, scaled, proportional and constant; set once the load's scale is
+  /// known.
+  struct ElementPressure {
+    int element;
+    double proportional;
+    double constant;
+  };
+
+  const Model& model_;
+  Structure& out_;
+  std::vector<ElementPressure> pressures_;
+  double strain_size_ = 0.0;  ///< forces that the proportional initial strains would need
+};
+
+/// Part of an element, in its own [0, 1], that a range of member fractions covers; empty range when none.
+std::array<double, 2> overlap(const MeshElement& e, std::array<double, 2> range) {
+  const double width = e.to - e.from;
+  const double lo = std::clamp((range[0] - e.from) / width, 0.0, 1.0);
+  const double hi = std::clamp((range[1] - e.from) / width, 0.0, 1.0);
+  const double snap = 1e-7;
+  return {lo < snap ? 0.0 : lo, hi > 1.0 - snap ? 1.0 : hi};
+}
+
+ElementShape shape_on(const Structure& out, const Model& model, int element, const StressFreeAxis& axis) {
+  const MeshElement& e = out.mesh.elements[element];
+  const CollocationRule& rule = CollocationRule::of(out.mesh.order);
+  const Section& section = model.sections[index_of(model.sections, model.members[e.member].section)];
+  const double length = axis.perfect().length();
+  const double L = out.scales.length;
+  const double F = out.scales.force;
+  ElementShape shape;
+  shape.length = (e.to - e.from) * length / L;
+  std::array<double, 2> chord{0.0, 0.0};
+  for (int q = 0; q < rule.order(); ++q) {
+    const double s = length * (e.from + rule.point(q) * (e.to - e.from));
+    const StressFreePoint point = axis.at(s);
+    shape.angle.push_back(point.angle);
+    shape.t.push_back({point.stretch * std::cos(point.angle), point.stretch * std::sin(point.angle)});
+    for (int c = 0; c < 2; ++c) chord[c] += rule.weight(q) * shape.t[q][c];
+    shape.axial_compliance.push_back(point.stretch * F / section.EA);
+    shape.shear_compliance.push_back(section.GA ? point.stretch * F / *section.GA : 0.0);
+    shape.bending_compliance.push_back(point.stretch * F * L * L / section.EI);
+  }
+  // close the chord exactly: then rigid motions of any structure are free of strain
+  const StressFreePoint from = axis.at(length * e.from);
+  const StressFreePoint to = axis.at(length * e.to);
+  const std::array<double, 2> exact{(to.x - from.x) / L, (to.y - from.y) / L};
+  for (auto& t : shape.t)
+    for (int c = 0; c < 2; ++c) t[c] += exact[c] / shape.length - chord[c];
+  return shape;
+}
+
+void Builder::set_scales() {
+  double length = 0.0;
+  double bending = 0.0;
+  for (const auto& axis : out_.axes) length = std::max(length, axis->length());
+  for (const Member& member : model_.members)
+    bending = std::max(bending, model_.sections[index_of(model_.sections, member.section)].EI);
+  out_.scales.length = length;
+  out_.scales.force = bending / (length * length);
+}
+
+void Builder::number_unknowns() {
+  const Mesh& mesh = out_.mesh;
+  const int p = mesh.order;
+  out_.joints = static_cast<int>(model_.nodes.size());
+  int next = 3 * out_.joints;
+  std::vector<std::array<int, 2>> released(model_.members.size(), {-1, -1});
+  for (std::size_t m = 0; m < model_.members.size(); ++m) {
+    if (model_.members[m].release_start_rotation) released[m][0] = next++;
+    if (model_.members[m].release_end_rotation) released[m][1] = next++;
+  }
+  out_.releases = next - 3 * out_.joints;
+  for (std::size_t m = 0; m < model_.members.size(); ++m) {
+    const int start = index_of(model_.nodes, model_.members[m].start);
+    const int end = index_of(model_.nodes, model_.members[m].end);
+    std::array<int, 3> a{3 * start, 3 * start + 1, released[m][0] >= 0 ? released[m][0] : 3 * start + 2};
+    for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
+      ElementDofs dofs;
+      dofs.a = a;
+      dofs.v = next;
+      dofs.s = next + 3 * p;
+      dofs.m = next + 6 * p;
+      next += 6 * p + 3;
+      dofs.b = {next, next + 1, next + 2};
+      if (e + 1 == mesh.first[m + 1])
+        dofs.b = {3 * end, 3 * end + 1, released[m][1] >= 0 ? released[m][1] : 3 * end + 2};
+      else
+        next += 3;
+      a = dofs.b;
+      out_.dofs.push_back(dofs);
+    }
+  }
+  out_.size = next;
+  out_.proportional_load = Eigen::VectorXd::Zero(out_.size);
+  out_.constant_load = Eigen::VectorXd::Zero(out_.size);
+}
+
+Station Builder::station_at(int element, double xi, Vec3 row) const {
+  const int p = out_.mesh.order;
+  std::array<double, kMaxOrder> a{};
+  CollocationRule::of(p).integrals_at(xi, std::span(a).first(p));
+  Station station;
+  station.element = element;
+  station.a = row;
+  const double h = element_length(element);
+  for (int q = 0; q < p; ++q) station.v.push_back({h * a[q] * row[0], h * a[q] * row[1], h * a[q] * row[2]});
+  return station;
+}
+
+std::array<double, 2> Builder::base_direction(const Foundation& base, int element, double xi) const {
+  if (base.direction) {
+    const double size = std::hypot((*base.direction)[0], (*base.direction)[1]);
+    const double sign = base.reaction == Reaction::tension_only ? -1.0 : 1.0;
+    return {sign * (*base.direction)[0] / size, sign * (*base.direction)[1] / size};
+  }
+  const MeshElement& e = out_.mesh.elements[element];
+  const AxisCurve& axis = *out_.axes[e.member];
+  const double angle = axis.at(axis.length() * (e.from + xi * (e.to - e.from))).angle;
+  const bool left = (base.side == Side::left) != (base.reaction == Reaction::tension_only);
+  return left ? std::array{-std::sin(angle), std::cos(angle)} : std::array{std::sin(angle), -std::cos(angle)};
+}
+
+void Builder::add_lumped(int element, const Foundation& base, double modulus, std::span<const double> range) {
+  const Quadrature lobatto = gauss_lobatto(out_.mesh.order + 1);
+  for (std::size_t i = 0; i < lobatto.points.size(); ++i) {
+    const double xi = lobatto.points[i];
+    if (xi < range[0] - 1e-9 || xi > range[1] + 1e-9) continue;
+    const auto d = base_direction(base, element, xi);
+    Station station = station_at(element, xi, {d[0], d[1], 0.0});
+    station.stiffness = modulus * element_length(element) * lobatto.weights[i];
+    station.gap = base.reaction == Reaction::bilateral ? 0.0 : base.gap / out_.scales.length;
+    station.one_sided = base.reaction != Reaction::bilateral;
+    out_.elements->add_station(station);
+  }
+}
+
+/// The whole of a bilateral base on one element, as springs at Gauss points.
+void Builder::add_bilateral(int element, const Foundation& base, double modulus,
+                            std::array<double, 2> range) {
+  const Quadrature gauss = gauss_legendre(out_.mesh.order + 1);
+  const double width = range[1] - range[0];
+  for (std::size_t i = 0; i < gauss.points.size(); ++i) {
+    const double xi = range[0] + width * gauss.points[i];
+    const auto d = base_direction(base, element, xi);
+    Station station = station_at(element, xi, {d[0], d[1], 0.0});
+    station.stiffness = modulus * element_length(element) * width * gauss.weights[i];
+    out_.elements->add_station(station);
+  }
+}
+
+ContactStrip Builder::make_strip(int element, int index, double modulus, std::array<double, 2> range) const {
+  const Foundation& base = model_.foundations[index];
+  const MeshElement& e = out_.mesh.elements[element];
+  ContactStrip::Direction direction;
+  if (base.direction) {
+    direction.fixed = base_direction(base, element, 0.0);
+  } else {
+    direction.axis = out_.axes[e.member];
+    direction.sign = (base.side == Side::left) != (base.reaction == Reaction::tension_only) ? 1.0 : -1.0;
+    direction.s0 = e.from * direction.axis->length();
+    direction.ds = (e.to - e.from) * direction.axis->length();
+  }
+  return ContactStrip(out_.mesh.order, direction, range, modulus * element_length(element),
+                      base.gap / out_.scales.length, index);
+}
+
+/// The shear layer's energy 1/2 G (dw/ds)^2 at Gauss points; w' = u'.n - kappa u.t along the initial normal
+/// n. It ends where the range ends, with a free edge: no force from ground beyond.
+void Builder::add_shear_layer(int element, const Foundation& base, std::array<double, 2> range) {
+  const int p = out_.mesh.order;
+  const MeshElement& e = out_.mesh.elements[element];
+  const AxisCurve& axis = *out_.axes[e.member];
+  const Quadrature gauss = gauss_legendre(p + 1);
+  const double width = range[1] - range[0];
+  for (std::size_t i = 0; i < gauss.points.size(); ++i) {
+    const double xi = range[0] + width * gauss.points[i];
+    const auto n = base_direction(base, element, xi);
+    const AxisPoint at = axis.at(axis.length() * (e.from + xi * (e.to - e.from)));
+    // dn/ds of the left normal is -kappa t; n may be its negative, a fixed direction does not turn
+    const double side = base.direction ? 0.0 : (base.side == Side::left ? 1.0 : -1.0);
+    const double turn = -side * at.curvature * out_.scales.length;
+    Station station = station_at(element, xi, {turn * std::cos(at.angle), turn * std::sin(at.angle), 0.0});
+    std::array<double, kMaxOrder> l{};
+    CollocationRule::of(p).values_at(xi, std::span(l).first(p));
+    for (int q = 0; q < p; ++q)
+      for (int c = 0; c < 2; ++c) station.v[q][c] += l[q] * n[c];
+    station.stiffness =
+        base.shear_stiffness / out_.scales.force * element_length(element) * width * gauss.weights[i];
+    out_.elements->add_station(station);
+  }
+}
+
+void Builder::add_foundation(int element, int index) {
+  const Foundation& base = model_.foundations[index];
+  const auto range = overlap(out_.mesh.elements[element], base.range);
+  if (range[1] <= range[0]) return;
+  out_.foundation_parts.push_back({index, element, range, std::nullopt});
+  if (base.shear_stiffness > 0.0) add_shear_layer(element, base, range);
+  if (base.stiffness == 0.0) return;
+  const double modulus = base.stiffness * out_.scales.length * out_.scales.length / out_.scales.force;
+  const bool one_sided = base.reaction != Reaction::bilateral;
+  if (one_sided) out_.foundation_parts.back().strip = make_strip(element, index, modulus, range);
+  if (out_.mesh.foundation == FoundationRule::lumped)
+    add_lumped(element, base, modulus, range);
+  else if (one_sided)
+    out_.elements->add_strip(element, *out_.foundation_parts.back().strip);
+  else
+    add_bilateral(element, base, modulus, range);
+}
+
+void Builder::add_point_spring(int element, const Spring& spring) {
+  const MeshPlace place = place_of(out_.mesh, out_.mesh.elements[element].member, spring.at.fraction);
+  if (place.element != element || spring.stiffness == 0.0) return;
+  const double L = out_.scales.length;
+  const double F = out_.scales.force;
+  Vec3 row{0.0, 0.0, 1.0};
+  double unit = F * L;
+  double travel = 1.0;
+  const double sign = spring.reaction == Reaction::tension_only ? -1.0 : 1.0;
+  if (spring.direction) {
+    const double size = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
+    row = {(*spring.direction)[0] / size, (*spring.direction)[1] / size, 0.0};
+    unit = F / L;
+    travel = L;
+  }
+  for (double& r : row) r *= sign;
+  Station station = station_at(element, place.xi, row);
+  station.stiffness = spring.stiffness / unit;
+  station.gap = spring.reaction == Reaction::bilateral ? 0.0 : spring.gap / travel;
+  station.one_sided = spring.reaction != Reaction::bilateral;
+  out_.elements->add_station(station);
+}
+
+void Builder::add_element_supports(int element) {
+  const std::string& member = model_.members[out_.mesh.elements[element].member].id;
+  for (std::size_t i = 0; i < model_.foundations.size(); ++i)
+    if (model_.foundations[i].member == member) add_foundation(element, static_cast<int>(i));
+  for (const Spring& spring : model_.springs)
+    if (spring.at.member == member) add_point_spring(element, spring);
+}
+
+void Builder::add_elements(Geometry geometry) {
+  out_.elements = make_element_set(out_.mesh.order);
+  out_.elements->set_linear_geometry(geometry == Geometry::linear);
+  for (std::size_t m = 0; m < model_.members.size(); ++m) {
+    const StressFreeAxis& axis = *out_.stress_free[m];
+    for (int e = out_.mesh.first[m]; e < out_.mesh.first[m + 1]; ++e) {
+      out_.elements->add(shape_on(out_, model_, e, axis), out_.dofs[e]);
+      add_element_supports(e);
+    }
+  }
+  for (const Foundation& base : model_.foundations)
+    if (base.stiffness == 0.0) out_.skipped.push_back("foundation " + base.id + ": stiffness 0");
+  for (const Spring& spring : model_.springs)
+    if (spring.stiffness == 0.0) out_.skipped.push_back("spring " + spring.id + ": stiffness 0");
+}
+
+void Builder::add_supports() {
+  out_.supports.assign(model_.nodes.size(), {});
+  for (const Support& support : model_.supports) {
+    JointSupport& joint = out_.supports[index_of(model_.nodes, support.node)];
+    joint.fixed = {support.x, support.y, support.rotation};
+    joint.angle = support.angle_degrees * std::numbers::pi / 180.0;
+    if (!support.displacement) continue;
+    const auto& d = *support.displacement;
+    const Vec3 value{d.x / out_.scales.length, d.y / out_.scales.length, d.rotation};
+    (d.pattern == Pattern::proportional ? joint.proportional : joint.constant) = value;
+  }
+  for (const Spring& spring : model_.springs) {
+    if (spring.at.node.empty() || spring.stiffness == 0.0) continue;
+    JointSpring js;
+    js.joint = index_of(model_.nodes, spring.at.node);
+    const double sign = spring.reaction == Reaction::tension_only ? -1.0 : 1.0;
+    js.row = {0.0, 0.0, sign};
+    js.stiffness = spring.stiffness / (out_.scales.force * out_.scales.length);
+    js.gap = spring.gap;
+    if (spring.direction) {
+      const double size = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
+      js.row = {sign * (*spring.direction)[0] / size, sign * (*spring.direction)[1] / size, 0.0};
+      js.stiffness = spring.stiffness * out_.scales.length / out_.scales.force;
+      js.gap = spring.gap / out_.scales.length;
+    }
+    js.one_sided = spring.reaction != Reaction::bilateral;
+    if (!js.one_sided) js.gap = 0.0;
+    out_.joint_springs.push_back(js);
+  }
+}
+
+void Builder::add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const {
+  const Station station = station_at(element, xi, action);
+  const ElementDofs& dofs = out_.dofs[element];
+  const int p = out_.mesh.order;
+  for (int c = 0; c < 3; ++c) {
+    load[dofs.a[c]] += station.a[c];
+    for (int q = 0; q < p; ++q) load[dofs.v + c * p + q] += station.v[q][c];
+  }
+}
+
+void Builder::add_distributed(const DistributedLoad& load) {
+  const int member = index_of(model_.members, load.member);
+  const AxisCurve& axis = *out_.axes[member];
+  const Quadrature gauss = gauss_legendre(out_.mesh.order + 1);
+  const double unit = out_.scales.force / out_.scales.length;
+  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
+    const MeshElement& cell = out_.mesh.elements[e];
+    const auto range = overlap(cell, load.range);
+    if (range[1] <= range[0]) continue;
+    const double width = range[1] - range[0];
+    for (std::size_t i = 0; i < gauss.points.size(); ++i) {
+      const double xi = range[0] + width * gauss.points[i];
+      double w = element_length(e) * width * gauss.weights[i] / unit;
+      const double angle = axis.at(axis.length() * (cell.from + xi * (cell.to - cell.from))).angle;
+      if (load.per == LoadMeasure::horizontal) w *= std::abs(std::cos(angle));
+      if (load.per == LoadMeasure::vertical) w *= std::abs(std::sin(angle));
+      add_point_action(pattern(load.pattern), e, xi, {w * load.force[0], w * load.force[1], 0.0});
+    }
+  }
+}
+
+void Builder::add_loads() {
+  const double F = out_.scales.force;
+  for (const Load& load : model_.loads) {
+    if (const auto* point = std::get_if<PointLoad>(&load)) {
+      const Vec3 action{point->force[0] / F, point->force[1] / F, point->moment / (F * out_.scales.length)};
+      if (point->at.member.empty()) {
+        const int joint = index_of(model_.nodes, point->at.node);
+        for (int c = 0; c < 3; ++c) pattern(point->pattern)[3 * joint + c] += action[c];
+      } else {
+        const MeshPlace place =
+            place_of(out_.mesh, index_of(model_.members, point->at.member), point->at.fraction);
+        add_point_action(pattern(point->pattern), place.element, place.xi, action);
+      }
+    } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
+      add_distributed(*distributed);
+    } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
+      add_pressure(*pressure);
+    } else {
+      add_initial_strain(std::get<InitialStrain>(load));
+    }
+  }
+  scale_loads();
+}
+
+void Builder::add_pressure(const PressureLoad& load) {
+  const int member = index_of(model_.members, load.member);
+  // a medium on the left pushes along the right normal
+  const double value =
+      (load.side == Side::left ? 1.0 : -1.0) * load.value * out_.scales.length / out_.scales.force;
+  const bool proportional = load.pattern == Pattern::proportional;
+  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e)
+    pressures_.push_back({e, proportional ? value : 0.0, proportional ? 0.0 : value});
+}
+
+void Builder::add_initial_strain(const InitialStrain& load) {
+  const int member = index_of(model_.members, load.member);
+  const int p = out_.mesh.order;
+  const double curvature = load.curvature * out_.scales.length;
+  const Section& section = model_.sections[index_of(model_.sections, model_.members[member].section)];
+  if (load.pattern == Pattern::proportional)
+    strain_size_ += std::abs(load.axial) * section.EA / out_.scales.force +
+                    std::abs(load.curvature) * section.EI / (out_.scales.force * out_.scales.length);
+  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
+    const CollocationRule& rule = CollocationRule::of(p);
+    const ElementShape shape = shape_of_element(out_, model_, e);
+    for (int q = 0; q < p; ++q) {
+      const double length = shape.length * rule.weight(q) * std::hypot(shape.t[q][0], shape.t[q][1]);
+      pattern(load.pattern)[out_.dofs[e].s + q] += length * load.axial;
+      pattern(load.pattern)[out_.dofs[e].s + 2 * p + q] += length * curvature;
+    }
+  }
+}
+
+/// Scales the load factor so that the actions by unit scaled factor add up to the order of one.
+void Builder::scale_loads() {
+  double total = strain_size_;
+  for (int j = 0; j < 3 * out_.joints + out_.releases; ++j) total += std::abs(out_.proportional_load[j]);
+  for (const ElementDofs& dofs : out_.dofs)
+    if (dofs.a[0] >= 3 * out_.joints)
+      for (const int i : dofs.a) total += std::abs(out_.proportional_load[i]);
+  for (const JointSupport& support : out_.supports)
+    for (const double value : support.proportional) total += std::abs(value);
+  for (const ElementPressure& p : pressures_) total += std::abs(p.proportional) * element_length(p.element);
+  if (total == 0.0) total = 1.0;
+  out_.scales.load = total;
+  out_.proportional_load /= total;
+  for (JointSupport& support : out_.supports)
+    for (double& value : support.proportional) value /= total;
+  for (const ElementPressure& p : pressures_)
+    out_.elements->set_pressure(p.element, p.proportional / total, p.constant);
+}
+
+void Builder::set_metric() {
+  out_.metric = Eigen::VectorXd::Zero(out_.size);
+  const CollocationRule& rule = CollocationRule::of(out_.mesh.order);
+  const int p = rule.order();
+  double total = 0.0;
+  for (std::size_t e = 0; e < out_.dofs.size(); ++e) total += element_length(static_cast<int>(e));
+  for (std::size_t e = 0; e < out_.dofs.size(); ++e) {
+    const ElementDofs& dofs = out_.dofs[e];
+    const double part = element_length(static_cast<int>(e)) / total;
+    for (int c = 0; c < 2; ++c) {
+      out_.metric[dofs.a[c]] += 0.5 * part;
+      out_.metric[dofs.b[c]] += 0.5 * part;
+      for (int q = 0; q < p; ++q) out_.metric[dofs.v + c * p + q] = part * rule.weight(q);
+    }
+  }
+}
+
+void Builder::add_monitors() {
+  for (const Monitor& monitor : model_.monitors) {
+    Vec3 row{0.0, 0.0, 0.0};
+    double unit = out_.scales.length;
+    if (monitor.component == Component::x) row[0] = 1.0;
+    if (monitor.component == Component::y) row[1] = 1.0;
+    if (monitor.component == Component::rotation) {
+      row[2] = 1.0;
+      unit = 1.0;
+    }
+    if (monitor.component == Component::normal) {
+      const AxisCurve& axis = *out_.axes[index_of(model_.members, monitor.at.member)];
+      const double angle = axis.at(monitor.at.fraction * axis.length()).angle;
+      row = {-std::sin(angle), std::cos(angle), 0.0};
+    }
+    MonitorRow out{monitor.id, displacement_row(out_, model_, monitor.at, row)};
+    for (auto& [index, weight] : out.row.entries) weight *= unit;
+    out_.monitors.push_back(std::move(out));
+  }
+}
+
+}  // namespace
+
+ElementShape shape_of_element(const Structure& structure, const Model& model, int element) {
+  const int member = structure.mesh.elements[element].member;
+  return shape_on(structure, model, element, *structure.stress_free[member]);
+}
+
+double length_of_element(const Structure& structure, int element) {
+  const MeshElement& e = structure.mesh.elements[element];
+  return (e.to - e.from) * structure.axes[e.member]->length() / structure.scales.length;
+}
+
+MeshPlace place_of(const Mesh& mesh, int member, double fraction) {
+  int e = mesh.first[member];
+  while (e + 1 < mesh.first[member + 1] && mesh.elements[e + 1].from <= fraction + 1e-9) ++e;
+  const MeshElement& cell = mesh.elements[e];
+  const double xi = std::clamp((fraction - cell.from) / (cell.to - cell.from), 0.0, 1.0);
+  return {e, xi < 1e-7 ? 0.0 : (xi > 1.0 - 1e-7 ? 1.0 : xi)};
+}
+
+SparseRow displacement_row(const Structure& structure, const Model& model, const Location& at, Vec3 row) {
+  SparseRow out;
+  const auto add = [&](Eigen::Index index, double weight) {
+    if (weight != 0.0) out.entries.emplace_back(index, weight);
+  };
+  if (at.member.empty()) {
+    const int joint = index_of(model.nodes, at.node);
+    for (int c = 0; c < 3; ++c) add(3 * joint + c, row[c]);
+    return out;
+  }
+  const int member = index_of(model.members, at.member);
+  const MeshPlace place = place_of(structure.mesh, member, at.fraction);
+  const ElementDofs& dofs = structure.dofs[place.element];
+  const MeshElement& cell = structure.mesh.elements[place.element];
+  const double h = (cell.to - cell.from) * structure.axes[member]->length() / structure.scales.length;
+  const int p = structure.mesh.order;
+  std::array<double, kMaxOrder> a{};
+  CollocationRule::of(p).integrals_at(place.xi, std::span(a).first(p));
+  for (int c = 0; c < 3; ++c) {
+    add(dofs.a[c], row[c]);
+    for (int q = 0; q < p; ++q) add(dofs.v + c * p + q, row[c] * h * a[q]);
+  }
+  return out;
+}
+
+Structure make_structure(const Model& model, const Discretization& discretization, Geometry geometry,
+                         const ModeOffsets& modes) {
+  Structure out;
+  out.axes = make_axes(model);
+  out.origin = {model.nodes.front().x, model.nodes.front().y};
+  for (std::size_t m = 0; m < model.members.size(); ++m)
+    out.stress_free.push_back(std::make_shared<const StressFreeAxis>(
+        model, static_cast<int>(m), out.axes[m], modes.empty() ? std::vector<CubicSpline>{} : modes[m]));
+  out.mesh = make_mesh(model, discretization, out.axes);
+  Builder builder(model, out);
+  builder.set_scales();
+  builder.number_unknowns();
+  builder.add_elements(geometry);
+  builder.add_supports();
+  builder.add_loads();
+  builder.set_metric();
+  builder.add_monitors();
+  for (const Foundation& base : model.foundations)
+    out.one_sided = out.one_sided || (base.reaction != Reaction::bilateral && base.stiffness > 0.0);
+  for (const Spring& spring : model.springs)
+    out.one_sided = out.one_sided || (spring.reaction != Reaction::bilateral && spring.stiffness > 0.0);
+  for (const Load& load : model.loads)
+    out.has_constant =
+        out.has_constant || std::visit([](const auto& l) { return l.pattern == Pattern::constant; }, load);
+  for (const Support& support : model.supports)
+    out.has_constant =
+        out.has_constant || (support.displacement && support.displacement->pattern == Pattern::constant);
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    const double EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
+    const double length = out.axes[m]->length();
+    out.euler_loads.push_back(std::numbers::pi * std::numbers::pi * EI /
+                              (length * length * out.scales.force));
+  }
+  const int p = out.mesh.order;
+  out.free_displacements = 3 * out.joints + out.releases;
+  for (const JointSupport& support : out.supports)
+    for (const bool fixed : support.fixed) out.free_displacements -= fixed ? 1 : 0;
+  // nodes between elements, and the P - 1 interior nodes that an element of order P has
+  for (std::size_t m = 0; m + 1 < out.mesh.first.size(); ++m) {
+    const int n = out.mesh.first[m + 1] - out.mesh.first[m];
+    out.free_displacements += 3 * (n - 1) + 3 * (p - 1) * n;
+  }
+  return out;
+}
+
+}  // namespace snapthrough

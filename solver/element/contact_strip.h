@@ -1,0 +1,75 @@
+#pragma once
+/// @file
+/// The part of a one-sided base that lies on one element.
+
+#include <array>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/element/gauss_rule.h"
+#include "solver/model/axis_curve.h"
+
+namespace snapthrough {
+
+/// @brief One-sided Winkler base on part of an element: reaction K max(g, 0) per undeformed length along -d,
+/// with penetration g = u.d - gap and d the direction into the medium.
+///
+/// Its integrals are split where g changes sign inside the element, so they are C1 in the displacements: a
+/// moving contact edge needs no event and gives no false limit points. Immutable, thread safe.
+class ContactStrip {
+ public:
+  /// Direction into the medium at a place of the element: along +-normal of the initial axis or fixed.
+  struct Direction {
+    std::shared_ptr<const AxisCurve> axis;  ///< set: the initial left normal times `sign`
+    double sign = 1.0;
+    double s0 = 0.0;                ///< arc length of the element's start, in the axis' own units
+    double ds = 0.0;                ///< arc length over the element, same units
+    std::array<double, 2> fixed{};  ///< used when `axis` is empty
+  };
+  struct Interval {
+    double from = 0.0;
+    double to = 0.0;
+  };
+
+  /// @param range part of the element, in [0, 1]
+  /// @param modulus K times the element's length (a sum of weights times modulus integrates K ds)
+  ContactStrip(int order, Direction direction, std::array<double, 2> range, double modulus, double gap,
+               int foundation);
+
+  /// The same strip with another gap.
+  [[nodiscard]] ContactStrip with_gap(double gap) const;
+  [[nodiscard]] double modulus() const { return modulus_; }
+  [[nodiscard]] double gap() const { return gap_; }
+  [[nodiscard]] int foundation() const { return foundation_; }
+  [[nodiscard]] std::array<double, 2> range() const { return range_; }
+  [[nodiscard]] std::array<double, 2> direction_at(double xi) const;
+
+  /// @brief Penetration at xi.
+  /// @param ua displacement (x, y) at the element's start; dx, dy: h times u'_x, u'_y at the Gauss points
+  [[nodiscard]] double penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
+                                   std::span<const double> dy) const;
+  /// @brief Intervals of [0, 1] in contact (g > 0), ascending; `out` is overwritten.
+  void contact_intervals(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                         std::vector<Interval>& out) const;
+
+ private:
+  struct Sample {
+    double xi = 0.0;
+    std::array<double, 2> direction{};
+    std::array<double, kMaxOrder> a{};
+  };
+  [[nodiscard]] double root_between(double lo, double g_lo, double hi, double g_hi, std::array<double, 2> ua,
+                                    std::span<const double> dx, std::span<const double> dy) const;
+
+  const CollocationRule* rule_;
+  Direction direction_;
+  std::array<double, 2> range_;
+  double modulus_;
+  double gap_;
+  int foundation_;
+  std::vector<Sample> samples_;
+};
+
+}  // namespace snapthrough

@@ -1,0 +1,133 @@
+#pragma once
+/// @file
+/// The beam elements of a mesh and the elastic supports on them, as contributions to a mixed equilibrium
+/// problem.
+///
+/// Planar geometrically exact beam (Reissner, ZAMP 23, 1972; Simo, CMAME 49, 1985) of order P, collocated at
+/// P Gauss points. The unknowns of one element of length h, all as increments from the stress-free axis:
+///
+///   u_a, u_b   displacement (x, y, rotation b) at its ends, shared with its neighbours
+///   v_q        (u'_x, u'_y, b') at the Gauss points q;   u(xi) = u_a + h sum_q A_q(xi) v_q
+///   s_q        (N, Q, M) at the Gauss points, independent of the displacements
+///   m          (force x, force y, moment) carried through the end b: the multiplier of u_b = u_a + h sum_q
+///   b_q v_q
+///
+/// They make stationary   sum_q h b_q [ s.(eps(v) - eps_0) - s.C s / 2 ] + bases + m.(u_b - u_a - h sum b_q
+/// v_q) - work, with  e = x'.d1 - t.d1_0,  g = x'.d2 - t.d2_0,  k = b'   and C the section's compliance.
+/// Because only compliances appear, an inextensible or unshearable section is just C = 0: no large numbers,
+/// no loss of digits in the thin limit. Newton's method on these equations is the mixed-integration-point
+/// iteration of Magisano, Leonetti and Garcea (2017).
+///
+/// Element interiors (v, s) are eliminated element by element in terms of the strains, see
+/// element_set_impl.h.
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/element/contact_strip.h"
+#include "solver/element/gauss_rule.h"
+
+namespace snapthrough {
+
+/// Where the unknowns of an element are in the vector of all unknowns.
+struct ElementDofs {
+  std::array<int, 3> a{};  ///< displacement at the start
+  std::array<int, 3> b{};  ///< displacement at the end
+  int v = 0;               ///< first of 3 P: u'_x of all Gauss points, then u'_y, then b'
+  int s = 0;               ///< first of 3 P: N of all Gauss points, then Q, then M
+  int m = 0;               ///< first of 3
+};
+
+/// Stress-free geometry and section of an element; vectors have one entry a Gauss point.
+struct ElementShape {
+  double length = 0.0;
+  std::vector<double> angle;  ///< of the stress-free section
+  std::vector<std::array<double, 2>>
+      t;  ///< derivative of the stress-free axis; h sum b_q t_q = chord exactly
+  std::vector<double> axial_compliance;    ///< e per N
+  std::vector<double> shear_compliance;    ///< g per Q; all zero: unshearable
+  std::vector<double> bending_compliance;  ///< k per M
+};
+
+/// A linear functional of one element's displacements, w = a.u_a + sum_q v_q.(u'_q, b'_q), with a spring on
+/// it.
+struct Station {
+  int element = 0;
+  double stiffness = 0.0;
+  double gap = 0.0;
+  bool one_sided = false;  ///< reacts with stiffness * max(w - gap, 0) instead of stiffness * w
+  std::array<double, 3> a{};
+  std::vector<std::array<double, 3>> v;
+};
+
+/// What remains of an element once its interior is eliminated; with rows for (u_a, m):
+///   K u_a + X^T m = ra,    X u_a - F m + u_b = rm,    and  + m  in the row of u_b.
+struct CondensedElement {
+  Eigen::Matrix3d K, X, F;
+  Eigen::Vector3d ra, rm;
+  int negative = 0;      ///< negative pivots of the interior beyond those every mixed element has
+  double log_det = 0.0;  ///< log |det| of the interior
+};
+
+/// @brief All elements of one mesh, of one order.
+///
+/// Not thread safe: it keeps the factors of the last linearise(). All vectors are in the problem's scaled
+/// units and have the layout that the ElementDofs name.
+class ElementSet {
+ public:
+  ElementSet() = default;
+  ElementSet(const ElementSet&) = delete;
+  ElementSet& operator=(const ElementSet&) = delete;
+  ElementSet(ElementSet&&) = delete;
+  ElementSet& operator=(ElementSet&&) = delete;
+  virtual ~ElementSet() = default;
+
+  [[nodiscard]] virtual int size() const = 0;
+  /// @brief Adds an element; elements are numbered in the order of adding.
+  virtual void add(const ElementShape& shape, const ElementDofs& dofs) = 0;
+  virtual void add_station(const Station& station) = 0;
+  virtual void add_strip(int element, ContactStrip strip) = 0;
+  /// Uses small displacements: strains linearised about the stress-free axis.
+  virtual void set_linear_geometry(bool linear) = 0;
+  /// Treats one-sided supports as glued and without gap, as long as it is set.
+  virtual void set_bonded(bool bonded) = 0;
+  /// @brief From now on one-sided supports are glued where they touch at y (penetration above `-tolerance`)
+  /// and absent elsewhere, whatever the displacements.
+  virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance) = 0;
+  /// Share of an element on which a foundation's frozen contact acts.
+  [[nodiscard]] virtual double frozen_share(int element, int foundation) const = 0;
+  /// @brief Follower pressure of an element: force per deformed length, along its deformed right normal (so a
+  /// medium on the left pushes), proportional to the load factor and constant.
+  virtual void set_pressure(int element, double proportional, double constant) = 0;
+  /// Factors on the pressures, used by everything below until they are set again.
+  virtual void set_load_factors(double proportional, double constant) = 0;
+  /// @brief Adds the follower forces at y, by unit factors given, to `out` (a load: minus a residual).
+  virtual void add_pressure_load(const Eigen::VectorXd& y, double proportional, double constant,
+                                 Eigen::VectorXd& out) const = 0;
+
+  /// @brief Adds the internal forces and compatibility residuals at y to `residual`.
+  virtual void add_residual(const Eigen::VectorXd& y, Eigen::VectorXd& residual) = 0;
+  /// @brief As add_residual, and eliminates all interiors: `condensed` (size()) gets K, X, F, negative,
+  /// log_det.
+  virtual void linearise(const Eigen::VectorXd& y, Eigen::VectorXd& residual,
+                         std::span<CondensedElement> condensed) = 0;
+  /// @brief Interior part of a right-hand side: fills ra and rm of `condensed`.
+  virtual void reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) = 0;
+  /// @brief Replaces the interior rows of `x` (a right-hand side on entry) by the solution, from the solution
+  /// at the ends and the multipliers that `x` already holds.
+  virtual void recover(Eigen::VectorXd& x) = 0;
+  /// Angles of the sections at the Gauss points.
+  [[nodiscard]] virtual std::vector<double> section_angles(int element, const Eigen::VectorXd& y) const = 0;
+  /// Adds the second derivative of the energy times `direction` to `out` (test use and eigenvalue problems).
+  virtual void add_tangent_product(const Eigen::VectorXd& y, const Eigen::VectorXd& direction,
+                                   Eigen::VectorXd& out) = 0;
+};
+
+/// @brief An empty set for elements of an order in 1..kMaxOrder.
+[[nodiscard]] std::unique_ptr<ElementSet> make_element_set(int order);
+
+}  // namespace snapthrough

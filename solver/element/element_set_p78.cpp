@@ -1,0 +1,6 @@
+#include "solver/element/element_set_impl.h"
+
+namespace snapthrough {
+template class ElementSetOf<7>;
+template class ElementSetOf<8>;
+}  // namespace snapthrough

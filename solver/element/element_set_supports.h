@@ -1,0 +1,186 @@
+#pragma once
+/// @file
+/// The members of ElementSetOf that deal with bases, springs and follower pressure. Included by
+/// element_set_impl.h only.
+
+namespace snapthrough {
+
+/// Appends the Gauss points of the strip's contact intervals to acting_.
+template <int P>
+void ElementSetOf<P>::collect_strip(std::size_t index, const double* y, const ElementDofs& dofs,
+                                    const Shape& shape) {
+  const ContactStrip& strip = strips_[index];
+  Gauss dx, dy, a;
+  for (int q = 0; q < P; ++q) {
+    dx[q] = shape.h * y[dofs.v + q];
+    dy[q] = shape.h * y[dofs.v + P + q];
+  }
+  if (frozen_)
+    intervals_ = frozen_intervals_[index];
+  else if (bonded_)
+    intervals_.assign(1, {strip.range()[0], strip.range()[1]});
+  else
+    strip.contact_intervals({y[dofs.a[0]], y[dofs.a[1]]}, dx, dy, intervals_);
+  for (const auto& interval : intervals_) {
+    const double width = interval.to - interval.from;
+    for (std::size_t i = 0; i < strip_quadrature_.points.size(); ++i) {
+      const double xi = interval.from + width * strip_quadrature_.points[i];
+      const auto d = strip.direction_at(xi);
+      rule_->integrals_at(xi, a);
+      Functional f;
+      f.stiffness = strip.modulus() * width * strip_quadrature_.weights[i];
+      f.gap = bonded_ ? 0.0 : strip.gap();
+      f.a = {d[0], d[1], 0.0};
+      for (int q = 0; q < P; ++q) {
+        f.v[0][q] = d[0] * shape.h * a[q];
+        f.v[1][q] = d[1] * shape.h * a[q];
+        f.v[2][q] = 0.0;
+      }
+      acting_.push_back(f);
+    }
+  }
+}
+
+template <int P>
+bool ElementSetOf<P>::acts(const Functional& f, std::size_t station, const ElementDofs& dofs,
+                           const double* y) const {
+  if (!f.one_sided || bonded_) return true;
+  return frozen_ ? frozen_stations_[station] != 0 : value(f, dofs, y) > f.gap;
+}
+
+template <int P>
+void ElementSetOf<P>::add_support_residual(int element, const double* y, double* residual, bool keep) {
+  const Shape& shape = shapes_[element];
+  const ElementDofs& dofs = dofs_[element];
+  acting_.clear();
+  for (int i = 0; i < shape.strip_count; ++i) collect_strip(shape.first_strip + i, y, dofs, shape);
+  for (int i = 0; i < shape.station_count; ++i) {
+    const std::size_t station = shape.first_station + i;
+    if (!acts(stations_[station], station, dofs, y)) continue;
+    acting_.push_back(stations_[station]);
+    if (bonded_) acting_.back().gap = 0.0;
+  }
+  for (const Functional& f : acting_) {
+    const double force = f.stiffness * (value(f, dofs, y) - f.gap);
+    for (int c = 0; c < 3; ++c) {
+      residual[dofs.a[c]] += force * f.a[c];
+      for (int q = 0; q < P; ++q) residual[dofs.v + c * P + q] += force * f.v[c][q];
+    }
+  }
+  if (!keep) acting_.clear();
+}
+
+template <int P>
+void ElementSetOf<P>::freeze_contact(const Eigen::VectorXd& y, double tolerance) {
+  frozen_ = false;
+  frozen_intervals_.resize(strips_.size());
+  frozen_stations_.assign(stations_.size(), 0);
+  for (int e = 0; e < size(); ++e) {
+    const Shape& shape = shapes_[e];
+    const ElementDofs& dofs = dofs_[e];
+    Gauss dx, dy;
+    for (int q = 0; q < P; ++q) {
+      dx[q] = shape.h * y[dofs.v + q];
+      dy[q] = shape.h * y[dofs.v + P + q];
+    }
+    for (int i = shape.first_strip; i < shape.first_strip + shape.strip_count; ++i)
+      strips_[i]
+          .with_gap(strips_[i].gap() - tolerance)
+          .contact_intervals({y[dofs.a[0]], y[dofs.a[1]]}, dx, dy, frozen_intervals_[i]);
+    for (int i = shape.first_station; i < shape.first_station + shape.station_count; ++i)
+      frozen_stations_[i] = value(stations_[i], dofs, y.data()) > stations_[i].gap - tolerance;
+  }
+  frozen_ = true;
+}
+
+template <int P>
+double ElementSetOf<P>::frozen_share(int element, int foundation) const {
+  const Shape& shape = shapes_[element];
+  double share = 0.0;
+  for (int i = shape.first_strip; frozen_ && i < shape.first_strip + shape.strip_count; ++i) {
+    if (strips_[i].foundation() != foundation) continue;
+    for (const auto& interval : frozen_intervals_[i]) share += interval.to - interval.from;
+  }
+  return share;
+}
+
+template <int P>
+void ElementSetOf<P>::set_pressure(int element, double proportional, double constant) {
+  shapes_[element].pressure += proportional;
+  shapes_[element].constant_pressure += constant;
+}
+
+/// Adds the force  pressure * (y', -x') ds  (right normal times the stretch) to a load vector.
+template <int P>
+void ElementSetOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
+                                   double pressure, double* load) const {
+  for (int q = 0; q < P; ++q) {
+    const double fx = pressure * shape.hb[q] * kin.yp[q];
+    const double fy = -pressure * shape.hb[q] * kin.xp[q];
+    load[dofs.a[0]] += fx;
+    load[dofs.a[1]] += fy;
+    for (int r = 0; r < P; ++r) {
+      load[dofs.v + r] += fx * shape.h * a_[q][r];
+      load[dofs.v + P + r] += fy * shape.h * a_[q][r];
+    }
+  }
+}
+
+template <int P>
+void ElementSetOf<P>::add_pressure_load(const Eigen::VectorXd& y, double proportional, double constant,
+                                        Eigen::VectorXd& out) const {
+  for (int e = 0; e < size(); ++e) {
+    const Shape& shape = shapes_[e];
+    const double pressure = proportional * shape.pressure + constant * shape.constant_pressure;
+    if (pressure != 0.0)
+      add_pressure(shape, dofs_[e], kinematics(shape, dofs_[e], y.data()), pressure, out.data());
+  }
+}
+
+/// The symmetric part of the follower force's derivative: minus pressure times the second derivative of the
+/// area 1/2 int (x y' - y x') ds. What is left out belongs to the element's ends, cancels between neighbours
+/// under the same pressure, and vanishes at fixed ends.
+template <int P>
+void ElementSetOf<P>::add_pressure_tangent(const Shape& shape, const Kinematics& kin, double pressure,
+                                           ZetaMatrix& H) const {
+  Functional place[2];
+  Functional slope[2];
+  ZetaVector u[2];
+  ZetaVector du[2];
+  for (int q = 0; q < P; ++q) {
+    for (int c = 0; c < 2; ++c) {
+      place[c] = {};
+      slope[c] = {};
+      place[c].a[c] = 1.0;
+      for (int r = 0; r < P; ++r) place[c].v[c][r] = shape.h * a_[q][r];
+      slope[c].v[c][q] = 1.0;
+      to_strain_row(place[c], shape, kin, u[c]);
+      to_strain_row(slope[c], shape, kin, du[c]);
+    }
+    const double w = -0.5 * pressure * shape.hb[q];
+    H += w * (u[0] * du[1].transpose() + du[1] * u[0].transpose());
+    H -= w * (u[1] * du[0].transpose() + du[0] * u[1].transpose());
+  }
+}
+
+template <int P>
+void ElementSetOf<P>::add_pressure_product(const Shape& shape, const ElementDofs& dofs, double pressure,
+                                           const double* direction, double* out) const {
+  const double* dv = direction + dofs.v;
+  double* fv = out + dofs.v;
+  for (int q = 0; q < P; ++q) {
+    double u[2] = {direction[dofs.a[0]], direction[dofs.a[1]]};
+    for (int r = 0; r < P; ++r)
+      for (int c = 0; c < 2; ++c) u[c] += shape.h * a_[q][r] * dv[c * P + r];
+    const double w = -0.5 * pressure * shape.hb[q];
+    const double place[2] = {w * dv[P + q], -w * dv[q]};
+    fv[q] -= w * u[1];
+    fv[P + q] += w * u[0];
+    for (int c = 0; c < 2; ++c) {
+      out[dofs.a[c]] += place[c];
+      for (int r = 0; r < P; ++r) fv[c * P + r] += place[c] * shape.h * a_[q][r];
+    }
+  }
+}
+
+}  // namespace snapthrough

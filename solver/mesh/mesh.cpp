@@ -1,0 +1,142 @@
+#include "solver/mesh/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <variant>
+
+namespace snapthrough {
+namespace {
+
+constexpr double kTouching = 1e-9;  ///< fractions closer than this are one place
+
+/// Fractions where elements must end, 0 and 1 included, ascending.
+std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& axis) {
+  const std::string& id = model.members[member].id;
+  std::vector<double> at{0.0, 1.0};
+  const auto add_location = [&](const Location& location) {
+    if (location.member == id) at.push_back(location.fraction);
+  };
+  for (const Spring& spring : model.springs) add_location(spring.at);
+  for (const Foundation& foundation : model.foundations)
+    if (foundation.member == id) at.insert(at.end(), foundation.range.begin(), foundation.range.end());
+  for (const Load& load : model.loads) {
+    if (const auto* point = std::get_if<PointLoad>(&load)) add_location(point->at);
+    const auto* distributed = std::get_if<DistributedLoad>(&load);
+    if (distributed != nullptr && distributed->member == id)
+      at.insert(at.end(), distributed->range.begin(), distributed->range.end());
+  }
+  for (const double knot : axis.knots()) at.push_back(knot / axis.length());
+  std::sort(at.begin(), at.end());
+  std::vector<double> unique;
+  for (const double fraction : at)
+    if (unique.empty() || fraction - unique.back() > kTouching) unique.push_back(fraction);
+  unique.back() = 1.0;
+  return unique;
+}
+
+/// n elements shared out between the pieces by largest remainder, at least one each.
+std::vector<int> share(int n, const std::vector<double>& breaks) {
+  const std::size_t pieces = breaks.size() - 1;
+  std::vector<int> counts(pieces, 1);
+  int left = n - static_cast<int>(pieces);
+  while (left > 0) {
+    std::size_t longest = 0;
+    double size = 0.0;
+    for (std::size_t i = 0; i < pieces; ++i) {
+      const double h = (breaks[i + 1] - breaks[i]) / counts[i];
+      if (h > size * (1.0 + 1e-9)) {
+        size = h;
+        longest = i;
+      }
+    }
+    ++counts[longest];
+    --left;
+  }
+  return counts;
+}
+
+int fixed_count(const Discretization& d, const std::string& member) {
+  for (const auto& [id, n] : d.member_elements)
+    if (id == member) return n;
+  return std::max(1, d.elements);
+}
+
+/// Elements of order `order` for a piece of a member, by the rule of make_mesh.
+int default_count(const Model& model, int member, const AxisCurve& axis, double from, double to) {
+  constexpr double kTurnPerElement = 25.0 * std::numbers::pi / 180.0;
+  constexpr double kDecayLengthsPerElement = 1.0;
+  constexpr double kLeast = 8.0;
+  const Member& m = model.members[member];
+  const double length = (to - from) * axis.length();
+  double n = kLeast * (to - from);
+  constexpr int kSamples = 16;
+  double turn = 0.0;
+  for (int i = 0; i < kSamples; ++i)
+    turn += std::abs(axis.at(axis.length() * (from + (to - from) * (i + 0.5) / kSamples)).curvature) *
+            length / kSamples;
+  n = std::max(n, turn / kTurnPerElement);
+  const double EI = model.sections[index_of(model.sections, m.section)].EI;
+  for (const Foundation& base : model.foundations) {
+    if (base.member != m.id || base.stiffness <= 0.0 || base.range[1] <= from || base.range[0] >= to)
+      continue;
+    n = std::max(n, length / (kDecayLengthsPerElement * std::pow(4.0 * EI / base.stiffness, 0.25)));
+  }
+  for (const Imperfection& imperfection : model.imperfections) {
+    const auto* sine = std::get_if<SineImperfection>(&imperfection);
+    if (sine != nullptr && sine->member == m.id) n = std::max(n, 2.0 * sine->half_waves * (to - from));
+  }
+  return std::max(1, static_cast<int>(std::ceil(n - 1e-9)));
+}
+
+void add_elements(Mesh& mesh, int member, const std::vector<double>& breaks, const std::vector<int>& counts) {
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double width = breaks[i + 1] - breaks[i];
+    for (int e = 0; e < counts[i]; ++e) {
+      const double from = breaks[i] + width * e / counts[i];
+      const double to = e + 1 == counts[i] ? breaks[i + 1] : breaks[i] + width * (e + 1) / counts[i];
+      mesh.elements.push_back({member, from, to});
+    }
+  }
+}
+
+}  // namespace
+
+Axes make_axes(const Model& model) {
+  Axes axes;
+  for (const Member& member : model.members) {
+    const Node& a = model.nodes[index_of(model.nodes, member.start)];
+    const Node& b = model.nodes[index_of(model.nodes, member.end)];
+    axes.push_back(
+        std::make_shared<const AxisCurve>(member.curve, std::array{a.x, a.y}, std::array{b.x, b.y}));
+  }
+  return axes;
+}
+
+Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes) {
+  constexpr int kDefaultOrder = 4;
+  Mesh mesh;
+  mesh.order = discretization.fixed_mesh ? discretization.order : kDefaultOrder;
+  mesh.foundation = discretization.fixed_mesh ? discretization.foundation : FoundationRule::consistent;
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    const int member = static_cast<int>(m);
+    mesh.first.push_back(static_cast<int>(mesh.elements.size()));
+    std::vector<double> breaks = breaks_of(model, member, *axes[m]);
+    std::vector<int> counts;
+    if (discretization.fixed_mesh) {
+      const int n = fixed_count(discretization, model.members[m].id);
+      if (n < static_cast<int>(breaks.size()) - 1) breaks = {0.0, 1.0};
+      counts = share(n, breaks);
+    } else {
+      for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
+        counts.push_back(default_count(model, member, *axes[m], breaks[i], breaks[i + 1]));
+    }
+    add_elements(mesh, member, breaks, counts);
+  }
+  mesh.first.push_back(static_cast<int>(mesh.elements.size()));
+  return mesh;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,51 @@
+#pragma once
+/// @file
+/// Members cut into elements.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "solver/model/analysis.h"
+#include "solver/model/axis_curve.h"
+#include "solver/model/model.h"
+
+namespace snapthrough {
+
+/// A piece of a member, in fractions of the member's undeformed length.
+struct MeshElement {
+  int member = 0;
+  double from = 0.0;
+  double to = 1.0;
+};
+
+/// Elements in the order of members, and along each member from start to end.
+struct Mesh {
+  int order = 1;
+  FoundationRule foundation = FoundationRule::consistent;
+  std::vector<MeshElement> elements;
+  std::vector<int> first;  ///< first element of each member; one entry more than there are members
+};
+
+/// Axes of all members, in the model's units, relative to the first node.
+using Axes = std::vector<std::shared_ptr<const AxisCurve>>;
+[[nodiscard]] Axes make_axes(const Model& model);
+
+/// @brief The mesh that an analysis asks for.
+///
+/// Elements end where something begins, ends or acts on a member (loads, springs, ranges, spline knots). A
+/// fixed number of elements is shared out between those places by length, at least one each; where there are
+/// fewer elements than pieces, they are equal and what lies inside an element acts inside it. Without a fixed
+/// mesh the number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of the bases and
+/// the half waves of imperfections.
+[[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes);
+
+/// @brief Index of the thing with this id; -1 when there is none.
+template <typename T>
+[[nodiscard]] int index_of(const std::vector<T>& things, const std::string& id) {
+  for (std::size_t i = 0; i < things.size(); ++i)
+    if (things[i].id == id) return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,83 @@
+#pragma once
+/// @file
+/// What is to be computed for a model. Plain data, one field for each field of the request's `analysis`.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace snapthrough {
+
+enum class AnalysisType { buckling, critical, path, static_ };
+enum class Geometry { nonlinear, linear };
+enum class FoundationRule { consistent, lumped };
+enum class ControlType { arc_length, load, displacement };
+enum class Follow { primary, first, all };
+enum class StateOutput { none, critical, all, every, at_load_factors };
+
+/// Either an accuracy (the mesh is the solver's business) or a fixed mesh.
+struct Discretization {
+  double accuracy = 1e-3;   ///< relative error wanted in each reported load factor, in (0, 0.5]
+  bool fixed_mesh = false;  ///< true: the fields below hold
+  int elements = 0;         ///< elements on each member not named in `member_elements`; 0: none given
+  std::vector<std::pair<std::string, int>> member_elements;  ///< by member id
+  int order = 1;  ///< polynomial order of the elements, 1 to kMaxOrder
+  FoundationRule foundation = FoundationRule::consistent;
+};
+
+struct Control {
+  ControlType type = ControlType::arc_length;
+  std::string monitor;  ///< with displacement control
+};
+
+/// Step lengths as fractions of the scale of the first critical load; empty: the solver's own.
+struct StepOptions {
+  std::optional<double> initial;
+  std::optional<double> min;
+  std::optional<double> max;
+};
+
+struct MonitorRange {
+  std::string id;
+  std::array<double, 2> range{0.0, 0.0};
+};
+
+/// Stop rules of a path: the first to be met ends it. Empty rules do not stop.
+struct StopRules {
+  std::optional<int> limit_points;
+  std::optional<std::array<double, 2>> load_factor;
+  std::optional<MonitorRange> monitor;
+  std::optional<int> steps;
+};
+
+struct BranchOptions {
+  Follow follow = Follow::primary;
+  std::optional<int> limit;
+};
+
+struct OutputOptions {
+  StateOutput states = StateOutput::critical;
+  int every = 1;
+  std::vector<double> at_load_factors;
+  int points_per_member = 101;  ///< >= 2
+};
+
+struct Analysis {
+  AnalysisType type = AnalysisType::critical;
+  int modes = 1;
+  std::vector<double> load_factors{1.0};
+  Geometry geometry = Geometry::nonlinear;
+  Discretization discretization;
+  Control control;
+  StepOptions step;
+  StopRules stop;
+  BranchOptions branches;
+  OutputOptions output;
+};
+
+/// Highest polynomial order of the beam element.
+inline constexpr int kMaxOrder = 8;
+
+}  // namespace snapthrough

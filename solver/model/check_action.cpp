@@ -1,0 +1,136 @@
+/// What acts on the structure and what is watched: loads, imperfections, monitors.
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/model/check_parts.h"
+#include "solver/model/limits.h"
+
+namespace snapthrough::checks {
+
+namespace {
+
+void check_force(const Place& place, const std::array<double, 2>& force) {
+  require_finite(place / 0, force[0]);
+  require_finite(place / 1, force[1]);
+}
+
+void check_load(const Place& place, const PointLoad& load, const Names& names) {
+  check_location(place / "at", load.at, names);
+  check_force(place / "force", load.force);
+  require_finite(place / "moment", load.moment);
+}
+
+void check_load(const Place& place, const DistributedLoad& load, const Names& names) {
+  names.members.require(place / "member", load.member);
+  check_force(place / "force", load.force);
+  require_fractions(place / "range", load.range);
+}
+
+void check_load(const Place& place, const PressureLoad& load, const Names& names) {
+  names.members.require(place / "member", load.member);
+  require_finite(place / "value", load.value);
+}
+
+void check_load(const Place& place, const InitialStrain& load, const Names& names) {
+  names.members.require(place / "member", load.member);
+  require_finite(place / "axial", load.axial);
+  require_finite(place / "curvature", load.curvature);
+}
+
+// NaN counts as an amount: what it is, is another finding.
+bool is_amount(double value) { return !(value == 0.0); }
+bool is_amount(const std::array<double, 2>& v) { return is_amount(v[0]) || is_amount(v[1]); }
+
+bool has_amount(const PointLoad& load) { return is_amount(load.force) || is_amount(load.moment); }
+bool has_amount(const DistributedLoad& load) { return is_amount(load.force); }
+bool has_amount(const PressureLoad& load) { return is_amount(load.value); }
+bool has_amount(const InitialStrain& load) { return is_amount(load.axial) || is_amount(load.curvature); }
+
+bool grows(const Load& load) {
+  return std::visit([](const auto& l) { return l.pattern == Pattern::proportional && has_amount(l); }, load);
+}
+
+bool grows(const Support& support) {
+  const auto& d = support.displacement;
+  return d && d->pattern == Pattern::proportional &&
+         (is_amount(d->x) || is_amount(d->y) || is_amount(d->rotation));
+}
+
+void check_imperfection(const Place& place, const SineImperfection& imperfection, const Names& names) {
+  names.members.require(place / "member", imperfection.member);
+  require_between(place / "half_waves", imperfection.half_waves, 1, kMaxHalfWaves);
+  require_finite(place / "amplitude", imperfection.amplitude);
+}
+
+void check_imperfection(const Place& place, const ModeImperfection& imperfection, const Names&) {
+  require_between(place / "number", imperfection.number, 1, kMaxModes);
+  require_finite(place / "amplitude", imperfection.amplitude);
+}
+
+void check_imperfection(const Place& place, const PointsImperfection& imperfection, const Names& names) {
+  names.members.require(place / "member", imperfection.member);
+  const Place offsets = place / "offsets";
+  require_count(offsets, imperfection.offsets.size(), kMaxCurvePoints);
+  if (imperfection.offsets.size() < 2) {
+    offsets.report("empty", "offsets must hold at least two [fraction, offset] pairs");
+  }
+  double previous = -1.0;
+  for (std::size_t i = 0; i < imperfection.offsets.size(); ++i) {
+    const double fraction = imperfection.offsets[i][0];
+    if (require_between(offsets / i / 0, fraction, 0.0, 1.0) && !(fraction > previous)) {
+      (offsets / i / 0)
+          .report("not_increasing",
+                  "fractions must increase, got " + text(fraction) + " after " + text(previous));
+    }
+    require_finite(offsets / i / 1, imperfection.offsets[i][1]);
+    previous = fraction;
+  }
+}
+
+}  // namespace
+
+void check_loads(const Place& model, const Model& data, const Names& names) {
+  const Place loads = model / "loads";
+  require_count(loads, data.loads.size(), kMaxLoads);
+  for (std::size_t i = 0; i < data.loads.size(); ++i) {
+    std::visit([&, place = loads / i](const auto& load) { check_load(place, load, names); }, data.loads[i]);
+  }
+}
+
+void check_something_proportional(const Place& model, const Model& data, const Analysis& analysis) {
+  const bool something =
+      std::any_of(data.loads.begin(), data.loads.end(), [](const Load& l) { return grows(l); }) ||
+      std::any_of(data.supports.begin(), data.supports.end(), [](const Support& s) { return grows(s); });
+  if (!something && analysis.type != AnalysisType::static_) {
+    (model / "loads")
+        .report("no_load",
+                "nothing grows with the load factor: at least one proportional load or "
+                "prescribed displacement must not be zero");
+  }
+}
+
+void check_imperfections(const Place& model, const Model& data, const Names& names) {
+  const Place imperfections = model / "imperfections";
+  require_count(imperfections, data.imperfections.size(), kMaxImperfections);
+  for (std::size_t i = 0; i < data.imperfections.size(); ++i) {
+    std::visit([&, place = imperfections / i](const auto& item) { check_imperfection(place, item, names); },
+               data.imperfections[i]);
+  }
+}
+
+void check_monitors(const Place& model, const Model& data, Names& names) {
+  const Place monitors = model / "monitors";
+  require_count(monitors, data.monitors.size(), kMaxMonitors);
+  for (std::size_t i = 0; i < data.monitors.size(); ++i) {
+    const Place place = monitors / i;
+    const Monitor& monitor = data.monitors[i];
+    names.monitors.add(place / "id", monitor.id);
+    check_location(place / "at", monitor.at, names);
+    if (monitor.component == Component::normal && !monitor.at.node.empty()) {
+      (place / "component").report("needs_member", "component normal needs a location on a member");
+    }
+  }
+}
+
+}  // namespace snapthrough::checks

@@ -1,0 +1,187 @@
+#pragma once
+/// @file
+/// The structure as its user describes it. Plain data, in the user's own consistent units, one field for each
+/// field of the request document. Nothing here is checked: see solver/model/check.h.
+///
+/// Axes: x to the right, y up, rotation counter-clockwise. A member runs from `start` to `end`; its tangent
+/// is t and its left normal n is t turned by +90 degrees. Fractions are of the member's undeformed length.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace snapthrough {
+
+/// Which multiplier a load or a prescribed displacement follows.
+enum class Pattern { proportional, constant };
+/// What an elastic support can do: glued, push only, pull only.
+enum class Reaction { bilateral, compression_only, tension_only };
+/// A side of a member, looking from its start to its end.
+enum class Side { left, right };
+/// Length measure of a distributed load.
+enum class LoadMeasure { length, horizontal, vertical };
+/// A displacement component; `normal` is along the initial left normal and needs a location on a member.
+enum class Component { x, y, rotation, normal };
+
+/// A place on the structure: a node, or a point of a member. Exactly one of `node`, `member` is not empty.
+struct Location {
+  std::string node;
+  std::string member;
+  double fraction = 0.0;  ///< in [0, 1] of the undeformed length, used with `member`
+};
+
+struct Node {
+  std::string id;
+  double x = 0.0;
+  double y = 0.0;
+};
+
+/// Elastic section. No GA means unshearable (the limit GA -> infinity is taken exactly).
+struct Section {
+  std::string id;
+  double EA = 0.0;           ///< axial stiffness, > 0
+  double EI = 0.0;           ///< bending stiffness, > 0
+  std::optional<double> GA;  ///< shear stiffness (shear area included), > 0
+};
+
+struct LineCurve {};
+/// Circular arc turning by `sweep_degrees` from start to end, positive to the left; 0 < |sweep| < 360.
+struct ArcCurve {
+  double sweep_degrees = 0.0;
+};
+/// Parabola over the chord, `rise` along the chord's left normal.
+struct ParabolaCurve {
+  double rise = 0.0;
+};
+/// rise * sin(half_waves * pi * xi) along the chord's left normal, xi in [0, 1] along the chord.
+struct SineCurve {
+  double rise = 0.0;
+  int half_waves = 1;
+};
+/// C2 cubic spline from start through interior points to end.
+struct PointsCurve {
+  std::vector<std::array<double, 2>> points;
+};
+using Curve = std::variant<LineCurve, ArcCurve, ParabolaCurve, SineCurve, PointsCurve>;
+
+struct Member {
+  std::string id;
+  std::string start;    ///< node id
+  std::string end;      ///< node id
+  std::string section;  ///< section id
+  Curve curve;
+  bool release_start_rotation = false;
+  bool release_end_rotation = false;
+};
+
+struct PrescribedDisplacement {
+  double x = 0.0;
+  double y = 0.0;
+  double rotation = 0.0;
+  Pattern pattern = Pattern::proportional;
+};
+
+struct Support {
+  std::string node;
+  bool x = false;
+  bool y = false;
+  bool rotation = false;
+  double angle_degrees = 0.0;  ///< turns the support's x and y axes
+  std::optional<PrescribedDisplacement> displacement;
+};
+
+/// Discrete spring to ground. `direction` points into the medium; empty means rotational.
+struct Spring {
+  std::string id;
+  Location at;
+  std::optional<std::array<double, 2>> direction;
+  double stiffness = 0.0;  ///< force per length, or moment per radian; >= 0
+  Reaction reaction = Reaction::bilateral;
+  double gap = 0.0;  ///< free travel before a one-sided spring reacts, >= 0
+};
+
+/// Continuous base r = K w - G w'' per undeformed length, w the displacement along the initial normal
+/// (towards `side`) or along the fixed `direction` (pointing into the medium).
+struct Foundation {
+  std::string id;
+  std::string member;
+  double stiffness = 0.0;        ///< K, force per length squared, >= 0
+  double shear_stiffness = 0.0;  ///< G, force, >= 0
+  Reaction reaction = Reaction::bilateral;
+  Side side = Side::left;
+  std::array<double, 2> range{0.0, 1.0};
+  double gap = 0.0;
+  std::optional<std::array<double, 2>> direction;
+};
+
+struct PointLoad {
+  Location at;
+  std::array<double, 2> force{0.0, 0.0};
+  double moment = 0.0;
+  Pattern pattern = Pattern::proportional;
+};
+/// Dead load per undeformed or per projected length.
+struct DistributedLoad {
+  std::string member;
+  std::array<double, 2> force{0.0, 0.0};
+  std::array<double, 2> range{0.0, 1.0};
+  LoadMeasure per = LoadMeasure::length;
+  Pattern pattern = Pattern::proportional;
+};
+/// Follower pressure per deformed length, pushing from `side`.
+struct PressureLoad {
+  std::string member;
+  double value = 0.0;
+  Side side = Side::left;
+  Pattern pattern = Pattern::proportional;
+};
+struct InitialStrain {
+  std::string member;
+  double axial = 0.0;
+  double curvature = 0.0;
+  Pattern pattern = Pattern::proportional;
+};
+using Load = std::variant<PointLoad, DistributedLoad, PressureLoad, InitialStrain>;
+
+/// Stress-free offset amplitude * sin(half_waves pi s / L) along the left normal.
+struct SineImperfection {
+  std::string member;
+  int half_waves = 1;
+  double amplitude = 0.0;
+};
+/// A linearised buckling mode (1 is the lowest) scaled to this largest offset.
+struct ModeImperfection {
+  int number = 1;
+  double amplitude = 0.0;
+};
+/// Offsets at fractions of the length, joined by a C2 spline.
+struct PointsImperfection {
+  std::string member;
+  std::vector<std::array<double, 2>> offsets;
+};
+using Imperfection = std::variant<SineImperfection, ModeImperfection, PointsImperfection>;
+
+struct Monitor {
+  std::string id;
+  Location at;
+  Component component = Component::y;
+};
+
+struct Model {
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> units;  ///< labels, echoed, never interpreted
+  std::vector<Node> nodes;
+  std::vector<Section> sections;
+  std::vector<Member> members;
+  std::vector<Support> supports;
+  std::vector<Spring> springs;
+  std::vector<Foundation> foundations;
+  std::vector<Load> loads;
+  std::vector<Imperfection> imperfections;
+  std::vector<Monitor> monitors;
+};
+
+}  // namespace snapthrough

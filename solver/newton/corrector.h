@@ -1,0 +1,64 @@
+#pragma once
+/// @file
+/// Newton's method on F(y, lambda) = 0 with one linear side condition.
+
+#include <Eigen/Core>
+
+#include "solver/path/equilibrium_problem.h"
+
+namespace snapthrough {
+
+/// @brief Norm of a step (dy, dlambda): sqrt(dy.W dy + weight dlambda^2), W the problem's metric.
+struct PathMetric {
+  const Eigen::VectorXd* weights = nullptr;  ///< not owned
+  double load_weight = 0.0;
+
+  [[nodiscard]] double inner(const Eigen::VectorXd& a, double la, const Eigen::VectorXd& b, double lb) const {
+    return (a.array() * weights->array() * b.array()).sum() + load_weight * la * lb;
+  }
+  [[nodiscard]] double norm(const Eigen::VectorXd& a, double la) const;
+};
+
+/// @brief The side condition normal.(y - y_0) + normal_lambda (lambda - lambda_0) = 0 through the starting
+/// point.
+struct SideCondition {
+  Eigen::VectorXd
+      normal;  ///< already weighted: a plain dot product with dy; empty counts as zero (load control)
+  double normal_lambda = 1.0;
+};
+
+struct CorrectorOptions {
+  int max_iterations = 12;
+  double tolerance = 1e-9;          ///< on the predicted norm of the next correction, relative to the step
+  double largest_residual = 1e-6;   ///< relative residual above which nothing counts as converged
+  double largest_correction = 2.0;  ///< a correction beyond this many steps ends the iteration as diverged
+  double residual_floor = 2e-13;    ///< relative residual that rounding allows; the iteration stops there
+};
+
+enum class CorrectorStatus { converged, too_many_iterations, diverged };
+
+struct CorrectorOutcome {
+  CorrectorStatus status = CorrectorStatus::diverged;
+  int factorisations = 0;
+  double first_correction = 0.0;   ///< norm of the first correction: the predictor's error
+  double relative_residual = 0.0;  ///< at the last linearisation, before the last correction
+  TangentReport tangent;           ///< at the last linearisation
+};
+
+/// @brief Vectors that the corrector and the predictor reuse, so that iterations do not allocate.
+struct Workspace {
+  Eigen::VectorXd residual, correction, load_response;
+};
+
+/// @brief Corrects (y, lambda) in place.
+///
+/// Each iteration factorises once and solves twice (bordering); the step taken with the last factors leaves
+/// the point more accurate than the tolerance, and `work.load_response` = J^-1 load with those factors, for
+/// the tangent.
+/// @param scale norm of the step that led to the starting point
+[[nodiscard]] CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric,
+                                       const SideCondition& side, double scale,
+                                       const CorrectorOptions& options, Eigen::VectorXd& y, double& lambda,
+                                       Workspace& work);
+
+}  // namespace snapthrough

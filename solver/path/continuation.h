@@ -1,0 +1,121 @@
+#pragma once
+/// @file
+/// Pseudo-arc-length continuation with step control.
+
+#include <optional>
+#include <string>
+
+#include "solver/model/analysis.h"
+#include "solver/newton/corrector.h"
+#include "solver/path/path_point.h"
+
+namespace snapthrough {
+
+/// Constants of the step control. Dimensionless: the metric is scaled by the model's own length and load.
+struct ContinuationOptions {
+  double initial_step = 0.05;
+  double min_step = 1e-13;
+  double max_step = 1.0;
+  double target_correction = 0.08;  ///< wanted ratio of the first correction to the step
+  double target_angle = 0.30;       ///< wanted angle between successive tangents, rad
+  double max_angle = 0.9;           ///< a larger angle rejects the step, rad
+  double max_growth = 2.5;
+  CorrectorOptions corrector;
+};
+
+struct ContinuationStatistics {
+  int steps = 0;
+  int rejected_steps = 0;
+  int iterations = 0;  ///< Newton corrections
+  int factorizations = 0;
+  double max_relative_residual = 0.0;
+};
+
+/// Size of the step that was taken, and of the one to try next.
+struct StepSize {
+  double taken = 0.0;
+  double wanted = 0.0;
+};
+
+/// What a step met.
+enum class StepOutcome { advanced, step_underflow };
+
+/// @brief Follows F(y, lambda) = 0 from a known point.
+///
+/// Holds the immutable configuration; the state that changes is the PathPoint and step size that the caller
+/// keeps.
+class Continuation {
+ public:
+  Continuation(EquilibriumProblem& problem, ContinuationOptions options);
+
+  /// @brief First point of the path: y = 0 at lambda = 0, with the tangent towards growing load (or falling,
+  /// when `direction` is -1).
+  ///
+  /// Where supports act on one side only, the tangent is that of the structure in the contact it takes under
+  /// a very small load (solved from the glued structure), because there is no derivative at zero load.
+  /// @return empty when the structure is singular or no contact state was found
+  [[nodiscard]] std::optional<PathPoint> start(double direction = 1.0);
+  /// @brief First point of a path that starts from a known equilibrium y at lambda = 0 (under constant
+  /// actions).
+  [[nodiscard]] std::optional<PathPoint> start_at(const Eigen::VectorXd& y, double direction = 1.0);
+
+  /// @brief One accepted step from `from`: `step.wanted` is tried first, then smaller ones; sets both fields.
+  [[nodiscard]] StepOutcome step(const PathPoint& from, StepSize& step, PathPoint& to);
+  /// @brief Bounds the step sizes from now on by the caller's, which are fractions of the load scale.
+  /// @param load_rate d lambda / ds at the start, positive
+  void limit_steps(const StepOptions& steps, double load_rate);
+  /// @brief Takes the last step back, because it jumped to another path: the next one will be shorter.
+  void reject(StepSize& step);
+
+  /// @brief The point between a and b at distance `tau` along the secant from a to b (0 < tau <
+  /// secant_length(a, b)).
+  /// @return empty when the correction failed
+  [[nodiscard]] std::optional<PathPoint> between(const PathPoint& a, const PathPoint& b, double tau);
+  [[nodiscard]] double secant_length(const PathPoint& a, const PathPoint& b) const;
+  /// d lambda / d tau at a point for the parameter of between(a, b, .).
+  [[nodiscard]] double load_rate(const PathPoint& at, const PathPoint& a, const PathPoint& b) const;
+
+  [[nodiscard]] const ContinuationOptions& options() const { return options_; }
+  [[nodiscard]] const ContinuationStatistics& statistics() const { return statistics_; }
+  [[nodiscard]] const PathMetric& metric() const { return metric_; }
+  /// Scale of the first critical load factor that the load is measured by.
+  [[nodiscard]] double load_scale() const { return load_scale_; }
+  [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
+
+ private:
+  [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, bool bonded, Eigen::VectorXd& response,
+                                   TangentReport& report);
+  [[nodiscard]] bool one_sided_response(double direction, Eigen::VectorXd& response, TangentReport& report);
+  [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, const Eigen::VectorXd& response,
+                                      double direction, const TangentReport& report);
+  void set_load_scale(const Eigen::VectorXd& response);
+  void set_tangent(PathPoint& point, const CorrectorOutcome& outcome, const Eigen::VectorXd& direction,
+                   double direction_lambda);
+  /// What came of one attempt at a step.
+  struct Trial {
+    bool converged = false;
+    double angle = 0.0;       ///< between the tangents
+    double correction = 0.0;  ///< first correction over the step
+    double length = 0.0;      ///< of the chord from the last point
+    double growth = 0.3;      ///< wanted factor to the next step size
+  };
+  /// A turn that was met, and the size of the first step that met it.
+  struct Corner {
+    double angle = 0.0;
+    double first_size = 0.0;
+  };
+  [[nodiscard]] bool is_corner(const Trial& trial, double size);
+  [[nodiscard]] Trial try_step(const PathPoint& from, double step, PathPoint& to);
+  void count(const CorrectorOutcome& outcome);
+
+  EquilibriumProblem& problem_;
+  ContinuationOptions options_;
+  ContinuationStatistics statistics_;
+  PathMetric metric_;
+  double load_scale_ = 1.0;
+  Corner corner_;
+  Workspace work_;
+  SideCondition side_;
+};
+
+}  // namespace snapthrough

@@ -1,0 +1,57 @@
+#pragma once
+/// @file
+/// The seam between mechanics and path following.
+
+#include <Eigen/Core>
+#include <limits>
+
+namespace snapthrough {
+
+/// What a factorisation of the tangent says.
+struct TangentReport {
+  int negative = 0;          ///< negative eigenvalues of the constrained tangent stiffness
+  double log_abs_det = 0.0;  ///< of the tangent, up to a constant of the problem
+};
+
+/// @brief F(y, lambda) = 0 with a symmetric tangent J = dF/dy.
+///
+/// Implementations keep the factors of the last linearise() for solve(). Not thread safe.
+class EquilibriumProblem {
+ public:
+  EquilibriumProblem() = default;
+  EquilibriumProblem(const EquilibriumProblem&) = delete;
+  EquilibriumProblem& operator=(const EquilibriumProblem&) = delete;
+  EquilibriumProblem(EquilibriumProblem&&) = delete;
+  EquilibriumProblem& operator=(EquilibriumProblem&&) = delete;
+  virtual ~EquilibriumProblem() = default;
+
+  [[nodiscard]] virtual Eigen::Index size() const = 0;
+  /// @brief Diagonal weights (>= 0) of the path's norm: mesh independent, dimensionless; zero for what is no
+  /// displacement.
+  [[nodiscard]] virtual const Eigen::VectorXd& metric() const = 0;
+  /// @brief F(y, lambda); overwritten.
+  virtual void residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) = 0;
+  /// @brief F as residual(), and factorises J(y, lambda).
+  virtual TangentReport linearise(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) = 0;
+  /// @brief -dF/dlambda at (y, lambda): the load by unit load factor.
+  virtual void load(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& out) = 0;
+  /// @brief x := J^-1 x with the last factorised J.
+  virtual void solve(Eigen::VectorXd& x) = 0;
+  /// Whether some support can act on one side only, so that the response need not be differentiable at zero
+  /// load.
+  [[nodiscard]] virtual bool one_sided() const { return false; }
+  /// Treats one-sided supports as glued, without gap, as long as it is set.
+  virtual void set_bonded(bool) {}
+  /// @brief Rough size of the first critical load factor from the response to a unit load; infinity when it
+  /// gives none.
+  [[nodiscard]] virtual double critical_load_scale(const Eigen::VectorXd& unit_response) const;
+  /// @brief Size of F relative to the forces and displacements that it balances; rounding gives about 1e-15.
+  [[nodiscard]] virtual double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd& y,
+                                                 double lambda) = 0;
+};
+
+inline double EquilibriumProblem::critical_load_scale(const Eigen::VectorXd&) const {
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,19 @@
+#pragma once
+/// @file
+/// A point of an equilibrium path with its tangent and stability.
+
+#include <Eigen/Core>
+
+namespace snapthrough {
+
+struct PathPoint {
+  Eigen::VectorXd y;
+  double lambda = 0.0;
+  double arc_length = 0.0;
+  Eigen::VectorXd tangent;      ///< dy/ds, of norm one together with tangent_lambda in the path's metric
+  double tangent_lambda = 0.0;  ///< dlambda/ds: zero at a limit point
+  int negative = 0;             ///< negative eigenvalues of the constrained tangent stiffness
+  double log_abs_det = 0.0;
+};
+
+}  // namespace snapthrough

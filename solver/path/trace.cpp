@@ -1,0 +1,167 @@
+#include "solver/path/trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace snapthrough {
+namespace {
+
+/// A bound that a step crossed: the function of the path that is zero there.
+struct Crossing {
+  TraceEnd end = TraceEnd::load_factor;
+  std::function<double(const PathPoint&)> value;
+};
+
+std::optional<Crossing> crossing_of(const std::function<double(const PathPoint&)>& quantity,
+                                    const std::array<double, 2>& range, TraceEnd end, const PathPoint& to) {
+  const double now = quantity(to);
+  if (now >= range[0] && now <= range[1]) return std::nullopt;
+  const double bound = now < range[0] ? range[0] : range[1];
+  return Crossing{end, [quantity, bound](const PathPoint& at) { return quantity(at) - bound; }};
+}
+
+/// The state that changes while a path is traced.
+class Tracer {
+ public:
+  Tracer(Continuation& continuation, const TraceRules& rules, const TraceSink& sink)
+      : continuation_(continuation), rules_(rules), sink_(sink) {}
+
+  TraceOutcome run(const PathPoint& start, const StepOptions& steps, const std::stop_token& stop);
+
+ private:
+  [[nodiscard]] double first_step(const StepOptions& steps, const PathPoint& start) const;
+  [[nodiscard]] std::optional<PathPoint> bounded_end(const PathPoint& from, const PathPoint& to);
+  [[nodiscard]] bool take_events(const std::vector<CriticalEvent>& events);
+  [[nodiscard]] bool ends_here(const PathPoint& at, int steps, const std::stop_token& stop);
+  [[nodiscard]] bool accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events);
+  bool finish(TraceEnd end, const PathPoint& last);
+
+  Continuation& continuation_;
+  const TraceRules& rules_;
+  const TraceSink& sink_;
+  TraceOutcome out_;
+  int limit_points_ = 0;
+};
+
+double Tracer::first_step(const StepOptions& steps, const PathPoint& start) const {
+  constexpr double kDefaultInitial = 0.15;
+  return steps.initial.value_or(kDefaultInitial) * continuation_.load_scale() /
+         std::abs(start.tangent_lambda);
+}
+
+bool Tracer::finish(TraceEnd end, const PathPoint& last) {
+  out_.end = end;
+  out_.last = last;
+  return true;
+}
+
+/// The point where the step first crosses a bound of the stop rules; empty when it crosses none.
+std::optional<PathPoint> Tracer::bounded_end(const PathPoint& from, const PathPoint& to) {
+  std::vector<Crossing> crossings;
+  if (rules_.load) {
+    const auto load = [](const PathPoint& at) { return at.lambda; };
+    if (auto c = crossing_of(load, *rules_.load, TraceEnd::load_factor, to)) crossings.push_back(*c);
+  }
+  if (rules_.monitor_range)
+    if (auto c = crossing_of(rules_.monitor, *rules_.monitor_range, TraceEnd::monitor, to))
+      crossings.push_back(*c);
+  if (rules_.monitor_turns) {
+    // the monitor is linear in the unknowns: its rate is its value on the tangent
+    const auto rate = [this](const PathPoint& at) { return rules_.monitor_rate(at); };
+    if ((rate(from) > 0.0) != (rate(to) > 0.0)) crossings.push_back({TraceEnd::monitor_turned, rate});
+  }
+  std::optional<PathPoint> first;
+  for (const Crossing& crossing : crossings) {
+    const double va = crossing.value(from);
+    const double vb = crossing.value(to);
+    const double size = std::abs(vb - va);
+    const auto done = [size](const PathPoint&, const PathPoint&, double value) {
+      return std::abs(value) <= 1e-12 * size;
+    };
+    const LocatedRoot root = find_root(continuation_, from, va, to, vb, crossing.value, done);
+    if (first && first->arc_length <= root.root.arc_length) continue;
+    first = root.root;
+    out_.end = crossing.end;
+  }
+  return first;
+}
+
+/// Reports what was found on a step; true when that ends the path.
+bool Tracer::take_events(const std::vector<CriticalEvent>& events) {
+  for (const CriticalEvent& event : events) {
+    const bool lost = event.negative_before == 0 && event.negative_after > 0;
+    if (event.type != CriticalType::bifurcation) ++limit_points_;
+    out_.critical.push_back(event);
+    if (sink_.on_critical) sink_.on_critical(event);
+    if (rules_.first_loss_of_stability && lost) return finish(TraceEnd::critical_point, event.point);
+    if (rules_.limit_points && limit_points_ >= *rules_.limit_points)
+      return finish(TraceEnd::limit_points, event.point);
+  }
+  return false;
+}
+
+/// What ends the path before the next step is tried; false when nothing does.
+bool Tracer::ends_here(const PathPoint& at, int steps, const std::stop_token& stop) {
+  if (stop.stop_requested()) return finish(TraceEnd::cancelled, at);
+  if (steps >= rules_.steps) return finish(TraceEnd::steps, at);
+  if (continuation_.metric().norm(at.y, 0.0) > rules_.gradient)
+    return finish(TraceEnd::displacement_bound, at);
+  return false;
+}
+
+/// Takes the step from -> to into the path; true when it ends there (then `to` is the path's last point).
+bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events) {
+  const auto bounded = bounded_end(from, to);
+  if (bounded) to = *bounded;
+  std::vector<CriticalEvent> reached;
+  for (const CriticalEvent& event : events)
+    if (!bounded || event.point.arc_length <= to.arc_length) reached.push_back(event);
+  const TraceEnd by_bound = out_.end;
+  bool ended = take_events(reached);
+  if (ended)
+    to = out_.last;
+  else if (bounded)
+    ended = finish(by_bound, to);
+  if (sink_.on_step) sink_.on_step(from, to);
+  if (sink_.on_point) sink_.on_point(to);
+  return ended;
+}
+
+TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const std::stop_token& stop) {
+  PathPoint from = start;
+  if (sink_.on_point) sink_.on_point(from);
+  if (rules_.first_loss_of_stability && from.negative > 0) {
+    finish(TraceEnd::unstable_at_start, from);
+    return std::move(out_);
+  }
+  StepSize size{0.0, first_step(steps, from)};
+  continuation_.limit_steps(steps, std::abs(from.tangent_lambda));
+  PathPoint to;
+  for (int n = 0; !ends_here(from, n, stop);) {
+    if (continuation_.step(from, size, to) == StepOutcome::step_underflow) {
+      finish(TraceEnd::step_underflow, from);
+      break;
+    }
+    const LocatedEvents located = locate_critical_points(continuation_, from, to, rules_.tolerance);
+    if (!located.same_path) {
+      continuation_.reject(size);
+      continue;
+    }
+    ++n;
+    if (accept(from, to, located.events)) break;
+    std::swap(from, to);
+  }
+  return std::move(out_);
+}
+
+}  // namespace
+
+TraceOutcome trace(Continuation& continuation, const std::optional<PathPoint>& start, const TraceRules& rules,
+                   const StepOptions& steps, const TraceSink& sink, const std::stop_token& stop) {
+  if (!start) return {};
+  return Tracer(continuation, rules, sink).run(*start, steps, stop);
+}
+
+}  // namespace snapthrough

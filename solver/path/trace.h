@@ -1,0 +1,67 @@
+#pragma once
+/// @file
+/// The path from the unloaded state until a stop rule is met.
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "solver/model/analysis.h"
+#include "solver/path/continuation.h"
+#include "solver/stability/locate.h"
+
+namespace snapthrough {
+
+/// Stop rules in the path's own units; empty rules do not stop.
+struct TraceRules {
+  bool first_loss_of_stability = false;
+  std::optional<int> limit_points;
+  bool monitor_turns = false;                 ///< ends where the monitor stops growing (displacement control)
+  std::optional<std::array<double, 2>> load;  ///< scaled load factor
+  std::function<double(const PathPoint&)> monitor;       ///< with monitor_range
+  std::function<double(const PathPoint&)> monitor_rate;  ///< by arc length, with monitor_turns
+  std::optional<std::array<double, 2>> monitor_range;
+  int steps = 1000;
+  double gradient = 4.0;    ///< norm of the displacement at which a path is given up as leaving for infinity
+  double tolerance = 1e-9;  ///< of located points, relative in the load factor
+};
+
+/// Why a trace ended.
+enum class TraceEnd {
+  critical_point,
+  unstable_at_start,
+  limit_points,
+  load_factor,
+  monitor,
+  monitor_turned,
+  steps,
+  displacement_bound,
+  cancelled,
+  step_underflow,
+  no_start
+};
+
+/// Receives what is found, in path order. Any of the functions may be empty.
+struct TraceSink {
+  std::function<void(const PathPoint&)> on_point;  ///< start, every accepted step, and the end
+  std::function<void(const CriticalEvent&)> on_critical;
+  /// All points between and including a step's ends are reachable here through continuation.between.
+  std::function<void(const PathPoint&, const PathPoint&)> on_step;
+};
+
+struct TraceOutcome {
+  TraceEnd end = TraceEnd::no_start;
+  PathPoint last;
+  std::vector<CriticalEvent> critical;
+};
+
+/// @brief Follows the path from `start`; the first rule met ends it, exactly at its value.
+/// @param start as Continuation::start() or start_at() gave it; empty: the outcome is `no_start`
+[[nodiscard]] TraceOutcome trace(Continuation& continuation, const std::optional<PathPoint>& start,
+                                 const TraceRules& rules, const StepOptions& steps, const TraceSink& sink,
+                                 const std::stop_token& stop);
+
+}  // namespace snapthrough

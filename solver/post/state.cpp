@@ -1,0 +1,182 @@
+#include "solver/post/state.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "solver/assembly/axis_offset.h"
+#include "solver/post/element_reader.h"
+#include "solver/post/section_force.h"
+
+namespace snapthrough {
+namespace {
+
+MemberState member_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
+                         double lambda, int member, int points) {
+  const double L = structure.scales.length;
+  const double F = structure.scales.force;
+  const StressFreeAxis& axis = *structure.stress_free[member];
+  const double length = axis.perfect().length();
+  MemberState out;
+  out.id = model.members[member].id;
+  int current = -1;
+  std::unique_ptr<ElementReader> reader;
+  std::unique_ptr<SectionForces> forces;
+  for (int i = 0; i < points; ++i) {
+    const double fraction = static_cast<double>(i) / (points - 1);
+    const MeshPlace place = place_of(structure.mesh, member, fraction);
+    if (place.element != current) {
+      current = place.element;
+      reader = std::make_unique<ElementReader>(structure, y, current);
+      forces = std::make_unique<SectionForces>(structure, model, y, lambda, current);
+    }
+    const auto u = reader->displacement(place.xi);
+    const auto n = forces->at(place.xi);
+    const StressFreePoint p = axis.at(fraction * length);
+    const double angle = p.angle + u[2];
+    out.s.push_back(fraction * length);
+    out.x.push_back(structure.origin[0] + p.x + L * u[0]);
+    out.y.push_back(structure.origin[1] + p.y + L * u[1]);
+    out.rotation.push_back(u[2]);
+    out.axial_force.push_back(F * (n[0] * std::cos(angle) + n[1] * std::sin(angle)));
+    out.shear_force.push_back(F * (-n[0] * std::sin(angle) + n[1] * std::cos(angle)));
+    out.bending_moment.push_back(F * L * n[2]);
+  }
+  return out;
+}
+
+/// Contact intervals of a foundation in its member's arc length, neighbours joined.
+std::vector<std::array<double, 2>> contact_of(const Structure& structure, const Model& model,
+                                              const Eigen::VectorXd& y, int foundation) {
+  const int member = index_of(model.members, model.foundations[foundation].member);
+  const double length = structure.axes[member]->length();
+  std::vector<std::array<double, 2>> joined;
+  std::vector<ContactStrip::Interval> local;
+  for (const FoundationPart& part : structure.foundation_parts) {
+    if (part.foundation != foundation) continue;
+    local.assign(1, {part.range[0], part.range[1]});
+    if (part.strip) {
+      const ElementReader reader(structure, y, part.element);
+      part.strip->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
+                                    reader.gradient(1), local);
+    }
+    const MeshElement& cell = structure.mesh.elements[part.element];
+    for (const auto& interval : local) {
+      const double from = length * (cell.from + interval.from * (cell.to - cell.from));
+      const double to = length * (cell.from + interval.to * (cell.to - cell.from));
+      if (!joined.empty() && from - joined.back()[1] <= 1e-9 * length)
+        joined.back()[1] = to;
+      else
+        joined.push_back({from, to});
+    }
+  }
+  return joined;
+}
+
+FoundationState foundation_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
+                                 int index, int points) {
+  const Foundation& base = model.foundations[index];
+  const int member = index_of(model.members, base.member);
+  const AxisCurve& axis = *structure.axes[member];
+  FoundationState out;
+  out.id = base.id;
+  for (int i = 0; i < points; ++i) {
+    const double fraction = base.range[0] + (base.range[1] - base.range[0]) * i / (points - 1);
+    const MeshPlace place = place_of(structure.mesh, member, fraction);
+    const auto u = ElementReader(structure, y, place.element).displacement(place.xi);
+    const double angle = axis.at(fraction * axis.length()).angle;
+    std::array<double, 2> d{-std::sin(angle), std::cos(angle)};
+    if (base.direction) {
+      const double size = std::hypot((*base.direction)[0], (*base.direction)[1]);
+      d = {(*base.direction)[0] / size, (*base.direction)[1] / size};
+    } else if (base.side == Side::right) {
+      d = {-d[0], -d[1]};
+    }
+    // w towards the medium; a pushing medium has a positive reaction, a pulling one a negative
+    const double w = structure.scales.length * (u[0] * d[0] + u[1] * d[1]);
+    double r = base.stiffness * w;
+    if (base.reaction == Reaction::compression_only) r = base.stiffness * std::max(w - base.gap, 0.0);
+    if (base.reaction == Reaction::tension_only) r = base.stiffness * std::min(w + base.gap, 0.0);
+    out.s.push_back(fraction * axis.length());
+    out.reaction.push_back(r);
+  }
+  out.contact = contact_of(structure, model, y, index);
+  return out;
+}
+
+}  // namespace
+
+State make_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda,
+                 int points) {
+  State state;
+  for (std::size_t m = 0; m < model.members.size(); ++m)
+    state.members.push_back(member_state(structure, model, y, lambda, static_cast<int>(m), points));
+  for (std::size_t i = 0; i < model.foundations.size(); ++i)
+    state.foundations.push_back(foundation_state(structure, model, y, static_cast<int>(i), points));
+  return state;
+}
+
+std::vector<double> contact_fractions(const Structure& structure, const Model& model,
+                                      const Eigen::VectorXd& y) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < model.foundations.size(); ++i) {
+    const Foundation& base = model.foundations[i];
+    const double length =
+        structure.axes[index_of(model.members, base.member)]->length() * (base.range[1] - base.range[0]);
+    double contact = 0.0;
+    for (const auto& interval : contact_of(structure, model, y, static_cast<int>(i)))
+      contact += interval[1] - interval[0];
+    out.push_back(std::clamp(contact / length, 0.0, 1.0));
+  }
+  return out;
+}
+
+std::vector<MemberState> mode_displacements(const Structure& structure, const Model& model,
+                                            const Eigen::VectorXd& mode, int points) {
+  std::vector<MemberState> out;
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    MemberState member;
+    member.id = model.members[m].id;
+    for (int i = 0; i < points; ++i) {
+      const double fraction = static_cast<double>(i) / (points - 1);
+      const MeshPlace place = place_of(structure.mesh, static_cast<int>(m), fraction);
+      const auto u = ElementReader(structure, mode, place.element).displacement(place.xi);
+      member.s.push_back(fraction * structure.axes[m]->length());
+      member.x.push_back(u[0]);
+      member.y.push_back(u[1]);
+      member.rotation.push_back(u[2]);
+    }
+    out.push_back(std::move(member));
+  }
+  return out;
+}
+
+std::vector<CubicSpline> normal_offsets(const Structure& structure, const Model& model,
+                                        const Eigen::VectorXd& mode, double amplitude) {
+  constexpr int kPointsPerElement = 8;
+  std::vector<std::vector<double>> s(model.members.size());
+  std::vector<std::vector<double>> w(model.members.size());
+  double largest = 0.0;
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    const int points = kPointsPerElement * (structure.mesh.first[m + 1] - structure.mesh.first[m]) + 1;
+    const AxisCurve& axis = *structure.axes[m];
+    const auto member = mode_displacements(structure, model, mode, points)[m];
+    for (std::size_t i = 0; i < member.s.size(); ++i) {
+      const double angle = axis.at(member.s[i]).angle;
+      s[m].push_back(member.s[i]);
+      w[m].push_back(-std::sin(angle) * member.x[i] + std::cos(angle) * member.y[i]);
+      if (std::abs(w[m].back()) > std::abs(largest) * (1.0 + 1e-6)) largest = w[m].back();
+    }
+  }
+  std::vector<CubicSpline> out;
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    for (double& value : w[m]) value *= largest == 0.0 ? 0.0 : amplitude / largest;
+    out.emplace_back(s[m], w[m]);
+  }
+  return out;
+}
+
+}  // namespace snapthrough

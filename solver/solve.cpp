@@ -1,0 +1,55 @@
+#include "solver/solve.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "solver/analysis/analyses.h"
+
+namespace snapthrough {
+namespace {
+
+void report_mesh(const Analysis& analysis, const Structure& structure, Result& result) {
+  result.discretization.elements = static_cast<int>(structure.mesh.elements.size());
+  result.discretization.order = structure.mesh.order;
+  result.discretization.unknowns = structure.free_displacements;
+  result.discretization.refinements = 0;
+  if (!analysis.discretization.fixed_mesh) {
+    result.discretization.requested_accuracy = analysis.discretization.accuracy;
+    result.summary.message += "; the mesh was chosen by rule, its error was not estimated";
+  }
+}
+
+}  // namespace
+
+Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
+  if (const auto findings = check(model, analysis); !findings.empty())
+    throw std::invalid_argument(findings.front().pointer + ": " + findings.front().detail);
+  Result result;
+  result.diagnostics = {0, 0, 0, 0, 0.0, {}};
+  ModeOffsets modes;
+  try {
+    modes = mode_offsets(model, analysis);
+  } catch (const std::runtime_error& error) {
+    fail(result, "no_buckling_mode", error.what());
+    return result;
+  }
+  const Structure structure = make_structure(model, analysis.discretization, analysis.geometry, modes);
+  switch (analysis.type) {
+    case AnalysisType::critical:
+    case AnalysisType::path:
+      run_path(model, analysis, structure, hooks, result);
+      break;
+    case AnalysisType::static_:
+      run_static(model, analysis, structure, hooks, result);
+      break;
+    case AnalysisType::buckling:
+      run_buckling(model, analysis, structure, result);
+      break;
+  }
+  result.diagnostics.skipped.insert(result.diagnostics.skipped.begin(), structure.skipped.begin(),
+                                    structure.skipped.end());
+  report_mesh(analysis, structure, result);
+  return result;
+}
+
+}  // namespace snapthrough

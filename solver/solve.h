@@ -1,0 +1,35 @@
+#pragma once
+/// @file
+/// The facade of the solver: request in, result out.
+
+#include <functional>
+#include <stop_token>
+
+#include "solver/model/analysis.h"
+#include "solver/model/check.h"
+#include "solver/model/model.h"
+#include "solver/result.h"
+
+namespace snapthrough {
+
+/// Where a running analysis stands.
+struct Progress {
+  int branch = 0;
+  int step = 0;
+  double load_factor = 0.0;
+  int negative_eigenvalues = 0;
+};
+
+/// What a caller may watch or stop. `on_progress` is called from the solving thread at each accepted step.
+struct Hooks {
+  std::stop_token stop;
+  std::function<void(const Progress&)> on_progress;
+};
+
+/// @brief Runs one analysis.
+/// @pre check(model, analysis) is empty; otherwise throws std::invalid_argument.
+/// @return The result; a numerical failure is in Result::failure together with what was reached.
+/// Thread safety: reentrant, shares nothing. Deterministic: the same request gives bit-identical results.
+[[nodiscard]] Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks = {});
+
+}  // namespace snapthrough

@@ -1,0 +1,229 @@
+#include "solver/stability/buckling.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "solver/newton/corrector.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// An interval of load factors with the number of eigenvalues below each end.
+struct Bracket {
+  double lo = 0.0;
+  double hi = 0.0;
+  int below_lo = 0;
+  int below_hi = 0;
+};
+
+/// The pencil J(lambda) = J_0 + lambda G in the mixed unknowns: displacements zero, stresses s_c + lambda
+/// s_p.
+class Pencil {
+ public:
+  Pencil(const Structure& structure, StructuralProblem& problem) : structure_(structure), problem_(problem) {}
+
+  /// Linear stresses of both kinds of actions, with the contact that the reference load brings about.
+  void set_prestress(double reference);
+  [[nodiscard]] int count(double lambda);
+  void solve(VectorXd& x) { problem_.solve(x); }
+  [[nodiscard]] VectorXd geometric(const VectorXd& x);
+  [[nodiscard]] VectorXd product(double lambda, const VectorXd& x) {
+    return problem_.tangent_product(stress(lambda), lambda, x);
+  }
+  [[nodiscard]] double scale() const { return problem_.critical_load_scale(proportional_); }
+  [[nodiscard]] int factorizations() const { return factorizations_; }
+
+ private:
+  [[nodiscard]] VectorXd linear_response(StructuralProblem::Stage stage, double lambda);
+  [[nodiscard]] VectorXd stress(double lambda) const;
+
+  const Structure& structure_;
+  StructuralProblem& problem_;
+  VectorXd constant_;
+  VectorXd proportional_;
+  int factorizations_ = 0;
+};
+
+/// Small displacements under the actions of a stage, from the unloaded state; contact frozen or not.
+VectorXd Pencil::linear_response(StructuralProblem::Stage stage, double lambda) {
+  problem_.set_stage(stage);
+  VectorXd y = VectorXd::Zero(problem_.size());
+  VectorXd residual;
+  problem_.linearise(y, 0.0, residual);
+  ++factorizations_;
+  VectorXd response;
+  problem_.load(y, 0.0, response);
+  response *= lambda;
+  problem_.solve(response);
+  problem_.set_stage(StructuralProblem::Stage::proportional);
+  return response;
+}
+
+void Pencil::set_prestress(double reference) {
+  structure_.elements->set_linear_geometry(true);
+  if (structure_.one_sided) {
+    // equilibrium under both kinds of actions with unilateral contact, from the glued one
+    problem_.set_bonded(true);
+    VectorXd y = linear_response(StructuralProblem::Stage::constant, 1.0) +
+                 linear_response(StructuralProblem::Stage::proportional, reference);
+    problem_.set_bonded(false);
+    const PathMetric metric{&structure_.metric, 0.0};
+    const double size = metric.norm(y, 0.0);
+    if (size > 0.0) {
+      CorrectorOptions options;
+      options.max_iterations = 60;
+      options.largest_correction = std::numeric_limits<double>::infinity();
+      Workspace work;
+      double lambda = reference;
+      factorizations_ += correct(problem_, metric, {}, size, options, y, lambda, work).factorisations;
+    }
+    constexpr double kTouching = 1e-9;
+    problem_.freeze_contact(y, kTouching * y.head(3 * structure_.joints).lpNorm<Eigen::Infinity>() + 1e-14);
+  }
+  constant_ = linear_response(StructuralProblem::Stage::constant, 1.0);
+  proportional_ = linear_response(StructuralProblem::Stage::proportional, 1.0);
+  structure_.elements->set_linear_geometry(false);
+}
+
+VectorXd Pencil::stress(double lambda) const {
+  VectorXd y = VectorXd::Zero(problem_.size());
+  const int p = structure_.mesh.order;
+  for (const ElementDofs& dofs : structure_.dofs)
+    y.segment(dofs.s, 3 * p) =
+        constant_.segment(dofs.s, 3 * p) + lambda * proportional_.segment(dofs.s, 3 * p);
+  return y;
+}
+
+int Pencil::count(double lambda) {
+  VectorXd residual;
+  ++factorizations_;
+  return problem_.linearise(stress(lambda), lambda, residual).negative;
+}
+
+VectorXd Pencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }
+
+/// Splits (lo, hi) until each bracket holds one eigenvalue or a cluster that is narrow, ascending.
+void isolate(Pencil& pencil, const Bracket& bracket, int wanted, std::vector<Bracket>& out) {
+  constexpr double kNarrow = 1e-4;
+  if (bracket.below_hi == bracket.below_lo || bracket.below_lo >= wanted) return;
+  const bool narrow = bracket.hi - bracket.lo <= kNarrow * bracket.hi;
+  if (narrow) {
+    out.push_back(bracket);
+    return;
+  }
+  const double middle = 0.5 * (bracket.lo + bracket.hi);
+  const int below = pencil.count(middle);
+  isolate(pencil, {bracket.lo, middle, bracket.below_lo, below}, wanted, out);
+  isolate(pencil, {middle, bracket.hi, below, bracket.below_hi}, wanted, out);
+}
+
+VectorXd pseudo_random(Index size, unsigned seed) {
+  VectorXd x(size);
+  unsigned state = seed * 2654435761u + 12345u;
+  for (double& value : x) {
+    state = state * 1664525u + 1013904223u;
+    value = static_cast<double>(state >> 8) / static_cast<double>(1u << 24) - 0.5;
+  }
+  return x;
+}
+
+struct EigenPair {
+  double load = 0.0;
+  VectorXd mode;
+};
+
+/// Rayleigh-Ritz on the span of y, where J(shift) y_j = b_j: (y^T b) c = (shift - lambda) (y^T G y) c.
+std::vector<EigenPair> ritz(Pencil& pencil, double shift, const std::vector<VectorXd>& y,
+                            const std::vector<VectorXd>& b) {
+  const auto m = static_cast<Index>(y.size());
+  Eigen::MatrixXd left(m, m);
+  Eigen::MatrixXd right(m, m);
+  for (Index j = 0; j < m; ++j) {
+    const VectorXd gy = pencil.geometric(y[j]);
+    for (Index i = 0; i < m; ++i) {
+      left(i, j) = y[i].dot(b[j]);
+      right(i, j) = y[i].dot(gy);
+    }
+  }
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(left.partialPivLu().solve(right));
+  std::vector<EigenPair> pairs;
+  for (Index k = 0; k < m; ++k) {
+    VectorXd mode = VectorXd::Zero(y[0].size());
+    for (Index j = 0; j < m; ++j) mode += solver.eigenvectors()(j, k).real() * y[j];
+    pairs.push_back({shift - 1.0 / solver.eigenvalues()[k].real(), mode / mode.lpNorm<Eigen::Infinity>()});
+  }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const EigenPair& l, const EigenPair& r) { return l.load < r.load; });
+  return pairs;
+}
+
+/// Inverse iteration with a block on one bracket: its eigenvalues ascending, with their vectors.
+std::vector<EigenPair> refine(Pencil& pencil, const Bracket& bracket, Index size) {
+  constexpr int kMaxIterations = 60;
+  constexpr double kTolerance = 1e-13;
+  const int m = bracket.below_hi - bracket.below_lo;
+  const double shift = bracket.lo;
+  static_cast<void>(pencil.count(shift));  // factorises there
+  std::vector<EigenPair> pairs(static_cast<std::size_t>(m));
+  for (int i = 0; i < m; ++i) pairs[i] = {bracket.hi, pseudo_random(size, static_cast<unsigned>(i + 1))};
+  for (int it = 0; it < kMaxIterations; ++it) {
+    std::vector<VectorXd> b;
+    std::vector<VectorXd> y;
+    for (const EigenPair& pair : pairs) {
+      b.push_back(pencil.geometric(pair.mode));
+      y.push_back(b.back());
+      pencil.solve(y.back());
+    }
+    auto next = ritz(pencil, shift, y, b);
+    double change = 0.0;
+    for (int i = 0; i < m; ++i) change = std::max(change, std::abs(next[i].load / pairs[i].load - 1.0));
+    pairs = std::move(next);
+    if (it > 0 && change <= kTolerance) break;
+  }
+  return pairs;
+}
+
+/// A load factor with at least `count` eigenvalues below it; empty bracket when there is none.
+Bracket enclose(Pencil& pencil, int count, int at_start) {
+  constexpr int kDoublings = 60;
+  Bracket bracket{0.0, 0.0, at_start, at_start};
+  double hi = pencil.scale();
+  if (!std::isfinite(hi) || hi <= 0.0) hi = 1.0;
+  for (int i = 0; i < kDoublings && bracket.below_hi - at_start < count; ++i) {
+    bracket.hi = hi;
+    bracket.below_hi = pencil.count(hi);
+    hi *= 2.0;
+  }
+  return bracket;
+}
+
+}  // namespace
+
+LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem, int count,
+                               double reference) {
+  LinearBuckling out;
+  Pencil pencil(structure, problem);
+  pencil.set_prestress(reference);
+  out.negative_at_start = pencil.count(0.0);
+  const Bracket all = enclose(pencil, count, out.negative_at_start);
+  std::vector<Bracket> brackets;
+  isolate(pencil, all, out.negative_at_start + count, brackets);
+  for (const Bracket& bracket : brackets) {
+    for (EigenPair& pair : refine(pencil, bracket, problem.size())) {
+      if (static_cast<int>(out.loads.size()) == count) break;
+      out.loads.push_back(pair.load);
+      out.modes.push_back(std::move(pair.mode));
+    }
+  }
+  out.factorizations = pencil.factorizations();
+  return out;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,32 @@
+#pragma once
+/// @file
+/// Linearised buckling: the eigenvalues of the tangent about a linear prestress.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solver/assembly/structural_problem.h"
+
+namespace snapthrough {
+
+/// Eigenvalues lambda > 0 of (K_E + K_G(s_c) + lambda K_G(s_p)) x = 0, ascending, s_c and s_p the linear
+/// stresses of the constant and of the proportional actions by unit (scaled) load factor.
+struct LinearBuckling {
+  std::vector<double> loads;           ///< scaled load factors; fewer than asked when there are no more
+  std::vector<Eigen::VectorXd> modes;  ///< unknowns of the structural problem, largest displacement one
+  int negative_at_start = 0;           ///< negative eigenvalues under the constant actions alone
+  int factorizations = 0;
+};
+
+/// @brief The lowest `count` buckling loads of a structure.
+///
+/// Inertia counts isolate each eigenvalue or cluster (nothing is missed, repeated ones are counted), inverse
+/// iteration on a block of the cluster's size with Rayleigh-Ritz gives its values and modes. One-sided
+/// supports are glued where they touch at the linear equilibrium under the load factor `reference` and absent
+/// elsewhere; touching without force, as at rest, counts as contact.
+/// @param structure not linear in its geometry; its contact state is frozen on return
+/// @param reference scaled load factor of the reference load
+[[nodiscard]] LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem,
+                                             int count, double reference);
+
+}  // namespace snapthrough

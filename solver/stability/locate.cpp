@@ -1,0 +1,209 @@
+#include "solver/stability/locate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace snapthrough {
+namespace {
+
+constexpr int kMaxEvaluations = 100;
+constexpr int kMaxDepth = 48;
+/// A closed bracket this small (in the path's norm, a displacement gradient) has both ends on one path.
+/// Rounding leaves about 1e-16 over the relative distance to the bifurcation, a broken bifurcation about the
+/// cube root of its imperfection.
+constexpr double kSamePath = 1e-6;
+
+/// State of the search between two points of a path.
+struct Search {
+  Continuation& continuation;
+  const PathPoint& a;  ///< ends of the step that is searched: they fix the parameter of load_rate
+  const PathPoint& b;
+  double tolerance;
+  LocatedEvents& out;
+};
+
+bool loads_agree(double l0, double l1, double tolerance, double load_scale) {
+  return std::abs(l1 - l0) <= tolerance * std::max({std::abs(l0), std::abs(l1), 1e-6 * load_scale});
+}
+
+/// det(J) / (dlambda/dtau), scaled by its size at the start of the search.
+double bifurcation_function(const Search& search, const PathPoint& at) {
+  const double parity = at.negative % 2 == 0 ? 1.0 : -1.0;
+  const double rate = search.continuation.load_rate(at, search.a, search.b);
+  return parity * std::exp(at.log_abs_det - search.a.log_abs_det) / rate;
+}
+
+void add_event(Search& search, CriticalType type, const LocatedRoot& root, int before, int after) {
+  if (!root.found) {
+    search.out.same_path = false;
+    return;
+  }
+  CriticalEvent event;
+  event.type = type;
+  event.point = root.root;
+  event.negative_before = before;
+  event.negative_after = after;
+  event.multiplicity = std::max(1, std::abs(after - before));
+  event.bracket_loads[0] = root.before.lambda;
+  event.bracket_loads[1] = root.after.lambda;
+  search.out.events.push_back(std::move(event));
+}
+
+CriticalType limit_type(const PathPoint& before) {
+  return before.tangent_lambda > 0.0 ? CriticalType::limit_max : CriticalType::limit_min;
+}
+
+/// A simple event between a and b; a closed bracket whose ends do not have the counts of a and b is on
+/// another path.
+void add_simple_event(Search& search, CriticalType type, LocatedRoot root, const PathPoint& a,
+                      const PathPoint& b) {
+  root.found = root.found && root.before.negative == a.negative && root.after.negative == b.negative;
+  add_event(search, type, root, a.negative, b.negative);
+}
+
+void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
+  const auto rate = [&search](const PathPoint& at) {
+    return search.continuation.load_rate(at, search.a, search.b);
+  };
+  const double scale = search.continuation.load_scale();
+  const auto done = [&](const PathPoint& lo, const PathPoint& hi, double value) {
+    const double length = search.continuation.secant_length(lo, hi);
+    const double size = std::max(std::abs(lo.lambda), 1e-6 * scale);
+    return std::abs(value) * length <= 0.1 * search.tolerance * size &&
+           loads_agree(lo.lambda, hi.lambda, search.tolerance, scale) && length <= kSamePath;
+  };
+  const LocatedRoot root = find_root(search.continuation, a, rate(a), b, rate(b), rate, done);
+  add_simple_event(search, limit_type(a), root, a, b);
+}
+
+void locate_bifurcation(Search& search, const PathPoint& a, const PathPoint& b) {
+  const auto value = [&search](const PathPoint& at) { return bifurcation_function(search, at); };
+  const auto done = [&](const PathPoint& lo, const PathPoint& hi, double) {
+    return loads_agree(lo.lambda, hi.lambda, search.tolerance, search.continuation.load_scale()) &&
+           search.continuation.secant_length(lo, hi) <= kSamePath;
+  };
+  const LocatedRoot root = find_root(search.continuation, a, value(a), b, value(b), value, done);
+  add_simple_event(search, CriticalType::bifurcation, root, a, b);
+}
+
+/// What cannot be separated any more: a limit point if the load turns, and a bifurcation for the other
+/// eigenvalues.
+void add_cluster(Search& search, const PathPoint& a, const PathPoint& b, bool turns, bool together) {
+  const LocatedRoot root{a, b, a, together};
+  int between = a.negative;
+  if (turns) {
+    between += b.negative >= a.negative ? 1 : -1;
+    add_event(search, limit_type(a), root, a.negative, between);
+  }
+  if (between != b.negative) add_event(search, CriticalType::bifurcation, root, between, b.negative);
+}
+
+void search_between(Search& search, const PathPoint& a, const PathPoint& b, int depth) {
+  const int change = std::abs(b.negative - a.negative);
+  const bool turns = (a.tangent_lambda > 0.0) != (b.tangent_lambda > 0.0);
+  if (change == 0 && !turns) return;
+  if (change == 1) {
+    if (turns)
+      locate_limit(search, a, b);
+    else
+      locate_bifurcation(search, a, b);
+    return;
+  }
+  const double length = search.continuation.secant_length(a, b);
+  const bool together = length <= kSamePath &&
+                        loads_agree(a.lambda, b.lambda, search.tolerance, search.continuation.load_scale());
+  std::optional<PathPoint> middle;
+  if (!together && depth < kMaxDepth) middle = search.continuation.between(a, b, 0.5 * length);
+  if (!middle) {
+    add_cluster(search, a, b, turns, together);
+    return;
+  }
+  search_between(search, a, *middle, depth + 1);
+  if (search.out.same_path) search_between(search, *middle, b, depth + 1);
+}
+
+/// Whether the cubic through both ends' loads and load rates turns inside although it does not turn at the
+/// ends.
+bool may_hide_two_limits(const Continuation& continuation, const PathPoint& a, const PathPoint& b,
+                         double& at) {
+  const double length = continuation.secant_length(a, b);
+  const double ra = continuation.load_rate(a, a, b);
+  const double rb = continuation.load_rate(b, a, b);
+  const double mean = (b.lambda - a.lambda) / length;
+  // rate(t) = ra + 2 (3 mean - 2 ra - rb) t + 3 (ra + rb - 2 mean) t^2
+  const double linear = 2.0 * (3.0 * mean - 2.0 * ra - rb);
+  const double square = 3.0 * (ra + rb - 2.0 * mean);
+  if (square == 0.0) return false;
+  const double t = -0.5 * linear / square;
+  if (t <= 0.0 || t >= 1.0) return false;
+  at = t * length;
+  const double rate = ra + 0.5 * linear * t;
+  return (rate > 0.0) != (ra > 0.0);
+}
+
+}  // namespace
+
+namespace {
+
+/// Share of the bracket at which to look next: just beyond the secant's estimate, seen from the nearer end.
+double next_share(double va, double vb) {
+  double share = va / (va - vb);
+  if (!(share > 0.0 && share < 1.0)) return 0.5;
+  if (share < 0.1)
+    share *= 2.0;
+  else if (share > 0.9)
+    share = 1.0 - 2.0 * (1.0 - share);
+  return std::clamp(share, 1e-5, 1.0 - 1e-5);
+}
+
+}  // namespace
+
+LocatedRoot find_root(Continuation& continuation, const PathPoint& a, double value_a, const PathPoint& b,
+                      double value_b, const std::function<double(const PathPoint&)>& value,
+                      const std::function<bool(const PathPoint&, const PathPoint&, double)>& done) {
+  LocatedRoot out{a, b, a};
+  double va = value_a;
+  double vb = value_b;
+  double length = continuation.secant_length(a, b);
+  bool halve = false;
+  int stuck = 0;
+  for (int it = 0; it < kMaxEvaluations; ++it) {
+    const double best = std::min(std::abs(va), std::abs(vb));
+    out.found = best == 0.0 || done(out.before, out.after, best);
+    if (out.found || stuck > 2) break;
+    auto point = continuation.between(out.before, out.after, (halve ? 0.5 : next_share(va, vb)) * length);
+    if (!point) point = continuation.between(out.before, out.after, 0.37 * length);
+    if (!point) break;
+    const double v = value(*point);
+    const bool at_start = (v > 0.0) == (value_a > 0.0);
+    (at_start ? va : vb) = v;
+    (at_start ? out.before : out.after) = std::move(*point);
+    const double shorter = continuation.secant_length(out.before, out.after);
+    if (halve && shorter > 0.75 * length) ++stuck;
+    halve = !halve && shorter > 0.5 * length;
+    length = shorter;
+  }
+  out.root = std::abs(va) <= std::abs(vb) ? out.before : out.after;
+  return out;
+}
+
+LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint& a, const PathPoint& b,
+                                     double tolerance) {
+  LocatedEvents out;
+  Search search{continuation, a, b, tolerance, out};
+  double tau = 0.0;
+  const bool turns = (a.tangent_lambda > 0.0) != (b.tangent_lambda > 0.0);
+  if (!turns && may_hide_two_limits(continuation, a, b, tau)) {
+    if (const auto inside = continuation.between(a, b, tau)) {
+      search_between(search, a, *inside, 0);
+      if (out.same_path) search_between(search, *inside, b, 0);
+      return out;
+    }
+  }
+  search_between(search, a, b, 0);
+  return out;
+}
+
+}  // namespace snapthrough

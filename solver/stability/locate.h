@@ -1,0 +1,60 @@
+#pragma once
+/// @file
+/// One locator for everything that happens between two points of a path.
+
+#include <functional>
+#include <vector>
+
+#include "solver/path/continuation.h"
+#include "solver/path/path_point.h"
+#include "solver/result.h"
+
+namespace snapthrough {
+
+/// A critical point of a path.
+struct CriticalEvent {
+  CriticalType type = CriticalType::bifurcation;
+  PathPoint point;
+  int negative_before = 0;
+  int negative_after = 0;
+  int multiplicity = 1;          ///< eigenvalues that vanish there
+  double bracket_loads[2] = {};  ///< load factors at the ends of the final bracket
+};
+
+/// A place where a function of the path is zero, in a bracket that was never left.
+struct LocatedRoot {
+  PathPoint before;  ///< bracket end towards the start
+  PathPoint after;
+  PathPoint root;      ///< the better end, or a point between
+  bool found = false;  ///< false: the two ends are on different paths, or no point between converged
+};
+
+/// @brief Finds a sign change of `value` between two path points by a bracketed secant.
+///
+/// Each trial is placed just beyond the secant's estimate, so that the bracket closes from both sides; a
+/// bracket that does not shrink is halved, and one that does not shrink when it is halved has its ends on two
+/// different paths.
+/// @param value_a, value_b values at the ends, of opposite sign (or one of them zero)
+/// @param done whether a bracket is small enough: given both ends and the value at the better one
+[[nodiscard]] LocatedRoot find_root(
+    Continuation& continuation, const PathPoint& a, double value_a, const PathPoint& b, double value_b,
+    const std::function<double(const PathPoint&)>& value,
+    const std::function<bool(const PathPoint&, const PathPoint&, double)>& done);
+
+/// What was found on one step.
+struct LocatedEvents {
+  std::vector<CriticalEvent> events;  ///< in the order they are met
+  bool same_path = true;              ///< false: the step jumped, its ends are not on one continuous path
+};
+
+/// @brief All critical points between two neighbouring points of a path, in the order they are met.
+///
+/// Limit points are zeros of dlambda/ds, simple bifurcations zeros of det(J) / (dlambda/ds), which changes
+/// its sign at no limit point; the inertia tells that something is there and how much of it, and separates
+/// what is close together by bisection. What stays together within the tolerance is one point of higher
+/// multiplicity.
+/// @param tolerance on the load factor, relative
+[[nodiscard]] LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint& a,
+                                                   const PathPoint& b, double tolerance);
+
+}  // namespace snapthrough

@@ -1,0 +1,121 @@
+/// The result document: names of the contract, nulls where nothing is known, numbers that survive.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "api/api.h"
+
+namespace snapthrough::api {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+Request some_request() {
+  Request request;
+  request.model.title = "arch";
+  request.model.units = {{"length", "m"}};
+  return request;
+}
+
+Result full_result() {
+  Result r;
+  r.summary = {66.25, CriticalType::bifurcation, 1e-5, "limit_points", "one limit point"};
+  r.critical_points = {{0, CriticalType::bifurcation, 66.25, 1e-5, 1.5, {{"crown", -0.5}}, 0, 1, 2, 0},
+                       {0, CriticalType::limit_max, 76.5, {}, 2.5, {}, -1, -1, 1, {}},
+                       {1, CriticalType::limit_min, 10.0, {}, 3.5, {}, 2, 1, 1, {}}};
+  r.branches = {{0, {}, {0.0, 1.0}, {0.0, 0.5}, {{"crown", {0.0, -0.25}}}, {0, 1}, {{"soil", {1.0, 0.5}}}},
+                {1, 0, {}, {}, {}, {}, {}}};
+  r.states = {
+      {0,
+       66.25,
+       {{"m", {0.0, 1.0}, {2.0, 3.0}, {4.0, 5.0}, {6.0, 7.0}, {8.0, 9.0}, {10.0, 11.0}, {12.0, 13.0}}},
+       {{"soil", {0.0, 1.0}, {0.25, 0.0}, {{0.0, 0.5}, {0.75, 1.0}}}}}};
+  r.buckling = BucklingResult{{1.5, 2.5}, {{{{"m", {0.0}, {1.0}, {2.0}, {3.0}, {}, {}, {}}}}}};
+  r.discretization = {16, 3, 142, 2, 1e-3, 1e-4};
+  r.diagnostics = {20, 1, 60, 61, 1e-12, {"foundation soil: stiffness 0"}};
+  return r;
+}
+
+TEST(WriteResult, EveryFieldOfTheContract) {
+  const json expected = json::parse(R"({
+    "model": {"title": "arch", "units": {"length": "m"}},
+    "summary": {"critical_load_factor": 66.25, "critical_type": "bifurcation", "error_estimate": 1e-5,
+                "termination": "limit_points", "message": "one limit point"},
+    "critical_points": [
+      {"branch": 0, "type": "bifurcation", "load_factor": 66.25, "error_estimate": 1e-5, "arc_length": 1.5,
+       "monitors": {"crown": -0.5}, "negative_before": 0, "negative_after": 1, "multiplicity": 2, "state": 0},
+      {"branch": 0, "type": "limit_max", "load_factor": 76.5, "error_estimate": null, "arc_length": 2.5,
+       "monitors": {}, "negative_before": null, "negative_after": null, "multiplicity": 1, "state": null},
+      {"branch": 1, "type": "limit_min", "load_factor": 10.0, "error_estimate": null, "arc_length": 3.5,
+       "monitors": {}, "negative_before": 2, "negative_after": 1, "multiplicity": 1, "state": null}],
+    "branches": [
+      {"id": 0, "parent": null, "load_factor": [0.0, 1.0], "arc_length": [0.0, 0.5],
+       "monitors": {"crown": [0.0, -0.25]}, "negative_eigenvalues": [0, 1], "contact_fraction": {"soil": [1.0, 0.5]}},
+      {"id": 1, "parent": 0, "load_factor": [], "arc_length": [], "monitors": {}, "negative_eigenvalues": [],
+       "contact_fraction": {}}],
+    "states": [{"branch": 0, "load_factor": 66.25,
+      "members": {"m": {"s": [0.0, 1.0], "x": [2.0, 3.0], "y": [4.0, 5.0], "rotation": [6.0, 7.0],
+        "axial_force": [8.0, 9.0], "shear_force": [10.0, 11.0], "bending_moment": [12.0, 13.0]}},
+      "foundations": {"soil": {"s": [0.0, 1.0], "reaction": [0.25, 0.0], "contact": [[0.0, 0.5], [0.75, 1.0]]}}}],
+    "buckling": {"load_factors": [1.5, 2.5],
+      "modes": [{"members": {"m": {"s": [0.0], "x": [1.0], "y": [2.0], "rotation": [3.0]}}}]},
+    "discretization": {"elements": 16, "order": 3, "unknowns": 142, "refinements": 2,
+      "accuracy": {"requested": 1e-3, "estimated": 1e-4}},
+    "diagnostics": {"steps": 20, "rejected_steps": 1, "iterations": 60, "factorizations": 61,
+      "max_relative_residual": 1e-12, "wall_time_s": 0.125, "skipped": ["foundation soil: stiffness 0"]}
+  })");
+  const json written = write_result(some_request(), full_result(), 0.125);
+  EXPECT_EQ(written, expected) << json::diff(expected, written).dump(2);
+}
+
+TEST(WriteResult, NothingKnownIsNull) {
+  const json written = write_result(some_request(), Result{}, 0.0);
+  EXPECT_EQ(written["summary"]["critical_load_factor"], nullptr);
+  EXPECT_EQ(written["summary"]["critical_type"], nullptr);
+  EXPECT_EQ(written["summary"]["error_estimate"], nullptr);
+  EXPECT_EQ(written["discretization"]["elements"], nullptr);
+  EXPECT_EQ(written["discretization"]["accuracy"], json({{"requested", nullptr}, {"estimated", nullptr}}));
+  EXPECT_EQ(written["diagnostics"]["max_relative_residual"], nullptr);
+  EXPECT_EQ(written["branches"], json::array());
+  EXPECT_FALSE(written.contains("buckling"));
+  EXPECT_FALSE(written.contains("failure"));
+}
+
+TEST(WriteResult, FailureIsThereWhenThereIsOne) {
+  Result result;
+  result.failure = Failure{"step_underflow", "stuck at 3.2"};
+  const json expected = json{{"code", "step_underflow"}, {"detail", "stuck at 3.2"}};
+  EXPECT_EQ(write_result(some_request(), result, 0.0)["failure"], expected);
+}
+
+TEST(WriteResult, NumbersSurviveTheText) {
+  Result result;
+  const std::vector<double> values = {1.0 / 3.0, 93.117814, 5e-324, 1.7976931348623157e308,
+                                      -0.1,      1e22,      66.2628};
+  result.branches = {{0, {}, values, {}, {}, {}, {}}};
+  const std::string text = write_result(some_request(), result, 0.0).dump();
+  EXPECT_EQ(json::parse(text)["branches"][0]["load_factor"].get<std::vector<double>>(), values);
+  EXPECT_THAT(text, HasSubstr("93.117814,")) << "no more digits than the number needs";
+}
+
+TEST(WriteResult, NumberThatIsNotFiniteIsAnError) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Result result = full_result();
+    result.states[0].members[0].y[1] = bad;
+    try {
+      (void)write_result(some_request(), result, 0.0);
+      ADD_FAILURE() << "accepted " << bad;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("/states/0/members/m/y/1"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace snapthrough::api

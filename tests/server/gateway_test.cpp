@@ -1,0 +1,89 @@
+#include "server/http/gateway.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/server/support/samples.h"
+
+namespace snapthrough::server::http {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A store of which each verb that HTTP uses fails as it is told to.
+class FailingStore final : public Store {
+ public:
+  explicit FailingStore(StatusCode code) : code_(code) {}
+
+  Status submit(const NewJob&) override { return status(); }
+  StatusOr<std::optional<Claim>> claim(Time) override { return status(); }
+  Status finish(const Claim&, const JobResult&, Time) override { return status(); }
+  Status fail(const Claim&, const JobFailure&, const StoredPath&, Time) override { return status(); }
+  Status requeue(const Claim&) override { return status(); }
+  StatusOr<Recovery> recover(int, Time) override { return status(); }
+  StatusOr<std::optional<Job>> get(std::string_view) override { return status(); }
+  StatusOr<JobPage> list(const JobQuery&) override { return status(); }
+  StatusOr<std::optional<std::string>> request(std::string_view) override {
+    throw std::runtime_error("secret");
+  }
+  StatusOr<std::optional<std::string>> result(std::string_view) override { return status(); }
+  StatusOr<StoredPath> path(std::string_view) override { return status(); }
+
+ private:
+  [[nodiscard]] Status status() const { return {code_, "the disk /dev/secret is full"}; }
+  StatusCode code_;
+};
+
+struct Bench {
+  explicit Bench(StatusCode code) : store(code) {}
+  Response serve(const std::string& method, const std::string& path) {
+    Request request;
+    request.method = method;
+    request.path = path;
+    request.headers = {{"Content-Type", "application/json"}};
+    request.body = test::column_request();
+    return gateway.serve(request);
+  }
+
+  test::FakeWorld world;
+  Environment environment = world.environment();
+  std::ostringstream log_text;
+  Log log{LogLevel::debug, environment.now, log_text};
+  FailingStore store;
+  JobDesk desk{store, environment, log};
+  Routes routes{desk, {}};
+  Gateway gateway{routes, environment, log};
+};
+
+TEST(Gateway, AStoreThatIsUnavailableIs503) {
+  Bench bench(StatusCode::unavailable);
+  for (const auto& [method, path] : {std::pair("POST", "/v1/jobs"), std::pair("GET", "/v1/jobs"),
+                                     std::pair("GET", "/v1/jobs/x"), std::pair("GET", "/v1/jobs/x/result")}) {
+    const Response response = bench.serve(method, path);
+    EXPECT_EQ(response.status, 503) << method << path;
+    EXPECT_THAT(response.headers, testing::Contains(testing::Pair("Retry-After", "5")));
+  }
+}
+
+TEST(Gateway, AStoreThatIsBrokenIs500WithoutParticulars) {
+  Bench bench(StatusCode::io_error);
+  const Response response = bench.serve("GET", "/v1/jobs");
+  EXPECT_EQ(response.status, 500);
+  EXPECT_THAT(response.body, Not(HasSubstr("secret")));
+  EXPECT_THAT(bench.log_text.str(), HasSubstr("/dev/secret"));
+}
+
+TEST(Gateway, AnExceptionIs500AndItsTextIsInTheLogOnly) {
+  Bench bench(StatusCode::io_error);
+  const Response response = bench.serve("GET", "/v1/jobs/x/request");
+  EXPECT_EQ(response.status, 500);
+  EXPECT_THAT(response.body, Not(HasSubstr("secret")));
+  EXPECT_THAT(bench.log_text.str(), HasSubstr("secret"));
+  EXPECT_EQ(nlohmann::json::parse(response.body)["type"], "urn:snapthrough:problem:internal-error");
+}
+
+}  // namespace
+}  // namespace snapthrough::server::http

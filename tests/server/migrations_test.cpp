@@ -1,0 +1,159 @@
+#include "server/store/sqlite/migrations.h"
+
+#include <gmock/gmock.h>
+
+#include "server/jobs/state.h"
+#include "server/store/sqlite/sqlite_store.h"
+#include "tests/server/support/samples.h"
+#include "tests/server/support/temp_dir.h"
+
+namespace snapthrough::server::sqlite {
+namespace {
+
+using test::at_second;
+using testing::HasSubstr;
+
+const std::vector<Migration> kSteps{{1, "0001_first", "aa", "CREATE TABLE first (x INTEGER) STRICT"},
+                                    {2, "0002_second", "bb", "CREATE TABLE second (x INTEGER) STRICT"}};
+
+class Migrations : public testing::Test {
+ protected:
+  std::int64_t count(const std::string& sql) {
+    Statement row = connection_.prepare(sql);
+    return row.step() ? row.integer(0) : -1;
+  }
+  Status migrate_to(std::size_t steps, Time now = at_second(0)) {
+    return migrate(connection_, std::span(kSteps).first(steps), now);
+  }
+
+  test::TempDir folder_;
+  Connection connection_{folder_.file("store.db"), Access::read_write};
+};
+
+TEST_F(Migrations, AFreshStoreGetsEveryStepAndRemembersThem) {
+  ASSERT_TRUE(migrate_to(2, at_second(7)).ok());
+  EXPECT_EQ(count("SELECT count(*) FROM sqlite_schema WHERE name IN ('first', 'second')"), 2);
+  EXPECT_EQ(count("SELECT count(*) FROM schema_migrations WHERE (version, name, checksum) IN"
+                  " (VALUES (1, '0001_first', 'aa'), (2, '0002_second', 'bb'))"),
+            2);
+  EXPECT_EQ(count("SELECT max(applied_us) FROM schema_migrations"), at_second(7).time_since_epoch().count());
+}
+
+TEST_F(Migrations, ASecondRunChangesNothing) {
+  ASSERT_TRUE(migrate_to(2, at_second(7)).ok());
+  ASSERT_TRUE(migrate_to(2, at_second(9)).ok());
+  EXPECT_EQ(count("SELECT max(applied_us) FROM schema_migrations"), at_second(7).time_since_epoch().count());
+}
+
+TEST_F(Migrations, AnOlderStoreGetsOnlyWhatItLacks) {
+  ASSERT_TRUE(migrate_to(1, at_second(1)).ok());
+  connection_.execute("INSERT INTO first VALUES (42)");
+  ASSERT_TRUE(migrate_to(2, at_second(2)).ok());
+  EXPECT_EQ(count("SELECT x FROM first"), 42);
+  EXPECT_EQ(count("SELECT applied_us FROM schema_migrations WHERE version = 1"),
+            at_second(1).time_since_epoch().count());
+}
+
+TEST_F(Migrations, ANewerStoreIsRefusedUntouched) {
+  ASSERT_TRUE(migrate_to(2).ok());
+  const Status status = migrate_to(1);
+  EXPECT_EQ(status.code(), StatusCode::unsupported);
+  EXPECT_THAT(status.message(), HasSubstr("0002_second"));
+  EXPECT_EQ(count("SELECT count(*) FROM schema_migrations"), 2);
+}
+
+TEST_F(Migrations, AnEditedStepIsRefused) {
+  ASSERT_TRUE(migrate_to(1).ok());
+  std::vector<Migration> edited = kSteps;
+  edited[0].checksum = "changed";
+  EXPECT_EQ(migrate(connection_, edited, at_second(0)).code(), StatusCode::unsupported);
+  EXPECT_EQ(count("SELECT count(*) FROM sqlite_schema WHERE name = 'second'"), 0);
+}
+
+TEST_F(Migrations, AStepThatFailsHalfwayLeavesNothingOfItself) {
+  const std::vector<Migration> broken{kSteps[0],
+                                      {2, "0002_broken", "cc", "CREATE TABLE half (x); SELECT nonsense"}};
+  EXPECT_THROW((void)migrate(connection_, broken, at_second(0)), Error);
+  EXPECT_EQ(count("SELECT count(*) FROM sqlite_schema WHERE name = 'half'"), 0);
+  EXPECT_EQ(count("SELECT max(version) FROM schema_migrations"), 1);
+  EXPECT_TRUE(migrate_to(2).ok());
+}
+
+TEST_F(Migrations, TheStoreReportsANewerSchema) {
+  const std::string path = folder_.file("newer.db");
+  ASSERT_TRUE(open_store(path, at_second(0)).ok());
+  Connection(path, Access::read_write)
+      .execute("INSERT INTO schema_migrations VALUES (9999, '9999_future', 'x', 0)");
+  const auto opened = open_store(path, at_second(0));
+  EXPECT_EQ(opened.status().code(), StatusCode::unsupported);
+  EXPECT_THAT(opened.status().message(), HasSubstr("newer version"));
+}
+
+TEST_F(Migrations, AFileThatIsNoDatabaseIsRefused) {
+  const std::string path = folder_.file("text.db");
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  std::fputs(
+      "This is certainly not a database; it is longer than a header, too, by a good margin of bytes...",
+      file);
+  std::fclose(file);
+  EXPECT_EQ(open_store(path, at_second(0)).status().code(), StatusCode::unsupported);
+}
+
+TEST_F(Migrations, EmbeddedStepsAreNumberedWithoutGapsAndHaveChecksums) {
+  int expected = 1;
+  for (const Migration& step : embedded_migrations()) {
+    EXPECT_EQ(step.version, expected++);
+    EXPECT_EQ(step.checksum.size(), 64U);
+    EXPECT_EQ(std::stoi(std::string(step.name.substr(0, 4))), step.version);
+  }
+  EXPECT_GE(expected, 2);
+}
+
+class Schema : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(migrate(connection_, embedded_migrations(), at_second(0)).ok()); }
+  bool accepts(const std::string& status, int attempt, const std::string& started,
+               const std::string& finished) {
+    try {
+      connection_.execute(
+          "INSERT INTO jobs (id, status, attempt, analysis_type, created_us, started_us,"
+          " finished_us) VALUES ('" +
+          test::id_number(++number_) + "', '" + status + "', " + std::to_string(attempt) + ", 'path', 1, " +
+          started + ", " + finished + ")");
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
+  test::TempDir folder_;
+  Connection connection_{folder_.file("store.db"), Access::read_write};
+  int number_ = 0;
+};
+
+TEST_F(Schema, KnowsTheStatesOfTheTableAndNoOthers) {
+  for (const JobState state : kJobStates) {
+    const bool waiting = state == JobState::accepted;
+    EXPECT_TRUE(accepts(std::string(to_string(state)), waiting ? 0 : 1, waiting ? "NULL" : "2",
+                        is_final(state) ? "3" : "NULL"))
+        << to_string(state);
+  }
+  EXPECT_FALSE(accepts("paused", 1, "2", "NULL"));
+}
+
+TEST_F(Schema, RefusesTimesThatDoNotFitTheState) {
+  EXPECT_FALSE(accepts("successful", 1, "2", "NULL"));
+  EXPECT_FALSE(accepts("running", 1, "2", "3"));
+  EXPECT_FALSE(accepts("running", 1, "NULL", "NULL"));
+  EXPECT_FALSE(accepts("accepted", 1, "2", "NULL"));
+  EXPECT_FALSE(accepts("running", 0, "2", "NULL"));
+}
+
+TEST_F(Schema, RefusesASeriesOfAnotherLength) {
+  ASSERT_TRUE(accepts("running", 1, "2", "NULL"));
+  EXPECT_THROW(connection_.execute("INSERT INTO branches VALUES (1, 0, NULL, 2, x'0011', x'0011', x'0011')"),
+               Error);
+}
+
+}  // namespace
+}  // namespace snapthrough::server::sqlite

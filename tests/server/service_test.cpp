@@ -1,0 +1,308 @@
+/// @file
+/// The service as a client sees it, with a solver that the test controls.
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/server/support/running_service.h"
+
+namespace snapthrough::server::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+Result solved(const Model&, const Analysis&, const Hooks&) {
+  const JobResult sample = sample_result();
+  Result result;
+  result.summary = sample.summary;
+  result.branches = sample.branches;
+  result.critical_points = sample.critical_points;
+  return result;
+}
+
+Result not_converged(const Model&, const Analysis&, const Hooks&) {
+  Result result;
+  result.branches = sample_result().branches;
+  result.failure = Failure{"no_convergence", "no equilibrium at load factor 3"};
+  return result;
+}
+
+const Headers kAsync{"Content-Type: application/json", "Prefer: respond-async"};
+
+TEST_F(ServiceTest, IsAlive) {
+  start(solved);
+  const Reply reply = get(port(), "/livez");
+  EXPECT_EQ(reply.status, 200);
+  EXPECT_FALSE(reply.header("Date").empty());
+  EXPECT_FALSE(reply.header("X-Request-Id").empty());
+}
+
+TEST_F(ServiceTest, ASmallJobIsAnsweredWithItsResultAtOnce) {
+  start(solved);
+  const Reply reply = post(port(), "/v1/jobs", column_request());
+  ASSERT_EQ(reply.status, 200) << reply.body;
+  EXPECT_EQ(json::parse(reply.body)["summary"]["critical_load_factor"], 66.2628);
+  const std::string job = reply.header("Location");
+  EXPECT_THAT(job, StartsWith("/v1/jobs/"));
+  EXPECT_EQ(reply.header("Content-Location"), job + "/result");
+  const Reply stored = get(port(), job + "/result");
+  EXPECT_EQ(stored.status, 200);
+  EXPECT_EQ(stored.body, reply.body);
+  EXPECT_EQ(stored.header("ETag"), reply.header("ETag"));
+  EXPECT_EQ(get(port(), job + "/request").body, column_request());
+  const json status = json::parse(get(port(), job).body);
+  EXPECT_EQ(status["status"], "successful");
+  EXPECT_EQ(status["progress"], 100);
+  EXPECT_EQ("/v1/jobs/" + status["id"].get<std::string>(), job);
+  EXPECT_FALSE(status["finished"].is_null());
+}
+
+TEST_F(ServiceTest, AnEtagThatMatchesSavesTheBody) {
+  start(solved);
+  const Reply reply = post(port(), "/v1/jobs", column_request());
+  const std::string etag = reply.header("ETag");
+  EXPECT_THAT(etag, StartsWith("\""));
+  const std::string result = reply.header("Location") + "/result";
+  EXPECT_EQ(get(port(), result, {"If-None-Match: \"other\", " + etag}).status, 304);
+  EXPECT_EQ(get(port(), result, {"If-None-Match: *"}).status, 304);
+  EXPECT_EQ(get(port(), result, {"If-None-Match: \"other\""}).status, 200);
+}
+
+TEST_F(ServiceTest, AnAsynchronousJobIsCreatedAndCanBeWaitedFor) {
+  const auto solver = std::make_shared<GatedSolver>();
+  start(gated(solver));
+  const Reply reply = post(port(), "/v1/jobs", column_request(), kAsync);
+  ASSERT_EQ(reply.status, 201) << reply.body;
+  EXPECT_EQ(reply.header("Preference-Applied"), "respond-async");
+  const std::string job = reply.header("Location");
+  EXPECT_EQ("/v1/jobs/" + json::parse(reply.body)["id"].get<std::string>(), job);
+  solver->wait_started(1);
+  const json running = json::parse(get(port(), job).body);
+  EXPECT_EQ(running["status"], "running");
+  EXPECT_THAT(running["message"].get<std::string>(), HasSubstr("step 7, load factor 3.5"));
+  const Reply early = get(port(), job + "/result");
+  EXPECT_EQ(early.status, 404);
+  EXPECT_EQ(early.header("Retry-After"), "1");
+  EXPECT_EQ(json::parse(early.body)["type"], "urn:snapthrough:problem:result-not-ready");
+  std::jthread opener([&] { solver->open(); });
+  const json done = json::parse(get(port(), job, {"Prefer: wait=30"}).body);
+  EXPECT_EQ(done["status"], "successful");
+}
+
+TEST_F(ServiceTest, AWaitThatEndsFirstGivesTheStatus) {
+  const auto solver = std::make_shared<GatedSolver>();
+  start(gated(solver));
+  const Reply reply =
+      post(port(), "/v1/jobs", column_request(), {"Content-Type: application/json", "Prefer: wait=0"});
+  EXPECT_EQ(reply.status, 201);
+  solver->open();
+}
+
+TEST_F(ServiceTest, AFailedAnalysisIsAProblemThatHoldsWhatWasReached) {
+  start(not_converged);
+  const Reply reply = post(port(), "/v1/jobs", column_request());
+  EXPECT_EQ(reply.status, 422);
+  EXPECT_EQ(reply.header("Content-Type"), "application/problem+json");
+  const json problem = json::parse(reply.body);
+  EXPECT_EQ(problem["type"], "urn:snapthrough:problem:analysis-failed");
+  EXPECT_EQ(problem["code"], "no_convergence");
+  EXPECT_EQ(problem["detail"], "no equilibrium at load factor 3");
+  EXPECT_EQ(problem["reached"]["branches"].size(), 2U);
+  const std::string job = reply.header("Location");
+  EXPECT_EQ(get(port(), job + "/result").status, 422);
+  const json status = json::parse(get(port(), job).body);
+  EXPECT_EQ(status["status"], "failed");
+  EXPECT_EQ(status["error"]["code"], "no_convergence");
+}
+
+TEST_F(ServiceTest, AnExceptionOfTheSolverFailsTheJobOnly) {
+  int calls = 0;
+  workers_ = 1;
+  start([&](const Model& model, const Analysis& analysis, const Hooks& hooks) {
+    if (++calls == 1) {
+      throw std::runtime_error("broken");
+    }
+    return solved(model, analysis, hooks);
+  });
+  const Reply reply = post(port(), "/v1/jobs", column_request());
+  EXPECT_EQ(reply.status, 500);
+  EXPECT_EQ(json::parse(reply.body)["code"], "internal_error");
+  EXPECT_EQ(post(port(), "/v1/jobs", column_request()).status, 200);
+}
+
+TEST_F(ServiceTest, ListsJobsInPages) {
+  const auto solver = std::make_shared<GatedSolver>();
+  solver->open();
+  start(gated(solver));
+  std::vector<std::string> jobs;
+  for (int i = 0; i < 3; ++i) {
+    jobs.push_back(post(port(), "/v1/jobs", column_request("job " + std::to_string(i))).header("Location"));
+  }
+  const Reply first = get(port(), "/v1/jobs?limit=2&status=successful");
+  ASSERT_EQ(first.status, 200);
+  const json page = json::parse(first.body);
+  ASSERT_EQ(page["jobs"].size(), 2U);
+  EXPECT_EQ(page["jobs"][0]["title"], "job 2");
+  EXPECT_EQ(page["jobs"][1]["title"], "job 1");
+  const std::string link = first.header("Link");
+  EXPECT_THAT(link, HasSubstr("rel=\"next\""));
+  const Reply second = get(port(), link.substr(1, link.find('>') - 1));
+  ASSERT_EQ(second.status, 200) << link;
+  EXPECT_EQ(json::parse(second.body)["jobs"].size(), 1U);
+  EXPECT_EQ(second.header("Link"), "");
+  EXPECT_TRUE(json::parse(get(port(), "/v1/jobs?status=failed").body)["jobs"].empty());
+}
+
+TEST_F(ServiceTest, RefusesWrongListParameters) {
+  start(solved);
+  for (const char* query :
+       {"limit=0", "limit=1001", "limit=x", "limit=", "cursor=x", "status=done", "stauts=failed"}) {
+    const Reply reply = get(port(), "/v1/jobs?" + std::string(query));
+    EXPECT_EQ(reply.status, 400) << query;
+    EXPECT_EQ(reply.header("Content-Type"), "application/problem+json");
+  }
+}
+
+TEST_F(ServiceTest, WhatIsNotThereIsAProblem) {
+  start(solved);
+  const std::string missing = "/v1/jobs/" + id_number(1);
+  for (const std::string& path :
+       {std::string("/"), std::string("/v1"), std::string("/v1/jobs/"), missing, missing + "/result",
+        missing + "/request", missing + "/result/x", std::string("/v1/jobs/%2e%2e%2f"),
+        std::string("/v1//jobs"), std::string("/livez/")}) {
+    const Reply reply = get(port(), path);
+    EXPECT_EQ(reply.status, 404) << path;
+    const json problem = json::parse(reply.body);
+    EXPECT_EQ(problem["status"], 404);
+    for (const char* member : {"type", "title", "detail", "instance", "request_id"}) {
+      EXPECT_TRUE(problem[member].is_string()) << member;
+    }
+  }
+}
+
+TEST_F(ServiceTest, AWrongMethodIsToldWhichAreRight) {
+  start(solved);
+  const Reply reply = call(port(), "DELETE", "/v1/jobs", "", {});
+  EXPECT_EQ(reply.status, 405);
+  EXPECT_EQ(reply.header("Allow"), "POST, GET, HEAD");
+  EXPECT_EQ(call(port(), "PATCH", "/livez", "x", {}).header("Allow"), "GET, HEAD");
+  EXPECT_EQ(call(port(), "HEAD", "/livez", "", {}).status, 200);
+}
+
+TEST_F(ServiceTest, TheClientsRequestIdIsKeptWhenItIsHarmless) {
+  start(solved);
+  EXPECT_EQ(get(port(), "/livez", {"X-Request-Id: abc-1.2_3"}).header("X-Request-Id"), "abc-1.2_3");
+  EXPECT_NE(get(port(), "/livez", {"X-Request-Id: a b"}).header("X-Request-Id"), "a b");
+  EXPECT_EQ(json::parse(get(port(), "/no", {"X-Request-Id: me"}).body)["request_id"], "me");
+}
+
+TEST_F(ServiceTest, OneLogLineForEachRequestAndJobTransition) {
+  start(solved);
+  EXPECT_EQ(
+      post(port(), "/v1/jobs", column_request(), {"Content-Type: application/json", "X-Request-Id: mine"})
+          .status,
+      200);
+  service_->stop();
+  std::istringstream lines(log_text_.str());
+  std::vector<std::string> seen;
+  for (std::string text; std::getline(lines, text);) {
+    const json line = json::parse(text);
+    if (line["event"] == "job") {
+      seen.push_back("job " + line["status"].get<std::string>());
+    } else if (line["event"] == "request") {
+      seen.push_back("request " + line["request_id"].get<std::string>() + " " +
+                     line["route"].get<std::string>());
+    }
+  }
+  EXPECT_THAT(seen, testing::UnorderedElementsAre("job accepted", "job running", "job successful",
+                                                  "request mine /v1/jobs"));
+}
+
+TEST_F(ServiceTest, ARestartedServiceStillHasTheResult) {
+  start(solved);
+  const Reply reply = post(port(), "/v1/jobs", column_request());
+  ASSERT_EQ(reply.status, 200);
+  service_->stop();
+  service_.reset();
+  start([](const Model&, const Analysis&, const Hooks&) -> Result { throw std::logic_error("not again"); });
+  const Reply stored = get(port(), reply.header("Location") + "/result");
+  EXPECT_EQ(stored.status, 200);
+  EXPECT_EQ(stored.body, reply.body);
+}
+
+TEST_F(ServiceTest, StoppingPutsARunningJobBackAndTheNextStartFinishesIt) {
+  const auto solver = std::make_shared<GatedSolver>();
+  start(gated(solver));
+  const std::string job = submit();
+  solver->wait_started(1);
+  Socket waiting(port());
+  waiting.send("GET " + job + " HTTP/1.1\r\nHost: a\r\nPrefer: wait=60\r\n\r\n");
+  Socket idle(port());
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // lets the request reach its handler
+  const auto before = std::chrono::steady_clock::now();
+  service_->stop();
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(5));
+  EXPECT_EQ(waiting.receive().status, 200);  // it is answered, with the status as it is
+  EXPECT_TRUE(idle.at_end());
+  service_.reset();
+  const auto second = std::make_shared<GatedSolver>();
+  second->open();
+  start(gated(second));
+  const json status = json::parse(get(port(), job, {"Prefer: wait=30"}).body);
+  EXPECT_EQ(status["status"], "successful");
+  EXPECT_EQ(status["attempt"], 2);
+}
+
+TEST_F(ServiceTest, ManyRequestsShareAConnection) {
+  start(solved);
+  Socket socket(port());
+  const std::string body = column_request();
+  for (int i = 0; i < 50; ++i) {
+    socket.send(
+        "GET /livez HTTP/1.1\r\nHost: a\r\n\r\nPOST /v1/jobs HTTP/1.1\r\nHost: a\r\n"
+        "Content-Type: application/json\r\nContent-Length: " +
+        std::to_string(body.size()) + "\r\n\r\n" + body);
+    EXPECT_EQ(socket.receive().status, 200);
+    EXPECT_EQ(socket.receive().status, 200);
+  }
+}
+
+TEST_F(ServiceTest, AnUnreadBodyDoesNotBecomeTheNextRequest) {
+  start(solved);
+  Socket socket(port());
+  const std::string smuggled = "GET /smuggled HTTP/1.1\r\nHost: a\r\n\r\n";
+  socket.send("POST /nowhere HTTP/1.1\r\nHost: a\r\nContent-Length: " + std::to_string(smuggled.size()) +
+              "\r\n\r\n" + smuggled + "GET /livez HTTP/1.1\r\nHost: a\r\n\r\n");
+  EXPECT_EQ(socket.receive().status, 404);
+  EXPECT_EQ(socket.receive().status, 200);
+}
+
+TEST_F(ServiceTest, AsksForABodyThatTheClientHoldsBack) {
+  start(solved);
+  Socket socket(port());
+  const std::string body = column_request();
+  socket.send(
+      "POST /v1/jobs HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\nExpect: 100-continue\r\n"
+      "Content-Length: " +
+      std::to_string(body.size()) + "\r\n\r\n");
+  EXPECT_EQ(socket.receive().status, 100);
+  socket.send(body);
+  EXPECT_EQ(socket.receive().status, 200);
+}
+
+TEST_F(ServiceTest, APortInUseIsReported) {
+  start(solved);
+  ServiceConfig other = config();
+  other.listener.port = port();
+  other.store_path = folder_.file("other.db");
+  Service second(other, Environment::system(), solved, log_);
+  const Status status = second.start();
+  EXPECT_EQ(status.code(), StatusCode::unavailable);
+  EXPECT_THAT(status.message(), HasSubstr(std::to_string(port())));
+}
+
+}  // namespace
+}  // namespace snapthrough::server::test

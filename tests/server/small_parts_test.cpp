@@ -1,0 +1,146 @@
+/// @file
+/// Times, identifiers, the configuration, preferences, log lines.
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "server/config.h"
+#include "server/environment.h"
+#include "server/http/prefer.h"
+#include "server/log/log.h"
+#include "tests/server/support/samples.h"
+
+namespace snapthrough::server {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(Environment, WritesTimes) {
+  const Time time(std::chrono::microseconds(1769848200250007));
+  EXPECT_EQ(rfc3339(time), "2026-01-31T08:30:00.250007Z");
+  EXPECT_EQ(http_date(time), "Sat, 31 Jan 2026 08:30:00 GMT");
+  EXPECT_EQ(rfc3339(Time(std::chrono::microseconds(951782400000000))), "2000-02-29T00:00:00.000000Z");
+}
+
+TEST(Environment, IdentifiersSortByTimeAndDiffer) {
+  const Environment system = Environment::system();
+  std::set<std::string> ids;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string id = new_id(system);
+    EXPECT_TRUE(is_id(id)) << id;
+    EXPECT_EQ(id[14], '7');
+    EXPECT_NE(std::string("89ab").find(id[19]), std::string::npos) << id;
+    ids.insert(id);
+  }
+  EXPECT_EQ(ids.size(), 1000U);
+  test::FakeWorld world;
+  world.random = 0xFFFFFFFFFFFFFFF0U;
+  const std::string early = new_id(world.environment());
+  world.microseconds += 1000;
+  world.random = 0;
+  EXPECT_LT(early, new_id(world.environment()));
+}
+
+TEST(Environment, KnowsTheFormOfAnIdentifier) {
+  EXPECT_TRUE(is_id(test::id_number(1)));
+  EXPECT_FALSE(is_id(""));
+  EXPECT_FALSE(is_id(test::id_number(1) + "0"));
+  EXPECT_FALSE(is_id("00000000-0000-7000-8000-00000000000G"));
+  EXPECT_FALSE(is_id("000000000000070000800000000000000001"));
+}
+
+TEST(Config, DefaultsAreUsable) { EXPECT_TRUE(ServiceConfig::defaults().check().empty()); }
+
+TEST(Config, NamesTheFieldThatIsWrong) {
+  const auto fields = [](auto change) {
+    ServiceConfig config = ServiceConfig::defaults();
+    change(config);
+    std::vector<std::string> names;
+    for (const ConfigMistake& mistake : config.check()) {
+      EXPECT_FALSE(mistake.detail.empty());
+      names.push_back(mistake.field);
+    }
+    return names;
+  };
+  EXPECT_THAT(fields([](auto& c) { c.listener.host = "0.0.0.0"; }), ElementsAre("listener.host"));
+  EXPECT_THAT(fields([](auto& c) { c.listener.host = "127.evil.example"; }), ElementsAre("listener.host"));
+  EXPECT_THAT(fields([](auto& c) { c.listener.port = 65536; }), ElementsAre("listener.port"));
+  EXPECT_THAT(fields([](auto& c) { c.listener.threads = 0; }), ElementsAre("listener.threads"));
+  EXPECT_THAT(fields([](auto& c) { c.listener.limits.body_bytes = 0; }),
+              ElementsAre("listener.limits.body_bytes"));
+  EXPECT_THAT(fields([](auto& c) { c.waits.longest_wait = std::chrono::seconds(1); }),
+              ElementsAre("waits.longest_wait"));
+  EXPECT_THAT(fields([](auto& c) { c.store_path = ""; }), ElementsAre("store_path"));
+  EXPECT_THAT(fields([](auto& c) { c.max_crashes = 0; }), ElementsAre("max_crashes"));
+  EXPECT_THAT(fields([](auto& c) { c.workers = 0, c.listener.port = -1; }),
+              ElementsAre("listener.port", "workers"));
+}
+
+TEST(Config, ReadsAddresses) {
+  EXPECT_EQ(parse_address("127.0.0.1:8080"), std::pair(std::string("127.0.0.1"), 8080));
+  EXPECT_EQ(parse_address("[::1]:0"), std::pair(std::string("::1"), 0));
+  for (const char* wrong : {"", "8080", ":8080", "localhost:", "localhost:x", "localhost:65536",
+                            "localhost:-1", "::1:80", "[]:80", "localhost:80 "}) {
+    EXPECT_EQ(parse_address(wrong), std::nullopt) << wrong;
+  }
+}
+
+http::Preferences preferences(std::vector<std::string> values) {
+  http::Request request;
+  for (std::string& value : values) {
+    request.headers.emplace_back("prefer", std::move(value));
+  }
+  return http::read_preferences(request);
+}
+
+TEST(Prefer, ReadsWaitAndAsync) {
+  EXPECT_EQ(preferences({}).wait_s, std::nullopt);
+  EXPECT_FALSE(preferences({}).respond_async);
+  EXPECT_EQ(preferences({"wait=5"}).wait_s, 5);
+  EXPECT_TRUE(preferences({"Respond-Async, wait = 7 ; x=y, foo"}).respond_async);
+  EXPECT_EQ(preferences({"respond-async, wait = 7 ; x=y, foo"}).wait_s, 7);
+  EXPECT_EQ(preferences({"foo", "wait=3", "wait=4"}).wait_s, 3);
+}
+
+TEST(Prefer, IgnoresWhatIsMalformed) {
+  for (const char* wrong :
+       {"wait", "wait=", "wait=x", "wait=-1", "wait=1.5", "waits=1", "wait=99999999999999", ",,;="}) {
+    EXPECT_EQ(preferences({wrong}).wait_s, std::nullopt) << wrong;
+  }
+}
+
+TEST(Log, EachLineIsOneJsonObjectWhateverTheTextHolds) {
+  std::ostringstream out;
+  test::FakeWorld world;
+  Log log(LogLevel::info, world.environment().now, out);
+  const std::string nasty = "a\"b\\c\nd\x01\xff\xc3\xa4";
+  log.write(LogLevel::info, "request",
+            {{"path", std::string_view(nasty)}, {"status", std::int64_t{200}}, {"ok", true}, {"ms", 0.5}});
+  const std::string text = out.str();
+  ASSERT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
+  const auto line = nlohmann::json::parse(text);
+  EXPECT_EQ(line["event"], "request");
+  EXPECT_EQ(line["level"], "info");
+  EXPECT_EQ(line["time"], rfc3339(test::at_second(0)));
+  EXPECT_EQ(line["status"], 200);
+  EXPECT_EQ(line["ok"], true);
+  EXPECT_EQ(line["path"], "a\"b\\c\nd\x01\xef\xbf\xbd\xc3\xa4");
+}
+
+TEST(Log, LevelsHoldBack) {
+  std::ostringstream out;
+  test::FakeWorld world;
+  Log log(LogLevel::warning, world.environment().now, out);
+  log.write(LogLevel::info, "quiet");
+  EXPECT_EQ(out.str(), "");
+  log.write(LogLevel::warning, "loud");
+  EXPECT_NE(out.str().find("loud"), std::string::npos);
+  EXPECT_EQ(log_level_from("error"), LogLevel::error);
+  EXPECT_EQ(log_level_from("verbose"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace snapthrough::server

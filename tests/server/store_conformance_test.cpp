@@ -1,0 +1,514 @@
+/// @file
+/// What every driver of the store must do. A new driver adds one line at the end of this file.
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <functional>
+#include <mutex>
+#include <random>
+#include <set>
+#include <thread>
+
+#include "server/store/sqlite/sqlite_store.h"
+#include "server/store/store.h"
+#include "tests/server/support/samples.h"
+#include "tests/server/support/temp_dir.h"
+
+namespace snapthrough::server::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+struct StoreDriver {
+  const char* name;
+  std::function<StatusOr<std::unique_ptr<Store>>(const TempDir&)> open;
+};
+
+class StoreConformance : public testing::TestWithParam<StoreDriver> {
+ protected:
+  void SetUp() override { open(); }
+
+  void open() {
+    StatusOr<std::unique_ptr<Store>> opened = GetParam().open(folder_);
+    ASSERT_TRUE(opened.ok()) << opened.status().message();
+    store_ = std::move(opened).value();
+  }
+  void reopen() {
+    store_.reset();
+    open();
+  }
+
+  void submit(int number) { ASSERT_TRUE(store_->submit(new_job(id_number(number), number)).ok()); }
+  /// Claims the next job, which must exist.
+  Claim claim(int second = 100) {
+    auto claim = store_->claim(at_second(second));
+    EXPECT_TRUE(claim.ok() && claim->has_value()) << claim.status().message();
+    return claim.ok() && claim->has_value() ? **claim : Claim{};
+  }
+  Job job(int number) {
+    const auto job = store_->get(id_number(number));
+    EXPECT_TRUE(job.ok() && job->has_value()) << job.status().message();
+    return job.ok() && job->has_value() ? **job : Job{};
+  }
+  std::vector<std::string> ids(const JobQuery& query) {
+    const auto page = store_->list(query);
+    EXPECT_TRUE(page.ok()) << page.status().message();
+    std::vector<std::string> found;
+    for (const Job& row : page->jobs) {
+      found.push_back(row.id);
+    }
+    return found;
+  }
+  Status finish(const Claim& held) { return store_->finish(held, sample_result(), at_second(200)); }
+  Status fail(const Claim& held) {
+    return store_->fail(held, {"no_convergence", "why", R"({"reached": 1})"}, {}, at_second(200));
+  }
+
+  TempDir folder_;
+  std::unique_ptr<Store> store_;
+};
+
+TEST_P(StoreConformance, ASubmittedJobIsAcceptedAndKeepsItsRequest) {
+  submit(1);
+  const Job stored = job(1);
+  EXPECT_EQ(stored.state, JobState::accepted);
+  EXPECT_EQ(stored.title, "a title");
+  EXPECT_EQ(stored.analysis_type, "path");
+  EXPECT_EQ(stored.created, at_second(1));
+  EXPECT_EQ(stored.started, std::nullopt);
+  EXPECT_EQ(stored.finished, std::nullopt);
+  EXPECT_EQ(stored.attempt, 0);
+  EXPECT_EQ(*store_->request(id_number(1)), R"({"model": 1})");
+}
+
+TEST_P(StoreConformance, TextsAreKeptByteForByte) {
+  NewJob job = new_job(id_number(1));
+  job.title = std::string("a\0b'\"; DROP TABLE jobs; -- \xc3\xa4", 31);
+  job.document = "";
+  ASSERT_TRUE(store_->submit(job).ok());
+  EXPECT_EQ((*store_->get(id_number(1)))->title, job.title);
+  EXPECT_EQ(**store_->request(id_number(1)), "");
+}
+
+TEST_P(StoreConformance, WhatIsNotThereIsEmptyNotAnError) {
+  EXPECT_EQ(*store_->request("nothing"), std::nullopt);
+  EXPECT_EQ(*store_->result("nothing"), std::nullopt);
+  EXPECT_FALSE(store_->get("nothing")->has_value());
+  EXPECT_THAT(store_->path("nothing")->branches, IsEmpty());
+  EXPECT_FALSE(store_->claim(at_second(1))->has_value());
+}
+
+TEST_P(StoreConformance, AnIdIsTakenOnce) {
+  submit(1);
+  EXPECT_FALSE(store_->submit(new_job(id_number(1))).ok());
+  EXPECT_THAT(ids({}), ElementsAre(id_number(1)));
+}
+
+TEST_P(StoreConformance, ClaimsGoInOrderOfArrival) {
+  submit(2);
+  submit(1);
+  const Claim first = claim(7);
+  EXPECT_EQ(first.id, id_number(2));
+  EXPECT_EQ(first.attempt, 1);
+  EXPECT_EQ(first.document, R"({"model": 1})");
+  EXPECT_EQ(job(2).state, JobState::running);
+  EXPECT_EQ(job(2).started, at_second(7));
+  EXPECT_EQ(claim().id, id_number(1));
+  EXPECT_FALSE(store_->claim(at_second(9))->has_value());
+}
+
+TEST_P(StoreConformance, AFinishedJobHasItsResultPathAndCriticalPoints) {
+  submit(1);
+  ASSERT_TRUE(finish(claim()).ok());
+  EXPECT_EQ(job(1).state, JobState::successful);
+  EXPECT_EQ(job(1).finished, at_second(200));
+  const JobResult expected = sample_result();
+  EXPECT_EQ(*store_->result(id_number(1)), expected.document);
+  const StoredPath path = *store_->path(id_number(1));
+  ASSERT_EQ(path.branches.size(), 2U);
+  const Branch& branch = path.branches[0];
+  EXPECT_EQ(branch.parent, std::nullopt);
+  EXPECT_EQ(branch.load_factor, expected.branches[0].load_factor);  // bit for bit
+  EXPECT_EQ(branch.arc_length, expected.branches[0].arc_length);
+  EXPECT_EQ(branch.negative_eigenvalues, expected.branches[0].negative_eigenvalues);
+  ASSERT_EQ(branch.monitors.size(), 2U);
+  EXPECT_EQ(branch.monitors[0].id, "tip");
+  EXPECT_EQ(branch.monitors[0].values, expected.branches[0].monitors[0].values);
+  EXPECT_EQ(branch.monitors[1].id, "crown");
+  ASSERT_EQ(branch.contact_fraction.size(), 1U);
+  EXPECT_EQ(branch.contact_fraction[0].values, expected.branches[0].contact_fraction[0].values);
+  EXPECT_EQ(path.branches[1].parent, 0);
+  EXPECT_THAT(path.branches[1].load_factor, IsEmpty());
+  ASSERT_EQ(path.critical_points.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(path.critical_points[i].type, expected.critical_points[i].type);
+    EXPECT_EQ(path.critical_points[i].load_factor, expected.critical_points[i].load_factor);
+    EXPECT_EQ(path.critical_points[i].error_estimate, expected.critical_points[i].error_estimate);
+    EXPECT_EQ(path.critical_points[i].branch, expected.critical_points[i].branch);
+    EXPECT_EQ(path.critical_points[i].multiplicity, expected.critical_points[i].multiplicity);
+    EXPECT_EQ(path.critical_points[i].negative_after, 1);
+  }
+}
+
+TEST_P(StoreConformance, AResultWithoutCriticalPointIsStored) {
+  submit(1);
+  JobResult result = sample_result();
+  result.summary.critical_load_factor.reset();
+  result.summary.critical_type.reset();
+  result.critical_points.clear();
+  ASSERT_TRUE(store_->finish(claim(), result, at_second(3)).ok());
+  EXPECT_EQ(job(1).state, JobState::successful);
+}
+
+TEST_P(StoreConformance, AFailedJobHasItsReasonAndWhatWasReached) {
+  submit(1);
+  const JobResult reached = sample_result();
+  ASSERT_TRUE(store_
+                  ->fail(claim(), {"step_underflow", "too small", "{}"},
+                         {reached.branches, reached.critical_points}, at_second(5))
+                  .ok());
+  const Job stored = job(1);
+  EXPECT_EQ(stored.state, JobState::failed);
+  ASSERT_TRUE(stored.failure.has_value());
+  EXPECT_EQ(stored.failure->code, "step_underflow");
+  EXPECT_EQ(stored.failure->detail, "too small");
+  EXPECT_EQ(stored.failure->reached, "{}");
+  EXPECT_EQ(store_->path(id_number(1))->branches.size(), 2U);
+  EXPECT_EQ(*store_->result(id_number(1)), std::nullopt);
+}
+
+TEST_P(StoreConformance, AResultThatCannotBeStoredLeavesNothingBehind) {
+  submit(1);
+  const Claim held = claim();
+  JobResult result = sample_result();
+  result.branches[1].id = 0;  // twice the same branch
+  EXPECT_FALSE(store_->finish(held, result, at_second(3)).ok());
+  EXPECT_EQ(job(1).state, JobState::running);
+  EXPECT_EQ(*store_->result(id_number(1)), std::nullopt);
+  EXPECT_THAT(store_->path(id_number(1))->branches, IsEmpty());
+  EXPECT_TRUE(finish(held).ok());
+}
+
+TEST_P(StoreConformance, ARequeuedJobKeepsItsPlaceAndIsNoCrash) {
+  submit(1);
+  submit(2);
+  ASSERT_TRUE(store_->requeue(claim()).ok());
+  EXPECT_EQ(job(1).state, JobState::accepted);
+  EXPECT_EQ(job(1).started, std::nullopt);
+  EXPECT_EQ(job(1).crashes, 0);
+  const Claim again = claim();
+  EXPECT_EQ(again.id, id_number(1));
+  EXPECT_EQ(again.attempt, 2);
+}
+
+TEST_P(StoreConformance, ALateWorkerCannotTouchAJobThatWasGivenToAnother) {
+  submit(1);
+  const Claim late = claim();
+  ASSERT_TRUE(store_->requeue(late).ok());
+  const Claim current = claim();
+  EXPECT_EQ(finish(late).code(), StatusCode::conflict);
+  EXPECT_EQ(fail(late).code(), StatusCode::conflict);
+  EXPECT_EQ(store_->requeue(late).code(), StatusCode::conflict);
+  EXPECT_EQ(job(1).state, JobState::running);
+  EXPECT_TRUE(finish(current).ok());
+}
+
+TEST_P(StoreConformance, FencedVerbsAreRefusedInEveryStateButRunning) {
+  submit(1);
+  const Claim not_yet{id_number(1), 0, ""};
+  const auto refused = [&](const Claim& held) {
+    const JobState before = job(1).state;
+    EXPECT_EQ(finish(held).code(), StatusCode::conflict) << to_string(before);
+    EXPECT_EQ(fail(held).code(), StatusCode::conflict) << to_string(before);
+    EXPECT_EQ(store_->requeue(held).code(), StatusCode::conflict) << to_string(before);
+    EXPECT_EQ(job(1).state, before);
+  };
+  refused(not_yet);
+  const Claim held = claim();
+  ASSERT_TRUE(finish(held).ok());
+  refused(held);
+  submit(2);
+  const Claim other = claim();
+  ASSERT_TRUE(fail(other).ok());
+  EXPECT_EQ(finish(other).code(), StatusCode::conflict);
+  EXPECT_EQ(job(2).state, JobState::failed);
+  EXPECT_EQ(*store_->result(id_number(2)), std::nullopt);
+}
+
+TEST_P(StoreConformance, ListsNewestFirstInPages) {
+  for (int i = 1; i <= 5; ++i) {
+    submit(i);
+  }
+  JobQuery query;
+  query.limit = 2;
+  EXPECT_THAT(ids(query), ElementsAre(id_number(5), id_number(4)));
+  query.before = store_->list(query)->next;
+  ASSERT_TRUE(query.before.has_value());
+  submit(6);  // a new job must not shift the pages
+  EXPECT_THAT(ids(query), ElementsAre(id_number(3), id_number(2)));
+  query.before = store_->list(query)->next;
+  EXPECT_THAT(ids(query), ElementsAre(id_number(1)));
+  EXPECT_EQ(store_->list(query)->next, std::nullopt);
+}
+
+TEST_P(StoreConformance, AFullLastPageHasNoNext) {
+  submit(1);
+  submit(2);
+  JobQuery query;
+  query.limit = 2;
+  EXPECT_EQ(store_->list(query)->next, std::nullopt);
+}
+
+TEST_P(StoreConformance, ListsOneState) {
+  submit(1);
+  submit(2);
+  submit(3);
+  ASSERT_TRUE(finish(claim()).ok());
+  const Claim running = claim();
+  JobQuery query;
+  query.state = JobState::successful;
+  EXPECT_THAT(ids(query), ElementsAre(id_number(1)));
+  query.state = JobState::running;
+  EXPECT_THAT(ids(query), ElementsAre(id_number(2)));
+  query.state = JobState::accepted;
+  EXPECT_THAT(ids(query), ElementsAre(id_number(3)));
+  query.state = JobState::failed;
+  EXPECT_THAT(ids(query), IsEmpty());
+}
+
+TEST_P(StoreConformance, EverythingSurvivesReopening) {
+  submit(1);
+  submit(2);
+  ASSERT_TRUE(finish(claim()).ok());
+  reopen();
+  EXPECT_EQ(job(1).state, JobState::successful);
+  EXPECT_EQ(*store_->result(id_number(1)), sample_result().document);
+  EXPECT_EQ(store_->path(id_number(1))->branches[0].load_factor, sample_result().branches[0].load_factor);
+  EXPECT_EQ(claim().id, id_number(2));
+}
+
+TEST_P(StoreConformance, JobsOfADeadProcessAreRecoveredAndFenced) {
+  submit(1);
+  submit(2);
+  const Claim lost = claim();
+  reopen();
+  const Recovery recovery = *store_->recover(2, at_second(300));
+  EXPECT_THAT(recovery.requeued, ElementsAre(id_number(1)));
+  EXPECT_THAT(recovery.failed, IsEmpty());
+  EXPECT_EQ(job(1).state, JobState::accepted);
+  EXPECT_EQ(job(1).crashes, 1);
+  EXPECT_EQ(finish(lost).code(), StatusCode::conflict);
+  const Claim again = claim();
+  EXPECT_EQ(again.attempt, lost.attempt + 1);
+  EXPECT_EQ(finish(lost).code(), StatusCode::conflict);
+  reopen();
+  EXPECT_THAT(store_->recover(2, at_second(400))->failed, ElementsAre(id_number(1)));
+  EXPECT_EQ(job(1).state, JobState::failed);
+  EXPECT_EQ(job(1).failure->code, "crashed");
+  EXPECT_EQ(job(1).finished, at_second(400));
+  EXPECT_EQ(job(2).state, JobState::accepted);
+}
+
+TEST_P(StoreConformance, RecoveryOfAnOrderlyStoreDoesNothing) {
+  submit(1);
+  submit(2);
+  ASSERT_TRUE(finish(claim()).ok());
+  reopen();
+  const Recovery recovery = *store_->recover(1, at_second(1));
+  EXPECT_THAT(recovery.requeued, IsEmpty());
+  EXPECT_THAT(recovery.failed, IsEmpty());
+  EXPECT_EQ(job(1).state, JobState::successful);
+}
+
+TEST_P(StoreConformance, OneProcessOwnsAStore) {
+  const StatusOr<std::unique_ptr<Store>> second = GetParam().open(folder_);
+  EXPECT_EQ(second.status().code(), StatusCode::unavailable);
+}
+
+TEST_P(StoreConformance, EachJobIsClaimedByOneThreadOnly) {
+  constexpr int kJobs = 60;
+  for (int i = 0; i < kJobs; ++i) {
+    submit(i);
+  }
+  std::mutex mutex;
+  std::multiset<std::string> claimed;
+  const auto work = [&] {
+    for (;;) {
+      const auto held = store_->claim(at_second(1));
+      if (!held.ok() || !held->has_value()) {
+        return;
+      }
+      const bool finished = finish(**held).ok();
+      const std::lock_guard guard(mutex);
+      claimed.insert((*held)->id + (finished ? "" : " not finished"));
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < 4; ++i) {
+      threads.emplace_back(work);
+      threads.emplace_back([&] {
+        for (int n = 0; n < 50; ++n) {
+          EXPECT_TRUE(store_->list({}).ok());  // readers go on meanwhile
+        }
+      });
+    }
+  }
+  ASSERT_EQ(claimed.size(), static_cast<std::size_t>(kJobs));
+  for (int i = 0; i < kJobs; ++i) {
+    EXPECT_EQ(claimed.count(id_number(i)), 1U);
+    EXPECT_EQ(job(i).state, JobState::successful);
+  }
+}
+
+TEST_P(StoreConformance, AcknowledgedJobsSurviveKill) {
+  store_.reset();
+  int pipe_ends[2];
+  ASSERT_EQ(::pipe(pipe_ends), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    auto store = GetParam().open(folder_);
+    bool good = store.ok();
+    for (int i = 0; good && i < 1000000; ++i) {
+      good = (*store)->submit(new_job(id_number(i), i)).ok();
+      good = good && (i % 3 != 0 || (*store)->claim(at_second(i)).ok());
+      good = good && ::write(pipe_ends[1], &i, sizeof i) == sizeof i;
+    }
+    ::_exit(1);
+  }
+  ::close(pipe_ends[1]);
+  int acknowledged = -1;
+  while (acknowledged < 100 && ::read(pipe_ends[0], &acknowledged, sizeof acknowledged) > 0) {
+  }
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  while (::read(pipe_ends[0], &acknowledged, sizeof acknowledged) > 0) {
+  }
+  ::close(pipe_ends[0]);
+  ASSERT_GE(acknowledged, 100);
+  open();
+  ASSERT_TRUE(store_->recover(3, at_second(1)).ok());
+  for (int i = 0; i <= acknowledged; ++i) {
+    EXPECT_EQ(job(i).state, JobState::accepted) << i;
+  }
+}
+
+/// What a store must hold, kept in plain memory.
+struct ModelJob {
+  JobState state = JobState::accepted;
+  int attempt = 0;
+  int crashes = 0;
+};
+
+class StoreModel : public StoreConformance {
+ protected:
+  int pick(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random_); }
+
+  void submit_next() {
+    submit(static_cast<int>(model_.size()));
+    model_.emplace_back();
+  }
+  void claim_next() {
+    const auto oldest = std::find_if(model_.begin(), model_.end(),
+                                     [](const ModelJob& job) { return job.state == JobState::accepted; });
+    const auto held = store_->claim(at_second(1));
+    ASSERT_TRUE(held.ok());
+    ASSERT_EQ(held->has_value(), oldest != model_.end());
+    if (oldest != model_.end()) {
+      oldest->state = JobState::running;
+      ++oldest->attempt;
+      EXPECT_EQ((*held)->id, id_number(static_cast<int>(oldest - model_.begin())));
+      EXPECT_EQ((*held)->attempt, oldest->attempt);
+      claims_.push_back(**held);
+    }
+  }
+  /// Ends or gives back a job with a claim that may be stale.
+  void use_a_claim(JobEvent event) {
+    if (claims_.empty()) {
+      return;
+    }
+    const Claim held = claims_[static_cast<std::size_t>(pick(static_cast<int>(claims_.size())))];
+    ModelJob& job = model_[static_cast<std::size_t>(std::stoi(held.id.substr(24)))];
+    const bool holds = job.state == JobState::running && job.attempt == held.attempt;
+    const Status status = event == JobEvent::finish ? finish(held)
+                          : event == JobEvent::fail ? fail(held)
+                                                    : store_->requeue(held);
+    EXPECT_EQ(status.code(), holds ? StatusCode::ok : StatusCode::conflict);
+    if (holds) {
+      job.state = next_state(JobState::running, event).value();
+    }
+  }
+  void crash() {
+    reopen();
+    ASSERT_TRUE(store_->recover(3, at_second(1)).ok());
+    for (ModelJob& job : model_) {
+      if (job.state == JobState::running) {
+        job.state = ++job.crashes >= 3 ? JobState::failed : JobState::accepted;
+      }
+    }
+  }
+  void compare() {
+    for (std::size_t i = 0; i < model_.size(); ++i) {
+      const Job stored = job(static_cast<int>(i));
+      ASSERT_EQ(stored.state, model_[i].state) << i;
+      ASSERT_EQ(stored.attempt, model_[i].attempt) << i;
+      ASSERT_EQ(stored.crashes, model_[i].crashes) << i;
+      ASSERT_EQ(store_->result(stored.id)->has_value(), stored.state == JobState::successful) << i;
+      ASSERT_EQ(stored.failure.has_value(), stored.state == JobState::failed) << i;
+    }
+  }
+
+  std::vector<ModelJob> model_;
+  std::vector<Claim> claims_;
+  std::mt19937 random_;
+};
+
+TEST_P(StoreModel, ARandomLifeAgreesWithTheModel) {
+  const unsigned seed = std::random_device()();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  random_.seed(seed);
+  for (int step = 0; step < 300 && !HasFailure(); ++step) {
+    switch (pick(12)) {
+      case 0:
+        crash();
+        break;
+      case 1:
+      case 2:
+      case 3:
+        submit_next();
+        break;
+      case 4:
+      case 5:
+      case 6:
+      case 7:
+        claim_next();
+        break;
+      case 8:
+        use_a_claim(JobEvent::fail);
+        break;
+      case 9:
+        use_a_claim(JobEvent::requeue);
+        break;
+      default:
+        use_a_claim(JobEvent::finish);
+    }
+    compare();
+  }
+}
+
+const auto kDrivers =
+    testing::Values(StoreDriver{"Sqlite", [](const TempDir& folder) {
+                                  return sqlite::open_store(folder.file("store.db"), at_second(0));
+                                }});
+const auto kDriverName = [](const auto& driver) { return driver.param.name; };
+
+INSTANTIATE_TEST_SUITE_P(Drivers, StoreConformance, kDrivers, kDriverName);
+INSTANTIATE_TEST_SUITE_P(Drivers, StoreModel, kDrivers, kDriverName);
+
+}  // namespace
+}  // namespace snapthrough::server::test

@@ -1,0 +1,51 @@
+#pragma once
+/// @file
+/// A plain HTTP client on sockets: it sends the bytes it is told to, right or wrong.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace snapthrough::server::test {
+
+struct Reply {
+  int status = 0;
+  std::vector<std::pair<std::string, std::string>> headers;
+  std::string body;
+
+  /// The header's value, empty when it is missing.
+  [[nodiscard]] std::string header(const std::string& name) const;
+};
+
+/// A connection to 127.0.0.1.
+class Socket {
+ public:
+  explicit Socket(int port);
+  ~Socket();
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+  Socket(Socket&&) = delete;
+  Socket& operator=(Socket&&) = delete;
+
+  void send(const std::string& bytes) const;
+  /// The next response; status 0 when the connection ends first. Interim responses (1xx) are returned too.
+  Reply receive(bool without_body = false);
+  /// Whether the other side has closed and nothing is left to read.
+  [[nodiscard]] bool at_end();
+
+ private:
+  bool fill();
+  int descriptor_;
+  std::string buffer_;
+};
+
+using Headers = std::vector<std::string>;  ///< "Name: value"
+
+/// One request on a connection of its own.
+Reply get(int port, const std::string& target, const Headers& headers = {});
+Reply post(int port, const std::string& target, const std::string& body,
+           const Headers& headers = {"Content-Type: application/json"});
+Reply call(int port, const std::string& method, const std::string& target, const std::string& body,
+           const Headers& headers);
+
+}  // namespace snapthrough::server::test

@@ -1,0 +1,95 @@
+#pragma once
+/// @file
+/// A service on a free port with a store in a temporary folder, and a solver that the test writes.
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <sstream>
+#include <string>
+
+#include "server/service.h"
+#include "tests/server/support/client.h"
+#include "tests/server/support/samples.h"
+#include "tests/server/support/temp_dir.h"
+
+namespace snapthrough::server::test {
+
+/// A solver that waits until the test opens the gate, or it is asked to stop.
+class GatedSolver {
+ public:
+  Result operator()(const Model&, const Analysis&, const Hooks& hooks) {
+    std::unique_lock lock(mutex_);
+    ++started_;
+    changed_.notify_all();
+    if (hooks.on_progress) {
+      hooks.on_progress({0, 7, 3.5, 1});
+    }
+    changed_.wait(lock, hooks.stop, [&] { return open_; });
+    Result result;
+    result.summary.termination = "steps";
+    if (!open_) {
+      result.failure = Failure{"cancelled", "asked to stop"};
+    }
+    return result;
+  }
+  void open() {
+    const std::lock_guard guard(mutex_);
+    open_ = true;
+    changed_.notify_all();
+  }
+  /// Waits until that many analyses have begun.
+  void wait_started(int count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, std::chrono::seconds(20), [&] { return started_ >= count; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  bool open_ = false;
+  int started_ = 0;
+};
+
+/// Shared by the test and the service, whose threads may outlive the test's body.
+inline SolveFunction gated(std::shared_ptr<GatedSolver> solver) {
+  return [solver = std::move(solver)](const Model& model, const Analysis& analysis, const Hooks& hooks) {
+    return (*solver)(model, analysis, hooks);
+  };
+}
+
+class ServiceTest : public testing::Test {
+ protected:
+  void start(SolveFunction solver) {
+    service_ = std::make_unique<Service>(config(), Environment::system(), std::move(solver), log_);
+    const Status status = service_->start();
+    ASSERT_TRUE(status.ok()) << status.message();
+  }
+  ServiceConfig config() const {
+    ServiceConfig config = ServiceConfig::defaults();
+    config.listener.port = 0;
+    config.listener.threads = 16;
+    config.listener.limits.body_bytes = 100'000;
+    config.store_path = folder_.file("store.db");
+    config.workers = workers_;
+    return config;
+  }
+  [[nodiscard]] int port() const { return service_->port(); }
+  /// Submits without waiting; the job's path.
+  std::string submit(const std::string& title = "column") {
+    const Reply reply = post(port(), "/v1/jobs", column_request(title),
+                             {"Content-Type: application/json", "Prefer: respond-async"});
+    EXPECT_EQ(reply.status, 201) << reply.body;
+    return reply.header("Location");
+  }
+
+  TempDir folder_;
+  int workers_ = 2;
+  std::ostringstream log_text_;
+  Log log_{LogLevel::debug, Environment::system().now, log_text_};
+  std::unique_ptr<Service> service_;
+};
+
+}  // namespace snapthrough::server::test

@@ -1,0 +1,95 @@
+#include "server/http/wire.h"
+
+#include <gtest/gtest.h>
+
+namespace snapthrough::server::http {
+namespace {
+
+Head head_of(const std::string& lines, const WireLimits& limits = {}) {
+  return read_head(lines + "\r\n", limits);
+}
+int refusal(const std::string& lines, const WireLimits& limits = {}) {
+  const Head head = head_of(lines, limits);
+  return head.refusal ? head.refusal->status : 0;
+}
+
+TEST(Wire, ReadsWhatFollowsTheHead) {
+  const Head head =
+      head_of("POST /v1/jobs?x=1 HTTP/1.1\r\nHost: a\r\ncontent-LENGTH:  12 \r\nExpect: 100-Continue\r\n");
+  EXPECT_FALSE(head.refusal.has_value());
+  EXPECT_EQ(head.method, "POST");
+  EXPECT_EQ(head.target, "/v1/jobs?x=1");
+  EXPECT_EQ(head.body_bytes, 12U);
+  EXPECT_TRUE(head.expects_continue);
+}
+
+TEST(Wire, ARequestWithoutBodyNeedsNoLength) {
+  EXPECT_EQ(refusal("GET / HTTP/1.1\r\n"), 0);
+  EXPECT_EQ(head_of("GET / HTTP/1.1\r\n").body_bytes, 0U);
+}
+
+TEST(Wire, ABodyNeedsALength) {
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\n"), 411);
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n"), 411);
+  EXPECT_EQ(refusal("GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n"), 411);
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nContent-Length: 1\r\nTransfer-Encoding: chunked\r\n"), 411);
+}
+
+TEST(Wire, TheBodyLimitIsExact) {
+  WireLimits limits;
+  limits.body_bytes = 10;
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nContent-Length: 10\r\n", limits), 0);
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nContent-Length: 11\r\n", limits), 413);
+  EXPECT_EQ(refusal("GET / HTTP/1.1\r\nContent-Length: 11\r\n", limits), 413);
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nContent-Length: 99999999999999999999999\r\n", limits), 413);
+}
+
+TEST(Wire, LengthsThatTwoReadersCouldReadDifferentlyAreRefused) {
+  for (const char* header :
+       {"Content-Length: -1", "Content-Length: +1", "Content-Length: 1,1", "Content-Length: 0x1",
+        "Content-Length: ", "Content-Length: 1\r\nContent-Length: 1", "Content-Length : 1",
+        " Content-Length: 1", ": 1", "no colon"}) {
+    EXPECT_EQ(refusal("POST / HTTP/1.1\r\nHost: a\r\n" + std::string(header) + "\r\n"), 400) << header;
+  }
+}
+
+TEST(Wire, CompressedBodiesAreRefused) {
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nContent-Length: 1\r\nContent-Encoding: gzip\r\n"), 415);
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nContent-Length: 1\r\nContent-Encoding: identity\r\n"), 0);
+}
+
+TEST(Wire, RequestLinesOfAnotherFormAreRefused) {
+  for (const char* line :
+       {"", "GET", "GET /", "GET  HTTP/1.1", "GET / HTTP/2", "GET /a b HTTP/1.1", "\x16\x03\x01"}) {
+    EXPECT_EQ(refusal(std::string(line) + "\r\n"), 400) << line;
+  }
+}
+
+TEST(Wire, UnknownMethodsAreRefused) {
+  for (const char* method : {"FOO", "get", "CONNECT", "TRACE", "PRI"}) {
+    EXPECT_EQ(refusal(std::string(method) + " / HTTP/1.1\r\n"), 501) << method;
+  }
+}
+
+TEST(Wire, LongTargetsAndManyHeadersAreRefused) {
+  const WireLimits limits;
+  EXPECT_EQ(refusal("GET /" + std::string(limits.target_bytes - 1, 'a') + " HTTP/1.1\r\n"), 0);
+  EXPECT_EQ(refusal("GET /" + std::string(limits.target_bytes, 'a') + " HTTP/1.1\r\n"), 414);
+  std::string headers;
+  for (std::size_t i = 0; i < limits.header_count; ++i) {
+    headers += "A: b\r\n";
+  }
+  EXPECT_EQ(refusal("GET / HTTP/1.1\r\n" + headers), 0);
+  EXPECT_EQ(refusal("GET / HTTP/1.1\r\n" + headers + "A: b\r\n"), 431);
+}
+
+TEST(Wire, HeadersThatTheLibraryWouldActOnAreDropped) {
+  EXPECT_EQ(
+      cleaned_head(
+          "GET / HTTP/1.1\r\nHost: a\r\nrange: bytes=0-1,0-1\r\nAccept-Encoding: br\r\nPrefer: wait=1\r\n"
+          "REMOTE_ADDR: 1.2.3.4\r\nExpect: 100-continue\r\n\r\n"),
+      "GET / HTTP/1.1\r\nHost: a\r\nPrefer: wait=1\r\n\r\n");
+}
+
+}  // namespace
+}  // namespace snapthrough::server::http
