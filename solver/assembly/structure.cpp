@@ -527,6 +527,7 @@ SparseRow displacement_row(const Structure& structure, const Model& model, const
 Structure make_structure(const Model& model, const Discretization& discretization, Geometry geometry,
                          const ModeOffsets& modes) {
   Structure out;
+  out.geometry = geometry;
   out.axes = make_axes(model);
   out.origin = {model.nodes.front().x, model.nodes.front().y};
   for (std::size_t m = 0; m < model.members.size(); ++m)

@@ -71,6 +71,7 @@ struct FoundationPart {
 struct Structure {
   Scales scales;
   Mesh mesh;
+  Geometry geometry = Geometry::nonlinear;
   Axes axes;                       ///< relative to `origin`
   std::array<double, 2> origin{};  ///< the first node: far from the axes' origin nothing loses digits
   std::vector<std::shared_ptr<const StressFreeAxis>> stress_free;  ///< of each member, with its imperfections

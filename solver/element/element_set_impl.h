@@ -139,6 +139,8 @@ class ElementSetOf final : public ElementSet {
   bool frozen_ = false;  ///< contact is as in frozen_intervals_ and frozen_stations_
   std::vector<std::vector<ContactStrip::Interval>> frozen_intervals_;
   std::vector<char> frozen_stations_;
+  /// On contact intervals: exact for straight axes, and near enough for turning normals that the energy's
+  /// edge terms vanish as they must (the tangent then is the derivative of the residual).
   Quadrature strip_quadrature_;
   std::vector<Shape> shapes_;
   std::vector<ElementDofs> dofs_;
@@ -151,7 +153,8 @@ class ElementSetOf final : public ElementSet {
 };
 
 template <int P>
-ElementSetOf<P>::ElementSetOf() : rule_(&CollocationRule::of(P)), strip_quadrature_(gauss_legendre(P + 1)) {
+ElementSetOf<P>::ElementSetOf()
+    : rule_(&CollocationRule::of(P)), strip_quadrature_(gauss_legendre(std::max(P + 2, 5))) {
   for (int q = 0; q < P; ++q) {
     b_[q] = rule_->weight(q);
     for (int r = 0; r < P; ++r) a_[q][r] = rule_->integral(q, r);

@@ -27,6 +27,9 @@ constexpr double kLargestCorrection = 0.5;
 constexpr double kCornerShrink = 0.02;
 constexpr double kCornerLength = 4.0;
 
+/// Corrections of this size are rounding's where the tangent is nearly singular, however close two points
+/// are.
+constexpr double kNoise = 1e-6;
 /// Size (displacement gradient) of the first, very small step where supports act on one side only.
 constexpr double kSmallStart = 1e-7;
 
@@ -230,8 +233,8 @@ std::optional<PathPoint> Continuation::between(const PathPoint& a, const PathPoi
       h.a * a.lambda + h.da / rate_a * a.tangent_lambda + h.b * b.lambda + h.db / rate_b * b.tangent_lambda;
   side_.normal = metric_.weights->cwiseProduct(secant);
   side_.normal_lambda = metric_.load_weight * secant_lambda;
-  const auto outcome =
-      correct(problem_, metric_, side_, length, options_.corrector, point.y, point.lambda, work_);
+  const auto outcome = correct(problem_, metric_, side_, std::max(length, kNoise), options_.corrector,
+                               point.y, point.lambda, work_);
   count(outcome);
   if (outcome.status != CorrectorStatus::converged) return std::nullopt;
   set_tangent(point, outcome, secant, secant_lambda);

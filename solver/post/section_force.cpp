@@ -133,8 +133,11 @@ double SectionForces::angle_at(double xi) const {
 Vec2 SectionForces::position(double xi) const {
   const StressFreeAxis& axis = *structure_.stress_free[cell_.member];
   const StressFreePoint p = axis.at(axis.perfect().length() * (cell_.from + xi * (cell_.to - cell_.from)));
+  const double x = p.x / structure_.scales.length;
+  const double y = p.y / structure_.scales.length;
+  if (structure_.geometry == Geometry::linear) return {x, y};  // equilibrium is that of the undeformed shape
   const auto u = reader_.displacement(xi);
-  return {p.x / structure_.scales.length + u[0], p.y / structure_.scales.length + u[1]};
+  return {x + u[0], y + u[1]};
 }
 
 Vec2 SectionForces::base_normal(int foundation, double xi) const {
@@ -205,7 +208,8 @@ void SectionForces::add_shear_layers(double xi, double from, double to, std::arr
       const double turn = -side * p.curvature * structure_.scales.length;
       const Vec2 dn{turn * std::cos(p.angle), turn * std::sin(p.angle)};
       const Vec2 x = position(at);
-      const auto du = reader_.derivative(at);
+      const auto du =
+          structure_.geometry == Geometry::linear ? std::array{0.0, 0.0, 0.0} : reader_.derivative(at);
       const Vec2 slope{std::cos(p.angle) + du[0], std::sin(p.angle) + du[1]};
       sum[0] -= force * dn[0];
       sum[1] -= force * dn[1];

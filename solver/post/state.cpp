@@ -36,7 +36,8 @@ MemberState member_state(const Structure& structure, const Model& model, const E
     const auto u = reader->displacement(place.xi);
     const auto n = forces->at(place.xi);
     const StressFreePoint p = axis.at(fraction * length);
-    const double angle = p.angle + u[2];
+    // small displacements: equilibrium is that of the undeformed shape
+    const double angle = p.angle + (structure.geometry == Geometry::linear ? 0.0 : u[2]);
     out.s.push_back(fraction * length);
     out.x.push_back(structure.origin[0] + p.x + L * u[0]);
     out.y.push_back(structure.origin[1] + p.y + L * u[1]);

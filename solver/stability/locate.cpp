@@ -14,6 +14,7 @@ constexpr int kMaxDepth = 48;
 /// Rounding leaves about 1e-16 over the relative distance to the bifurcation, a broken bifurcation about the
 /// cube root of its imperfection.
 constexpr double kSamePath = 1e-6;
+constexpr double kBrokenBifurcation = 1e-9;
 
 /// State of the search between two points of a path.
 struct Search {
@@ -80,8 +81,10 @@ void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
 
 void locate_bifurcation(Search& search, const PathPoint& a, const PathPoint& b) {
   const auto value = [&search](const PathPoint& at) { return bifurcation_function(search, at); };
-  const auto done = [&](const PathPoint& lo, const PathPoint& hi, double) {
-    return loads_agree(lo.lambda, hi.lambda, search.tolerance, search.continuation.load_scale()) &&
+  // a bifurcation broken by an imperfection e looks whole from further than e^(2/3) in the load
+  const double tolerance = std::min(search.tolerance, kBrokenBifurcation);
+  const auto done = [&search, tolerance](const PathPoint& lo, const PathPoint& hi, double) {
+    return loads_agree(lo.lambda, hi.lambda, tolerance, search.continuation.load_scale()) &&
            search.continuation.secant_length(lo, hi) <= kSamePath;
   };
   const LocatedRoot root = find_root(search.continuation, a, value(a), b, value(b), value, done);

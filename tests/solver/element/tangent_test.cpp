@@ -20,25 +20,30 @@ Model everything(bool shearable) {
   Model model;
   model.nodes = {{"a", 0.0, 0.0}, {"b", 3.0, 1.5}, {"c", 6.0, 0.2}};
   model.sections = {{"s", 800.0, 1.7, shearable ? std::optional<double>(90.0) : std::nullopt}};
-  Member left{"left", "a", "b", "s", ArcCurve{-80.0}, false, false};
-  Member right{"right", "b", "c", "s", LineCurve{}, false, false};
+  const Member left{"left", "a", "b", "s", ArcCurve{-80.0}, false, false};
+  const Member right{"right", "b", "c", "s", SineCurve{0.15, 2}, true, false};
   model.members = {left, right};
-  model.supports = {{"a", true, true, false, 0.0, {}}, {"c", true, true, true, 0.0, {}}};
+  model.supports = {
+      {"a", true, true, false, 25.0, PrescribedDisplacement{0.01, -0.02, 0.0, Pattern::proportional}},
+      {"c", true, true, true, 0.0, PrescribedDisplacement{0.0, 0.02, 0.1, Pattern::constant}}};
   model.loads = {
       PointLoad{{"", "left", 0.37}, {0.3, -1.0}, 0.2, Pattern::proportional},
       PointLoad{{"b", "", 0.0}, {0.1, -0.4}, -0.3, Pattern::proportional},
-      DistributedLoad{"right", {0.2, -0.7}, {0.2, 0.9}, LoadMeasure::length, Pattern::proportional},
-      DistributedLoad{"left", {0.0, -0.5}, {0.0, 1.0}, LoadMeasure::horizontal, Pattern::proportional}};
-  Foundation bonded{"bonded", "left", 3.0, 0.0, Reaction::bilateral, Side::left, {0.1, 0.8}, 0.0, {}};
-  Foundation push{"push", "right", 5.0, 0.0, Reaction::compression_only, Side::right, {0.0, 1.0}, 0.01, {}};
-  Foundation fixed{
+      DistributedLoad{"right", {0.2, -0.7}, {0.2, 0.9}, LoadMeasure::length, Pattern::constant},
+      DistributedLoad{"left", {0.0, -0.5}, {0.0, 1.0}, LoadMeasure::horizontal, Pattern::proportional},
+      InitialStrain{"left", 1e-3, 0.1, Pattern::constant}};
+  const Foundation bonded{"bonded", "left", 3.0, 2.0, Reaction::bilateral, Side::left, {0.1, 0.8}, 0.0, {}};
+  const Foundation push{"push",      "right",    5.0,  0.0, Reaction::compression_only,
+                        Side::right, {0.0, 1.0}, 0.01, {}};
+  const Foundation fixed{
       "fixed", "left", 2.0, 0.0, Reaction::tension_only, Side::left, {0.0, 1.0}, 0.0, std::array{0.6, 0.8}};
   model.foundations = {bonded, push, fixed};
   model.springs = {{"s1", {"", "left", 0.61}, std::array{1.0, -0.5}, 4.0, Reaction::bilateral, 0.0},
                    {"s2", {"b", "", 0.0}, {}, 2.5, Reaction::bilateral, 0.0},
                    {"s3", {"", "right", 0.5}, std::array{0.0, 1.0}, 3.0, Reaction::compression_only, 0.05},
                    {"s4", {"b", "", 0.0}, std::array{0.0, -1.0}, 3.0, Reaction::compression_only, 0.0}};
-  model.imperfections = {SineImperfection{"right", 2, 0.05}};
+  model.imperfections = {SineImperfection{"right", 2, 0.05},
+                         PointsImperfection{"left", {{0.3, 0.02}, {0.6, -0.01}}}};
   return model;
 }
 
@@ -87,6 +92,59 @@ TEST_P(Tangent, IsInvertedByTheElimination) {
     Eigen::VectorXd direct;
     problem.residual(y, 1.0, direct);
     EXPECT_LT((direct - residual).norm(), 1e-13 * direct.norm());
+  }
+}
+
+/// Makes the translations of a direction continuous and zero at supports. The tangent holds the symmetric
+/// part of a follower pressure's derivative; the rest belongs to element ends and cancels for such directions
+/// only.
+void make_compatible(const Structure& structure, Eigen::VectorXd& x) {
+  const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
+  for (int j = 0; j < structure.joints; ++j)
+    if (structure.supports[j].fixed[0]) x.segment<2>(3 * j).setZero();
+  for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
+    const ElementDofs& dofs = structure.dofs[e];
+    const double h = length_of_element(structure, static_cast<int>(e));
+    for (int c = 0; c < 2; ++c) {
+      double end = x[dofs.a[c]];
+      for (int q = 0; q < rule.order(); ++q) end += h * rule.weight(q) * x[dofs.v + c * rule.order() + q];
+      if (dofs.b[c] >= 3 * structure.joints) {
+        x[dofs.b[c]] = end;
+      } else {
+        for (int q = 0; q < rule.order(); ++q) x[dofs.v + c * rule.order() + q] += (x[dofs.b[c]] - end) / h;
+      }
+    }
+  }
+}
+
+/// The tangent holds the symmetric part of a follower pressure's derivative. The rest belongs to the ends of
+/// elements and does no work on continuous motions that vanish at supports: on these the tangent is that of
+/// the residual.
+TEST_P(Tangent, OfFollowerPressureMatchesOnContinuousMotions) {
+  const auto [order, shearable, rule] = GetParam();
+  std::srand(17u + static_cast<unsigned>(order));
+  Model model = everything(shearable);
+  model.loads = {PressureLoad{"left", 40.0, Side::left, Pattern::proportional},
+                 PressureLoad{"right", 40.0, Side::left, Pattern::proportional}};
+  const Structure structure = make_structure(model, fixed_mesh(6, order, rule), Geometry::nonlinear);
+  StructuralProblem problem(structure);
+  for (int trial = 0; trial < 5; ++trial) {
+    const Eigen::VectorXd y = random_state(problem, 0.9);
+    Eigen::VectorXd x = Eigen::VectorXd::Random(problem.size());
+    Eigen::VectorXd z = Eigen::VectorXd::Random(problem.size());
+    make_compatible(structure, x);
+    make_compatible(structure, z);
+    for (int c = 0; c < 3; ++c) z[c] = z[6 + c] = 0.0;  // rows of supports are no work
+    constexpr double kStep = 1e-6;
+    Eigen::VectorXd plus;
+    Eigen::VectorXd minus;
+    problem.residual(y + kStep * x, 1.3, plus);
+    problem.residual(y - kStep * x, 1.3, minus);
+    const double exact = z.dot(problem.tangent_product(y, 1.3, x));
+    const double without = z.dot(problem.tangent_product(y, 0.0, x));
+    EXPECT_NEAR(z.dot(plus - minus) / (2.0 * kStep), exact, 1e-6 * std::abs(exact) + 1e-7)
+        << "trial " << trial;
+    EXPECT_GT(std::abs(exact - without), 1e-4) << "the pressure does not matter here: the test shows nothing";
   }
 }
 
