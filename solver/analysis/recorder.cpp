@@ -19,13 +19,16 @@ double Recorder::user_load(const PathPoint& point) const { return point.lambda /
 
 int Recorder::add_state(const PathPoint& point) {
   State state = make_state(structure_, model_, point.y, point.lambda, analysis_.output.points_per_member);
+  state.branch = branch_;
   state.load_factor = user_load(point);
   result_.states.push_back(std::move(state));
   return static_cast<int>(result_.states.size()) - 1;
 }
 
-void Recorder::start_branch() {
+void Recorder::start_branch(std::optional<int> parent) {
   Branch branch;
+  branch.id = branch_;
+  branch.parent = parent;
   for (const MonitorRow& monitor : structure_.monitors) branch.monitors.push_back({monitor.id, {}});
   for (const Foundation& base : model_.foundations) branch.contact_fraction.push_back({base.id, {}});
   result_.branches.push_back(std::move(branch));
@@ -50,6 +53,7 @@ void Recorder::add_point(const PathPoint& point) {
 
 void Recorder::add_critical(const CriticalEvent& event) {
   CriticalPoint point;
+  point.branch = branch_;
   point.type = event.type;
   point.load_factor = user_load(event.point);
   point.arc_length = event.point.arc_length;
@@ -60,7 +64,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
   if (analysis_.output.states != StateOutput::none && analysis_.output.states != StateOutput::at_load_factors)
     point.state = add_state(event.point);
   const bool loses_stability =
-      event.negative_before == 0 && event.negative_after > 0 && point.load_factor > 0.0;
+      branch_ == 0 && event.negative_before == 0 && event.negative_after > 0 && point.load_factor > 0.0;
   if (loses_stability && !result_.summary.critical_load_factor) {
     result_.summary.critical_load_factor = point.load_factor;
     result_.summary.critical_type = point.type;
@@ -73,6 +77,10 @@ void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
     const double target = factor * structure_.scales.load;
     const double va = from.lambda - target;
     const double vb = to.lambda - target;
+    if (std::abs(vb) <= 1e-11 * std::abs(target)) {
+      add_state(to);
+      continue;
+    }
     if ((va > 0.0) == (vb > 0.0)) continue;
     const auto value = [target](const PathPoint& at) { return at.lambda - target; };
     const auto done = [&](const PathPoint&, const PathPoint&, double v) {
@@ -82,13 +90,14 @@ void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
   }
 }
 
-TraceSink Recorder::sink(const Hooks& hooks) {
+TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> parent) {
+  branch_ = branch;
   TraceSink sink;
-  if (analysis_.type == AnalysisType::path) start_branch();
+  if (analysis_.type == AnalysisType::path) start_branch(parent);
   const auto progress = hooks.on_progress;
   sink.on_point = [this, progress, step = 0](const PathPoint& point) mutable {
     add_point(point);
-    if (progress) progress({0, step, user_load(point), point.negative});
+    if (progress) progress({branch_, step, user_load(point), point.negative});
     ++step;
   };
   sink.on_critical = [this](const CriticalEvent& event) { add_critical(event); };

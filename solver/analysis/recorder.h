@@ -2,6 +2,7 @@
 /// @file
 /// Turns what a path follower reports into the result document's branches, critical points and states.
 
+#include <optional>
 #include <vector>
 
 #include "solver/path/trace.h"
@@ -22,11 +23,13 @@ class Recorder {
         continuation_(continuation),
         result_(result) {}
 
-  [[nodiscard]] TraceSink sink(const Hooks& hooks);
+  /// What to give to trace() for a branch; its points are recorded under `branch` from then on.
+  [[nodiscard]] TraceSink sink(const Hooks& hooks, int branch = 0, std::optional<int> parent = std::nullopt);
+  /// Records a point that the path follower does not report itself.
+  void add_point(const PathPoint& point);
 
  private:
-  void start_branch();
-  void add_point(const PathPoint& point);
+  void start_branch(std::optional<int> parent);
   void add_critical(const CriticalEvent& event);
   void add_states_at_loads(const PathPoint& from, const PathPoint& to);
   int add_state(const PathPoint& point);
@@ -39,6 +42,7 @@ class Recorder {
   Continuation& continuation_;
   Result& result_;
   int points_ = 0;
+  int branch_ = 0;
 };
 
 }  // namespace snapthrough

@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/recorder.h"
 #include "solver/path/trace.h"
+#include "solver/stability/branch.h"
 
 namespace snapthrough {
 namespace {
@@ -74,6 +77,7 @@ constexpr EndText kEnds[] = {
     {TraceEnd::load_factor, "load_factor", "the load factor left its range", false},
     {TraceEnd::monitor, "monitor", "the monitor reached the end of its range", false},
     {TraceEnd::monitor_turned, "monitor_turned", "the controlled displacement turns back here", false},
+    {TraceEnd::rejoined, "rejoined", "the path came back to a known bifurcation", false},
     {TraceEnd::steps, "steps", "the path was still going on", false},
     {TraceEnd::displacement_bound, "displacement_bound", "displacements grew beyond any bound of interest",
      false},
@@ -98,6 +102,83 @@ void describe_end(const Analysis& analysis, const TraceOutcome& outcome, const S
   if (end->failure) fail(result, end->code, message);
 }
 
+/// A bifurcation and a way through it that is still to be followed.
+struct Pending {
+  PathPoint at;
+  int parent = 0;
+  double sign = 1.0;
+};
+
+/// Follows the branches that cross the primary path, and those that cross them, as far as was asked.
+class BranchFollower {
+ public:
+  BranchFollower(const Analysis& analysis, const Structure& structure, Continuation& continuation,
+                 Recorder& recorder, const Hooks& hooks)
+      : analysis_(analysis),
+        rules_(rules_of(analysis, structure)),
+        continuation_(continuation),
+        recorder_(recorder),
+        hooks_(hooks) {
+    constexpr int kMostBranches = 20;
+    limit_ = analysis.branches.limit.value_or(analysis.branches.follow == Follow::first ? 2 : kMostBranches);
+  }
+
+  void add(const TraceOutcome& outcome, int branch);
+  /// @return a sentence on what was followed and what was left out
+  [[nodiscard]] std::string run();
+
+ private:
+  [[nodiscard]] bool follow(const Pending& pending);
+
+  const Analysis& analysis_;
+  TraceRules rules_;
+  Continuation& continuation_;
+  Recorder& recorder_;
+  const Hooks& hooks_;
+  int limit_ = 0;
+  int branches_ = 0;
+  int lost_ = 0;
+  int rejoined_ = 0;
+  std::vector<Pending> pending_;
+};
+
+void BranchFollower::add(const TraceOutcome& outcome, int branch) {
+  for (const CriticalEvent& event : outcome.critical) {
+    if (event.type != CriticalType::bifurcation) continue;
+    if (analysis_.branches.follow == Follow::first && !pending_.empty()) return;
+    for (const double sign : {1.0, -1.0}) pending_.push_back({event.point, branch, sign});
+    rules_.known.push_back(event.point);
+  }
+}
+
+bool BranchFollower::follow(const Pending& pending) {
+  const auto first = first_point_of_branch(continuation_, pending.at, pending.sign);
+  if (!first) return false;
+  const int id = ++branches_;
+  const TraceSink sink = recorder_.sink(hooks_, id, pending.parent);
+  PathPoint origin = pending.at;
+  origin.arc_length = 0.0;
+  recorder_.add_point(origin);
+  TraceRules rules = rules_;
+  rules.first_step = 0.02;
+  const TraceOutcome outcome = trace(continuation_, first, rules, analysis_.step, sink, hooks_.stop);
+  if (outcome.end == TraceEnd::rejoined) ++rejoined_;
+  if (analysis_.branches.follow == Follow::all) add(outcome, id);
+  return true;
+}
+
+std::string BranchFollower::run() {
+  std::size_t next = 0;
+  for (; next < pending_.size() && branches_ < limit_ && !hooks_.stop.stop_requested(); ++next)
+    if (!follow(Pending(pending_[next]))) ++lost_;
+  std::string text = "; followed " + std::to_string(branches_) + " branches";
+  if (rejoined_ > 0) text += ", " + std::to_string(rejoined_) + " of them back to a known bifurcation";
+  if (lost_ > 0) text += ", found no way onto " + std::to_string(lost_);
+  if (next < pending_.size())
+    text += ", left out " + std::to_string(pending_.size() - next) + " beyond the limit";
+  return text;
+}
+
 }  // namespace
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
@@ -110,8 +191,15 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     const TraceSink sink = recorder.sink(hooks);
     const TraceOutcome outcome =
         trace(continuation, start, rules_of(analysis, structure), analysis.step, sink, hooks.stop);
+    std::string branches;
+    if (analysis.type == AnalysisType::path && analysis.branches.follow != Follow::primary) {
+      BranchFollower follower(analysis, structure, continuation, recorder, hooks);
+      follower.add(outcome, 0);
+      branches = follower.run();
+    }
     add_statistics(continuation.statistics(), result);
     describe_end(analysis, outcome, structure, result);
+    result.summary.message += branches;
   }
 }
 

@@ -30,13 +30,6 @@ void report_items(const Place& root, std::string_view list, const Items& items, 
   }
 }
 
-template <Follow follow>
-void find_follow(const Place& root, const Model&, const Analysis& analysis, const char* what) {
-  if (analysis.branches.follow == follow) {
-    report(root / "analysis" / "branches" / "follow", what);
-  }
-}
-
 /// Small displacements lose no stability: only equilibrium states can be asked for.
 void find_linear_path(const Place& root, const Model&, const Analysis& analysis, const char* what) {
   if (analysis.geometry == Geometry::linear && analysis.type != AnalysisType::static_) {
@@ -53,8 +46,6 @@ void find_one_sided_shear_layer(const Place& root, const Model& model, const Ana
 constexpr Feature kNotYet[] = {
     {"a one-sided foundation with shear_stiffness", find_one_sided_shear_layer},
     {"geometry linear with another analysis type than static", find_linear_path},
-    {"follow first", find_follow<Follow::first>},
-    {"follow all", find_follow<Follow::all>},
 };
 
 }  // namespace

@@ -36,6 +36,7 @@ class Tracer {
   [[nodiscard]] bool take_events(const std::vector<CriticalEvent>& events);
   [[nodiscard]] bool ends_here(const PathPoint& at, int steps, const std::stop_token& stop);
   [[nodiscard]] bool accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events);
+  [[nodiscard]] bool is_known(const PathPoint& point) const;
   bool finish(TraceEnd end, const PathPoint& last);
 
   Continuation& continuation_;
@@ -88,9 +89,17 @@ std::optional<PathPoint> Tracer::bounded_end(const PathPoint& from, const PathPo
   return first;
 }
 
+bool Tracer::is_known(const PathPoint& point) const {
+  constexpr double kSamePlace = 1e-4;  // a displacement gradient; rounding leaves less at a bifurcation
+  return std::any_of(rules_.known.begin(), rules_.known.end(), [&](const PathPoint& other) {
+    return continuation_.metric().norm(point.y - other.y, point.lambda - other.lambda) < kSamePlace;
+  });
+}
+
 /// Reports what was found on a step; true when that ends the path.
 bool Tracer::take_events(const std::vector<CriticalEvent>& events) {
   for (const CriticalEvent& event : events) {
+    if (is_known(event.point)) return finish(TraceEnd::rejoined, event.point);
     const bool lost = event.negative_before == 0 && event.negative_after > 0;
     if (event.type != CriticalType::bifurcation) ++limit_points_;
     out_.critical.push_back(event);
@@ -136,8 +145,8 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
     finish(TraceEnd::unstable_at_start, from);
     return std::move(out_);
   }
-  StepSize size{0.0, first_step(steps, from)};
-  continuation_.limit_steps(steps, std::abs(from.tangent_lambda));
+  StepSize size{0.0, rules_.first_step ? *rules_.first_step : first_step(steps, from)};
+  if (!rules_.first_step) continuation_.limit_steps(steps, std::abs(from.tangent_lambda));
   PathPoint to;
   for (int n = 0; !ends_here(from, n, stop);) {
     if (continuation_.step(from, size, to) == StepOutcome::step_underflow) {

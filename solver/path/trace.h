@@ -26,6 +26,9 @@ struct TraceRules {
   std::optional<std::array<double, 2>> monitor_range;
   int steps = 1000;
   double gradient = 4.0;    ///< norm of the displacement at which a path is given up as leaving for infinity
+  std::optional<double> first_step;  ///< in the path's norm; empty: from the load's scale
+  /// Critical points of other branches: the path ends where it meets one of them again.
+  std::vector<PathPoint> known;
   double tolerance = 1e-9;  ///< of located points, relative in the load factor
 };
 
@@ -37,6 +40,7 @@ enum class TraceEnd {
   load_factor,
   monitor,
   monitor_turned,
+  rejoined,
   steps,
   displacement_bound,
   cancelled,

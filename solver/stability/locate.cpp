@@ -44,6 +44,12 @@ void add_event(Search& search, CriticalType type, const LocatedRoot& root, int b
   CriticalEvent event;
   event.type = type;
   event.point = root.root;
+  if (type == CriticalType::bifurcation) {
+    // the tangent is singular there: take the path's direction from the ends of the step instead
+    const double length = search.continuation.secant_length(search.a, search.b);
+    event.point.tangent = (search.b.y - search.a.y) / length;
+    event.point.tangent_lambda = (search.b.lambda - search.a.lambda) / length;
+  }
   event.negative_before = before;
   event.negative_after = after;
   event.multiplicity = std::max(1, std::abs(after - before));
@@ -192,6 +198,31 @@ LocatedRoot find_root(Continuation& continuation, const PathPoint& a, double val
   return out;
 }
 
+namespace {
+
+/// On a path that crosses another at a symmetric bifurcation the load has an extremum there and an eigenvalue
+/// touches zero: a limit point and a bifurcation at one place, which leave the inertia as it was, are that
+/// one bifurcation.
+void merge_crossings(Continuation& continuation, double tolerance, std::vector<CriticalEvent>& events) {
+  for (std::size_t i = 0; i + 1 < events.size(); ++i) {
+    CriticalEvent& first = events[i];
+    const CriticalEvent& second = events[i + 1];
+    const bool one_limit =
+        (first.type == CriticalType::bifurcation) != (second.type == CriticalType::bifurcation);
+    if (!one_limit || first.negative_before != second.negative_after) continue;
+    constexpr double kSamePlace = 1e-3;
+    const double agree = std::max(tolerance, kSamePath);
+    if (!loads_agree(first.point.lambda, second.point.lambda, agree, continuation.load_scale())) continue;
+    if (continuation.secant_length(first.point, second.point) > kSamePlace) continue;
+    const int before = first.negative_before;
+    if (first.type != CriticalType::bifurcation) first = second;
+    first.negative_before = first.negative_after = before;
+    events.erase(events.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+  }
+}
+
+}  // namespace
+
 LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint& a, const PathPoint& b,
                                      double tolerance) {
   LocatedEvents out;
@@ -202,10 +233,12 @@ LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint
     if (const auto inside = continuation.between(a, b, tau)) {
       search_between(search, a, *inside, 0);
       if (out.same_path) search_between(search, *inside, b, 0);
+      merge_crossings(continuation, tolerance, out.events);
       return out;
     }
   }
   search_between(search, a, b, 0);
+  merge_crossings(continuation, tolerance, out.events);
   return out;
 }
 

@@ -76,6 +76,30 @@ TEST(ShallowArchPath, ReportsBifurcationsAndLimitPointsInOrder) {
   EXPECT_NEAR(-result.critical_points[1].monitors[0].value / rise, 0.47462370, 1e-4);
 }
 
+/// The path through the bifurcation at 66.2628 leaves the symmetric shapes, crosses them once more upside
+/// down, and comes back to where it began: one closed path, the two ways round it mirror images.
+TEST(ShallowArchPath, SecondaryPathRejoins) {
+  Analysis analysis = path_of_limit_points(2);
+  analysis.branches.follow = Follow::first;
+  const Result result = solve(testing::arch(20.0, 420.0, 1.4), analysis);
+  ASSERT_EQ(result.branches.size(), 3u);
+  for (const int id : {1, 2}) {
+    const Branch& branch = result.branches[id];
+    EXPECT_EQ(branch.parent, 0);
+    EXPECT_NEAR(branch.load_factor.front(), 66.2628147402, 1e-4 * 66.26);
+    EXPECT_NEAR(branch.load_factor.back(), 66.2628147402, 1e-4 * 66.26);
+    int crossings = 0;
+    for (const CriticalPoint& point : result.critical_points) {
+      if (point.branch != id) continue;
+      EXPECT_EQ(point.type, CriticalType::bifurcation);
+      EXPECT_EQ(point.negative_before, point.negative_after);
+      ++crossings;
+    }
+    EXPECT_EQ(crossings, 1);
+  }
+  EXPECT_NEAR(*result.summary.critical_load_factor, 66.2628147402, 1e-4 * 66.26) << "of the primary path";
+}
+
 /// Base inside: thesis 4.4.2, converged maximum, bifurcation and minimum.
 TEST(ShallowArchPath, OnABaseInsideHasItsMaximumAndMinimum) {
   Model model = testing::arch(20.0, 420.0, 1.4);

@@ -36,8 +36,6 @@ const Case kCases[] = {
      USE(m.foundations[0].shear_stiffness = 1.0; m.foundations[0].reaction = Reaction::compression_only),
      "/model/foundations/0/shear_stiffness"},
     {"LinearPath", USE(a.geometry = Geometry::linear), "/analysis/geometry"},
-    {"FollowFirst", USE(a.branches.follow = Follow::first), "/analysis/branches/follow"},
-    {"FollowAll", USE(a.branches.follow = Follow::all), "/analysis/branches/follow"},
 };
 INSTANTIATE_TEST_SUITE_P(Contract, NotSupportedYet, ::testing::ValuesIn(kCases),
                          [](const auto& param_info) { return std::string(param_info.param.name); });

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "solver/stability/branch.h"
 #include "tests/solver/path/small_problem.h"
 
 namespace snapthrough {
@@ -143,6 +144,33 @@ INSTANTIATE_TEST_SUITE_P(
         TrussFold{1.0, 0.94303701252658, 0.8, CriticalType::limit_min, 0.8, 0.10938955780175},
         TrussFold{1.0, 0.018860740250532, 0.24508773573302, CriticalType::limit_max, 0.5011592614225,
                   0.19212939774265}));
+
+/// The path through the bifurcation of the perfect problem: b^2 = a - c, lambda = a - a^2/2 - (a - c)/2.
+TEST(Branch, LeavesAPitchforkBothWays) {
+  const double c = 0.6;
+  for (const double sign : {1.0, -1.0}) {
+    SmallProblem problem = pitchfork(c, 0.0);
+    Continuation continuation(problem, {});
+    TraceRules rules;
+    rules.first_loss_of_stability = true;
+    const TraceOutcome primary = trace(continuation, continuation.start(), rules, {}, {}, {});
+    ASSERT_EQ(primary.critical.size(), 1u);
+    const auto first = first_point_of_branch(continuation, primary.critical[0].point, sign);
+    ASSERT_TRUE(first);
+    EXPECT_GT(sign * first->y[1], 0.0);
+    TraceRules until;
+    until.monitor = [](const PathPoint& at) { return at.y[1]; };
+    until.monitor_range = {{-0.5, 0.5}};
+    until.first_step = 0.02;
+    const TraceOutcome branch = trace(continuation, first, until, {}, {}, {});
+    EXPECT_EQ(branch.end, TraceEnd::monitor);
+    const double a = branch.last.y[0];
+    EXPECT_NEAR(branch.last.y[1], 0.5 * sign, 1e-11);
+    EXPECT_NEAR(a, c + 0.25, 1e-10);
+    EXPECT_NEAR(branch.last.lambda, a - 0.5 * a * a - 0.125, 1e-10);
+    EXPECT_TRUE(branch.critical.empty());
+  }
+}
 
 TEST(Trace, EndsExactlyAtALoadBound) {
   SmallProblem problem = pitchfork(0.6, 0.0);

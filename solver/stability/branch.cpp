@@ -1,0 +1,78 @@
+#include "solver/stability/branch.h"
+
+#include <cmath>
+
+namespace snapthrough {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kFirstStep = 0.01;  ///< displacement gradient
+constexpr int kInverseIterations = 4;
+
+/// The tangent's null vector in displacements, by inverse iteration; largest component positive.
+VectorXd null_vector(Continuation& continuation, const PathPoint& point) {
+  EquilibriumProblem& problem = continuation.problem();
+  const VectorXd& weights = problem.metric();
+  VectorXd residual;
+  problem.linearise(point.y, point.lambda, residual);
+  VectorXd x(problem.size());
+  unsigned state = 97u;
+  for (double& value : x) {
+    state = state * 1664525u + 1013904223u;
+    value = static_cast<double>(state >> 8) / static_cast<double>(1u << 24) - 0.5;
+  }
+  for (int it = 0; it < kInverseIterations; ++it) {
+    x = weights.cwiseProduct(x).eval();
+    problem.solve(x);
+    x /= continuation.metric().norm(x, 0.0);
+  }
+  Index largest = 0;
+  weights.cwiseSqrt().cwiseProduct(x).cwiseAbs().maxCoeff(&largest);
+  return x[largest] < 0.0 ? VectorXd(-x) : x;
+}
+
+/// A direction in (y, lambda).
+struct Direction {
+  VectorXd y;
+  double lambda = 0.0;
+};
+
+/// Response to the load without its part along the null vector.
+Direction load_direction(Continuation& continuation, const PathPoint& point, const VectorXd& null) {
+  const PathMetric& metric = continuation.metric();
+  Direction out{VectorXd(), 1.0};
+  continuation.problem().load(point.y, point.lambda, out.y);
+  continuation.problem().solve(out.y);
+  out.y -= metric.inner(out.y, 0.0, null, 0.0) * null;
+  const double norm = metric.norm(out.y, out.lambda);
+  out.y /= norm;
+  out.lambda /= norm;
+  return out;
+}
+
+}  // namespace
+
+std::optional<PathPoint> first_point_of_branch(Continuation& continuation, const PathPoint& bifurcation,
+                                               double sign) {
+  const PathMetric& metric = continuation.metric();
+  const VectorXd null = null_vector(continuation, bifurcation);
+  if (!null.allFinite()) return std::nullopt;
+  const Direction load = load_direction(continuation, bifurcation, null);
+  // both paths' tangents lie in the plane of these two: take the direction across the known one
+  const double along_null = metric.inner(null, 0.0, bifurcation.tangent, bifurcation.tangent_lambda);
+  const double along_load =
+      metric.inner(load.y, load.lambda, bifurcation.tangent, bifurcation.tangent_lambda);
+  const double scale = (along_load < 0.0 ? -sign : sign) / std::hypot(along_null, along_load);
+  PathPoint from = bifurcation;
+  from.tangent = scale * (along_load * null - along_null * load.y);
+  from.tangent_lambda = -scale * along_null * load.lambda;
+  from.arc_length = 0.0;
+  StepSize size{0.0, kFirstStep};
+  PathPoint to;
+  if (continuation.step(from, size, to) != StepOutcome::advanced) return std::nullopt;
+  return to;
+}
+
+}  // namespace snapthrough
