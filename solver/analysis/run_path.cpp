@@ -81,6 +81,7 @@ constexpr EndText kEnds[] = {
     {TraceEnd::steps, "steps", "the path was still going on", false},
     {TraceEnd::displacement_bound, "displacement_bound", "displacements grew beyond any bound of interest",
      false},
+    {TraceEnd::load_bound, "load_bound", "the load grew beyond any bound of interest", false},
     {TraceEnd::cancelled, "cancelled", "cancelled", true},
     {TraceEnd::step_underflow, "step_underflow", "no smaller step converged; the path stands", true},
     {TraceEnd::no_start, "no_start", "no equilibrium was found for the first small load", true}};

@@ -62,61 +62,105 @@ int extra_negative(const Matrix3d& F, const Matrix3d& K) {
   return count_negative(solver.eigenvalues()) - 3;
 }
 
+/// Reciprocal condition of the pivot of a join: 1 is perfect, 0 singular.
+double Chain::pivot_quality(const Run& first, const Run& second) {
+  const Matrix3d pivot = Matrix3d::Identity() + second.K * first.F;
+  const double det = std::abs(pivot.determinant());
+  const double size = pivot.cwiseAbs().rowwise().sum().maxCoeff();
+  return det == 0.0 ? 0.0 : 1.0 / (size * pivot.inverse().cwiseAbs().rowwise().sum().maxCoeff());
+}
+
+void Chain::join(Run& first, const Run& second) {
+  Join& join = joins_.emplace_back();
+  join.first_first = first.first;
+  join.second_first = second.first;
+  join.second_last = second.last;
+  join.X = first.X;
+  join.F = first.F;
+  join.K2 = second.K;
+  join.X2 = second.X;
+  const Matrix3d pivot = Matrix3d::Identity() + second.K * first.F;
+  double det = pivot.determinant();
+  if (det == 0.0) det = std::numeric_limits<double>::min();
+  join.M = pivot.inverse();
+  const Matrix3d MK = join.M * second.K;
+  const Matrix3d FM = first.F * join.M;
+  ends_.negative += extra_negative(first.F, second.K);
+  ends_.log_det += std::log(std::abs(det));
+  first.K += join.X.transpose() * MK * join.X;
+  first.X = -second.X * (join.X - join.F * MK * join.X);
+  first.F = second.F + second.X * FM * second.X.transpose();
+  first.last = second.last;
+  // rounding only: both are symmetric
+  first.K = 0.5 * (first.K + first.K.transpose()).eval();
+  first.F = 0.5 * (first.F + first.F.transpose()).eval();
+}
+
 void Chain::factorise(std::span<const CondensedElement> elements) {
-  ends_ = elements.front();
-  nodes_.resize(elements.size() - 1);
-  for (std::size_t i = 1; i < elements.size(); ++i) {
-    const CondensedElement& next = elements[i];
-    Node& node = nodes_[i - 1];
-    node.X = ends_.X;
-    node.F = ends_.F;
-    const Matrix3d pivot = Matrix3d::Identity() + next.K * node.F;
-    double det = pivot.determinant();
-    if (det == 0.0) det = std::numeric_limits<double>::min();
-    node.M = pivot.inverse();
-    const Matrix3d MK = node.M * next.K;
-    const Matrix3d FM = node.F * node.M;
-    ends_.K += node.X.transpose() * MK * node.X;
-    ends_.X = -next.X * (node.X - node.F * MK * node.X);
-    ends_.F = next.F + next.X * FM * next.X.transpose();
-    // rounding only: both are symmetric
-    ends_.K = 0.5 * (ends_.K + ends_.K.transpose()).eval();
-    ends_.F = 0.5 * (ends_.F + ends_.F.transpose()).eval();
-    ends_.negative += next.negative + extra_negative(node.F, next.K);
-    ends_.log_det += next.log_det + std::log(std::abs(det));
+  constexpr double kPoorPivot = 1e-3;
+  const auto run_of = [&elements](std::size_t i) {
+    return Run{elements[i].K, elements[i].X, elements[i].F, i, i};
+  };
+  joins_.clear();
+  ends_.negative = 0;
+  ends_.log_det = 0.0;
+  for (const CondensedElement& element : elements) {
+    ends_.negative += element.negative;
+    ends_.log_det += element.log_det;
   }
+  Run all = run_of(0);
+  for (std::size_t i = 1; i < elements.size(); i = all.last + 1) {
+    Run next = run_of(i);
+    const double quality = pivot_quality(all, next);
+    // relative to the run's own stiffness a pivot may be small and sound; only a better one is worth the detour
+    if (quality < kPoorPivot && i + 1 < elements.size()) {
+      Run two = next;
+      const auto saved = ends_;
+      const std::size_t joins = joins_.size();
+      join(two, run_of(i + 1));
+      if (pivot_quality(all, two) > 10.0 * quality) {
+        next = two;
+      } else {
+        joins_.resize(joins);
+        ends_ = saved;
+      }
+    }
+    join(all, next);
+  }
+  ends_.K = all.K;
+  ends_.X = all.X;
+  ends_.F = all.F;
 }
 
 void Chain::reduce(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
                    const Eigen::VectorXd& rhs) {
-  ends_.ra = elements.front().ra;
-  ends_.rm = elements.front().rm;
-  for (std::size_t i = 1; i < elements.size(); ++i) {
-    const CondensedElement& next = elements[i];
-    Node& node = nodes_[i - 1];
-    node.c1 = ends_.rm;
-    node.c2 = next.ra;
-    for (int c = 0; c < 3; ++c) node.c2[c] += rhs[dofs[i].a[c]];
-    const Vector3d m = node.M * (node.c2 - next.K * node.c1);
-    ends_.ra -= node.X.transpose() * m;
-    ends_.rm = next.rm - next.X * (node.c1 + node.F * m);
+  rhs_.resize(elements.size());
+  for (std::size_t i = 0; i < elements.size(); ++i) rhs_[i] = {elements[i].ra, elements[i].rm};
+  for (Join& join : joins_) {
+    auto& [ra, rm] = rhs_[join.first_first];
+    const auto& [ra2, rm2] = rhs_[join.second_first];
+    join.c1 = rm;
+    join.c2 = ra2;
+    for (int c = 0; c < 3; ++c) join.c2[c] += rhs[dofs[join.second_first].a[c]];
+    const Vector3d m = join.M * (join.c2 - join.K2 * join.c1);
+    ra -= join.X.transpose() * m;
+    rm = rm2 - join.X2 * (join.c1 + join.F * m);
   }
+  ends_.ra = rhs_[0][0];
+  ends_.rm = rhs_[0][1];
 }
 
-void Chain::recover(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
-                    Eigen::VectorXd& x) const {
-  const auto& start = dofs.front().a;
-  const Vector3d us(x[start[0]], x[start[1]], x[start[2]]);
-  Vector3d m = x.segment<3>(dofs.back().m);
-  for (std::size_t i = nodes_.size(); i > 0; --i) {
-    const CondensedElement& next = elements[i];
-    const Node& node = nodes_[i - 1];
-    const Vector3d free = node.c1 - node.X * us;
-    const Vector3d inner = node.M * (node.c2 - next.X.transpose() * m - next.K * free);
-    const Vector3d u = free + node.F * inner;
-    for (int c = 0; c < 3; ++c) x[dofs[i].a[c]] = u[c];
-    x.segment<3>(dofs[i - 1].m) = inner;
-    m = inner;
+void Chain::recover(std::span<const ElementDofs> dofs, Eigen::VectorXd& x) const {
+  for (auto join = joins_.rbegin(); join != joins_.rend(); ++join) {
+    const auto& start = dofs[join->first_first].a;
+    const Vector3d us(x[start[0]], x[start[1]], x[start[2]]);
+    const Vector3d end = x.segment<3>(dofs[join->second_last].m);
+    const Vector3d free = join->c1 - join->X * us;
+    const Vector3d m = join->M * (join->c2 - join->X2.transpose() * end - join->K2 * free);
+    const Vector3d u = free + join->F * m;
+    const ElementDofs& node = dofs[join->second_first];
+    for (int c = 0; c < 3; ++c) x[node.a[c]] = u[c];
+    x.segment<3>(dofs[join->second_first - 1].m) = m;
   }
 }
 

@@ -115,7 +115,13 @@ void isolate(Pencil& pencil, const Bracket& bracket, int wanted, std::vector<Bra
   if (bracket.below_hi == bracket.below_lo || bracket.below_lo >= wanted) return;
   const bool narrow = bracket.hi - bracket.lo <= kNarrow * bracket.hi;
   if (narrow) {
-    out.push_back(bracket);
+    // eigenvalues on both sides of a common end are one cluster
+    if (!out.empty() && out.back().hi == bracket.lo) {
+      out.back().hi = bracket.hi;
+      out.back().below_hi = bracket.below_hi;
+    } else {
+      out.push_back(bracket);
+    }
     return;
   }
   const double middle = 0.5 * (bracket.lo + bracket.hi);
@@ -169,7 +175,8 @@ std::vector<EigenPair> refine(Pencil& pencil, const Bracket& bracket, Index size
   constexpr int kMaxIterations = 60;
   constexpr double kTolerance = 1e-13;
   const int m = bracket.below_hi - bracket.below_lo;
-  const double shift = bracket.lo;
+  // off the ends and the middle: those were places of the bisection, which likes to hit eigenvalues
+  const double shift = bracket.lo + 0.381966 * (bracket.hi - bracket.lo);
   static_cast<void>(pencil.count(shift));  // factorises there
   std::vector<EigenPair> pairs(static_cast<std::size_t>(m));
   for (int i = 0; i < m; ++i) pairs[i] = {bracket.hi, pseudo_random(size, static_cast<unsigned>(i + 1))};
