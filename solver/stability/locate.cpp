@@ -79,7 +79,7 @@ void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
     const double length = search.continuation.secant_length(lo, hi);
     const double size = std::max(std::abs(lo.lambda), 1e-6 * scale);
     return std::abs(value) * length <= 0.1 * search.tolerance * size &&
-           loads_agree(lo.lambda, hi.lambda, search.tolerance, scale) && length <= kSamePath;
+           loads_agree(lo.lambda, hi.lambda, search.tolerance, scale) && length <= std::min(kSamePath, 10.0 * search.tolerance);
   };
   const LocatedRoot root = find_root(search.continuation, a, rate(a), b, rate(b), rate, done);
   add_simple_event(search, limit_type(a), root, a, b);
