@@ -62,15 +62,18 @@ int extra_negative(const Matrix3d& F, const Matrix3d& K) {
   return count_negative(solver.eigenvalues()) - 3;
 }
 
-/// Reciprocal condition of the pivot of a join: 1 is perfect, 0 singular.
-double Chain::pivot_quality(const Run& first, const Run& second) {
-  const Matrix3d pivot = Matrix3d::Identity() + second.K * first.F;
-  const double det = std::abs(pivot.determinant());
-  const double size = pivot.cwiseAbs().rowwise().sum().maxCoeff();
-  return det == 0.0 ? 0.0 : 1.0 / (size * pivot.inverse().cwiseAbs().rowwise().sum().maxCoeff());
+Chain::Pivot Chain::pivot_of(const Run& first, const Run& second) {
+  const Matrix3d matrix = Matrix3d::Identity() + second.K * first.F;
+  Pivot pivot;
+  pivot.det = matrix.determinant();
+  if (pivot.det == 0.0) pivot.det = std::numeric_limits<double>::min();
+  pivot.inverse = matrix.inverse();
+  const double size = matrix.cwiseAbs().maxCoeff() * pivot.inverse.cwiseAbs().maxCoeff();
+  pivot.quality = std::isfinite(size) ? 1.0 / size : 0.0;
+  return pivot;
 }
 
-void Chain::join(Run& first, const Run& second) {
+void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
   Join& join = joins_.emplace_back();
   join.first_first = first.first;
   join.second_first = second.first;
@@ -79,14 +82,11 @@ void Chain::join(Run& first, const Run& second) {
   join.F = first.F;
   join.K2 = second.K;
   join.X2 = second.X;
-  const Matrix3d pivot = Matrix3d::Identity() + second.K * first.F;
-  double det = pivot.determinant();
-  if (det == 0.0) det = std::numeric_limits<double>::min();
-  join.M = pivot.inverse();
+  join.M = pivot.inverse;
   const Matrix3d MK = join.M * second.K;
   const Matrix3d FM = first.F * join.M;
   ends_.negative += extra_negative(first.F, second.K);
-  ends_.log_det += std::log(std::abs(det));
+  ends_.log_det += std::log(std::abs(pivot.det));
   first.K += join.X.transpose() * MK * join.X;
   first.X = -second.X * (join.X - join.F * MK * join.X);
   first.F = second.F + second.X * FM * second.X.transpose();
@@ -96,11 +96,33 @@ void Chain::join(Run& first, const Run& second) {
   first.F = 0.5 * (first.F + first.F.transpose()).eval();
 }
 
-void Chain::factorise(std::span<const CondensedElement> elements) {
+/// Joins the next element, or the next two at once where that pivot is much better.
+void Chain::join_next(Run& all, std::span<const CondensedElement> elements) {
   constexpr double kPoorPivot = 1e-3;
   const auto run_of = [&elements](std::size_t i) {
     return Run{elements[i].K, elements[i].X, elements[i].F, i, i};
   };
+  const std::size_t i = all.last + 1;
+  const Run next = run_of(i);
+  const Pivot pivot = pivot_of(all, next);
+  if (pivot.quality < kPoorPivot && i + 1 < elements.size()) {
+    const auto saved = ends_;
+    const std::size_t joins = joins_.size();
+    Run two = next;
+    const Run after = run_of(i + 1);
+    join(two, after, pivot_of(two, after));
+    const Pivot better = pivot_of(all, two);
+    if (better.quality > 10.0 * pivot.quality) {
+      join(all, two, better);
+      return;
+    }
+    joins_.resize(joins);
+    ends_ = saved;
+  }
+  join(all, next, pivot);
+}
+
+void Chain::factorise(std::span<const CondensedElement> elements) {
   joins_.clear();
   ends_.negative = 0;
   ends_.log_det = 0.0;
@@ -108,25 +130,8 @@ void Chain::factorise(std::span<const CondensedElement> elements) {
     ends_.negative += element.negative;
     ends_.log_det += element.log_det;
   }
-  Run all = run_of(0);
-  for (std::size_t i = 1; i < elements.size(); i = all.last + 1) {
-    Run next = run_of(i);
-    const double quality = pivot_quality(all, next);
-    // relative to the run's own stiffness a pivot may be small and sound; only a better one is worth the detour
-    if (quality < kPoorPivot && i + 1 < elements.size()) {
-      Run two = next;
-      const auto saved = ends_;
-      const std::size_t joins = joins_.size();
-      join(two, run_of(i + 1));
-      if (pivot_quality(all, two) > 10.0 * quality) {
-        next = two;
-      } else {
-        joins_.resize(joins);
-        ends_ = saved;
-      }
-    }
-    join(all, next);
-  }
+  Run all{elements[0].K, elements[0].X, elements[0].F, 0, 0};
+  while (all.last + 1 < elements.size()) join_next(all, elements);
   ends_.K = all.K;
   ends_.X = all.X;
   ends_.F = all.F;

@@ -17,26 +17,30 @@ namespace snapthrough {
 
 /// @brief Condenses the elements of one member to its two ends.
 ///
-/// A run of elements from node s to node e acts on (u_s, m_e), u_s the displacement of its start and m_e the force through its
-/// end, as   K u_s + X^T m_e = r_s,   X u_s - F m_e + u_e = r_m.   Two runs are joined by eliminating (m_e, u_e) at the node
-/// between them, whose pivot is [[-F, I], [I, K']] (primes: the second run). With M = (I + K' F)^-1
+/// A run of elements from node s to node e acts on (u_s, m_e), u_s the displacement of its start and m_e the
+/// force through its end, as   K u_s + X^T m_e = r_s,   X u_s - F m_e + u_e = r_m.   Two runs are joined by
+/// eliminating (m_e, u_e) at the node between them, whose pivot is [[-F, I], [I, K']] (primes: the second
+/// run). With M = (I + K' F)^-1
 ///
 ///   m_e = M (c2 - X'^T m' - K' (c1 - X u_s)),    u_e = c1 - X u_s + F m_e,
 ///
-/// c1, c2 the right-hand sides of the two rows. Flexibilities are never inverted: F = 0 is an inextensible, rigid part.
+/// c1, c2 the right-hand sides of the two rows. Flexibilities are never inverted: F = 0 is an inextensible,
+/// rigid part.
 ///
-/// Runs are joined from the start of the member on. A pivot is singular when the two runs together, held at their start and
-/// free at their end, are at a buckling load of their own; that may be the very load that is looked for (half of a pinned
-/// column is a cantilever). Where a pivot is poor, the next two elements are joined to one another first.
+/// Runs are joined from the start of the member on. A pivot is singular when the two runs together, held at
+/// their start and free at their end, are at a buckling load of their own; that may be the very load that is
+/// looked for (half of a pinned column is a cantilever). Where a pivot is poor, the next two elements are
+/// joined to one another first.
 class Chain {
  public:
   /// @brief Eliminates all inner nodes of `elements` (one member, in order, not empty).
   void factorise(std::span<const CondensedElement> elements);
-  /// @brief Right-hand side at the ends (ends().ra, ends().rm), from the elements' ra, rm and the node rows of `rhs`.
+  /// @brief Right-hand side at the ends (ends().ra, ends().rm), from the elements' ra, rm and the node rows
+  /// of `rhs`.
   void reduce(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
               const Eigen::VectorXd& rhs);
-  /// @brief Writes the solution at the inner nodes and the multipliers into `x`, which holds it already at the start
-  /// (first element's a) and in the last element's multiplier.
+  /// @brief Writes the solution at the inner nodes and the multipliers into `x`, which holds it already at
+  /// the start (first element's a) and in the last element's multiplier.
   void recover(std::span<const ElementDofs> dofs, Eigen::VectorXd& x) const;
 
   [[nodiscard]] const CondensedElement& ends() const { return ends_; }
@@ -50,12 +54,19 @@ class Chain {
   /// The join of two runs at the start of element `second_first`.
   struct Join {
     std::size_t first_first = 0, second_first = 0, second_last = 0;
-    Eigen::Matrix3d X, F, M;    ///< of the first run, and of the pivot
-    Eigen::Matrix3d K2, X2;     ///< of the second run
+    Eigen::Matrix3d X, F, M;  ///< of the first run, and of the pivot
+    Eigen::Matrix3d K2, X2;   ///< of the second run
     Eigen::Vector3d c1, c2;
   };
-  [[nodiscard]] static double pivot_quality(const Run& first, const Run& second);
-  void join(Run& first, const Run& second);
+  /// Pivot I + K' F of a join with its inverse.
+  struct Pivot {
+    Eigen::Matrix3d inverse;
+    double det = 0.0;
+    double quality = 0.0;  ///< reciprocal condition: 1 is perfect, 0 singular
+  };
+  [[nodiscard]] static Pivot pivot_of(const Run& first, const Run& second);
+  void join(Run& first, const Run& second, const Pivot& pivot);
+  void join_next(Run& all, std::span<const CondensedElement> elements);
 
   std::vector<Join> joins_;
   std::vector<std::array<Eigen::Vector3d, 2>> rhs_;  ///< (ra, rm) of the run that starts at each element

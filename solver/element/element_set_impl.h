@@ -111,7 +111,7 @@ class ElementSetOf final : public ElementSet {
     return proportional_ * shape.pressure + constant_ * shape.constant_pressure;
   }
   void add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, double pressure,
-                    double* load) const;
+                    const double* y, double* load) const;
   void add_pressure_tangent(const Shape& shape, const Kinematics& kin, double pressure, ZetaMatrix& H) const;
   void add_pressure_product(const Shape& shape, const ElementDofs& dofs, double pressure,
                             const double* direction, double* out) const;
@@ -366,7 +366,7 @@ void ElementSetOf<P>::assemble(int element, const double* y, double* residual) {
   f.H.setZero();
   if (!linear_) add_geometric(shape, dofs, f.kin, y, f.H);
   if (const double pressure = pressure_of(shape); pressure != 0.0) {
-    add_pressure(shape, dofs, f.kin, -pressure, residual);
+    add_pressure(shape, dofs, f.kin, -pressure, y, residual);
     if (!linear_) add_pressure_tangent(shape, f.kin, pressure, f.H);
   }
   if (shape.station_count > 0 || shape.strip_count > 0) {
@@ -459,7 +459,7 @@ void ElementSetOf<P>::add_residual(const Eigen::VectorXd& y, Eigen::VectorXd& re
     const Kinematics kin = kinematics(shapes_[e], dofs_[e], y.data());
     add_strain_residual(shapes_[e], dofs_[e], kin, y.data(), residual.data());
     if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
-      add_pressure(shapes_[e], dofs_[e], kin, -pressure, residual.data());
+      add_pressure(shapes_[e], dofs_[e], kin, -pressure, y.data(), residual.data());
     if (shapes_[e].station_count > 0 || shapes_[e].strip_count > 0)
       add_support_residual(e, y.data(), residual.data(), false);
   }

@@ -111,18 +111,43 @@ void ElementSetOf<P>::set_pressure(int element, double proportional, double cons
 }
 
 /// Adds the force  pressure * (y', -x') ds  (right normal times the stretch) to a load vector.
+///
+/// Written as the derivative of pressure times the area 1/2 int (x y' - y x') ds swept by the element's own displacements,
+/// less what that derivative has too much at its ends: forces on the nodes, which neighbours under the same pressure cancel
+/// and supports take. So the symmetric tangent is exact inside elements.
 template <int P>
 void ElementSetOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
-                                   double pressure, double* load) const {
+                                   double pressure, const double* y, double* load) const {
+  double place[2][P];  // positions relative to the element's stress-free start
+  double chord[2] = {0.0, 0.0};
   for (int q = 0; q < P; ++q) {
-    const double fx = pressure * shape.hb[q] * kin.yp[q];
-    const double fy = -pressure * shape.hb[q] * kin.xp[q];
+    chord[0] += shape.hb[q] * shape.tx[q];
+    chord[1] += shape.hb[q] * shape.ty[q];
+    for (int c = 0; c < 2; ++c) place[c][q] = linear_ ? 0.0 : y[dofs.a[c]];
+    for (int r = 0; r < P; ++r) {
+      place[0][q] += shape.h * a_[q][r] * kin.xp[r];
+      place[1][q] += shape.h * a_[q][r] * kin.yp[r];
+    }
+  }
+  for (int q = 0; q < P; ++q) {
+    const double w = 0.5 * pressure * shape.hb[q];
+    const double fx = w * kin.yp[q];
+    const double fy = -w * kin.xp[q];
     load[dofs.a[0]] += fx;
     load[dofs.a[1]] += fy;
+    load[dofs.v + q] -= w * place[1][q];
+    load[dofs.v + P + q] += w * place[0][q];
     for (int r = 0; r < P; ++r) {
       load[dofs.v + r] += fx * shape.h * a_[q][r];
       load[dofs.v + P + r] += fy * shape.h * a_[q][r];
     }
+  }
+  for (const double sign : {-1.0, 1.0}) {  // start, end
+    const auto& node = sign < 0.0 ? dofs.a : dofs.b;
+    const double x = (linear_ ? 0.0 : y[node[0]]) + (sign < 0.0 ? 0.0 : chord[0]);
+    const double z = (linear_ ? 0.0 : y[node[1]]) + (sign < 0.0 ? 0.0 : chord[1]);
+    load[node[0]] += 0.5 * sign * pressure * z;
+    load[node[1]] -= 0.5 * sign * pressure * x;
   }
 }
 
@@ -133,7 +158,7 @@ void ElementSetOf<P>::add_pressure_load(const Eigen::VectorXd& y, double proport
     const Shape& shape = shapes_[e];
     const double pressure = proportional * shape.pressure + constant * shape.constant_pressure;
     if (pressure != 0.0)
-      add_pressure(shape, dofs_[e], kinematics(shape, dofs_[e], y.data()), pressure, out.data());
+      add_pressure(shape, dofs_[e], kinematics(shape, dofs_[e], y.data()), pressure, y.data(), out.data());
   }
 }
 

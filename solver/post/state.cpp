@@ -49,6 +49,9 @@ MemberState member_state(const Structure& structure, const Model& model, const E
   return out;
 }
 
+/// Share of an element below which an interval of contact is rounding at a place that cannot move.
+constexpr double kNoInterval = 1e-9;
+
 /// Contact intervals of a foundation in its member's arc length, neighbours joined.
 std::vector<std::array<double, 2>> contact_of(const Structure& structure, const Model& model,
                                               const Eigen::VectorXd& y, int foundation) {
@@ -66,6 +69,7 @@ std::vector<std::array<double, 2>> contact_of(const Structure& structure, const 
     }
     const MeshElement& cell = structure.mesh.elements[part.element];
     for (const auto& interval : local) {
+      if (interval.to - interval.from <= kNoInterval) continue;
       const double from = length * (cell.from + interval.from * (cell.to - cell.from));
       const double to = length * (cell.from + interval.to * (cell.to - cell.from));
       if (!joined.empty() && from - joined.back()[1] <= 1e-9 * length)
