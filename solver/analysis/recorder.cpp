@@ -86,7 +86,7 @@ void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
     const auto done = [&](const PathPoint&, const PathPoint&, double v) {
       return std::abs(v) <= 1e-12 * std::abs(vb - va);
     };
-    add_state(find_root(continuation_, from, va, to, vb, value, done).root);
+    add_state(find_root(continuation_, continuation_.chord(from, to), from, va, to, vb, value, done).root);
   }
 }
 

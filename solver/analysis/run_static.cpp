@@ -105,7 +105,9 @@ bool follow(const Analysis& analysis, const Structure& structure, double directi
       const auto done = [size](const PathPoint&, const PathPoint&, double v) {
         return std::abs(v) <= 1e-12 * size;
       };
-      states.set(i, find_root(continuation, from, value(from), to, value(to), value, done).root.y);
+      states.set(i, find_root(continuation, continuation.chord(from, to), from, value(from), to, value(to),
+                              value, done)
+                        .root.y);
     }
   };
   const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);

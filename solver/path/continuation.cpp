@@ -210,35 +210,49 @@ void Continuation::reject(StepSize& step) {
   step.wanted = 0.3 * step.taken;
 }
 
-double Continuation::secant_length(const PathPoint& a, const PathPoint& b) const {
+double Continuation::distance(const PathPoint& a, const PathPoint& b) const {
   return metric_.norm(b.y - a.y, b.lambda - a.lambda);
 }
 
-double Continuation::load_rate(const PathPoint& at, const PathPoint& a, const PathPoint& b) const {
-  const double length = secant_length(a, b);
-  const double along = metric_.inner(at.tangent, at.tangent_lambda, b.y - a.y, b.lambda - a.lambda) / length;
-  return at.tangent_lambda / along;
+double Continuation::distance_along(const Chord& chord, const PathPoint& a, const PathPoint& b) const {
+  return metric_.inner(b.y - a.y, b.lambda - a.lambda, chord.y, chord.lambda);
 }
 
-std::optional<PathPoint> Continuation::between(const PathPoint& a, const PathPoint& b, double tau) {
-  const double length = secant_length(a, b);
-  const VectorXd secant = (b.y - a.y) / length;
-  const double secant_lambda = (b.lambda - a.lambda) / length;
-  const double rate_a = metric_.inner(a.tangent, a.tangent_lambda, secant, secant_lambda);
-  const double rate_b = metric_.inner(b.tangent, b.tangent_lambda, secant, secant_lambda);
-  const Hermite h(tau, length);
+Chord Continuation::chord(const PathPoint& a, const PathPoint& b) const {
+  const double length = distance(a, b);
+  return {(b.y - a.y) / length, (b.lambda - a.lambda) / length};
+}
+
+double Continuation::load_rate(const Chord& chord, const PathPoint& at) const {
+  return at.tangent_lambda / metric_.inner(at.tangent, at.tangent_lambda, chord.y, chord.lambda);
+}
+
+std::optional<PathPoint> Continuation::between(const Chord& chord, const PathPoint& lo, const PathPoint& hi,
+                                               double share) {
+  constexpr double kSmoothRate =
+      0.3;  // below it a tangent is a singular point's, or turns away from the chord
+  const double length = distance_along(chord, lo, hi);
+  const double rate_lo = metric_.inner(lo.tangent, lo.tangent_lambda, chord.y, chord.lambda);
+  const double rate_hi = metric_.inner(hi.tangent, hi.tangent_lambda, chord.y, chord.lambda);
   PathPoint point;
-  point.y = h.a * a.y + (h.da / rate_a) * a.tangent + h.b * b.y + (h.db / rate_b) * b.tangent;
-  point.lambda =
-      h.a * a.lambda + h.da / rate_a * a.tangent_lambda + h.b * b.lambda + h.db / rate_b * b.tangent_lambda;
-  side_.normal = metric_.weights->cwiseProduct(secant);
-  side_.normal_lambda = metric_.load_weight * secant_lambda;
-  const auto outcome = correct(problem_, metric_, side_, std::max(length, kNoise), options_.corrector,
-                               point.y, point.lambda, work_);
+  if (rate_lo > kSmoothRate && rate_hi > kSmoothRate) {
+    const Hermite h(share * length, length);
+    point.y = h.a * lo.y + (h.da / rate_lo) * lo.tangent + h.b * hi.y + (h.db / rate_hi) * hi.tangent;
+    point.lambda = h.a * lo.lambda + h.da / rate_lo * lo.tangent_lambda + h.b * hi.lambda +
+                   h.db / rate_hi * hi.tangent_lambda;
+  } else {
+    point.y = (1.0 - share) * lo.y + share * hi.y;
+    point.lambda = (1.0 - share) * lo.lambda + share * hi.lambda;
+  }
+  side_.normal = metric_.weights->cwiseProduct(chord.y);
+  side_.normal_lambda = metric_.load_weight * chord.lambda;
+  const double scale = std::max(distance(lo, hi), kNoise);
+  const auto outcome =
+      correct(problem_, metric_, side_, scale, options_.corrector, point.y, point.lambda, work_);
   count(outcome);
   if (outcome.status != CorrectorStatus::converged) return std::nullopt;
-  set_tangent(point, outcome, secant, secant_lambda);
-  point.arc_length = a.arc_length + tau / length * (b.arc_length - a.arc_length);
+  set_tangent(point, outcome, chord.y, chord.lambda);
+  point.arc_length = (1.0 - share) * lo.arc_length + share * hi.arc_length;
   return point;
 }
 

@@ -37,6 +37,12 @@ struct StepSize {
   double wanted = 0.0;
 };
 
+/// Unit direction from one point of a path to another.
+struct Chord {
+  Eigen::VectorXd y;
+  double lambda = 0.0;
+};
+
 /// What a step met.
 enum class StepOutcome { advanced, step_underflow };
 
@@ -67,13 +73,19 @@ class Continuation {
   /// @brief Takes the last step back, because it jumped to another path: the next one will be shorter.
   void reject(StepSize& step);
 
-  /// @brief The point between a and b at distance `tau` along the secant from a to b (0 < tau <
-  /// secant_length(a, b)).
+  /// @brief The straight line from one point of the path to another: places between are told by their
+  /// distance along it.
+  [[nodiscard]] Chord chord(const PathPoint& a, const PathPoint& b) const;
+  /// @brief The point of the path between lo and hi, in the plane normal to the chord at a share (0 to 1) of
+  /// the way.
   /// @return empty when the correction failed
-  [[nodiscard]] std::optional<PathPoint> between(const PathPoint& a, const PathPoint& b, double tau);
-  [[nodiscard]] double secant_length(const PathPoint& a, const PathPoint& b) const;
-  /// d lambda / d tau at a point for the parameter of between(a, b, .).
-  [[nodiscard]] double load_rate(const PathPoint& at, const PathPoint& a, const PathPoint& b) const;
+  [[nodiscard]] std::optional<PathPoint> between(const Chord& chord, const PathPoint& lo, const PathPoint& hi,
+                                                 double share);
+  /// Distance of two points in the path's norm, and along a chord.
+  [[nodiscard]] double distance(const PathPoint& a, const PathPoint& b) const;
+  [[nodiscard]] double distance_along(const Chord& chord, const PathPoint& a, const PathPoint& b) const;
+  /// d lambda by distance along the chord.
+  [[nodiscard]] double load_rate(const Chord& chord, const PathPoint& at) const;
 
   [[nodiscard]] const ContinuationOptions& options() const { return options_; }
   [[nodiscard]] const ContinuationStatistics& statistics() const { return statistics_; }

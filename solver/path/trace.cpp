@@ -81,7 +81,8 @@ std::optional<PathPoint> Tracer::bounded_end(const PathPoint& from, const PathPo
     const auto done = [size](const PathPoint&, const PathPoint&, double value) {
       return std::abs(value) <= 1e-12 * size;
     };
-    const LocatedRoot root = find_root(continuation_, from, va, to, vb, crossing.value, done);
+    const LocatedRoot root =
+        find_root(continuation_, continuation_.chord(from, to), from, va, to, vb, crossing.value, done);
     if (first && first->arc_length <= root.root.arc_length) continue;
     first = root.root;
     out_.end = crossing.end;
@@ -117,7 +118,8 @@ bool Tracer::ends_here(const PathPoint& at, int steps, const std::stop_token& st
   if (steps >= rules_.steps) return finish(TraceEnd::steps, at);
   if (continuation_.metric().norm(at.y, 0.0) > rules_.gradient)
     return finish(TraceEnd::displacement_bound, at);
-  if (std::abs(at.lambda) > rules_.load_bound * continuation_.load_scale()) return finish(TraceEnd::load_bound, at);
+  if (std::abs(at.lambda) > rules_.load_bound * continuation_.load_scale())
+    return finish(TraceEnd::load_bound, at);
   return false;
 }
 

@@ -25,7 +25,7 @@ struct TraceRules {
   std::function<double(const PathPoint&)> monitor_rate;  ///< by arc length, with monitor_turns
   std::optional<std::array<double, 2>> monitor_range;
   int steps = 1000;
-  double gradient = 4.0;    ///< norm of the displacement at which a path is given up as leaving for infinity
+  double gradient = 4.0;  ///< norm of the displacement at which a path is given up as leaving for infinity
   std::optional<double> first_step;  ///< in the path's norm; empty: from the load's scale
   /// Critical points of other branches: the path ends where it meets one of them again.
   std::vector<PathPoint> known;

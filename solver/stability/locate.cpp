@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMaxEvaluations = 100;
 constexpr int kMaxDepth = 48;
-/// A closed bracket this small (in the path's norm, a displacement gradient) has both ends on one path.
+/// Points this near (in the path's norm, a displacement gradient) are on one path.
 /// Rounding leaves about 1e-16 over the relative distance to the bifurcation, a broken bifurcation about the
 /// cube root of its imperfection.
 constexpr double kSamePath = 1e-6;
@@ -19,8 +19,8 @@ constexpr double kBrokenBifurcation = 1e-9;
 /// State of the search between two points of a path.
 struct Search {
   Continuation& continuation;
-  const PathPoint& a;  ///< ends of the step that is searched: they fix the parameter of load_rate
-  const PathPoint& b;
+  Chord chord;         ///< of the whole step: places are told by their distance along it
+  double log_abs_det;  ///< at the start of the step
   double tolerance;
   LocatedEvents& out;
 };
@@ -29,11 +29,18 @@ bool loads_agree(double l0, double l1, double tolerance, double load_scale) {
   return std::abs(l1 - l0) <= tolerance * std::max({std::abs(l0), std::abs(l1), 1e-6 * load_scale});
 }
 
+/// Whether two points are farther apart than their places along the chord allow: they are on two different
+/// paths.
+bool apart(const Continuation& continuation, const Chord& chord, const PathPoint& a, const PathPoint& b) {
+  constexpr double kSteepest = 10.0;
+  return continuation.distance(a, b) > kSteepest * continuation.distance_along(chord, a, b) + kSamePath;
+}
+
 /// det(J) / (dlambda/dtau), scaled by its size at the start of the search.
 double bifurcation_function(const Search& search, const PathPoint& at) {
   const double parity = at.negative % 2 == 0 ? 1.0 : -1.0;
-  const double rate = search.continuation.load_rate(at, search.a, search.b);
-  return parity * std::exp(at.log_abs_det - search.a.log_abs_det) / rate;
+  const double rate = search.continuation.load_rate(search.chord, at);
+  return parity * std::exp(at.log_abs_det - search.log_abs_det) / rate;
 }
 
 void add_event(Search& search, CriticalType type, const LocatedRoot& root, int before, int after) {
@@ -46,9 +53,8 @@ void add_event(Search& search, CriticalType type, const LocatedRoot& root, int b
   event.point = root.root;
   if (type == CriticalType::bifurcation) {
     // the tangent is singular there: take the path's direction from the ends of the step instead
-    const double length = search.continuation.secant_length(search.a, search.b);
-    event.point.tangent = (search.b.y - search.a.y) / length;
-    event.point.tangent_lambda = (search.b.lambda - search.a.lambda) / length;
+    event.point.tangent = search.chord.y;
+    event.point.tangent_lambda = search.chord.lambda;
   }
   event.negative_before = before;
   event.negative_after = after;
@@ -72,16 +78,17 @@ void add_simple_event(Search& search, CriticalType type, LocatedRoot root, const
 
 void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
   const auto rate = [&search](const PathPoint& at) {
-    return search.continuation.load_rate(at, search.a, search.b);
+    return search.continuation.load_rate(search.chord, at);
   };
   const double scale = search.continuation.load_scale();
   const auto done = [&](const PathPoint& lo, const PathPoint& hi, double value) {
-    const double length = search.continuation.secant_length(lo, hi);
+    const double length = search.continuation.distance_along(search.chord, lo, hi);
     const double size = std::max(std::abs(lo.lambda), 1e-6 * scale);
     return std::abs(value) * length <= 0.1 * search.tolerance * size &&
-           loads_agree(lo.lambda, hi.lambda, search.tolerance, scale) && length <= std::min(kSamePath, 10.0 * search.tolerance);
+           loads_agree(lo.lambda, hi.lambda, search.tolerance, scale) &&
+           length <= std::min(kSamePath, 10.0 * search.tolerance);
   };
-  const LocatedRoot root = find_root(search.continuation, a, rate(a), b, rate(b), rate, done);
+  const LocatedRoot root = find_root(search.continuation, search.chord, a, rate(a), b, rate(b), rate, done);
   add_simple_event(search, limit_type(a), root, a, b);
 }
 
@@ -90,10 +97,10 @@ void locate_bifurcation(Search& search, const PathPoint& a, const PathPoint& b) 
   // a bifurcation broken by an imperfection e looks whole from further than e^(2/3) in the load
   const double tolerance = std::min(search.tolerance, kBrokenBifurcation);
   const auto done = [&search, tolerance](const PathPoint& lo, const PathPoint& hi, double) {
-    return loads_agree(lo.lambda, hi.lambda, tolerance, search.continuation.load_scale()) &&
-           search.continuation.secant_length(lo, hi) <= kSamePath;
+    return loads_agree(lo.lambda, hi.lambda, tolerance, search.continuation.load_scale());
   };
-  const LocatedRoot root = find_root(search.continuation, a, value(a), b, value(b), value, done);
+  const LocatedRoot root =
+      find_root(search.continuation, search.chord, a, value(a), b, value(b), value, done);
   add_simple_event(search, CriticalType::bifurcation, root, a, b);
 }
 
@@ -120,11 +127,15 @@ void search_between(Search& search, const PathPoint& a, const PathPoint& b, int 
       locate_bifurcation(search, a, b);
     return;
   }
-  const double length = search.continuation.secant_length(a, b);
+  if (apart(search.continuation, search.chord, a, b)) {
+    search.out.same_path = false;
+    return;
+  }
+  const double length = search.continuation.distance_along(search.chord, a, b);
   const bool together = length <= kSamePath &&
                         loads_agree(a.lambda, b.lambda, search.tolerance, search.continuation.load_scale());
   std::optional<PathPoint> middle;
-  if (!together && depth < kMaxDepth) middle = search.continuation.between(a, b, 0.5 * length);
+  if (!together && depth < kMaxDepth) middle = search.continuation.between(search.chord, a, b, 0.5);
   if (!middle) {
     add_cluster(search, a, b, turns, together);
     return;
@@ -135,11 +146,11 @@ void search_between(Search& search, const PathPoint& a, const PathPoint& b, int 
 
 /// Whether the cubic through both ends' loads and load rates turns inside although it does not turn at the
 /// ends.
-bool may_hide_two_limits(const Continuation& continuation, const PathPoint& a, const PathPoint& b,
-                         double& at) {
-  const double length = continuation.secant_length(a, b);
-  const double ra = continuation.load_rate(a, a, b);
-  const double rb = continuation.load_rate(b, a, b);
+bool may_hide_two_limits(const Continuation& continuation, const Chord& chord, const PathPoint& a,
+                         const PathPoint& b, double& share) {
+  const double length = continuation.distance(a, b);
+  const double ra = continuation.load_rate(chord, a);
+  const double rb = continuation.load_rate(chord, b);
   const double mean = (b.lambda - a.lambda) / length;
   // rate(t) = ra + 2 (3 mean - 2 ra - rb) t + 3 (ra + rb - 2 mean) t^2
   const double linear = 2.0 * (3.0 * mean - 2.0 * ra - rb);
@@ -147,7 +158,7 @@ bool may_hide_two_limits(const Continuation& continuation, const PathPoint& a, c
   if (square == 0.0) return false;
   const double t = -0.5 * linear / square;
   if (t <= 0.0 || t >= 1.0) return false;
-  at = t * length;
+  share = t;
   const double rate = ra + 0.5 * linear * t;
   return (rate > 0.0) != (ra > 0.0);
 }
@@ -169,28 +180,27 @@ double next_share(double va, double vb) {
 
 }  // namespace
 
-LocatedRoot find_root(Continuation& continuation, const PathPoint& a, double value_a, const PathPoint& b,
-                      double value_b, const std::function<double(const PathPoint&)>& value,
+LocatedRoot find_root(Continuation& continuation, const Chord& chord, const PathPoint& a, double value_a,
+                      const PathPoint& b, double value_b,
+                      const std::function<double(const PathPoint&)>& value,
                       const std::function<bool(const PathPoint&, const PathPoint&, double)>& done) {
   LocatedRoot out{a, b, a};
   double va = value_a;
   double vb = value_b;
-  double length = continuation.secant_length(a, b);
+  double length = continuation.distance(a, b);
   bool halve = false;
-  int stuck = 0;
-  for (int it = 0; it < kMaxEvaluations; ++it) {
+  for (int it = 0; it < kMaxEvaluations && !apart(continuation, chord, out.before, out.after); ++it) {
     const double best = std::min(std::abs(va), std::abs(vb));
     out.found = best == 0.0 || done(out.before, out.after, best);
-    if (out.found || stuck > 2) break;
-    auto point = continuation.between(out.before, out.after, (halve ? 0.5 : next_share(va, vb)) * length);
-    if (!point) point = continuation.between(out.before, out.after, 0.37 * length);
+    if (out.found) break;
+    auto point = continuation.between(chord, out.before, out.after, halve ? 0.5 : next_share(va, vb));
+    if (!point) point = continuation.between(chord, out.before, out.after, 0.37);
     if (!point) break;
     const double v = value(*point);
     const bool at_start = (v > 0.0) == (value_a > 0.0);
     (at_start ? va : vb) = v;
     (at_start ? out.before : out.after) = std::move(*point);
-    const double shorter = continuation.secant_length(out.before, out.after);
-    if (halve && shorter > 0.75 * length) ++stuck;
+    const double shorter = continuation.distance_along(chord, out.before, out.after);
     halve = !halve && shorter > 0.5 * length;
     length = shorter;
   }
@@ -213,7 +223,7 @@ void merge_crossings(Continuation& continuation, double tolerance, std::vector<C
     constexpr double kSamePlace = 1e-3;
     const double agree = std::max(tolerance, kSamePath);
     if (!loads_agree(first.point.lambda, second.point.lambda, agree, continuation.load_scale())) continue;
-    if (continuation.secant_length(first.point, second.point) > kSamePlace) continue;
+    if (continuation.distance(first.point, second.point) > kSamePlace) continue;
     const int before = first.negative_before;
     if (first.type != CriticalType::bifurcation) first = second;
     first.negative_before = first.negative_after = before;
@@ -226,11 +236,11 @@ void merge_crossings(Continuation& continuation, double tolerance, std::vector<C
 LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint& a, const PathPoint& b,
                                      double tolerance) {
   LocatedEvents out;
-  Search search{continuation, a, b, tolerance, out};
-  double tau = 0.0;
+  Search search{continuation, continuation.chord(a, b), a.log_abs_det, tolerance, out};
+  double share = 0.0;
   const bool turns = (a.tangent_lambda > 0.0) != (b.tangent_lambda > 0.0);
-  if (!turns && may_hide_two_limits(continuation, a, b, tau)) {
-    if (const auto inside = continuation.between(a, b, tau)) {
+  if (!turns && may_hide_two_limits(continuation, search.chord, a, b, share)) {
+    if (const auto inside = continuation.between(search.chord, a, b, share)) {
       search_between(search, a, *inside, 0);
       if (out.same_path) search_between(search, *inside, b, 0);
       merge_crossings(continuation, tolerance, out.events);

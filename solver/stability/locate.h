@@ -32,13 +32,13 @@ struct LocatedRoot {
 /// @brief Finds a sign change of `value` between two path points by a bracketed secant.
 ///
 /// Each trial is placed just beyond the secant's estimate, so that the bracket closes from both sides; a
-/// bracket that does not shrink is halved, and one that does not shrink when it is halved has its ends on two
-/// different paths.
+/// bracket that does not shrink is halved. Ends that stay apart while their places along the chord approach
+/// are on two different paths.
 /// @param value_a, value_b values at the ends, of opposite sign (or one of them zero)
 /// @param done whether a bracket is small enough: given both ends and the value at the better one
 [[nodiscard]] LocatedRoot find_root(
-    Continuation& continuation, const PathPoint& a, double value_a, const PathPoint& b, double value_b,
-    const std::function<double(const PathPoint&)>& value,
+    Continuation& continuation, const Chord& chord, const PathPoint& a, double value_a, const PathPoint& b,
+    double value_b, const std::function<double(const PathPoint&)>& value,
     const std::function<bool(const PathPoint&, const PathPoint&, double)>& done);
 
 /// What was found on one step.
