@@ -30,8 +30,27 @@ SectionForces::SectionForces(const Structure& structure, const Model& model, con
       reader_(structure, y, element) {
   for (int c = 0; c < 3; ++c) end_[c] = y[structure.dofs[element].m + c];
   add_loads(lambda / structure.scales.load, 1.0);
+  if (pressure_ != 0.0) release_end_of_pressure(y);
   add_bases();
   add_springs();
+}
+
+/// The multiplier goes with the area formula of the pressure (element/element_set_supports.h), which puts a
+/// force on the node and its opposite on the element's end: take the latter back, so that end_ is what the
+/// section carries.
+void SectionForces::release_end_of_pressure(const Eigen::VectorXd& y) {
+  const StressFreeAxis& axis = *structure_.stress_free[cell_.member];
+  const double length = axis.perfect().length();
+  const StressFreePoint from = axis.at(length * cell_.from);
+  const StressFreePoint to = axis.at(length * cell_.to);
+  double x = (to.x - from.x) / structure_.scales.length;
+  double z = (to.y - from.y) / structure_.scales.length;
+  if (structure_.geometry == Geometry::nonlinear) {
+    x += y[structure_.dofs[element_].b[0]];
+    z += y[structure_.dofs[element_].b[1]];
+  }
+  end_[0] -= 0.5 * pressure_ * z;
+  end_[1] += 0.5 * pressure_ * x;
 }
 
 void SectionForces::add_loads(double proportional, double constant) {

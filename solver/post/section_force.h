@@ -53,6 +53,7 @@ class SectionForces {
 
   void add_loads(double proportional, double constant);
   void add_load(const Load& load, double factor);
+  void release_end_of_pressure(const Eigen::VectorXd& y);
   void add_bases();
   void add_springs();
   void add_lumped(const Foundation& base, int index, Vec2 range, double modulus);

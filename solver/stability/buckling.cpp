@@ -175,9 +175,14 @@ std::vector<EigenPair> refine(Pencil& pencil, const Bracket& bracket, Index size
   constexpr int kMaxIterations = 60;
   constexpr double kTolerance = 1e-13;
   const int m = bracket.below_hi - bracket.below_lo;
-  // off the ends and the middle: those were places of the bisection, which likes to hit eigenvalues
-  const double shift = bracket.lo + 0.381966 * (bracket.hi - bracket.lo);
-  static_cast<void>(pencil.count(shift));  // factorises there
+  // Well off the eigenvalues, where elimination is accurate even if parts of the structure buckle at the same
+  // load, as long as no other eigenvalue is met on the way; else inside the bracket, off the places of the
+  // bisection.
+  double shift = bracket.lo - 2e-3 * bracket.hi;
+  if (pencil.count(shift) != bracket.below_lo) {
+    shift = bracket.lo + 0.381966 * (bracket.hi - bracket.lo);
+    static_cast<void>(pencil.count(shift));  // factorises there
+  }
   std::vector<EigenPair> pairs(static_cast<std::size_t>(m));
   for (int i = 0; i < m; ++i) pairs[i] = {bracket.hi, pseudo_random(size, static_cast<unsigned>(i + 1))};
   for (int it = 0; it < kMaxIterations; ++it) {

@@ -210,23 +210,36 @@ LocatedRoot find_root(Continuation& continuation, const Chord& chord, const Path
 
 namespace {
 
-/// On a path that crosses another at a symmetric bifurcation the load has an extremum there and an eigenvalue
-/// touches zero: a limit point and a bifurcation at one place, which leave the inertia as it was, are that
-/// one bifurcation.
-void merge_crossings(Continuation& continuation, double tolerance, std::vector<CriticalEvent>& events) {
-  for (std::size_t i = 0; i + 1 < events.size(); ++i) {
+/// Whether two events are at one place, as far as rounding near singular points lets one say.
+bool at_one_place(const Continuation& continuation, double tolerance, const CriticalEvent& a,
+                  const CriticalEvent& b) {
+  constexpr double kSamePlace = 1e-3;
+  const double agree = 10.0 * std::max(tolerance, 1e-9);
+  return loads_agree(a.point.lambda, b.point.lambda, agree, continuation.load_scale()) &&
+         continuation.distance(a.point, b.point) <= kSamePlace;
+}
+
+/// Joins neighbouring events at one place. Bifurcations add up to one of higher multiplicity. On a path that
+/// crosses another at a symmetric bifurcation the load has an extremum there and an eigenvalue touches zero:
+/// a limit point and a bifurcation which leave the inertia as it was are that one bifurcation.
+void merge_events(Continuation& continuation, double tolerance, std::vector<CriticalEvent>& events) {
+  for (std::size_t i = 0; i + 1 < events.size();) {
     CriticalEvent& first = events[i];
-    const CriticalEvent& second = events[i + 1];
+    const CriticalEvent second = events[i + 1];
+    const bool bifurcations =
+        first.type == CriticalType::bifurcation && second.type == CriticalType::bifurcation;
     const bool one_limit =
         (first.type == CriticalType::bifurcation) != (second.type == CriticalType::bifurcation);
-    if (!one_limit || first.negative_before != second.negative_after) continue;
-    constexpr double kSamePlace = 1e-3;
-    const double agree = std::max(tolerance, kSamePath);
-    if (!loads_agree(first.point.lambda, second.point.lambda, agree, continuation.load_scale())) continue;
-    if (continuation.distance(first.point, second.point) > kSamePlace) continue;
+    const bool crossing = one_limit && first.negative_before == second.negative_after;
+    if (!(bifurcations || crossing) || !at_one_place(continuation, tolerance, first, second)) {
+      ++i;
+      continue;
+    }
     const int before = first.negative_before;
     if (first.type != CriticalType::bifurcation) first = second;
-    first.negative_before = first.negative_after = before;
+    first.negative_before = before;
+    first.negative_after = second.negative_after;
+    first.multiplicity = std::max(1, std::abs(first.negative_after - before));
     events.erase(events.begin() + static_cast<std::ptrdiff_t>(i) + 1);
   }
 }
@@ -243,12 +256,12 @@ LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint
     if (const auto inside = continuation.between(search.chord, a, b, share)) {
       search_between(search, a, *inside, 0);
       if (out.same_path) search_between(search, *inside, b, 0);
-      merge_crossings(continuation, tolerance, out.events);
+      merge_events(continuation, tolerance, out.events);
       return out;
     }
   }
   search_between(search, a, b, 0);
-  merge_crossings(continuation, tolerance, out.events);
+  merge_events(continuation, tolerance, out.events);
   return out;
 }
 
