@@ -112,9 +112,9 @@ void ElementSetOf<P>::set_pressure(int element, double proportional, double cons
 
 /// Adds the force  pressure * (y', -x') ds  (right normal times the stretch) to a load vector.
 ///
-/// Written as the derivative of pressure times the area 1/2 int (x y' - y x') ds swept by the element's own displacements,
-/// less what that derivative has too much at its ends: forces on the nodes, which neighbours under the same pressure cancel
-/// and supports take. So the symmetric tangent is exact inside elements.
+/// Written as the derivative of pressure times the area 1/2 int (x y' - y x') ds swept by the element's own
+/// displacements, less what that derivative has too much at its ends: forces on the nodes, which neighbours
+/// under the same pressure cancel and supports take. So the symmetric tangent is exact inside elements.
 template <int P>
 void ElementSetOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
                                    double pressure, const double* y, double* load) const {

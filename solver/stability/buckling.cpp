@@ -202,6 +202,31 @@ std::vector<EigenPair> refine(Pencil& pencil, const Bracket& bracket, Index size
   return pairs;
 }
 
+/// The place in (lo, hi) where the count of eigenvalues passes `below`, by bisection to the last digits.
+double bisect(Pencil& pencil, double lo, double hi, int below) {
+  constexpr double kDigits = 1e-13;
+  while (hi - lo > kDigits * hi) {
+    const double middle = 0.5 * (lo + hi);
+    if (middle <= lo || middle >= hi) break;
+    (pencil.count(middle) > below ? hi : lo) = middle;
+  }
+  return 0.5 * (lo + hi);
+}
+
+/// Holds each value of a bracket against the counts just beside it; where elimination was poor at the shift
+/// (a single element held at one end buckles near it) the value is taken from the counts instead, which need
+/// signs only.
+void confirm(Pencil& pencil, const Bracket& bracket, std::vector<EigenPair>& pairs) {
+  constexpr double kBeside = 1e-9;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const int below = bracket.below_lo + static_cast<int>(i);
+    const double load = pairs[i].load;
+    const bool right = load > 0.0 && pencil.count(load * (1.0 - kBeside)) <= below &&
+                       pencil.count(load * (1.0 + kBeside)) > below;
+    if (!right) pairs[i].load = bisect(pencil, bracket.lo, bracket.hi, below);
+  }
+}
+
 /// A load factor with at least `count` eigenvalues below it; empty bracket when there is none.
 Bracket enclose(Pencil& pencil, int count, int at_start) {
   constexpr int kDoublings = 60;
@@ -228,7 +253,9 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
   std::vector<Bracket> brackets;
   isolate(pencil, all, out.negative_at_start + count, brackets);
   for (const Bracket& bracket : brackets) {
-    for (EigenPair& pair : refine(pencil, bracket, problem.size())) {
+    auto pairs = refine(pencil, bracket, problem.size());
+    confirm(pencil, bracket, pairs);
+    for (EigenPair& pair : pairs) {
       if (static_cast<int>(out.loads.size()) == count) break;
       out.loads.push_back(pair.load);
       out.modes.push_back(std::move(pair.mode));
