@@ -3,7 +3,7 @@
 /// Sources. arch_clamped_hinged_reference.csv: DaDeppo and Schmidt's arch (J. Appl. Mech. 42, 1975), Gauss
 /// collocation of the boundary-value problem, 12 digits, for several axial and shear stiffnesses. Shallow
 /// arches R = 100, EI = 1.4, EA = 420: converged high-order values with 6 decimals. Tolerance 1e-8 for loads
-/// (6 decimals where no more are printed), 1e-7 of R for displacements at limit points, 1e-7 for loads at
+/// (6 decimals where no more are printed), 1e-7 of R for displacements at limit points, 2e-7 for loads at
 /// turning points.
 #include "tests/verification/balance.h"
 #include "tests/verification/cases.h"
