@@ -120,8 +120,6 @@ class ElementSet {
   /// @brief Replaces the interior rows of `x` (a right-hand side on entry) by the solution, from the solution
   /// at the ends and the multipliers that `x` already holds.
   virtual void recover(Eigen::VectorXd& x) = 0;
-  /// Angles of the sections at the Gauss points.
-  [[nodiscard]] virtual std::vector<double> section_angles(int element, const Eigen::VectorXd& y) const = 0;
   /// Adds the second derivative of the energy times `direction` to `out` (test use and eigenvalue problems).
   virtual void add_tangent_product(const Eigen::VectorXd& y, const Eigen::VectorXd& direction,
                                    Eigen::VectorXd& out) = 0;

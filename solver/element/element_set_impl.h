@@ -55,7 +55,6 @@ class ElementSetOf final : public ElementSet {
   void recover(Eigen::VectorXd& x) override;
   void add_tangent_product(const Eigen::VectorXd& y, const Eigen::VectorXd& direction,
                            Eigen::VectorXd& out) override;
-  [[nodiscard]] std::vector<double> section_angles(int element, const Eigen::VectorXd& y) const override;
 
  private:
   static constexpr int kStrains = 3 * P;
@@ -556,19 +555,6 @@ void ElementSetOf<P>::recover(Eigen::VectorXd& x) {
       x[dofs.v + 2 * P + q] = zeta[2 * P + q];
     }
   }
-}
-
-template <int P>
-std::vector<double> ElementSetOf<P>::section_angles(int element, const Eigen::VectorXd& y) const {
-  const Shape& shape = shapes_[element];
-  const ElementDofs& dofs = dofs_[element];
-  std::vector<double> angles(P);
-  for (int q = 0; q < P; ++q) {
-    double b = 0.0;
-    for (int r = 0; r < P; ++r) b += a_[q][r] * y[dofs.v + 2 * P + r];
-    angles[q] = shape.angle[q] + (linear_ ? 0.0 : y[dofs.a[2]] + shape.h * b);
-  }
-  return angles;
 }
 
 /// The beam's part of the tangent as an operator.
