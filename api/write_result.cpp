@@ -63,6 +63,7 @@ Json write(const std::vector<NamedSeries>& series) {
 Json write(const CriticalPoint& point) {
   return {{"branch", point.branch},
           {"type", to_name(point.type)},
+          {"cause", point.cause == CriticalCause::smooth ? "smooth" : "contact"},
           {"load_factor", point.load_factor},
           {"error_estimate", or_null(point.error_estimate)},
           {"arc_length", point.arc_length},
@@ -73,6 +74,16 @@ Json write(const CriticalPoint& point) {
           {"state", or_null(point.state)}};
 }
 
+Json write(const ContactEvent& event) {
+  return {{"branch", event.branch},
+          {"id", event.id},
+          {"type", event.opened ? "opened" : "closed"},
+          {"load_factor", event.load_factor},
+          {"arc_length", event.arc_length},
+          {"zones_before", event.zones_before},
+          {"zones_after", event.zones_after}};
+}
+
 Json write(const Branch& branch) {
   return {{"id", branch.id},
           {"parent", or_null(branch.parent)},
@@ -80,7 +91,8 @@ Json write(const Branch& branch) {
           {"arc_length", branch.arc_length},
           {"monitors", write(branch.monitors)},
           {"negative_eigenvalues", branch.negative_eigenvalues},
-          {"contact_fraction", write(branch.contact_fraction)}};
+          {"contact_fraction", write(branch.contact_fraction)},
+          {"termination", branch.termination}};
 }
 
 Json write_shape(const MemberState& member) {
@@ -176,6 +188,7 @@ nlohmann::json write_result(const Request& request, const Result& result, double
   Json document{{"model", write(request.model)},
                 {"summary", write(result.summary)},
                 {"critical_points", write_all(result.critical_points)},
+                {"contact_events", write_all(result.contact_events)},
                 {"branches", write_all(result.branches)},
                 {"states", write_all(result.states)},
                 {"discretization", write(result.discretization)},

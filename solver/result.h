@@ -11,6 +11,9 @@
 namespace snapthrough {
 
 enum class CriticalType { bifurcation, limit_max, limit_min };
+/// Why stability changes at a point: an eigenvalue passes zero, or a support that begins or ceases to act
+/// changes the stiffness at once.
+enum class CriticalCause { smooth, contact };
 
 /// A named series, one value for each point of a branch (or one value at a point).
 struct NamedSeries {
@@ -33,6 +36,19 @@ struct CriticalPoint {
   int negative_after = -1;
   int multiplicity = 1;      ///< how many eigenvalues vanish there
   std::optional<int> state;  ///< index into Result::states
+  CriticalCause cause = CriticalCause::smooth;
+};
+
+/// A contact zone of a foundation, or a one-sided spring, that begins or ends. Zones that divide or join
+/// count too: with `zones` before and after.
+struct ContactEvent {
+  int branch = 0;
+  std::string id;  ///< of the foundation or spring
+  bool opened = false;
+  double load_factor = 0.0;
+  double arc_length = 0.0;
+  int zones_before = 0;
+  int zones_after = 0;
 };
 
 struct Branch {
@@ -43,6 +59,7 @@ struct Branch {
   std::vector<NamedSeries> monitors;
   std::vector<int> negative_eigenvalues;
   std::vector<NamedSeries> contact_fraction;  ///< foundation id, fraction of its range in contact
+  std::string termination = {};               ///< code as in Summary
 };
 
 struct MemberState {
@@ -105,6 +122,7 @@ struct Failure {
 struct Result {
   Summary summary;
   std::vector<CriticalPoint> critical_points;
+  std::vector<ContactEvent> contact_events;
   std::vector<Branch> branches;
   std::vector<State> states;
   std::optional<BucklingResult> buckling;

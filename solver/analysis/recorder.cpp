@@ -55,6 +55,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
   CriticalPoint point;
   point.branch = branch_;
   point.type = event.type;
+  point.cause = event.cause;
   point.load_factor = user_load(event.point);
   point.arc_length = event.point.arc_length;
   point.monitors = monitors(event.point);
@@ -70,6 +71,30 @@ void Recorder::add_critical(const CriticalEvent& event) {
     result_.summary.critical_type = point.type;
   }
   result_.critical_points.push_back(std::move(point));
+}
+
+void Recorder::add_contact(const ContactChange& change) {
+  for (std::size_t i = 0; i < zones_.ids().size(); ++i) {
+    if (change.before[i] == change.after[i]) continue;
+    ContactEvent event;
+    event.branch = branch_;
+    event.id = zones_.ids()[i];
+    event.opened = change.after[i] < change.before[i];
+    event.load_factor = user_load(change.point);
+    event.arc_length = change.point.arc_length;
+    event.zones_before = change.before[i];
+    event.zones_after = change.after[i];
+    result_.contact_events.push_back(std::move(event));
+  }
+}
+
+ZoneCounter Recorder::zone_counter() const {
+  if (zones_.ids().empty()) return {};
+  return [this](const Eigen::VectorXd& y, std::vector<int>& zones) { zones_.count(y, zones); };
+}
+
+void Recorder::end_branch(const char* code) {
+  if (!result_.branches.empty()) result_.branches.back().termination = code;
 }
 
 void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
@@ -100,6 +125,7 @@ TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> pare
     if (progress) progress({branch_, step, user_load(point), point.negative});
     ++step;
   };
+  sink.on_contact = [this](const ContactChange& change) { add_contact(change); };
   sink.on_critical = [this](const CriticalEvent& event) { add_critical(event); };
   if (analysis_.output.states == StateOutput::at_load_factors)
     sink.on_step = [this](const PathPoint& from, const PathPoint& to) { add_states_at_loads(from, to); };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/path/trace.h"
+#include "solver/post/contact.h"
 #include "solver/solve.h"
 
 namespace snapthrough {
@@ -21,16 +22,22 @@ class Recorder {
         analysis_(analysis),
         structure_(structure),
         continuation_(continuation),
-        result_(result) {}
+        result_(result),
+        zones_(structure, model) {}
 
   /// What to give to trace() for a branch; its points are recorded under `branch` from then on.
   [[nodiscard]] TraceSink sink(const Hooks& hooks, int branch = 0, std::optional<int> parent = std::nullopt);
+  /// Counts what add_contact() reports; empty when no support is one-sided.
+  [[nodiscard]] ZoneCounter zone_counter() const;
+  /// Sets how the branch that was recorded last ended.
+  void end_branch(const char* code);
   /// Records a point that the path follower does not report itself.
   void add_point(const PathPoint& point);
 
  private:
   void start_branch(std::optional<int> parent);
   void add_critical(const CriticalEvent& event);
+  void add_contact(const ContactChange& change);
   void add_states_at_loads(const PathPoint& from, const PathPoint& to);
   int add_state(const PathPoint& point);
   [[nodiscard]] std::vector<NamedValue> monitors(const PathPoint& point) const;
@@ -41,6 +48,7 @@ class Recorder {
   const Structure& structure_;
   Continuation& continuation_;
   Result& result_;
+  ContactZones zones_;
   int points_ = 0;
   int branch_ = 0;
 };

@@ -86,10 +86,13 @@ constexpr EndText kEnds[] = {
     {TraceEnd::step_underflow, "step_underflow", "no smaller step converged; the path stands", true},
     {TraceEnd::no_start, "no_start", "no equilibrium was found for the first small load", true}};
 
+const EndText& text_of(TraceEnd end) {
+  return *std::find_if(std::begin(kEnds), std::end(kEnds), [end](const EndText& e) { return e.end == end; });
+}
+
 void describe_end(const Analysis& analysis, const TraceOutcome& outcome, const Structure& structure,
                   Result& result) {
-  const auto* end = std::find_if(std::begin(kEnds), std::end(kEnds),
-                                 [&outcome](const EndText& e) { return e.end == outcome.end; });
+  const EndText* end = &text_of(outcome.end);
   std::string message = end->text;
   if (outcome.end == TraceEnd::critical_point)
     message += std::string(": ") + name_of(outcome.critical.back().type);
@@ -162,7 +165,9 @@ bool BranchFollower::follow(const Pending& pending) {
   recorder_.add_point(origin);
   TraceRules rules = rules_;
   rules.first_step = 0.02;
+  rules.zones = recorder_.zone_counter();
   const TraceOutcome outcome = trace(continuation_, first, rules, analysis_.step, sink, hooks_.stop);
+  recorder_.end_branch(text_of(outcome.end).code);
   if (outcome.end == TraceEnd::rejoined) ++rejoined_;
   if (analysis_.branches.follow == Follow::all) add(outcome, id);
   return true;
@@ -190,8 +195,10 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
   const auto start = start_of_path(structure, problem, continuation, 1.0, hooks, result);
   if (start) {
     const TraceSink sink = recorder.sink(hooks);
-    const TraceOutcome outcome =
-        trace(continuation, start, rules_of(analysis, structure), analysis.step, sink, hooks.stop);
+    TraceRules rules = rules_of(analysis, structure);
+    if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
+    const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);
+    recorder.end_branch(text_of(outcome.end).code);
     std::string branches;
     if (analysis.type == AnalysisType::path && analysis.branches.follow != Follow::primary) {
       BranchFollower follower(analysis, structure, continuation, recorder, hooks);

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "solver/analysis/analyses.h"
+#include "solver/newton/contact_state.h"
 #include "solver/path/trace.h"
 #include "solver/post/state.h"
 #include "solver/stability/locate.h"
@@ -41,35 +41,19 @@ class StaticStates {
   std::vector<std::optional<State>> found_;
 };
 
-/// Equilibrium at one load factor by Newton's method from the unloaded state: small displacements, contact
-/// unilateral.
+/// Equilibrium at one load factor from the unloaded state: small displacements, contact unilateral.
 bool solve_linear(const Structure& structure, StructuralProblem& problem, double factor, VectorXd& y,
                   Result& result) {
   const PathMetric metric{&structure.metric, 0.0};
   Workspace work;
-  CorrectorOptions options;
-  options.max_iterations = 100;
-  options.largest_correction = std::numeric_limits<double>::infinity();
-  for (const bool bonded : {true, false}) {
-    y = VectorXd::Zero(problem.size());
-    double lambda = factor * structure.scales.load;
-    problem.set_bonded(bonded);
-    problem.linearise(y, lambda, work.residual);
-    problem.set_bonded(false);
-    ++result.diagnostics.factorizations;
-    y = -work.residual;
-    problem.solve(y);
-    const double size = metric.norm(y, 0.0);
-    if (!std::isfinite(size)) continue;
-    if (size == 0.0 && y.isZero(0.0)) return true;
-    const auto outcome = correct(problem, metric, {}, std::max(size, 1e-14), options, y, lambda, work);
-    result.diagnostics.factorizations += outcome.factorisations;
-    result.diagnostics.iterations += outcome.factorisations;
-    result.diagnostics.max_relative_residual =
-        std::max(result.diagnostics.max_relative_residual, outcome.relative_residual);
-    if (outcome.status == CorrectorStatus::converged) return true;
-  }
-  return false;
+  const double lambda = factor * structure.scales.load;
+  auto state = find_contact_state(problem, metric, lambda, work, result.diagnostics.factorizations);
+  if (!state) return false;
+  result.diagnostics.iterations = result.diagnostics.factorizations;
+  result.diagnostics.max_relative_residual =
+      std::max(result.diagnostics.max_relative_residual, state->relative_residual);
+  y = std::move(state->y);
+  return true;
 }
 
 /// Follows the path towards the factors of one sign and keeps the states it passes; false when it ends before

@@ -59,12 +59,19 @@ Matrix3d StructuralProblem::axes_of(const std::array<int, 3>& dofs) const {
 void StructuralProblem::add_joint_springs(const VectorXd& y, VectorXd& f) {
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
     const JointSpring& spring = structure_.joint_springs[i];
-    double w = bonded_ ? 0.0 : -spring.gap;
+    double w = 0.0;
     for (int c = 0; c < 3; ++c) w += spring.row[c] * y[3 * spring.joint + c];
-    if (!frozen_) spring_active_[i] = bonded_ || !spring.one_sided || w > 0.0;
-    if (!spring_active_[i]) continue;
-    for (int c = 0; c < 3; ++c) f[3 * spring.joint + c] += spring.stiffness * w * spring.row[c];
+    const double gap = bonded_ ? 0.0 : spring.gap;
+    if (!frozen_) spring_active_[i] = bonded_ || !spring.one_sided || w > gap;
+    double force = spring_active_[i] ? spring.stiffness * (w - gap) : 0.0;
+    if (spring.one_sided) force += grip_ * spring.stiffness * w;
+    for (int c = 0; c < 3; ++c) f[3 * spring.joint + c] += force * spring.row[c];
   }
+}
+
+double StructuralProblem::acting_stiffness(std::size_t spring) const {
+  const JointSpring& s = structure_.joint_springs[spring];
+  return s.stiffness * ((spring_active_[spring] ? 1.0 : 0.0) + (s.one_sided ? grip_ : 0.0));
 }
 
 /// Turns the rows of nodes into the axes of their supports.
@@ -106,14 +113,6 @@ void StructuralProblem::residual(const VectorXd& y, double lambda, VectorXd& f) 
   constrain_residual(y, lambda, f);
 }
 
-VectorXd StructuralProblem::reactions(const VectorXd& y, double lambda) {
-  VectorXd f;
-  start_residual(lambda, f);
-  structure_.elements->add_residual(y, f);
-  add_joint_springs(y, f);
-  return f.head(3 * structure_.joints);
-}
-
 void StructuralProblem::load(const VectorXd& y, double, VectorXd& out) {
   const bool constant = stage_ == Stage::constant;
   out = constant ? structure_.constant_load : structure_.proportional_load;
@@ -151,13 +150,14 @@ void StructuralProblem::assemble_joints() {
   joint_matrix_.setZero();
   for (std::size_t member = 0; member < members_; ++member) add_member(member);
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
-    if (!spring_active_[i]) continue;
+    const double stiffness = acting_stiffness(i);
+    if (stiffness == 0.0) continue;
     const JointSpring& spring = structure_.joint_springs[i];
     const std::array<int, 3> dofs{3 * spring.joint, 3 * spring.joint + 1, 3 * spring.joint + 2};
     const Eigen::Vector3d row =
         axes_of(dofs).transpose() * Eigen::Vector3d(spring.row[0], spring.row[1], spring.row[2]);
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) joint_matrix_(dofs[r], dofs[c]) += spring.stiffness * row[r] * row[c];
+      for (int c = 0; c < 3; ++c) joint_matrix_(dofs[r], dofs[c]) += stiffness * row[r] * row[c];
   }
   const auto n = static_cast<Index>(free_.size());
   for (Index j = 0; j < n; ++j)
@@ -230,6 +230,11 @@ void StructuralProblem::set_bonded(bool bonded) {
   structure_.elements->set_bonded(bonded);
 }
 
+void StructuralProblem::set_grip(double share) {
+  grip_ = share;
+  structure_.elements->set_grip(share);
+}
+
 void StructuralProblem::freeze_contact(const VectorXd& y, double tolerance) {
   structure_.elements->freeze_contact(y, tolerance);
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
@@ -280,11 +285,12 @@ VectorXd StructuralProblem::tangent_product(const VectorXd& y, double lambda, co
   VectorXd scratch = VectorXd::Zero(y.size());
   add_joint_springs(y, scratch);
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
-    if (!spring_active_[i]) continue;
+    const double stiffness = acting_stiffness(i);
+    if (stiffness == 0.0) continue;
     const JointSpring& spring = structure_.joint_springs[i];
     double w = 0.0;
     for (int c = 0; c < 3; ++c) w += spring.row[c] * direction[3 * spring.joint + c];
-    for (int c = 0; c < 3; ++c) out[3 * spring.joint + c] += spring.stiffness * w * spring.row[c];
+    for (int c = 0; c < 3; ++c) out[3 * spring.joint + c] += stiffness * w * spring.row[c];
   }
   turn_to_supports(out);
   for (int j = 0; j < structure_.joints; ++j) {

@@ -41,6 +41,7 @@ class StructuralProblem final : public EquilibriumProblem {
 
   [[nodiscard]] bool one_sided() const override { return structure_.one_sided; }
   void set_bonded(bool bonded) override;
+  void set_grip(double share) override;
   /// Euler's load of the most compressed member: pi^2 EI / (N l^2).
   [[nodiscard]] double critical_load_scale(const Eigen::VectorXd& unit_response) const override;
 
@@ -53,8 +54,6 @@ class StructuralProblem final : public EquilibriumProblem {
                                                 const Eigen::VectorXd& direction);
   /// @brief From now on one-sided supports are glued where they touch at y, and absent elsewhere.
   void freeze_contact(const Eigen::VectorXd& y, double tolerance);
-  /// @brief Forces of the supports on the structure at y: global x, y, moment of each node, scaled units.
-  [[nodiscard]] Eigen::VectorXd reactions(const Eigen::VectorXd& y, double lambda);
 
  private:
   /// Factors on the proportional and the constant actions at a load factor.
@@ -64,6 +63,8 @@ class StructuralProblem final : public EquilibriumProblem {
   void start_residual(double lambda, Eigen::VectorXd& f) const;
   void turn_to_supports(Eigen::VectorXd& f) const;
   void add_joint_springs(const Eigen::VectorXd& y, Eigen::VectorXd& f);
+  /// Stiffness of a joint spring in the tangent, as add_joint_springs() last found it.
+  [[nodiscard]] double acting_stiffness(std::size_t spring) const;
   void constrain_residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) const;
   void assemble_joints();
   void add_member(std::size_t member);
@@ -88,6 +89,7 @@ class StructuralProblem final : public EquilibriumProblem {
   std::vector<char> spring_active_;
   Stage stage_ = Stage::proportional;
   bool bonded_ = false;
+  double grip_ = 0.0;
   bool frozen_ = false;  ///< spring_active_ and the elements' contact stay as they are
 };
 

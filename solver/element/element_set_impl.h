@@ -39,6 +39,7 @@ class ElementSetOf final : public ElementSet {
   void add_strip(int element, ContactStrip strip) override;
   void set_linear_geometry(bool linear) override { linear_ = linear; }
   void set_bonded(bool bonded) override { bonded_ = bonded; }
+  void set_grip(double share) override { grip_ = share; }
   void freeze_contact(const Eigen::VectorXd& y, double tolerance) override;
   [[nodiscard]] double frozen_share(int element, int foundation) const override;
   void set_pressure(int element, double proportional, double constant) override;
@@ -102,6 +103,8 @@ class ElementSetOf final : public ElementSet {
                           const double* direction, double* out) const;
   void add_support_residual(int element, const double* y, double* residual, bool keep);
   void collect_strip(std::size_t index, const double* y, const ElementDofs& dofs, const Shape& shape);
+  void add_interval(const ContactStrip& strip, const Shape& shape, const ContactStrip::Interval& interval,
+                    double modulus, double gap);
   [[nodiscard]] double value(const Functional& f, const ElementDofs& dofs, const double* y) const;
   void to_strain_row(const Functional& f, const Shape& shape, const Kinematics& kin, ZetaVector& row) const;
   void add_geometric(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
@@ -133,6 +136,7 @@ class ElementSetOf final : public ElementSet {
   std::array<Gauss, P> a_{};  ///< A_qr
   bool linear_ = false;
   bool bonded_ = false;
+  double grip_ = 0.0;
   double proportional_ = 0.0;  ///< factors on the pressures
   double constant_ = 0.0;
   bool frozen_ = false;  ///< contact is as in frozen_intervals_ and frozen_stations_

@@ -10,7 +10,7 @@ template <int P>
 void ElementSetOf<P>::collect_strip(std::size_t index, const double* y, const ElementDofs& dofs,
                                     const Shape& shape) {
   const ContactStrip& strip = strips_[index];
-  Gauss dx, dy, a;
+  Gauss dx, dy;
   for (int q = 0; q < P; ++q) {
     dx[q] = shape.h * y[dofs.v + q];
     dy[q] = shape.h * y[dofs.v + P + q];
@@ -21,23 +21,32 @@ void ElementSetOf<P>::collect_strip(std::size_t index, const double* y, const El
     intervals_.assign(1, {strip.range()[0], strip.range()[1]});
   else
     strip.contact_intervals({y[dofs.a[0]], y[dofs.a[1]]}, dx, dy, intervals_);
-  for (const auto& interval : intervals_) {
-    const double width = interval.to - interval.from;
-    for (std::size_t i = 0; i < strip_quadrature_.points.size(); ++i) {
-      const double xi = interval.from + width * strip_quadrature_.points[i];
-      const auto d = strip.direction_at(xi);
-      rule_->integrals_at(xi, a);
-      Functional f;
-      f.stiffness = strip.modulus() * width * strip_quadrature_.weights[i];
-      f.gap = bonded_ ? 0.0 : strip.gap();
-      f.a = {d[0], d[1], 0.0};
-      for (int q = 0; q < P; ++q) {
-        f.v[0][q] = d[0] * shape.h * a[q];
-        f.v[1][q] = d[1] * shape.h * a[q];
-        f.v[2][q] = 0.0;
-      }
-      acting_.push_back(f);
+  for (const auto& interval : intervals_)
+    add_interval(strip, shape, interval, strip.modulus(), bonded_ ? 0.0 : strip.gap());
+  if (grip_ > 0.0)
+    add_interval(strip, shape, {strip.range()[0], strip.range()[1]}, grip_ * strip.modulus(), 0.0);
+}
+
+/// Appends the Gauss points of an interval on which a strip acts with a modulus and a gap.
+template <int P>
+void ElementSetOf<P>::add_interval(const ContactStrip& strip, const Shape& shape,
+                                   const ContactStrip::Interval& interval, double modulus, double gap) {
+  Gauss a;
+  const double width = interval.to - interval.from;
+  for (std::size_t i = 0; i < strip_quadrature_.points.size(); ++i) {
+    const double xi = interval.from + width * strip_quadrature_.points[i];
+    const auto d = strip.direction_at(xi);
+    rule_->integrals_at(xi, a);
+    Functional f;
+    f.stiffness = modulus * width * strip_quadrature_.weights[i];
+    f.gap = gap;
+    f.a = {d[0], d[1], 0.0};
+    for (int q = 0; q < P; ++q) {
+      f.v[0][q] = d[0] * shape.h * a[q];
+      f.v[1][q] = d[1] * shape.h * a[q];
+      f.v[2][q] = 0.0;
     }
+    acting_.push_back(f);
   }
 }
 
@@ -56,6 +65,11 @@ void ElementSetOf<P>::add_support_residual(int element, const double* y, double*
   for (int i = 0; i < shape.strip_count; ++i) collect_strip(shape.first_strip + i, y, dofs, shape);
   for (int i = 0; i < shape.station_count; ++i) {
     const std::size_t station = shape.first_station + i;
+    if (grip_ > 0.0 && stations_[station].one_sided) {
+      acting_.push_back(stations_[station]);
+      acting_.back().stiffness *= grip_;
+      acting_.back().gap = 0.0;
+    }
     if (!acts(stations_[station], station, dofs, y)) continue;
     acting_.push_back(stations_[station]);
     if (bonded_) acting_.back().gap = 0.0;

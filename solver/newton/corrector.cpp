@@ -10,9 +10,9 @@ double PathMetric::norm(const Eigen::VectorXd& a, double la) const { return std:
 
 namespace {
 
-/// One bordered Newton correction with the factors at hand; returns its norm.
-double apply_correction(EquilibriumProblem& problem, const PathMetric& metric, const SideCondition& side,
-                        Eigen::VectorXd& y, double& lambda, Workspace& work) {
+/// One bordered Newton correction with the factors at hand, in work.correction; returns its part in lambda.
+double find_correction(EquilibriumProblem& problem, const SideCondition& side, const Eigen::VectorXd& y,
+                       double lambda, Workspace& work) {
   work.correction = -work.residual;
   problem.solve(work.correction);
   problem.load(y, lambda, work.load_response);
@@ -25,9 +25,30 @@ double apply_correction(EquilibriumProblem& problem, const PathMetric& metric, c
   }
   const double dlambda = -along / denominator;
   work.correction += dlambda * work.load_response;
-  y += work.correction;
-  lambda += dlambda;
-  return metric.norm(work.correction, dlambda);
+  return dlambda;
+}
+
+/// Corrections before a residual that no longer falls counts as rounding's.
+constexpr int kStagnantIterations = 4;
+
+/// Share of the correction to take so that the residual, `now` before it, falls.
+double damping(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lambda, double dlambda,
+               double now, Workspace& work) {
+  constexpr int kMostHalvings = 4;
+  double share = 1.0;
+  double best = std::numeric_limits<double>::infinity();
+  double best_share = 1.0;
+  for (int i = 0; i <= kMostHalvings; ++i, share *= 0.5) {
+    work.trial = y + share * work.correction;
+    problem.residual(work.trial, lambda + share * dlambda, work.residual);
+    const double size = problem.relative_residual(work.residual, work.trial, lambda + share * dlambda);
+    if (size <= (1.0 - 0.5 * share) * now) return share;
+    if (size < best) {
+      best = size;
+      best_share = share;
+    }
+  }
+  return best_share;
 }
 
 }  // namespace
@@ -38,6 +59,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
   CorrectorOutcome out;
   double previous = scale;
   double expected = std::numeric_limits<double>::infinity();
+  double last_residual = std::numeric_limits<double>::infinity();
   for (int it = 0; it < options.max_iterations; ++it) {
     out.tangent = problem.linearise(y, lambda, work.residual);
     ++out.factorisations;
@@ -45,9 +67,17 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     if (!std::isfinite(out.relative_residual)) return out;
     const bool small =
         expected <= options.tolerance * scale && out.relative_residual <= options.largest_residual;
-    const bool last = it > 0 && (small || out.relative_residual <= options.residual_floor);
-    const double size = apply_correction(problem, metric, side, y, lambda, work);
+    const bool stagnant = it >= kStagnantIterations && out.relative_residual <= options.stagnant_residual &&
+                          out.relative_residual > 0.5 * last_residual;
+    const bool last = it > 0 && (small || stagnant || out.relative_residual <= options.residual_floor);
+    last_residual = out.relative_residual;
+    const double dlambda = find_correction(problem, side, y, lambda, work);
+    const double size = metric.norm(work.correction, dlambda);
     if (!std::isfinite(size)) return out;
+    const double share =
+        options.damped && !last ? damping(problem, y, lambda, dlambda, out.relative_residual, work) : 1.0;
+    y += share * work.correction;
+    lambda += share * dlambda;
     if (it == 0) out.first_correction = size;
     if (last) {
       out.status = CorrectorStatus::converged;
@@ -55,7 +85,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     }
     if (size > options.largest_correction * scale) return out;
     // quadratic convergence: the next ratio of corrections is about this one squared
-    const double ratio = std::min(1.0, size / previous);
+    const double ratio = share < 1.0 ? 1.0 : std::min(1.0, size / previous);
     expected = size * ratio * ratio;
     previous = size;
   }

@@ -29,10 +29,12 @@ struct SideCondition {
 
 struct CorrectorOptions {
   int max_iterations = 12;
-  double tolerance = 1e-9;          ///< on the predicted norm of the next correction, relative to the step
-  double largest_residual = 1e-6;   ///< relative residual above which nothing counts as converged
-  double largest_correction = 2.0;  ///< a correction beyond this many steps ends the iteration as diverged
-  double residual_floor = 2e-13;    ///< relative residual that rounding allows; the iteration stops there
+  double tolerance = 1e-9;           ///< on the predicted norm of the next correction, relative to the step
+  double largest_residual = 1e-8;    ///< relative residual above which nothing counts as converged
+  double largest_correction = 2.0;   ///< a correction beyond this many steps ends the iteration as diverged
+  bool damped = false;               ///< shortens corrections that raise the residual, see correct()
+  double residual_floor = 2e-13;     ///< relative residual that rounding allows; the iteration stops there
+  double stagnant_residual = 1e-11;  ///< below it, one that no longer falls is rounding's, too
 };
 
 enum class CorrectorStatus { converged, too_many_iterations, diverged };
@@ -47,7 +49,7 @@ struct CorrectorOutcome {
 
 /// @brief Vectors that the corrector and the predictor reuse, so that iterations do not allocate.
 struct Workspace {
-  Eigen::VectorXd residual, correction, load_response;
+  Eigen::VectorXd residual, correction, load_response, trial;
 };
 
 /// @brief Corrects (y, lambda) in place.
@@ -55,6 +57,9 @@ struct Workspace {
 /// Each iteration factorises once and solves twice (bordering); the step taken with the last factors leaves
 /// the point more accurate than the tolerance, and `work.load_response` = J^-1 load with those factors, for
 /// the tangent.
+/// Undamped it is the fastest while the contact changes little. Damped, a correction is halved until it
+/// lowers the residual (or four times at most): that ends cycles between contact patterns, at the price of
+/// some residuals.
 /// @param scale norm of the step that led to the starting point
 [[nodiscard]] CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric,
                                        const SideCondition& side, double scale,

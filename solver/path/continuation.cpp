@@ -26,10 +26,14 @@ constexpr double kLargestCorrection = 0.5;
 /// A turn is a corner when it did not change while the steps shrank by this much, and their chords with them.
 constexpr double kCornerShrink = 0.02;
 constexpr double kCornerLength = 4.0;
+/// Share of the last size that was accepted at once to which steps must have shrunk before a turn is looked
+/// for.
+constexpr double kTurnShrink = 1e-3;
 
 /// Corrections of this size are rounding's where the tangent is nearly singular, however close two points
 /// are.
 constexpr double kNoise = 1e-6;
+constexpr double kLeastNoise = 1e-12;
 /// Size (displacement gradient) of the first, very small step where supports act on one side only.
 constexpr double kSmallStart = 1e-7;
 
@@ -45,6 +49,12 @@ struct Hermite {
   }
 };
 
+/// Sign of det [J, -load; tangent]: parity of the negative eigenvalues times the sense of the load. It is the
+/// same on both sides of a corner, because both sides' tangents agree in the plane that separates them.
+bool keeps_orientation(const PathPoint& from, const PathPoint& to) {
+  return (from.negative % 2 == to.negative % 2) == ((from.tangent_lambda > 0.0) == (to.tangent_lambda > 0.0));
+}
+
 }  // namespace
 
 Continuation::Continuation(EquilibriumProblem& problem, ContinuationOptions options)
@@ -58,40 +68,40 @@ void Continuation::count(const CorrectorOutcome& outcome) {
   statistics_.iterations += outcome.factorisations;
 }
 
-bool Continuation::unit_response(const VectorXd& at, bool bonded, VectorXd& response, TangentReport& report) {
+bool Continuation::unit_response(const VectorXd& at, double lambda, bool bonded, VectorXd& response,
+                                 TangentReport& report) {
   problem_.set_bonded(bonded);
-  report = problem_.linearise(at, 0.0, work_.residual);
+  report = problem_.linearise(at, lambda, work_.residual);
   problem_.set_bonded(false);
   ++statistics_.factorizations;
-  problem_.load(at, 0.0, response);
+  problem_.load(at, lambda, response);
   problem_.solve(response);
   return response.allFinite() && metric_.norm(response, 0.0) < kSingularResponse;
 }
 
-bool Continuation::one_sided_response(double direction, VectorXd& response, TangentReport& report) {
-  VectorXd guess;
+/// The start of a path on which supports may act on one side only: what they do under a very small load.
+std::optional<PathPoint> Continuation::one_sided_start(double direction) {
+  VectorXd response;
+  TangentReport report;
   const VectorXd zero = VectorXd::Zero(problem_.size());
-  const SideCondition load_control;
-  CorrectorOptions options = options_.corrector;
-  options.max_iterations = 60;
-  options.largest_correction = std::numeric_limits<double>::infinity();
-  for (const bool bonded : {true, false}) {
-    if (!unit_response(zero, bonded, guess, report)) continue;
-    const double norm = metric_.norm(guess, 0.0);
-    if (norm == 0.0) {
-      response = guess;
-      return true;
-    }
-    double lambda = direction * kSmallStart / norm;
-    VectorXd y = lambda * guess;
-    const auto outcome = correct(problem_, metric_, load_control, kSmallStart, options, y, lambda, work_);
-    count(outcome);
-    if (outcome.status != CorrectorStatus::converged) continue;
-    response = y / lambda;
-    report = outcome.tangent;
-    return true;
-  }
-  return false;
+  if (!unit_response(zero, 0.0, true, response, report)) return std::nullopt;
+  const double norm = metric_.norm(response, 0.0);
+  if (norm == 0.0) return first_point(zero, 0.0, response, direction, report);
+  const double lambda = direction * kSmallStart / norm;
+  const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations);
+  if (!state) return std::nullopt;
+  if (!state->through_grip || is_proportional(*state, lambda))
+    return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
+  // it moved until gaps closed: the path begins where it came to rest
+  if (!unit_response(state->y, lambda, false, response, report)) return std::nullopt;
+  return first_point(state->y, lambda, response, direction, report);
+}
+
+/// Whether half the load gives half the displacement.
+bool Continuation::is_proportional(const ContactState& state, double lambda) {
+  constexpr double kProportional = 1e-3;
+  const auto half = find_contact_state(problem_, metric_, 0.5 * lambda, work_, statistics_.factorizations);
+  return half && metric_.norm(state.y - 2.0 * half->y, 0.0) <= kProportional * metric_.norm(state.y, 0.0);
 }
 
 void Continuation::set_load_scale(const VectorXd& response) {
@@ -103,11 +113,12 @@ void Continuation::set_load_scale(const VectorXd& response) {
   metric_.load_weight = gradient * gradient;
 }
 
-PathPoint Continuation::first_point(const VectorXd& y, const VectorXd& response, double direction,
-                                    const TangentReport& report) {
+PathPoint Continuation::first_point(const VectorXd& y, double lambda, const VectorXd& response,
+                                    double direction, const TangentReport& report) {
   set_load_scale(response);
   PathPoint point;
   point.y = y;
+  point.lambda = lambda;
   const double norm = direction * metric_.norm(response, 1.0);
   point.tangent = response / norm;
   point.tangent_lambda = 1.0 / norm;
@@ -117,22 +128,17 @@ PathPoint Continuation::first_point(const VectorXd& y, const VectorXd& response,
 }
 
 std::optional<PathPoint> Continuation::start(double direction) {
+  if (!problem_.one_sided()) return start_at(VectorXd::Zero(problem_.size()), direction);
   metric_.load_weight = 0.0;
-  VectorXd response;
-  TangentReport report;
-  const VectorXd zero = VectorXd::Zero(problem_.size());
-  const bool found = problem_.one_sided() ? one_sided_response(direction, response, report)
-                                          : unit_response(zero, false, response, report);
-  if (!found) return std::nullopt;
-  return first_point(zero, response, direction, report);
+  return one_sided_start(direction);
 }
 
 std::optional<PathPoint> Continuation::start_at(const VectorXd& y, double direction) {
   metric_.load_weight = 0.0;
   VectorXd response;
   TangentReport report;
-  if (!unit_response(y, false, response, report)) return std::nullopt;
-  return first_point(y, response, direction, report);
+  if (!unit_response(y, 0.0, false, response, report)) return std::nullopt;
+  return first_point(y, 0.0, response, direction, report);
 }
 
 void Continuation::set_tangent(PathPoint& point, const CorrectorOutcome& outcome, const VectorXd& direction,
@@ -145,13 +151,28 @@ void Continuation::set_tangent(PathPoint& point, const CorrectorOutcome& outcome
   point.log_abs_det = outcome.tangent.log_abs_det;
 }
 
+/// Corrects `to` from the predictor under the side condition at hand, damped where the contact makes it
+/// cycle.
+CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, double movement,
+                                            PathPoint& to) {
+  CorrectorOptions options = options_.corrector;
+  for (;;) {
+    to.y = from.y + step * from.tangent;
+    to.lambda = from.lambda + step * from.tangent_lambda;
+    const auto outcome = correct(problem_, metric_, side_, movement, options, to.y, to.lambda, work_);
+    count(outcome);
+    if (options.damped || !problem_.one_sided() || outcome.status != CorrectorStatus::too_many_iterations)
+      return outcome;
+    options.damped = true;
+  }
+}
+
 Continuation::Trial Continuation::try_step(const PathPoint& from, double step, PathPoint& to) {
-  to.y = from.y + step * from.tangent;
-  to.lambda = from.lambda + step * from.tangent_lambda;
   side_.normal = metric_.weights->cwiseProduct(from.tangent);
   side_.normal_lambda = metric_.load_weight * from.tangent_lambda;
-  const auto outcome = correct(problem_, metric_, side_, step, options_.corrector, to.y, to.lambda, work_);
-  count(outcome);
+  // where the load dwarfs the displacements, a step may be long while the structure hardly moves
+  const double movement = std::min(step, kLargeGradient);
+  const auto outcome = correct_step(from, step, movement, to);
   Trial trial;
   if (outcome.status != CorrectorStatus::converged) return trial;
   set_tangent(to, outcome, from.tangent, from.tangent_lambda);
@@ -159,7 +180,7 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
       std::clamp(metric_.inner(to.tangent, to.tangent_lambda, from.tangent, from.tangent_lambda), -1.0, 1.0);
   trial.converged = true;
   trial.angle = std::acos(cosine);
-  trial.correction = outcome.first_correction / step;
+  trial.correction = outcome.first_correction / movement;
   trial.growth = std::min({options_.max_growth, options_.target_angle / std::max(trial.angle, 1e-12),
                            options_.target_correction / std::max(trial.correction, 1e-12)});
   trial.growth = std::max(trial.growth, kLeastGrowth);
@@ -167,6 +188,24 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   to.arc_length = from.arc_length + trial.length;
   statistics_.max_relative_residual = std::max(statistics_.max_relative_residual, outcome.relative_residual);
   return trial;
+}
+
+/// A step that prescribes the movement alone and leaves the load free: it passes where the load turns back
+/// within a movement that is too small to count in the path's norm.
+bool Continuation::step_by_movement(const PathPoint& from, double size, PathPoint& to) {
+  constexpr double kLargestTurn = 0.9;  // of the movement, rad
+  side_.normal = metric_.weights->cwiseProduct(from.tangent);
+  side_.normal_lambda = 0.0;
+  const double movement = size * metric_.norm(from.tangent, 0.0);
+  if (movement == 0.0) return false;
+  const auto outcome = correct_step(from, size, movement, to);
+  if (outcome.status != CorrectorStatus::converged) return false;
+  set_tangent(to, outcome, from.tangent, 0.0);
+  const double along = metric_.inner(to.tangent, 0.0, from.tangent, 0.0);
+  const double norms = metric_.norm(to.tangent, 0.0) * metric_.norm(from.tangent, 0.0);
+  to.arc_length = from.arc_length + metric_.norm(to.y - from.y, to.lambda - from.lambda);
+  return along > std::cos(kLargestTurn) * norms && keeps_orientation(from, to) &&
+         metric_.norm(to.y - from.y, 0.0) < kCornerLength * movement;
 }
 
 /// A turn that stays the same while the steps that meet it shrink is a corner of the path itself: a support
@@ -181,19 +220,57 @@ bool Continuation::is_corner(const Trial& trial, double size) {
   return true;
 }
 
+/// Takes the path round a corner that is within `size` of `from`, where it goes back against its tangent or
+/// so nearly across it that no step along the tangent meets it again: the direction is that of the supports
+/// which act beyond, in the sense that keeps the orientation.
+bool Continuation::turn(const PathPoint& from, double size, PathPoint& to) {
+  constexpr double kBeyond = 10.0;     // the step over the distance to the corner
+  constexpr double kLeastTurn = 1e-3;  // of the tangent, rad
+  VectorXd response;
+  TangentReport report;
+  if (!unit_response(from.y + size * from.tangent, from.lambda + size * from.tangent_lambda, false, response,
+                     report))
+    return false;
+  PathPoint corner = from;
+  const double norm = metric_.norm(response, 1.0);
+  corner.tangent = response / norm;
+  corner.tangent_lambda = 1.0 / norm;
+  corner.negative = report.negative;
+  if (!keeps_orientation(from, corner)) {
+    corner.tangent = -corner.tangent;
+    corner.tangent_lambda = -corner.tangent_lambda;
+  }
+  const double cosine =
+      metric_.inner(corner.tangent, corner.tangent_lambda, from.tangent, from.tangent_lambda);
+  if (cosine > std::cos(kLeastTurn)) return false;
+  const Trial trial = try_step(corner, kBeyond * size, to);
+  return trial.converged && trial.angle <= options_.max_angle && trial.correction <= kLargestCorrection &&
+         keeps_orientation(from, to);
+}
+
 StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint& to) {
   double size = std::min(step.wanted, options_.max_step);
+  const double first_size = size;
+  if (easy_size_ == 0.0) easy_size_ = size;
   while (size >= options_.min_step) {
     const Trial trial = try_step(from, size, to);
     const bool smooth = trial.angle <= options_.max_angle && trial.correction <= kLargestCorrection;
     if (trial.converged && (smooth || is_corner(trial, size))) {
       ++statistics_.steps;
+      if (size == first_size) easy_size_ = size;
       step.taken = size;
       step.wanted = std::min(size * (smooth ? trial.growth : options_.max_growth), options_.max_step);
       return StepOutcome::advanced;
     }
     ++statistics_.rejected_steps;
     size *= std::min(trial.growth, 0.5);
+    if (problem_.one_sided() && size < kTurnShrink * easy_size_ &&
+        (step_by_movement(from, size, to) || turn(from, size, to))) {
+      ++statistics_.steps;
+      step.taken = size;
+      step.wanted = std::min(size * options_.max_growth, options_.max_step);
+      return StepOutcome::turned;
+    }
   }
   step.wanted = size;
   return StepOutcome::step_underflow;
@@ -220,33 +297,47 @@ double Continuation::distance_along(const Chord& chord, const PathPoint& a, cons
 
 Chord Continuation::chord(const PathPoint& a, const PathPoint& b) const {
   const double length = distance(a, b);
-  return {(b.y - a.y) / length, (b.lambda - a.lambda) / length};
+  return {(b.y - a.y) / length, (b.lambda - a.lambda) / length, false};
+}
+
+Chord Continuation::movement_chord(const PathPoint& a, const PathPoint& b) const {
+  const double length = metric_.norm(b.y - a.y, 0.0);
+  return {(b.y - a.y) / length, 0.0, true};
+}
+
+double Continuation::distance_in(const Chord& chord, const PathPoint& a, const PathPoint& b) const {
+  return metric_.norm(b.y - a.y, chord.movement_only ? 0.0 : b.lambda - a.lambda);
 }
 
 double Continuation::load_rate(const Chord& chord, const PathPoint& at) const {
   return at.tangent_lambda / metric_.inner(at.tangent, at.tangent_lambda, chord.y, chord.lambda);
 }
 
-std::optional<PathPoint> Continuation::between(const Chord& chord, const PathPoint& lo, const PathPoint& hi,
-                                               double share) {
+void Continuation::interpolate(const Chord& chord, const PathPoint& lo, const PathPoint& hi, double share,
+                               PathPoint& at) const {
   constexpr double kSmoothRate =
       0.3;  // below it a tangent is a singular point's, or turns away from the chord
   const double length = distance_along(chord, lo, hi);
   const double rate_lo = metric_.inner(lo.tangent, lo.tangent_lambda, chord.y, chord.lambda);
   const double rate_hi = metric_.inner(hi.tangent, hi.tangent_lambda, chord.y, chord.lambda);
-  PathPoint point;
   if (rate_lo > kSmoothRate && rate_hi > kSmoothRate) {
     const Hermite h(share * length, length);
-    point.y = h.a * lo.y + (h.da / rate_lo) * lo.tangent + h.b * hi.y + (h.db / rate_hi) * hi.tangent;
-    point.lambda = h.a * lo.lambda + h.da / rate_lo * lo.tangent_lambda + h.b * hi.lambda +
-                   h.db / rate_hi * hi.tangent_lambda;
+    at.y = h.a * lo.y + (h.da / rate_lo) * lo.tangent + h.b * hi.y + (h.db / rate_hi) * hi.tangent;
+    at.lambda = h.a * lo.lambda + h.da / rate_lo * lo.tangent_lambda + h.b * hi.lambda +
+                h.db / rate_hi * hi.tangent_lambda;
   } else {
-    point.y = (1.0 - share) * lo.y + share * hi.y;
-    point.lambda = (1.0 - share) * lo.lambda + share * hi.lambda;
+    at.y = (1.0 - share) * lo.y + share * hi.y;
+    at.lambda = (1.0 - share) * lo.lambda + share * hi.lambda;
   }
+}
+
+std::optional<PathPoint> Continuation::between(const Chord& chord, const PathPoint& lo, const PathPoint& hi,
+                                               double share) {
+  PathPoint point;
+  interpolate(chord, lo, hi, share, point);
   side_.normal = metric_.weights->cwiseProduct(chord.y);
   side_.normal_lambda = metric_.load_weight * chord.lambda;
-  const double scale = std::max(distance(lo, hi), kNoise);
+  const double scale = std::max(distance_in(chord, lo, hi), chord.movement_only ? kLeastNoise : kNoise);
   const auto outcome =
       correct(problem_, metric_, side_, scale, options_.corrector, point.y, point.lambda, work_);
   count(outcome);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "solver/model/analysis.h"
+#include "solver/newton/contact_state.h"
 #include "solver/newton/corrector.h"
 #include "solver/path/path_point.h"
 
@@ -37,14 +38,17 @@ struct StepSize {
   double wanted = 0.0;
 };
 
-/// Unit direction from one point of a path to another.
+/// Unit direction from one point of a path to another. Where the load turns within a movement too small for
+/// the path's norm, that of the movement alone, without load.
 struct Chord {
   Eigen::VectorXd y;
   double lambda = 0.0;
+  bool movement_only = false;
 };
 
-/// What a step met.
-enum class StepOutcome { advanced, step_underflow };
+/// What a step met. `turned`: the path turns sharply at the step's start, because a support begins or ceases
+/// to act there, and the step leads on in the new direction.
+enum class StepOutcome { advanced, turned, step_underflow };
 
 /// @brief Follows F(y, lambda) = 0 from a known point.
 ///
@@ -59,6 +63,7 @@ class Continuation {
   ///
   /// Where supports act on one side only, the tangent is that of the structure in the contact it takes under
   /// a very small load (solved from the glued structure), because there is no derivative at zero load.
+  /// A structure that moves freely until a gap closes starts where it comes to rest under that load.
   /// @return empty when the structure is singular or no contact state was found
   [[nodiscard]] std::optional<PathPoint> start(double direction = 1.0);
   /// @brief First point of a path that starts from a known equilibrium y at lambda = 0 (under constant
@@ -76,13 +81,19 @@ class Continuation {
   /// @brief The straight line from one point of the path to another: places between are told by their
   /// distance along it.
   [[nodiscard]] Chord chord(const PathPoint& a, const PathPoint& b) const;
+  [[nodiscard]] Chord movement_chord(const PathPoint& a, const PathPoint& b) const;
   /// @brief The point of the path between lo and hi, in the plane normal to the chord at a share (0 to 1) of
   /// the way.
   /// @return empty when the correction failed
   [[nodiscard]] std::optional<PathPoint> between(const Chord& chord, const PathPoint& lo, const PathPoint& hi,
                                                  double share);
-  /// Distance of two points in the path's norm, and along a chord.
+  /// @brief A guess of the path at a share of the way from lo to hi: cubic where the tangents allow it. Sets
+  /// y and lambda only.
+  void interpolate(const Chord& chord, const PathPoint& lo, const PathPoint& hi, double share,
+                   PathPoint& at) const;
+  /// Distance of two points in the path's norm, in a chord's, and along a chord.
   [[nodiscard]] double distance(const PathPoint& a, const PathPoint& b) const;
+  [[nodiscard]] double distance_in(const Chord& chord, const PathPoint& a, const PathPoint& b) const;
   [[nodiscard]] double distance_along(const Chord& chord, const PathPoint& a, const PathPoint& b) const;
   /// d lambda by distance along the chord.
   [[nodiscard]] double load_rate(const Chord& chord, const PathPoint& at) const;
@@ -95,11 +106,13 @@ class Continuation {
   [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
 
  private:
-  [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, bool bonded, Eigen::VectorXd& response,
-                                   TangentReport& report);
-  [[nodiscard]] bool one_sided_response(double direction, Eigen::VectorXd& response, TangentReport& report);
-  [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, const Eigen::VectorXd& response,
-                                      double direction, const TangentReport& report);
+  [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, double lambda, bool bonded,
+                                   Eigen::VectorXd& response, TangentReport& report);
+  [[nodiscard]] std::optional<PathPoint> one_sided_start(double direction);
+  [[nodiscard]] bool is_proportional(const ContactState& state, double lambda);
+  [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, double lambda,
+                                      const Eigen::VectorXd& response, double direction,
+                                      const TangentReport& report);
   void set_load_scale(const Eigen::VectorXd& response);
   void set_tangent(PathPoint& point, const CorrectorOutcome& outcome, const Eigen::VectorXd& direction,
                    double direction_lambda);
@@ -117,6 +130,10 @@ class Continuation {
     double first_size = 0.0;
   };
   [[nodiscard]] bool is_corner(const Trial& trial, double size);
+  [[nodiscard]] CorrectorOutcome correct_step(const PathPoint& from, double step, double movement,
+                                              PathPoint& to);
+  [[nodiscard]] bool step_by_movement(const PathPoint& from, double size, PathPoint& to);
+  [[nodiscard]] bool turn(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] Trial try_step(const PathPoint& from, double step, PathPoint& to);
   void count(const CorrectorOutcome& outcome);
 
@@ -126,6 +143,7 @@ class Continuation {
   PathMetric metric_;
   double load_scale_ = 1.0;
   Corner corner_;
+  double easy_size_ = 0.0;  ///< of the last step that was accepted at its first size
   Workspace work_;
   SideCondition side_;
 };

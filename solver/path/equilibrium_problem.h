@@ -42,6 +42,8 @@ class EquilibriumProblem {
   [[nodiscard]] virtual bool one_sided() const { return false; }
   /// Treats one-sided supports as glued, without gap, as long as it is set.
   virtual void set_bonded(bool) {}
+  /// One-sided supports also react in both directions, without gap, with this share of their stiffness.
+  virtual void set_grip(double) {}
   /// @brief Rough size of the first critical load factor from the response to a unit load; infinity when it
   /// gives none.
   [[nodiscard]] virtual double critical_load_scale(const Eigen::VectorXd& unit_response) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace snapthrough {
@@ -44,6 +45,7 @@ class Tracer {
   const TraceSink& sink_;
   TraceOutcome out_;
   int limit_points_ = 0;
+  std::vector<ContactChange> changes_;  ///< on the step that is being taken
 };
 
 double Tracer::first_step(const StepOptions& steps, const PathPoint& start) const {
@@ -136,6 +138,11 @@ bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<Crit
     to = out_.last;
   else if (bounded)
     ended = finish(by_bound, to);
+  // a turn within rounding's reach still is a step
+  if (to.arc_length <= from.arc_length)
+    to.arc_length = std::nextafter(from.arc_length, std::numeric_limits<double>::infinity());
+  for (const ContactChange& change : changes_)
+    if (sink_.on_contact && change.point.arc_length <= to.arc_length) sink_.on_contact(change);
   if (sink_.on_step) sink_.on_step(from, to);
   if (sink_.on_point) sink_.on_point(to);
   return ended;
@@ -152,16 +159,22 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
   if (!rules_.first_step) continuation_.limit_steps(steps, std::abs(from.tangent_lambda));
   PathPoint to;
   for (int n = 0; !ends_here(from, n, stop);) {
-    if (continuation_.step(from, size, to) == StepOutcome::step_underflow) {
+    const StepOutcome outcome = continuation_.step(from, size, to);
+    if (outcome == StepOutcome::step_underflow) {
       finish(TraceEnd::step_underflow, from);
       break;
     }
-    const LocatedEvents located = locate_critical_points(continuation_, from, to, rules_.tolerance);
+    const LocatedEvents located = outcome == StepOutcome::turned
+                                      ? locate_at_turn(continuation_, from, to, rules_.tolerance)
+                                      : locate_critical_points(continuation_, from, to, rules_.tolerance);
     if (!located.same_path) {
       continuation_.reject(size);
       continue;
     }
     ++n;
+    if (rules_.zones)
+      changes_ = locate_contact_changes(continuation_, from, to, outcome == StepOutcome::turned, rules_.zones,
+                                        rules_.tolerance);
     if (accept(from, to, located.events)) break;
     std::swap(from, to);
   }

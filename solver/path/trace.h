@@ -11,6 +11,7 @@
 
 #include "solver/model/analysis.h"
 #include "solver/path/continuation.h"
+#include "solver/stability/contact_change.h"
 #include "solver/stability/locate.h"
 
 namespace snapthrough {
@@ -25,6 +26,7 @@ struct TraceRules {
   std::function<double(const PathPoint&)> monitor_rate;  ///< by arc length, with monitor_turns
   std::optional<std::array<double, 2>> monitor_range;
   int steps = 1000;
+  ZoneCounter zones;      ///< empty: contact that begins or ends is not looked for
   double gradient = 4.0;  ///< norm of the displacement at which a path is given up as leaving for infinity
   std::optional<double> first_step;  ///< in the path's norm; empty: from the load's scale
   /// Critical points of other branches: the path ends where it meets one of them again.
@@ -54,6 +56,7 @@ enum class TraceEnd {
 struct TraceSink {
   std::function<void(const PathPoint&)> on_point;  ///< start, every accepted step, and the end
   std::function<void(const CriticalEvent&)> on_critical;
+  std::function<void(const ContactChange&)> on_contact;
   /// All points between and including a step's ends are reachable here through continuation.between.
   std::function<void(const PathPoint&, const PathPoint&)> on_step;
 };

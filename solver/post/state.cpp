@@ -8,6 +8,7 @@
 #include <span>
 
 #include "solver/assembly/axis_offset.h"
+#include "solver/post/contact.h"
 #include "solver/post/element_reader.h"
 #include "solver/post/section_force.h"
 
@@ -49,38 +50,6 @@ MemberState member_state(const Structure& structure, const Model& model, const E
   return out;
 }
 
-/// Share of an element below which an interval of contact is rounding at a place that cannot move.
-constexpr double kNoInterval = 1e-9;
-
-/// Contact intervals of a foundation in its member's arc length, neighbours joined.
-std::vector<std::array<double, 2>> contact_of(const Structure& structure, const Model& model,
-                                              const Eigen::VectorXd& y, int foundation) {
-  const int member = index_of(model.members, model.foundations[foundation].member);
-  const double length = structure.axes[member]->length();
-  std::vector<std::array<double, 2>> joined;
-  std::vector<ContactStrip::Interval> local;
-  for (const FoundationPart& part : structure.foundation_parts) {
-    if (part.foundation != foundation) continue;
-    local.assign(1, {part.range[0], part.range[1]});
-    if (part.strip) {
-      const ElementReader reader(structure, y, part.element);
-      part.strip->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
-                                    reader.gradient(1), local);
-    }
-    const MeshElement& cell = structure.mesh.elements[part.element];
-    for (const auto& interval : local) {
-      if (interval.to - interval.from <= kNoInterval) continue;
-      const double from = length * (cell.from + interval.from * (cell.to - cell.from));
-      const double to = length * (cell.from + interval.to * (cell.to - cell.from));
-      if (!joined.empty() && from - joined.back()[1] <= 1e-9 * length)
-        joined.back()[1] = to;
-      else
-        joined.push_back({from, to});
-    }
-  }
-  return joined;
-}
-
 FoundationState foundation_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
                                  int index, int points) {
   const Foundation& base = model.foundations[index];
@@ -108,7 +77,7 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     out.s.push_back(fraction * axis.length());
     out.reaction.push_back(r);
   }
-  out.contact = contact_of(structure, model, y, index);
+  out.contact = contact_intervals(structure, model, y, index);
   return out;
 }
 
@@ -132,7 +101,7 @@ std::vector<double> contact_fractions(const Structure& structure, const Model& m
     const double length =
         structure.axes[index_of(model.members, base.member)]->length() * (base.range[1] - base.range[0]);
     double contact = 0.0;
-    for (const auto& interval : contact_of(structure, model, y, static_cast<int>(i)))
+    for (const auto& interval : contact_intervals(structure, model, y, static_cast<int>(i)))
       contact += interval[1] - interval[0];
     out.push_back(std::clamp(contact / length, 0.0, 1.0));
   }

@@ -33,7 +33,8 @@ bool loads_agree(double l0, double l1, double tolerance, double load_scale) {
 /// paths.
 bool apart(const Continuation& continuation, const Chord& chord, const PathPoint& a, const PathPoint& b) {
   constexpr double kSteepest = 10.0;
-  return continuation.distance(a, b) > kSteepest * continuation.distance_along(chord, a, b) + kSamePath;
+  return continuation.distance_in(chord, a, b) >
+         kSteepest * continuation.distance_along(chord, a, b) + kSamePath;
 }
 
 /// det(J) / (dlambda/dtau), scaled by its size at the start of the search.
@@ -41,6 +42,18 @@ double bifurcation_function(const Search& search, const PathPoint& at) {
   const double parity = at.negative % 2 == 0 ? 1.0 : -1.0;
   const double rate = search.continuation.load_rate(search.chord, at);
   return parity * std::exp(at.log_abs_det - search.log_abs_det) / rate;
+}
+
+/// Value at a closed bracket, over that at the first one's ends, which only a jump of the tangent leaves.
+constexpr double kJump = 1e-3;
+
+/// A function whose sign changes in a closed bracket without passing zero jumps, because a support begins or
+/// ceases to act.
+CriticalCause cause_of(const Search& search, const LocatedRoot& root, double first_value) {
+  const double left = std::max(std::abs(root.value_before), std::abs(root.value_after));
+  return search.continuation.problem().one_sided() && left > kJump * std::abs(first_value)
+             ? CriticalCause::contact
+             : CriticalCause::smooth;
 }
 
 void add_event(Search& search, CriticalType type, const LocatedRoot& root, int before, int after) {
@@ -70,10 +83,11 @@ CriticalType limit_type(const PathPoint& before) {
 
 /// A simple event between a and b; a closed bracket whose ends do not have the counts of a and b is on
 /// another path.
-void add_simple_event(Search& search, CriticalType type, LocatedRoot root, const PathPoint& a,
-                      const PathPoint& b) {
+void add_simple_event(Search& search, CriticalType type, LocatedRoot root, double first_value,
+                      const PathPoint& a, const PathPoint& b) {
   root.found = root.found && root.before.negative == a.negative && root.after.negative == b.negative;
   add_event(search, type, root, a.negative, b.negative);
+  if (root.found) search.out.events.back().cause = cause_of(search, root, first_value);
 }
 
 void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
@@ -89,7 +103,7 @@ void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
            length <= std::min(kSamePath, 10.0 * search.tolerance);
   };
   const LocatedRoot root = find_root(search.continuation, search.chord, a, rate(a), b, rate(b), rate, done);
-  add_simple_event(search, limit_type(a), root, a, b);
+  add_simple_event(search, limit_type(a), root, std::max(std::abs(rate(a)), std::abs(rate(b))), a, b);
 }
 
 void locate_bifurcation(Search& search, const PathPoint& a, const PathPoint& b) {
@@ -101,13 +115,14 @@ void locate_bifurcation(Search& search, const PathPoint& a, const PathPoint& b) 
   };
   const LocatedRoot root =
       find_root(search.continuation, search.chord, a, value(a), b, value(b), value, done);
-  add_simple_event(search, CriticalType::bifurcation, root, a, b);
+  add_simple_event(search, CriticalType::bifurcation, root, std::max(std::abs(value(a)), std::abs(value(b))),
+                   a, b);
 }
 
 /// What cannot be separated any more: a limit point if the load turns, and a bifurcation for the other
 /// eigenvalues.
 void add_cluster(Search& search, const PathPoint& a, const PathPoint& b, bool turns, bool together) {
-  const LocatedRoot root{a, b, a, together};
+  const LocatedRoot root{a, b, a, 0.0, 0.0, together};
   int between = a.negative;
   if (turns) {
     between += b.negative >= a.negative ? 1 : -1;
@@ -184,10 +199,10 @@ LocatedRoot find_root(Continuation& continuation, const Chord& chord, const Path
                       const PathPoint& b, double value_b,
                       const std::function<double(const PathPoint&)>& value,
                       const std::function<bool(const PathPoint&, const PathPoint&, double)>& done) {
-  LocatedRoot out{a, b, a};
+  LocatedRoot out{a, b, a, value_a, value_b};
   double va = value_a;
   double vb = value_b;
-  double length = continuation.distance(a, b);
+  double length = continuation.distance_in(chord, a, b);
   bool halve = false;
   for (int it = 0; it < kMaxEvaluations && !apart(continuation, chord, out.before, out.after); ++it) {
     const double best = std::min(std::abs(va), std::abs(vb));
@@ -205,6 +220,8 @@ LocatedRoot find_root(Continuation& continuation, const Chord& chord, const Path
     length = shorter;
   }
   out.root = std::abs(va) <= std::abs(vb) ? out.before : out.after;
+  out.value_before = va;
+  out.value_after = vb;
   return out;
 }
 
@@ -262,6 +279,43 @@ LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint
   }
   search_between(search, a, b, 0);
   merge_events(continuation, tolerance, out.events);
+  return out;
+}
+
+namespace {
+
+/// What cannot be bracketed at a corner is at its start.
+std::vector<CriticalEvent> events_at_start(const PathPoint& corner, const PathPoint& to) {
+  std::vector<CriticalEvent> events;
+  CriticalEvent event;
+  event.cause = CriticalCause::contact;
+  event.point = corner;
+  event.bracket_loads[0] = corner.lambda;
+  event.bracket_loads[1] = to.lambda;
+  event.negative_before = corner.negative;
+  event.negative_after = corner.negative;
+  if ((corner.tangent_lambda > 0.0) != (to.tangent_lambda > 0.0)) {
+    event.type = limit_type(corner);
+    event.negative_after += to.negative >= corner.negative ? 1 : -1;
+    events.push_back(event);
+  }
+  if (event.negative_after == to.negative) return events;
+  event.type = CriticalType::bifurcation;
+  event.negative_before = event.negative_after;
+  event.negative_after = to.negative;
+  event.multiplicity = std::abs(event.negative_after - event.negative_before);
+  events.push_back(event);
+  return events;
+}
+
+}  // namespace
+
+LocatedEvents locate_at_turn(Continuation& continuation, const PathPoint& a, const PathPoint& b,
+                             double tolerance) {
+  LocatedEvents out;
+  Search search{continuation, continuation.movement_chord(a, b), a.log_abs_det, tolerance, out};
+  search_between(search, a, b, 0);
+  if (!out.same_path) return {events_at_start(a, b)};
   return out;
 }
 

@@ -14,6 +14,7 @@ namespace snapthrough {
 /// A critical point of a path.
 struct CriticalEvent {
   CriticalType type = CriticalType::bifurcation;
+  CriticalCause cause = CriticalCause::smooth;
   PathPoint point;
   int negative_before = 0;
   int negative_after = 0;
@@ -25,7 +26,9 @@ struct CriticalEvent {
 struct LocatedRoot {
   PathPoint before;  ///< bracket end towards the start
   PathPoint after;
-  PathPoint root;      ///< the better end, or a point between
+  PathPoint root;  ///< the better end, or a point between
+  double value_before = 0.0;
+  double value_after = 0.0;
   bool found = false;  ///< false: the two ends are on different paths, or no point between converged
 };
 
@@ -56,5 +59,10 @@ struct LocatedEvents {
 /// @param tolerance on the load factor, relative
 [[nodiscard]] LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint& a,
                                                    const PathPoint& b, double tolerance);
+
+/// @brief As locate_critical_points(), for a step that led round a turn (StepOutcome::turned): places are
+/// told by the movement alone. What cannot be bracketed there is put at the step's start, caused by contact.
+[[nodiscard]] LocatedEvents locate_at_turn(Continuation& continuation, const PathPoint& a, const PathPoint& b,
+                                           double tolerance);
 
 }  // namespace snapthrough

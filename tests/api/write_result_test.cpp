@@ -25,11 +25,20 @@ Request some_request() {
 Result full_result() {
   Result r;
   r.summary = {66.25, CriticalType::bifurcation, 1e-5, "limit_points", "one limit point"};
-  r.critical_points = {{0, CriticalType::bifurcation, 66.25, 1e-5, 1.5, {{"crown", -0.5}}, 0, 1, 2, 0},
-                       {0, CriticalType::limit_max, 76.5, {}, 2.5, {}, -1, -1, 1, {}},
-                       {1, CriticalType::limit_min, 10.0, {}, 3.5, {}, 2, 1, 1, {}}};
-  r.branches = {{0, {}, {0.0, 1.0}, {0.0, 0.5}, {{"crown", {0.0, -0.25}}}, {0, 1}, {{"soil", {1.0, 0.5}}}},
+  r.critical_points = {
+      {0, CriticalType::bifurcation, 66.25, 1e-5, 1.5, {{"crown", -0.5}}, 0, 1, 2, 0, CriticalCause::contact},
+      {0, CriticalType::limit_max, 76.5, {}, 2.5, {}, -1, -1, 1, {}},
+      {1, CriticalType::limit_min, 10.0, {}, 3.5, {}, 2, 1, 1, {}}};
+  r.branches = {{0,
+                 {},
+                 {0.0, 1.0},
+                 {0.0, 0.5},
+                 {{"crown", {0.0, -0.25}}},
+                 {0, 1},
+                 {{"soil", {1.0, 0.5}}},
+                 "limit_points"},
                 {1, 0, {}, {}, {}, {}, {}}};
+  r.contact_events = {{1, "soil", true, 2.5, 0.5, 2, 1}};
   r.states = {
       {0,
        66.25,
@@ -47,17 +56,20 @@ TEST(WriteResult, EveryFieldOfTheContract) {
     "summary": {"critical_load_factor": 66.25, "critical_type": "bifurcation", "error_estimate": 1e-5,
                 "termination": "limit_points", "message": "one limit point"},
     "critical_points": [
-      {"branch": 0, "type": "bifurcation", "load_factor": 66.25, "error_estimate": 1e-5, "arc_length": 1.5,
+      {"branch": 0, "type": "bifurcation", "cause": "contact", "load_factor": 66.25, "error_estimate": 1e-5, "arc_length": 1.5,
        "monitors": {"crown": -0.5}, "negative_before": 0, "negative_after": 1, "multiplicity": 2, "state": 0},
-      {"branch": 0, "type": "limit_max", "load_factor": 76.5, "error_estimate": null, "arc_length": 2.5,
+      {"branch": 0, "type": "limit_max", "cause": "smooth", "load_factor": 76.5, "error_estimate": null, "arc_length": 2.5,
        "monitors": {}, "negative_before": null, "negative_after": null, "multiplicity": 1, "state": null},
-      {"branch": 1, "type": "limit_min", "load_factor": 10.0, "error_estimate": null, "arc_length": 3.5,
+      {"branch": 1, "type": "limit_min", "cause": "smooth", "load_factor": 10.0, "error_estimate": null, "arc_length": 3.5,
        "monitors": {}, "negative_before": 2, "negative_after": 1, "multiplicity": 1, "state": null}],
     "branches": [
       {"id": 0, "parent": null, "load_factor": [0.0, 1.0], "arc_length": [0.0, 0.5],
-       "monitors": {"crown": [0.0, -0.25]}, "negative_eigenvalues": [0, 1], "contact_fraction": {"soil": [1.0, 0.5]}},
+       "monitors": {"crown": [0.0, -0.25]}, "negative_eigenvalues": [0, 1], "contact_fraction": {"soil": [1.0, 0.5]},
+       "termination": "limit_points"},
       {"id": 1, "parent": 0, "load_factor": [], "arc_length": [], "monitors": {}, "negative_eigenvalues": [],
-       "contact_fraction": {}}],
+       "contact_fraction": {}, "termination": ""}],
+    "contact_events": [{"branch": 1, "id": "soil", "type": "opened", "load_factor": 2.5, "arc_length": 0.5,
+                        "zones_before": 2, "zones_after": 1}],
     "states": [{"branch": 0, "load_factor": 66.25,
       "members": {"m": {"s": [0.0, 1.0], "x": [2.0, 3.0], "y": [4.0, 5.0], "rotation": [6.0, 7.0],
         "axial_force": [8.0, 9.0], "shear_force": [10.0, 11.0], "bending_moment": [12.0, 13.0]}},

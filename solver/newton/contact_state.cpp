@@ -1,0 +1,106 @@
+#include "solver/newton/contact_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace snapthrough {
+
+using Eigen::VectorXd;
+
+namespace {
+
+/// Smallest share of their stiffness that the supports' grip is released to before it is let go.
+constexpr double kLeastGrip = 1e-20;
+/// Factor from one share to the next: the least, and one that is as good as no progress.
+constexpr double kFastestRelease = 0.1;
+constexpr double kSlowestRelease = 0.97;
+/// Share below which it is tried to do without.
+constexpr double kTryFree = 1e-3;
+/// A displacement gradient that only a mechanism reaches.
+constexpr double kSingular = 1e13;
+
+/// What the attempts share.
+struct Attempt {
+  EquilibriumProblem& problem;
+  const PathMetric& metric;
+  double lambda;
+  CorrectorOptions options;
+  Workspace& work;
+  int& factorisations;
+};
+
+/// First correction from the unloaded state; false when the structure is singular.
+bool first_guess(Attempt& attempt, bool bonded, ContactState& state) {
+  state.y = VectorXd::Zero(attempt.problem.size());
+  attempt.problem.set_bonded(bonded);
+  state.tangent = attempt.problem.linearise(state.y, attempt.lambda, attempt.work.residual);
+  attempt.problem.set_bonded(false);
+  ++attempt.factorisations;
+  state.y = -attempt.work.residual;
+  attempt.problem.solve(state.y);
+  return state.y.allFinite() && attempt.metric.norm(state.y, 0.0) < kSingular;
+}
+
+/// Newton's method at fixed load from state.y.
+bool settle(Attempt& attempt, ContactState& state) {
+  const SideCondition load_control;
+  double lambda = attempt.lambda;
+  const double scale = std::max(attempt.metric.norm(state.y, 0.0), 1e-14);
+  const auto outcome = correct(attempt.problem, attempt.metric, load_control, scale, attempt.options, state.y,
+                               lambda, attempt.work);
+  attempt.factorisations += outcome.factorisations;
+  state.tangent = outcome.tangent;
+  state.relative_residual = outcome.relative_residual;
+  return outcome.status == CorrectorStatus::converged;
+}
+
+/// Newton's method with a grip; `state` changes only when it settles.
+bool settle_with(Attempt& attempt, double grip, ContactState& state) {
+  ContactState trial = state;
+  attempt.problem.set_grip(grip);
+  const bool settled = settle(attempt, trial);
+  attempt.problem.set_grip(0.0);
+  if (settled) state = std::move(trial);
+  return settled;
+}
+
+/// From the glued guess, with a grip that is let go by and by.
+bool release_grip(Attempt& attempt, ContactState& state) {
+  double grip = 1.0;
+  double release = kFastestRelease;
+  if (!settle_with(attempt, grip, state)) return false;
+  while (grip > kLeastGrip && release < kSlowestRelease) {
+    if (!settle_with(attempt, grip * release, state)) {
+      release = std::sqrt(release);
+      continue;
+    }
+    grip *= release;
+    release = std::max(kFastestRelease, release * release);
+    if (grip < kTryFree && settle_with(attempt, 0.0, state)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, const PathMetric& metric,
+                                               double lambda, Workspace& work, int& factorisations) {
+  CorrectorOptions options;
+  options.max_iterations = 40;
+  options.largest_correction = std::numeric_limits<double>::infinity();
+  Attempt attempt{problem, metric, lambda, options, work, factorisations};
+  ContactState state;
+  ContactState glued;
+  for (const bool bonded : {true, false}) {
+    if (!first_guess(attempt, bonded, state)) continue;
+    if (bonded) glued = state;
+    if (state.y.isZero(0.0) || settle(attempt, state)) return state;
+  }
+  if (glued.y.size() == 0) return std::nullopt;
+  glued.through_grip = true;
+  if (!release_grip(attempt, glued)) return std::nullopt;
+  return glued;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,37 @@
+#pragma once
+/// @file
+/// Equilibrium at a given load when nothing is known of which one-sided supports act.
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "solver/newton/corrector.h"
+
+namespace snapthrough {
+
+/// An equilibrium and what its factorisation said.
+struct ContactState {
+  Eigen::VectorXd y;
+  TangentReport tangent;
+  double relative_residual = 0.0;
+  bool through_grip =
+      false;  ///< it took the grip's release to find it: the response need not be proportional
+};
+
+/// @brief Solves F(y, lambda) = 0 at fixed lambda from the unloaded state.
+///
+/// Newton's method from the response of the structure glued to its supports, and from that without them, ends
+/// in most cases with the right contact. Where it cycles between contact patterns, or where nothing holds the
+/// structure until a gap closes, the supports get a grip: they also react, in both directions and without
+/// gap, with a share of their stiffness. The share falls from one to nothing by steps that shrink when
+/// Newton's method fails; each problem on the way is strictly monotone and starts next to the last one's
+/// solution.
+///
+/// @param options its limits on iterations and corrections are the caller's to widen
+/// @param factorisations counts are added to it
+/// @return empty when no equilibrium was found
+[[nodiscard]] std::optional<ContactState> find_contact_state(EquilibriumProblem& problem,
+                                                             const PathMetric& metric, double lambda,
+                                                             Workspace& work, int& factorisations);
+
+}  // namespace snapthrough
