@@ -1,0 +1,278 @@
+#include "tests/stress/result_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+
+#include "tests/stress/inertia.h"
+#include "tests/stress/rod_state.h"
+#include "tests/stress/rod_tangent.h"
+
+namespace snapthrough::testing {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+std::string text(double value) {
+  char out[32];
+  std::snprintf(out, sizeof out, "%.6g", value);
+  return out;
+}
+
+bool has_mode_imperfection(const Model& model) {
+  return std::ranges::any_of(model.imperfections, [](const Imperfection& i) {
+    return std::holds_alternative<ModeImperfection>(i);
+  });
+}
+
+/// Which state belongs to which point of which branch: critical points name theirs, the others are the points.
+std::vector<int> states_of_points(const Result& result) {
+  std::vector<char> critical(result.states.size(), 0);
+  for (const CriticalPoint& point : result.critical_points)
+    if (point.state) critical[static_cast<std::size_t>(*point.state)] = 1;
+  std::vector<int> out;
+  for (std::size_t i = 0; i < critical.size(); ++i)
+    if (critical[i] == 0) out.push_back(static_cast<int>(i));
+  return out;
+}
+
+class Check {
+ public:
+  Check(const Model& model, const Analysis& analysis, const Result& result)
+      : model_(model), analysis_(analysis), result_(result), rod_(make_rod_model(model, analysis)) {}
+  ResultCheck run();
+
+ private:
+  void finite();
+  void branch(const Branch& branch, std::size_t first);
+  void changes(const Branch& branch);
+  void state(std::size_t index, std::optional<int> negative);
+  void inertia(std::size_t index, const RodState& at, int negative);
+  void contact(const State& state, const RodState& at);
+  void springs(const State& state, const RodState& at);
+  void finite_series(std::span<const double> values, const std::string& what);
+  [[nodiscard]] double distance(const RodState& a, const RodState& b) const;
+  void fail(const std::string& what) {
+    constexpr std::size_t kMost = 8;
+    if (out_.failures.size() < kMost) out_.failures.push_back(what);
+  }
+
+  const Model& model_;
+  const Analysis& analysis_;
+  const Result& result_;
+  RodModel rod_;
+  ResultCheck out_;
+  std::optional<RodState> before_;  ///< the point before, on the same branch
+};
+
+void Check::finite_series(std::span<const double> values, const std::string& what) {
+  if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) fail("nan: " + what);
+}
+
+void Check::finite() {
+  for (const Branch& b : result_.branches) {
+    finite_series(b.load_factor, "load_factor");
+    finite_series(b.arc_length, "arc_length");
+    for (const NamedSeries& m : b.monitors) finite_series(m.values, "monitor");
+    for (const NamedSeries& c : b.contact_fraction) {
+      finite_series(c.values, "contact_fraction");
+      for (const double v : c.values)
+        if (v < 0.0 || v > 1.0) fail("contact_fraction: " + text(v));
+    }
+  }
+  for (const State& s : result_.states) {
+    for (const MemberState& m : s.members)
+      for (const auto* values : {&m.x, &m.y, &m.rotation, &m.axial_force, &m.shear_force, &m.bending_moment})
+        finite_series(*values, "state of " + m.id);
+    for (const FoundationState& f : s.foundations) finite_series(f.reaction, "reaction of " + f.id);
+  }
+  for (const CriticalPoint& p : result_.critical_points)
+    if (!std::isfinite(p.load_factor) || !std::isfinite(p.arc_length)) fail("nan: critical point");
+}
+
+/// Root mean square over the members of the difference in displacement and displacement gradient.
+double Check::distance(const RodState& a, const RodState& b) const {
+  double sum = 0.0;
+  double total = 0.0;
+  const auto& weights = rod_.lagrange.rule().weights;
+  for (std::size_t e = 0; e < rod_.elements.size(); ++e) {
+    const double h = rod_.elements[e].h;
+    const MatrixXd d = (a.elements[e].u - b.elements[e].u).leftCols(2);
+    Eigen::RowVector2d end = d.row(0);
+    for (Eigen::Index q = 0; q + 1 < d.rows(); ++q) end += h * weights[q] * d.row(q + 1);
+    sum += h * 0.5 * (d.row(0).squaredNorm() + end.squaredNorm());
+    for (Eigen::Index q = 0; q + 1 < d.rows(); ++q) sum += h * weights[q] * d.row(q + 1).squaredNorm();
+    total += h;
+  }
+  return std::sqrt(sum / total);
+}
+
+/// The number of negative eigenvalues changes only across listed points, and they say so.
+void Check::changes(const Branch& branch) {
+  for (std::size_t i = 1; i < branch.arc_length.size(); ++i) {
+    const double from = branch.arc_length[i - 1];
+    const double to = branch.arc_length[i];
+    const double slack = 1e-9 * (to - from);
+    if (!(to > from)) fail("arc_length: does not grow at point " + std::to_string(i));
+    int now = branch.negative_eigenvalues[i - 1];
+    bool listed = false;
+    for (const CriticalPoint& c : result_.critical_points) {
+      if (c.branch != branch.id || c.arc_length <= from - slack || c.arc_length > to + slack) continue;
+      // a branch starts at a bifurcation of its parent; a path may end on the point it looked for
+      if (i == 1 && branch.parent && c.arc_length <= from + slack) continue;
+      listed = true;
+      if (c.negative_before != now && c.arc_length > from + slack)
+        fail("brackets: point at arc length " + text(c.arc_length) + " has " +
+             std::to_string(c.negative_before) + " before it, the path " + std::to_string(now));
+      now = c.negative_after;
+    }
+    if (now == branch.negative_eigenvalues[i]) continue;
+    const bool ends_there = listed && i + 1 == branch.arc_length.size();
+    const bool leaves_bifurcation = i == 1 && branch.parent.has_value();
+    if (!ends_there && !leaves_bifurcation)
+      fail("unlisted_change: " + std::to_string(now) + " to " +
+           std::to_string(branch.negative_eigenvalues[i]) + " negative eigenvalues at point " +
+           std::to_string(i) + ", load factor " + text(branch.load_factor[i]));
+  }
+}
+
+void Check::inertia(std::size_t index, const RodState& at, int negative) {
+  const ConstrainedTangent t = tangent_of(rod_, at, result_.states[index].load_factor);
+  const Eigen::Index free = t.matrix.rows() - t.constraints;
+  // backward error of the factorisation, and the contact edges' and section forces' own rounding
+  const double noise = 64.0 * kEps * t.matrix.norm();
+  MatrixXd shifted = t.matrix;
+  shifted.diagonal().head(free).array() += noise;
+  const int low = negative_eigenvalues(shifted) - t.constraints;
+  shifted = t.matrix;
+  shifted.diagonal().head(free).array() -= noise;
+  const int high = negative_eigenvalues(shifted) - t.constraints;
+  ++out_.inertia;
+  if (low != high) ++out_.undecided;
+  if (negative < low || negative > high)
+    fail("inertia: state " + std::to_string(index) + " at load factor " +
+         text(result_.states[index].load_factor) + " says " + std::to_string(negative) + ", counted " +
+         std::to_string(low) + (low == high ? "" : " to " + std::to_string(high)));
+}
+
+/// A one-sided base's reported reaction is that of its penetration, of one sign, and zero outside the contact.
+void Check::contact(const State& state, const RodState& at) {
+  for (std::size_t f = 0; f < state.foundations.size(); ++f) {
+    const Foundation& base = model_.foundations[f];
+    if (base.reaction == Reaction::bilateral || base.stiffness == 0.0) continue;
+    const FoundationState& said = state.foundations[f];
+    const int m = index_of(model_.members, base.member);
+    const double length = rod_.axes[m]->length();
+    const int pull = base.reaction == Reaction::tension_only ? -1 : 1;
+    RodStrip strip;
+    strip.sign = pull * (base.side == Side::left ? 1 : -1);
+    if (base.direction) {
+      const double size = std::hypot((*base.direction)[0], (*base.direction)[1]);
+      strip.fixed = {pull * (*base.direction)[0] / size, pull * (*base.direction)[1] / size};
+    }
+    double x = rod_.extent;
+    for (const double v : state.members[m].x) x = std::max(x, std::abs(v) / rod_.length);
+    const double noise = 1e3 * kEps * x * rod_.length;  // of a fitted displacement
+    for (std::size_t i = 0; i < said.s.size(); ++i) {
+      const double fraction = std::min(1.0, said.s[i] / length);
+      int e = rod_.mesh.first[m];
+      while (e + 1 < rod_.mesh.first[m + 1] && rod_.elements[e].to < fraction) ++e;
+      const RodElement& element = rod_.elements[e];
+      const double xi = (fraction - element.from) / (element.to - element.from);
+      const Functional row = functional_at(rod_, element, xi, direction_of(rod_, element, strip, xi));
+      const MatrixXd& u = at.elements[e].u;
+      double w = row.a.dot(u.row(0));
+      for (Eigen::Index q = 0; q < row.v.cols(); ++q) w += row.v.col(q).dot(u.row(q + 1));
+      const double depth = w * rod_.length - base.gap;
+      const double reaction = pull * said.reaction[i];
+      const bool inside = std::ranges::any_of(said.contact, [&](const auto& c) {
+        return said.s[i] > c[0] + 1e-6 * length && said.s[i] < c[1] - 1e-6 * length;
+      });
+      if (reaction < 0.0) fail("complementarity: base " + base.id + " pulls");
+      if (std::abs(reaction / base.stiffness - std::max(depth, 0.0)) > noise)
+        fail("complementarity: base " + base.id + " reacts with " + text(reaction) + " at depth " + text(depth));
+      if (inside && depth < -noise - 1e-6 * length) fail("complementarity: base " + base.id + " open in contact");
+    }
+  }
+}
+
+void Check::state(std::size_t index, std::optional<int> negative) {
+  const State& s = result_.states[index];
+  if (rod_.points == 0 || has_mode_imperfection(model_) ||
+      static_cast<int>(s.members.front().s.size()) != rod_.points) {
+    ++out_.uncovered;
+    return;
+  }
+  RodState at = evaluate(rod_, s);
+  ++out_.points;
+  out_.residual = std::max(out_.residual, at.residual);
+  if (at.roughness > 100.0) fail("shape: state " + std::to_string(index) + " is off the elements' polynomials by " + text(at.roughness));
+  if (!(at.residual <= 1.0))
+    fail("residual: state " + std::to_string(index) + " of " + std::to_string(result_.states.size()) +
+         " at load factor " + text(s.load_factor) + ", " + text(at.residual) + " times its tolerance: " + at.worst);
+  contact(s, at);
+  constexpr int kMostUnknowns = 500;
+  if (negative && tangent_size(rod_) <= kMostUnknowns) inertia(index, at, *negative);
+  before_ = std::move(at);
+}
+
+void Check::branch(const Branch& branch, std::size_t first) {
+  const std::vector<int> states = states_of_points(result_);
+  before_.reset();
+  for (std::size_t i = 0; i < branch.load_factor.size() && first + i < states.size(); ++i) {
+    const auto index = static_cast<std::size_t>(states[first + i]);
+    if (result_.states[index].load_factor != branch.load_factor[i]) {
+      fail("states: a state is not that of its point");
+      return;
+    }
+    const std::optional<RodState> previous = before_;
+    state(index, branch.negative_eigenvalues[i]);
+    if (!previous || !before_ || i == 0) continue;
+    const double step = branch.arc_length[i] - branch.arc_length[i - 1];
+    out_.stretch = std::max(out_.stretch, (distance(*previous, *before_) - 1e-12) / step);
+  }
+  changes(branch);
+}
+
+ResultCheck Check::run() {
+  finite();
+  if (!out_.failures.empty()) return out_;
+  std::size_t first = 0;
+  for (const Branch& b : result_.branches) {
+    branch(b, first);
+    first += b.load_factor.size();
+  }
+  for (const CriticalPoint& c : result_.critical_points)
+    if (c.state) state(static_cast<std::size_t>(*c.state), std::nullopt);
+  if (result_.branches.empty()) {
+    // a search for the first loss of stability: all points but the last are before it
+    const std::vector<int> states = states_of_points(result_);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const bool stable = i + 1 < states.size() && result_.summary.termination != "unstable_at_start";
+      state(static_cast<std::size_t>(states[i]), stable ? std::optional<int>(0) : std::nullopt);
+    }
+  }
+  if (!result_.branches.empty() && !result_.failure && first != states_of_points(result_).size())
+    fail("states: " + std::to_string(first) + " points, " + std::to_string(states_of_points(result_).size()) +
+         " states");
+  constexpr double kApart = 1.5;
+  if (out_.stretch > kApart) fail("contiguity: neighbours are " + text(out_.stretch) + " arc lengths apart");
+  return out_;
+}
+
+}  // namespace
+
+int points_needed(const Model& model, const Analysis& analysis) {
+  return make_rod_model(model, analysis).points;
+}
+
+ResultCheck check_result(const Model& model, const Analysis& analysis, const Result& result) {
+  return Check(model, analysis, result).run();
+}
+
+}  // namespace snapthrough::testing

@@ -1,0 +1,339 @@
+#include "tests/stress/rod_model.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <numbers>
+#include <variant>
+
+namespace snapthrough::testing {
+namespace {
+
+using Eigen::Vector3d;
+
+class Maker {
+ public:
+  Maker(const Model& model, RodModel& rod) : model_(model), rod_(rod) {}
+  void scales();
+  void members();
+  void element_actions(RodElement& element);
+  void nodes();
+  void sampling();
+
+ private:
+  void shape(RodElement& element, const StressFreeAxis& axis) const;
+  void base(RodElement& element, const Foundation& base) const;
+  void shear_layer(RodElement& element, const Foundation& base, const RodStrip& strip) const;
+  void distributed(RodElement& element, const DistributedLoad& load) const;
+  [[nodiscard]] bool holds(const RodElement& element, const Location& at) const;
+  void point_load(const PointLoad& load);
+
+  const Model& model_;
+  RodModel& rod_;
+  std::vector<StressFreeAxis> stress_free_;
+};
+
+int slot(Pattern pattern) { return pattern == Pattern::proportional ? 0 : 1; }
+
+void add(Functional& to, const Functional& what) {
+  to.a += what.a;
+  to.v += what.v;
+}
+
+/// Part of an element that a range of fractions of the member covers, in the element's own [0, 1].
+std::array<double, 2> part_of(const RodElement& element, const std::array<double, 2>& range) {
+  const double width = element.to - element.from;
+  double lo = std::clamp((range[0] - element.from) / width, 0.0, 1.0);
+  double hi = std::clamp((range[1] - element.from) / width, 0.0, 1.0);
+  if (lo < 1e-7) lo = 0.0;  // the mesh joins places closer than 1e-9
+  if (hi > 1.0 - 1e-7) hi = 1.0;
+  return {lo, hi};
+}
+
+void Maker::scales() {
+  rod_.axes = make_axes(model_);
+  rod_.length = 0.0;
+  double bending = 0.0;
+  for (const auto& axis : rod_.axes) rod_.length = std::max(rod_.length, axis->length());
+  for (const Section& section : model_.sections) bending = std::max(bending, section.EI);
+  rod_.force = bending / (rod_.length * rod_.length);
+  rod_.origin = {model_.nodes.front().x, model_.nodes.front().y};
+}
+
+void Maker::shape(RodElement& element, const StressFreeAxis& axis) const {
+  const double length = axis.perfect().length();
+  const int p = rod_.lagrange.order();
+  const Rule& rule = rod_.lagrange.rule();
+  for (VectorXd* v : {&element.angle, &element.tx, &element.ty, &element.e0, &element.g0, &element.stretch})
+    v->resize(p);
+  const StressFreePoint a = axis.at(element.from * length);
+  const StressFreePoint b = axis.at(element.to * length);
+  double missing_x = (b.x - a.x) / rod_.length / element.h;
+  double missing_y = (b.y - a.y) / rod_.length / element.h;
+  for (int q = 0; q < p; ++q) {
+    const StressFreePoint at =
+        axis.at(length * (element.from + rule.points[q] * (element.to - element.from)));
+    element.angle[q] = at.angle;
+    element.stretch[q] = at.stretch;
+    element.tx[q] = at.stretch * std::cos(at.angle);
+    element.ty[q] = at.stretch * std::sin(at.angle);
+    missing_x -= rule.weights[q] * element.tx[q];
+    missing_y -= rule.weights[q] * element.ty[q];
+  }
+  // the sum of the derivatives is the chord exactly, as the discretisation is defined (docs/theory.md)
+  element.tx.array() += missing_x;
+  element.ty.array() += missing_y;
+  const VectorXd c = element.angle.array().cos();
+  const VectorXd s = element.angle.array().sin();
+  element.e0 = element.tx.cwiseProduct(c) + element.ty.cwiseProduct(s);
+  element.g0 = element.ty.cwiseProduct(c) - element.tx.cwiseProduct(s);
+}
+
+void Maker::shear_layer(RodElement& element, const Foundation& base, const RodStrip& strip) const {
+  const Rule rule = gauss(rod_.lagrange.order() + 1);
+  const AxisCurve& axis = *rod_.axes[element.member];
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    const double xi = strip.lo + (strip.hi - strip.lo) * rule.points[i];
+    const Vector3d n = direction_of(rod_, element, strip, xi);
+    RodSpring spring;
+    spring.stiffness =
+        base.shear_stiffness / rod_.force * element.h * (strip.hi - strip.lo) * rule.weights[i];
+    // w = u.n, so w' = u'.n + u.n' and n' = -+ kappa t along the turning normal
+    Vector3d turning = Vector3d::Zero();
+    if (!base.direction) {
+      const AxisPoint at = axis.at(axis.length() * (element.from + xi * (element.to - element.from)));
+      turning = -strip.sign * at.curvature * rod_.length * Vector3d(std::cos(at.angle), std::sin(at.angle), 0);
+    }
+    spring.row = functional_at(rod_, element, xi, turning);
+    spring.row.v += n * rod_.lagrange.values(xi).transpose();
+    element.springs.push_back(spring);
+  }
+}
+
+void Maker::base(RodElement& element, const Foundation& base) const {
+  const auto [lo, hi] = part_of(element, base.range);
+  if (hi <= lo) return;
+  RodStrip strip;
+  strip.modulus = base.stiffness * rod_.length * rod_.length / rod_.force;
+  strip.gap = base.reaction == Reaction::bilateral ? 0.0 : base.gap / rod_.length;
+  strip.lo = lo;
+  strip.hi = hi;
+  const int side = base.side == Side::left ? 1 : -1;
+  const int pull = base.reaction == Reaction::tension_only ? -1 : 1;
+  strip.sign = side * pull;
+  if (base.direction) {
+    const double size = std::hypot((*base.direction)[0], (*base.direction)[1]);
+    strip.fixed = {pull * (*base.direction)[0] / size, pull * (*base.direction)[1] / size};
+  }
+  if (base.shear_stiffness > 0.0) shear_layer(element, base, strip);
+  if (base.stiffness == 0.0) return;
+  const bool lumped = rod_.mesh.foundation == FoundationRule::lumped;
+  if (!lumped && base.reaction != Reaction::bilateral) {
+    element.strips.push_back(strip);
+    return;
+  }
+  const int n = rod_.lagrange.order() + 1;
+  const Rule rule = lumped ? lobatto(n) : gauss(n);
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    const double xi = lumped ? rule.points[i] : lo + (hi - lo) * rule.points[i];
+    if (xi < lo - 1e-9 || xi > hi + 1e-9) continue;
+    RodSpring spring;
+    spring.row = functional_at(rod_, element, xi, direction_of(rod_, element, strip, xi));
+    spring.stiffness = strip.modulus * element.h * rule.weights[i] * (lumped ? 1.0 : hi - lo);
+    spring.gap = strip.gap;
+    spring.one_sided = base.reaction != Reaction::bilateral;
+    element.springs.push_back(spring);
+  }
+}
+
+void Maker::distributed(RodElement& element, const DistributedLoad& load) const {
+  const auto [lo, hi] = part_of(element, load.range);
+  if (hi <= lo) return;
+  const Rule rule = gauss(rod_.lagrange.order() + 1);
+  const AxisCurve& axis = *rod_.axes[element.member];
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    const double xi = lo + (hi - lo) * rule.points[i];
+    const double angle = axis.at(axis.length() * (element.from + xi * (element.to - element.from))).angle;
+    double w = element.h * (hi - lo) * rule.weights[i] * rod_.length / rod_.force;
+    if (load.per == LoadMeasure::horizontal) w *= std::abs(std::cos(angle));
+    if (load.per == LoadMeasure::vertical) w *= std::abs(std::sin(angle));
+    add(element.load[slot(load.pattern)],
+        functional_at(rod_, element, xi, Vector3d(w * load.force[0], w * load.force[1], 0.0)));
+  }
+}
+
+/// A place at an element's end belongs to the element that starts there, the member's end to its last.
+bool Maker::holds(const RodElement& element, const Location& at) const {
+  if (at.member.empty() || at.member != model_.members[element.member].id) return false;
+  const bool last = element.to >= 1.0;
+  return at.fraction >= element.from - 1e-9 && (last || at.fraction < element.to - 1e-9);
+}
+
+Vector3d spring_row(const Spring& spring) {
+  const double sign = spring.reaction == Reaction::tension_only ? -1.0 : 1.0;
+  if (!spring.direction) return {0.0, 0.0, sign};
+  const double size = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
+  return {sign * (*spring.direction)[0] / size, sign * (*spring.direction)[1] / size, 0.0};
+}
+
+void Maker::element_actions(RodElement& element) {
+  const std::string& id = model_.members[element.member].id;
+  const auto xi_of = [&element](const Location& at) {
+    return std::clamp((at.fraction - element.from) / (element.to - element.from), 0.0, 1.0);
+  };
+  for (const Foundation& foundation : model_.foundations)
+    if (foundation.member == id) base(element, foundation);
+  for (const Spring& spring : model_.springs) {
+    if (!holds(element, spring.at)) continue;
+    RodSpring out;
+    out.row = functional_at(rod_, element, xi_of(spring.at), spring_row(spring));
+    out.one_sided = spring.reaction != Reaction::bilateral;
+    out.stiffness = spring.stiffness * (spring.direction ? rod_.length : 1.0 / rod_.length) / rod_.force;
+    if (out.one_sided) out.gap = spring.direction ? spring.gap / rod_.length : spring.gap;
+    element.springs.push_back(out);
+  }
+  for (const Load& load : model_.loads) {
+    if (const auto* point = std::get_if<PointLoad>(&load); point != nullptr && holds(element, point->at)) {
+      const Vector3d action(point->force[0], point->force[1], point->moment / rod_.length);
+      add(element.load[slot(point->pattern)],
+          functional_at(rod_, element, xi_of(point->at), action / rod_.force));
+    }
+    if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == id)
+      distributed(element, *d);
+    if (const auto* p = std::get_if<PressureLoad>(&load); p != nullptr && p->member == id)
+      element.pressure[slot(p->pattern)] +=
+          (p->side == Side::left ? 1.0 : -1.0) * p->value * rod_.length / rod_.force;
+    if (const auto* i = std::get_if<InitialStrain>(&load); i != nullptr && i->member == id) {
+      element.strain[slot(i->pattern)] += i->axial;
+      element.curvature[slot(i->pattern)] += i->curvature * rod_.length;
+    }
+  }
+}
+
+void Maker::members() {
+  const int p = rod_.lagrange.order();
+  for (std::size_t m = 0; m < model_.members.size(); ++m) {
+    const Member& member = model_.members[m];
+    rod_.members.push_back({index_of(model_.nodes, member.start), index_of(model_.nodes, member.end),
+                            member.release_start_rotation, member.release_end_rotation, {}});
+    stress_free_.emplace_back(model_, static_cast<int>(m), rod_.axes[m], std::vector<CubicSpline>{});
+    const Section& section = model_.sections[index_of(model_.sections, member.section)];
+    for (int e = rod_.mesh.first[m]; e < rod_.mesh.first[m + 1]; ++e) {
+      RodElement element;
+      element.member = static_cast<int>(m);
+      element.from = rod_.mesh.elements[e].from;
+      element.to = rod_.mesh.elements[e].to;
+      element.h = (element.to - element.from) * rod_.axes[m]->length() / rod_.length;
+      element.axial = rod_.force / section.EA;
+      element.shear = section.GA ? rod_.force / *section.GA : 0.0;
+      element.bending = rod_.force * rod_.length * rod_.length / section.EI;
+      for (Functional& load : element.load) load.v = MatrixXd::Zero(3, p);
+      shape(element, stress_free_.back());
+      element_actions(element);
+      rod_.elements.push_back(std::move(element));
+    }
+  }
+}
+
+void Maker::point_load(const PointLoad& load) {
+  if (!load.at.member.empty()) return;
+  rod_.nodes[index_of(model_.nodes, load.at.node)].load[slot(load.pattern)] +=
+      Vector3d(load.force[0], load.force[1], load.moment / rod_.length) / rod_.force;
+}
+
+void Maker::nodes() {
+  rod_.nodes.resize(model_.nodes.size());
+  for (const Support& support : model_.supports) {
+    RodNode& node = rod_.nodes[index_of(model_.nodes, support.node)];
+    node.fixed = {support.x, support.y, support.rotation};
+    node.angle = support.angle_degrees * std::numbers::pi / 180.0;
+    if (!support.displacement) continue;
+    const auto& d = *support.displacement;
+    node.displacement[slot(d.pattern)] = {d.x / rod_.length, d.y / rod_.length, d.rotation};
+  }
+  for (const Load& load : model_.loads)
+    if (const auto* point = std::get_if<PointLoad>(&load)) point_load(*point);
+  for (const Spring& spring : model_.springs) {
+    if (spring.at.node.empty()) continue;
+    NodeSpring out;
+    out.node = index_of(model_.nodes, spring.at.node);
+    out.row = spring_row(spring);
+    out.one_sided = spring.reaction != Reaction::bilateral;
+    out.stiffness = spring.stiffness * (spring.direction ? rod_.length : 1.0 / rod_.length) / rod_.force;
+    if (out.one_sided) out.gap = spring.direction ? spring.gap / rod_.length : spring.gap;
+    rod_.node_springs.push_back(out);
+  }
+}
+
+/// Chooses samples of the state for each element and the least-squares fit of its polynomial.
+void Maker::sampling() {
+  const int p = rod_.lagrange.order();
+  double narrowest = 1.0;
+  for (const RodElement& e : rod_.elements) narrowest = std::min(narrowest, e.to - e.from);
+  rod_.points = static_cast<int>(std::ceil((2 * p + 3) / narrowest)) + 1;
+  constexpr int kMostPoints = 8001;
+  if (rod_.points > kMostPoints) {
+    rod_.points = 0;
+    return;
+  }
+  const double step = 1.0 / (rod_.points - 1);
+  for (RodElement& e : rod_.elements) {
+    const int lo = static_cast<int>(std::ceil(e.from / step - 1e-9));
+    const int hi = static_cast<int>(std::floor(e.to / step + 1e-9));
+    const int wanted = 2 * p + 2;
+    for (int i = 0; i < wanted; ++i) {  // dense towards the ends, where a polynomial is hardest to tell
+      const double z = 0.5 - 0.5 * std::cos(std::numbers::pi * i / (wanted - 1));
+      const int k = lo + static_cast<int>(std::lround(z * (hi - lo)));
+      if (e.samples.empty() || k > e.samples.back()) e.samples.push_back(k);
+    }
+    e.basis.resize(static_cast<Eigen::Index>(e.samples.size()), p + 1);
+    for (std::size_t i = 0; i < e.samples.size(); ++i) {
+      const double xi = (e.samples[i] * step - e.from) / (e.to - e.from);
+      const auto row = static_cast<Eigen::Index>(i);
+      e.basis(row, 0) = 1.0;
+      e.basis.row(row).tail(p) = e.h * rod_.lagrange.integrals(xi).transpose();
+    }
+    e.fit = e.basis.colPivHouseholderQr().solve(MatrixXd::Identity(e.basis.rows(), e.basis.rows()));
+  }
+  for (std::size_t m = 0; m < rod_.members.size(); ++m) {
+    for (int i = 0; i < rod_.points; ++i) {
+      const double s = rod_.axes[m]->length() * std::min(1.0, static_cast<double>(i) / (rod_.points - 1));
+      rod_.members[m].sampled.push_back(stress_free_[m].at(s));
+      const StressFreePoint& at = rod_.members[m].sampled.back();
+      rod_.extent = std::max({rod_.extent, std::abs(rod_.origin[0]) + std::abs(at.x),
+                              std::abs(rod_.origin[1]) + std::abs(at.y)});
+    }
+  }
+  rod_.extent /= rod_.length;
+}
+
+}  // namespace
+
+Functional functional_at(const RodModel& rod, const RodElement& element, double xi,
+                         const Eigen::Vector3d& row) {
+  return {row, row * (element.h * rod.lagrange.integrals(xi)).transpose()};
+}
+
+Eigen::Vector3d direction_of(const RodModel& rod, const RodElement& element, const RodStrip& strip,
+                             double xi) {
+  if (strip.fixed) return {(*strip.fixed)[0], (*strip.fixed)[1], 0.0};
+  const AxisCurve& axis = *rod.axes[element.member];
+  const double angle = axis.at(axis.length() * (element.from + xi * (element.to - element.from))).angle;
+  return {-strip.sign * std::sin(angle), strip.sign * std::cos(angle), 0.0};
+}
+
+RodModel make_rod_model(const Model& model, const Analysis& analysis) {
+  RodModel rod;
+  Maker maker(model, rod);
+  maker.scales();
+  rod.mesh = make_mesh(model, analysis.discretization, rod.axes);
+  rod.lagrange = Lagrange(rod.mesh.order);
+  maker.members();
+  maker.nodes();
+  maker.sampling();
+  return rod;
+}
+
+}  // namespace snapthrough::testing

@@ -1,0 +1,100 @@
+#pragma once
+/// @file
+/// The checker's own discrete rod structure. Lengths are over the longest member's, forces over the largest
+/// EI / length^2.
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "solver/assembly/axis_offset.h"
+#include "solver/mesh/mesh.h"
+#include "solver/model/analysis.h"
+#include "solver/model/model.h"
+#include "tests/stress/rod_rule.h"
+
+namespace snapthrough::testing {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Linear functional of an element's displacements, a.u_a + sum_q v(:, q).u'_q.
+struct Functional {
+  Eigen::Vector3d a = Eigen::Vector3d::Zero();
+  MatrixXd v;  ///< 3 x P
+};
+
+struct RodSpring {
+  Functional row;
+  double stiffness = 0.0, gap = 0.0;
+  bool one_sided = false;
+};
+
+/// One-sided base on the part [lo, hi] of an element.
+struct RodStrip {
+  double modulus = 0.0, gap = 0.0, lo = 0.0, hi = 1.0;
+  int sign = 1;                                ///< of the left normal, towards which it reacts
+  std::optional<std::array<double, 2>> fixed;  ///< instead of the normal
+};
+
+struct RodElement {
+  int member = 0;
+  double from = 0.0, to = 1.0, h = 0.0;
+  VectorXd angle, tx, ty, e0, g0, stretch;              ///< at the Gauss points
+  double axial = 0.0, shear = 0.0, bending = 0.0;        ///< compliances
+  std::vector<RodSpring> springs;
+  std::vector<RodStrip> strips;
+  std::array<Functional, 2> load;                        ///< proportional, constant
+  std::array<double, 2> pressure{}, strain{}, curvature{};
+  std::vector<int> samples;                              ///< of the member's state
+  MatrixXd fit;                                          ///< (P + 1) x samples: u_a and u'_q
+  MatrixXd basis;                                        ///< samples x (P + 1)
+};
+
+struct RodNode {
+  std::array<bool, 3> fixed{};
+  double angle = 0.0;
+  std::array<Eigen::Vector3d, 2> displacement{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  std::array<Eigen::Vector3d, 2> load{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+};
+
+struct NodeSpring {
+  int node = 0;
+  Eigen::Vector3d row = Eigen::Vector3d::Zero();
+  double stiffness = 0.0, gap = 0.0;
+  bool one_sided = false;
+};
+
+struct RodMember {
+  int start = 0, end = 0;
+  bool release_start = false, release_end = false;
+  std::vector<StressFreePoint> sampled;  ///< stress-free axis at the samples, in the model's units
+};
+
+struct RodModel {
+  double length = 1.0, force = 1.0;
+  std::array<double, 2> origin{};
+  double extent = 0.0;  ///< largest coordinate that the samples carry, over length
+  int points = 0;
+  Lagrange lagrange{1};
+  Axes axes;
+  Mesh mesh;
+  std::vector<RodNode> nodes;
+  std::vector<NodeSpring> node_springs;
+  std::vector<RodMember> members;
+  std::vector<RodElement> elements;
+};
+
+/// @brief The discrete structure of a request without mode imperfections, geometry nonlinear.
+[[nodiscard]] RodModel make_rod_model(const Model& model, const Analysis& analysis);
+
+/// @brief Functional of the displacement at xi, times the components of `row`.
+[[nodiscard]] Functional functional_at(const RodModel& rod, const RodElement& element, double xi,
+                                       const Eigen::Vector3d& row);
+
+/// @brief Unit direction in which a base on this strip reacts, at xi of the element.
+[[nodiscard]] Eigen::Vector3d direction_of(const RodModel& rod, const RodElement& element,
+                                           const RodStrip& strip, double xi);
+
+}  // namespace snapthrough::testing

@@ -1,0 +1,41 @@
+#pragma once
+/// @file
+/// One state of a rod structure, rebuilt from samples, and what its equations leave over.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "solver/result.h"
+#include "tests/stress/rod_model.h"
+
+namespace snapthrough::testing {
+
+/// An element's displacement and section forces in a state.
+struct ElementState {
+  MatrixXd u;                 ///< (P + 1) x 3: u_a and u'_q, columns x, y, rotation
+  VectorXd gradient_noise;    ///< of u'_q (x or y) from the samples' rounding
+  VectorXd turn_noise;        ///< of b'_q
+  VectorXd cos, sin, E, G;    ///< of the section; x' along and across it
+  VectorXd N, Q, M;           ///< from equilibrium with the force through the end
+  double force_noise = 0.0, moment_noise = 0.0;
+  std::vector<RodSpring> acting;  ///< springs and contact quadrature that act: row, stiffness, gap
+};
+
+struct RodState {
+  std::vector<ElementState> elements;
+  std::vector<Eigen::Vector3d> start_force, end_force;  ///< of members, (force x, y, moment) through the ends
+  double residual = 0.0;   ///< worst equation over its tolerance
+  double roughness = 0.0;  ///< worst distance of a sample from its element's polynomial, over its tolerance
+  std::string worst;
+};
+
+/// @brief Evaluates a state; `state` has rod.points samples a member.
+[[nodiscard]] RodState evaluate(const RodModel& rod, const State& state);
+
+/// Factor of the proportional and of the constant actions.
+[[nodiscard]] inline double factor(int pattern, double load_factor) {
+  return pattern == 0 ? load_factor : 1.0;
+}
+
+}  // namespace snapthrough::testing

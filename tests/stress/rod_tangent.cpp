@@ -1,0 +1,189 @@
+#include "tests/stress/rod_tangent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace snapthrough::testing {
+namespace {
+
+using Eigen::Index;
+
+/// Variations are written in the nodes' displacements and every Gauss point's strains: those of the section
+/// in units that make its elastic energy |strain|^2 / 2 exactly, so nothing is large where a section is
+/// stiff, and an unshearable section has no shear strain at all.
+class MemberTangent {
+ public:
+  MemberTangent(const RodModel& rod, const RodState& at, int member, double load_factor)
+      : rod_(rod), at_(at), member_(member), load_factor_(load_factor) {
+    const RodElement& first = rod.elements[rod.mesh.first[member]];
+    shearable_ = first.shear > 0.0;
+    per_element_ = rod.lagrange.order() * (shearable_ ? 3 : 2);
+    size_ = 3 + per_element_ * (rod.mesh.first[member + 1] - rod.mesh.first[member]);
+    H_ = MatrixXd::Zero(size_, size_);
+    H_.diagonal().tail(size_ - 3).setOnes();
+    end_ = MatrixXd::Zero(3, size_);
+    end_.leftCols(3).setIdentity();
+  }
+  void build() {
+    for (int e = rod_.mesh.first[member_]; e < rod_.mesh.first[member_ + 1]; ++e) add_element(e);
+  }
+  [[nodiscard]] const MatrixXd& hessian() const { return H_; }
+  [[nodiscard]] const MatrixXd& end() const { return end_; }  ///< displacement of the member's end
+
+ private:
+  void add_element(int e);
+  void add_supports(const RodElement& element, const ElementState& at, const std::array<MatrixXd, 3>& v);
+  void add_pressure(const RodElement& element, const std::array<MatrixXd, 3>& v);
+
+  const RodModel& rod_;
+  const RodState& at_;
+  int member_;
+  double load_factor_;
+  bool shearable_ = false;
+  Index per_element_ = 0, size_ = 0;
+  MatrixXd H_, end_;
+};
+
+void MemberTangent::add_element(int e) {
+  const RodElement& element = rod_.elements[e];
+  const ElementState& at = at_.elements[e];
+  const Index p = rod_.lagrange.order();
+  const Index first = 3 + per_element_ * (e - rod_.mesh.first[member_]);
+  const auto& b = rod_.lagrange.rule().weights;
+  const auto unit = [&](Index q, double c) { return std::sqrt(c * element.stretch[q] / (element.h * b[q])); };
+  std::array<MatrixXd, 3> v;  // rows of du'_q
+  v.fill(MatrixXd::Zero(p, size_));
+  for (Index q = 0; q < p; ++q) v[2](q, first + per_element_ - p + q) = unit(q, element.bending);
+  MatrixXd turns(p, size_);
+  VectorXd weight(p);
+  for (Index q = 0; q < p; ++q) {
+    const VectorXd a = element.h * rod_.lagrange.integrals(rod_.lagrange.rule().points[q]);
+    turns.row(q) = end_.row(2) + a.transpose() * v[2];
+    const double de = unit(q, element.axial);
+    const double dg = shearable_ ? unit(q, element.shear) : 0.0;
+    Eigen::RowVectorXd along = -at.G[q] * turns.row(q);
+    Eigen::RowVectorXd across = at.E[q] * turns.row(q);
+    along[first + q] += de;
+    if (shearable_) across[first + p + q] += dg;
+    v[0].row(q) = at.cos[q] * along - at.sin[q] * across;
+    v[1].row(q) = at.sin[q] * along + at.cos[q] * across;
+    // second derivatives of the strains: e'' = 2 db dg + E db^2, g'' = -2 db de + G db^2
+    const double hb = element.h * b[q];
+    weight[q] = hb * (at.N[q] * at.E[q] + at.Q[q] * at.G[q]);
+    const auto cross = [&](Index column, double factor) {
+      H_.col(column) += factor * turns.row(q).transpose();
+      H_.row(column) += factor * turns.row(q);
+    };
+    cross(first + q, -hb * at.Q[q] * de);
+    if (shearable_) cross(first + p + q, hb * at.N[q] * dg);
+  }
+  H_ += turns.transpose() * weight.asDiagonal() * turns;
+  add_supports(element, at, v);
+  add_pressure(element, v);
+  for (int c = 0; c < 3; ++c)
+    for (Index q = 0; q < p; ++q) end_.row(c) += element.h * b[q] * v[c].row(q);
+}
+
+void MemberTangent::add_supports(const RodElement& element, const ElementState& at,
+                                 const std::array<MatrixXd, 3>& v) {
+  (void)element;
+  if (at.acting.empty()) return;
+  MatrixXd rows = MatrixXd::Zero(static_cast<Index>(at.acting.size()), size_);
+  for (std::size_t i = 0; i < at.acting.size(); ++i) {
+    const Functional& f = at.acting[i].row;
+    const auto k = static_cast<Index>(i);
+    for (int c = 0; c < 3; ++c) rows.row(k) += f.a[c] * end_.row(c) + f.v.row(c) * v[c];
+    rows.row(k) *= std::sqrt(at.acting[i].stiffness);
+  }
+  H_ += rows.transpose() * rows;
+}
+
+/// Symmetric part of the follower pressure's tangent.
+void MemberTangent::add_pressure(const RodElement& element, const std::array<MatrixXd, 3>& v) {
+  const double pressure = load_factor_ * element.pressure[0] + element.pressure[1];
+  if (pressure == 0.0) return;
+  const Rule& rule = rod_.lagrange.rule();
+  for (Index q = 0; q < rod_.lagrange.order(); ++q) {
+    const VectorXd a = element.h * rod_.lagrange.integrals(rule.points[q]);
+    const double w = 0.5 * pressure * element.h * rule.weights[q];
+    const Eigen::RowVectorXd ux = end_.row(0) + a.transpose() * v[0];
+    const Eigen::RowVectorXd uy = end_.row(1) + a.transpose() * v[1];
+    const MatrixXd half = -w * (v[1].row(q).transpose() * ux - v[0].row(q).transpose() * uy);
+    H_ += half + half.transpose();
+  }
+}
+
+}  // namespace
+
+int tangent_size(const RodModel& rod) {
+  auto size = static_cast<int>(3 * rod.nodes.size() + 5 * rod.members.size());
+  for (const RodNode& node : rod.nodes) size += static_cast<int>(std::ranges::count(node.fixed, true));
+  for (const RodElement& e : rod.elements) size += rod.lagrange.order() * (e.shear > 0.0 ? 3 : 2);
+  return size;
+}
+
+ConstrainedTangent tangent_of(const RodModel& rod, const RodState& at, double load_factor) {
+  const auto nodes = static_cast<Index>(3 * rod.nodes.size());
+  Index free = nodes;
+  Index constraints = static_cast<Index>(3 * rod.members.size());
+  for (const RodNode& node : rod.nodes) constraints += std::ranges::count(node.fixed, true);
+  std::vector<MemberTangent> members;
+  std::vector<std::array<Index, 3>> start, end;
+  std::vector<Index> strains;
+  for (std::size_t m = 0; m < rod.members.size(); ++m) {
+    const RodMember& member = rod.members[m];
+    start.push_back({3L * member.start, 3L * member.start + 1, 3L * member.start + 2});
+    end.push_back({3L * member.end, 3L * member.end + 1, 3L * member.end + 2});
+    if (member.release_start) start.back()[2] = free++;
+    if (member.release_end) end.back()[2] = free++;
+    members.emplace_back(rod, at, static_cast<int>(m), load_factor);
+    members.back().build();
+    strains.push_back(free);
+    free += members.back().hessian().rows() - 3;
+  }
+  ConstrainedTangent out;
+  out.constraints = static_cast<int>(constraints);
+  out.matrix = MatrixXd::Zero(free + constraints, free + constraints);
+  MatrixXd& K = out.matrix;
+  Index row = free;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const MatrixXd& H = members[m].hessian();
+    const auto place = [&](Index i) { return i < 3 ? start[m][i] : strains[m] + i - 3; };
+    for (Index i = 0; i < H.rows(); ++i)
+      for (Index j = 0; j < H.rows(); ++j) K(place(i), place(j)) += H(i, j);
+    for (int c = 0; c < 3; ++c, ++row) {
+      for (Index j = 0; j < H.rows(); ++j) K(row, place(j)) += members[m].end()(c, j);
+      K(row, end[m][c]) -= 1.0;
+    }
+  }
+  for (std::size_t n = 0; n < rod.nodes.size(); ++n) {
+    const double c = std::cos(rod.nodes[n].angle);
+    const double s = std::sin(rod.nodes[n].angle);
+    const Eigen::Matrix3d turn = (Eigen::Matrix3d() << c, s, 0, -s, c, 0, 0, 0, 1).finished();
+    for (int k = 0; k < 3; ++k)
+      if (rod.nodes[n].fixed[k]) K.block(row++, static_cast<Index>(3 * n), 1, 3) = turn.row(k);
+  }
+  for (const NodeSpring& spring : rod.node_springs) {
+    Eigen::Vector3d u = Eigen::Vector3d::Zero();
+    for (std::size_t m = 0; m < rod.members.size(); ++m) {
+      const ElementState& first = at.elements[rod.mesh.first[m]];
+      const ElementState& last = at.elements[rod.mesh.first[m + 1] - 1];
+      if (rod.members[m].start == spring.node) u = first.u.row(0).transpose();
+      if (rod.members[m].end != spring.node) continue;
+      const double h = rod.elements[rod.mesh.first[m + 1] - 1].h;
+      u = last.u.row(0).transpose();
+      for (Index q = 0; q < rod.lagrange.order(); ++q)
+        u += h * rod.lagrange.rule().weights[q] * last.u.row(q + 1).transpose();
+    }
+    if (spring.one_sided && spring.row.dot(u) <= spring.gap) continue;
+    K.block(3L * spring.node, 3L * spring.node, 3, 3) +=
+        spring.stiffness * spring.row * spring.row.transpose();
+  }
+  const MatrixXd upper = K.bottomLeftCorner(constraints, free).transpose();
+  K.topRightCorner(free, constraints) = upper;
+  return out;
+}
+
+}  // namespace snapthrough::testing

@@ -1,0 +1,46 @@
+/// Runs seeds and writes a line for each, for scripts/stress.sh:
+///   stress_run <first|broad> FIRST COUNT STRIDE SECONDS
+/// "start seed", then "done seed reached termination points uncovered residual inertia undecided stretch
+/// seconds" and a line "fail seed what" for each failure, "note seed why" where no stop rule was reached.
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "tests/stress/stress_run.h"
+
+namespace {
+
+void print(unsigned long seed, const snapthrough::testing::StressOutcome& out) {
+  const auto& c = out.check;
+  std::printf("done %lu %d %s %d %d %.3g %d %d %.3g %.3f\n", seed, out.reached ? 1 : 0,
+              out.termination.c_str(), c.points, c.uncovered, c.residual, c.inertia, c.undecided, c.stretch,
+              out.seconds);
+  for (const std::string& what : c.failures) std::printf("fail %lu %s\n", seed, what.c_str());
+  if (!out.reached) std::printf("note %lu %s: %s\n", seed, out.termination.c_str(), out.detail.c_str());
+  if (!out.reached || !c.failures.empty()) std::printf("model %lu %s\n", seed, out.features.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 6) {
+    std::fprintf(stderr, "usage: stress_run first|broad FIRST COUNT STRIDE SECONDS\n");
+    return 2;
+  }
+  using snapthrough::testing::Draw;
+  const Draw draw = std::string(argv[1]) == "first" ? Draw::first : Draw::broad;
+  const unsigned long first = std::strtoul(argv[2], nullptr, 10);
+  const unsigned long count = std::strtoul(argv[3], nullptr, 10);
+  const unsigned long stride = std::strtoul(argv[4], nullptr, 10);
+  const double bound = std::strtod(argv[5], nullptr);
+  for (unsigned long seed = first; seed < first + count; seed += stride) {
+    std::printf("start %lu\n", seed);
+    std::fflush(stdout);
+    alarm(static_cast<unsigned>(3.0 * bound) + 30);  // ends the process where the solver does not listen
+    print(seed, snapthrough::testing::run_seed(draw, seed, bound));
+  }
+  return 0;
+}

@@ -1,0 +1,115 @@
+#include "tests/stress/stress_run.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <stdexcept>
+#include <string_view>
+#include <thread>
+#include <variant>
+
+#include "solver/solve.h"
+#include "tests/stress/broad_model.h"
+#include "tests/stress/random_model.h"
+
+namespace snapthrough::testing {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Asks for a stop when the time is over, unless it is destroyed before.
+class Bound {
+ public:
+  explicit Bound(double seconds)
+      : thread_([this, seconds](const std::stop_token& over) {
+          std::unique_lock lock(mutex_);
+          ended_.wait_for(lock, over, std::chrono::duration<double>(seconds), [] { return false; });
+          if (!over.stop_requested()) source_.request_stop();
+        }) {}
+  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  std::stop_source source_;
+  std::mutex mutex_;
+  std::condition_variable_any ended_;
+  std::jthread thread_;
+};
+
+/// The rules that a path may end by, and what the search for the first critical point may find.
+bool reached(const Analysis& analysis, const std::string& termination) {
+  constexpr std::array<std::string_view, 5> kPath{"limit_points", "load_factor", "monitor", "monitor_turned",
+                                                  "steps"};
+  // the search for the first loss of stability is complete at its bounds: there is none below them
+  constexpr std::array<std::string_view, 4> kCritical{"critical_point", "unstable_at_start", "load_bound",
+                                                      "displacement_bound"};
+  if (analysis.type == AnalysisType::critical) return std::ranges::count(kCritical, termination) > 0;
+  return std::ranges::count(kPath, termination) > 0;
+}
+
+/// What a reader of a failure wants to know first.
+std::string features_of(const RandomRequest& request) {
+  const Model& m = request.model;
+  const Discretization& d = request.analysis.discretization;
+  std::string text = request.analysis.type == AnalysisType::critical ? "critical" : "path";
+  text += d.fixed_mesh ? " order " + std::to_string(d.order) + " x " + std::to_string(d.elements) : " default mesh";
+  if (d.foundation == FoundationRule::lumped) text += " lumped";
+  text += "; members";
+  constexpr std::array kCurves{"line", "arc", "parabola", "sine", "points"};
+  for (const Member& member : m.members) {
+    text += std::string(" ") + kCurves.at(member.curve.index());
+    if (member.release_start_rotation || member.release_end_rotation) text += "(released)";
+  }
+  constexpr std::array kReactions{"bilateral", "compression", "tension"};
+  for (const Foundation& f : m.foundations) {
+    text += std::string("; base ") + kReactions.at(static_cast<std::size_t>(f.reaction));
+    if (f.direction) text += " fixed direction";
+    if (f.gap > 0.0) text += " gap";
+    if (f.shear_stiffness > 0.0) text += " shear layer";
+  }
+  for (const Spring& s : m.springs) {
+    text += std::string("; spring ") + kReactions.at(static_cast<std::size_t>(s.reaction));
+    text += s.at.member.empty() ? " at node" : " in member";
+  }
+  constexpr std::array kLoads{"point", "distributed", "pressure", "initial strain"};
+  for (const Load& load : m.loads) {
+    text += std::string("; ") + kLoads.at(load.index());
+    if (std::visit([](const auto& l) { return l.pattern == Pattern::constant; }, load)) text += " constant";
+  }
+  for (const Support& s : m.supports)
+    if (s.displacement) text += "; prescribed displacement";
+  return text;
+}
+
+}  // namespace
+
+StressOutcome run_seed(Draw draw, std::uint64_t seed, double time_bound_s) {
+  RandomRequest request = draw == Draw::first ? random_request(seed) : broad_request(seed);
+  StressOutcome out;
+  out.features = features_of(request);
+  if (const auto findings = check(request.model, request.analysis); !findings.empty()) {
+    out.termination = "invalid";
+    out.check.failures.push_back("invalid: " + findings.front().pointer + " " + findings.front().detail);
+    return out;
+  }
+  request.analysis.output.states = StateOutput::all;
+  request.analysis.output.points_per_member = std::max(2, points_needed(request.model, request.analysis));
+  const auto start = Clock::now();
+  Result result;
+  {
+    const Bound bound(time_bound_s);
+    result = solve(request.model, request.analysis, {bound.token(), {}});
+  }
+  out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  out.termination = result.summary.termination;
+  out.reached = reached(request.analysis, out.termination);
+  out.detail = result.summary.message;
+  out.said_where = !out.termination.empty() && !out.detail.empty();
+  out.check = check_result(request.model, request.analysis, result);
+  if (out.termination == "cancelled") out.check.failures.push_back("time: over the bound");
+  if (!out.said_where) out.check.failures.push_back("silent: no termination or message");
+  return out;
+}
+
+}  // namespace snapthrough::testing
