@@ -138,8 +138,8 @@ void Drawer::members() {
     if (std::hypot(end.x - first.x, end.y - first.y) > 0.2 * length_) member(count, 0);
   }
   if (model().members.size() > 1 && random_.chance(0.2)) {
-    Member& released = model().members[static_cast<std::size_t>(
-        random_.below(static_cast<int>(model().members.size())))];
+    Member& released =
+        model().members[static_cast<std::size_t>(random_.below(static_cast<int>(model().members.size())))];
     (random_.chance(0.5) ? released.release_start_rotation : released.release_end_rotation) = true;
   }
 }
@@ -240,14 +240,13 @@ void Drawer::imperfections() {
     PointsImperfection points{any_member().id, {}};
     const int n = 2 + random_.below(3);
     for (int i = 1; i <= n; ++i)
-      points.offsets.push_back(
-          {static_cast<double>(i) / (n + 1), length_ * random_.decades(-6.0, -2.0) * (i % 2 == 0 ? 1.0 : -1.0)});
+      points.offsets.push_back({static_cast<double>(i) / (n + 1),
+                                length_ * random_.decades(-6.0, -2.0) * (i % 2 == 0 ? 1.0 : -1.0)});
     model().imperfections.push_back(points);
   }
   constexpr std::array kComponents{Component::x, Component::y, Component::rotation, Component::normal};
-  model().monitors.push_back({"w",
-                              {"", any_member().id, fraction(1, 19)},
-                              kComponents[static_cast<std::size_t>(random_.below(4))]});
+  model().monitors.push_back(
+      {"w", {"", any_member().id, fraction(1, 19)}, kComponents[static_cast<std::size_t>(random_.below(4))]});
 }
 
 void Drawer::rules() {

@@ -55,8 +55,7 @@ int negative_eigenvalues(Eigen::MatrixXd a) {
       if (d < 0.0) ++negative;
       if (d != 0.0 && rest > 0) {
         const Eigen::VectorXd l = a.col(k).tail(rest);
-        for (Index j = 0; j < rest; ++j)
-          a.col(k + 1 + j).tail(rest - j) -= (l[j] / d) * l.tail(rest - j);
+        for (Index j = 0; j < rest; ++j) a.col(k + 1 + j).tail(rest - j) -= (l[j] / d) * l.tail(rest - j);
       }
       k += 1;
       continue;

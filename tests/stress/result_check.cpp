@@ -25,12 +25,12 @@ std::string text(double value) {
 }
 
 bool has_mode_imperfection(const Model& model) {
-  return std::ranges::any_of(model.imperfections, [](const Imperfection& i) {
-    return std::holds_alternative<ModeImperfection>(i);
-  });
+  return std::ranges::any_of(
+      model.imperfections, [](const Imperfection& i) { return std::holds_alternative<ModeImperfection>(i); });
 }
 
-/// Which state belongs to which point of which branch: critical points name theirs, the others are the points.
+/// Which state belongs to which point of which branch: critical points name theirs, the others are the
+/// points.
 std::vector<int> states_of_points(const Result& result) {
   std::vector<char> critical(result.states.size(), 0);
   for (const CriticalPoint& point : result.critical_points)
@@ -160,7 +160,8 @@ void Check::inertia(std::size_t index, const RodState& at, int negative) {
          std::to_string(low) + (low == high ? "" : " to " + std::to_string(high)));
 }
 
-/// A one-sided base's reported reaction is that of its penetration, of one sign, and zero outside the contact.
+/// A one-sided base's reported reaction is that of its penetration, of one sign, and zero outside the
+/// contact.
 void Check::contact(const State& state, const RodState& at) {
   for (std::size_t f = 0; f < state.foundations.size(); ++f) {
     const Foundation& base = model_.foundations[f];
@@ -195,8 +196,10 @@ void Check::contact(const State& state, const RodState& at) {
       });
       if (reaction < 0.0) fail("complementarity: base " + base.id + " pulls");
       if (std::abs(reaction / base.stiffness - std::max(depth, 0.0)) > noise)
-        fail("complementarity: base " + base.id + " reacts with " + text(reaction) + " at depth " + text(depth));
-      if (inside && depth < -noise - 1e-6 * length) fail("complementarity: base " + base.id + " open in contact");
+        fail("complementarity: base " + base.id + " reacts with " + text(reaction) + " at depth " +
+             text(depth));
+      if (inside && depth < -noise - 1e-6 * length)
+        fail("complementarity: base " + base.id + " open in contact");
     }
   }
 }
@@ -211,10 +214,16 @@ void Check::state(std::size_t index, std::optional<int> negative) {
   RodState at = evaluate(rod_, s);
   ++out_.points;
   out_.residual = std::max(out_.residual, at.residual);
-  if (at.roughness > 100.0) fail("shape: state " + std::to_string(index) + " is off the elements' polynomials by " + text(at.roughness));
+  if (at.roughness > 100.0)
+    fail("shape: state " + std::to_string(index) + " is off the elements' polynomials by " +
+         text(at.roughness));
   if (!(at.residual <= 1.0))
     fail("residual: state " + std::to_string(index) + " of " + std::to_string(result_.states.size()) +
-         " at load factor " + text(s.load_factor) + ", " + text(at.residual) + " times its tolerance: " + at.worst);
+         " at load factor " + text(s.load_factor) + ", " + text(at.residual) +
+         " times its tolerance: " + at.worst);
+  if (at.reported_force > 1.0)
+    fail("section_force: state " + std::to_string(index) + " at load factor " + text(s.load_factor) +
+         ", off by " + text(at.reported_force) + " tolerances; the shape itself is in equilibrium");
   contact(s, at);
   constexpr int kMostUnknowns = 500;
   if (negative && tangent_size(rod_) <= kMostUnknowns) inertia(index, at, *negative);

@@ -104,7 +104,8 @@ void Maker::shear_layer(RodElement& element, const Foundation& base, const RodSt
     Vector3d turning = Vector3d::Zero();
     if (!base.direction) {
       const AxisPoint at = axis.at(axis.length() * (element.from + xi * (element.to - element.from)));
-      turning = -strip.sign * at.curvature * rod_.length * Vector3d(std::cos(at.angle), std::sin(at.angle), 0);
+      turning =
+          -strip.sign * at.curvature * rod_.length * Vector3d(std::cos(at.angle), std::sin(at.angle), 0);
     }
     spring.row = functional_at(rod_, element, xi, turning);
     spring.row.v += n * rod_.lagrange.values(xi).transpose();
@@ -216,8 +217,11 @@ void Maker::members() {
   const int p = rod_.lagrange.order();
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
     const Member& member = model_.members[m];
-    rod_.members.push_back({index_of(model_.nodes, member.start), index_of(model_.nodes, member.end),
-                            member.release_start_rotation, member.release_end_rotation, {}});
+    rod_.members.push_back({index_of(model_.nodes, member.start),
+                            index_of(model_.nodes, member.end),
+                            member.release_start_rotation,
+                            member.release_end_rotation,
+                            {}});
     stress_free_.emplace_back(model_, static_cast<int>(m), rod_.axes[m], std::vector<CubicSpline>{});
     const Section& section = model_.sections[index_of(model_.sections, member.section)];
     for (int e = rod_.mesh.first[m]; e < rod_.mesh.first[m + 1]; ++e) {
@@ -330,6 +334,9 @@ RodModel make_rod_model(const Model& model, const Analysis& analysis) {
   maker.scales();
   rod.mesh = make_mesh(model, analysis.discretization, rod.axes);
   rod.lagrange = Lagrange(rod.mesh.order);
+  rod.concentrated =
+      rod.mesh.foundation == FoundationRule::lumped ||
+      std::ranges::any_of(model.foundations, [](const Foundation& f) { return f.shear_stiffness > 0.0; });
   maker.members();
   maker.nodes();
   maker.sampling();

@@ -41,15 +41,15 @@ struct RodStrip {
 struct RodElement {
   int member = 0;
   double from = 0.0, to = 1.0, h = 0.0;
-  VectorXd angle, tx, ty, e0, g0, stretch;              ///< at the Gauss points
-  double axial = 0.0, shear = 0.0, bending = 0.0;        ///< compliances
+  VectorXd angle, tx, ty, e0, g0, stretch;         ///< at the Gauss points
+  double axial = 0.0, shear = 0.0, bending = 0.0;  ///< compliances
   std::vector<RodSpring> springs;
   std::vector<RodStrip> strips;
-  std::array<Functional, 2> load;                        ///< proportional, constant
+  std::array<Functional, 2> load;  ///< proportional, constant
   std::array<double, 2> pressure{}, strain{}, curvature{};
-  std::vector<int> samples;                              ///< of the member's state
-  MatrixXd fit;                                          ///< (P + 1) x samples: u_a and u'_q
-  MatrixXd basis;                                        ///< samples x (P + 1)
+  std::vector<int> samples;  ///< of the member's state
+  MatrixXd fit;              ///< (P + 1) x samples: u_a and u'_q
+  MatrixXd basis;            ///< samples x (P + 1)
 };
 
 struct RodNode {
@@ -77,6 +77,9 @@ struct RodModel {
   std::array<double, 2> origin{};
   double extent = 0.0;  ///< largest coordinate that the samples carry, over length
   int points = 0;
+  /// Whether bases end in forces at single places (lumped springs, edges of shear layers): a section force
+  /// reported there has two values, so the forces through members' ends are then found from the equations.
+  bool concentrated = false;
   Lagrange lagrange{1};
   Axes axes;
   Mesh mesh;

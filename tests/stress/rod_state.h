@@ -13,11 +13,11 @@ namespace snapthrough::testing {
 
 /// An element's displacement and section forces in a state.
 struct ElementState {
-  MatrixXd u;                 ///< (P + 1) x 3: u_a and u'_q, columns x, y, rotation
-  VectorXd gradient_noise;    ///< of u'_q (x or y) from the samples' rounding
-  VectorXd turn_noise;        ///< of b'_q
-  VectorXd cos, sin, E, G;    ///< of the section; x' along and across it
-  VectorXd N, Q, M;           ///< from equilibrium with the force through the end
+  MatrixXd u;               ///< (P + 1) x 3: u_a and u'_q, columns x, y, rotation
+  VectorXd gradient_noise;  ///< of u'_q (x or y) from the samples' rounding
+  VectorXd turn_noise;      ///< of b'_q
+  VectorXd cos, sin, E, G;  ///< of the section; x' along and across it
+  VectorXd N, Q, M;         ///< from equilibrium with the force through the end
   double force_noise = 0.0, moment_noise = 0.0;
   std::vector<RodSpring> acting;  ///< springs and contact quadrature that act: row, stiffness, gap
 };
@@ -25,9 +25,11 @@ struct ElementState {
 struct RodState {
   std::vector<ElementState> elements;
   std::vector<Eigen::Vector3d> start_force, end_force;  ///< of members, (force x, y, moment) through the ends
-  double residual = 0.0;   ///< worst equation over its tolerance
+  double residual = 0.0;                                ///< worst equation over its tolerance
   double roughness = 0.0;  ///< worst distance of a sample from its element's polynomial, over its tolerance
   std::string worst;
+  /// Over 1: the shape is in equilibrium, but not with the section forces reported at the members' ends.
+  double reported_force = 0.0;
 };
 
 /// @brief Evaluates a state; `state` has rod.points samples a member.

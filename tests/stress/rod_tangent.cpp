@@ -115,6 +115,22 @@ void MemberTangent::add_pressure(const RodElement& element, const std::array<Mat
   }
 }
 
+/// Displacement of a node, from any member that meets there.
+Eigen::Vector3d displacement_of(const RodModel& rod, const RodState& at, int node) {
+  Eigen::Vector3d u = Eigen::Vector3d::Zero();
+  for (std::size_t m = 0; m < rod.members.size(); ++m) {
+    const ElementState& first = at.elements[rod.mesh.first[m]];
+    const ElementState& last = at.elements[rod.mesh.first[m + 1] - 1];
+    if (rod.members[m].start == node) u = first.u.row(0).transpose();
+    if (rod.members[m].end != node) continue;
+    const double h = rod.elements[rod.mesh.first[m + 1] - 1].h;
+    u = last.u.row(0).transpose();
+    for (Index q = 0; q < rod.lagrange.order(); ++q)
+      u += h * rod.lagrange.rule().weights[q] * last.u.row(q + 1).transpose();
+  }
+  return u;
+}
+
 }  // namespace
 
 int tangent_size(const RodModel& rod) {
@@ -166,17 +182,7 @@ ConstrainedTangent tangent_of(const RodModel& rod, const RodState& at, double lo
       if (rod.nodes[n].fixed[k]) K.block(row++, static_cast<Index>(3 * n), 1, 3) = turn.row(k);
   }
   for (const NodeSpring& spring : rod.node_springs) {
-    Eigen::Vector3d u = Eigen::Vector3d::Zero();
-    for (std::size_t m = 0; m < rod.members.size(); ++m) {
-      const ElementState& first = at.elements[rod.mesh.first[m]];
-      const ElementState& last = at.elements[rod.mesh.first[m + 1] - 1];
-      if (rod.members[m].start == spring.node) u = first.u.row(0).transpose();
-      if (rod.members[m].end != spring.node) continue;
-      const double h = rod.elements[rod.mesh.first[m + 1] - 1].h;
-      u = last.u.row(0).transpose();
-      for (Index q = 0; q < rod.lagrange.order(); ++q)
-        u += h * rod.lagrange.rule().weights[q] * last.u.row(q + 1).transpose();
-    }
+    const Eigen::Vector3d u = displacement_of(rod, at, spring.node);
     if (spring.one_sided && spring.row.dot(u) <= spring.gap) continue;
     K.block(3L * spring.node, 3L * spring.node, 3, 3) +=
         spring.stiffness * spring.row * spring.row.transpose();

@@ -53,7 +53,8 @@ std::string features_of(const RandomRequest& request) {
   const Model& m = request.model;
   const Discretization& d = request.analysis.discretization;
   std::string text = request.analysis.type == AnalysisType::critical ? "critical" : "path";
-  text += d.fixed_mesh ? " order " + std::to_string(d.order) + " x " + std::to_string(d.elements) : " default mesh";
+  text += d.fixed_mesh ? " order " + std::to_string(d.order) + " x " + std::to_string(d.elements)
+                       : " default mesh";
   if (d.foundation == FoundationRule::lumped) text += " lumped";
   text += "; members";
   constexpr std::array kCurves{"line", "arc", "parabola", "sine", "points"};
