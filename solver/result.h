@@ -109,7 +109,8 @@ struct Diagnostics {
   int iterations = -1;
   int factorizations = -1;
   double max_relative_residual = -1.0;
-  std::vector<std::string> skipped;  ///< what the model did not need, in words
+  std::vector<std::string> skipped;      ///< what the model did not need, in words
+  std::array<int, 32> corrections = {};  ///< entry i: steps that took i Newton corrections, 31 for more
 };
 
 /// A numerical failure: what could not be done and where it stood. The rest of the result holds what was

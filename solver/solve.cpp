@@ -25,7 +25,7 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
   if (const auto findings = check(model, analysis); !findings.empty())
     throw std::invalid_argument(findings.front().pointer + ": " + findings.front().detail);
   Result result;
-  result.diagnostics = {0, 0, 0, 0, 0.0, {}};
+  result.diagnostics = {0, 0, 0, 0, 0.0, {}, {}};
   ModeOffsets modes;
   try {
     modes = mode_offsets(model, analysis);

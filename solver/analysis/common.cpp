@@ -2,6 +2,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 
 #include "solver/analysis/analyses.h"
 #include "solver/path/trace.h"
@@ -20,6 +21,7 @@ void add_statistics(const ContinuationStatistics& statistics, Result& result) {
   d.rejected_steps += statistics.rejected_steps;
   d.iterations += statistics.iterations;
   d.factorizations += statistics.factorizations;
+  for (std::size_t i = 0; i < d.corrections.size(); ++i) d.corrections[i] += statistics.corrections[i];
   d.max_relative_residual = std::max(d.max_relative_residual, statistics.max_relative_residual);
 }
 

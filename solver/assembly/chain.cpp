@@ -32,8 +32,23 @@ std::optional<Matrix3d> semidefinite_root(const Matrix3d& F) {
   return L;
 }
 
-int count_negative(const Eigen::VectorXd& eigenvalues) {
-  return static_cast<int>((eigenvalues.array() < 0.0).count());
+/// Negative eigenvalues of a symmetric matrix whose rows may differ by many orders of magnitude: counted
+/// after a diagonal congruence that brings the largest entry of each row to about one, since an eigenvalue is
+/// known to within rounding of the largest.
+template <int N>
+int count_negative(Eigen::Matrix<double, N, N> A) {
+  constexpr int kPasses = 4;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const Eigen::Matrix<double, N, 1> d = A.cwiseAbs()
+                                              .rowwise()
+                                              .maxCoeff()
+                                              .cwiseMax(std::numeric_limits<double>::min())
+                                              .cwiseSqrt()
+                                              .cwiseInverse();
+    A = (d.asDiagonal() * A * d.asDiagonal()).eval();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(A, Eigen::EigenvaluesOnly);
+  return static_cast<int>((solver.eigenvalues().array() < 0.0).count());
 }
 
 /// Whether all pivots of C = L D L^T are well above zero.
@@ -54,12 +69,11 @@ int extra_negative(const Matrix3d& F, const Matrix3d& K) {
   if (const auto L = semidefinite_root(F)) {
     const Matrix3d C = Matrix3d::Identity() + L->transpose() * K * *L;
     if (clearly_positive(C)) return 0;
-    return count_negative(Eigen::SelfAdjointEigenSolver<Matrix3d>(C, Eigen::EigenvaluesOnly).eigenvalues());
+    return count_negative<3>(C);
   }
   Eigen::Matrix<double, 6, 6> A;
   A << -F, Matrix3d::Identity(), Matrix3d::Identity(), K;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(A, Eigen::EigenvaluesOnly);
-  return count_negative(solver.eigenvalues()) - 3;
+  return count_negative<6>(A) - 3;
 }
 
 Chain::Pivot Chain::pivot_of(const Run& first, const Run& second) {

@@ -89,6 +89,33 @@ double ContactStrip::root_between(double lo, double g_lo, double hi, double g_hi
   return std::clamp(hi - g_hi * (hi - lo) / (g_hi - g_lo), lo, hi);
 }
 
+/// The least value of toward * g near sample i, or a place where it is negative: successive parabolas, as
+/// long as they may still change the sign.
+std::array<double, 2> ContactStrip::extremum_near(std::size_t i, double toward, std::span<const double> g,
+                                                  std::array<double, 2> ua, std::span<const double> dx,
+                                                  std::span<const double> dy) const {
+  constexpr int kMostRefinements = 6;
+  std::array<double, 3> x{samples_[i - 1].xi, samples_[i].xi, samples_[i + 1].xi};
+  std::array<double, 3> f{toward * g[i - 1], toward * g[i], toward * g[i + 1]};
+  for (int it = 0; it < kMostRefinements; ++it) {
+    const double xv = parabola_vertex(x[0], f[0], x[1], f[1], x[2], f[2]);
+    if (xv == x[1] || xv <= x[0] || xv >= x[2]) break;
+    const double fv = toward * penetration(xv, ua, dx, dy);
+    const double gain = f[1] - fv;
+    if (fv < f[1]) {
+      (xv < x[1] ? x[2] : x[0]) = x[1];
+      (xv < x[1] ? f[2] : f[0]) = f[1];
+      x[1] = xv;
+      f[1] = fv;
+    } else {
+      (xv < x[1] ? x[0] : x[2]) = xv;
+      (xv < x[1] ? f[0] : f[2]) = fv;
+    }
+    if (f[1] < 0.0 || std::abs(gain) < 0.25 * f[1]) break;
+  }
+  return {x[1], toward * f[1]};
+}
+
 void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
                                      std::span<const double> dy, std::vector<Interval>& out) const {
   out.clear();
@@ -120,8 +147,7 @@ void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const d
     const bool inside = g[i] > 0.0;
     const double toward = inside ? 1.0 : -1.0;
     if (i == 0 || toward * g[i] > toward * g[i - 1] || toward * g[i] > toward * g[i + 1]) continue;
-    const double xv = parabola_vertex(samples_[i - 1].xi, g[i - 1], x0, g[i], x1, g[i + 1]);
-    const double gv = penetration(xv, ua, dx, dy);
+    const auto [xv, gv] = extremum_near(i, toward, g, ua, dx, dy);
     if ((gv > 0.0) == inside) continue;
     const double xl = xv < x0 ? samples_[i - 1].xi : x0;
     const double gl = xv < x0 ? g[i - 1] : g[i];

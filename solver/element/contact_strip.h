@@ -63,6 +63,10 @@ class ContactStrip {
   [[nodiscard]] double root_between(double lo, double g_lo, double hi, double g_hi, std::array<double, 2> ua,
                                     std::span<const double> dx, std::span<const double> dy) const;
 
+  [[nodiscard]] std::array<double, 2> extremum_near(std::size_t i, double toward, std::span<const double> g,
+                                                    std::array<double, 2> ua, std::span<const double> dx,
+                                                    std::span<const double> dy) const;
+
   const CollocationRule* rule_;
   Direction direction_;
   std::array<double, 2> range_;

@@ -98,7 +98,6 @@ std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, cons
     if (state.y.isZero(0.0) || settle(attempt, state)) return state;
   }
   if (glued.y.size() == 0) return std::nullopt;
-  glued.through_grip = true;
   if (!release_grip(attempt, glued)) return std::nullopt;
   return glued;
 }

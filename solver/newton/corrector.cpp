@@ -51,6 +51,23 @@ double damping(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lam
   return best_share;
 }
 
+/// Takes the last correction. Where supports act on one side only it may cross to other contact, where the
+/// factors say nothing: then the point stays, if it is good enough as it is.
+/// @return false when neither is
+bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, Eigen::VectorXd& y,
+               double& lambda, double dlambda, const CorrectorOutcome& out, Workspace& work) {
+  work.trial = y + work.correction;
+  if (problem.one_sided()) {
+    problem.residual(work.trial, lambda + dlambda, work.residual);
+    const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
+    if (size > std::max(out.relative_residual, options.residual_floor))
+      return out.relative_residual <= options.stagnant_residual;
+  }
+  y.swap(work.trial);
+  lambda += dlambda;
+  return true;
+}
+
 }  // namespace
 
 CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, const SideCondition& side,
@@ -74,15 +91,15 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     const double dlambda = find_correction(problem, side, y, lambda, work);
     const double size = metric.norm(work.correction, dlambda);
     if (!std::isfinite(size)) return out;
-    const double share =
-        options.damped && !last ? damping(problem, y, lambda, dlambda, out.relative_residual, work) : 1.0;
-    y += share * work.correction;
-    lambda += share * dlambda;
     if (it == 0) out.first_correction = size;
-    if (last) {
+    if (last && take_last(problem, options, y, lambda, dlambda, out, work)) {
       out.status = CorrectorStatus::converged;
       return out;
     }
+    const double share =
+        options.damped ? damping(problem, y, lambda, dlambda, out.relative_residual, work) : 1.0;
+    y += share * work.correction;
+    lambda += share * dlambda;
     if (size > options.largest_correction * scale) return out;
     // quadratic convergence: the next ratio of corrections is about this one squared
     const double ratio = share < 1.0 ? 1.0 : std::min(1.0, size / previous);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -36,6 +37,8 @@ constexpr double kNoise = 1e-6;
 constexpr double kLeastNoise = 1e-12;
 /// Size (displacement gradient) of the first, very small step where supports act on one side only.
 constexpr double kSmallStart = 1e-7;
+/// Largest share of the critical load's scale for that step.
+constexpr double kSmallLoad = 1e-4;
 
 /// Cubic Hermite interpolation on [0, d] at tau with end values and slopes.
 struct Hermite {
@@ -80,28 +83,36 @@ bool Continuation::unit_response(const VectorXd& at, double lambda, bool bonded,
 }
 
 /// The start of a path on which supports may act on one side only: what they do under a very small load.
+///
+/// How small is not known beforehand: a structure that leaves stiff supports moves far more than one that is
+/// glued to them. So the load falls until the displacement is small, or no longer falls with it: then the
+/// structure moves until gaps close, and the path begins where it comes to rest.
 std::optional<PathPoint> Continuation::one_sided_start(double direction) {
+  constexpr int kMostLoads = 40;
+  constexpr double kLargestFall = 1e-3;
   VectorXd response;
   TangentReport report;
   const VectorXd zero = VectorXd::Zero(problem_.size());
   if (!unit_response(zero, 0.0, true, response, report)) return std::nullopt;
   const double norm = metric_.norm(response, 0.0);
   if (norm == 0.0) return first_point(zero, 0.0, response, direction, report);
-  const double lambda = direction * kSmallStart / norm;
-  const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations);
-  if (!state) return std::nullopt;
-  if (!state->through_grip || is_proportional(*state, lambda))
-    return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
-  // it moved until gaps closed: the path begins where it came to rest
-  if (!unit_response(state->y, lambda, false, response, report)) return std::nullopt;
-  return first_point(state->y, lambda, response, direction, report);
-}
-
-/// Whether half the load gives half the displacement.
-bool Continuation::is_proportional(const ContactState& state, double lambda) {
-  constexpr double kProportional = 1e-3;
-  const auto half = find_contact_state(problem_, metric_, 0.5 * lambda, work_, statistics_.factorizations);
-  return half && metric_.norm(state.y - 2.0 * half->y, 0.0) <= kProportional * metric_.norm(state.y, 0.0);
+  // small in both: a thin column hardly moves before it buckles
+  double lambda =
+      direction * std::min(kSmallStart / norm, kSmallLoad * problem_.critical_load_scale(response));
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMostLoads; ++i) {
+    const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations);
+    const double size = state ? metric_.norm(state->y, 0.0) : 0.0;
+    if (state && size <= 10.0 * kSmallStart)
+      return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
+    if (state && size > 0.5 * last) {
+      if (!unit_response(state->y, lambda, false, response, report)) return std::nullopt;
+      return first_point(state->y, lambda, response, direction, report);
+    }
+    if (state) last = size;
+    lambda *= state ? std::max(kSmallStart / size, kLargestFall) : 0.01;
+  }
+  return std::nullopt;
 }
 
 void Continuation::set_load_scale(const VectorXd& response) {
@@ -179,6 +190,7 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   const double cosine =
       std::clamp(metric_.inner(to.tangent, to.tangent_lambda, from.tangent, from.tangent_lambda), -1.0, 1.0);
   trial.converged = true;
+  trial.corrections = outcome.factorisations;
   trial.angle = std::acos(cosine);
   trial.correction = outcome.first_correction / movement;
   trial.growth = std::min({options_.max_growth, options_.target_angle / std::max(trial.angle, 1e-12),
@@ -257,6 +269,7 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
     const bool smooth = trial.angle <= options_.max_angle && trial.correction <= kLargestCorrection;
     if (trial.converged && (smooth || is_corner(trial, size))) {
       ++statistics_.steps;
+      ++statistics_.corrections[std::min<std::size_t>(trial.corrections, statistics_.corrections.size() - 1)];
       if (size == first_size) easy_size_ = size;
       step.taken = size;
       step.wanted = std::min(size * (smooth ? trial.growth : options_.max_growth), options_.max_step);
@@ -274,6 +287,19 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
   }
   step.wanted = size;
   return StepOutcome::step_underflow;
+}
+
+PathPoint Continuation::last_before_corner(const PathPoint& from, double size) {
+  constexpr int kHalvings = 30;
+  constexpr double kSmooth = 1e-3;  // a turn of the tangent, rad, that is no corner
+  PathPoint last = from;
+  PathPoint probe;
+  for (int i = 0; i < kHalvings; ++i) {
+    size *= 0.5;
+    const Trial trial = try_step(last, size, probe);
+    if (trial.converged && probe.negative == from.negative && trial.angle < kSmooth) std::swap(last, probe);
+  }
+  return last;
 }
 
 void Continuation::limit_steps(const StepOptions& steps, double load_rate) {

@@ -2,6 +2,7 @@
 /// @file
 /// Pseudo-arc-length continuation with step control.
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -30,6 +31,8 @@ struct ContinuationStatistics {
   int iterations = 0;  ///< Newton corrections
   int factorizations = 0;
   double max_relative_residual = 0.0;
+  /// Entry i: accepted steps that took i corrections (the last one, on 31, stands for more).
+  std::array<int, 32> corrections{};
 };
 
 /// Size of the step that was taken, and of the one to try next.
@@ -72,6 +75,9 @@ class Continuation {
 
   /// @brief One accepted step from `from`: `step.wanted` is tried first, then smaller ones; sets both fields.
   [[nodiscard]] StepOutcome step(const PathPoint& from, StepSize& step, PathPoint& to);
+  /// @brief The last point before a corner that is within `size` of `from`, to rounding: found by halving
+  /// steps which either meet the same contact or do not.
+  [[nodiscard]] PathPoint last_before_corner(const PathPoint& from, double size);
   /// @brief Bounds the step sizes from now on by the caller's, which are fractions of the load scale.
   /// @param load_rate d lambda / ds at the start, positive
   void limit_steps(const StepOptions& steps, double load_rate);
@@ -109,7 +115,6 @@ class Continuation {
   [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, double lambda, bool bonded,
                                    Eigen::VectorXd& response, TangentReport& report);
   [[nodiscard]] std::optional<PathPoint> one_sided_start(double direction);
-  [[nodiscard]] bool is_proportional(const ContactState& state, double lambda);
   [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, double lambda,
                                       const Eigen::VectorXd& response, double direction,
                                       const TangentReport& report);
@@ -123,6 +128,7 @@ class Continuation {
     double correction = 0.0;  ///< first correction over the step
     double length = 0.0;      ///< of the chord from the last point
     double growth = 0.3;      ///< wanted factor to the next step size
+    int corrections = 0;
   };
   /// A turn that was met, and the size of the first step that met it.
   struct Corner {

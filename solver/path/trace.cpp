@@ -139,8 +139,8 @@ bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<Crit
   else if (bounded)
     ended = finish(by_bound, to);
   // a turn within rounding's reach still is a step
-  if (to.arc_length <= from.arc_length)
-    to.arc_length = std::nextafter(from.arc_length, std::numeric_limits<double>::infinity());
+  const double least = ended || reached.empty() ? from.arc_length : reached.back().point.arc_length;
+  if (to.arc_length <= least) to.arc_length = std::nextafter(least, std::numeric_limits<double>::infinity());
   for (const ContactChange& change : changes_)
     if (sink_.on_contact && change.point.arc_length <= to.arc_length) sink_.on_contact(change);
   if (sink_.on_step) sink_.on_step(from, to);
@@ -165,7 +165,7 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
       break;
     }
     const LocatedEvents located = outcome == StepOutcome::turned
-                                      ? locate_at_turn(continuation_, from, to, rules_.tolerance)
+                                      ? locate_at_turn(continuation_, from, to, size.taken, rules_.tolerance)
                                       : locate_critical_points(continuation_, from, to, rules_.tolerance);
     if (!located.same_path) {
       continuation_.reject(size);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
 namespace snapthrough {
@@ -284,8 +285,8 @@ LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint
 
 namespace {
 
-/// What cannot be bracketed at a corner is at its start.
-std::vector<CriticalEvent> events_at_start(const PathPoint& corner, const PathPoint& to) {
+/// What cannot be bracketed at a corner is at the last point before it.
+std::vector<CriticalEvent> events_before(const PathPoint& corner, const PathPoint& to) {
   std::vector<CriticalEvent> events;
   CriticalEvent event;
   event.cause = CriticalCause::contact;
@@ -310,13 +311,15 @@ std::vector<CriticalEvent> events_at_start(const PathPoint& corner, const PathPo
 
 }  // namespace
 
-LocatedEvents locate_at_turn(Continuation& continuation, const PathPoint& a, const PathPoint& b,
+LocatedEvents locate_at_turn(Continuation& continuation, const PathPoint& a, const PathPoint& b, double size,
                              double tolerance) {
   LocatedEvents out;
   Search search{continuation, continuation.movement_chord(a, b), a.log_abs_det, tolerance, out};
   search_between(search, a, b, 0);
-  if (!out.same_path) return {events_at_start(a, b)};
-  return out;
+  if (out.same_path) return out;
+  PathPoint corner = continuation.last_before_corner(a, size);
+  corner.arc_length = std::nextafter(corner.arc_length, std::numeric_limits<double>::infinity());
+  return {events_before(corner, b)};
 }
 
 }  // namespace snapthrough

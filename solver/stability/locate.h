@@ -61,8 +61,10 @@ struct LocatedEvents {
                                                    const PathPoint& b, double tolerance);
 
 /// @brief As locate_critical_points(), for a step that led round a turn (StepOutcome::turned): places are
-/// told by the movement alone. What cannot be bracketed there is put at the step's start, caused by contact.
+/// told by the movement alone. What cannot be bracketed there is put at the last point before the corner,
+/// caused by contact.
+/// @param size of the step that was taken
 [[nodiscard]] LocatedEvents locate_at_turn(Continuation& continuation, const PathPoint& a, const PathPoint& b,
-                                           double tolerance);
+                                           double size, double tolerance);
 
 }  // namespace snapthrough

@@ -108,26 +108,56 @@ double Evaluation::penetration(const RodElement& element, const RodStrip& strip,
   return value_of(functional_at(rod_, element, xi, d), at.u) - strip.gap;
 }
 
-/// Springs at the Gauss points of the intervals in which the strip is pressed, found by subdivision.
+/// Where f is extreme in [a, b] on the side of `toward` zero, by golden sections.
+template <class Function>
+double extremum(const Function& f, double a, double b, bool from_above) {
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  const double sign = from_above ? 1.0 : -1.0;
+  for (int it = 0; it < 60; ++it) {
+    const double left = b - ratio * (b - a);
+    const double right = a + ratio * (b - a);
+    (sign * f(left) < sign * f(right) ? b : a) = sign * f(left) < sign * f(right) ? right : left;
+  }
+  return 0.5 * (a + b);
+}
+
+/// Places in [lo, hi] where f changes its sign, ascending; pairs between samples are found by the extrema.
+template <class Function>
+std::vector<double> sign_changes(const Function& f, double lo, double hi, int cells) {
+  std::vector<double> x;
+  for (int i = 0; i <= cells; ++i) x.push_back(lo + (hi - lo) * i / cells);
+  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
+    const double g = f(x[i]);
+    const bool above = g > 0.0;
+    if (std::abs(g) > std::min(std::abs(f(x[i - 1])), std::abs(f(x[i + 1])))) continue;
+    if ((f(x[i - 1]) > 0.0) != above || (f(x[i + 1]) > 0.0) != above) continue;
+    const double at = extremum(f, x[i - 1], x[i + 1], above);
+    if ((f(at) > 0.0) == above) continue;
+    x.insert(x.begin() + static_cast<std::ptrdiff_t>(i) + (at > x[i] ? 1 : 0), at);
+    i += 2;
+  }
+  std::vector<double> out;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    double a = x[i - 1];
+    double b = x[i];
+    const bool before = f(a) > 0.0;
+    if ((f(b) > 0.0) == before) continue;
+    for (int it = 0; it < 60; ++it) {
+      const double mid = 0.5 * (a + b);
+      ((f(mid) > 0.0) == before ? a : b) = mid;
+    }
+    out.push_back(a);
+  }
+  return out;
+}
+
+/// Springs at the Gauss points of the intervals in which the strip is pressed.
 void Evaluation::collect_strip(const RodElement& element, const RodStrip& strip, ElementState& out) const {
   const int p = rod_.lagrange.order();
-  const int cells = 6 * p + 6;
-  std::vector<double> edges{strip.lo};
-  double before = penetration(element, strip, strip.lo, out);
-  const bool first = before > 0.0;
-  for (int i = 1; i <= cells; ++i) {
-    double b = strip.lo + (strip.hi - strip.lo) * i / cells;
-    const double after = penetration(element, strip, b, out);
-    if ((before > 0.0) != (after > 0.0)) {
-      double a = strip.lo + (strip.hi - strip.lo) * (i - 1) / cells;
-      for (int it = 0; it < 60; ++it) {
-        const double mid = 0.5 * (a + b);
-        ((penetration(element, strip, mid, out) > 0.0) == (before > 0.0) ? a : b) = mid;
-      }
-      edges.push_back(a);
-    }
-    before = after;
-  }
+  const auto depth = [&](double xi) { return penetration(element, strip, xi, out); };
+  const bool first = depth(strip.lo) > 0.0;
+  std::vector<double> edges = sign_changes(depth, strip.lo, strip.hi, 12 * p + 12);
+  edges.insert(edges.begin(), strip.lo);
   edges.push_back(strip.hi);
   const Rule rule = gauss(std::max(p + 2, 5));
   for (std::size_t k = first ? 0 : 1; k + 1 < edges.size(); k += 2) {
