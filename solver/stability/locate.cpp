@@ -13,8 +13,9 @@ constexpr int kMaxEvaluations = 100;
 constexpr int kMaxDepth = 48;
 /// Points this near (in the path's norm, a displacement gradient) are on one path.
 /// Rounding leaves about 1e-16 over the relative distance to the bifurcation, a broken bifurcation about the
-/// cube root of its imperfection.
-constexpr double kSamePath = 1e-6;
+/// cube root of its imperfection: one of 1e-14, as rounding of the nodes' coordinates makes it, counts as
+/// whole.
+constexpr double kSamePath = 1e-5;
 constexpr double kBrokenBifurcation = 1e-9;
 
 /// State of the search between two points of a path.
@@ -91,6 +92,16 @@ void add_simple_event(Search& search, CriticalType type, LocatedRoot root, doubl
   if (root.found) search.out.events.back().cause = cause_of(search, root, first_value);
 }
 
+/// Whether the load turns at a corner where the tangent is singular: two paths that cross there, and the step
+/// went from one to the other. (At a limit point the load turns smoothly, at a contact's corner nothing is
+/// singular.)
+bool changes_paths(const Search& search, const LocatedRoot& root, double first_rate) {
+  constexpr double kSingular = 1e-3;  // det there, over that at the start of the step
+  const double left = std::min(std::abs(root.value_before), std::abs(root.value_after));
+  const double det = std::max(root.before.log_abs_det, root.after.log_abs_det) - search.log_abs_det;
+  return left > kJump * first_rate && det < std::log(kSingular);
+}
+
 void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
   const auto rate = [&search](const PathPoint& at) {
     return search.continuation.load_rate(search.chord, at);
@@ -103,8 +114,10 @@ void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
            loads_agree(lo.lambda, hi.lambda, search.tolerance, scale) &&
            length <= std::min(kSamePath, 10.0 * search.tolerance);
   };
-  const LocatedRoot root = find_root(search.continuation, search.chord, a, rate(a), b, rate(b), rate, done);
-  add_simple_event(search, limit_type(a), root, std::max(std::abs(rate(a)), std::abs(rate(b))), a, b);
+  LocatedRoot root = find_root(search.continuation, search.chord, a, rate(a), b, rate(b), rate, done);
+  const double first_rate = std::max(std::abs(rate(a)), std::abs(rate(b)));
+  root.found = root.found && !changes_paths(search, root, first_rate);
+  add_simple_event(search, limit_type(a), root, first_rate, a, b);
 }
 
 void locate_bifurcation(Search& search, const PathPoint& a, const PathPoint& b) {

@@ -99,6 +99,8 @@ inline ReferenceProblem one_sided_column(double K, double slenderness = 2.5e4) {
   p.model.foundations[0].reaction = Reaction::compression_only;
   p.model.imperfections = {SineImperfection{"column", 2, 1e-4}};
   p.analysis = default_path(1);
+  p.analysis.stop.limit_points.reset();
+  p.analysis.stop.monitor = MonitorRange{"mid", {-0.5, 0.5}};
   return p;
 }
 
@@ -150,7 +152,7 @@ inline std::vector<ReferenceProblem> benchmark_problems() {
                {5e4, 49.388072, 1e-7}, {1.8e5, 65.729727, 1e-7}, {1e6, 77.448742, 1e-7},
                {1e7, 80.904, 1e-4},    {1e8, {}, 0.0},           {1e9, {}, 0.0}};
   for (const auto& row : rings) out.push_back(ring_in_medium(row.k, row.limit, row.digits));
-  out.push_back(lee_frame_path({}));
+  out.push_back(lee_frame_path(18.55672753757));
   for (double a = 1e-2; a > 0.5e-12; a *= 0.1) out.push_back(imperfect_column(a));
   for (const double K : {10.0, 50.0, 75.0, 500.0, 1000.0}) out.push_back(one_sided_column(K));
   return out;

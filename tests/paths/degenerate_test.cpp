@@ -1,0 +1,133 @@
+/// Models at the edge of having an answer: each is answered, with what was found and why it ended.
+#include "tests/paths/reference_problems.h"
+
+namespace snapthrough {
+namespace {
+
+using namespace testing;
+
+TEST(Degenerate, MechanismIsAFindingBeforeAnySolving) {
+  Model model = straight(1.0, 1.0, 1e6, "xy", "");
+  model.loads = {force_at(at_node("b"), 0.0, -1.0)};
+  const auto findings = check(model, default_path(1));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].code, "mechanism");
+  EXPECT_EQ(findings[0].pointer, "/model/supports");
+}
+
+/// A load on a support does no work: nothing moves, the load grows to its bound.
+TEST(Degenerate, LoadThatDoesNoWorkEndsAtTheLoadBound) {
+  Model model = straight(1.0, 1.0, 1e6, "xyr", "xyr");
+  model.loads = {force_at(at_node("b"), 0.0, -1.0)};
+  const Result result = solve_soundly(model, default_path(1));
+  EXPECT_EQ(result.summary.termination, "load_bound");
+  EXPECT_FALSE(result.summary.critical_load_factor);
+  const Result critical = solve_soundly(model, analysis_of(AnalysisType::critical, {}));
+  EXPECT_EQ(critical.summary.termination, "load_bound");
+}
+
+/// A base that the structure moves away from changes nothing.
+TEST(Degenerate, BaseThatNeverTouchesChangesNothing) {
+  const ReferenceProblem free = shallow_arch(0.0, Side::left, 76.149346);
+  ReferenceProblem far = shallow_arch(1e7, Side::left, 76.149346);
+  far.model.foundations[0].gap = 1e3;
+  const auto a = limits_of(solve_soundly(free.model, free.analysis));
+  const Result result = solve_soundly(far.model, far.analysis);
+  const auto b = limits_of(result);
+  ASSERT_EQ(b.size(), 1u);
+  expect_relative(b[0].load_factor, 76.149346, 1e-3, "limit");
+  EXPECT_EQ(a[0].negative_after, b[0].negative_after);
+  EXPECT_TRUE(result.contact_events.empty());
+  for (const double fraction : result.branches[0].contact_fraction[0].values) EXPECT_EQ(fraction, 0.0);
+}
+
+/// A constant axial force above Euler's: the structure is unstable before the proportional load grows.
+TEST(Degenerate, StructureUnstableAtZeroLoadSaysSo) {
+  Model model = straight(1.0, 1.0, 1e6, "xy", "y");
+  model.loads = {PointLoad{at_node("b"), {-1.5 * kPi * kPi, 0.0}, 0.0, Pattern::constant},
+                 force_at(at_member("m", 0.5), 0.0, -1.0)};
+  const Result critical = solve_soundly(model, analysis_of(AnalysisType::critical, {}));
+  EXPECT_EQ(critical.summary.termination, "unstable_at_start");
+  EXPECT_FALSE(critical.summary.critical_load_factor);
+}
+
+/// A cantilever under a growing transverse load has no critical point: the load goes to its bound.
+TEST(Degenerate, PathWithoutCriticalPointEnds) {
+  Model model = straight(1.0, 1.0, 1e6, "xyr", "");
+  model.loads = {force_at(at_node("b"), 0.0, -1.0)};
+  const Result result = solve_soundly(model, default_path(1));
+  EXPECT_TRUE(result.critical_points.empty());
+  EXPECT_TRUE(result.summary.termination == "load_bound" ||
+              result.summary.termination == "displacement_bound")
+      << result.summary.termination;
+  EXPECT_EQ(result.branches[0].termination, result.summary.termination);
+}
+
+/// The two modes of each pair of a ring under pressure: critical
+/// points closer than any tolerance are one of multiplicity two, or two at one load.
+TEST(Degenerate, CriticalPointsTogetherAreAllCounted) {
+  Model model;
+  model.nodes = {{"bottom", 0.0, -1.0}, {"top", 0.0, 1.0}};
+  model.sections = {{"s", 1.2e5, 1.0, {}}};
+  model.members = {{"right", "bottom", "top", "s", ArcCurve{180.0}, false, false},
+                   {"left", "top", "bottom", "s", ArcCurve{180.0}, false, false}};
+  model.supports = {support("bottom", "xy"), support("top", "x")};
+  for (const Member& member : model.members)
+    model.loads.push_back(PressureLoad{member.id, 1.0, Side::right, Pattern::proportional});
+  Analysis analysis = analysis_of(AnalysisType::path, {});
+  analysis.stop.load_factor = std::array{-1.0, 5.0};
+  int multiplicity = 0;
+  for (const CriticalPoint& point : solve_soundly(model, analysis).critical_points) {
+    expect_relative(point.load_factor, 3.000125006, 1e-3, "ring");  // reference README: q R^3 / EI
+    multiplicity += point.multiplicity;
+  }
+  EXPECT_EQ(multiplicity, 2);
+}
+
+/// A beam that nothing but a spring behind a gap holds in place starts where it comes to rest against it.
+TEST(Degenerate, StructureThatMovesUntilAGapClosesStartsThere) {
+  Model model = straight(1.0, 1.0, 1e6, "xy", "");
+  Spring stop;
+  stop.id = "stop";
+  stop.at = at_node("b");
+  stop.direction = std::array{0.0, -1.0};
+  stop.stiffness = 1e4;
+  stop.reaction = Reaction::compression_only;
+  stop.gap = 0.05;
+  model.springs = {stop};
+  model.loads = {force_at(at_node("b"), 0.0, -1.0)};
+  model.monitors = {{"tip", at_node("b"), Component::y}};
+  Analysis analysis = analysis_of(AnalysisType::path, {});
+  analysis.stop.load_factor = std::array{-1.0, 10.0};
+  const Result result = solve_soundly(model, analysis);
+  EXPECT_EQ(result.summary.termination, "load_factor");
+  const std::vector<double>& tip = result.branches[0].monitors[0].values;
+  EXPECT_NEAR(tip.front(), -0.05, 1e-6);
+  // the load on the spring: 10 = k (tip - gap), the bar turned by 0.05 rad takes a share of it along itself
+  EXPECT_NEAR(-tip.back() - 0.05, 10.0 / 1e4, 1e-5);
+}
+
+/// The stop of a bar's sideways movement by a spring: contact begins at the gap, and stability returns there.
+TEST(Degenerate, ContactThatBeginsIsAnEvent) {
+  Model model = straight(1.0, 1.0, 1e6, "xyr", "");
+  Spring stop;
+  stop.id = "stop";
+  stop.at = at_node("b");
+  stop.direction = std::array{0.0, -1.0};
+  stop.stiffness = 50.0;
+  stop.reaction = Reaction::compression_only;
+  stop.gap = 0.01;
+  model.springs = {stop};
+  model.loads = {force_at(at_node("b"), 0.0, -1.0)};
+  Analysis analysis = analysis_of(AnalysisType::path, {});
+  analysis.stop.load_factor = std::array{-1.0, 1.0};
+  const Result result = solve_soundly(model, analysis);
+  ASSERT_EQ(result.contact_events.size(), 1u);
+  EXPECT_EQ(result.contact_events[0].id, "stop");
+  EXPECT_FALSE(result.contact_events[0].opened);
+  // tip of a cantilever: P L^3 / (3 EI) = gap at P = 0.03, its large displacements change it by (gap / L)^2
+  expect_relative(result.contact_events[0].load_factor, 0.03, 2e-4, "closing load");
+}
+
+}  // namespace
+}  // namespace snapthrough
