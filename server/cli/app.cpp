@@ -3,8 +3,10 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <ostream>
+#include <thread>
 
 #include "server/cli/commands.h"
 
@@ -16,6 +18,8 @@ struct Arguments {
   std::string request;
   std::string listen = "127.0.0.1:8080";
   std::string log_level = "info";
+  bool csv = false;
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   ServiceConfig config = ServiceConfig::defaults();
 };
 
@@ -24,6 +28,17 @@ CLI::App* add_request_command(CLI::App& app, const char* name, const char* descr
   CLI::App* command = app.add_subcommand(name, description);
   command->add_option("request", arguments.request, "Request document (JSON); - reads standard input")
       ->required();
+  return command;
+}
+
+CLI::App* add_sweep_command(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand("sweep", "Solve every point of a sweep, one row each");
+  command->add_option("sweep", arguments.request, "Sweep document (JSON); - reads standard input")
+      ->required();
+  command->add_flag("--csv", arguments.csv, "Comma-separated values instead of JSON");
+  command->add_option("--threads", arguments.threads, "Points at the same time; rows do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   return command;
 }
 
@@ -68,6 +83,7 @@ int run(int argc, const char* const* argv, const Streams& streams) {
   const CLI::App* solve =
       add_request_command(app, "solve", "Solve a request, result on standard output", arguments);
   const CLI::App* check = add_request_command(app, "check", "Validate a request", arguments);
+  const CLI::App* sweep = add_sweep_command(app, arguments);
   add_serve_command(app, arguments);
   try {
     app.parse(argc, argv);
@@ -80,6 +96,9 @@ int run(int argc, const char* const* argv, const Streams& streams) {
     }
     if (*check) {
       return check_command(arguments.request, streams);
+    }
+    if (*sweep) {
+      return sweep_command(arguments.request, streams, arguments.csv, arguments.threads);
     }
     return serve(arguments, streams);
   } catch (const std::exception& error) {

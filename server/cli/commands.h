@@ -15,6 +15,10 @@ int solve_command(const std::string& path, const Streams& streams, bool show_pro
 /// Findings on `err`, one line each; a line on `out` when there are none.
 int check_command(const std::string& path, const Streams& streams);
 
+/// Rows of a sweep on `out`, as one JSON document or as CSV; points are solved on `threads` >= 1 threads.
+/// kNotCompleted when a point failed: its row says why, the others are there.
+int sweep_command(const std::string& path, const Streams& streams, bool csv, int threads);
+
 /// Runs the service until SIGTERM or SIGINT.
 int serve_command(const ServiceConfig& config, const Streams& streams);
 

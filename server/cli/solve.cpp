@@ -1,30 +1,15 @@
 #include <chrono>
-#include <fstream>
-#include <istream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 
 #include "api/api.h"
 #include "server/cli/commands.h"
+#include "server/cli/input.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server::cli {
 namespace {
-
-std::optional<std::string> read_all(const std::string& path, const Streams& streams) {
-  if (path == "-") {
-    return std::string(std::istreambuf_iterator<char>(streams.in), {});
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file) {
-    streams.err << "snapthrough: cannot read " << path << '\n';
-    return std::nullopt;
-  }
-  return text;
-}
 
 /// The request in a file, or the exit status with what is wrong already said.
 struct Read {
@@ -38,9 +23,7 @@ Read read(const std::string& path, const Streams& streams) {
     return {std::nullopt, kOther};
   }
   api::ReadOutcome outcome = api::read_request(*text);
-  for (const Finding& finding : outcome.findings) {
-    streams.err << finding.pointer << ": " << finding.detail << " [" << finding.code << "]\n";
-  }
+  print_findings(outcome.findings, streams);
   return {std::move(outcome.request), outcome.findings.empty() ? kDone : kWrongRequest};
 }
 

@@ -1,0 +1,336 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "api/json_text.h"
+#include "api/sweep.h"
+#include "api/sweep_data.h"
+#include "api/value.h"
+
+namespace snapthrough::api {
+
+std::optional<std::vector<std::string>> pointer_tokens(std::string_view pointer) {
+  std::vector<std::string> tokens;
+  for (std::size_t i = 0; i < pointer.size(); ++i) {
+    if (pointer[i] == '/') {
+      tokens.emplace_back();
+    } else if (tokens.empty()) {
+      return std::nullopt;
+    } else if (pointer[i] != '~') {
+      tokens.back() += pointer[i];
+    } else if (++i < pointer.size() && (pointer[i] == '0' || pointer[i] == '1')) {
+      tokens.back() += pointer[i] == '0' ? '~' : '/';
+    } else {
+      return std::nullopt;
+    }
+  }
+  return tokens;
+}
+
+std::optional<std::size_t> array_index(std::string_view token) {
+  std::size_t index = 0;
+  const char* end = token.data() + token.size();
+  const auto [stop, error] = std::from_chars(token.data(), end, index);
+  const bool leading_zero = token.size() > 1 && token[0] == '0';
+  return error == std::errc() && stop == end && !leading_zero ? std::optional(index) : std::nullopt;
+}
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Whether a value can be written at a pointer: everything above it is there, and an array has the element.
+bool has_place(const Json& document, const std::vector<std::string>& tokens) {
+  const Json* at = &document;
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    const bool last = i + 1 == tokens.size();
+    const auto index = array_index(tokens[i]);
+    if (at->is_array() && index && *index < at->size()) {
+      at = &(*at)[*index];
+    } else if (at->is_object() && at->contains(tokens[i])) {
+      at = &(*at)[tokens[i]];
+    } else {
+      return last && at->is_object();
+    }
+  }
+  return true;
+}
+
+void read_pointer(const Value& value, SweepOutput& out) {
+  static constexpr std::array<std::string_view, 10> kParts{
+      "model",  "summary",        "critical_points", "contact_events", "branches",
+      "states", "discretization", "diagnostics",     "buckling",       "failure"};
+  read(value, out.pointer);
+  if (!value.is_string()) {
+    return;
+  }
+  const auto tokens = pointer_tokens(out.pointer);
+  if (!tokens || tokens->empty()) {
+    value.report("invalid_pointer", "expected a JSON Pointer into the result, such as /summary/message");
+    return;
+  }
+  if (std::find(kParts.begin(), kParts.end(), tokens->front()) == kParts.end()) {
+    const std::string_view meant = nearest_name(tokens->front(), kParts);
+    value.report("unknown_field", "a result has no /" + tokens->front() +
+                                      (meant.empty() ? "" : "; did you mean /" + std::string(meant) + "?"));
+  }
+  out.tokens = *tokens;
+}
+
+SweepTarget read_target(const Value& value, const Json& base) {
+  SweepTarget target;
+  Object in(value);
+  in.required("pointer", target.pointer);
+  in.optional("scale", target.scale);
+  in.finish();
+  const auto pointer = in.find("pointer");
+  if (!pointer || !pointer->is_string()) {
+    return target;
+  }
+  const auto tokens = pointer_tokens(target.pointer);
+  if (!tokens || tokens->size() < 2 || (tokens->front() != "model" && tokens->front() != "analysis")) {
+    pointer->report("invalid_pointer", "expected a JSON Pointer to something in /model or /analysis");
+  } else if (!has_place(base, *tokens)) {
+    pointer->report("no_such_place", "the request of this sweep has no " + target.pointer);
+  }
+  return target;
+}
+
+SweepRange read_range(const Value& value) {
+  static constexpr Named<bool> kSpacings[] = {{"linear", false}, {"log", true}};
+  SweepRange range;
+  Object in(value);
+  in.required("from", range.from);
+  in.required("to", range.to);
+  in.required("count", range.count);
+  if (const auto spacing = in.find("spacing")) {
+    read_named(*spacing, kSpacings, range.log);
+  }
+  in.finish();
+  if (const auto count = in.find("count"); count && count->is_number() && range.count < 2) {
+    count->report("out_of_range", "a range has at least its two ends: count must be 2 or more");
+    range.count = 2;
+  }
+  if (range.log && (range.from <= 0.0 || range.to <= 0.0)) {
+    value.report("out_of_range", "from and to must be positive where the spacing is log");
+  }
+  return range;
+}
+
+/// Values are numbers where a target scales them.
+void check_scalable(const SweepParameter& parameter, const Value& values) {
+  const auto scaled = [](const SweepTarget& target) { return target.scale.has_value(); };
+  if (std::none_of(parameter.targets.begin(), parameter.targets.end(), scaled)) {
+    return;
+  }
+  for (std::size_t i = 0; i < parameter.values.size(); ++i) {
+    if (!parameter.values[i].is_number()) {
+      values.item(i).report_type("a number, because a target has a scale");
+    }
+  }
+}
+
+void read_values(Object& in, SweepParameter& parameter) {
+  const auto values = in.find("values");
+  const auto range = in.find("range");
+  if (values.has_value() == range.has_value()) {
+    in.value().report(values ? "excess_field" : "missing_field", "a parameter has either values or a range");
+    return;
+  }
+  if (range) {
+    parameter.range = read_range(*range);
+  } else if (!values->is_array()) {
+    values->report_type("an array");
+  } else if (values->size() == 0) {
+    values->report("out_of_range", "values must not be empty");
+  } else {
+    parameter.values = values->json().get<std::vector<Json>>();
+    check_scalable(parameter, *values);
+  }
+}
+
+SweepParameter read_parameter(const Value& value, const Json& base) {
+  SweepParameter parameter;
+  Object in(value);
+  in.required("name", parameter.name);
+  if (const auto name = in.find("name");
+      name && name->is_string() &&
+      (parameter.name.empty() || parameter.name == "error" || parameter.name[0] == '/')) {
+    name->report("invalid_name", "a name is not empty, not \"error\", and does not begin with /");
+  }
+  const auto targets = in.find_required("targets");
+  if (targets && !targets->is_array()) {
+    targets->report_type("an array");
+  } else if (targets && targets->size() == 0) {
+    targets->report("out_of_range", "a parameter needs a target");
+  } else if (targets) {
+    for (std::size_t i = 0; i < targets->size(); ++i) {
+      parameter.targets.push_back(read_target(targets->item(i), base));
+    }
+  }
+  read_values(in, parameter);
+  in.finish();
+  return parameter;
+}
+
+bool overlap(std::string_view a, std::string_view b) {
+  if (a.size() > b.size()) {
+    std::swap(a, b);
+  }
+  return b.starts_with(a) && (a.size() == b.size() || b[a.size()] == '/');
+}
+
+/// No name twice, and no place written by two targets: which one won would depend on their order.
+void check_distinct(const SweepData& data, Report& report) {
+  std::vector<std::pair<std::string, std::string>> seen;  // target and where it stands
+  for (std::size_t i = 0; i < data.parameters.size(); ++i) {
+    const std::string at = "/parameters/" + std::to_string(i);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (data.parameters[i].name == data.parameters[j].name) {
+        report.add(at + "/name", "duplicate_name", "another parameter has this name");
+      }
+    }
+    for (std::size_t t = 0; t < data.parameters[i].targets.size(); ++t) {
+      const std::string& pointer = data.parameters[i].targets[t].pointer;
+      const std::string here = at + "/targets/" + std::to_string(t) + "/pointer";
+      for (const auto& [other, where] : seen) {
+        if (overlap(pointer, other)) {
+          report.add(here, "overlapping_targets", "this place is also written by " + where);
+        }
+      }
+      seen.emplace_back(pointer, here);
+    }
+  }
+}
+
+/// Counts without building anything; what is too many is not counted to its end.
+void count_points(SweepData& data, Report& report) {
+  data.points = data.design == SweepDesign::grid ? 1 : data.parameters[0].count();
+  for (std::size_t i = 0; i < data.parameters.size(); ++i) {
+    const std::uint64_t count = data.parameters[i].count();
+    if (data.design == SweepDesign::zip && count != data.points) {
+      report.add("/parameters/" + std::to_string(i), "unequal_counts",
+                 "zip needs as many values for each parameter: " + std::to_string(count) + " here, " +
+                     std::to_string(data.points) + " for the first");
+      return;
+    }
+    if (data.design == SweepDesign::grid && data.points <= kMaxSweepPoints) {
+      data.points *= count;  // both factors fit 32 bits
+    }
+  }
+  if (data.points > kMaxSweepPoints) {
+    report.add("/parameters", "too_many_points",
+               "the design has more than " + std::to_string(kMaxSweepPoints) + " points");
+  }
+}
+
+/// Mistakes of the request that no point can be without: fields that nobody knows, lack, or are of a wrong
+/// type, at places that no parameter writes. Other findings may depend on the values and stay the point's.
+void check_request(const Sweep& sweep, const SweepData& data, std::vector<Finding>& findings) {
+  const ReadOutcome first = read_request_document(sweep.document_at(0));
+  for (const Finding& finding : first.findings) {
+    bool swept = false;
+    for (std::size_t i = 0; i < data.parameters.size(); ++i) {
+      for (std::size_t t = 0; t < data.parameters[i].targets.size(); ++t) {
+        const std::string& pointer = data.parameters[i].targets[t].pointer;
+        swept = swept || (finding.pointer.size() >= pointer.size() && overlap(finding.pointer, pointer));
+        if (finding.pointer == pointer && finding.code == "unknown_field") {
+          findings.push_back(
+              {"/parameters/" + std::to_string(i) + "/targets/" + std::to_string(t) + "/pointer",
+               finding.code, finding.detail});
+        }
+      }
+    }
+    if (!swept && (finding.code == "unknown_field" || finding.code == "missing_field" ||
+                   finding.code == "wrong_type")) {
+      findings.push_back(finding);
+    }
+  }
+}
+
+void read_parameters(Object& root, SweepData& data) {
+  const auto parameters = root.find_required("parameters");
+  if (!parameters) {
+    return;
+  }
+  if (!parameters->is_array() || parameters->size() == 0) {
+    parameters->report_type("an array with at least one parameter");
+    return;
+  }
+  for (std::size_t i = 0; i < parameters->size(); ++i) {
+    data.parameters.push_back(read_parameter(parameters->item(i), data.base));
+  }
+}
+
+void read_design(Object& root, SweepData& data) {
+  static constexpr Named<SweepDesign> kDesigns[] = {{"grid", SweepDesign::grid}, {"zip", SweepDesign::zip}};
+  const auto design = root.find_required("design");
+  if (!design) {
+    return;
+  }
+  if (design->is_object() && design->member("latin_hypercube")) {
+    design->report("not_supported", "latin_hypercube is not supported by this version");
+    return;
+  }
+  read_named(*design, kDesigns, data.design);
+}
+
+void read_outputs(Object& root, SweepData& data) {
+  const auto outputs = root.find_required("outputs");
+  if (!outputs) {
+    return;
+  }
+  if (!outputs->is_array() || outputs->size() == 0) {
+    outputs->report_type("an array with at least one JSON Pointer");
+    return;
+  }
+  data.outputs.resize(outputs->size());
+  for (std::size_t i = 0; i < outputs->size(); ++i) {
+    read_pointer(outputs->item(i), data.outputs[i]);
+  }
+}
+
+}  // namespace
+
+SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document) {
+  SweepOutcome outcome;
+  auto data = std::make_shared<SweepData>();
+  Report report;
+  Object root(Value(*document, "", report));
+  data->base = Json::object();
+  for (const char* part : {"model", "analysis"}) {
+    if (const auto value = root.find_required(part)) {
+      data->base[part] = value->json();
+    }
+  }
+  read_parameters(root, *data);
+  read_design(root, *data);
+  read_outputs(root, *data);
+  root.finish();
+  if (report.findings().empty()) {
+    check_distinct(*data, report);
+    count_points(*data, report);
+  }
+  outcome.findings = report.findings();
+  if (outcome.findings.empty()) {
+    const Sweep sweep(data);
+    check_request(sweep, *data, outcome.findings);
+    if (outcome.findings.empty()) {
+      outcome.sweep = sweep;
+    }
+  }
+  return outcome;
+}
+
+SweepOutcome read_sweep(std::string_view text) {
+  ParsedText parsed = parse_json(text);
+  if (parsed.document == nullptr) {
+    return {.malformed = true, .findings = std::move(parsed.findings), .sweep = std::nullopt};
+  }
+  return read_sweep_document(parsed.document);
+}
+
+}  // namespace snapthrough::api

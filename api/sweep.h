@@ -1,0 +1,75 @@
+#pragma once
+/// @file
+/// Sweeps: one request document, parameters that are written into it, and one row of outputs for each point.
+///
+/// Nothing here solves anything: a caller goes through the points in whatever order and on as many threads
+/// as it likes, and gets for each one the request document to solve and, from its result, the row.
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/api.h"
+
+namespace snapthrough::api {
+
+/// Designs with more points than this are refused before any of them is built.
+inline constexpr std::uint64_t kMaxSweepPoints = 1'000'000;
+
+struct SweepData;
+
+/// @brief A sweep document that was read and found to be without mistakes. Immutable, cheap to copy, and safe
+/// to use from several threads; points are built one by one when they are asked for.
+class Sweep {
+ public:
+  explicit Sweep(std::shared_ptr<const SweepData> data) : data_(std::move(data)) {}
+
+  /// Number of points, 1 to kMaxSweepPoints.
+  [[nodiscard]] std::uint64_t size() const;
+
+  /// Names of the parameters, pointers of the outputs, and "error": what a row holds, in this order.
+  [[nodiscard]] std::vector<std::string> columns() const;
+
+  /// @brief The request document of a point: the sweep's model and analysis with the values written in.
+  /// @pre point < size(). Points of a grid are numbered with the last parameter varying fastest.
+  [[nodiscard]] std::shared_ptr<const nlohmann::json> document_at(std::uint64_t point) const;
+
+  /// @brief The row of a point that was solved.
+  /// @param result what write_result() gave. An output whose place the result cannot have makes the row an
+  /// error; one past the end of a list (a second critical point where there is one) is null.
+  [[nodiscard]] nlohmann::json row(std::uint64_t point, const nlohmann::json& result) const;
+
+  /// The row of a point that could not be solved: outputs null, `{"code", "detail"}` last.
+  [[nodiscard]] nlohmann::json error_row(std::uint64_t point, std::string_view code,
+                                         std::string_view detail) const;
+
+ private:
+  std::shared_ptr<const SweepData> data_;
+};
+
+/// What reading a sweep gave. Exactly one of `findings` (not empty) and `sweep` (a value) holds.
+struct SweepOutcome {
+  bool malformed = false;  ///< not acceptable as JSON
+  std::vector<Finding> findings;
+  std::optional<Sweep> sweep;
+};
+
+/// @brief Reads a sweep document and checks all of it that does not depend on a point: fields, targets,
+/// values, the number of points, output pointers, and the request as it stands around the targets. What is
+/// wrong with single points is left to reading their documents.
+/// @param text UTF-8 JSON; its size is the caller's to limit
+[[nodiscard]] SweepOutcome read_sweep(std::string_view text);
+
+/// @brief The same for a document in memory.
+/// @pre document is not null and nested no deeper than ParseLimits::depth (api/json_text.h)
+[[nodiscard]] SweepOutcome read_sweep_document(const std::shared_ptr<const nlohmann::json>& document);
+
+/// @brief A line of comma-separated values (RFC 4180 quoting, ended by a line feed): null is empty, an object
+/// or array is its JSON.
+[[nodiscard]] std::string csv_line(const nlohmann::json& row);
+
+}  // namespace snapthrough::api

@@ -1,0 +1,60 @@
+#pragma once
+/// @file
+/// What a sweep document says, as read_sweep() understood it. Internal to api/.
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace snapthrough::api {
+
+/// `count` numbers from `from` to `to`, both among them, equally spaced or in equal ratios.
+struct SweepRange {
+  double from = 0.0;
+  double to = 0.0;
+  int count = 2;
+  bool log = false;
+};
+
+/// A place in the request that a parameter is written to, times `scale` where there is one.
+struct SweepTarget {
+  std::string pointer;
+  std::optional<double> scale;
+};
+
+struct SweepParameter {
+  std::string name;
+  std::vector<SweepTarget> targets;
+  std::vector<nlohmann::json> values;  ///< when there is no range
+  std::optional<SweepRange> range;
+
+  [[nodiscard]] std::uint64_t count() const {
+    return range ? static_cast<std::uint64_t>(range->count) : values.size();
+  }
+};
+
+struct SweepOutput {
+  std::string pointer;
+  std::vector<std::string> tokens;
+};
+
+enum class SweepDesign { grid, zip };
+
+struct SweepData {
+  nlohmann::json base;  ///< model and analysis
+  std::vector<SweepParameter> parameters;
+  SweepDesign design = SweepDesign::grid;
+  std::vector<SweepOutput> outputs;
+  std::uint64_t points = 0;
+};
+
+/// The unescaped tokens of a JSON Pointer (RFC 6901), or nothing when it is not one.
+[[nodiscard]] std::optional<std::vector<std::string>> pointer_tokens(std::string_view pointer);
+
+/// The number that an array index is written as (no sign, no leading zero), or nothing.
+[[nodiscard]] std::optional<std::size_t> array_index(std::string_view token);
+
+}  // namespace snapthrough::api
