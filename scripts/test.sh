@@ -30,3 +30,6 @@ cmake --build "build/$preset" --parallel "$jobs"
 
 echo "== tests"
 ctest --test-dir "build/$preset" --parallel "$jobs" --output-on-failure --no-tests=error
+
+echo "== thesis examples"
+python3 scripts/report.py "build/$preset/snapthrough" --check
