@@ -98,6 +98,16 @@ def compare(results):
     return wrong, compared
 
 
+def check_sensitivity(rows):
+    """Koiter: at a symmetric unstable bifurcation the load lost grows as the amplitude to the power 2/3."""
+    load = {row["amplitude"]: row["/critical_points/0/load_factor"] for row in rows}
+    wrong = [f"sensitivity: {a} and {-a} differ" for a in load if abs(load[a] - load[-a]) > 1e-9 * load[0]]
+    ratio = (load[0] - load[1e-3]) / (load[0] - load[1e-4])
+    if abs(ratio / 10 ** (2 / 3) - 1) > 0.02:  # higher terms are of the relative size of the load lost, 0.014
+        wrong.append(f"sensitivity: ratio {ratio} is not 10^(2/3)")
+    return wrong
+
+
 def table_page(results):
     lines = ["# Tables and limit loads", "",
              "Thesis' mesh: straight elements of order 1, springs lumped at the nodes, as many elements as the thesis used.",
@@ -156,6 +166,11 @@ def plot_all(results):
                 [(f"k_x = {k:g}", "linespoints pt 7 ps 0.4",
                   [(1 - row["fraction"], row["/buckling/load_factors/0"]) for row in results[file] if row["k_x"] == k])
                  for k in stiffnesses])
+    gnuplot("sensitivity.svg", "Shallow arch, k = 0: antisymmetric imperfection", "amplitude / R, per cent",
+            "Λ = P R^2/EI at the first loss of stability", False,
+            [("imperfect: limit", "linespoints pt 7 ps 0.5",
+              [(row["amplitude"], row["/critical_points/0/load_factor"])
+               for row in results["imperfection_sensitivity_arch"]])])
     references = read_csv(EXAMPLES / "reference.csv")
     for file, name, title, group in (
             ("figure_4_31_deep_arch_235", "deep_arch.svg", "Deep arch, 235 degrees", "P R^2/EI"),
@@ -180,6 +195,7 @@ def main():
         results[path.stem], seconds = run_sweep(arguments[0], path)
         times.append(f"| {path.name} | {len(results[path.stem])} | {seconds:.2f} |")
     wrong, compared = compare(results)
+    wrong += check_sensitivity(results["imperfection_sensitivity_arch"])
     if compared < MINIMUM_COMPARED:
         wrong.append(f"only {compared} values were compared, {MINIMUM_COMPARED} were expected")
     print(f"{compared} values compared, {len(wrong)} off")
