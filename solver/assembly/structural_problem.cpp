@@ -13,7 +13,9 @@ using Eigen::Matrix3d;
 using Eigen::VectorXd;
 
 StructuralProblem::StructuralProblem(const Structure& structure)
-    : structure_(structure), members_(structure.mesh.first.size() - 1) {
+    : structure_(structure),
+      members_(structure.mesh.first.size() - 1),
+      follower_ends_(structure.follower_ends) {
   condensed_.resize(structure.dofs.size());
   chains_.resize(members_);
   spring_active_.assign(structure.joint_springs.size(), 0);
@@ -180,13 +182,30 @@ TangentReport StructuralProblem::linearise(const VectorXd& y, double lambda, Vec
   factor_.factorise(free_matrix_);
   report.negative += factor_.inertia().negative - 3 * static_cast<int>(members_);
   report.log_abs_det += factor_.log_abs_det();
+  if (!follower_ends_.empty()) add_follower_ends(lambda, report);
   constrain_residual(y, lambda, f);
   return report;
 }
 
+/// Where the tangent is not symmetric, stability against divergence changes where its determinant does: the
+/// count is that of the symmetric part, made to agree in parity.
+void StructuralProblem::add_follower_ends(double lambda, TangentReport& report) {
+  const auto [proportional, constant] = factors(lambda);
+  const double det =
+      follower_ends_.prepare(proportional, constant, size(), [this](VectorXd& x) { solve_symmetric(x); });
+  report.log_abs_det += std::log(std::max(std::abs(det), std::numeric_limits<double>::min()));
+  if (det < 0.0) report.negative += report.negative > 0 ? -1 : 1;
+}
+
 void StructuralProblem::solve(VectorXd& x) {
+  solve_symmetric(x);
+  if (!follower_ends_.empty()) follower_ends_.correct(x);
+}
+
+void StructuralProblem::solve_symmetric(VectorXd& x) {
   structure_.elements->reduce(x, condensed_);
-  VectorXd rhs = VectorXd::Zero(joint_matrix_.rows());
+  VectorXd& rhs = joint_rhs_;
+  rhs.setZero(joint_matrix_.rows());
   rhs.head(3 * structure_.joints + structure_.releases) = x.head(3 * structure_.joints + structure_.releases);
   for (std::size_t m = 0; m < members_; ++m) {
     const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
@@ -200,7 +219,8 @@ void StructuralProblem::solve(VectorXd& x) {
       rhs[multiplier(m) + c] = chains_[m].ends().rm[c];
     }
   }
-  VectorXd reduced(static_cast<Index>(free_.size()));
+  VectorXd& reduced = free_rhs_;
+  reduced.resize(static_cast<Index>(free_.size()));
   for (Index i = 0; i < reduced.size(); ++i) {
     double sum = rhs[free_[i]];
     for (const Index k : fixed_) sum -= joint_matrix_(free_[i], k) * rhs[k];
@@ -282,6 +302,8 @@ VectorXd StructuralProblem::tangent_product(const VectorXd& y, double lambda, co
   start_residual(lambda, out);  // tells the elements the factors on pressures
   out.setZero();
   structure_.elements->add_tangent_product(y, direction, out);
+  const auto [proportional, constant] = factors(lambda);
+  follower_ends_.add_product(proportional, constant, direction, out);
   VectorXd scratch = VectorXd::Zero(y.size());
   add_joint_springs(y, scratch);
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {

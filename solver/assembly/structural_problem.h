@@ -56,6 +56,9 @@ class StructuralProblem final : public EquilibriumProblem {
   void freeze_contact(const Eigen::VectorXd& y, double tolerance);
 
  private:
+  /// x := S^-1 x with the symmetric part S of the tangent.
+  void solve_symmetric(Eigen::VectorXd& x);
+  void add_follower_ends(double lambda, TangentReport& report);
   /// Factors on the proportional and the constant actions at a load factor.
   [[nodiscard]] std::array<double, 2> factors(double lambda) const {
     return stage_ == Stage::proportional ? std::array{lambda, 1.0} : std::array{0.0, lambda};
@@ -86,6 +89,8 @@ class StructuralProblem final : public EquilibriumProblem {
   std::vector<char> free_rotation_;  ///< node rotations that nothing holds: all members released there
   Eigen::MatrixXd free_matrix_;
   SymmetricIndefinite factor_;
+  Eigen::VectorXd joint_rhs_, free_rhs_;  ///< scratch of solve
+  FollowerEnds follower_ends_;
   std::vector<char> spring_active_;
   Stage stage_ = Stage::proportional;
   bool bonded_ = false;

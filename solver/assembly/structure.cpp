@@ -47,6 +47,7 @@ class Builder {
   void add_pressure(const PressureLoad& load);
   void add_initial_strain(const InitialStrain& load);
   void scale_loads();
+  void find_follower_ends(double load_scale);
   [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
 
   /// Follower pressures of the elements, scaled, proportional and constant; set once the load's scale is
@@ -439,6 +440,27 @@ void Builder::scale_loads() {
     for (double& value : support.proportional) value /= total;
   for (const ElementPressure& p : pressures_)
     out_.elements->set_pressure(p.element, p.proportional / total, p.constant);
+  find_follower_ends(total);
+}
+
+/// Nodes that are free to move where the pressures of the lines that meet don't cancel.
+void Builder::find_follower_ends(double load_scale) {
+  std::vector<FollowerEnd> sums(static_cast<std::size_t>(out_.joints));
+  for (const ElementPressure& p : pressures_) {
+    const ElementDofs& dofs = out_.dofs[p.element];
+    for (const auto& [node, half] : {std::pair{dofs.a, -0.5}, std::pair{dofs.b, 0.5}}) {
+      if (node[0] >= 3 * out_.joints) continue;
+      FollowerEnd& end = sums[node[0] / 3];
+      end.proportional += half * p.proportional / load_scale;
+      end.constant += half * p.constant;
+    }
+  }
+  for (int j = 0; j < out_.joints && out_.geometry == Geometry::nonlinear; ++j) {
+    const JointSupport& support = out_.supports[j];
+    sums[j].joint = j;
+    if (!support.fixed[0] && !support.fixed[1] && (sums[j].proportional != 0.0 || sums[j].constant != 0.0))
+      out_.follower_ends.push_back(sums[j]);
+  }
 }
 
 void Builder::set_metric() {

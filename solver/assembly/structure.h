@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "solver/assembly/axis_offset.h"
+#include "solver/assembly/follower_ends.h"
 #include "solver/element/element_set.h"
 #include "solver/mesh/mesh.h"
 #include "solver/model/analysis.h"
@@ -89,6 +90,7 @@ struct Structure {
   std::vector<MonitorRow> monitors;
   std::vector<FoundationPart> foundation_parts;
   std::vector<std::string> skipped;
+  std::vector<FollowerEnd> follower_ends;
   std::vector<double> euler_loads;  ///< pi^2 EI / l^2 of each member
   bool one_sided = false;           ///< some base or spring is not bilateral
   bool has_constant = false;        ///< some action has the constant pattern

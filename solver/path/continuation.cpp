@@ -88,7 +88,7 @@ bool Continuation::unit_response(const VectorXd& at, double lambda, bool bonded,
 /// glued to them. So the load falls until the displacement is small, or no longer falls with it: then the
 /// structure moves until gaps close, and the path begins where it comes to rest.
 std::optional<PathPoint> Continuation::one_sided_start(double direction) {
-  constexpr int kMostLoads = 40;
+  constexpr int kMostLoads = 8;
   constexpr double kLargestFall = 1e-3;
   VectorXd response;
   TangentReport report;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "solver/mesh/mesh.h"
 #include "tests/stress/random_numbers.h"
 
 namespace snapthrough::testing {
@@ -59,6 +60,7 @@ class Drawer {
   void other_loads();
   void imperfections();
   void analysis();
+  [[nodiscard]] bool resolves_bases(const Discretization& mesh) const;
   void rules();
 
   Random random_;
@@ -280,6 +282,23 @@ void Drawer::analysis() {
   a.discretization.order = 1 + random_.below(kMaxOrder);
   a.discretization.elements = 3 + random_.below(24 / a.discretization.order + 4);
   if (random_.chance(0.15)) a.discretization.foundation = FoundationRule::lumped;
+  if (!resolves_bases(a.discretization)) a.discretization = {};
+}
+
+/// Whether no element is longer than some decay lengths (4 EI / K)^(1/4) of its base: on a coarser mesh a
+/// stiff base is a matter of its interpolation, not of a structure. The default mesh takes its place.
+bool Drawer::resolves_bases(const Discretization& mesh) const {
+  constexpr double kDecayLengths = 6.0;
+  const Model& model = out_.model;
+  return std::ranges::all_of(model.foundations, [&](const Foundation& base) {
+    if (base.stiffness == 0.0) return true;
+    const Member& member = model.members[static_cast<std::size_t>(index_of(model.members, base.member))];
+    const double EI = model.sections[static_cast<std::size_t>(index_of(model.sections, member.section))].EI;
+    const Node& a = model.nodes[static_cast<std::size_t>(index_of(model.nodes, member.start))];
+    const Node& b = model.nodes[static_cast<std::size_t>(index_of(model.nodes, member.end))];
+    const double element = std::hypot(b.x - a.x, b.y - a.y) / mesh.elements;
+    return element <= kDecayLengths * std::pow(4.0 * EI / base.stiffness, 0.25);
+  });
 }
 
 RandomRequest Drawer::draw() {

@@ -37,13 +37,15 @@ class Bound {
   std::jthread thread_;
 };
 
-/// The rules that a path may end by, and what the search for the first critical point may find.
+/// The rules that an analysis may end by: those asked for, and the bounds beyond which nothing is of
+/// interest, which always hold (a path to infinity meets no other; a search for a loss of stability that gets
+/// there has its answer).
 bool reached(const Analysis& analysis, const std::string& termination) {
+  constexpr std::array<std::string_view, 2> kBounds{"load_bound", "displacement_bound"};
   constexpr std::array<std::string_view, 5> kPath{"limit_points", "load_factor", "monitor", "monitor_turned",
                                                   "steps"};
-  // the search for the first loss of stability is complete at its bounds: there is none below them
-  constexpr std::array<std::string_view, 4> kCritical{"critical_point", "unstable_at_start", "load_bound",
-                                                      "displacement_bound"};
+  constexpr std::array<std::string_view, 2> kCritical{"critical_point", "unstable_at_start"};
+  if (std::ranges::count(kBounds, termination) > 0) return true;
   if (analysis.type == AnalysisType::critical) return std::ranges::count(kCritical, termination) > 0;
   return std::ranges::count(kPath, termination) > 0;
 }
