@@ -1,0 +1,131 @@
+#include "server/store/sqlite/writer.h"
+
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace snapthrough::server::sqlite {
+namespace {
+
+/// More than this in one commit makes the first caller wait and gains nothing.
+constexpr std::size_t kLargestBatch = 128;
+
+void roll_back(Connection& connection) {
+  try {
+    connection.execute("ROLLBACK");
+  } catch (const Error&) {
+    // SQLite has rolled back by itself already (disk full, I/O error): nothing is left to undo.
+  }
+}
+
+}  // namespace
+
+Status to_status(const Error& error) {
+  switch (error.code() & 0xFF) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+    case SQLITE_FULL:
+    case SQLITE_NOMEM:
+    case SQLITE_IOERR:
+    case SQLITE_CANTOPEN:
+    case SQLITE_READONLY:
+      return {StatusCode::unavailable, error.what()};
+    case SQLITE_NOTADB:
+      return {StatusCode::unsupported, error.what()};
+    default:
+      return {StatusCode::io_error, error.what()};
+  }
+}
+
+Writer::Writer(std::unique_ptr<Connection> connection)
+    : connection_(std::move(connection)), thread_([this] { loop(); }) {}
+
+Writer::~Writer() {
+  {
+    const std::lock_guard guard(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+Status Writer::run(const Work& work, Durability durability) {
+  Item item{work, durability};
+  {
+    const std::lock_guard guard(mutex_);
+    waiting_.push_back(&item);
+  }
+  changed_.notify_one();
+  item.done.acquire();
+  return std::move(item.status);
+}
+
+void Writer::loop() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return stopping_ || !waiting_.empty(); });
+    if (waiting_.empty()) {
+      return;
+    }
+    std::deque<Item*> batch;
+    while (!waiting_.empty() && batch.size() < kLargestBatch) {
+      batch.push_back(waiting_.front());
+      waiting_.pop_front();
+    }
+    lock.unlock();
+    commit_batch(batch);
+    for (Item* item : batch) {
+      item->done.release();  // the item is its caller's again, and may be gone
+    }
+    lock.lock();
+  }
+}
+
+void Writer::commit_batch(std::deque<Item*>& batch) {
+  try {
+    begin(batch);
+    for (Item* item : batch) {
+      if (!run_item(*item)) {
+        throw Error(SQLITE_IOERR, item->status.message());
+      }
+    }
+    connection_->execute("COMMIT");
+  } catch (const Error& error) {
+    roll_back(*connection_);
+    for (Item* item : batch) {
+      item->status = to_status(error);
+    }
+  }
+}
+
+void Writer::begin(const std::deque<Item*>& batch) {
+  const bool synced = std::any_of(batch.begin(), batch.end(),
+                                  [](const Item* item) { return item->durability == Durability::synced; });
+  const Durability wanted = synced ? Durability::synced : Durability::unsynced;
+  if (wanted != level_) {
+    // In WAL mode NORMAL leaves out the sync of a commit; the next synced commit covers it too.
+    connection_->execute(synced ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
+    level_ = wanted;
+  }
+  connection_->execute("BEGIN IMMEDIATE");
+}
+
+/// False when the transaction of the whole batch is gone.
+bool Writer::run_item(Item& item) {
+  connection_->execute("SAVEPOINT item");
+  try {
+    item.status = item.work(*connection_);
+  } catch (const Error& error) {
+    item.status = to_status(error);
+    if (!connection_->in_transaction()) {
+      return false;
+    }
+  } catch (const std::exception& error) {
+    item.status = {StatusCode::io_error, error.what()};
+  }
+  connection_->execute(item.status.ok() ? "RELEASE item" : "ROLLBACK TO item; RELEASE item");
+  return true;
+}
+
+}  // namespace snapthrough::server::sqlite
