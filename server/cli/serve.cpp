@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <csignal>
 #include <ostream>
 #include <system_error>
@@ -41,6 +43,14 @@ class HeldSignals {
   sigset_t before_{};
 };
 
+/// Large blocks go back to the system when they are freed, and threads share arenas: one wide document shall
+/// not leave the process larger for ever.
+void keep_heap_small() {
+  ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  ::mallopt(M_TRIM_THRESHOLD, 2 << 20);
+  ::mallopt(M_ARENA_MAX, 4);
+}
+
 /// The configuration as it is used; keys are counted, not shown.
 void log_config(Log& log, const ServiceConfig& config) {
   for (const Setting& setting : settings()) {
@@ -60,6 +70,7 @@ int serve_command(const SettingSources& sources, const Streams& streams) {
   if (!mistakes.empty()) {
     return kOther;
   }
+  keep_heap_small();
   HeldSignals signals;
   const Environment environment = Environment::system();
   Log log(config.log_level, environment.now);
