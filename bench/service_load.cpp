@@ -85,9 +85,9 @@ std::string post(const std::string& title, const char* prefer) {
       R"(","nodes":[{"id":"a","x":0,"y":0},{"id":"b","x":1,"y":0}],"sections":[{"id":"s","EA":1e6,"EI":1}],)"
       R"("members":[{"id":"m","start":"a","end":"b","section":"s"}],)"
       R"("supports":[{"node":"a","fixed":["x","y","rotation"]}],)"
-      R"("loads":[{"type":"point","at":{"node":"b"},"force":[-1,0]}],)"
-      R"("monitors":[{"id":"tip","at":{"node":"b"},"component":"y"}]},)"
-      R"("analysis":{"type":"path","discretization":{"elements":4,"order":2},"stop":{"steps":20}}})";
+      R"("loads":[{"type":"point","at":{"node":"b"},"force":[-1,0]}]},)"
+      
+      R"("analysis":{"type":"buckling","discretization":{"elements":4,"order":2}}})";
   return std::string("POST /v1/jobs HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\n") + prefer +
          "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
 }
@@ -174,7 +174,7 @@ int main(int argc, char** argv) {
   const std::string run = std::to_string(Clock::now().time_since_epoch().count());
   synchronous_jobs(port, run, fsync_time());
   std::string job = Client(port).ask(post(run, ""));
-  job = job.substr(job.find("Location: ") + 10);
+  job = job.substr(job.find("\r\nLocation: ") + 12);
   job = job.substr(0, job.find('\r'));
   const double livez = rate(port, connections, seconds, "HTTP/1.1 200", [](int) { return get("/livez"); });
   const double status = rate(port, connections, seconds, "HTTP/1.1 200", [&](int) { return get(job); });

@@ -1,9 +1,5 @@
 #include "server/worker/pool.h"
 
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -22,8 +18,6 @@ using std::chrono::duration;
 constexpr duration<double> kLongestNap{1.0};
 /// How long a worker waits before it tries again to store an outcome.
 constexpr duration<double> kRetryPause{0.2};
-/// Analyses give way to requests where both want a core.
-constexpr int kNiceness = 5;
 
 /// What an attempt came to: exactly one of the two is set unless it was interrupted.
 struct Outcome {
@@ -240,7 +234,6 @@ bool WorkerPool::claim_and_work(const std::stop_token& stop) {
 }
 
 void WorkerPool::run(const std::stop_token& stop) {
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), kNiceness);
   std::uint64_t seen = 0;
   while (!stop.stop_requested()) {
     if (claim_and_work(stop)) {

@@ -86,11 +86,12 @@ void Writer::commit_batch(std::deque<Item*>& batch) {
   try {
     begin(batch);
     for (Item* item : batch) {
-      if (!run_item(*item)) {
-        throw Error(SQLITE_IOERR, item->status.message());
+      if (!run_item(*item, batch.size() == 1)) {
+        throw Error(SQLITE_IOERR, item->status.message());  // for those beside it, which are undone too
       }
     }
-    connection_->execute("COMMIT");
+    const bool undo = batch.size() == 1 && !batch.front()->status.ok();
+    connection_->execute(undo ? "ROLLBACK" : "COMMIT");
   } catch (const Error& error) {
     roll_back(*connection_);
     for (Item* item : batch) {
@@ -111,21 +112,24 @@ void Writer::begin(const std::deque<Item*>& batch) {
   connection_->execute("BEGIN IMMEDIATE");
 }
 
-/// False when the transaction of the whole batch is gone.
-bool Writer::run_item(Item& item) {
-  connection_->execute("SAVEPOINT item");
+/// False when the transaction of the whole batch is gone or has to go. One alone needs no savepoint.
+bool Writer::run_item(Item& item, bool alone) {
+  if (!alone) {
+    connection_->execute("SAVEPOINT item");
+  }
+  bool broken = false;
   try {
     item.status = item.work(*connection_);
   } catch (const Error& error) {
     item.status = to_status(error);
-    if (!connection_->in_transaction()) {
-      return false;
-    }
+    broken = !connection_->in_transaction();
   } catch (const std::exception& error) {
     item.status = {StatusCode::io_error, error.what()};
   }
-  connection_->execute(item.status.ok() ? "RELEASE item" : "ROLLBACK TO item; RELEASE item");
-  return true;
+  if (!alone && !broken) {
+    connection_->execute(item.status.ok() ? "RELEASE item" : "ROLLBACK TO item; RELEASE item");
+  }
+  return !broken;
 }
 
 }  // namespace snapthrough::server::sqlite

@@ -52,7 +52,7 @@ class Writer {
   void loop();
   void commit_batch(std::deque<Item*>& batch);
   void begin(const std::deque<Item*>& batch);
-  bool run_item(Item& item);
+  bool run_item(Item& item, bool alone);
 
   std::unique_ptr<Connection> connection_;
   Durability level_ = Durability::synced;
