@@ -86,7 +86,7 @@ std::string post(const std::string& title, const char* prefer) {
       R"("members":[{"id":"m","start":"a","end":"b","section":"s"}],)"
       R"("supports":[{"node":"a","fixed":["x","y","rotation"]}],)"
       R"("loads":[{"type":"point","at":{"node":"b"},"force":[-1,0]}]},)"
-      
+
       R"("analysis":{"type":"buckling","discretization":{"elements":4,"order":2}}})";
   return std::string("POST /v1/jobs HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\n") + prefer +
          "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;

@@ -162,8 +162,9 @@ Connection::Connection(const std::string& path, Access access) {
   } else {
     execute("PRAGMA query_only = ON;");
   }
-  execute("PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA mmap_size = 0;"
-          "PRAGMA temp_store = MEMORY;");
+  execute(
+      "PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA mmap_size = 0;"
+      "PRAGMA temp_store = MEMORY;");
 }
 
 void Connection::execute(const std::string& sql) {
