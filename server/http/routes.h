@@ -55,6 +55,7 @@ class Routes {
   Response job_events(const Request& request, const std::string& id);
   Response dismiss_job(const Request& request, const std::string& id);
   Response delete_job(const Request& request, const std::string& id);
+  [[nodiscard]] std::chrono::seconds wait_of(const Request& request) const;
   Response created(const Request& request, const Submission& submission);
   Response wait_or_status(const Request& request, const std::string& id, std::chrono::seconds wait,
                           bool post);

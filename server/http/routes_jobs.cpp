@@ -166,8 +166,8 @@ Response Routes::create_job(const Request& request, const std::string& /*id*/) {
     return simple_problem(request, 400, "invalid-header", "Invalid header",
                           "An Idempotency-Key has 1 to 255 visible ASCII characters.");
   }
-  StatusOr<Submission> outcome =
-      desk_.submit({request.body, request.id, request.owner, key, !wants_fresh(request)});
+  StatusOr<Submission> outcome = desk_.submit(
+      {request.body, request.id, request.owner, key, wait_of(request).count() > 0, !wants_fresh(request)});
   if (!outcome.ok()) {
     return store_trouble(request, outcome.status());
   }
@@ -178,15 +178,19 @@ Response Routes::create_job(const Request& request, const std::string& /*id*/) {
   return created(request, submission);
 }
 
-Response Routes::created(const Request& request, const Submission& submission) {
+/// How long a submission waits for its outcome.
+std::chrono::seconds Routes::wait_of(const Request& request) const {
   const Preferences preferences = read_preferences(request);
-  std::chrono::seconds wait = preferences.respond_async ? std::chrono::seconds(0) : waits_.default_wait;
   if (preferences.wait_s) {
-    wait = std::min(std::chrono::seconds(*preferences.wait_s), waits_.longest_wait);
+    return std::min(std::chrono::seconds(*preferences.wait_s), waits_.longest_wait);
   }
+  return preferences.respond_async ? std::chrono::seconds(0) : waits_.default_wait;
+}
+
+Response Routes::created(const Request& request, const Submission& submission) {
   const bool reused = submission.kind == Submission::Kind::reused;
   Response response = reused ? outcome_of(request, submission.id, true, true)
-                             : wait_or_status(request, submission.id, wait, true);
+                             : wait_or_status(request, submission.id, wait_of(request), true);
   response.headers.emplace_back("X-Cache", reused ? "hit" : "miss");
   return response;
 }

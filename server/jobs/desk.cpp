@@ -110,12 +110,20 @@ StatusOr<Submission> JobDesk::store_new(const Order& order, api::Request request
   std::promise<bool> stored;
   Handoff handoff{{job.id, 1}, std::move(request), stored.get_future().share()};
   const Lease lease = new_lease();
-  if (exchange_.offer(handoff)) {
+  // With a key it may be a repetition, which nobody shall solve.
+  if (!order.idempotency_key && exchange_.offer(handoff)) {
     job.lease = lease;
+    job.patient = order.waits;
   }
-  const StatusOr<Submitted> submitted = store_.submit(job);
+  bool queued = false;
+  const StatusOr<Submitted> submitted = store_.submit(job, [&] {
+    queued = true;
+    stored.set_value(true);
+  });
+  if (!queued) {
+    stored.set_value(false);
+  }
   const bool created = submitted.ok() && submitted->kind == Submitted::Kind::created;
-  stored.set_value(created);
   if (!submitted.ok()) {
     health_.writable = health_.writable && submitted.status().code() != StatusCode::unavailable;
     return submitted.status();

@@ -26,6 +26,7 @@ struct Order {
   std::string_view request_id = {};                      ///< for the log
   std::string owner = {};                                ///< see Job
   std::optional<std::string_view> idempotency_key = {};  ///< a second order with it is the first
+  bool waits = false;                                    ///< the caller waits for the outcome
   bool reuse = true;                                     ///< a stored result of the same request will do
 };
 

@@ -56,7 +56,8 @@ struct NewJob {
   std::string owner = {};        ///< see Job
   std::string content_key = {};  ///< equal for requests with equal results; empty: its result is not reused
   std::optional<IdempotencyKey> idempotency = {};
-  bool reuse = false;  ///< a successful job of the same owner and content takes its place, if there is one
+  bool patient = false;  ///< its outcome may come at once: the commit may wait a millisecond for it
+  bool reuse = false;    ///< a successful job of the same owner and content takes its place, if there is one
   std::optional<Lease> lease = {};  ///< set: a worker has it already, the job begins running in attempt 1
 };
 

@@ -25,7 +25,7 @@ namespace snapthrough::server {
 struct Handoff {
   Claim claim;
   api::Request request;
-  std::shared_future<bool> stored;  ///< false: it could not be stored, there is no such job
+  std::shared_future<bool> stored;  ///< true: what the store is asked from then on comes after the job
 };
 
 /// @brief Where workers wait for jobs. Thread-safe.

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,7 +61,11 @@ class Store {
   virtual ~Store() = default;
 
   /// Adds a job in state accepted (running when it comes with a lease), unless its idempotency key is known.
-  virtual StatusOr<Submitted> submit(const NewJob& job) = 0;
+  /// `queued` is called when any verb that is called from then on comes after this one.
+  virtual StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) = 0;
+  StatusOr<Submitted> submit(const NewJob& job) {
+    return submit(job, [] {});
+  }
 
   /// Gives the oldest accepted job to the caller and makes it running; empty when none waits. It survives
   /// the death of the process, not that of the machine: the job is accepted again then.

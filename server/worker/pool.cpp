@@ -156,7 +156,7 @@ bool settle_stop(const Claim& claim, StopReason reason, Outcome& outcome, JobDes
   return true;
 }
 
-/// @param stored whether the job exists, when that is not known yet
+/// @param stored when the store may be asked about the job, if that is not now
 void run_job(const Claim& claim, const api::Request* request, const std::shared_future<bool>* stored,
              JobDesk& desk, const SolveFunction& solve, Log& log, const std::stop_token& stop) {
   log_job(log, claim, JobState::running);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
@@ -43,6 +44,18 @@ class Stopped : public testing::Test {
   std::string submit(const std::string& body) const {
     return post(port_, "/v1/jobs", body, {"Content-Type: application/json", "Prefer: respond-async"})
         .header("Location");
+  }
+  void submit_until_gone(const std::string& name, std::mutex& mutex, std::set<std::string>& told) const {
+    try {
+      for (int n = 0; n < 100'000; ++n) {
+        const std::string job = submit(column_request(name + "-" + std::to_string(n)));
+        const std::lock_guard guard(mutex);
+        told.insert(job);
+      }
+    } catch (const std::system_error&) {
+      const std::lock_guard guard(mutex);
+      told.erase("");  // requests that were not answered any more, for nobody listens
+    }
   }
   [[nodiscard]] json status(const std::string& job, const Headers& headers = {}) const {
     return json::parse(get(port_, job, headers).body);
@@ -103,19 +116,7 @@ TEST_F(Stopped, SigtermUnderLoadLosesNothingAndEndsInTime) {
   std::set<std::string> told;
   std::vector<std::jthread> clients;
   for (int client = 0; client < 4; ++client) {
-    clients.emplace_back([&, client] {
-      try {
-        for (int n = 0; n < 100'000; ++n) {
-          const std::string job = submit(column_request(std::to_string(client) + "-" + std::to_string(n)));
-          const std::lock_guard guard(mutex);
-          if (!job.empty()) {
-            told.insert(job);
-          }
-        }
-      } catch (const std::system_error&) {
-        // Nobody listens any more.
-      }
-    });
+    clients.emplace_back([&, client] { submit_until_gone("c" + std::to_string(client), mutex, told); });
   }
   std::this_thread::sleep_for(milliseconds(500));
   const auto start = std::chrono::steady_clock::now();

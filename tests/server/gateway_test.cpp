@@ -18,7 +18,7 @@ class FailingStore final : public Store {
  public:
   explicit FailingStore(StatusCode code) : code_(code) {}
 
-  StatusOr<Submitted> submit(const NewJob&) override { return status(); }
+  StatusOr<Submitted> submit(const NewJob&, const std::function<void()>&) override { return status(); }
   StatusOr<std::optional<Claim>> claim(const Lease&, Time) override { return status(); }
   StatusOr<std::vector<std::string>> renew(const std::vector<Claim>&, Time, Time) override {
     return status();

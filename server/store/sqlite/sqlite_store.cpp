@@ -49,7 +49,8 @@ class SqliteStore final : public Store {
   SqliteStore(FileLock lock, std::unique_ptr<Connection> writer, const std::string& path)
       : lock_(std::move(lock)), writer_(std::move(writer)), readers_(path) {}
 
-  StatusOr<Submitted> submit(const NewJob& job) override;
+  using Store::submit;
+  StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) override;
   StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) override;
   StatusOr<std::vector<std::string>> renew(const std::vector<Claim>& claims, Time until, Time now) override;
   Status finish(const Claim& claim, const JobResult& result, Time now) override;
@@ -74,14 +75,15 @@ class SqliteStore final : public Store {
  private:
   /// Runs `work(connection)`, which gives a StatusOr<T>, in a write transaction.
   template <class T, class Work>
-  StatusOr<T> write(const Work& work, Durability durability = Durability::synced) {
+  StatusOr<T> write(const Work& work, Durability durability = Durability::synced,
+                    const std::function<void()>& queued = {}, bool patient = false) {
     StatusOr<T> outcome = Status(StatusCode::io_error, "nothing was done");
     Status status = writer_.run(
         [&](Connection& connection) {
           outcome = work(connection);
           return outcome.status();
         },
-        durability);
+        durability, queued, patient);
     if (!status.ok()) {
       return status;
     }
@@ -201,8 +203,8 @@ std::optional<std::pair<std::int64_t, std::string>> same_content(const Connectio
   return row.step() ? std::optional(std::pair(row.integer(0), row.text(1))) : std::nullopt;
 }
 
-StatusOr<Submitted> SqliteStore::submit(const NewJob& job) {
-  return write<Submitted>([&](Connection& connection) -> StatusOr<Submitted> {
+StatusOr<Submitted> SqliteStore::submit(const NewJob& job, const std::function<void()>& queued) {
+  const auto work = [&](Connection& connection) -> StatusOr<Submitted> {
     if (job.idempotency) {
       if (const std::optional<Submitted> known = known_key(connection, job)) {
         return *known;
@@ -226,7 +228,8 @@ StatusOr<Submitted> SqliteStore::submit(const NewJob& job) {
       insert_key(connection, job, row);
     }
     return submitted;
-  });
+  };
+  return write<Submitted>(work, Durability::synced, queued, job.patient);
 }
 
 StatusOr<std::optional<Claim>> SqliteStore::claim(const Lease& lease, Time now) {

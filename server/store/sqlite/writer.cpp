@@ -3,6 +3,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace snapthrough::server::sqlite {
@@ -10,6 +11,8 @@ namespace {
 
 /// More than this in one commit makes the first caller wait and gains nothing.
 constexpr std::size_t kLargestBatch = 128;
+/// A small job is solved within this; its submission and its outcome are one commit then.
+constexpr std::chrono::milliseconds kPatience{1};
 
 void roll_back(Connection& connection) {
   try {
@@ -50,11 +53,15 @@ Writer::~Writer() {
   thread_.join();
 }
 
-Status Writer::run(const Work& work, Durability durability) {
-  Item item{work, durability};
+Status Writer::run(const Work& work, Durability durability, const std::function<void()>& queued,
+                   bool patient) {
+  Item item{work, durability, patient};
   {
     const std::lock_guard guard(mutex_);
     waiting_.push_back(&item);
+  }
+  if (queued) {
+    queued();
   }
   changed_.notify_one();
   item.done.acquire();
@@ -68,6 +75,10 @@ void Writer::loop() {
     if (waiting_.empty()) {
       return;
     }
+    changed_.wait_for(lock, kPatience, [&] {
+      return stopping_ ||
+             std::any_of(waiting_.begin(), waiting_.end(), [](const Item* item) { return !item->patient; });
+    });
     std::deque<Item*> batch;
     while (!waiting_.empty() && batch.size() < kLargestBatch) {
       batch.push_back(waiting_.front());

@@ -40,12 +40,16 @@ class Writer {
 
   /// @brief Runs the work on the writing thread and returns when it is committed, or why it is not.
   /// Work that returns a status that is not ok is undone. It may run more than once.
-  Status run(const Work& work, Durability durability);
+  /// @param queued called when work that is handed in from then on comes after this
+  /// @param patient the commit may wait a millisecond for work that is not patient
+  Status run(const Work& work, Durability durability, const std::function<void()>& queued = {},
+             bool patient = false);
 
  private:
   struct Item {
     const Work& work;
     Durability durability;
+    bool patient = false;
     Status status = {};
     std::binary_semaphore done{0};
   };
