@@ -1,5 +1,7 @@
 // How many requests a running service answers, and what a small synchronous job costs besides its solving.
-//   bench_service_load PORT SECONDS CONNECTIONS
+//   bench_service_load PORT SECONDS CONNECTIONS          as fast as it goes
+//   bench_service_load PORT SECONDS CONNECTIONS RATE     RATE jobs a second, each solved and read; 0: as many
+//   as are solved
 // Prints /livez, status reads and durable asynchronous submissions per second, and the overhead of
 // synchronous jobs, each in the same run; what the numbers mean is in bench/README.md.
 #include <arpa/inet.h>
@@ -161,17 +163,33 @@ void synchronous_jobs(int port, const std::string& run, double fsync) {
               median(overheads), median(solves), fsync);
 }
 
+/// Jobs that are handed in, solved and answered, at most `wanted` a second (0: as many as are solved).
+double solved_rate(int port, int connections, double seconds, double wanted, const std::string& run) {
+  const Clock::time_point start = Clock::now();
+  return rate(port, connections, seconds, "HTTP/1.1 200", [&](int number) {
+    if (wanted > 0.0) {
+      std::this_thread::sleep_until(start + std::chrono::duration_cast<Clock::duration>(
+                                                std::chrono::duration<double>(number / wanted)));
+    }
+    return post(run + "-solved-" + std::to_string(number), "");
+  });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fprintf(stderr, "usage: bench_service_load PORT SECONDS CONNECTIONS\n");
+  if (argc != 4 && argc != 5) {
+    std::fprintf(stderr, "usage: bench_service_load PORT SECONDS CONNECTIONS [RATE]\n");
     return 1;
   }
   const int port = std::atoi(argv[1]);
   const double seconds = std::atof(argv[2]);
   const int connections = std::atoi(argv[3]);
   const std::string run = std::to_string(Clock::now().time_since_epoch().count());
+  if (argc == 5) {
+    std::printf("solved %.0f jobs/s\n", solved_rate(port, connections, seconds, std::atof(argv[4]), run));
+    return 0;
+  }
   synchronous_jobs(port, run, fsync_time());
   std::string job = Client(port).ask(post(run, ""));
   job = job.substr(job.find("\r\nLocation: ") + 12);

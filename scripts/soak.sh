@@ -37,14 +37,11 @@ report() {
 }
 
 start "$folder/soak.db" "$folder/log"
-full="$("$load" "$port" 5 16 | sed -n 's/.*durable submissions \([0-9]*\)\/s.*/\1/p')"
-echo "the service takes $full submissions/s; soaking for $minutes minutes"
+full="$("$load" "$port" 5 8 0 | sed -n 's/^solved \([0-9]*\) .*/\1/p')"
+rate=$((full * 7 / 10))
+echo "the service solves $full small jobs a second; soaking at $rate for $minutes minutes"
 for minute in $(seq "$minutes"); do
-  end=$(($(date +%s) + 60))
-  while [ "$(date +%s)" -lt "$end" ]; do
-    "$load" "$port" "0.7" 8 >"$folder/load.log" || { cat "$folder/load.log"; exit 1; }
-    sleep 0.9  # 2.1 s of work in three kinds, then a pause: about 70 % of the time
-  done
+  "$load" "$port" 58 8 "$rate" >"$folder/load.log" || { cat "$folder/load.log"; exit 1; }
   "$program" backup --store "$folder/soak.db" "$folder/backup.db" >/dev/null
   report "$minute"
 done
