@@ -11,6 +11,7 @@
 #include "server/maintenance/upkeep.h"
 #include "server/metrics/metrics.h"
 #include "server/store/sqlite/sqlite_store.h"
+#include "solver/model/limits.h"
 
 namespace snapthrough::server {
 
@@ -27,6 +28,14 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"buffered_bytes", number(wire.buffered_bytes)},
           {"json_depth", number(parse.depth)},
           {"json_values", number(parse.values)},
+          {"nodes", number(kMaxNodes)},
+          {"members", number(kMaxMembers)},
+          {"elements", number(kMaxElements)},
+          {"order", number(kMaxOrder)},
+          {"steps", number(kMaxSteps)},
+          {"buckling_modes", number(kMaxModes)},
+          {"monitors", number(kMaxMonitors)},
+          {"state_points", number(kMaxStatePoints)},
           {"connections", number(config.listener.connections)},
           {"streams", number(config.listener.streams)},
           {"queue", number(config.jobs.queue)},
