@@ -17,6 +17,10 @@ bool is_loopback(const std::string& host) {
   return host == "localhost" || host == "::1" || (numeric && ntohl(address.s_addr) >> 24 == 127);
 }
 
+bool is_digest(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 }  // namespace
 
 ServiceConfig ServiceConfig::defaults() {
@@ -32,16 +36,32 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
       mistakes.push_back({field, detail});
     }
   };
-  require(is_loopback(listener.host), "listener.host",
-          "the service has no authentication, so it listens on loopback only (127.0.0.1, ::1, localhost)");
+  require(!keys.empty() || is_loopback(listener.host), "listener.host",
+          "without keys requests are not authenticated, so the service listens on loopback only (127.0.0.1, "
+          "::1, localhost)");
   require(listener.port >= 0 && listener.port <= 65535, "listener.port", "must be 0 (any) to 65535");
   require(listener.threads >= 1 && listener.threads <= 900, "listener.threads", "must be 1 to 900");
+  require(listener.connections >= 1, "listener.connections", "must be >= 1");
+  require(listener.streams >= 0, "listener.streams", "must be >= 0");
   require(listener.limits.body_bytes > 0, "listener.limits.body_bytes", "must be > 0");
+  require(listener.limits.buffered_bytes >= listener.limits.body_bytes, "listener.limits.buffered_bytes",
+          "must be >= listener.limits.body_bytes");
   require(waits.default_wait.count() >= 0, "waits.default_wait", "must be >= 0");
   require(waits.longest_wait >= waits.default_wait, "waits.longest_wait", "must be >= waits.default_wait");
   require(!store_path.empty(), "store_path", "must name a file");
   require(workers >= 1 && workers <= kMostWorkers, "workers", "must be 1 to 1024");
-  require(max_crashes >= 1, "max_crashes", "must be >= 1");
+  require(jobs.max_crashes >= 1, "jobs.max_crashes", "must be >= 1");
+  require(jobs.queue >= 1, "jobs.queue", "must be >= 1");
+  require(jobs.lease.count() >= 1, "jobs.lease", "must be >= 1 s");
+  require(jobs.longest_run.count() >= 1, "jobs.longest_run", "must be >= 1 s");
+  require(jobs.keep_jobs.count() >= 0, "jobs.keep_jobs", "must be >= 0");
+  require(jobs.keep_keys.count() >= 0, "jobs.keep_keys", "must be >= 0");
+  require(ballast_bytes >= 0, "ballast_bytes", "must be >= 0");
+  require(least_free_bytes >= 0, "least_free_bytes", "must be >= 0");
+  for (const http::ApiKey& key : keys) {
+    require(!key.owner.empty(), "keys.owner", "must not be empty");
+    require(is_digest(key.sha256), "keys.sha256", "must be 64 lower-case hexadecimal digits");
+  }
   return mistakes;
 }
 

@@ -2,12 +2,15 @@
 /// @file
 /// What can be set for the service.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "server/http/keys.h"
 #include "server/http/listener.h"
 #include "server/http/routes.h"
+#include "server/jobs/desk.h"
 #include "server/log/log.h"
 
 namespace snapthrough::server {
@@ -20,11 +23,14 @@ struct ConfigMistake {
 
 /// Settings of the service; every field has a working default.
 struct ServiceConfig {
-  http::ListenerOptions listener;             ///< a loopback address: requests are not authenticated
-  http::WaitLimits waits;                     ///< how long clients may wait for results
-  std::string store_path = "snapthrough.db";  ///< SQLite file; its folder must exist
-  int workers = 1;                            ///< analyses at the same time, 1 to 1024
-  int max_crashes = 3;  ///< a job during which the service died so often is given up, >= 1
+  http::ListenerOptions listener;                    ///< without keys a loopback address
+  http::WaitLimits waits;                            ///< how long clients may wait for results
+  std::vector<http::ApiKey> keys;                    ///< empty: requests are not authenticated
+  std::string store_path = "snapthrough.db";         ///< SQLite file; its folder must exist
+  int workers = 1;                                   ///< analyses at the same time, 1 to 1024
+  JobLimits jobs;                                    ///< queue, leases, retention
+  std::int64_t ballast_bytes = 4 * 1024 * 1024;      ///< reserve on the disk of the store; 0: none
+  std::int64_t least_free_bytes = 64 * 1024 * 1024;  ///< with less on that disk no jobs are taken
   LogLevel log_level = LogLevel::info;
 
   /// One worker for each core.

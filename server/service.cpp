@@ -1,52 +1,121 @@
 #include "server/service.h"
 
 #include <utility>
+#include <vector>
 
+#include "api/json_text.h"
 #include "server/http/gateway.h"
 #include "server/http/listener.h"
 #include "server/http/routes.h"
 #include "server/jobs/desk.h"
+#include "server/maintenance/upkeep.h"
+#include "server/metrics/metrics.h"
 #include "server/store/sqlite/sqlite_store.h"
+#include "solver/model/limits.h"
 
 namespace snapthrough::server {
+
+namespace {
+
+std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig& config) {
+  const http::WireLimits& wire = config.listener.limits;
+  const auto number = [](auto value) { return static_cast<double>(value); };
+  const api::ParseLimits parse;
+  return {{"body_bytes", number(wire.body_bytes)},
+          {"head_bytes", number(wire.head_bytes)},
+          {"header_count", number(wire.header_count)},
+          {"target_bytes", number(wire.target_bytes)},
+          {"buffered_bytes", number(wire.buffered_bytes)},
+          {"json_depth", number(parse.depth)},
+          {"json_values", number(parse.values)},
+          {"nodes", number(kMaxNodes)},
+          {"members", number(kMaxMembers)},
+          {"elements", number(kMaxElements)},
+          {"order", number(kMaxOrder)},
+          {"steps", number(kMaxSteps)},
+          {"buckling_modes", number(kMaxModes)},
+          {"monitors", number(kMaxMonitors)},
+          {"state_points", number(kMaxStatePoints)},
+          {"connections", number(config.listener.connections)},
+          {"streams", number(config.listener.streams)},
+          {"queue", number(config.jobs.queue)},
+          {"workers", number(config.workers)},
+          {"max_run_s", number(config.jobs.longest_run.count())},
+          {"max_crashes", number(config.jobs.max_crashes)},
+          {"lease_s", number(config.jobs.lease.count())},
+          {"default_wait_s", number(config.waits.default_wait.count())},
+          {"longest_wait_s", number(config.waits.longest_wait.count())},
+          {"keep_jobs_s", number(config.jobs.keep_jobs.count())},
+          {"keep_keys_s", number(config.jobs.keep_keys.count())}};
+}
+
+}  // namespace
 
 /// Built bottom up; destroyed top down.
 struct Service::Parts {
   Parts(const ServiceConfig& config, const Environment& environment, SolveFunction solve, Log& log,
         std::unique_ptr<Store> opened)
       : store(std::move(opened)),
-        desk(*store, environment, log),
+        desk(*store, environment, log, config.jobs),
+        upkeep(desk,
+               DiskGuard(config.store_path, static_cast<std::uint64_t>(config.ballast_bytes),
+                         static_cast<std::uint64_t>(config.least_free_bytes)),
+               log),
         workers(config.workers, desk, std::move(solve), log),
-        routes(desk, config.waits),
-        gateway(routes, environment, log),
-        listener(config.listener, gateway) {}
+        routes(desk, config.waits,
+               {[this] { return metrics_text(); }, [this] { return not_ready(); }, published_limits(config)}),
+        gateway(routes, environment, log, http::KeyRing(config.keys), metrics),
+        listener(config.listener, gateway),
+        upkeep_thread(upkeep, environment) {}
+
+  [[nodiscard]] std::string metrics_text();
+  [[nodiscard]] std::string not_ready();
 
   std::unique_ptr<Store> store;
   JobDesk desk;
+  Upkeep upkeep;
   WorkerPool workers;
+  RequestMetrics metrics;
   http::Routes routes;
   http::Gateway gateway;
   http::Listener listener;
+  UpkeepThread upkeep_thread;
 };
 
-namespace {
-
-void log_recovery(Log& log, const Recovery& recovery) {
-  for (const std::string& id : recovery.requeued) {
-    log.write(LogLevel::warning, "job",
-              {{"job", std::string_view(id)},
-               {"status", to_string(JobState::accepted)},
-               {"detail", std::string_view("the service died while it worked on this job")}});
-  }
-  for (const std::string& id : recovery.failed) {
-    log.write(LogLevel::error, "job",
-              {{"job", std::string_view(id)},
-               {"status", to_string(JobState::failed)},
-               {"code", std::string_view("crashed")}});
-  }
+std::string Service::Parts::metrics_text() {
+  std::string text;
+  metrics.write(text);
+  const http::ListenerLoad load = listener.load();
+  const StoreHealth& health = desk.health();
+  const auto gauge = [&](const char* name, const char* help, double value) {
+    write_metric(text, name, "gauge", help, value);
+  };
+  gauge("snapthrough_connections", "Open connections.", load.connections);
+  gauge("snapthrough_streams", "Open streams of events.", load.streams);
+  gauge("snapthrough_buffered_bytes", "Of incomplete requests.", static_cast<double>(load.buffered_bytes));
+  gauge("snapthrough_jobs_waiting", "Accepted jobs, about.", static_cast<double>(desk.waiting()));
+  gauge("snapthrough_jobs_running", "Analyses of this process.", static_cast<double>(desk.active().count()));
+  gauge("snapthrough_store_writable", "1 when the latest write went well.", health.writable ? 1 : 0);
+  gauge("snapthrough_disk_has_space", "1 when new jobs are taken.", health.has_space ? 1 : 0);
+  return text;
 }
 
-}  // namespace
+std::string Service::Parts::not_ready() {
+  const StoreHealth& health = desk.health();
+  if (health.draining) {
+    return "The service is stopping.";
+  }
+  if (!health.writable) {
+    return "The store can't be written.";
+  }
+  if (!health.has_space) {
+    return "The disk of the store is nearly full.";
+  }
+  if (desk.waiting() >= desk.limits().queue) {
+    return "The queue is full.";
+  }
+  return store->get("").ok() ? "" : "The store can't be read.";
+}
 
 Service::Service(ServiceConfig config, Environment environment, SolveFunction solve, Log& log)
     : config_(std::move(config)), environment_(std::move(environment)), solve_(std::move(solve)), log_(log) {}
@@ -59,11 +128,11 @@ Status Service::start() {
     return store.status();
   }
   std::unique_ptr<Store> opened = std::move(store).value();
-  const StatusOr<Recovery> recovery = opened->recover(config_.max_crashes, environment_.now());
+  const StatusOr<Recovery> recovery = opened->recover(config_.jobs.max_crashes, environment_.now());
   if (!recovery.ok()) {
     return recovery.status();
   }
-  log_recovery(log_, *recovery);
+  log_recovery(log_, *recovery, "the service died while it worked on this job");
   parts_ = std::make_unique<Parts>(config_, environment_, solve_, log_, std::move(opened));
   if (Status status = parts_->listener.start(); !status.ok()) {
     stop();
@@ -73,7 +142,8 @@ Status Service::start() {
              {{"host", std::string_view(config_.listener.host)},
               {"port", static_cast<std::int64_t>(port())},
               {"store", std::string_view(config_.store_path)},
-              {"workers", static_cast<std::int64_t>(config_.workers)}});
+              {"workers", static_cast<std::int64_t>(config_.workers)},
+              {"keys", static_cast<std::int64_t>(config_.keys.size())}});
   return {};
 }
 
@@ -83,6 +153,7 @@ void Service::stop() {
   if (!parts_) {
     return;
   }
+  parts_->desk.health().draining = true;
   parts_->desk.ends().close();
   parts_->listener.stop();
   parts_->workers.stop();

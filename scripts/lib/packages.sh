@@ -4,7 +4,7 @@
 
 # What building and running the service needs.
 BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-dev libcpp-httplib-dev libssl-dev
-  zlib1g-dev libbrotli-dev libsqlite3-dev libspdlog-dev libfmt-dev libcli11-dev)
+  zlib1g-dev libbrotli-dev libsqlite3-dev libspdlog-dev libfmt-dev libcli11-dev libtomlplusplus-dev)
 # What scripts/run.sh needs besides, to talk to the service.
 RUN_PACKAGES=(curl jq)
 # What scripts/test.sh needs besides.

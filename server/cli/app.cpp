@@ -4,7 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
+#include <map>
+#include <optional>
 #include <ostream>
 #include <thread>
 
@@ -16,12 +19,20 @@ namespace {
 /// What the arguments set.
 struct Arguments {
   std::string request;
-  std::string listen = "127.0.0.1:8080";
-  std::string log_level = "info";
   bool csv = false;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  ServiceConfig config = ServiceConfig::defaults();
+  std::string config_file;
+  std::map<std::string, std::string> settings;  ///< by name, as given
+  std::string store = "snapthrough.db";
+  std::string target;
+  std::string address = "127.0.0.1:8080";
+  bool ready = false;
 };
+
+std::optional<std::string> from_environment(const std::string& name) {
+  const char* value = std::getenv(name.c_str());
+  return value == nullptr ? std::nullopt : std::optional<std::string>(value);
+}
 
 CLI::App* add_request_command(CLI::App& app, const char* name, const char* description,
                               Arguments& arguments) {
@@ -42,35 +53,41 @@ CLI::App* add_sweep_command(CLI::App& app, Arguments& arguments) {
   return command;
 }
 
-CLI::App* add_serve_command(CLI::App& app, Arguments& arguments) {
+/// Every setting is a flag: log_level is --log-level.
+void add_serve_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("serve", "Run the service");
-  command->add_option("--listen", arguments.listen, "Loopback address and port; port 0 takes a free one")
-      ->capture_default_str();
-  command->add_option("--store", arguments.config.store_path, "Database file, created if need be")
-      ->capture_default_str();
-  command->add_option("--workers", arguments.config.workers, "Analyses at the same time")
-      ->capture_default_str();
-  command->add_option("--log-level", arguments.log_level, "debug, info, warning, error or off")
-      ->capture_default_str();
-  return command;
+  command->add_option("--config", arguments.config_file,
+                      "Settings (TOML); environment and flags win over it");
+  const ServiceConfig defaults = ServiceConfig::defaults();
+  for (const Setting& setting : settings()) {
+    std::string flag = "--" + setting.name;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    command->add_option_function<std::string>(
+        flag,
+        [&arguments, name = setting.name](const std::string& value) { arguments.settings[name] = value; },
+        setting.help + " [" + setting.get(defaults) + "]");
+  }
 }
 
-int serve(Arguments& arguments, const Streams& streams) {
-  const auto address = parse_address(arguments.listen);
-  if (!address) {
-    streams.err << "--listen: expected host:port, got " << arguments.listen << '\n';
-    return kOther;
+void add_backup_command(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand("backup", "Copy a store while a service may be using it");
+  command->add_option("--store", arguments.store, "Database file")->capture_default_str();
+  command->add_option("target", arguments.target, "File to write")->required();
+}
+
+void add_health_command(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand("health", "Ask a service on this machine whether it lives");
+  command->add_option("address", arguments.address, "host:port")->capture_default_str();
+  command->add_flag("--ready", arguments.ready, "Ask whether it takes work, too");
+}
+
+int serve(const Arguments& arguments, const Streams& streams) {
+  SettingSources sources{arguments.config_file, from_environment, {}};
+  if (sources.file.empty()) {
+    sources.file = from_environment("SNAPTHROUGH_CONFIG").value_or("");
   }
-  const auto level = log_level_from(arguments.log_level);
-  if (!level) {
-    streams.err << "--log-level: expected debug, info, warning, error or off, got " << arguments.log_level
-                << '\n';
-    return kOther;
-  }
-  arguments.config.listener.host = address->first;
-  arguments.config.listener.port = address->second;
-  arguments.config.log_level = *level;
-  return serve_command(arguments.config, streams);
+  sources.flags.assign(arguments.settings.begin(), arguments.settings.end());
+  return serve_command(sources, streams);
 }
 
 }  // namespace
@@ -85,6 +102,8 @@ int run(int argc, const char* const* argv, const Streams& streams) {
   const CLI::App* check = add_request_command(app, "check", "Validate a request", arguments);
   const CLI::App* sweep = add_sweep_command(app, arguments);
   add_serve_command(app, arguments);
+  add_backup_command(app, arguments);
+  add_health_command(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -99,6 +118,12 @@ int run(int argc, const char* const* argv, const Streams& streams) {
     }
     if (*sweep) {
       return sweep_command(arguments.request, streams, arguments.csv, arguments.threads);
+    }
+    if (app.got_subcommand("backup")) {
+      return backup_command(arguments.store, arguments.target, streams);
+    }
+    if (app.got_subcommand("health")) {
+      return health_command(arguments.address, arguments.ready, streams);
     }
     return serve(arguments, streams);
   } catch (const std::exception& error) {

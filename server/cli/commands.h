@@ -5,7 +5,7 @@
 #include <string>
 
 #include "server/cli/app.h"
-#include "server/config.h"
+#include "server/settings.h"
 
 namespace snapthrough::server::cli {
 
@@ -20,6 +20,12 @@ int check_command(const std::string& path, const Streams& streams);
 int sweep_command(const std::string& path, const Streams& streams, bool csv, int threads);
 
 /// Runs the service until SIGTERM or SIGINT.
-int serve_command(const ServiceConfig& config, const Streams& streams);
+int serve_command(const SettingSources& sources, const Streams& streams);
+
+/// Copies the store of a service, which may be running, to a new file.
+int backup_command(const std::string& store, const std::string& target, const Streams& streams);
+
+/// Asks /livez (or /readyz) of a service on this machine; for health checks of containers.
+int health_command(const std::string& address, bool ready, const Streams& streams);
 
 }  // namespace snapthrough::server::cli

@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <csignal>
 #include <ostream>
 #include <system_error>
@@ -41,23 +43,38 @@ class HeldSignals {
   sigset_t before_{};
 };
 
-bool usable(const ServiceConfig& config, const Streams& streams) {
-  const std::vector<ConfigMistake> mistakes = config.check();
-  for (const ConfigMistake& mistake : mistakes) {
-    streams.err << mistake.field << ": " << mistake.detail << '\n';
+/// Large blocks go back to the system when they are freed, and threads share arenas: one wide document shall
+/// not leave the process larger for ever.
+void keep_heap_small() {
+  ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  ::mallopt(M_TRIM_THRESHOLD, 2 << 20);
+  ::mallopt(M_ARENA_MAX, 4);
+}
+
+/// The configuration as it is used; keys are counted, not shown.
+void log_config(Log& log, const ServiceConfig& config) {
+  for (const Setting& setting : settings()) {
+    const std::string value = setting.get(config);
+    log.write(LogLevel::info, "setting",
+              {{"name", std::string_view(setting.name)}, {"value", std::string_view(value)}});
   }
-  return mistakes.empty();
 }
 
 }  // namespace
 
-int serve_command(const ServiceConfig& config, const Streams& streams) {
-  if (!usable(config, streams)) {
+int serve_command(const SettingSources& sources, const Streams& streams) {
+  const auto [config, mistakes] = load_config(sources);
+  for (const ConfigMistake& mistake : mistakes) {
+    streams.err << mistake.field << ": " << mistake.detail << '\n';
+  }
+  if (!mistakes.empty()) {
     return kOther;
   }
+  keep_heap_small();
   HeldSignals signals;
   const Environment environment = Environment::system();
   Log log(config.log_level, environment.now);
+  log_config(log, config);
   Service service(config, environment, solve, log);
   if (const Status status = service.start(); !status.ok()) {
     streams.err << "snapthrough: " << status.message() << '\n';

@@ -15,10 +15,25 @@ bool is_token(std::string_view text) {
   return !text.empty() && text.size() <= 128 && std::all_of(text.begin(), text.end(), allowed);
 }
 
-/// The client's identifier when it is harmless, else a new one.
+/// The trace of a W3C traceparent header ("00-<32 hexadecimal digits>-..."), else empty.
+std::string_view trace_of(const Request& request) {
+  const std::string_view parent = request.header("traceparent").value_or("");
+  return parent.size() >= 55 && parent[2] == '-' && parent[35] == '-' ? parent.substr(3, 32) : "";
+}
+
+/// The client's identifier when it is harmless, else that of its trace, else a new one.
 std::string request_id(const Request& request, const Environment& environment) {
-  const std::string_view given = request.header("X-Request-Id").value_or("");
-  return is_token(given) ? std::string(given) : new_id(environment);
+  for (const std::string_view given : {request.header("X-Request-Id").value_or(""), trace_of(request)}) {
+    if (is_token(given)) {
+      return std::string(given);
+    }
+  }
+  return new_id(environment);
+}
+
+/// What tells nothing about anybody's jobs is answered without a key.
+bool is_public(std::string_view path) {
+  return path == "/livez" || path == "/readyz" || path == "/v1/openapi.json";
 }
 
 const char* problem_kind(int status) {
@@ -35,6 +50,8 @@ const char* problem_kind(int status) {
       return "headers-too-large";
     case 501:
       return "unknown-method";
+    case 503:
+      return "overloaded";
     default:
       return "bad-request";
   }
@@ -42,28 +59,9 @@ const char* problem_kind(int status) {
 
 }  // namespace
 
-std::string_view reason_phrase(int status) {
-  switch (status) {
-    case 411:
-      return "Length Required";
-    case 413:
-      return "Content Too Large";
-    case 414:
-      return "URI Too Long";
-    case 415:
-      return "Unsupported Media Type";
-    case 431:
-      return "Request Header Fields Too Large";
-    case 501:
-      return "Not Implemented";
-    default:
-      return "Bad Request";
-  }
-}
-
-Response Gateway::guarded(const Request& request) {
+Response Gateway::guarded(const Request& request, const std::function<Response()>& work) const {
   try {
-    return routes_.respond(request);
+    return work();
   } catch (const std::exception& error) {
     Response response = problem_response(
         {500, "internal-error", "Internal error", "The request could not be served.", {}, "", ""}, request);
@@ -75,8 +73,38 @@ Response Gateway::guarded(const Request& request) {
 Response Gateway::serve(Request request) {
   const double start = environment_.monotonic_seconds();
   request.id = request_id(request, environment_);
-  Response response = guarded(request);
-  complete(request, response, start);
+  const std::optional<std::string> owner = keys_.owner(request);
+  request.owner = owner.value_or("");
+  const auto kept = std::make_shared<const Request>(std::move(request));
+  if (!owner && !is_public(kept->path)) {
+    Response refused = problem_response({401,
+                                         "unauthorized",
+                                         "Unauthorized",
+                                         "This service needs a bearer key (Authorization: Bearer ...).",
+                                         {},
+                                         "",
+                                         ""},
+                                        *kept);
+    refused.headers.emplace_back("WWW-Authenticate", "Bearer");
+    complete(*kept, refused, start);
+    return refused;
+  }
+  return finish(kept, guarded(*kept, [&] { return routes_.respond(*kept); }), start);
+}
+
+Response Gateway::finish(const std::shared_ptr<const Request>& request, Response response, double start) {
+  if (!response.deferred) {
+    complete(*request, response, start);
+    return response;
+  }
+  response.deferred->resume = [this, request, start, route = response.route,
+                               resume = std::move(response.deferred->resume)] {
+    Response late = guarded(*request, resume);
+    late.deferred.reset();
+    late.route = route;
+    complete(*request, late, start);
+    return late;
+  };
   return response;
 }
 
@@ -95,6 +123,7 @@ Response Gateway::refuse(const Head& head, const std::string& remote) {
 }
 
 void Gateway::complete(const Request& request, Response& response, double start) {
+  compress(response, request.header("Accept-Encoding").value_or(""));
   response.headers.emplace_back("X-Request-Id", request.id);
   response.headers.emplace_back("Date", http_date(environment_.now()));
   response.headers.emplace_back("X-Content-Type-Options", "nosniff");
@@ -103,16 +132,19 @@ void Gateway::complete(const Request& request, Response& response, double start)
         LogLevel::error, "trouble",
         {{"request_id", std::string_view(request.id)}, {"detail", std::string_view(response.trouble)}});
   }
-  const double milliseconds = (environment_.monotonic_seconds() - start) * 1e3;
+  const double seconds = environment_.monotonic_seconds() - start;
+  metrics_.count(request.method, response.route, response.status, seconds);
   log_.write(response.status >= 500 ? LogLevel::error : LogLevel::info, "request",
              {{"request_id", std::string_view(request.id)},
               {"method", std::string_view(request.method)},
               {"path", std::string_view(request.path)},
               {"route", std::string_view(response.route)},
               {"status", static_cast<std::int64_t>(response.status)},
-              {"milliseconds", milliseconds},
+              {"milliseconds", seconds * 1e3},
               {"bytes_in", static_cast<std::int64_t>(request.body.size())},
               {"bytes_out", static_cast<std::int64_t>(response.body.size())},
+              {"owner", std::string_view(request.owner)},
+              {"trace", trace_of(request)},
               {"remote", std::string_view(request.remote)}});
 }
 

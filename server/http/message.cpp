@@ -7,15 +7,23 @@ namespace {
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-}  // namespace
-
-std::optional<std::string_view> Request::header(std::string_view name) const {
+std::optional<std::string_view> first_of(const Fields& headers, std::string_view name) {
   for (const auto& [candidate, value] : headers) {
     if (equal_ignoring_case(candidate, name)) {
       return value;
     }
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string_view> Request::header(std::string_view name) const {
+  return first_of(headers, name);
+}
+
+std::optional<std::string_view> Response::header(std::string_view name) const {
+  return first_of(headers, name);
 }
 
 bool equal_ignoring_case(std::string_view a, std::string_view b) {

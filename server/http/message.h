@@ -2,6 +2,9 @@
 /// @file
 /// Requests and responses as the service sees them, whatever library carries them. Plain data.
 
+#include <chrono>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,9 +24,41 @@ struct Request {
   std::string body;
   std::string id;      ///< identifies the request in logs and problems
   std::string remote;  ///< address of the peer
+  std::string owner;   ///< whose key came with it; empty: no keys are asked for
 
   /// The first header of that name, or nothing.
   [[nodiscard]] std::optional<std::string_view> header(std::string_view name) const;
+};
+
+struct Response;
+
+/// A response that has to wait for something: no thread waits meanwhile.
+struct Deferred {
+  /// Called once, with what is to be called (from any thread, at once if need be) when the wait is over.
+  std::function<void(std::function<void()> wake)> arm;
+  std::chrono::milliseconds wait{0};  ///< at most
+  std::function<Response()> resume;   ///< makes the response when woken or when the time is over
+};
+
+/// Where the pieces of a stream come from.
+class StreamSource {
+ public:
+  StreamSource() = default;
+  StreamSource(const StreamSource&) = delete;
+  StreamSource& operator=(const StreamSource&) = delete;
+  StreamSource(StreamSource&&) = delete;
+  StreamSource& operator=(StreamSource&&) = delete;
+  virtual ~StreamSource() = default;
+  /// Called after each push, on a thread that may take its time: may push more.
+  virtual void poll() = 0;
+};
+
+/// A response without an end: pieces are sent as they come.
+struct Stream {
+  /// Sends a piece, from any thread; false when the client is gone or too slow and nothing more should come.
+  using Push = std::function<bool(std::string piece, bool last)>;
+  /// Called once, when the head was sent. What it returns is kept for as long as the client is there.
+  std::function<std::shared_ptr<StreamSource>(Push push)> open;
 };
 
 struct Response {
@@ -33,6 +68,11 @@ struct Response {
   std::string body;
   std::string trouble;  ///< what went wrong inside, for the log only
   std::string route;    ///< template of the matched route for logs, e.g. "/v1/jobs/{id}"; empty: none
+  std::optional<Deferred> deferred;  ///< set: everything else is still to come
+  std::optional<Stream> stream;      ///< set: takes the place of the body
+
+  /// The first header of that name, or nothing.
+  [[nodiscard]] std::optional<std::string_view> header(std::string_view name) const;
 };
 
 /// Whether two ASCII texts are equal without regard to case.

@@ -4,6 +4,10 @@
 /// response.
 
 #include <chrono>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "server/http/documents.h"
 #include "server/http/message.h"
@@ -17,32 +21,69 @@ struct WaitLimits {
   std::chrono::seconds longest_wait{60};  ///< whatever is preferred
 };
 
-/// @brief Answers every request, wrong ones with a problem. Thread-safe; may wait as long as the limits
-/// allow.
+/// What the resources about the service itself tell. Functions may be called from any thread.
+struct ServiceFacts {
+  std::function<std::string()> metrics;                ///< text format of Prometheus
+  std::function<std::string()> not_ready;              ///< why no work should be sent here; empty: it should
+  std::vector<std::pair<std::string, double>> limits;  ///< name with unit, value
+};
+
+/// @brief Answers every request, wrong ones with a problem. Thread-safe; never waits for a job: a response
+/// that has to is deferred.
 class Routes {
  public:
-  Routes(JobDesk& desk, WaitLimits limits) : desk_(desk), limits_(limits) {}
+  Routes(JobDesk& desk, WaitLimits waits, ServiceFacts facts = {})
+      : desk_(desk), waits_(waits), facts_(std::move(facts)) {}
 
   /// Throws only for what is nobody's fault but the program's (std::bad_alloc, a defect).
   [[nodiscard]] Response respond(const Request& request);
 
+  /// Method and path template of every resource, for tests against the published document.
+  [[nodiscard]] static std::vector<std::pair<std::string, std::string>> resources();
+
  private:
   struct Route;
+  struct Target;
   static const std::vector<Route>& table();
 
+  // routes_jobs.cpp
   Response create_job(const Request& request, const std::string& id);
   Response list_jobs(const Request& request, const std::string& id);
   Response job_status(const Request& request, const std::string& id);
   Response job_result(const Request& request, const std::string& id);
   Response job_request(const Request& request, const std::string& id);
-  Response alive(const Request& request, const std::string& id);
-
+  Response job_events(const Request& request, const std::string& id);
+  Response dismiss_job(const Request& request, const std::string& id);
+  Response delete_job(const Request& request, const std::string& id);
+  [[nodiscard]] std::chrono::seconds wait_of(const Request& request) const;
   Response created(const Request& request, const Submission& submission);
+  Response wait_or_status(const Request& request, const std::string& id, std::chrono::seconds wait,
+                          bool post);
+  Response outcome_of(const Request& request, const std::string& id, bool post, bool want_result);
   Response result_of(const Request& request, const Job& job);
-  Response job_missing(const Request& request, const std::string& id) const;
+  Response path_table(const Request& request, const Job& job);
+
+  // routes_service.cpp
+  Response check(const Request& request, const std::string& id);
+  Response limits(const Request& request, const std::string& id);
+  Response openapi(const Request& request, const std::string& id);
+  Response examples(const Request& request, const std::string& id);
+  Response alive(const Request& request, const std::string& id);
+  Response ready(const Request& request, const std::string& id);
+  Response metrics(const Request& request, const std::string& id);
 
   JobDesk& desk_;
-  WaitLimits limits_;
+  WaitLimits waits_;
+  ServiceFacts facts_;
 };
+
+// What several resources answer with.
+[[nodiscard]] Response json_response(int status, std::string body);
+[[nodiscard]] Response simple_problem(const Request& request, int status, const char* kind, const char* title,
+                                      std::string detail);
+[[nodiscard]] Response store_trouble(const Request& request, const Status& status);
+[[nodiscard]] Response job_missing(const Request& request, const std::string& id);
+/// Whether a Content-Type names JSON.
+[[nodiscard]] bool is_json(std::string_view content_type);
 
 }  // namespace snapthrough::server::http

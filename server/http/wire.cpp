@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <utility>
+#include <vector>
 
 #include "server/http/message.h"
 
@@ -36,7 +37,22 @@ struct Facts {
   bool transfer_encoding = false;
   bool content_encoding = false;
   bool expects_continue = false;
+  bool close = false;
+  bool keep_alive = false;
+  int hosts = 0;
 };
+
+bool lists(std::string_view value, std::string_view word) {
+  const std::vector<std::string_view> parts = split_list(value, ',');
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](std::string_view part) { return equal_ignoring_case(part, word); });
+}
+
+/// Control characters in a value are how a second parser is made to see another header.
+bool has_control(std::string_view value) {
+  return std::any_of(value.begin(), value.end(),
+                     [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F; });
+}
 
 void note_header(std::string_view name, std::string_view value, Facts& facts) {
   if (equal_ignoring_case(name, "Content-Length")) {
@@ -48,6 +64,11 @@ void note_header(std::string_view name, std::string_view value, Facts& facts) {
     facts.content_encoding = !equal_ignoring_case(value, "identity");
   } else if (equal_ignoring_case(name, "Expect")) {
     facts.expects_continue = equal_ignoring_case(value, "100-continue");
+  } else if (equal_ignoring_case(name, "Connection")) {
+    facts.close |= lists(value, "close");
+    facts.keep_alive |= lists(value, "keep-alive");
+  } else if (equal_ignoring_case(name, "Host")) {
+    ++facts.hosts;
   }
 }
 
@@ -66,7 +87,12 @@ Facts read_headers(std::string_view lines) {
       facts.malformed = true;
       return facts;
     }
-    note_header(name, trimmed(line.substr(colon + 1)), facts);
+    const std::string_view value = trimmed(line.substr(colon + 1));
+    if (has_control(value) || has_control(name)) {
+      facts.malformed = true;
+      return facts;
+    }
+    note_header(name, value, facts);
   }
   return facts;
 }
@@ -89,6 +115,7 @@ bool read_request_line(std::string_view line, Head& head) {
   }
   head.method = line.substr(0, first);
   head.target = line.substr(first + 1, last - first - 1);
+  head.keep_alive = line.substr(last + 1) == "HTTP/1.1";  // unless a header says otherwise
   return !head.target.empty() && head.target.find(' ') == std::string::npos;
 }
 
@@ -110,7 +137,7 @@ Head judge(Head head, const Facts& facts, const WireLimits& limits) {
     return refuse(std::move(head), 431,
                   "A request may have " + std::to_string(limits.header_count) + " headers.");
   }
-  if (facts.malformed) {
+  if (facts.malformed || facts.hosts > 1) {
     return refuse(std::move(head), 400, "The headers are malformed.");
   }
   const bool has_body = head.method == "POST" || head.method == "PUT" || head.method == "PATCH";
@@ -129,6 +156,7 @@ Head judge(Head head, const Facts& facts, const WireLimits& limits) {
                   "A request body may have " + std::to_string(limits.body_bytes) + " bytes.");
   }
   head.body_bytes = *length;
+  head.keep_alive = !facts.close && (head.keep_alive || facts.keep_alive);
   head.expects_continue = facts.expects_continue && *length > 0;
   return head;
 }
@@ -144,9 +172,8 @@ Head read_head(std::string_view head_text, const WireLimits& limits) {
 }
 
 std::string cleaned_head(std::string_view head) {
-  static constexpr std::array<std::string_view, 8> kDropped{"Range",       "Accept-Encoding", "Expect",
-                                                            "REMOTE_ADDR", "REMOTE_PORT",     "LOCAL_ADDR",
-                                                            "LOCAL_PORT",  "If-Range"};
+  static constexpr std::array<std::string_view, 7> kDropped{
+      "Range", "Expect", "REMOTE_ADDR", "REMOTE_PORT", "LOCAL_ADDR", "LOCAL_PORT", "If-Range"};
   std::string cleaned;
   cleaned.reserve(head.size());
   cleaned.append(take_line(head)).append(kLineEnd);

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "api/api.h"
+#include "server/digest.h"
+#include "server/jobs/content_key.h"
 
 namespace snapthrough::server {
 namespace {
@@ -21,59 +23,167 @@ std::string_view analysis_name(AnalysisType type) {
   return "";
 }
 
+NewJob new_job(const Order& order, const api::Request& request, std::string key, const Environment& world) {
+  NewJob job;
+  job.id = new_id(world);
+  job.title = request.model.title;
+  job.analysis_type = analysis_name(request.analysis.type);
+  job.document = order.document;
+  job.created = world.now();
+  job.owner = order.owner;
+  job.content_key = std::move(key);
+  job.reuse = order.reuse && order.idempotency_key.has_value();  // without a key it was looked for already
+  if (order.idempotency_key) {
+    job.idempotency = IdempotencyKey{std::string(*order.idempotency_key), sha256_hex(order.document)};
+  }
+  return job;
+}
+
 }  // namespace
 
-void ProgressBoard::set(const std::string& id, const Progress& progress) {
-  const std::lock_guard guard(mutex_);
-  latest_[id] = progress;
-}
+/// Keeps others from using an idempotency key at the same time.
+class JobDesk::KeyInUse {
+ public:
+  KeyInUse(JobDesk& desk, const Order& order) : desk_(desk), used_(order.idempotency_key.has_value()) {
+    if (used_) {
+      entry_ = {order.owner, std::string(*order.idempotency_key)};
+      const std::lock_guard guard(desk_.keys_mutex_);
+      taken_ = desk_.keys_in_use_.insert(entry_).second;
+    }
+  }
+  ~KeyInUse() {
+    if (taken_) {
+      const std::lock_guard guard(desk_.keys_mutex_);
+      desk_.keys_in_use_.erase(entry_);
+    }
+  }
+  KeyInUse(const KeyInUse&) = delete;
+  KeyInUse& operator=(const KeyInUse&) = delete;
+  KeyInUse(KeyInUse&&) = delete;
+  KeyInUse& operator=(KeyInUse&&) = delete;
 
-void ProgressBoard::erase(const std::string& id) {
-  const std::lock_guard guard(mutex_);
-  latest_.erase(id);
-}
+  [[nodiscard]] bool by_another() const { return used_ && !taken_; }
 
-std::optional<Progress> ProgressBoard::get(const std::string& id) const {
-  const std::lock_guard guard(mutex_);
-  const auto found = latest_.find(id);
-  return found == latest_.end() ? std::nullopt : std::optional(found->second);
-}
+ private:
+  JobDesk& desk_;
+  bool used_;
+  bool taken_ = false;
+  std::pair<std::string, std::string> entry_;
+};
 
-JobDesk::JobDesk(Store& store, const Environment& environment, Log& log)
-    : store_(store), environment_(environment), log_(log) {}
+JobDesk::JobDesk(Store& store, const Environment& environment, Log& log, JobLimits limits)
+    : store_(store), environment_(environment), log_(log), limits_(limits), instance_(new_id(environment)) {}
 
-StatusOr<Submission> JobDesk::submit(std::string_view document, std::string_view request_id) {
-  api::ReadOutcome read = api::read_request(document);
+Lease JobDesk::new_lease() const { return {instance_, environment_.now() + limits_.lease}; }
+
+StatusOr<Submission> JobDesk::submit(const Order& order) {
+  if (health_.draining || !health_.has_space) {
+    return Status(StatusCode::unavailable, health_.draining ? "the service is stopping" : "the disk is full");
+  }
+  const KeyInUse in_use(*this, order);
+  if (in_use.by_another()) {
+    return Submission{Submission::Kind::key_in_use};
+  }
+  api::ReadOutcome read = api::read_request(order.document);
   if (read.malformed || !read.findings.empty() || !read.request) {
-    return Submission{read.malformed, std::move(read.findings), ""};
+    return Submission{read.malformed ? Submission::Kind::malformed : Submission::Kind::invalid,
+                      std::move(read.findings)};
   }
-  NewJob job;
-  job.id = new_id(environment_);
-  job.title = read.request->model.title;
-  job.analysis_type = analysis_name(read.request->analysis.type);
-  job.document = document;
-  job.created = environment_.now();
-  if (Status status = store_.submit(job); !status.ok()) {
-    return status;
+  std::string key = content_key(*read.request->document);
+  if (order.reuse && !order.idempotency_key) {
+    StatusOr<std::optional<std::string>> known = store_.find_result(key, order.owner);
+    if (!known.ok()) {
+      return known.status();
+    }
+    if (known->has_value()) {
+      return Submission{Submission::Kind::reused, {}, **known};
+    }
   }
+  if (waiting_ >= limits_.queue) {
+    return Submission{Submission::Kind::queue_full};
+  }
+  return store_new(order, *std::move(read.request), std::move(key));
+}
+
+StatusOr<Submission> JobDesk::store_new(const Order& order, api::Request request, std::string key) {
+  NewJob job = new_job(order, request, std::move(key), environment_);
+  std::promise<bool> stored;
+  Handoff handoff{{job.id, 1}, std::move(request), stored.get_future().share()};
+  const Lease lease = new_lease();
+  // With a key it may be a repetition, which nobody shall solve.
+  if (!order.idempotency_key && exchange_.offer(handoff)) {
+    job.lease = lease;
+    job.patient = order.waits;
+  }
+  bool queued = false;
+  const StatusOr<Submitted> submitted = store_.submit(job, [&] {
+    queued = true;
+    stored.set_value(true);
+  });
+  if (!queued) {
+    stored.set_value(false);
+  }
+  const bool created = submitted.ok() && submitted->kind == Submitted::Kind::created;
+  if (!submitted.ok()) {
+    health_.writable = health_.writable && submitted.status().code() != StatusCode::unavailable;
+    return submitted.status();
+  }
+  if (submitted->kind == Submitted::Kind::key_conflict) {
+    return Submission{Submission::Kind::key_conflict};
+  }
+  if (!created) {
+    const bool reused = submitted->kind == Submitted::Kind::reused;
+    return Submission{reused ? Submission::Kind::reused : Submission::Kind::repeated, {}, submitted->id};
+  }
+  log_accepted(job, order.request_id);
+  if (!job.lease) {
+    ++waiting_;
+    exchange_.ring();
+  }
+  return Submission{Submission::Kind::stored, {}, std::move(job.id)};
+}
+
+void JobDesk::log_accepted(const NewJob& job, std::string_view request_id) {
   log_.write(LogLevel::info, "job",
              {{"job", std::string_view(job.id)},
               {"status", to_string(JobState::accepted)},
               {"analysis", std::string_view(job.analysis_type)},
               {"request_id", request_id}});
-  bell_.ring();
-  return Submission{false, {}, std::move(job.id)};
 }
 
-StatusOr<std::optional<Job>> JobDesk::get(const std::string& id, std::chrono::duration<double> wait) {
-  JobEnds::Ticket ticket(ends_, id);
+StatusOr<std::optional<Job>> JobDesk::get(const std::string& id, std::string_view owner) {
   StatusOr<std::optional<Job>> job = store_.get(id);
-  const bool unfinished = job.ok() && job->has_value() && !is_final((*job)->state);
-  if (!unfinished || wait.count() <= 0) {
-    return job;
+  if (job.ok() && job->has_value() && (*job)->owner != owner) {
+    return std::optional<Job>();
   }
-  ticket.wait_for(wait);
-  return store_.get(id);
+  return job;
+}
+
+StatusOr<Dismissal> JobDesk::dismiss(const std::string& id) {
+  StatusOr<Dismissal> dismissal = store_.dismiss(id, environment_.now());
+  if (!dismissal.ok() || !dismissal->found || is_final(dismissal->before)) {
+    return dismissal;
+  }
+  if (dismissal->before == JobState::accepted) {
+    --waiting_;
+  }
+  active_.stop(id, StopReason::dismissed);
+  ends_.announce(id);
+  log_.write(LogLevel::info, "job",
+             {{"job", std::string_view(id)}, {"status", to_string(JobState::dismissed)}});
+  return dismissal;
+}
+
+Status JobDesk::remove(const std::string& id) {
+  if (const StatusOr<Dismissal> dismissal = dismiss(id); !dismissal.ok()) {
+    return dismissal.status();
+  }
+  const StatusOr<bool> removed = store_.remove(id);
+  if (removed.ok() && *removed) {
+    log_.write(LogLevel::info, "job",
+               {{"job", std::string_view(id)}, {"status", std::string_view("removed")}});
+  }
+  return removed.status();
 }
 
 }  // namespace snapthrough::server

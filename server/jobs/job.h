@@ -23,14 +23,27 @@ struct JobFailure {
 struct Job {
   std::string id;
   JobState state = JobState::accepted;
-  int attempt = 0;  ///< how often it was claimed
-  int crashes = 0;  ///< how many of these claims ended with the death of the process
+  int attempt = 0;    ///< how often it was claimed
+  int crashes = 0;    ///< how many of these claims ended with the death of the process
+  std::string owner;  ///< name of the key that handed it in; empty: none was asked for
   std::string title;
   std::string analysis_type;
   Time created;
   std::optional<Time> started;        ///< of the latest claim
   std::optional<Time> finished;       ///< exactly in a final state
   std::optional<JobFailure> failure;  ///< exactly when failed; get() fills it, list() leaves it out
+};
+
+/// What makes a repeated submission the same one.
+struct IdempotencyKey {
+  std::string key;          ///< as the client gave it
+  std::string fingerprint;  ///< of the document it came with
+};
+
+/// Who works on a job, and until when that holds unless it is renewed.
+struct Lease {
+  std::string worker;  ///< the instance of the service
+  Time until;
 };
 
 /// A job as it is handed in.
@@ -40,6 +53,23 @@ struct NewJob {
   std::string analysis_type;  ///< e.g. "path"
   std::string document;       ///< the request, JSON text as received
   Time created;
+  std::string owner = {};        ///< see Job
+  std::string content_key = {};  ///< equal for requests with equal results; empty: its result is not reused
+  std::optional<IdempotencyKey> idempotency = {};
+  bool patient = false;  ///< its outcome may come at once: the commit may wait a millisecond for it
+  bool reuse = false;    ///< a successful job of the same owner and content takes its place, if there is one
+  std::optional<Lease> lease = {};  ///< set: a worker has it already, the job begins running in attempt 1
+};
+
+/// What became of a submission.
+struct Submitted {
+  enum class Kind {
+    created,
+    reused,       ///< `id` is a successful job of the same content
+    repeated,     ///< the idempotency key was used with the same document: `id` is that job
+    key_conflict  ///< the idempotency key was used with another document
+  } kind = Kind::created;
+  std::string id;
 };
 
 /// What a worker holds of a job it works on, and what proves that it still does: a job that was given to
@@ -47,7 +77,7 @@ struct NewJob {
 struct Claim {
   std::string id;
   int attempt = 0;
-  std::string document;  ///< the request
+  std::string document = {};  ///< the request
 };
 
 /// What a finished job leaves: the document that is served, and its parts for queries.

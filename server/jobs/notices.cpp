@@ -3,6 +3,21 @@
 #include <utility>
 
 namespace snapthrough::server {
+namespace {
+
+/// Removes one entry of a multimap that holds pointers by id.
+template <class Map, class Pointer>
+void erase_entry(Map& map, const std::string& id, Pointer pointer) {
+  const auto [first, last] = map.equal_range(id);
+  for (auto it = first; it != last; ++it) {
+    if (it->second == pointer) {
+      map.erase(it);
+      return;
+    }
+  }
+}
+
+}  // namespace
 
 JobEnds::Ticket::Ticket(JobEnds& ends, std::string id) : ends_(ends), id_(std::move(id)) {
   const std::lock_guard guard(ends_.mutex_);
@@ -11,27 +26,29 @@ JobEnds::Ticket::Ticket(JobEnds& ends, std::string id) : ends_(ends), id_(std::m
 
 JobEnds::Ticket::~Ticket() {
   const std::lock_guard guard(ends_.mutex_);
-  const auto [first, last] = ends_.tickets_.equal_range(id_);
-  for (auto it = first; it != last; ++it) {
-    if (it->second == this) {
-      ends_.tickets_.erase(it);
-      return;
-    }
-  }
+  erase_entry(ends_.tickets_, id_, this);
 }
 
-bool JobEnds::Ticket::wait_for(std::chrono::duration<double> time) {
-  std::unique_lock lock(ends_.mutex_);
-  changed_.wait_for(lock, time, [&] { return ended_ || ends_.closed_; });
-  return ended_;
+void JobEnds::Ticket::on_end(std::function<void()> callback) {
+  const std::lock_guard guard(ends_.mutex_);
+  if (ended_ || ends_.closed_) {
+    return callback();
+  }
+  callback_ = std::move(callback);
+}
+
+void JobEnds::call(Ticket& ticket) {
+  ticket.ended_ = true;
+  if (ticket.callback_) {
+    std::exchange(ticket.callback_, nullptr)();
+  }
 }
 
 void JobEnds::announce(const std::string& id) {
   const std::lock_guard guard(mutex_);
   const auto [first, last] = tickets_.equal_range(id);
   for (auto it = first; it != last; ++it) {
-    it->second->ended_ = true;
-    it->second->changed_.notify_all();
+    call(*it->second);
   }
 }
 
@@ -39,20 +56,40 @@ void JobEnds::close() {
   const std::lock_guard guard(mutex_);
   closed_ = true;
   for (const auto& [id, ticket] : tickets_) {
-    ticket->changed_.notify_all();
+    call(*ticket);
   }
 }
 
-void WorkBell::ring() {
-  const std::lock_guard guard(mutex_);
-  ++count_;
-  rung_.notify_one();
+ProgressBoard::Follower::Follower(ProgressBoard& board, std::string id,
+                                  std::function<void(const Progress&)> callback)
+    : board_(board), id_(std::move(id)), callback_(std::move(callback)) {
+  const std::lock_guard guard(board_.mutex_);
+  board_.followers_.emplace(id_, this);
 }
 
-void WorkBell::wait(std::uint64_t& seen, std::stop_token stop, std::chrono::duration<double> time) {
-  std::unique_lock lock(mutex_);
-  rung_.wait_for(lock, std::move(stop), time, [&] { return count_ != seen; });
-  seen = count_;
+ProgressBoard::Follower::~Follower() {
+  const std::lock_guard guard(board_.mutex_);
+  erase_entry(board_.followers_, id_, this);
+}
+
+void ProgressBoard::set(const std::string& id, const Progress& progress) {
+  const std::lock_guard guard(mutex_);
+  latest_[id] = progress;
+  const auto [first, last] = followers_.equal_range(id);
+  for (auto it = first; it != last; ++it) {
+    it->second->callback_(progress);
+  }
+}
+
+void ProgressBoard::erase(const std::string& id) {
+  const std::lock_guard guard(mutex_);
+  latest_.erase(id);
+}
+
+std::optional<Progress> ProgressBoard::get(const std::string& id) const {
+  const std::lock_guard guard(mutex_);
+  const auto found = latest_.find(id);
+  return found == latest_.end() ? std::nullopt : std::optional(found->second);
 }
 
 }  // namespace snapthrough::server

@@ -3,7 +3,9 @@
 /// What the service needs from a database, as verbs. Each database has a driver in its own folder, which
 /// holds all of its SQL; one conformance suite (tests/server/store_conformance.h) runs on every driver.
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +21,7 @@ struct JobQuery {
   int limit = 20;                      ///< > 0
   std::optional<std::int64_t> before;  ///< JobPage::next of the page before; empty: from the newest
   std::optional<JobState> state;       ///< only these
+  std::optional<std::string> owner;    ///< only of this owner
 };
 
 /// One page of jobs, newest first.
@@ -33,12 +36,21 @@ struct Recovery {
   std::vector<std::string> failed;  ///< they had been left so too often
 };
 
+/// How many jobs there are, by state in the order of kJobStates.
+using JobCounts = std::array<std::int64_t, kJobStates.size()>;
+
+/// What dismissing a job met.
+struct Dismissal {
+  bool found = false;
+  JobState before = JobState::accepted;  ///< accepted and running jobs are dismissed now
+};
+
 /// @brief The stored jobs.
 ///
 /// Thread safety: every verb may be called from any thread. Durability: a verb that returned ok survives the
 /// death of the process and of the machine. Atomicity: each verb happens wholly or not at all. A verb with a
 /// Claim is fenced: it returns `conflict` and changes nothing unless the job is running in that claim's
-/// attempt. One process at a time owns a store.
+/// attempt, and (finish and fail) its lease has not run out. One process at a time owns a store.
 class Store {
  public:
   Store() = default;
@@ -48,11 +60,20 @@ class Store {
   Store& operator=(Store&&) = delete;
   virtual ~Store() = default;
 
-  /// Adds a job in state accepted.
-  virtual Status submit(const NewJob& job) = 0;
+  /// Adds a job in state accepted (running when it comes with a lease), unless its idempotency key is known.
+  /// `queued` is called when any verb that is called from then on comes after this one.
+  virtual StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) = 0;
+  StatusOr<Submitted> submit(const NewJob& job) {
+    return submit(job, [] {});
+  }
 
-  /// Gives the oldest accepted job to the caller and makes it running; empty when none waits.
-  virtual StatusOr<std::optional<Claim>> claim(Time now) = 0;
+  /// Gives the oldest accepted job to the caller and makes it running; empty when none waits. It survives
+  /// the death of the process, not that of the machine: the job is accepted again then.
+  virtual StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) = 0;
+
+  /// Renews the leases of claims that still hold; the ids of those that don't.
+  virtual StatusOr<std::vector<std::string>> renew(const std::vector<Claim>& claims, Time until,
+                                                   Time now) = 0;
 
   /// Stores the result, path and critical points and makes the job successful.
   virtual Status finish(const Claim& claim, const JobResult& result, Time now) = 0;
@@ -66,6 +87,26 @@ class Store {
   /// Deals with every job that is still running although its process is gone: back to the queue, or failed
   /// with code "crashed" when this was crash number `max_crashes`. To be called once, before the first claim.
   virtual StatusOr<Recovery> recover(int max_crashes, Time now) = 0;
+
+  /// Takes running jobs back whose lease has run out: to the queue, or failed like recover() when that
+  /// happened `max_crashes` times. Leases of `worker` itself cost nothing: it is alive, only slow.
+  virtual StatusOr<Recovery> rescue(std::string_view worker, int max_crashes, Time now) = 0;
+
+  /// Makes an accepted or running job dismissed.
+  virtual StatusOr<Dismissal> dismiss(std::string_view id, Time now) = 0;
+  /// Removes a job and all that belongs to it, in whatever state; false when there is none.
+  virtual StatusOr<bool> remove(std::string_view id) = 0;
+  /// Removes at most `most` jobs that ended before that time, the oldest first; how many.
+  virtual StatusOr<int> retire(Time ended_before, int most) = 0;
+  /// Forgets idempotency keys that were first used before that time.
+  virtual Status forget_keys(Time used_before) = 0;
+  /// Writes something, to find out whether writing works.
+  virtual Status probe(Time now) = 0;
+
+  /// A successful job of that owner and content, the newest; empty when there is none.
+  virtual StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
+                                                           std::string_view owner) = 0;
+  virtual StatusOr<JobCounts> counts() = 0;
 
   /// The job, or empty when there is none of that id.
   virtual StatusOr<std::optional<Job>> get(std::string_view id) = 0;

@@ -1,7 +1,9 @@
 #include "server/worker/pool.h"
 
 #include <chrono>
+#include <condition_variable>
 #include <exception>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,7 +15,9 @@ namespace {
 using std::chrono::duration;
 
 /// How long a worker without work waits at most before it looks at the queue again.
-constexpr duration<double> kLongestNap{5.0};
+constexpr duration<double> kLongestNap{1.0};
+/// How long a worker waits before it tries again to store an outcome.
+constexpr duration<double> kRetryPause{0.2};
 
 /// What an attempt came to: exactly one of the two is set unless it was interrupted.
 struct Outcome {
@@ -40,22 +44,13 @@ Outcome to_outcome(const api::Request& request, Result result, double seconds) {
           {}};
 }
 
-Outcome attempt(const Claim& claim, JobDesk& desk, const SolveFunction& solve, const std::stop_token& stop) {
-  const api::ReadOutcome read = api::read_request(claim.document);
-  if (!read.request) {
-    return failed("invalid_request",
-                  "this version of the service does not accept the stored request any more");
-  }
-  const Hooks hooks{stop, [&](const Progress& progress) { desk.progress_board().set(claim.id, progress); }};
-  const double start = desk.environment().monotonic_seconds();
-  Result result = solve(read.request->model, read.request->analysis, hooks);
-  return to_outcome(*read.request, std::move(result), desk.environment().monotonic_seconds() - start);
-}
-
-Outcome guarded_attempt(const Claim& claim, JobDesk& desk, const SolveFunction& solve,
-                        const std::stop_token& stop) {
+Outcome attempt(const Claim& claim, const api::Request& request, JobDesk& desk, const SolveFunction& solve,
+                const std::stop_token& stop) {
   try {
-    return attempt(claim, desk, solve, stop);
+    const Hooks hooks{stop, [&](const Progress& progress) { desk.progress_board().set(claim.id, progress); }};
+    const double start = desk.environment().monotonic_seconds();
+    Result result = solve(request.model, request.analysis, hooks);
+    return to_outcome(request, std::move(result), desk.environment().monotonic_seconds() - start);
   } catch (const std::bad_alloc&) {
     return failed("out_of_memory", "the analysis needs more memory than the service has");
   } catch (const std::exception& error) {
@@ -91,36 +86,94 @@ void log_trouble(Log& log, const Claim& claim, const Status& status) {
              {"detail", std::string_view(status.message())}});
 }
 
-Status store_outcome(const Claim& claim, Outcome& outcome, Store& store, Time now) {
+Status store_once(const Claim& claim, Outcome& outcome, JobDesk& desk) {
+  const Time now = desk.environment().now();
   if (!outcome.result) {
-    return store.fail(claim, *outcome.failure, outcome.reached, now);
+    return desk.store().fail(claim, *outcome.failure, outcome.reached, now);
   }
-  Status status = store.finish(claim, *outcome.result, now);
-  if (status.ok() || status.code() == StatusCode::conflict) {
+  Status status = desk.store().finish(claim, *outcome.result, now);
+  if (status.code() != StatusCode::io_error) {
     return status;
   }
-  // The result can't be stored (a number that is none, a full disk): say so rather than leave the job
-  // running.
+  // The result itself can't be stored (a number that is none): say so rather than leave the job running.
   outcome.result.reset();
   outcome.failure = JobFailure{"not_stored", "the result could not be stored: " + status.message(), ""};
-  return store.fail(claim, *outcome.failure, {}, now);
+  return desk.store().fail(claim, *outcome.failure, {}, now);
 }
 
-}  // namespace
+void pause(const std::stop_token& stop, duration<double> time) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  std::unique_lock lock(mutex);
+  never.wait_for(lock, stop, time, [] { return false; });
+}
 
-void work_on(const Claim& claim, JobDesk& desk, const SolveFunction& solve, Log& log,
-             const std::stop_token& stop) {
-  log_job(log, claim, JobState::running);
-  Outcome outcome = guarded_attempt(claim, desk, solve, stop);
-  desk.progress_board().erase(claim.id);
-  if (stop.stop_requested() && outcome.failure && outcome.failure->code == "cancelled") {
-    if (const Status status = desk.store().requeue(claim); !status.ok()) {
-      return log_trouble(log, claim, status);
-    }
-    return log_job(log, claim, JobState::accepted);
+/// Stores the outcome; while the store can't be written, again and again until the claim is lost or the
+/// service stops: the job is found running at the next start then.
+Status store_outcome(const Claim& claim, Outcome& outcome, JobDesk& desk, Log& log,
+                     const std::stop_token& stop) {
+  Status status = store_once(claim, outcome, desk);
+  if (status.code() == StatusCode::unavailable) {
+    log_trouble(log, claim, status);
   }
-  if (const Status status = store_outcome(claim, outcome, desk.store(), desk.environment().now());
-      !status.ok()) {
+  while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
+    desk.health().writable = false;
+    pause(stop, kRetryPause);
+    status = store_once(claim, outcome, desk);
+  }
+  return status;
+}
+
+void give_back(const Claim& claim, JobDesk& desk, Log& log) {
+  if (const Status status = desk.store().requeue(claim); !status.ok()) {
+    return log_trouble(log, claim, status);
+  }
+  desk.add_waiting(1);
+  log_job(log, claim, JobState::accepted);
+}
+
+/// What an analysis that was asked to stop came to; false when nothing is to be stored.
+bool settle_stop(const Claim& claim, StopReason reason, Outcome& outcome, JobDesk& desk, Log& log) {
+  const bool cancelled = outcome.failure && outcome.failure->code == "cancelled";
+  if (!cancelled) {
+    return true;  // it came to its end before it saw the request to stop
+  }
+  switch (reason) {
+    case StopReason::shutdown:
+      give_back(claim, desk, log);
+      return false;
+    case StopReason::dismissed:
+    case StopReason::lease_lost:
+      return false;
+    case StopReason::time_limit:
+      outcome.failure->code = "time_limit";
+      outcome.failure->detail =
+          "the analysis took longer than " + std::to_string(desk.limits().longest_run.count()) + " s";
+      return true;
+    case StopReason::none:
+      return true;
+  }
+  return true;
+}
+
+/// @param stored when the store may be asked about the job, if that is not now
+void run_job(const Claim& claim, const api::Request* request, const std::shared_future<bool>* stored,
+             JobDesk& desk, const SolveFunction& solve, Log& log, const std::stop_token& stop) {
+  log_job(log, claim, JobState::running);
+  ActiveJobs::Entry entry(desk.active(), claim, desk.environment().now());
+  const std::stop_callback on_shutdown(stop, [&] { entry.stop(StopReason::shutdown); });
+  Outcome outcome = request != nullptr
+                        ? attempt(claim, *request, desk, solve, entry.token())
+                        : failed("invalid_request",
+                                 "this version of the service does not accept the stored request any more");
+  desk.progress_board().erase(claim.id);
+  if (stored != nullptr && !stored->get()) {
+    return;
+  }
+  if (!settle_stop(claim, entry.reason(), outcome, desk, log)) {
+    return;
+  }
+  if (const Status status = store_outcome(claim, outcome, desk, log, stop); !status.ok()) {
     return log_trouble(log, claim, status);
   }
   desk.ends().announce(claim.id);
@@ -129,6 +182,19 @@ void work_on(const Claim& claim, JobDesk& desk, const SolveFunction& solve, Log&
   }
   log_job_end(log, claim, JobState::successful, outcome.result->summary.termination,
               outcome.result->summary.message);
+}
+
+}  // namespace
+
+void work_on(const Claim& claim, JobDesk& desk, const SolveFunction& solve, Log& log,
+             const std::stop_token& stop) {
+  const api::ReadOutcome read = api::read_request(claim.document);
+  run_job(claim, read.request ? &*read.request : nullptr, nullptr, desk, solve, log, stop);
+}
+
+void work_on(const Handoff& handoff, JobDesk& desk, const SolveFunction& solve, Log& log,
+             const std::stop_token& stop) {
+  run_job(handoff.claim, &handoff.request, &handoff.stored, desk, solve, log, stop);
 }
 
 WorkerPool::WorkerPool(int threads, JobDesk& desk, SolveFunction solve, Log& log)
@@ -152,17 +218,34 @@ void WorkerPool::stop() {
   }
 }
 
+bool WorkerPool::claim_and_work(const std::stop_token& stop) {
+  const StatusOr<std::optional<Claim>> claim =
+      desk_.store().claim(desk_.new_lease(), desk_.environment().now());
+  if (!claim.ok()) {
+    log_.write(LogLevel::error, "store", {{"detail", std::string_view(claim.status().message())}});
+    return false;
+  }
+  if (!claim->has_value()) {
+    return false;
+  }
+  desk_.add_waiting(-1);
+  work_on(**claim, desk_, solve_, log_, stop);
+  return true;
+}
+
 void WorkerPool::run(const std::stop_token& stop) {
   std::uint64_t seen = 0;
   while (!stop.stop_requested()) {
-    const StatusOr<std::optional<Claim>> claim = desk_.store().claim(desk_.environment().now());
-    if (!claim.ok()) {
-      log_.write(LogLevel::error, "store", {{"detail", std::string_view(claim.status().message())}});
+    if (claim_and_work(stop)) {
+      continue;
     }
-    if (claim.ok() && claim->has_value()) {
-      work_on(**claim, desk_, solve_, log_, stop);
-    } else {
-      desk_.bell().wait(seen, stop, kLongestNap);
+    // Jobs that are given directly come before those that wait: nobody is idle while some wait.
+    std::optional<Handoff> handoff;
+    while ((handoff = desk_.exchange().wait(seen, stop, kLongestNap))) {
+      work_on(*handoff, desk_, solve_, log_, stop);
+      if (desk_.waiting() > 0 || stop.stop_requested()) {
+        break;
+      }
     }
   }
 }

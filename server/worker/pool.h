@@ -17,9 +17,14 @@ using SolveFunction = std::function<Result(const Model&, const Analysis&, const 
 
 /// @brief Works on one claimed job to its end and stores the outcome.
 ///
-/// A numerical failure or an exception makes the job failed; a stop that interrupts the analysis gives the
-/// job back to the queue. A claim that was lost meanwhile changes nothing.
+/// A numerical failure or an exception makes the job failed; a stop of the service that interrupts the
+/// analysis gives the job back to the queue. A claim that was lost meanwhile changes nothing. While the store
+/// can't be written, the outcome is kept and tried again as long as the lease may hold.
 void work_on(const Claim& claim, JobDesk& desk, const SolveFunction& solve, Log& log,
+             const std::stop_token& stop);
+
+/// The same for a job that is still being stored.
+void work_on(const Handoff& handoff, JobDesk& desk, const SolveFunction& solve, Log& log,
              const std::stop_token& stop);
 
 /// @brief A fixed number of working threads. Thread-safe; the parts it is given must outlive it.
@@ -38,6 +43,7 @@ class WorkerPool {
 
  private:
   void run(const std::stop_token& stop);
+  bool claim_and_work(const std::stop_token& stop);
 
   JobDesk& desk_;
   SolveFunction solve_;

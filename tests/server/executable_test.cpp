@@ -1,19 +1,16 @@
 /// @file
 /// The real program: exit statuses, streams, signals.
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <fstream>
+#include <csignal>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <thread>
 
 #include "tests/server/support/client.h"
+#include "tests/server/support/process.h"
 #include "tests/server/support/samples.h"
 #include "tests/server/support/temp_dir.h"
 
@@ -24,69 +21,6 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
-
-std::string read_file(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-void write_file(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
-
-/// The program, started with its streams in files of a folder.
-class Process {
- public:
-  Process(const TempDir& folder, const std::vector<std::string>& arguments, const std::string& input = "")
-      : out_(folder.file("out")), err_(folder.file("err")) {
-    write_file(folder.file("in"), input);
-    std::vector<std::string> words{SNAPTHROUGH_EXECUTABLE};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) {
-      argv.push_back(word.data());
-    }
-    argv.push_back(nullptr);
-    const std::string in = folder.file("in");
-    id_ = ::fork();
-    if (id_ == 0) {
-      redirect(in, O_RDONLY, STDIN_FILENO);
-      redirect(out_, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
-      redirect(err_, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
-      ::execv(argv[0], argv.data());
-      ::_exit(127);
-    }
-  }
-  ~Process() {
-    if (id_ > 0) {
-      ::kill(id_, SIGKILL);
-      ::waitpid(id_, nullptr, 0);
-    }
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-  Process(Process&&) = delete;
-  Process& operator=(Process&&) = delete;
-
-  void signal(int number) const { ::kill(id_, number); }
-  /// Exit status; 1000 plus the signal when one ended it.
-  int wait() {
-    int status = 0;
-    ::waitpid(id_, &status, 0);
-    id_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-  }
-  [[nodiscard]] std::string out() const { return read_file(out_); }
-  [[nodiscard]] std::string err() const { return read_file(err_); }
-
- private:
-  static void redirect(const std::string& path, int flags, int target) {
-    ::dup2(::open(path.c_str(), flags, 0600), target);
-  }
-  std::string out_;
-  std::string err_;
-  pid_t id_ = -1;
-};
 
 class Executable : public testing::Test {
  protected:
@@ -106,15 +40,7 @@ class Executable : public testing::Test {
     auto service = std::make_unique<Process>(
         folder_, std::vector<std::string>{"serve", "--listen", "127.0.0.1:0", "--store",
                                           folder_.file("jobs.db"), "--workers", "1"});
-    port_ = 0;
-    for (int i = 0; i < 200 && port_ == 0; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      std::istringstream lines(service->err());
-      for (std::string line; std::getline(lines, line);) {
-        const json entry = json::parse(line, nullptr, false);
-        port_ = entry.is_object() && entry["event"] == "listening" ? entry["port"].get<int>() : port_;
-      }
-    }
+    port_ = listening_port(*service);
     EXPECT_GT(port_, 0) << service->err();
     return service;
   }
@@ -224,6 +150,51 @@ TEST_F(Executable, AKilledServiceKeepsWhatItAcknowledged) {
   for (const std::string& job : jobs) {
     EXPECT_EQ(json::parse(get(port_, job, {"Prefer: wait=30"}).body)["status"], "successful") << job;
   }
+}
+
+TEST_F(Executable, ABackupOfARunningServiceIsAStoreThatAnswers) {
+  auto service = serve();
+  const Reply reply = post(port_, "/v1/jobs", column_request());
+  ASSERT_EQ(reply.status, 200);
+  const std::string copy = folder_.file("copy.db");
+  const Process backup(folder_, {"backup", "--store", folder_.file("jobs.db"), copy});
+  ASSERT_EQ(const_cast<Process&>(backup).wait(), 0) << backup.err();
+  service->signal(SIGKILL);
+  service->wait();
+  Process restored(folder_, {"serve", "--listen", "127.0.0.1:0", "--store", copy});
+  EXPECT_EQ(get(listening_port(restored), reply.header("Location") + "/result").body, reply.body);
+}
+
+TEST_F(Executable, SettingsComeFromFileEnvironmentAndFlagsInThatOrder) {
+  write_file(folder_.file("a.toml"),
+             "workers = 1\nmax_queue = 7\nlog_level = \"info\"\nlisten = \"127.0.0.1:0\"\n");
+  ::setenv("SNAPTHROUGH_MAX_QUEUE", "8", 1);
+  Process service(folder_, {"serve", "--config", folder_.file("a.toml"), "--workers", "2", "--store",
+                            folder_.file("jobs.db")});
+  const int port = listening_port(service);
+  ::unsetenv("SNAPTHROUGH_MAX_QUEUE");
+  const json limits = json::parse(get(port, "/v1/limits").body);
+  EXPECT_EQ(limits["queue"], 8);
+  EXPECT_EQ(limits["workers"], 2);
+}
+
+TEST_F(Executable, AWrongSettingIsNamedWithItsPlace) {
+  write_file(folder_.file("a.toml"), "workers = 1\nworkerss = 2\nmax_queue = \"many\"\n");
+  EXPECT_EQ(run({"serve", "--config", folder_.file("a.toml")}), 1);
+  EXPECT_THAT(err_, HasSubstr("a.toml:2: workerss: there is no such setting"));
+  EXPECT_THAT(err_, HasSubstr("a.toml:3: max_queue: expected a whole number, got many"));
+  EXPECT_EQ(run({"serve", "--max-queue", "0"}), 1);
+  EXPECT_THAT(err_, HasSubstr("jobs.queue"));
+}
+
+TEST_F(Executable, HealthAsksTheService) {
+  auto service = serve();
+  const std::string address = "127.0.0.1:" + std::to_string(port_);
+  EXPECT_EQ(Process(folder_, {"health", address}).wait(), 0);
+  EXPECT_EQ(Process(folder_, {"health", address, "--ready"}).wait(), 0);
+  service->signal(SIGTERM);
+  EXPECT_EQ(service->wait(), 0);
+  EXPECT_EQ(Process(folder_, {"health", address}).wait(), 1);
 }
 
 }  // namespace

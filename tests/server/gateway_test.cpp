@@ -18,13 +18,31 @@ class FailingStore final : public Store {
  public:
   explicit FailingStore(StatusCode code) : code_(code) {}
 
-  Status submit(const NewJob&) override { return status(); }
-  StatusOr<std::optional<Claim>> claim(Time) override { return status(); }
+  StatusOr<Submitted> submit(const NewJob&, const std::function<void()>&) override { return status(); }
+  StatusOr<std::optional<Claim>> claim(const Lease&, Time) override { return status(); }
+  StatusOr<std::vector<std::string>> renew(const std::vector<Claim>&, Time, Time) override {
+    return status();
+  }
+  StatusOr<Recovery> rescue(std::string_view, int, Time) override { return status(); }
+  StatusOr<Dismissal> dismiss(std::string_view, Time) override { return status(); }
+  StatusOr<bool> remove(std::string_view) override { return status(); }
+  StatusOr<int> retire(Time, int) override { return status(); }
+  Status forget_keys(Time) override { return status(); }
+  Status probe(Time) override { return status(); }
+  StatusOr<std::optional<std::string>> find_result(std::string_view, std::string_view) override {
+    return status();
+  }
+  StatusOr<JobCounts> counts() override { return status(); }
   Status finish(const Claim&, const JobResult&, Time) override { return status(); }
   Status fail(const Claim&, const JobFailure&, const StoredPath&, Time) override { return status(); }
   Status requeue(const Claim&) override { return status(); }
   StatusOr<Recovery> recover(int, Time) override { return status(); }
-  StatusOr<std::optional<Job>> get(std::string_view) override { return status(); }
+  StatusOr<std::optional<Job>> get(std::string_view id) override {
+    if (id == "there") {
+      return std::optional<Job>(Job{});
+    }
+    return status();
+  }
   StatusOr<JobPage> list(const JobQuery&) override { return status(); }
   StatusOr<std::optional<std::string>> request(std::string_view) override {
     throw std::runtime_error("secret");
@@ -55,7 +73,8 @@ struct Bench {
   FailingStore store;
   JobDesk desk{store, environment, log};
   Routes routes{desk, {}};
-  Gateway gateway{routes, environment, log};
+  RequestMetrics metrics;
+  Gateway gateway{routes, environment, log, KeyRing(), metrics};
 };
 
 TEST(Gateway, AStoreThatIsUnavailableIs503) {
@@ -78,7 +97,7 @@ TEST(Gateway, AStoreThatIsBrokenIs500WithoutParticulars) {
 
 TEST(Gateway, AnExceptionIs500AndItsTextIsInTheLogOnly) {
   Bench bench(StatusCode::io_error);
-  const Response response = bench.serve("GET", "/v1/jobs/x/request");
+  const Response response = bench.serve("GET", "/v1/jobs/there/request");
   EXPECT_EQ(response.status, 500);
   EXPECT_THAT(response.body, Not(HasSubstr("secret")));
   EXPECT_THAT(bench.log_text.str(), HasSubstr("secret"));

@@ -70,13 +70,37 @@ TEST_F(Migrations, AnEditedStepIsRefused) {
   EXPECT_EQ(count("SELECT count(*) FROM sqlite_schema WHERE name = 'second'"), 0);
 }
 
-TEST_F(Migrations, AStepThatFailsHalfwayLeavesNothingOfItself) {
+TEST_F(Migrations, AStepThatFailsHalfwayLeavesNothingOfAnyStep) {
   const std::vector<Migration> broken{kSteps[0],
                                       {2, "0002_broken", "cc", "CREATE TABLE half (x); SELECT nonsense"}};
   EXPECT_THROW((void)migrate(connection_, broken, at_second(0)), Error);
   EXPECT_EQ(count("SELECT count(*) FROM sqlite_schema WHERE name = 'half'"), 0);
-  EXPECT_EQ(count("SELECT max(version) FROM schema_migrations"), 1);
+  EXPECT_EQ(count("SELECT count(*) FROM sqlite_schema WHERE name = 'first'"), 0);
+  EXPECT_EQ(count("SELECT count(*) FROM schema_migrations"), 0);
   EXPECT_TRUE(migrate_to(2).ok());
+}
+
+TEST_F(Migrations, AStoreOfTheFirstVersionKeepsItsJobs) {
+  const std::string path = folder_.file("old.db");
+  {
+    Connection old(path, Access::read_write);
+    ASSERT_TRUE(migrate(old, std::span(embedded_migrations()).first(1), at_second(0)).ok());
+    for (const char* row :
+         {"1, 'accepted', 0, NULL, NULL", "2, 'running', 1, 5, NULL", "3, 'dismissed', 0, NULL, 6"}) {
+      const std::string values(row);
+      old.execute(
+          "INSERT INTO jobs (id, seq, status, attempt, started_us, finished_us, analysis_type, created_us)"
+          " VALUES ('" +
+          test::id_number(values[0] - '0') + "', " + values + ", 'path', 1)");
+      old.execute("INSERT INTO requests VALUES (" + values.substr(0, 1) + ", '{}')");
+    }
+  }
+  auto opened = open_store(path, at_second(1));
+  ASSERT_TRUE(opened.ok()) << opened.status().message();
+  const std::unique_ptr<Store> store = std::move(opened).value();
+  EXPECT_THAT(store->recover(3, at_second(2))->requeued, testing::ElementsAre(test::id_number(2)));
+  EXPECT_EQ((*store->get(test::id_number(3)))->state, JobState::dismissed);
+  EXPECT_EQ((*store->claim({"worker", at_second(9)}, at_second(3)))->id, test::id_number(1));
 }
 
 TEST_F(Migrations, TheStoreReportsANewerSchema) {

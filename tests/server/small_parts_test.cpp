@@ -74,7 +74,7 @@ TEST(Config, NamesTheFieldThatIsWrong) {
   EXPECT_THAT(fields([](auto& c) { c.waits.longest_wait = std::chrono::seconds(1); }),
               ElementsAre("waits.longest_wait"));
   EXPECT_THAT(fields([](auto& c) { c.store_path = ""; }), ElementsAre("store_path"));
-  EXPECT_THAT(fields([](auto& c) { c.max_crashes = 0; }), ElementsAre("max_crashes"));
+  EXPECT_THAT(fields([](auto& c) { c.jobs.max_crashes = 0; }), ElementsAre("jobs.max_crashes"));
   EXPECT_THAT(fields([](auto& c) { c.workers = 0, c.listener.port = -1; }),
               ElementsAre("listener.port", "workers"));
 }

@@ -24,6 +24,9 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
+/// Longer than any test.
+const Lease kLease{"worker", at_second(1'000'000)};
+
 struct StoreDriver {
   const char* name;
   std::function<StatusOr<std::unique_ptr<Store>>(const TempDir&)> open;
@@ -46,7 +49,7 @@ class StoreConformance : public testing::TestWithParam<StoreDriver> {
   void submit(int number) { ASSERT_TRUE(store_->submit(new_job(id_number(number), number)).ok()); }
   /// Claims the next job, which must exist.
   Claim claim(int second = 100) {
-    auto claim = store_->claim(at_second(second));
+    auto claim = store_->claim(kLease, at_second(second));
     EXPECT_TRUE(claim.ok() && claim->has_value()) << claim.status().message();
     return claim.ok() && claim->has_value() ? **claim : Claim{};
   }
@@ -100,7 +103,7 @@ TEST_P(StoreConformance, WhatIsNotThereIsEmptyNotAnError) {
   EXPECT_EQ(*store_->result("nothing"), std::nullopt);
   EXPECT_FALSE(store_->get("nothing")->has_value());
   EXPECT_THAT(store_->path("nothing")->branches, IsEmpty());
-  EXPECT_FALSE(store_->claim(at_second(1))->has_value());
+  EXPECT_FALSE(store_->claim(kLease, at_second(1))->has_value());
 }
 
 TEST_P(StoreConformance, AnIdIsTakenOnce) {
@@ -119,7 +122,7 @@ TEST_P(StoreConformance, ClaimsGoInOrderOfArrival) {
   EXPECT_EQ(job(2).state, JobState::running);
   EXPECT_EQ(job(2).started, at_second(7));
   EXPECT_EQ(claim().id, id_number(1));
-  EXPECT_FALSE(store_->claim(at_second(9))->has_value());
+  EXPECT_FALSE(store_->claim(kLease, at_second(9))->has_value());
 }
 
 TEST_P(StoreConformance, AFinishedJobHasItsResultPathAndCriticalPoints) {
@@ -339,7 +342,7 @@ TEST_P(StoreConformance, EachJobIsClaimedByOneThreadOnly) {
   std::multiset<std::string> claimed;
   const auto work = [&] {
     for (;;) {
-      const auto held = store_->claim(at_second(1));
+      const auto held = store_->claim(kLease, at_second(1));
       if (!held.ok() || !held->has_value()) {
         return;
       }
@@ -376,7 +379,7 @@ TEST_P(StoreConformance, AcknowledgedJobsSurviveKill) {
     bool good = store.ok();
     for (int i = 0; good && i < 1000000; ++i) {
       good = (*store)->submit(new_job(id_number(i), i)).ok();
-      good = good && (i % 3 != 0 || (*store)->claim(at_second(i)).ok());
+      good = good && (i % 3 != 0 || (*store)->claim(kLease, at_second(i)).ok());
       good = good && ::write(pipe_ends[1], &i, sizeof i) == sizeof i;
     }
     ::_exit(1);
@@ -398,6 +401,172 @@ TEST_P(StoreConformance, AcknowledgedJobsSurviveKill) {
   }
 }
 
+TEST_P(StoreConformance, AJobMayBeginWithItsWorker) {
+  NewJob job = new_job(id_number(1), 1);
+  job.lease = kLease;
+  ASSERT_TRUE(store_->submit(job).ok());
+  EXPECT_EQ(this->job(1).state, JobState::running);
+  EXPECT_EQ(this->job(1).attempt, 1);
+  EXPECT_FALSE(store_->claim(kLease, at_second(1))->has_value());
+  EXPECT_TRUE(finish({job.id, 1}).ok());
+}
+
+TEST_P(StoreConformance, AClaimPastItsLeaseFinishesNothing) {
+  submit(1);
+  const Claim held = **store_->claim({"slow", at_second(150)}, at_second(100));
+  EXPECT_EQ(finish(held).code(), StatusCode::conflict);  // at second 200
+  EXPECT_EQ(fail(held).code(), StatusCode::conflict);
+  EXPECT_EQ(job(1).state, JobState::running);
+  EXPECT_THAT(store_->rescue("other", 3, at_second(150))->requeued, IsEmpty());  // it may still be used now
+  EXPECT_THAT(store_->rescue("other", 3, at_second(151))->requeued, ElementsAre(id_number(1)));
+  EXPECT_EQ(job(1).crashes, 1);
+  EXPECT_EQ(job(1).state, JobState::accepted);
+}
+
+TEST_P(StoreConformance, ALeaseThatIsRenewedHolds) {
+  submit(1);
+  submit(2);
+  const Claim held = **store_->claim({"worker", at_second(150)}, at_second(100));
+  const Claim late = **store_->claim({"worker", at_second(110)}, at_second(100));
+  const auto lost = store_->renew({held, late}, at_second(250), at_second(120));
+  EXPECT_THAT(*lost, ElementsAre(late.id));
+  EXPECT_TRUE(finish(held).ok());
+  EXPECT_EQ(finish(late).code(), StatusCode::conflict);
+}
+
+TEST_P(StoreConformance, ASlowLeaseOfALivingWorkerIsNoCrash) {
+  submit(1);
+  ASSERT_TRUE(store_->claim({"worker", at_second(110)}, at_second(100)).ok());
+  EXPECT_THAT(store_->rescue("worker", 1, at_second(200))->requeued, ElementsAre(id_number(1)));
+  EXPECT_EQ(job(1).crashes, 0);
+  ASSERT_TRUE(store_->claim({"dead", at_second(210)}, at_second(201)).ok());
+  EXPECT_THAT(store_->rescue("worker", 1, at_second(300))->failed, ElementsAre(id_number(1)));
+  EXPECT_EQ(job(1).failure->code, "crashed");
+}
+
+TEST_P(StoreConformance, DismissesWhatHasNotEnded) {
+  submit(1);
+  submit(2);
+  submit(3);
+  ASSERT_TRUE(finish(claim()).ok());
+  const Claim running = claim();
+  EXPECT_EQ(store_->dismiss(id_number(1), at_second(5))->before, JobState::successful);
+  EXPECT_EQ(job(1).state, JobState::successful);
+  EXPECT_EQ(store_->dismiss(running.id, at_second(5))->before, JobState::running);
+  EXPECT_EQ(finish(running).code(), StatusCode::conflict);
+  EXPECT_EQ(job(2).finished, at_second(5));
+  EXPECT_EQ(store_->dismiss(id_number(3), at_second(6))->before, JobState::accepted);
+  EXPECT_EQ(store_->dismiss(id_number(3), at_second(7))->before, JobState::dismissed);
+  EXPECT_EQ(job(3).finished, at_second(6));
+  EXPECT_FALSE(store_->dismiss("nothing", at_second(7))->found);
+}
+
+TEST_P(StoreConformance, RemovesAJobWithAllThatBelongsToIt) {
+  submit(1);
+  submit(2);
+  ASSERT_TRUE(finish(claim()).ok());
+  const Claim running = claim();
+  EXPECT_TRUE(*store_->remove(id_number(1)));
+  EXPECT_TRUE(*store_->remove(running.id));
+  EXPECT_FALSE(*store_->remove(id_number(1)));
+  EXPECT_EQ(finish(running).code(), StatusCode::conflict);
+  EXPECT_FALSE(store_->get(id_number(1))->has_value());
+  EXPECT_EQ(*store_->result(id_number(1)), std::nullopt);
+  EXPECT_THAT(store_->path(id_number(1))->branches, IsEmpty());
+  EXPECT_THAT(ids({}), IsEmpty());
+}
+
+TEST_P(StoreConformance, AnIdempotencyKeyIsOneJobOfOneOwner) {
+  NewJob first = new_job(id_number(1));
+  first.idempotency = IdempotencyKey{"key", "body"};
+  EXPECT_EQ(store_->submit(first)->kind, Submitted::Kind::created);
+  NewJob again = new_job(id_number(2));
+  again.idempotency = first.idempotency;
+  EXPECT_EQ(store_->submit(again)->kind, Submitted::Kind::repeated);
+  EXPECT_EQ(store_->submit(again)->id, first.id);
+  again.idempotency->fingerprint = "another body";
+  EXPECT_EQ(store_->submit(again)->kind, Submitted::Kind::key_conflict);
+  EXPECT_THAT(ids({}), ElementsAre(first.id));
+  again.owner = "somebody else";
+  EXPECT_EQ(store_->submit(again)->kind, Submitted::Kind::created);
+  ASSERT_TRUE(store_->forget_keys(at_second(1)).ok());
+  NewJob later = new_job(id_number(3));
+  later.idempotency = first.idempotency;
+  EXPECT_EQ(store_->submit(later)->kind, Submitted::Kind::created);
+}
+
+TEST_P(StoreConformance, FindsAResultByContentAndOwner) {
+  for (int i = 1; i <= 2; ++i) {
+    NewJob job = new_job(id_number(i));
+    job.content_key = "content";
+    ASSERT_TRUE(store_->submit(job).ok());
+  }
+  ASSERT_TRUE(fail(claim()).ok());
+  EXPECT_EQ(*store_->find_result("content", ""), std::nullopt);  // what failed does not count
+  ASSERT_TRUE(finish(claim()).ok());
+  EXPECT_EQ(*store_->find_result("content", ""), id_number(2));
+  EXPECT_EQ(*store_->find_result("content", "somebody else"), std::nullopt);
+  EXPECT_EQ(*store_->find_result("", ""), std::nullopt);
+  NewJob job = new_job(id_number(3));
+  job.content_key = "content";
+  job.reuse = true;
+  job.idempotency = IdempotencyKey{"key", "body"};
+  EXPECT_EQ(store_->submit(job)->kind, Submitted::Kind::reused);
+  EXPECT_EQ(store_->submit(job)->kind, Submitted::Kind::repeated);
+  EXPECT_EQ(store_->submit(job)->id, id_number(2));
+}
+
+TEST_P(StoreConformance, RetiresTheOldestThatEnded) {
+  for (int i = 1; i <= 4; ++i) {
+    submit(i);
+  }
+  for (int i = 1; i <= 3; ++i) {
+    ASSERT_TRUE(store_->finish(claim(), sample_result(), at_second(10 * i)).ok());
+  }
+  EXPECT_EQ(*store_->retire(at_second(30), 1), 1);
+  EXPECT_THAT(ids({}), ElementsAre(id_number(4), id_number(3), id_number(2)));
+  EXPECT_EQ(*store_->retire(at_second(30), 10), 1);
+  EXPECT_EQ(*store_->retire(at_second(30), 10), 0);
+  EXPECT_THAT(ids({}), ElementsAre(id_number(4), id_number(3)));
+}
+
+TEST_P(StoreConformance, CountsByState) {
+  submit(1);
+  submit(2);
+  submit(3);
+  ASSERT_TRUE(finish(claim()).ok());
+  claim();
+  EXPECT_EQ(*store_->counts(), (JobCounts{1, 1, 1, 0, 0}));
+}
+
+TEST_P(StoreConformance, ListsOneOwnersJobs) {
+  submit(1);
+  NewJob job = new_job(id_number(2));
+  job.owner = "she";
+  ASSERT_TRUE(store_->submit(job).ok());
+  JobQuery query;
+  query.owner = "she";
+  EXPECT_THAT(ids(query), ElementsAre(id_number(2)));
+  EXPECT_EQ(this->job(2).owner, "she");
+}
+
+TEST_P(StoreConformance, AWriteThatIsRefusedLeavesThoseBesideItAlone) {
+  submit(0);
+  std::vector<std::jthread> threads;
+  std::atomic<int> refused = 0;
+  for (int i = 0; i < 8; ++i) {
+    threads.emplace_back([&, i] {
+      for (int n = 0; n < 25; ++n) {
+        refused += store_->submit(new_job(id_number(0))).ok() ? 0 : 1;  // taken
+        EXPECT_TRUE(store_->submit(new_job(id_number(1 + 25 * i + n))).ok());
+      }
+    });
+  }
+  threads.clear();
+  EXPECT_EQ(refused, 200);
+  EXPECT_EQ(store_->counts()->front(), 201);
+}
+
 /// What a store must hold, kept in plain memory.
 struct ModelJob {
   JobState state = JobState::accepted;
@@ -416,7 +585,7 @@ class StoreModel : public StoreConformance {
   void claim_next() {
     const auto oldest = std::find_if(model_.begin(), model_.end(),
                                      [](const ModelJob& job) { return job.state == JobState::accepted; });
-    const auto held = store_->claim(at_second(1));
+    const auto held = store_->claim(kLease, at_second(1));
     ASSERT_TRUE(held.ok());
     ASSERT_EQ(held->has_value(), oldest != model_.end());
     if (oldest != model_.end()) {

@@ -19,15 +19,38 @@ static_assert(sizeof(double) == 8);
 
 }  // namespace
 
-void Statement::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-
-Statement::Statement(sqlite3* database, std::string_view sql) : database_(database) {
-  sqlite3_stmt* statement = nullptr;
-  const int code =
-      sqlite3_prepare_v2(database, sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
-  statement_.reset(statement);
-  check(code);
+StatementCache::~StatementCache() {
+  for (const auto& [sql, statements] : idle_) {
+    for (sqlite3_stmt* statement : statements) {
+      sqlite3_finalize(statement);
+    }
+  }
 }
+
+sqlite3_stmt* StatementCache::take(sqlite3* database, std::string_view sql) {
+  auto& idle = idle_[std::string(sql)];
+  if (!idle.empty()) {
+    sqlite3_stmt* statement = idle.back();
+    idle.pop_back();
+    return statement;
+  }
+  sqlite3_stmt* statement = nullptr;
+  const int code = sqlite3_prepare_v3(database, sql.data(), static_cast<int>(sql.size()),
+                                      SQLITE_PREPARE_PERSISTENT, &statement, nullptr);
+  if (code != SQLITE_OK) {
+    raise(database, code);
+  }
+  return statement;
+}
+
+void StatementCache::give_back(sqlite3_stmt* statement) {
+  sqlite3_reset(statement);
+  sqlite3_clear_bindings(statement);
+  idle_[sqlite3_sql(statement)].push_back(statement);
+}
+
+Statement::Statement(sqlite3* database, StatementCache& cache, std::string_view sql)
+    : database_(database), statement_(cache.take(database, sql), GiveBack{&cache}) {}
 
 void Statement::check(int code) const {
   if (code != SQLITE_OK) {
@@ -111,6 +134,16 @@ std::optional<double> Statement::optional_real(int column) const {
 
 void Connection::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 
+Connection::Connection(const std::string& path) {
+  sqlite3* handle = nullptr;
+  const int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE | SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int code = sqlite3_open_v2(path.c_str(), &handle, flags, nullptr);
+  handle_.reset(handle);
+  if (code != SQLITE_OK) {
+    raise(handle, code);
+  }
+}
+
 Connection::Connection(const std::string& path, Access access) {
   const int flags =
       SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE |
@@ -123,11 +156,15 @@ Connection::Connection(const std::string& path, Access access) {
   }
   sqlite3_busy_timeout(handle, 5000);
   if (access == Access::read_write) {
-    execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA secure_delete = OFF;");
+    execute(
+        "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA secure_delete = OFF;"
+        "PRAGMA journal_size_limit = 67108864;");
   } else {
     execute("PRAGMA query_only = ON;");
   }
-  execute("PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA mmap_size = 0;");
+  execute(
+      "PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA mmap_size = 0;"
+      "PRAGMA temp_store = MEMORY;");
 }
 
 void Connection::execute(const std::string& sql) {
@@ -140,6 +177,21 @@ void Connection::execute(const std::string& sql) {
 std::int64_t Connection::changes() const { return sqlite3_changes64(handle_.get()); }
 
 std::int64_t Connection::last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }
+
+bool Connection::in_transaction() const { return sqlite3_get_autocommit(handle_.get()) == 0; }
+
+void Connection::copy_to(const std::string& path) const {
+  const Connection target(path);
+  sqlite3_backup* backup = sqlite3_backup_init(target.handle_.get(), "main", handle_.get(), "main");
+  if (backup == nullptr) {
+    raise(target.handle_.get(), sqlite3_errcode(target.handle_.get()));
+  }
+  sqlite3_backup_step(backup, -1);  // all at once: one state of the database, whatever is written meanwhile
+  const int code = sqlite3_backup_finish(backup);
+  if (code != SQLITE_OK) {
+    raise(target.handle_.get(), code);
+  }
+}
 
 Transaction::Transaction(Connection& connection) : connection_(connection) {
   connection_.execute("BEGIN IMMEDIATE");

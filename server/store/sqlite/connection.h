@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 struct sqlite3;
@@ -27,11 +28,30 @@ class Error : public std::runtime_error {
   int code_;
 };
 
+/// Statements of one connection that are compiled and not in use.
+class StatementCache {
+ public:
+  StatementCache() = default;
+  ~StatementCache();
+  StatementCache(const StatementCache&) = delete;
+  StatementCache& operator=(const StatementCache&) = delete;
+  StatementCache(StatementCache&&) = delete;
+  StatementCache& operator=(StatementCache&&) = delete;
+
+  /// One for this text, compiled now if none is idle. Throws Error.
+  sqlite3_stmt* take(sqlite3* database, std::string_view sql);
+  void give_back(sqlite3_stmt* statement);
+
+ private:
+  std::unordered_map<std::string, std::vector<sqlite3_stmt*>> idle_;
+};
+
 /// @brief A prepared statement: bind in order, step, read columns from 0. Not thread-safe.
 /// Every member throws Error.
 class Statement {
  public:
-  Statement(sqlite3* database, std::string_view sql);
+  /// Both must outlive the statement.
+  Statement(sqlite3* database, StatementCache& cache, std::string_view sql);
 
   /// Binds the next parameter. Text and blobs are copied.
   Statement& bind(std::int64_t value);
@@ -60,13 +80,14 @@ class Statement {
   [[nodiscard]] std::optional<double> optional_real(int column) const;
 
  private:
-  struct Finalize {
-    void operator()(sqlite3_stmt* statement) const;
+  struct GiveBack {
+    StatementCache* cache;
+    void operator()(sqlite3_stmt* statement) const { cache->give_back(statement); }
   };
   void check(int code) const;
 
   sqlite3* database_;
-  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  std::unique_ptr<sqlite3_stmt, GiveBack> statement_;
   int bound_ = 0;
 };
 
@@ -80,16 +101,24 @@ class Connection {
 
   /// Runs statements that return nothing.
   void execute(const std::string& sql);
-  [[nodiscard]] Statement prepare(std::string_view sql) const { return {handle_.get(), sql}; }
+  [[nodiscard]] Statement prepare(std::string_view sql) const { return {handle_.get(), *cache_, sql}; }
   /// Rows changed by the latest insert, update or delete.
   [[nodiscard]] std::int64_t changes() const;
   [[nodiscard]] std::int64_t last_row() const;
+  /// Whether a transaction is open; an error may have ended it.
+  [[nodiscard]] bool in_transaction() const;
+  /// Writes a consistent copy of the whole database to a new file; others may write meanwhile.
+  void copy_to(const std::string& path) const;
 
  private:
+  /// A new file without pragmas, to copy into.
+  explicit Connection(const std::string& path);
+
   struct Close {
     void operator()(sqlite3* database) const;
   };
   std::unique_ptr<sqlite3, Close> handle_;
+  std::unique_ptr<StatementCache> cache_ = std::make_unique<StatementCache>();  ///< gone before the handle
 };
 
 /// @brief A write transaction (BEGIN IMMEDIATE): rolled back when it is destroyed without commit().

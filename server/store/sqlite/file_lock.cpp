@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <system_error>
 #include <utility>
 
@@ -33,6 +34,29 @@ FileLock::~FileLock() {
   if (descriptor_ >= 0) {
     ::close(descriptor_);
   }
+}
+
+namespace {
+
+bool sync_path(const std::string& path, int flags) {
+  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  if (descriptor >= 0) {
+    ::close(descriptor);
+  }
+  return synced;
+}
+
+}  // namespace
+
+Status publish_file(const std::string& unfinished, const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : name.substr(0, slash + 1);
+  if (!sync_path(unfinished, O_RDWR) || ::rename(unfinished.c_str(), name.c_str()) != 0 ||
+      !sync_path(folder, O_RDONLY | O_DIRECTORY)) {
+    return {StatusCode::io_error, name + ": " + std::generic_category().message(errno)};
+  }
+  return {};
 }
 
 }  // namespace snapthrough::server::sqlite

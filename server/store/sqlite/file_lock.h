@@ -27,4 +27,7 @@ class FileLock {
   int descriptor_ = -1;
 };
 
+/// Makes a finished file durable and gives it its final name, in the place of an older one if need be.
+Status publish_file(const std::string& unfinished, const std::string& name);
+
 }  // namespace snapthrough::server::sqlite

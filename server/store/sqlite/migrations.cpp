@@ -35,7 +35,6 @@ StatusOr<std::size_t> applied_steps(Connection& connection, std::span<const Migr
 }
 
 void apply(Connection& connection, const Migration& migration, Time now) {
-  Transaction transaction(connection);
   connection.execute(std::string(migration.sql));
   connection
       .prepare("INSERT INTO schema_migrations (version, name, checksum, applied_us) VALUES (?, ?, ?, ?)")
@@ -44,7 +43,6 @@ void apply(Connection& connection, const Migration& migration, Time now) {
       .bind(migration.checksum)
       .bind(static_cast<std::int64_t>(now.time_since_epoch().count()))
       .run();
-  transaction.commit();
 }
 
 }  // namespace
@@ -55,9 +53,14 @@ Status migrate(Connection& connection, std::span<const Migration> migrations, Ti
   if (!applied.ok()) {
     return applied.status();
   }
+  if (*applied == migrations.size()) {
+    return {};
+  }
+  Transaction transaction(connection);
   for (const Migration& migration : migrations.subspan(*applied)) {
     apply(connection, migration, now);
   }
+  transaction.commit();
   return {};
 }
 

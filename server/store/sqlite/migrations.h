@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The schema's history: numbered steps, each applied once, in order, in a transaction of its own.
+/// The schema's history: numbered steps, each applied once, in order; what is lacking in one transaction.
 
 #include <span>
 #include <string>
@@ -26,8 +26,8 @@ struct Migration {
 
 /// @brief Brings a database up to date and records each step in schema_migrations.
 /// @return `unsupported` when the database has a step that this program does not know (a newer version wrote
-/// it) or an applied step differs from the one known here; nothing is changed then. A step that fails leaves
-/// the database as it was before this step. Throws Error when the database can't be read or written.
+/// it) or an applied step differs from the one known here; nothing When a step fails, the database is as it
+/// was before the first. Throws Error when the database can't be read or written.
 Status migrate(Connection& connection, std::span<const Migration> migrations, Time now);
 
 }  // namespace snapthrough::server::sqlite

@@ -98,7 +98,7 @@ std::vector<NamedSeries> read_series(const Connection& connection, std::int64_t 
 
 const char* const kJobColumns =
     "jobs.id, jobs.status, jobs.attempt, jobs.crashes, jobs.title, jobs.analysis_type, jobs.created_us,"
-    " jobs.started_us, jobs.finished_us";
+    " jobs.started_us, jobs.finished_us, jobs.owner";
 
 std::int64_t to_row(Time time) { return time.time_since_epoch().count(); }
 
@@ -126,6 +126,7 @@ Job read_job(const Statement& row) {
   job.created = time_from_row(row.integer(6));
   job.started = optional_time(row, 7);
   job.finished = optional_time(row, 8);
+  job.owner = row.text(9);
   return job;
 }
 

@@ -1,30 +1,16 @@
 #include "server/store/sqlite/sqlite_store.h"
 
-#include <sqlite3.h>
-
+#include <filesystem>
 #include <mutex>
 #include <utility>
 
 #include "server/store/sqlite/connection.h"
 #include "server/store/sqlite/file_lock.h"
 #include "server/store/sqlite/rows.h"
+#include "server/store/sqlite/writer.h"
 
 namespace snapthrough::server::sqlite {
 namespace {
-
-Status to_status(const Error& error) {
-  switch (error.code() & 0xFF) {
-    case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-    case SQLITE_FULL:
-    case SQLITE_NOMEM:
-      return {StatusCode::unavailable, error.what()};
-    case SQLITE_NOTADB:
-      return {StatusCode::unsupported, error.what()};
-    default:
-      return {StatusCode::io_error, error.what()};
-  }
-}
 
 /// Read-only connections that are not in use; one is opened when none is free.
 class ReaderPool {
@@ -63,12 +49,23 @@ class SqliteStore final : public Store {
   SqliteStore(FileLock lock, std::unique_ptr<Connection> writer, const std::string& path)
       : lock_(std::move(lock)), writer_(std::move(writer)), readers_(path) {}
 
-  Status submit(const NewJob& job) override;
-  StatusOr<std::optional<Claim>> claim(Time now) override;
+  using Store::submit;
+  StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) override;
+  StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) override;
+  StatusOr<std::vector<std::string>> renew(const std::vector<Claim>& claims, Time until, Time now) override;
   Status finish(const Claim& claim, const JobResult& result, Time now) override;
   Status fail(const Claim& claim, const JobFailure& failure, const StoredPath& reached, Time now) override;
   Status requeue(const Claim& claim) override;
   StatusOr<Recovery> recover(int max_crashes, Time now) override;
+  StatusOr<Recovery> rescue(std::string_view worker, int max_crashes, Time now) override;
+  StatusOr<Dismissal> dismiss(std::string_view id, Time now) override;
+  StatusOr<bool> remove(std::string_view id) override;
+  StatusOr<int> retire(Time ended_before, int most) override;
+  Status forget_keys(Time used_before) override;
+  Status probe(Time now) override;
+  StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
+                                                   std::string_view owner) override;
+  StatusOr<JobCounts> counts() override;
   StatusOr<std::optional<Job>> get(std::string_view id) override;
   StatusOr<JobPage> list(const JobQuery& query) override;
   StatusOr<std::optional<std::string>> request(std::string_view id) override;
@@ -76,21 +73,23 @@ class SqliteStore final : public Store {
   StatusOr<StoredPath> path(std::string_view id) override;
 
  private:
-  /// Runs `work(connection)` in a write transaction; errors become a status.
+  /// Runs `work(connection)`, which gives a StatusOr<T>, in a write transaction.
   template <class T, class Work>
-  T write(const Work& work) {
-    const std::lock_guard guard(writer_mutex_);
-    try {
-      Transaction transaction(*writer_);
-      T outcome = work(*writer_);
-      if (outcome.ok()) {
-        transaction.commit();
-      }
-      return outcome;
-    } catch (const Error& error) {
-      return to_status(error);
+  StatusOr<T> write(const Work& work, Durability durability = Durability::synced,
+                    const std::function<void()>& queued = {}, bool patient = false) {
+    StatusOr<T> outcome = Status(StatusCode::io_error, "nothing was done");
+    Status status = writer_.run(
+        [&](Connection& connection) {
+          outcome = work(connection);
+          return outcome.status();
+        },
+        durability, queued, patient);
+    if (!status.ok()) {
+      return status;
     }
+    return outcome;
   }
+  Status write_only(const Writer::Work& work) { return writer_.run(work, Durability::synced); }
 
   template <class T, class Work>
   StatusOr<T> read(const Work& work) {
@@ -104,8 +103,7 @@ class SqliteStore final : public Store {
   StatusOr<std::optional<std::string>> document(const char* table, std::string_view id);
 
   FileLock lock_;
-  std::mutex writer_mutex_;
-  std::unique_ptr<Connection> writer_;
+  Writer writer_;
   ReaderPool readers_;
 };
 
@@ -114,6 +112,14 @@ std::optional<std::int64_t> held_job(Connection& connection, const Claim& claim)
   Statement row =
       connection.prepare("SELECT seq FROM jobs WHERE id = ? AND status = 'running' AND attempt = ?");
   row.bind(claim.id).bind(claim.attempt);
+  return row.step() ? std::optional(row.integer(0)) : std::nullopt;
+}
+
+/// The same, and its lease has not run out: who works past it may have been given up.
+std::optional<std::int64_t> leased_job(Connection& connection, const Claim& claim, Time now) {
+  Statement row = connection.prepare(
+      "SELECT seq FROM jobs WHERE id = ? AND status = 'running' AND attempt = ? AND lease_until_us >= ?");
+  row.bind(claim.id).bind(claim.attempt).bind(to_row(now));
   return row.step() ? std::optional(row.integer(0)) : std::nullopt;
 }
 
@@ -141,44 +147,142 @@ void insert_failure(Connection& connection, std::int64_t job, const JobFailure& 
       .run();
 }
 
-Status SqliteStore::submit(const NewJob& job) {
-  return write<Status>([&](Connection& connection) {
-    connection.prepare("INSERT INTO jobs (id, title, analysis_type, created_us) VALUES (?, ?, ?, ?)")
-        .bind(job.id)
-        .bind(job.title)
-        .bind(job.analysis_type)
-        .bind(to_row(job.created))
-        .run();
-    connection.prepare("INSERT INTO requests (job, document) VALUES (?, ?)")
-        .bind(connection.last_row())
-        .bind(job.document)
-        .run();
-    return Status();
-  });
+/// What an idempotency key that is known amounts to; empty when it is new.
+std::optional<Submitted> known_key(Connection& connection, const NewJob& job) {
+  Statement row = connection.prepare(
+      "SELECT idempotency_keys.fingerprint, jobs.id FROM idempotency_keys JOIN jobs ON jobs.seq = job"
+      " WHERE idempotency_keys.owner = ? AND idempotency_keys.key = ?");
+  row.bind(job.owner).bind(job.idempotency->key);
+  if (!row.step()) {
+    return std::nullopt;
+  }
+  const bool same = row.text(0) == job.idempotency->fingerprint;
+  return Submitted{same ? Submitted::Kind::repeated : Submitted::Kind::key_conflict, row.text(1)};
 }
 
-StatusOr<std::optional<Claim>> SqliteStore::claim(Time now) {
-  using Outcome = StatusOr<std::optional<Claim>>;
-  return write<Outcome>([&](Connection& connection) -> Outcome {
-    Statement row = connection.prepare(
-        "SELECT jobs.seq, jobs.id, jobs.attempt, requests.document FROM jobs"
-        " JOIN requests ON requests.job = jobs.seq WHERE jobs.status = 'accepted' ORDER BY jobs.seq LIMIT 1");
-    if (!row.step()) {
-      return std::optional<Claim>();
+void insert_job(Connection& connection, const NewJob& job) {
+  const std::optional<Lease>& lease = job.lease;
+  connection
+      .prepare(
+          "INSERT INTO jobs (id, title, analysis_type, created_us, owner, content_key, status, attempt,"
+          " started_us, worker, lease_until_us) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+      .bind(job.id)
+      .bind(job.title)
+      .bind(job.analysis_type)
+      .bind(to_row(job.created))
+      .bind(job.owner)
+      .bind(job.content_key)
+      .bind(to_string(lease ? JobState::running : JobState::accepted))
+      .bind(lease ? 1 : 0)
+      .bind(lease ? std::optional(to_row(job.created)) : std::nullopt)
+      .bind(lease ? std::optional<std::string_view>(lease->worker) : std::nullopt)
+      .bind(lease ? std::optional(to_row(lease->until)) : std::nullopt)
+      .run();
+}
+
+void insert_key(Connection& connection, const NewJob& job, std::int64_t row) {
+  connection
+      .prepare(
+          "INSERT INTO idempotency_keys (owner, key, fingerprint, job, created_us) VALUES (?, ?, ?, ?, ?)")
+      .bind(job.owner)
+      .bind(job.idempotency->key)
+      .bind(job.idempotency->fingerprint)
+      .bind(row)
+      .bind(to_row(job.created))
+      .run();
+}
+
+/// The newest successful job of that content and owner: row number and id.
+std::optional<std::pair<std::int64_t, std::string>> same_content(const Connection& connection,
+                                                                 std::string_view content_key,
+                                                                 std::string_view owner) {
+  Statement row = connection.prepare(
+      "SELECT seq, id FROM jobs WHERE content_key = ? AND owner = ? AND status = 'successful'"
+      " AND content_key <> '' ORDER BY seq DESC LIMIT 1");
+  row.bind(content_key).bind(owner);
+  return row.step() ? std::optional(std::pair(row.integer(0), row.text(1))) : std::nullopt;
+}
+
+StatusOr<Submitted> SqliteStore::submit(const NewJob& job, const std::function<void()>& queued) {
+  const auto work = [&](Connection& connection) -> StatusOr<Submitted> {
+    if (job.idempotency) {
+      if (const std::optional<Submitted> known = known_key(connection, job)) {
+        return *known;
+      }
     }
-    Claim claim{row.text(1), static_cast<int>(row.integer(2)) + 1, row.text(3)};
-    connection.prepare("UPDATE jobs SET status = 'running', attempt = ?, started_us = ? WHERE seq = ?")
-        .bind(claim.attempt)
-        .bind(to_row(now))
-        .bind(row.integer(0))
-        .run();
-    return std::optional<Claim>(std::move(claim));
-  });
+    Submitted submitted{Submitted::Kind::created, job.id};
+    std::int64_t row = 0;
+    const auto same = job.reuse ? same_content(connection, job.content_key, job.owner) : std::nullopt;
+    if (same) {
+      row = same->first;
+      submitted = {Submitted::Kind::reused, same->second};
+    } else {
+      insert_job(connection, job);
+      row = connection.last_row();
+      connection.prepare("INSERT INTO requests (job, document) VALUES (?, ?)")
+          .bind(row)
+          .bind(job.document)
+          .run();
+    }
+    if (job.idempotency) {
+      insert_key(connection, job, row);
+    }
+    return submitted;
+  };
+  return write<Submitted>(work, Durability::synced, queued, job.patient);
+}
+
+StatusOr<std::optional<Claim>> SqliteStore::claim(const Lease& lease, Time now) {
+  using Outcome = StatusOr<std::optional<Claim>>;
+  return write<std::optional<Claim>>(
+      [&](Connection& connection) -> Outcome {
+        Statement row = connection.prepare(
+            "SELECT jobs.seq, jobs.id, jobs.attempt, requests.document FROM jobs"
+            " JOIN requests ON requests.job = jobs.seq WHERE jobs.status = 'accepted'"
+            " ORDER BY jobs.seq LIMIT 1");
+        if (!row.step()) {
+          return std::optional<Claim>();
+        }
+        Claim claim{row.text(1), static_cast<int>(row.integer(2)) + 1, row.text(3)};
+        connection
+            .prepare(
+                "UPDATE jobs SET status = 'running', attempt = ?, started_us = ?, worker = ?,"
+                " lease_until_us = ? WHERE seq = ?")
+            .bind(claim.attempt)
+            .bind(to_row(now))
+            .bind(lease.worker)
+            .bind(to_row(lease.until))
+            .bind(row.integer(0))
+            .run();
+        return std::optional<Claim>(std::move(claim));
+      },
+      Durability::unsynced);
+}
+
+StatusOr<std::vector<std::string>> SqliteStore::renew(const std::vector<Claim>& claims, Time until,
+                                                      Time now) {
+  return write<std::vector<std::string>>(
+      [&](Connection& connection) -> StatusOr<std::vector<std::string>> {
+        std::vector<std::string> lost;
+        for (const Claim& claim : claims) {
+          const std::optional<std::int64_t> job = leased_job(connection, claim, now);
+          if (!job) {
+            lost.push_back(claim.id);
+            continue;
+          }
+          connection.prepare("UPDATE jobs SET lease_until_us = ? WHERE seq = ?")
+              .bind(to_row(until))
+              .bind(*job)
+              .run();
+        }
+        return lost;
+      },
+      Durability::unsynced);
 }
 
 Status SqliteStore::finish(const Claim& claim, const JobResult& result, Time now) {
-  return write<Status>([&](Connection& connection) {
-    const std::optional<std::int64_t> job = held_job(connection, claim);
+  return write_only([&](Connection& connection) {
+    const std::optional<std::int64_t> job = leased_job(connection, claim, now);
     if (!job) {
       return lost_claim(claim);
     }
@@ -202,8 +306,8 @@ Status SqliteStore::finish(const Claim& claim, const JobResult& result, Time now
 }
 
 Status SqliteStore::fail(const Claim& claim, const JobFailure& failure, const StoredPath& reached, Time now) {
-  return write<Status>([&](Connection& connection) {
-    const std::optional<std::int64_t> job = held_job(connection, claim);
+  return write_only([&](Connection& connection) {
+    const std::optional<std::int64_t> job = leased_job(connection, claim, now);
     if (!job) {
       return lost_claim(claim);
     }
@@ -215,7 +319,7 @@ Status SqliteStore::fail(const Claim& claim, const JobFailure& failure, const St
 }
 
 Status SqliteStore::requeue(const Claim& claim) {
-  return write<Status>([&](Connection& connection) {
+  return write_only([&](Connection& connection) {
     const std::optional<std::int64_t> job = held_job(connection, claim);
     if (!job) {
       return lost_claim(claim);
@@ -227,30 +331,135 @@ Status SqliteStore::requeue(const Claim& claim) {
   });
 }
 
-StatusOr<Recovery> SqliteStore::recover(int max_crashes, Time now) {
-  return write<StatusOr<Recovery>>([&](Connection& connection) -> StatusOr<Recovery> {
-    Recovery recovery;
-    Statement row =
-        connection.prepare("SELECT seq, id, crashes FROM jobs WHERE status = 'running' ORDER BY seq");
-    std::vector<std::pair<std::int64_t, std::string>> given_up;
+/// A job that is taken back from whoever has it.
+struct TakenBack {
+  std::int64_t row = 0;
+  std::string id;
+  bool give_up = false;
+};
+
+void take_back(Connection& connection, const TakenBack& job, bool crashed, int max_crashes, Time now) {
+  if (crashed) {
+    connection.prepare("UPDATE jobs SET crashes = crashes + 1 WHERE seq = ?").bind(job.row).run();
+  }
+  if (job.give_up) {
+    insert_failure(connection, job.row,
+                   {"crashed",
+                    "the service died " + std::to_string(max_crashes) +
+                        " times while it worked on this job; it is not tried again",
+                    ""});
+    return end_job(connection, job.row, JobEvent::fail, now);
+  }
+  connection.prepare("UPDATE jobs SET status = 'accepted', started_us = NULL WHERE seq = ?")
+      .bind(job.row)
+      .run();
+}
+
+/// Takes back every running job whose lease ends before `ended_before`, except that those of `worker` don't
+/// count as crashed.
+Recovery take_all_back(Connection& connection, Time ended_before, std::string_view worker, int max_crashes,
+                       Time now) {
+  std::vector<std::pair<TakenBack, bool>> jobs;
+  {
+    Statement row = connection.prepare(
+        "SELECT seq, id, crashes, worker FROM jobs WHERE status = 'running' AND lease_until_us < ?"
+        " ORDER BY seq");
+    row.bind(to_row(ended_before));
     while (row.step()) {
-      const bool give_up = row.integer(2) + 1 >= max_crashes;
-      (give_up ? recovery.failed : recovery.requeued).push_back(row.text(1));
-      if (give_up) {
-        given_up.emplace_back(row.integer(0), row.text(1));
-      }
+      const bool crashed = worker.empty() || row.text(3) != worker;
+      const bool give_up = crashed && row.integer(2) + 1 >= max_crashes;
+      jobs.push_back({{row.integer(0), row.text(1), give_up}, crashed});
     }
-    connection.execute("UPDATE jobs SET crashes = crashes + 1 WHERE status = 'running'");
-    for (const auto& [job, id] : given_up) {
-      insert_failure(connection, job,
-                     {"crashed",
-                      "the service died " + std::to_string(max_crashes) +
-                          " times while it worked on this job; it is not tried again",
-                      ""});
-      end_job(connection, job, JobEvent::fail, now);
+  }
+  Recovery recovery;
+  for (const auto& [job, crashed] : jobs) {
+    take_back(connection, job, crashed, max_crashes, now);
+    (job.give_up ? recovery.failed : recovery.requeued).push_back(job.id);
+  }
+  return recovery;
+}
+
+StatusOr<Recovery> SqliteStore::recover(int max_crashes, Time now) {
+  return write<Recovery>([&](Connection& connection) -> StatusOr<Recovery> {
+    return take_all_back(connection, Time::max(), "", max_crashes, now);
+  });
+}
+
+StatusOr<Recovery> SqliteStore::rescue(std::string_view worker, int max_crashes, Time now) {
+  return write<Recovery>([&](Connection& connection) -> StatusOr<Recovery> {
+    return take_all_back(connection, now, worker, max_crashes, now);
+  });
+}
+
+StatusOr<Dismissal> SqliteStore::dismiss(std::string_view id, Time now) {
+  return write<Dismissal>([&](Connection& connection) -> StatusOr<Dismissal> {
+    Statement row = connection.prepare("SELECT seq, status FROM jobs WHERE id = ?");
+    row.bind(id);
+    if (!row.step()) {
+      return Dismissal{};
     }
-    connection.execute("UPDATE jobs SET status = 'accepted', started_us = NULL WHERE status = 'running'");
-    return recovery;
+    const Dismissal dismissal{true, job_state_from(row.text(1)).value()};
+    if (const auto after = next_state(dismissal.before, JobEvent::dismiss)) {
+      connection.prepare("UPDATE jobs SET status = ?, finished_us = ? WHERE seq = ?")
+          .bind(to_string(*after))
+          .bind(to_row(now))
+          .bind(row.integer(0))
+          .run();
+    }
+    return dismissal;
+  });
+}
+
+StatusOr<bool> SqliteStore::remove(std::string_view id) {
+  return write<bool>([&](Connection& connection) -> StatusOr<bool> {
+    connection.prepare("DELETE FROM jobs WHERE id = ?").bind(id).run();
+    return connection.changes() > 0;
+  });
+}
+
+StatusOr<int> SqliteStore::retire(Time ended_before, int most) {
+  return write<int>([&](Connection& connection) -> StatusOr<int> {
+    connection
+        .prepare(
+            "DELETE FROM jobs WHERE seq IN (SELECT seq FROM jobs WHERE finished_us < ? ORDER BY finished_us"
+            " LIMIT ?)")
+        .bind(to_row(ended_before))
+        .bind(most)
+        .run();
+    return static_cast<int>(connection.changes());
+  });
+}
+
+Status SqliteStore::forget_keys(Time used_before) {
+  return write_only([&](Connection& connection) {
+    connection.prepare("DELETE FROM idempotency_keys WHERE created_us < ?").bind(to_row(used_before)).run();
+    return Status();
+  });
+}
+
+Status SqliteStore::probe(Time now) {
+  return write_only([&](Connection& connection) {
+    connection.prepare("INSERT OR REPLACE INTO probes (number, at_us) VALUES (1, ?)").bind(to_row(now)).run();
+    return Status();
+  });
+}
+
+StatusOr<std::optional<std::string>> SqliteStore::find_result(std::string_view content_key,
+                                                              std::string_view owner) {
+  return read<std::optional<std::string>>([&](const Connection& connection) -> std::optional<std::string> {
+    auto same = same_content(connection, content_key, owner);
+    return same ? std::optional(std::move(same->second)) : std::nullopt;
+  });
+}
+
+StatusOr<JobCounts> SqliteStore::counts() {
+  return read<JobCounts>([&](const Connection& connection) {
+    Statement row = connection.prepare("SELECT status, count(*) FROM jobs GROUP BY status");
+    JobCounts counts{};
+    while (row.step()) {
+      counts[static_cast<std::size_t>(job_state_from(row.text(0)).value())] = row.integer(1);
+    }
+    return counts;
   });
 }
 
@@ -276,11 +485,15 @@ StatusOr<JobPage> SqliteStore::list(const JobQuery& query) {
   return read<JobPage>([&](const Connection& connection) {
     std::string sql = "SELECT " + std::string(kJobColumns) + ", jobs.seq FROM jobs WHERE jobs.seq < ?";
     sql += query.state ? " AND jobs.status = ?" : "";
+    sql += query.owner ? " AND jobs.owner = ?" : "";
     sql += " ORDER BY jobs.seq DESC LIMIT ?";
     Statement rows = connection.prepare(sql);
     rows.bind(query.before.value_or(INT64_MAX));
     if (query.state) {
       rows.bind(to_string(*query.state));
+    }
+    if (query.owner) {
+      rows.bind(*query.owner);
     }
     rows.bind(query.limit + 1);  // one more, to see whether another page follows
     JobPage page;
@@ -345,6 +558,24 @@ StatusOr<std::unique_ptr<Store>> open_store(const std::string& path, Time now,
     const Status status = to_status(error);
     return Status(status.code(), path + ": " + status.message());
   }
+}
+
+Status back_up(const std::string& path, const std::string& target) {
+  const std::string unfinished = target + ".part";
+  std::error_code ignored;
+  std::filesystem::remove(unfinished, ignored);
+  try {
+    Connection(path, Access::read_only).copy_to(unfinished);
+    const Connection copy(unfinished, Access::read_only);
+    Statement check = copy.prepare("PRAGMA integrity_check");
+    if (!check.step() || check.text(0) != "ok") {
+      return {StatusCode::io_error, target + ": the copy is damaged"};
+    }
+  } catch (const Error& error) {
+    const Status status = to_status(error);
+    return {status.code(), path + ": " + status.message()};
+  }
+  return publish_file(unfinished, target);
 }
 
 }  // namespace snapthrough::server::sqlite

@@ -87,6 +87,12 @@ Reply Socket::receive(bool without_body) {
   return reply;
 }
 
+std::string Socket::rest() {
+  while (fill()) {
+  }
+  return std::move(buffer_);
+}
+
 bool Socket::at_end() { return buffer_.empty() && !fill(); }
 
 Reply call(int port, const std::string& method, const std::string& target, const std::string& body,

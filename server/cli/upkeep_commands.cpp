@@ -1,0 +1,72 @@
+#include <netdb.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <array>
+#include <memory>
+#include <ostream>
+#include <string>
+
+#include "server/cli/commands.h"
+#include "server/http/sockets.h"
+#include "server/store/sqlite/sqlite_store.h"
+
+namespace snapthrough::server::cli {
+namespace {
+
+http::Descriptor connect_to(const std::string& host, int port) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* list = nullptr;
+  if (::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &list) != 0) {
+    return http::Descriptor();
+  }
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owned(list, &::freeaddrinfo);
+  for (const addrinfo* address = list; address != nullptr; address = address->ai_next) {
+    http::Descriptor socket(::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    const timeval patience{3, 0};
+    ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    if (::connect(socket.get(), address->ai_addr, address->ai_addrlen) == 0) {
+      return socket;
+    }
+  }
+  return http::Descriptor();
+}
+
+}  // namespace
+
+int backup_command(const std::string& store, const std::string& target, const Streams& streams) {
+  if (const Status status = sqlite::back_up(store, target); !status.ok()) {
+    streams.err << "snapthrough: " << status.message() << '\n';
+    return kOther;
+  }
+  streams.out << "copied " << store << " to " << target << ", integrity check passed\n";
+  return kDone;
+}
+
+int health_command(const std::string& address, bool ready, const Streams& streams) {
+  const auto parsed = parse_address(address);
+  if (!parsed) {
+    streams.err << "expected host:port, got " << address << '\n';
+    return kOther;
+  }
+  const std::string host = parsed->first == "0.0.0.0" ? "127.0.0.1" : parsed->first;
+  const http::Descriptor socket = connect_to(host, parsed->second);
+  const std::string path = ready ? "/readyz" : "/livez";
+  const std::string request = "GET " + path + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+  std::array<char, 64> reply{};
+  const bool sent = socket.get() >= 0 && ::send(socket.get(), request.data(), request.size(), MSG_NOSIGNAL) ==
+                                             static_cast<ssize_t>(request.size());
+  const ssize_t count = sent ? ::recv(socket.get(), reply.data(), reply.size(), MSG_WAITALL) : 0;
+  const std::string text(reply.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
+  if (!text.starts_with("HTTP/1.1 200 ")) {
+    streams.err << path << " of " << address << ": " << (text.empty() ? "no answer" : text.substr(9, 3))
+                << '\n';
+    return kOther;
+  }
+  return kDone;
+}
+
+}  // namespace snapthrough::server::cli

@@ -1,0 +1,21 @@
+#pragma once
+/// @file
+/// Documents that are built into the program. Defined in a source generated at build time.
+
+#include <string_view>
+#include <vector>
+
+namespace snapthrough::server::http {
+
+/// A request document of the folder examples/.
+struct Example {
+  std::string_view name;      ///< file name without ending
+  std::string_view document;  ///< JSON text
+};
+
+[[nodiscard]] const std::vector<Example>& embedded_examples();
+
+/// The OpenAPI 3.1 document, api/openapi/openapi.json.
+[[nodiscard]] std::string_view openapi_document();
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,21 @@
+#pragma once
+/// @file
+/// What happens to a job, as server-sent events.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "server/http/message.h"
+#include "server/jobs/desk.h"
+
+namespace snapthrough::server::http {
+
+/// @brief Sends `status` at once, `progress` while the analysis runs (at most 20 a second), and when the job
+/// has ended its `critical_point` events and `end`, which is the last.
+///
+/// Event ids grow; what a client has seen (`last_id`, from Last-Event-ID) is not sent again.
+[[nodiscard]] std::shared_ptr<StreamSource> follow_job(JobDesk& desk, const std::string& id,
+                                                       std::uint64_t last_id, Stream::Push push);
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,399 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include "server/http/csv.h"
+#include "server/http/events.h"
+#include "server/http/prefer.h"
+#include "server/http/routes.h"
+
+namespace snapthrough::server::http {
+namespace {
+
+constexpr int kDefaultPage = 20;
+constexpr int kLargestPage = 1000;
+constexpr std::size_t kLongestKey = 255;
+
+Response refused_document(const Request& request, Submission submission) {
+  Problem problem{422, "invalid-request", "Invalid request", "", std::move(submission.findings), "", ""};
+  if (submission.kind == Submission::Kind::malformed) {
+    problem = {400, "malformed-json", "Malformed JSON", "", std::move(problem.errors), "", ""};
+  }
+  const std::size_t count = problem.errors.size();
+  problem.detail = "The request document has " + std::to_string(count) + (count == 1 ? " error" : " errors") +
+                   "; nothing was stored.";
+  return problem_response(problem, request);
+}
+
+/// The problem of a failed job: the caller's model could not be analysed, or the service is to blame.
+Problem failure_problem(const JobFailure& failure) {
+  static constexpr std::array kOwnFaults{"internal_error", "out_of_memory", "crashed", "not_stored"};
+  const bool own_fault = std::find(kOwnFaults.begin(), kOwnFaults.end(), failure.code) != kOwnFaults.end();
+  return {own_fault ? 500 : 422, "analysis-failed", "The analysis could not be completed", failure.detail, {},
+          failure.code,          failure.reached};
+}
+
+template <class Number>
+std::optional<Number> whole_number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+/// One parameter of a list's query; false when it is unknown or its value is not acceptable.
+bool read_list_parameter(const std::string& name, const std::string& value, JobQuery& query) {
+  if (name == "limit") {
+    const std::optional<int> limit = whole_number<int>(value);
+    query.limit = limit.value_or(0);
+    return query.limit >= 1 && query.limit <= kLargestPage;
+  }
+  if (name == "cursor") {
+    query.before = whole_number<std::int64_t>(value);
+    return query.before.has_value();
+  }
+  if (name == "status") {
+    query.state = job_state_from(value);
+    return query.state.has_value();
+  }
+  return false;
+}
+
+std::string next_page(const JobQuery& query, std::int64_t cursor) {
+  std::string path = "/v1/jobs?limit=" + std::to_string(query.limit) + "&cursor=" + std::to_string(cursor);
+  if (query.state) {
+    path += "&status=" + std::string(to_string(*query.state));
+  }
+  return path;
+}
+
+/// A result never changes, so its job's id is a strong validator.
+std::string result_etag(const std::string& id, const char* form) { return "\"" + id + "." + form + "\""; }
+
+/// Whether If-None-Match names the tag, or the one of the same bytes compressed.
+bool matches_etag(const Request& request, const std::string& etag) {
+  const std::optional<std::string_view> header = request.header("If-None-Match");
+  if (!header) {
+    return false;
+  }
+  const std::string packed = etag.substr(0, etag.size() - 1) + "-gzip\"";
+  const std::vector<std::string_view> tags = split_list(*header, ',');
+  return std::any_of(tags.begin(), tags.end(), [&](std::string_view tag) {
+    const std::string_view strong = tag.starts_with("W/") ? tag.substr(2) : tag;
+    return strong == "*" || strong == etag || strong == packed;
+  });
+}
+
+enum class Form { json, csv, none };
+
+/// The form of a result that the client takes: by ?format= before Accept; JSON when both will do.
+Form wanted_form(const Request& request) {
+  for (const auto& [name, value] : request.query) {
+    if (name == "format") {
+      return value == "csv" ? Form::csv : value == "json" ? Form::json : Form::none;
+    }
+  }
+  const std::optional<std::string_view> accept = request.header("Accept");
+  if (!accept || trimmed(*accept).empty()) {
+    return Form::json;
+  }
+  Form form = Form::none;
+  for (const std::string_view part : split_list(*accept, ',')) {
+    const std::string_view range = trimmed(part.substr(0, part.find(';')));
+    if (part.find("q=0") != part.npos && part.find("q=0.") == part.npos) {
+      continue;
+    }
+    if (equal_ignoring_case(range, "application/json") || range == "*/*" || range == "application/*") {
+      return Form::json;
+    }
+    if (equal_ignoring_case(range, "text/csv") || range == "text/*") {
+      form = Form::csv;
+    }
+  }
+  return form;
+}
+
+/// Problems of submissions that left nothing in the store.
+std::optional<Response> refusal_of(const Request& request, Submission& submission) {
+  switch (submission.kind) {
+    case Submission::Kind::malformed:
+    case Submission::Kind::invalid:
+      return refused_document(request, std::move(submission));
+    case Submission::Kind::key_conflict:
+      return simple_problem(request, 422, "idempotency-key-reused", "Idempotency key reused",
+                            "This Idempotency-Key came with another document before.");
+    case Submission::Kind::key_in_use: {
+      Response response =
+          simple_problem(request, 409, "idempotency-key-in-use", "Idempotency key in use",
+                         "A request with this Idempotency-Key is being served at this moment.");
+      response.headers.emplace_back("Retry-After", "1");
+      return response;
+    }
+    case Submission::Kind::queue_full: {
+      Response response = simple_problem(request, 429, "queue-full", "Queue full",
+                                         "As many jobs wait as the service takes (see /v1/limits).");
+      response.headers.emplace_back("Retry-After", "10");
+      return response;
+    }
+    case Submission::Kind::stored:
+    case Submission::Kind::repeated:
+    case Submission::Kind::reused:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool wants_fresh(const Request& request) {
+  const std::vector<std::string_view> parts = split_list(request.header("Cache-Control").value_or(""), ',');
+  return std::any_of(parts.begin(), parts.end(),
+                     [](std::string_view part) { return equal_ignoring_case(part, "no-cache"); });
+}
+
+bool is_key(std::string_view text) {
+  return !text.empty() && text.size() <= kLongestKey &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c > 0x20 && c < 0x7F; });
+}
+
+}  // namespace
+
+Response Routes::create_job(const Request& request, const std::string& /*id*/) {
+  if (!is_json(request.header("Content-Type").value_or(""))) {
+    return simple_problem(request, 415, "unsupported-media-type", "Unsupported media type",
+                          "A request document has Content-Type: application/json.");
+  }
+  const std::optional<std::string_view> key = request.header("Idempotency-Key");
+  if (key && !is_key(*key)) {
+    return simple_problem(request, 400, "invalid-header", "Invalid header",
+                          "An Idempotency-Key has 1 to 255 visible ASCII characters.");
+  }
+  StatusOr<Submission> outcome = desk_.submit(
+      {request.body, request.id, request.owner, key, wait_of(request).count() > 0, !wants_fresh(request)});
+  if (!outcome.ok()) {
+    return store_trouble(request, outcome.status());
+  }
+  Submission submission = std::move(outcome).value();
+  if (std::optional<Response> refusal = refusal_of(request, submission)) {
+    return *std::move(refusal);
+  }
+  return created(request, submission);
+}
+
+/// How long a submission waits for its outcome.
+std::chrono::seconds Routes::wait_of(const Request& request) const {
+  const Preferences preferences = read_preferences(request);
+  if (preferences.wait_s) {
+    return std::min(std::chrono::seconds(*preferences.wait_s), waits_.longest_wait);
+  }
+  return preferences.respond_async ? std::chrono::seconds(0) : waits_.default_wait;
+}
+
+Response Routes::created(const Request& request, const Submission& submission) {
+  const bool reused = submission.kind == Submission::Kind::reused;
+  Response response = reused ? outcome_of(request, submission.id, true, true)
+                             : wait_or_status(request, submission.id, wait_of(request), true);
+  response.headers.emplace_back("X-Cache", reused ? "hit" : "miss");
+  return response;
+}
+
+/// The status or result of a job as it is, or a response that waits for its end first.
+Response Routes::wait_or_status(const Request& request, const std::string& id, std::chrono::seconds wait,
+                                bool post) {
+  if (wait.count() <= 0) {
+    return outcome_of(request, id, post, false);
+  }
+  const auto ticket = std::make_shared<JobEnds::Ticket>(desk_.ends(), id);
+  const StatusOr<std::optional<Job>> job = desk_.get(id, request.owner);
+  if (!job.ok() || !job->has_value() || is_final((*job)->state)) {
+    return outcome_of(request, id, post, post);
+  }
+  Response response;
+  response.deferred =
+      Deferred{[ticket](std::function<void()> wake) { ticket->on_end(std::move(wake)); }, wait,
+               // The request lives as long as whoever holds this function (see Gateway).
+               [this, ticket, &request, id, post] {
+                 Response late = outcome_of(request, id, post, post);
+                 if (post) {
+                   late.headers.emplace_back("X-Cache", "miss");
+                 }
+                 return late;
+               }};
+  return response;
+}
+
+/// @param want_result answer with the result if there is one
+Response Routes::outcome_of(const Request& request, const std::string& id, bool post, bool want_result) {
+  const StatusOr<std::optional<Job>> job = desk_.get(id, request.owner);
+  if (!job.ok()) {
+    return store_trouble(request, job.status());
+  }
+  if (!job->has_value()) {
+    return job_missing(request, id);
+  }
+  Response response;
+  if (want_result && is_final((*job)->state)) {
+    response = result_of(request, **job);
+  } else {
+    response = json_response(post ? 201 : 200, job_status_document(**job, desk_.progress(id)));
+  }
+  if (post) {
+    response.headers.emplace_back("Location", job_path(id));
+    if (read_preferences(request).respond_async && response.status == 201) {
+      response.headers.emplace_back("Preference-Applied", "respond-async");
+    }
+  }
+  return response;
+}
+
+Response Routes::list_jobs(const Request& request, const std::string& /*id*/) {
+  JobQuery query;
+  query.limit = kDefaultPage;
+  query.owner = request.owner;
+  for (const auto& [name, value] : request.query) {
+    if (!read_list_parameter(name, value, query)) {
+      return simple_problem(request, 400, "invalid-parameter", "Invalid parameter",
+                            "The query parameters are limit (1 to " + std::to_string(kLargestPage) +
+                                "), cursor (from a next link) and status; this is none of them: " + name +
+                                "=" + value);
+    }
+  }
+  const StatusOr<JobPage> page = desk_.store().list(query);
+  if (!page.ok()) {
+    return store_trouble(request, page.status());
+  }
+  const std::string next = page->next ? next_page(query, *page->next) : "";
+  Response response = json_response(200, job_list_document(*page, next));
+  if (!next.empty()) {
+    response.headers.emplace_back("Link", "<" + next + ">; rel=\"next\"");
+  }
+  return response;
+}
+
+Response Routes::job_status(const Request& request, const std::string& id) {
+  const std::chrono::seconds wait{read_preferences(request).wait_s.value_or(0)};
+  return wait_or_status(request, id, std::min(wait, waits_.longest_wait), false);
+}
+
+Response Routes::job_result(const Request& request, const std::string& id) {
+  const StatusOr<std::optional<Job>> job = desk_.get(id, request.owner);
+  if (!job.ok()) {
+    return store_trouble(request, job.status());
+  }
+  return job->has_value() ? result_of(request, **job) : job_missing(request, id);
+}
+
+Response Routes::result_of(const Request& request, const Job& job) {
+  if (job.failure) {
+    return problem_response(failure_problem(*job.failure), request);
+  }
+  if (!is_final(job.state)) {
+    Response response = simple_problem(request, 404, "result-not-ready", "Result not ready",
+                                       "The job is " + std::string(to_string(job.state)) + ".");
+    response.headers.emplace_back("Retry-After", "1");
+    return response;
+  }
+  if (job.state == JobState::dismissed) {
+    return simple_problem(request, 404, "dismissed", "No result", "The job was dismissed.");
+  }
+  const Form form = wanted_form(request);
+  if (form == Form::none) {
+    return simple_problem(request, 406, "not-acceptable", "Not acceptable",
+                          "A result is application/json, or text/csv (its paths).");
+  }
+  const std::string etag = result_etag(job.id, form == Form::csv ? "csv" : "json");
+  Response response;
+  if (request.method != "POST" && matches_etag(request, etag)) {
+    response.status = 304;
+  } else if (form == Form::csv) {
+    response = path_table(request, job);
+  } else {
+    StatusOr<std::optional<std::string>> document = desk_.store().result(job.id);
+    if (!document.ok()) {
+      return store_trouble(request, document.status());
+    }
+    if (!document->has_value()) {
+      return job_missing(request, job.id);
+    }
+    response = json_response(200, *std::move(document).value());
+  }
+  if (response.status < 400) {
+    response.headers.emplace_back("ETag", etag);
+    response.headers.emplace_back("Cache-Control", "private, max-age=86400, immutable");
+    response.headers.emplace_back("Content-Location", job_path(job.id) + "/result");
+  }
+  return response;
+}
+
+Response Routes::path_table(const Request& request, const Job& job) {
+  const StatusOr<StoredPath> path = desk_.store().path(job.id);
+  if (!path.ok()) {
+    return store_trouble(request, path.status());
+  }
+  Response response;
+  response.content_type = "text/csv; charset=utf-8; header=present";
+  response.body = path_csv(*path);
+  return response;
+}
+
+Response Routes::job_request(const Request& request, const std::string& id) {
+  const StatusOr<std::optional<Job>> job = desk_.get(id, request.owner);
+  if (!job.ok() || !job->has_value()) {
+    return job.ok() ? job_missing(request, id) : store_trouble(request, job.status());
+  }
+  StatusOr<std::optional<std::string>> document = desk_.store().request(id);
+  if (!document.ok()) {
+    return store_trouble(request, document.status());
+  }
+  if (!document->has_value()) {
+    return job_missing(request, id);
+  }
+  return json_response(200, *std::move(document).value());
+}
+
+Response Routes::job_events(const Request& request, const std::string& id) {
+  const StatusOr<std::optional<Job>> job = desk_.get(id, request.owner);
+  if (!job.ok() || !job->has_value()) {
+    return job.ok() ? job_missing(request, id) : store_trouble(request, job.status());
+  }
+  Response response;
+  response.content_type = "text/event-stream";
+  response.headers.emplace_back("Cache-Control", "no-store");
+  const std::uint64_t last =
+      whole_number<std::uint64_t>(request.header("Last-Event-ID").value_or("")).value_or(0);
+  response.stream =
+      Stream{[this, id, last](Stream::Push push) { return follow_job(desk_, id, last, std::move(push)); }};
+  return response;
+}
+
+Response Routes::dismiss_job(const Request& request, const std::string& id) {
+  const StatusOr<std::optional<Job>> job = desk_.get(id, request.owner);
+  if (!job.ok() || !job->has_value()) {
+    return job.ok() ? job_missing(request, id) : store_trouble(request, job.status());
+  }
+  const StatusOr<Dismissal> dismissal = desk_.dismiss(id);
+  if (!dismissal.ok()) {
+    return store_trouble(request, dismissal.status());
+  }
+  if (!dismissal->found) {
+    return job_missing(request, id);
+  }
+  if (is_final(dismissal->before) && dismissal->before != JobState::dismissed) {
+    return simple_problem(request, 409, "already-finished", "Already finished",
+                          "The job is " + std::string(to_string(dismissal->before)) + " already.");
+  }
+  return outcome_of(request, id, false, false);
+}
+
+Response Routes::delete_job(const Request& request, const std::string& id) {
+  const StatusOr<std::optional<Job>> job = desk_.get(id, request.owner);
+  if (!job.ok() || !job->has_value()) {
+    return job.ok() ? job_missing(request, id) : store_trouble(request, job.status());
+  }
+  if (const Status status = desk_.remove(id); !status.ok()) {
+    return store_trouble(request, status);
+  }
+  Response response;
+  response.status = 204;
+  return response;
+}
+
+}  // namespace snapthrough::server::http

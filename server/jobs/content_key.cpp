@@ -1,0 +1,62 @@
+#include "server/jobs/content_key.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "server/digest.h"
+
+namespace snapthrough::server {
+namespace {
+
+using nlohmann::json;
+
+/// Integers that a double holds exactly are written like doubles.
+constexpr double kExact = 9007199254740992.0;
+
+void append_number(const json& value, std::string& text) {
+  const auto number = value.get<double>();
+  std::array<char, 40> digits{};
+  if (value.is_number_integer() && std::abs(number) >= kExact) {
+    text += value.dump();
+    return;
+  }
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), number + 0.0);
+  text.append(digits.data(), end);
+}
+
+/// The nesting is bounded by whoever parsed the document.
+void append(const json& value, std::string& text) {
+  if (value.is_object()) {
+    text += '{';
+    for (const auto& [key, member] : value.items()) {
+      text += json(key).dump();
+      text += ':';
+      append(member, text);
+      text += ',';
+    }
+    text += '}';
+  } else if (value.is_array()) {
+    text += '[';
+    for (const json& element : value) {
+      append(element, text);
+      text += ',';
+    }
+    text += ']';
+  } else if (value.is_number()) {
+    append_number(value, text);
+  } else {
+    text += value.dump();
+  }
+}
+
+}  // namespace
+
+std::string content_key(const json& document) {
+  std::string text = "snapthrough " SNAPTHROUGH_VERSION " request 1 ";
+  append(document, text);
+  return sha256_hex(text);
+}
+
+}  // namespace snapthrough::server

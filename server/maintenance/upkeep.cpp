@@ -1,0 +1,126 @@
+#include "server/maintenance/upkeep.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+namespace snapthrough::server {
+namespace {
+
+constexpr std::chrono::seconds kPause{1};
+constexpr std::chrono::seconds kBetweenRetirements{10};
+/// Jobs that are removed in one transaction, so that it stays short.
+constexpr int kRetiredAtOnce = 200;
+
+}  // namespace
+
+void log_recovery(Log& log, const Recovery& recovery, std::string_view why) {
+  for (const std::string& id : recovery.requeued) {
+    log.write(LogLevel::warning, "job",
+              {{"job", std::string_view(id)}, {"status", to_string(JobState::accepted)}, {"detail", why}});
+  }
+  for (const std::string& id : recovery.failed) {
+    log.write(LogLevel::error, "job",
+              {{"job", std::string_view(id)},
+               {"status", to_string(JobState::failed)},
+               {"code", std::string_view("crashed")}});
+  }
+}
+
+void Upkeep::run_once(Time now) {
+  look_at_disk(now);
+  desk_.active().stop_older(now - desk_.limits().longest_run, StopReason::time_limit);
+  if (now >= next_renewal_) {
+    next_renewal_ = now + desk_.limits().lease / 4;
+    renew_leases(now);
+    rescue(now);
+  }
+  if (now >= next_retirement_) {
+    next_retirement_ = now + kBetweenRetirements;
+    retire(now);
+    count_waiting();
+  }
+}
+
+void Upkeep::renew_leases(Time now) {
+  const std::vector<Claim> held = desk_.active().older(now - desk_.limits().lease / 8);
+  if (held.empty()) {
+    return;
+  }
+  const StatusOr<std::vector<std::string>> lost = desk_.store().renew(held, now + desk_.limits().lease, now);
+  if (!lost.ok()) {
+    log_.write(LogLevel::error, "store", {{"detail", std::string_view(lost.status().message())}});
+    return;
+  }
+  for (const std::string& id : *lost) {
+    desk_.active().stop(id, StopReason::lease_lost);
+  }
+}
+
+void Upkeep::rescue(Time now) {
+  const StatusOr<Recovery> recovery =
+      desk_.store().rescue(desk_.new_lease().worker, desk_.limits().max_crashes, now);
+  if (!recovery.ok()) {
+    return;  // it is tried again soon, and the disk is looked at
+  }
+  log_recovery(log_, *recovery, "the lease of the worker ran out");
+  for (const std::string& id : recovery->failed) {
+    desk_.ends().announce(id);
+  }
+  for (std::size_t i = 0; i < recovery->requeued.size(); ++i) {
+    desk_.add_waiting(1);
+    desk_.exchange().ring();
+  }
+}
+
+void Upkeep::look_at_disk(Time now) {
+  StoreHealth& health = desk_.health();
+  const bool before = health.writable && health.has_space;
+  const Status probe = desk_.store().probe(now);
+  health.writable = probe.ok();
+  health.has_space = guard_.check(probe.ok());
+  if (const bool after = health.writable && health.has_space; after != before) {
+    log_.write(after ? LogLevel::info : LogLevel::error, "disk",
+               {{"writable", health.writable.load()},
+                {"has_space", health.has_space.load()},
+                {"free_bytes", static_cast<std::int64_t>(guard_.free_bytes())},
+                {"detail", std::string_view(probe.message())}});
+  }
+}
+
+void Upkeep::retire(Time now) {
+  const JobLimits& limits = desk_.limits();
+  if (limits.keep_jobs.count() > 0) {
+    StatusOr<int> retired = kRetiredAtOnce;
+    int total = 0;
+    while (retired.ok() && *retired == kRetiredAtOnce) {
+      retired = desk_.store().retire(now - limits.keep_jobs, kRetiredAtOnce);
+      total += retired.ok() ? *retired : 0;
+    }
+    if (total > 0) {
+      log_.write(LogLevel::info, "retired", {{"jobs", static_cast<std::int64_t>(total)}});
+    }
+  }
+  if (const Status status = desk_.store().forget_keys(now - limits.keep_keys); !status.ok()) {
+    log_.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
+  }
+}
+
+void Upkeep::count_waiting() {
+  if (const StatusOr<JobCounts> counts = desk_.store().counts(); counts.ok()) {
+    desk_.set_waiting((*counts)[static_cast<std::size_t>(JobState::accepted)]);
+  }
+}
+
+UpkeepThread::UpkeepThread(Upkeep& upkeep, const Environment& environment)
+    : thread_([&upkeep, &environment](const std::stop_token& stop) {
+        std::mutex mutex;
+        std::condition_variable_any never;
+        std::unique_lock lock(mutex);
+        while (!stop.stop_requested()) {
+          upkeep.run_once(environment.now());
+          never.wait_for(lock, stop, kPause, [] { return false; });
+        }
+      }) {}
+
+}  // namespace snapthrough::server

@@ -1,0 +1,47 @@
+#pragma once
+/// @file
+/// What has to be done again and again, whatever the requests: leases, retention, the state of the disk.
+
+#include <thread>
+
+#include "server/jobs/desk.h"
+#include "server/log/log.h"
+#include "server/maintenance/disk_guard.h"
+
+namespace snapthrough::server {
+
+/// @brief The recurring work. run_once() from one thread; the parts it is given must outlive it.
+class Upkeep {
+ public:
+  Upkeep(JobDesk& desk, DiskGuard guard, Log& log) : desk_(desk), guard_(std::move(guard)), log_(log) {}
+
+  /// Does what is due at that time.
+  void run_once(Time now);
+
+ private:
+  void renew_leases(Time now);
+  void rescue(Time now);
+  void look_at_disk(Time now);
+  void retire(Time now);
+  void count_waiting();
+
+  JobDesk& desk_;
+  DiskGuard guard_;
+  Log& log_;
+  Time next_renewal_{};
+  Time next_retirement_{};
+};
+
+/// Runs the upkeep every second on a thread of its own for as long as it exists.
+class UpkeepThread {
+ public:
+  UpkeepThread(Upkeep& upkeep, const Environment& environment);
+
+ private:
+  std::jthread thread_;
+};
+
+/// One log line a job that was taken back.
+void log_recovery(Log& log, const Recovery& recovery, std::string_view why);
+
+}  // namespace snapthrough::server

@@ -1,0 +1,275 @@
+#include "server/settings.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+
+#include <toml++/toml.h>
+
+namespace snapthrough::server {
+namespace {
+
+using Mistake = std::optional<std::string>;
+
+template <class Number>
+std::optional<Number> number(const std::string& text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+/// A setting that is a whole number; `field` gives a reference to it.
+template <class Field>
+Setting whole(std::string name, std::string help, Field field) {
+  using Value = std::remove_reference_t<decltype(field(std::declval<ServiceConfig&>()))>;
+  return {std::move(name), std::move(help),
+          [field](ServiceConfig& config, const std::string& text) -> Mistake {
+            const std::optional<Value> value = number<Value>(text);
+            if (!value) {
+              return "expected a whole number, got " + text;
+            }
+            field(config) = *value;
+            return std::nullopt;
+          },
+          [field](const ServiceConfig& config) {
+            return std::to_string(field(const_cast<ServiceConfig&>(config)));  // read only
+          }};
+}
+
+/// A setting that is a duration in whole units of `Duration`.
+template <class Field>
+Setting duration(std::string name, std::string help, Field field) {
+  using Duration = std::remove_reference_t<decltype(field(std::declval<ServiceConfig&>()))>;
+  return {std::move(name), std::move(help),
+          [field](ServiceConfig& config, const std::string& text) -> Mistake {
+            const std::optional<std::int64_t> value = number<std::int64_t>(text);
+            if (!value || *value < 0 || *value > std::numeric_limits<std::int32_t>::max()) {
+              return "expected a whole number, 0 to 2147483647, got " + text;
+            }
+            field(config) = Duration(*value);
+            return std::nullopt;
+          },
+          [field](const ServiceConfig& config) {
+            return std::to_string(field(const_cast<ServiceConfig&>(config)).count());  // read only
+          }};
+}
+
+Setting listen_setting() {
+  return {"listen",
+          "Address and port, host:port; port 0 takes a free one; loopback only unless there are keys",
+          [](ServiceConfig& config, const std::string& text) -> Mistake {
+            const auto address = parse_address(text);
+            if (!address) {
+              return "expected host:port, got " + text;
+            }
+            std::tie(config.listener.host, config.listener.port) = *address;
+            return std::nullopt;
+          },
+          [](const ServiceConfig& config) {
+            const bool v6 = config.listener.host.find(':') != std::string::npos;
+            const std::string host = v6 ? "[" + config.listener.host + "]" : config.listener.host;
+            return host + ":" + std::to_string(config.listener.port);
+          }};
+}
+
+Setting store_setting() {
+  return {"store", "Database file, created if need be; its folder must exist",
+          [](ServiceConfig& config, const std::string& text) -> Mistake {
+            config.store_path = text;
+            return std::nullopt;
+          },
+          [](const ServiceConfig& config) { return config.store_path; }};
+}
+
+constexpr std::array kLevels{std::pair{LogLevel::debug, "debug"}, std::pair{LogLevel::info, "info"},
+                             std::pair{LogLevel::warning, "warning"}, std::pair{LogLevel::error, "error"},
+                             std::pair{LogLevel::off, "off"}};
+
+Setting log_level_setting() {
+  return {"log_level", "debug, info, warning, error or off",
+          [](ServiceConfig& config, const std::string& text) -> Mistake {
+            const auto level = log_level_from(text);
+            if (!level) {
+              return "expected debug, info, warning, error or off, got " + text;
+            }
+            config.log_level = *level;
+            return std::nullopt;
+          },
+          [](const ServiceConfig& config) {
+            const auto* row = std::find_if(kLevels.begin(), kLevels.end(), [&](const auto& level) {
+              return level.first == config.log_level;
+            });
+            return std::string(row->second);
+          }};
+}
+
+std::vector<Setting> front_settings() {
+  return {
+      listen_setting(),
+      whole("threads", "Requests worked on at the same time",
+            [](ServiceConfig& c) -> int& { return c.listener.threads; }),
+      whole("max_connections", "Open connections; the next is refused with 503",
+            [](ServiceConfig& c) -> int& { return c.listener.connections; }),
+      whole("max_streams", "Streams of events; the next is refused with 503",
+            [](ServiceConfig& c) -> int& { return c.listener.streams; }),
+      whole("max_body_bytes", "Size of a request body",
+            [](ServiceConfig& c) -> std::size_t& { return c.listener.limits.body_bytes; }),
+      whole("max_head_bytes", "Size of request line and headers",
+            [](ServiceConfig& c) -> std::size_t& { return c.listener.limits.head_bytes; }),
+      whole("max_buffered_bytes", "Of all incomplete requests together",
+            [](ServiceConfig& c) -> std::size_t& { return c.listener.limits.buffered_bytes; }),
+      duration(
+          "idle_timeout_ms", "Until the first byte of a request",
+          [](ServiceConfig & c) -> auto& { return c.listener.times.idle; }),
+      duration(
+          "head_timeout_ms", "For the headers of a request",
+          [](ServiceConfig & c) -> auto& { return c.listener.times.head; }),
+      duration(
+          "body_timeout_ms", "For the body of a request",
+          [](ServiceConfig & c) -> auto& { return c.listener.times.body; }),
+      duration(
+          "send_timeout_ms", "For a client to take a response",
+          [](ServiceConfig & c) -> auto& { return c.listener.times.send; }),
+      duration(
+          "default_wait_s", "Wait for a result when the client does not say",
+          [](ServiceConfig & c) -> auto& { return c.waits.default_wait; }),
+      duration(
+          "longest_wait_s", "Wait in one request at most",
+          [](ServiceConfig & c) -> auto& { return c.waits.longest_wait; }),
+      log_level_setting(),
+  };
+}
+
+std::vector<Setting> job_settings() {
+  return {
+      store_setting(),
+      whole("workers", "Analyses at the same time", [](ServiceConfig& c) -> int& { return c.workers; }),
+      whole("max_queue", "Jobs that may wait; the next is refused with 429",
+            [](ServiceConfig& c) -> int& { return c.jobs.queue; }),
+      whole("max_crashes", "A job during which the service died so often is given up",
+            [](ServiceConfig& c) -> int& { return c.jobs.max_crashes; }),
+      duration(
+          "lease_s", "A worker that is silent for so long has lost its job",
+          [](ServiceConfig & c) -> auto& { return c.jobs.lease; }),
+      duration(
+          "max_run_s", "Time of one analysis", [](ServiceConfig & c) -> auto& { return c.jobs.longest_run; }),
+      duration(
+          "keep_jobs_s", "How long jobs are kept after their end; 0: for ever",
+          [](ServiceConfig & c) -> auto& { return c.jobs.keep_jobs; }),
+      duration(
+          "keep_keys_s", "How long idempotency keys are known",
+          [](ServiceConfig & c) -> auto& { return c.jobs.keep_keys; }),
+      whole("ballast_bytes", "Reserve on the disk of the store; 0: none",
+            [](ServiceConfig& c) -> std::int64_t& { return c.ballast_bytes; }),
+      whole("least_free_bytes", "With less on the disk of the store no jobs are taken",
+            [](ServiceConfig& c) -> std::int64_t& { return c.least_free_bytes; }),
+  };
+}
+
+const Setting* find_setting(const std::string& name) {
+  const std::vector<Setting>& all = settings();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string place(const std::string& file, const toml::node& node) {
+  return file + ":" + std::to_string(node.source().begin.line);
+}
+
+void read_keys(const toml::node& node, const std::string& file, ServiceConfig& config,
+               std::vector<ConfigMistake>& mistakes) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr) {
+    mistakes.push_back({place(file, node), "keys: expected [[keys]] tables"});
+    return;
+  }
+  for (const toml::node& entry : *list) {
+    const toml::table* table = entry.as_table();
+    const auto owner = table != nullptr ? (*table)["owner"].value<std::string>() : std::nullopt;
+    const auto digest = table != nullptr ? (*table)["sha256"].value<std::string>() : std::nullopt;
+    if (!owner || !digest || table->size() != 2) {
+      mistakes.push_back({place(file, entry), "keys: each has owner and sha256, and nothing else"});
+      continue;
+    }
+    config.keys.push_back({*owner, *digest});
+  }
+}
+
+void read_file(const std::string& file, ServiceConfig& config, std::vector<ConfigMistake>& mistakes) {
+  toml::table parsed;
+  try {
+    parsed = toml::parse_file(file);
+  } catch (const toml::parse_error& error) {
+    std::ostringstream text;
+    text << error;
+    mistakes.push_back({file, text.str()});
+    return;
+  }
+  for (const auto& [key, node] : parsed) {
+    const std::string name(key.str());
+    const Setting* setting = find_setting(name);
+    const std::string where = place(file, node) + ": " + name;
+    if (name == "keys") {
+      read_keys(node, file, config, mistakes);
+    } else if (setting == nullptr) {
+      mistakes.push_back({where, "there is no such setting"});
+    } else if (!node.is_string() && !node.is_integer()) {
+      mistakes.push_back({where, "expected a text or a whole number"});
+    } else {
+      const std::string value = node.is_string() ? **node.as_string() : std::to_string(**node.as_integer());
+      if (const Mistake mistake = setting->set(config, value)) {
+        mistakes.push_back({where, *mistake});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::string variable_name(const std::string& setting) {
+  std::string name = "SNAPTHROUGH_" + setting;
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  return name;
+}
+
+const std::vector<Setting>& settings() {
+  static const std::vector<Setting> all = [] {
+    std::vector<Setting> list = front_settings();
+    const std::vector<Setting> jobs = job_settings();
+    list.insert(list.end(), jobs.begin(), jobs.end());
+    return list;
+  }();
+  return all;
+}
+
+std::pair<ServiceConfig, std::vector<ConfigMistake>> load_config(const SettingSources& sources) {
+  ServiceConfig config = ServiceConfig::defaults();
+  std::vector<ConfigMistake> mistakes;
+  if (!sources.file.empty()) {
+    read_file(sources.file, config, mistakes);
+  }
+  for (const Setting& setting : settings()) {
+    const std::string name = variable_name(setting.name);
+    const std::optional<std::string> value = sources.environment ? sources.environment(name) : std::nullopt;
+    if (const Mistake mistake = value ? setting.set(config, *value) : std::nullopt) {
+      mistakes.push_back({name, *mistake});
+    }
+  }
+  for (const auto& [name, value] : sources.flags) {
+    const Setting* setting = find_setting(name);
+    if (const Mistake mistake = setting != nullptr ? setting->set(config, value) : Mistake("unknown")) {
+      std::string flag = "--" + name;
+      std::replace(flag.begin(), flag.end(), '_', '-');
+      mistakes.push_back({flag, *mistake});
+    }
+  }
+  if (mistakes.empty()) {
+    mistakes = config.check();
+  }
+  return {std::move(config), std::move(mistakes)};
+}
+
+}  // namespace snapthrough::server

@@ -1,0 +1,146 @@
+#include "server/store/sqlite/writer.h"
+
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace snapthrough::server::sqlite {
+namespace {
+
+/// More than this in one commit makes the first caller wait and gains nothing.
+constexpr std::size_t kLargestBatch = 128;
+/// A small job is solved within this; its submission and its outcome are one commit then.
+constexpr std::chrono::milliseconds kPatience{1};
+
+void roll_back(Connection& connection) {
+  try {
+    connection.execute("ROLLBACK");
+  } catch (const Error&) {
+    // SQLite has rolled back by itself already (disk full, I/O error): nothing is left to undo.
+  }
+}
+
+}  // namespace
+
+Status to_status(const Error& error) {
+  switch (error.code() & 0xFF) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+    case SQLITE_FULL:
+    case SQLITE_NOMEM:
+    case SQLITE_IOERR:
+    case SQLITE_CANTOPEN:
+    case SQLITE_READONLY:
+      return {StatusCode::unavailable, error.what()};
+    case SQLITE_NOTADB:
+      return {StatusCode::unsupported, error.what()};
+    default:
+      return {StatusCode::io_error, error.what()};
+  }
+}
+
+Writer::Writer(std::unique_ptr<Connection> connection)
+    : connection_(std::move(connection)), thread_([this] { loop(); }) {}
+
+Writer::~Writer() {
+  {
+    const std::lock_guard guard(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+Status Writer::run(const Work& work, Durability durability, const std::function<void()>& queued,
+                   bool patient) {
+  Item item{work, durability, patient};
+  {
+    const std::lock_guard guard(mutex_);
+    waiting_.push_back(&item);
+  }
+  if (queued) {
+    queued();
+  }
+  changed_.notify_one();
+  item.done.acquire();
+  return std::move(item.status);
+}
+
+void Writer::loop() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return stopping_ || !waiting_.empty(); });
+    if (waiting_.empty()) {
+      return;
+    }
+    changed_.wait_for(lock, kPatience, [&] {
+      return stopping_ ||
+             std::any_of(waiting_.begin(), waiting_.end(), [](const Item* item) { return !item->patient; });
+    });
+    std::deque<Item*> batch;
+    while (!waiting_.empty() && batch.size() < kLargestBatch) {
+      batch.push_back(waiting_.front());
+      waiting_.pop_front();
+    }
+    lock.unlock();
+    commit_batch(batch);
+    for (Item* item : batch) {
+      item->done.release();  // the item is its caller's again, and may be gone
+    }
+    lock.lock();
+  }
+}
+
+void Writer::commit_batch(std::deque<Item*>& batch) {
+  try {
+    begin(batch);
+    for (Item* item : batch) {
+      if (!run_item(*item, batch.size() == 1)) {
+        throw Error(SQLITE_IOERR, item->status.message());  // for those beside it, which are undone too
+      }
+    }
+    const bool undo = batch.size() == 1 && !batch.front()->status.ok();
+    connection_->execute(undo ? "ROLLBACK" : "COMMIT");
+  } catch (const Error& error) {
+    roll_back(*connection_);
+    for (Item* item : batch) {
+      item->status = to_status(error);
+    }
+  }
+}
+
+void Writer::begin(const std::deque<Item*>& batch) {
+  const bool synced = std::any_of(batch.begin(), batch.end(),
+                                  [](const Item* item) { return item->durability == Durability::synced; });
+  const Durability wanted = synced ? Durability::synced : Durability::unsynced;
+  if (wanted != level_) {
+    // In WAL mode NORMAL leaves out the sync of a commit; the next synced commit covers it too.
+    connection_->execute(synced ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
+    level_ = wanted;
+  }
+  connection_->execute("BEGIN IMMEDIATE");
+}
+
+/// False when the transaction of the whole batch is gone or has to go. One alone needs no savepoint.
+bool Writer::run_item(Item& item, bool alone) {
+  if (!alone) {
+    connection_->execute("SAVEPOINT item");
+  }
+  bool broken = false;
+  try {
+    item.status = item.work(*connection_);
+  } catch (const Error& error) {
+    item.status = to_status(error);
+    broken = !connection_->in_transaction();
+  } catch (const std::exception& error) {
+    item.status = {StatusCode::io_error, error.what()};
+  }
+  if (!alone && !broken) {
+    connection_->execute(item.status.ok() ? "RELEASE item" : "ROLLBACK TO item; RELEASE item");
+  }
+  return !broken;
+}
+
+}  // namespace snapthrough::server::sqlite

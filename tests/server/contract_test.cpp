@@ -1,0 +1,320 @@
+/// @file
+/// The published document against what the service and the reader of requests do, in both directions.
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <regex>
+#include <set>
+
+#include "api/api.h"
+#include "server/http/embedded.h"
+#include "server/http/routes.h"
+#include "solver/solve.h"
+#include "tests/server/support/json_schema.h"
+#include "tests/server/support/running_service.h"
+
+namespace snapthrough::server::test {
+namespace {
+
+using nlohmann::json;
+
+const json& description() {
+  static const json document = json::parse(http::openapi_document());
+  return document;
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) {
+    c = static_cast<char>(std::tolower(c));
+  }
+  return text;
+}
+
+TEST(Contract, EveryRouteIsPublishedAndNothingElse) {
+  std::set<std::string> routes;
+  for (const auto& [method, path] : http::Routes::resources()) {
+    routes.insert(lower(method) + " " + path);
+  }
+  std::set<std::string> published;
+  for (const auto& [path, operations] : description()["paths"].items()) {
+    for (const auto& [method, operation] : operations.items()) {
+      if (method != "parameters") {
+        published.insert(method + " " + path);
+        EXPECT_TRUE(operation.contains("operationId")) << path;
+      }
+    }
+  }
+  EXPECT_EQ(routes, published);
+}
+
+TEST(Contract, EveryReferenceLeadsSomewhere) {
+  const std::string text(http::openapi_document());
+  const std::regex reference(R"re("\$ref": ?"#([^"]*)")re");
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), reference); it != std::sregex_iterator();
+       ++it) {
+    EXPECT_TRUE(description().contains(json::json_pointer((*it)[1].str()))) << (*it)[1].str();
+  }
+}
+
+/// Findings that a schema can express.
+bool is_structural(const Finding& finding) {
+  static const std::set<std::string> kCodes{"unknown_field", "missing_field", "wrong_type", "unknown_value",
+                                            "ambiguous"};
+  // Which members need a number is a question of references.
+  const bool of_references = finding.detail.starts_with("no number of elements for member");
+  return kCodes.contains(finding.code) && !of_references;
+}
+
+/// Whether the schema and the reader agree about a document, as far as a schema can.
+testing::AssertionResult agree(const Schemas& schemas, const json& document) {
+  const bool valid = schemas.valid(schemas.named("Request"), document);
+  const api::ReadOutcome read = api::read_request(document.dump());
+  for (const Finding& finding : read.findings) {
+    if (valid && is_structural(finding)) {
+      return testing::AssertionFailure() << "the schema takes what the reader refuses: " << finding.pointer
+                                         << " " << finding.code << ": " << finding.detail << "\n"
+                                         << document.dump();
+    }
+  }
+  if (!valid && read.findings.empty()) {
+    return testing::AssertionFailure() << "the reader takes what the schema refuses\n" << document.dump();
+  }
+  return testing::AssertionSuccess();
+}
+
+/// Makes one random change somewhere in the document.
+void spoil(json& value, std::mt19937& random) {
+  const auto deeper = [&] { return random() % 4 != 0 && !value.empty() && value.is_structured(); };
+  if (deeper()) {
+    auto member = value.begin();
+    std::advance(member, static_cast<std::ptrdiff_t>(random() % value.size()));
+    return spoil(*member, random);
+  }
+  const std::vector<json> others{1,          2.5,     "a", nullptr, true, json::array(), json::object(),
+                                 "rotation", "normal"};
+  switch (random() % 4) {
+    case 0:
+      value = others[random() % others.size()];
+      break;
+    case 1:
+      if (value.is_object() && !value.empty()) {
+        auto member = value.begin();
+        std::advance(member, static_cast<std::ptrdiff_t>(random() % value.size()));
+        value.erase(member);
+      }
+      break;
+    case 2:
+      if (value.is_object()) {
+        static const std::vector<std::string> kNames{"id",     "range", "pattern", "extra",
+                                                     "member", "order", "EA",      "E"};
+        value[kNames[random() % kNames.size()]] = others[random() % others.size()];
+      }
+      break;
+    default:
+      if (value.is_array() && !value.empty()) {
+        value.push_back(value[0]);
+      }
+  }
+}
+
+TEST(Contract, TheReaderTakesTheShapeOfWhateverTheSchemaMakes) {
+  const unsigned seed = std::random_device()();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  const Schemas schemas(description());
+  for (int i = 0; i < 2000 && !HasFailure(); ++i) {
+    const json document = schemas.make(schemas.named("Request"), random);
+    ASSERT_TRUE(schemas.valid(schemas.named("Request"), document)) << document.dump();
+    EXPECT_TRUE(agree(schemas, document));
+  }
+}
+
+TEST(Contract, SchemaAndReaderAgreeAboutSpoiltDocuments) {
+  const unsigned seed = std::random_device()();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  const Schemas schemas(description());
+  std::vector<json> good{json::parse(column_request())};
+  for (const http::Example& example : http::embedded_examples()) {
+    good.push_back(json::parse(example.document));
+    EXPECT_TRUE(schemas.valid(schemas.named("Request"), good.back())) << example.name;
+  }
+  int refused = 0;
+  for (int i = 0; i < 4000 && !HasFailure(); ++i) {
+    json document =
+        i % 3 == 0 ? schemas.make(schemas.named("Request"), random) : good[random() % good.size()];
+    spoil(document, random);
+    refused += schemas.valid(schemas.named("Request"), document) ? 0 : 1;
+    EXPECT_TRUE(agree(schemas, document));
+  }
+  EXPECT_GT(refused, 1000);
+}
+
+class ContractOverHttp : public ServiceTest {
+ protected:
+  /// Whether the response is one that the document has for this operation.
+  void expect_published(const std::string& method, const std::string& path, const Reply& reply) {
+    SCOPED_TRACE(method + " " + path + " -> " + std::to_string(reply.status) + " " +
+                 reply.body.substr(0, 300));
+    const json& responses = description()["paths"][path][lower(method)]["responses"];
+    const std::string status = std::to_string(reply.status);
+    ASSERT_TRUE(responses.contains(status));
+    seen_.insert(lower(method) + " " + path);
+    if (!responses[status].contains("content")) {
+      EXPECT_EQ(reply.body, "");
+      return;
+    }
+    std::string type = reply.header("Content-Type");
+    type = type.substr(0, type.find(';'));
+    const json& content = responses[status]["content"];
+    ASSERT_TRUE(content.contains(type)) << type;
+    if (type == "application/json" || type == "application/problem+json") {
+      EXPECT_TRUE(schemas_.valid(content[type]["schema"], json::parse(reply.body)));
+    }
+    if (type == "application/problem+json") {
+      EXPECT_EQ(json::parse(reply.body)["status"], reply.status);
+    }
+  }
+  void use(const std::string& method, const std::string& path, const std::string& target,
+           const std::string& body = "", const Headers& headers = {"Content-Type: application/json"}) {
+    expect_published(method, path, call(port(), method, target, body, headers));
+  }
+
+  Schemas schemas_{description()};
+  std::set<std::string> seen_;
+};
+
+TEST_F(ContractOverHttp, EveryResponseIsAsPublished) {
+  start(solve);
+  const std::string missing = "/v1/jobs/00000000-0000-7000-8000-000000000000";
+  const std::string job = post(port(), "/v1/jobs", column_request()).header("Location");
+  for (const std::string& at : {job, missing}) {
+    use("GET", "/v1/jobs/{id}", at);
+    use("GET", "/v1/jobs/{id}/result", at + "/result");
+    use("GET", "/v1/jobs/{id}/result", at + "/result?format=csv");
+    use("GET", "/v1/jobs/{id}/result", at + "/result", "", {"Accept: image/png"});
+    use("GET", "/v1/jobs/{id}/result", at + "/result", "", {"If-None-Match: *"});
+    use("GET", "/v1/jobs/{id}/request", at + "/request");
+    use("GET", "/v1/jobs/{id}/events", at + "/events");
+    use("POST", "/v1/jobs/{id}/dismiss", at + "/dismiss");
+    use("DELETE", "/v1/jobs/{id}", at);
+  }
+  for (const char* body : {"", "{", "{}", "[]", "{\"model\": {}, \"analysis\": {\"type\": \"path\"}}"}) {
+    use("POST", "/v1/jobs", "/v1/jobs", body);
+    use("POST", "/v1/check", "/v1/check", body);
+  }
+  use("POST", "/v1/jobs", "/v1/jobs", column_request());
+  use("POST", "/v1/jobs", "/v1/jobs", column_request(),
+      {"Content-Type: application/json", "Prefer: respond-async", "Cache-Control: no-cache"});
+  use("POST", "/v1/jobs", "/v1/jobs", column_request(), {"Content-Type: text/plain"});
+  use("POST", "/v1/check", "/v1/check", column_request());
+  use("GET", "/v1/jobs", "/v1/jobs?limit=1");
+  use("GET", "/v1/jobs", "/v1/jobs?limit=0");
+  for (const char* path :
+       {"/v1/limits", "/v1/openapi.json", "/v1/examples", "/livez", "/readyz", "/metrics"}) {
+    use("GET", path, path);
+  }
+  std::set<std::string> all;
+  for (const auto& [method, path] : http::Routes::resources()) {
+    all.insert(lower(method) + " " + path);
+  }
+  EXPECT_EQ(seen_, all) << "an operation was not used";
+}
+
+TEST_F(ContractOverHttp, WrongMethodsAreToldTheRightOnes) {
+  start(solve);
+  for (const auto& [path, operations] : description()["paths"].items()) {
+    const std::string target = std::regex_replace(path, std::regex("\\{id\\}"), "x");
+    for (const char* method : {"GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"}) {
+      if (operations.contains(lower(method))) {
+        continue;
+      }
+      const bool body = std::string(method) == "PUT" || std::string(method) == "PATCH";
+      const Reply reply = call(port(), method, target, body ? "{}" : "", {});
+      EXPECT_EQ(reply.status, 405) << method << " " << path;
+      for (const auto& [published, operation] : operations.items()) {
+        std::string upper = published;
+        for (char& c : upper) {
+          c = static_cast<char>(std::toupper(c));
+        }
+        EXPECT_TRUE(published == "parameters" || reply.header("Allow").find(upper) != std::string::npos)
+            << path;
+      }
+      EXPECT_TRUE(schemas_.valid(schemas_.named("Problem"), json::parse(reply.body)));
+    }
+  }
+}
+
+TEST_F(ContractOverHttp, AnIdempotencyKeyIsOneJob) {
+  start(solve);
+  const Headers headers{"Content-Type: application/json", "Prefer: respond-async", "Idempotency-Key: abc"};
+  const Reply first = post(port(), "/v1/jobs", column_request("one"), headers);
+  const Reply again = post(port(), "/v1/jobs", column_request("one"), headers);
+  EXPECT_EQ(again.header("Location"), first.header("Location"));
+  EXPECT_EQ(post(port(), "/v1/jobs", column_request("two"), headers).status, 422);
+}
+
+TEST_F(ContractOverHttp, TheSameRequestIsAnsweredFromItsResult) {
+  start(solve);
+  const Reply first = post(port(), "/v1/jobs", column_request());
+  EXPECT_EQ(first.header("X-Cache"), "miss");
+  json same = json::parse(column_request());
+  same["model"]["nodes"][1]["x"] = 1.0;  // was 1
+  const Reply again = post(port(), "/v1/jobs", same.dump(2));
+  EXPECT_EQ(again.status, 200);
+  EXPECT_EQ(again.header("X-Cache"), "hit");
+  EXPECT_EQ(again.header("Location"), first.header("Location"));
+  EXPECT_EQ(again.body, first.body);
+  const Reply fresh = post(port(), "/v1/jobs", column_request(),
+                           {"Content-Type: application/json", "Cache-Control: no-cache"});
+  EXPECT_EQ(fresh.header("X-Cache"), "miss");
+  EXPECT_NE(fresh.header("Location"), first.header("Location"));
+}
+
+TEST_F(ContractOverHttp, EventsTellTheLifeOfAJob) {
+  const auto solver = std::make_shared<GatedSolver>();
+  start(gated(solver));
+  const std::string job = submit();
+  solver->wait_started(1);
+  Socket stream(port());
+  stream.send("GET " + job + "/events HTTP/1.1\r\nHost: a\r\n\r\n");
+  EXPECT_EQ(stream.receive().header("Content-Type"), "text/event-stream");
+  solver->open();
+  const std::string text = stream.rest();
+  EXPECT_THAT(text, testing::HasSubstr("event: status\ndata: {\"id\""));
+  EXPECT_THAT(text, testing::HasSubstr("event: end\ndata: {\"id\""));
+  EXPECT_THAT(text, testing::HasSubstr("\"status\":\"successful\""));
+}
+
+TEST_F(ContractOverHttp, AStrangersJobIsNotThere) {
+  ServiceConfig keyed = config();
+  // SHA-256 of "alice" and "bob", from sha256sum.
+  keyed.keys = {{"ann", "2bd806c97f0e00af1a1fc3328fa763a9269723c8db8fac4f93af71db186d6e90"},
+                {"bob", "81b637d8fcd2c6da6359e6963113a1170de795e4b725b84d1e0b4cfd9ec58ce9"}};
+  service_ = std::make_unique<Service>(keyed, Environment::system(), solve, log_);
+  ASSERT_TRUE(service_->start().ok());
+  const std::string json_type = "Content-Type: application/json";
+  EXPECT_EQ(post(port(), "/v1/jobs", column_request()).status, 401);
+  EXPECT_EQ(get(port(), "/v1/jobs", {"Authorization: Bearer wrong"}).status, 401);
+  const Reply mine = post(port(), "/v1/jobs", column_request(), {json_type, "Authorization: Bearer alice"});
+  ASSERT_EQ(mine.status, 200) << mine.body;
+  const std::string job = mine.header("Location");
+  for (const std::string& target : {job, job + "/result", job + "/request", job + "/events"}) {
+    EXPECT_EQ(get(port(), target, {"Authorization: Bearer bob"}).status, 404) << target;
+  }
+  EXPECT_EQ(call(port(), "DELETE", job, "", {"Authorization: Bearer bob"}).status, 404);
+  EXPECT_EQ(call(port(), "POST", job + "/dismiss", "", {"Authorization: Bearer bob"}).status, 404);
+  EXPECT_TRUE(json::parse(get(port(), "/v1/jobs", {"Authorization: Bearer bob"}).body)["jobs"].empty());
+  EXPECT_EQ(
+      post(port(), "/v1/jobs", column_request(), {json_type, "Authorization: Bearer bob"}).header("X-Cache"),
+      "miss");
+  EXPECT_EQ(get(port(), job, {"Authorization: Bearer alice"}).status, 200);
+  EXPECT_EQ(get(port(), "/livez").status, 200);
+}
+
+}  // namespace
+}  // namespace snapthrough::server::test

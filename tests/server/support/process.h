@@ -1,0 +1,103 @@
+#pragma once
+/// @file
+/// The real program as a child process.
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/server/support/temp_dir.h"
+
+namespace snapthrough::server::test {
+
+inline std::string read_file(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+inline void write_file(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
+
+/// The program, started with its streams in files of a folder.
+class Process {
+ public:
+  Process(const TempDir& folder, const std::vector<std::string>& arguments, const std::string& input = "")
+      : out_(folder.file("out")), err_(folder.file("err")) {
+    write_file(folder.file("in"), input);
+    write_file(out_, "");  // nothing of a process before this one
+    write_file(err_, "");
+    std::vector<std::string> words{SNAPTHROUGH_EXECUTABLE};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) {
+      argv.push_back(word.data());
+    }
+    argv.push_back(nullptr);
+    const std::string in = folder.file("in");
+    id_ = ::fork();
+    if (id_ == 0) {
+      redirect(in, O_RDONLY, STDIN_FILENO);
+      redirect(out_, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+      redirect(err_, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+      ::execv(argv[0], argv.data());
+      ::_exit(127);
+    }
+  }
+  ~Process() {
+    if (id_ > 0) {
+      ::kill(id_, SIGKILL);
+      ::waitpid(id_, nullptr, 0);
+    }
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+  Process(Process&&) = delete;
+  Process& operator=(Process&&) = delete;
+
+  [[nodiscard]] pid_t id() const { return id_; }
+  void signal(int number) const { ::kill(id_, number); }
+  /// Exit status; 1000 plus the signal when one ended it.
+  int wait() {
+    int status = 0;
+    ::waitpid(id_, &status, 0);
+    id_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  }
+  [[nodiscard]] std::string out() const { return read_file(out_); }
+  [[nodiscard]] std::string err() const { return read_file(err_); }
+
+ private:
+  static void redirect(const std::string& path, int flags, int target) {
+    ::dup2(::open(path.c_str(), flags, 0600), target);
+  }
+  std::string out_;
+  std::string err_;
+  pid_t id_ = -1;
+};
+
+/// Waits until a service that was started says in its log which port it has; 0 when it does not.
+inline int listening_port(const Process& service) {
+  for (int i = 0; i < 2000; ++i) {
+    std::istringstream lines(service.err());
+    for (std::string line; std::getline(lines, line);) {
+      const nlohmann::json entry = nlohmann::json::parse(line, nullptr, false);
+      if (entry.is_object() && entry.value("event", "") == "listening") {
+        return entry["port"].get<int>();
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return 0;
+}
+
+}  // namespace snapthrough::server::test
