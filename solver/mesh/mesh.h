@@ -31,14 +31,26 @@ struct Mesh {
 using Axes = std::vector<std::shared_ptr<const AxisCurve>>;
 [[nodiscard]] Axes make_axes(const Model& model);
 
+/// What a mesh that the solver chooses is for.
+enum class MeshUse {
+  final,  ///< nothing will check it: fine enough for every use
+  first   ///< the first of several, each finer, whose results are compared
+};
+
 /// @brief The mesh that an analysis asks for.
 ///
 /// Elements end where something begins, ends or acts on a member (loads, springs, ranges, spline knots). A
 /// fixed number of elements is shared out between those places by length, at least one each; where there are
 /// fewer elements than pieces, they are equal and what lies inside an element acts inside it. Without a fixed
 /// mesh the number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of the bases and
-/// the half waves of imperfections.
-[[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes);
+/// the half waves of imperfections; elements are somewhat shorter towards the ends of each piece.
+/// @param use of the mesh where it isn't fixed
+[[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
+                             MeshUse use = MeshUse::final);
+
+/// The mesh with elements of a higher order, and with every element cut into two.
+[[nodiscard]] Mesh with_order(Mesh mesh, int order);
+[[nodiscard]] Mesh halved(const Mesh& mesh);
 
 /// @brief Index of the thing with this id; -1 when there is none.
 template <typename T>

@@ -1,0 +1,106 @@
+#include "solver/accuracy/polish.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "solver/accuracy/transfer.h"
+
+namespace snapthrough {
+namespace {
+
+/// The one of the found points that is the known one; nearest by load where several are alike.
+std::optional<CriticalEvent> same_as(const CriticalEvent& known, const std::vector<CriticalEvent>& found) {
+  std::optional<CriticalEvent> best;
+  for (const CriticalEvent& event : found) {
+    if (event.type != known.type || event.negative_before != known.negative_before ||
+        event.negative_after != known.negative_after)
+      continue;
+    const double distance = std::abs(event.point.lambda - known.point.lambda);
+    if (!best || distance < std::abs(best->point.lambda - known.point.lambda)) best = event;
+  }
+  return best;
+}
+
+}  // namespace
+
+FineMesh::FineMesh(Structure structure, const Continuation& measure, double tolerance)
+    : structure_(std::move(structure)),
+      problem_(structure_),
+      continuation_(problem_, {}),
+      tolerance_(tolerance) {
+  continuation_.measure_as(measure);
+}
+
+PathPoint FineMesh::transferred(const Structure& from, const PathPoint& point) const {
+  PathPoint out = point;
+  out.y = transfer(from, point.y, structure_);
+  out.tangent = transfer(from, point.tangent, structure_);
+  const double norm = continuation_.metric().norm(out.tangent, out.tangent_lambda);
+  out.tangent /= norm;
+  out.tangent_lambda /= norm;
+  return out;
+}
+
+/// The path's point in the plane normal to the guess' tangent, `along` (from -1 to 1) reaches from the guess.
+std::optional<PathPoint> FineMesh::corrected(const PathPoint& guess, double along, double reach) {
+  const Chord chord{guess.tangent, guess.tangent_lambda, false};
+  PathPoint lo = guess;
+  PathPoint hi = guess;
+  lo.y -= reach * guess.tangent;
+  lo.lambda -= reach * guess.tangent_lambda;
+  lo.arc_length -= reach;
+  hi.y += reach * guess.tangent;
+  hi.lambda += reach * guess.tangent_lambda;
+  hi.arc_length += reach;
+  return continuation_.between(chord, lo, hi, 0.5 * (1.0 + along));
+}
+
+std::optional<CriticalEvent> FineMesh::near(const CriticalEvent& known, const PathPoint& at, double reach) {
+  const auto before = corrected(at, -1.0, reach);
+  if (!before) return std::nullopt;
+  const auto after = corrected(at, 1.0, reach);
+  if (!after) return std::nullopt;
+  const LocatedEvents located = locate_critical_points(continuation_, *before, *after, tolerance_);
+  if (!located.same_path) return std::nullopt;
+  return same_as(known, located.events);
+}
+
+std::optional<CriticalEvent> FineMesh::follow(const CriticalEvent& known, const PathPoint& before,
+                                              double distance) {
+  constexpr int kMostSteps = 12;
+  auto from = corrected(before, 0.0, distance);
+  if (!from) return std::nullopt;
+  StepSize size{0.0, distance};
+  PathPoint to;
+  for (int n = 0; n < kMostSteps; ++n) {
+    const StepOutcome outcome = continuation_.step(*from, size, to);
+    if (outcome == StepOutcome::step_underflow) return std::nullopt;
+    const LocatedEvents located = outcome == StepOutcome::turned
+                                      ? locate_at_turn(continuation_, *from, to, tolerance_)
+                                      : locate_critical_points(continuation_, *from, to, tolerance_);
+    if (!located.same_path) {
+      continuation_.reject(size);
+      continue;
+    }
+    if (auto found = same_as(known, located.events)) return found;
+    std::swap(*from, to);
+  }
+  return std::nullopt;
+}
+
+std::optional<CriticalEvent> FineMesh::find(const Structure& from, const CriticalEvent& known,
+                                            const Structure& base, const PathPoint& before) {
+  constexpr double kReach = 0.02;       // of the path so far
+  constexpr double kLongestPath = 0.3;  // a displacement gradient
+  constexpr double kWidening = 6.0;
+  const PathPoint at = transferred(from, known.point);
+  const double path = std::min(known.point.arc_length, kLongestPath);
+  for (const double reach : {kReach * path, kReach * kWidening * path})
+    if (auto found = near(known, at, reach)) return found;
+  const PathPoint start = transferred(base, before);
+  return follow(known, start, continuation_.distance(start, at));
+}
+
+}  // namespace snapthrough
