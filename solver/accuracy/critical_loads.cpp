@@ -11,8 +11,9 @@
 namespace snapthrough {
 namespace {
 
-/// On the difference to the next finer mesh, for the finer one's own error.
-constexpr double kSafety = 1.25;
+/// On the difference to the next finer mesh, for the error that the finer one still has: up to half of the
+/// coarser one's where meshes are so coarse that errors change their sign from order to order.
+constexpr double kSafety = 2.0;
 /// Successive differences must fall at least by this, or another mesh is asked.
 constexpr double kFall = 4.0;
 /// Elements beyond which no mesh is refined.

@@ -35,6 +35,11 @@ class FineMesh {
  private:
   [[nodiscard]] PathPoint transferred(const Structure& from, const PathPoint& point) const;
   [[nodiscard]] std::optional<PathPoint> corrected(const PathPoint& guess, double along, double reach);
+  [[nodiscard]] double test_value(const CriticalEvent& known, const Chord& chord, const PathPoint& at,
+                                  double log_abs_det) const;
+  [[nodiscard]] double metric_rate(const Chord& chord, const PathPoint& at) const;
+  [[nodiscard]] std::optional<CriticalEvent> interpolated(const CriticalEvent& known, const PathPoint& at,
+                                                          double reach);
   [[nodiscard]] std::optional<CriticalEvent> near(const CriticalEvent& known, const PathPoint& at,
                                                   double reach);
   [[nodiscard]] std::optional<CriticalEvent> follow(const CriticalEvent& known, const PathPoint& before,

@@ -70,12 +70,16 @@ struct ChosenMesh {
   double turn;           ///< of the axis, an element, degrees
   double decay_lengths;  ///< an element
   double least;          ///< elements a member
+  bool odd;              ///< odd numbers of elements a piece
 };
 
-/// High orders on few elements are the cheapest by digits, also where contact ends inside an element: the
-/// first mesh leaves 1e-4 to 1e-6 of a critical load where waves and layers have two elements or more each.
-constexpr ChosenMesh kFirst{5, 50.0, 3.0, 4.0};
-constexpr ChosenMesh kFinal{4, 25.0, 1.0, 8.0};
+/// High orders on few elements are the cheapest by digits, also where contact ends inside an element. All
+/// elements of a piece are equal, so that a ring keeps its symmetry, without which its bifurcations break.
+/// Their number is odd: an element half as long as a half wave buckles by itself, held at one end, when the
+/// member does, and its elimination loses most digits there; a member of 2 n equal elements meets that at its
+/// n-th mode.
+constexpr ChosenMesh kFirst{5, 60.0, 3.0, 3.0, true};
+constexpr ChosenMesh kFinal{4, 25.0, 1.0, 8.0, false};
 
 /// Elements for a piece of a member, by the rule of make_mesh.
 int default_count(const ChosenMesh& rule, const Model& model, int member, const AxisCurve& axis, double from,
@@ -99,26 +103,17 @@ int default_count(const ChosenMesh& rule, const Model& model, int member, const 
     const auto* sine = std::get_if<SineImperfection>(&imperfection);
     if (sine != nullptr && sine->member == m.id) n = std::max(n, 2.0 * sine->half_waves * (to - from));
   }
-  return std::max(1, static_cast<int>(std::ceil(n - 1e-9)));
+  const int count = std::max(1, static_cast<int>(std::ceil(n - 1e-9)));
+  return rule.odd && count % 2 == 0 ? count + 1 : count;
 }
 
-/// Where the elements of a piece end, as shares of it: lengths go as 1 + grade (1 - |t|), t from -1 to 1.
-std::vector<double> shares(int n, double grade) {
-  std::vector<double> ends{0.0};
-  for (int e = 0; e < n; ++e)
-    ends.push_back(ends.back() + 1.0 + grade * (1.0 - std::abs((2.0 * e + 1.0) / n - 1.0)));
-  for (double& end : ends) end /= ends.back();
-  return ends;
-}
-
-void add_elements(Mesh& mesh, int member, const std::vector<double>& breaks, const std::vector<int>& counts,
-                  double grade) {
+void add_elements(Mesh& mesh, int member, const std::vector<double>& breaks, const std::vector<int>& counts) {
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     const double width = breaks[i + 1] - breaks[i];
-    const std::vector<double> ends = shares(counts[i], grade);
     for (int e = 0; e < counts[i]; ++e) {
-      const double to = e + 1 == counts[i] ? breaks[i + 1] : breaks[i] + width * ends[e + 1];
-      mesh.elements.push_back({member, breaks[i] + width * ends[e], to});
+      const double from = breaks[i] + width * e / counts[i];
+      const double to = e + 1 == counts[i] ? breaks[i + 1] : breaks[i] + width * (e + 1) / counts[i];
+      mesh.elements.push_back({member, from, to});
     }
   }
 }
@@ -142,10 +137,6 @@ Axes make_axes(const Model& model) {
 }
 
 Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes, MeshUse use) {
-  // An element whose length is half of a half wave buckles by itself, held at one end, when the member does,
-  // and its elimination loses all digits. On a symmetric column with equal elements that happens exactly;
-  // unequal ones meet it by chance only.
-  constexpr double kGrade = 0.3;
   const ChosenMesh& rule = use == MeshUse::first ? kFirst : kFinal;
   Mesh mesh;
   mesh.order = discretization.fixed_mesh ? discretization.order : rule.order;
@@ -163,8 +154,7 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
       for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
         counts.push_back(default_count(rule, model, member, *axes[m], breaks[i], breaks[i + 1]));
     }
-    add_elements(mesh, member, breaks, counts,
-                 !discretization.fixed_mesh && use == MeshUse::first ? kGrade : 0.0);
+    add_elements(mesh, member, breaks, counts);
   }
   mesh.first.push_back(static_cast<int>(mesh.elements.size()));
   return mesh;
