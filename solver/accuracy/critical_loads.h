@@ -46,7 +46,7 @@ class CriticalLoads {
   };
   /// What is known of a load after some meshes.
   struct Answer {
-    CriticalEvent event;
+    FoundPoint found;
     int level = 0;  ///< 0: the path's own mesh
     std::optional<double> error;
   };

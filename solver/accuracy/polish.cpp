@@ -11,16 +11,17 @@ namespace snapthrough {
 namespace {
 
 /// The one of the found points that is the known one; nearest by load where several are alike.
-std::optional<CriticalEvent> same_as(const CriticalEvent& known, const std::vector<CriticalEvent>& found) {
-  std::optional<CriticalEvent> best;
+std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<CriticalEvent>& found) {
+  const CriticalEvent* best = nullptr;
   for (const CriticalEvent& event : found) {
     if (event.type != known.type || event.negative_before != known.negative_before ||
         event.negative_after != known.negative_after)
       continue;
     const double distance = std::abs(event.point.lambda - known.point.lambda);
-    if (!best || distance < std::abs(best->point.lambda - known.point.lambda)) best = event;
+    if (!best || distance < std::abs(best->point.lambda - known.point.lambda)) best = &event;
   }
-  return best;
+  if (best == nullptr) return std::nullopt;
+  return FoundPoint{*best, best->point};
 }
 
 /// A place along a chord with the value of a function there and the load's derivative along it.
@@ -82,8 +83,8 @@ double FineMesh::test_value(const CriticalEvent& known, const Chord& chord, cons
 /// A simple critical point from four samples or a few more: both ends, the secant's root, and inverse
 /// quadratic interpolation from there, which is not corrected any more. So no tangent is factorised where it
 /// is singular.
-std::optional<CriticalEvent> FineMesh::interpolated(const CriticalEvent& known, const PathPoint& at,
-                                                    double reach) {
+std::optional<FoundPoint> FineMesh::interpolated(const CriticalEvent& known, const PathPoint& at,
+                                                 double reach) {
   constexpr int kMostSamples = 4;
   if (known.multiplicity != 1 || known.cause == CriticalCause::contact) return std::nullopt;
   const Chord chord{at.tangent, at.tangent_lambda, false};
@@ -118,7 +119,7 @@ std::optional<CriticalEvent> FineMesh::interpolated(const CriticalEvent& known, 
       event.point.lambda += change;
       event.point.tangent = at.tangent;
       event.point.tangent_lambda = at.tangent_lambda;
-      return event;
+      return FoundPoint{event, *point};
     }
     ((c.value > 0.0) == (a.value > 0.0) ? a : b) = c;
     t = root;
@@ -131,7 +132,7 @@ double FineMesh::metric_rate(const Chord& chord, const PathPoint& at) const {
   return continuation_.metric().inner(at.tangent, at.tangent_lambda, chord.y, chord.lambda);
 }
 
-std::optional<CriticalEvent> FineMesh::near(const CriticalEvent& known, const PathPoint& at, double reach) {
+std::optional<FoundPoint> FineMesh::near(const CriticalEvent& known, const PathPoint& at, double reach) {
   const auto before = corrected(at, -1.0, reach);
   if (!before) return std::nullopt;
   const auto after = corrected(at, 1.0, reach);
@@ -141,8 +142,8 @@ std::optional<CriticalEvent> FineMesh::near(const CriticalEvent& known, const Pa
   return same_as(known, located.events);
 }
 
-std::optional<CriticalEvent> FineMesh::follow(const CriticalEvent& known, const PathPoint& before,
-                                              double distance) {
+std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const PathPoint& before,
+                                           double distance) {
   constexpr int kMostSteps = 12;
   auto from = corrected(before, 0.0, distance);
   if (!from) return std::nullopt;
@@ -164,8 +165,8 @@ std::optional<CriticalEvent> FineMesh::follow(const CriticalEvent& known, const 
   return std::nullopt;
 }
 
-std::optional<CriticalEvent> FineMesh::find(const Structure& from, const CriticalEvent& known,
-                                            const Structure& base, const PathPoint& before) {
+std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEvent& known,
+                                         const Structure& base, const PathPoint& before) {
   constexpr double kReach = 0.02;       // of the path so far
   constexpr double kLongestPath = 0.3;  // a displacement gradient
   constexpr double kWidening = 6.0;

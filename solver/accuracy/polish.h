@@ -11,6 +11,12 @@
 
 namespace snapthrough {
 
+/// A critical point of a mesh.
+struct FoundPoint {
+  CriticalEvent event;    ///< its point may be interpolated
+  PathPoint equilibrium;  ///< the point itself, or one so near that it stands for it, in equilibrium
+};
+
 /// A finer mesh of a model and the path follower on it.
 class FineMesh {
  public:
@@ -29,8 +35,8 @@ class FineMesh {
   /// @param before a point of the coarse path before the critical one, from which nothing else is in between
   /// @param base where `before` is from; `from` where `known` is from
   /// @return empty when there is no such point nearby
-  [[nodiscard]] std::optional<CriticalEvent> find(const Structure& from, const CriticalEvent& known,
-                                                  const Structure& base, const PathPoint& before);
+  [[nodiscard]] std::optional<FoundPoint> find(const Structure& from, const CriticalEvent& known,
+                                               const Structure& base, const PathPoint& before);
 
  private:
   [[nodiscard]] PathPoint transferred(const Structure& from, const PathPoint& point) const;
@@ -38,12 +44,11 @@ class FineMesh {
   [[nodiscard]] double test_value(const CriticalEvent& known, const Chord& chord, const PathPoint& at,
                                   double log_abs_det) const;
   [[nodiscard]] double metric_rate(const Chord& chord, const PathPoint& at) const;
-  [[nodiscard]] std::optional<CriticalEvent> interpolated(const CriticalEvent& known, const PathPoint& at,
-                                                          double reach);
-  [[nodiscard]] std::optional<CriticalEvent> near(const CriticalEvent& known, const PathPoint& at,
-                                                  double reach);
-  [[nodiscard]] std::optional<CriticalEvent> follow(const CriticalEvent& known, const PathPoint& before,
-                                                    double distance);
+  [[nodiscard]] std::optional<FoundPoint> interpolated(const CriticalEvent& known, const PathPoint& at,
+                                                       double reach);
+  [[nodiscard]] std::optional<FoundPoint> near(const CriticalEvent& known, const PathPoint& at, double reach);
+  [[nodiscard]] std::optional<FoundPoint> follow(const CriticalEvent& known, const PathPoint& before,
+                                                 double distance);
 
   Structure structure_;
   StructuralProblem problem_;

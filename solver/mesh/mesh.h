@@ -3,6 +3,7 @@
 /// Members cut into elements.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,9 +49,12 @@ enum class MeshUse {
 [[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
                              MeshUse use = MeshUse::final);
 
-/// The mesh with elements of a higher order, and with every element cut into two.
-[[nodiscard]] Mesh with_order(Mesh mesh, int order);
-[[nodiscard]] Mesh halved(const Mesh& mesh);
+/// @brief The next finer mesh, on which the error is much less: one order more on the same elements, or every
+/// element cut in two.
+/// @param kinks whether solutions have kinks inside elements (ends of contact), where a higher order gains
+/// little
+/// @return empty when it would have too many elements
+[[nodiscard]] std::optional<Mesh> finer_mesh(const Mesh& mesh, bool kinks);
 
 /// @brief Index of the thing with this id; -1 when there is none.
 template <typename T>
