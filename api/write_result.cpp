@@ -114,6 +114,7 @@ Json write(const State& state) {
   }
   return {{"branch", state.branch},
           {"load_factor", state.load_factor},
+          {"refinements", state.refinements},
           {"members", std::move(members)},
           {"foundations", std::move(foundations)}};
 }

@@ -74,6 +74,7 @@ struct FoundationState {
 struct State {
   int branch = 0;
   double load_factor = 0.0;
+  int refinements = 0;  ///< of the path's mesh, to the mesh that this state is in equilibrium on
   std::vector<MemberState> members;
   std::vector<FoundationState> foundations;
 };

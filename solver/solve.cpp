@@ -8,15 +8,13 @@
 namespace snapthrough {
 namespace {
 
-void report_mesh(const Analysis& analysis, const Structure& structure, Result& result) {
-  result.discretization.elements = static_cast<int>(structure.mesh.elements.size());
-  result.discretization.order = structure.mesh.order;
-  result.discretization.unknowns = structure.free_displacements;
-  result.discretization.refinements = 0;
-  if (!analysis.discretization.fixed_mesh) {
-    result.discretization.requested_accuracy = analysis.discretization.accuracy;
-    result.summary.message += "; the mesh was chosen by rule, its error was not estimated";
-  }
+/// Reports the mesh where the analysis did not.
+void report_unchecked_mesh(const Analysis& analysis, const Structure& structure, Result& result) {
+  const bool chosen = !analysis.discretization.fixed_mesh;
+  if (chosen) result.discretization.requested_accuracy = analysis.discretization.accuracy;
+  if (result.discretization.refinements >= 0) return;
+  report_mesh(structure, 0, result);
+  if (chosen) result.summary.message += "; the mesh was chosen by rule, its error was not estimated";
 }
 
 }  // namespace
@@ -33,7 +31,9 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
     fail(result, "no_buckling_mode", error.what());
     return result;
   }
-  const Structure structure = make_structure(model, analysis.discretization, analysis.geometry, modes);
+  const bool adaptive = analysis.type == AnalysisType::critical || analysis.type == AnalysisType::path;
+  const Structure structure = make_structure(model, analysis.discretization, analysis.geometry, modes,
+                                             adaptive ? MeshUse::first : MeshUse::final);
   switch (analysis.type) {
     case AnalysisType::critical:
     case AnalysisType::path:
@@ -48,7 +48,7 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
   }
   result.diagnostics.skipped.insert(result.diagnostics.skipped.begin(), structure.skipped.begin(),
                                     structure.skipped.end());
-  report_mesh(analysis, structure, result);
+  report_unchecked_mesh(analysis, structure, result);
   return result;
 }
 

@@ -31,6 +31,8 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
 [[nodiscard]] std::string number(double value);
 /// Copies the counts of a continuation into a result, adding to what is there.
 void add_statistics(const ContinuationStatistics& statistics, Result& result);
+/// Reports the mesh that the reported loads are from, and how often it was refined.
+void report_mesh(const Structure& structure, int refinements, Result& result);
 /// Makes a result that of a failed analysis.
 void fail(Result& result, const char* code, const std::string& detail);
 

@@ -25,6 +25,14 @@ void add_statistics(const ContinuationStatistics& statistics, Result& result) {
   d.max_relative_residual = std::max(d.max_relative_residual, statistics.max_relative_residual);
 }
 
+void report_mesh(const Structure& structure, int refinements, Result& result) {
+  MeshReport& report = result.discretization;
+  report.elements = static_cast<int>(structure.mesh.elements.size());
+  report.order = structure.mesh.order;
+  report.unknowns = structure.free_displacements;
+  report.refinements = refinements;
+}
+
 void fail(Result& result, const char* code, const std::string& detail) {
   result.failure = Failure{code, detail};
   result.summary.termination = code;

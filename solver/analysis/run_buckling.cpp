@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "solver/accuracy/buckling_loads.h"
 #include "solver/analysis/analyses.h"
 #include "solver/post/state.h"
 #include "solver/stability/buckling.h"
@@ -57,12 +58,30 @@ std::string contact_text(const Structure& structure, const Model& model) {
   return text;
 }
 
+/// Reports the mesh of the loads and the largest error of them.
+void report_errors(const Analysis& analysis, const BucklingLoads& loads, Result& result) {
+  report_mesh(*loads.structure, loads.level, result);
+  if (analysis.discretization.fixed_mesh || loads.errors.empty()) return;
+  double largest = 0.0;
+  for (const auto& error : loads.errors) {
+    if (!error) {
+      result.summary.message += "; no error estimate, because finer meshes have another number of modes";
+      return;
+    }
+    largest = std::max(largest, *error);
+  }
+  result.discretization.estimated_accuracy = largest;
+  if (largest > analysis.discretization.accuracy)
+    result.summary.message += "; the accuracy asked for was not reached: estimated " + number(largest);
+}
+
 }  // namespace
 
-void run_buckling(const Model& model, const Analysis& analysis, const Structure& structure, Result& result) {
-  StructuralProblem problem(structure);
-  const LinearBuckling buckling = linear_buckling(structure, problem, analysis.modes, structure.scales.load);
-  result.diagnostics.factorizations += buckling.factorizations;
+void run_buckling(const Model& model, const Analysis& analysis, const Structure& first, Result& result) {
+  const BucklingLoads loads = buckling_loads(model, analysis, first);
+  const Structure& structure = *loads.structure;
+  const LinearBuckling& buckling = loads.buckling;
+  result.diagnostics.factorizations += loads.factorizations;
   BucklingResult out;
   for (std::size_t i = 0; i < buckling.loads.size(); ++i) {
     out.load_factors.push_back(buckling.loads[i] / structure.scales.load);
@@ -80,6 +99,7 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   } else {
     summary.critical_load_factor = out.load_factors.front();
     summary.critical_type = CriticalType::bifurcation;
+    summary.error_estimate = loads.errors.front();
     summary.termination = "modes";
     summary.message = "linearised about the reference load";
   }
@@ -88,6 +108,7 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
          "only " + std::to_string(out.load_factors.size()) + " of " + std::to_string(analysis.modes) +
              " buckling modes exist on this mesh");
   summary.message += contact_text(structure, model);
+  report_errors(analysis, loads, result);
   result.buckling = std::move(out);
 }
 

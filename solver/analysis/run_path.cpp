@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/accuracy/critical_loads.h"
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/recorder.h"
 #include "solver/path/trace.h"
@@ -117,11 +118,12 @@ struct Pending {
 class BranchFollower {
  public:
   BranchFollower(const Analysis& analysis, const Structure& structure, Continuation& continuation,
-                 Recorder& recorder, const Hooks& hooks)
+                 Recorder& recorder, CriticalLoads& loads, const Hooks& hooks)
       : analysis_(analysis),
         rules_(rules_of(analysis, structure)),
         continuation_(continuation),
         recorder_(recorder),
+        loads_(loads),
         hooks_(hooks) {
     constexpr int kMostBranches = 20;
     limit_ = analysis.branches.limit.value_or(analysis.branches.follow == Follow::first ? 2 : kMostBranches);
@@ -138,6 +140,7 @@ class BranchFollower {
   TraceRules rules_;
   Continuation& continuation_;
   Recorder& recorder_;
+  CriticalLoads& loads_;
   const Hooks& hooks_;
   int limit_ = 0;
   int branches_ = 0;
@@ -159,7 +162,7 @@ bool BranchFollower::follow(const Pending& pending) {
   const auto first = first_point_of_branch(continuation_, pending.at, pending.sign);
   if (!first) return false;
   const int id = ++branches_;
-  const TraceSink sink = recorder_.sink(hooks_, id, pending.parent);
+  const TraceSink sink = loads_.watch(recorder_.sink(hooks_, id, pending.parent));
   PathPoint origin = pending.at;
   origin.arc_length = 0.0;
   recorder_.add_point(origin);
@@ -194,20 +197,22 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
   Recorder recorder(model, analysis, structure, continuation, result);
   const auto start = start_of_path(structure, problem, continuation, 1.0, hooks, result);
   if (start) {
-    const TraceSink sink = recorder.sink(hooks);
+    CriticalLoads loads(model, analysis, structure, continuation, result);
+    const TraceSink sink = loads.watch(recorder.sink(hooks));
     TraceRules rules = rules_of(analysis, structure);
     if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
     const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);
     recorder.end_branch(text_of(outcome.end).code);
     std::string branches;
     if (analysis.type == AnalysisType::path && analysis.branches.follow != Follow::primary) {
-      BranchFollower follower(analysis, structure, continuation, recorder, hooks);
+      BranchFollower follower(analysis, structure, continuation, recorder, loads, hooks);
       follower.add(outcome, 0);
       branches = follower.run();
     }
     add_statistics(continuation.statistics(), result);
     describe_end(analysis, outcome, structure, result);
     result.summary.message += branches;
+    loads.estimate(hooks.stop);
   }
 }
 

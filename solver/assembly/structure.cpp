@@ -546,20 +546,14 @@ SparseRow displacement_row(const Structure& structure, const Model& model, const
   return out;
 }
 
-Structure make_structure(const Model& model, const Discretization& discretization, Geometry geometry,
-                         const ModeOffsets& modes) {
-  Structure out;
-  out.geometry = geometry;
-  out.axes = make_axes(model);
-  out.origin = {model.nodes.front().x, model.nodes.front().y};
-  for (std::size_t m = 0; m < model.members.size(); ++m)
-    out.stress_free.push_back(std::make_shared<const StressFreeAxis>(
-        model, static_cast<int>(m), out.axes[m], modes.empty() ? std::vector<CubicSpline>{} : modes[m]));
-  out.mesh = make_mesh(model, discretization, out.axes);
+namespace {
+
+/// Everything that follows from the model, the axes, the geometry and the mesh, which are set.
+void fill(const Model& model, Structure& out) {
   Builder builder(model, out);
   builder.set_scales();
   builder.number_unknowns();
-  builder.add_elements(geometry);
+  builder.add_elements(out.geometry);
   builder.add_supports();
   builder.add_loads();
   builder.set_metric();
@@ -589,6 +583,32 @@ Structure make_structure(const Model& model, const Discretization& discretizatio
     const int n = out.mesh.first[m + 1] - out.mesh.first[m];
     out.free_displacements += 3 * (n - 1) + 3 * (p - 1) * n;
   }
+}
+
+}  // namespace
+
+Structure make_structure(const Model& model, const Discretization& discretization, Geometry geometry,
+                         const ModeOffsets& modes, MeshUse use) {
+  Structure out;
+  out.geometry = geometry;
+  out.axes = make_axes(model);
+  out.origin = {model.nodes.front().x, model.nodes.front().y};
+  for (std::size_t m = 0; m < model.members.size(); ++m)
+    out.stress_free.push_back(std::make_shared<const StressFreeAxis>(
+        model, static_cast<int>(m), out.axes[m], modes.empty() ? std::vector<CubicSpline>{} : modes[m]));
+  out.mesh = make_mesh(model, discretization, out.axes, use);
+  fill(model, out);
+  return out;
+}
+
+Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh) {
+  Structure out;
+  out.geometry = structure.geometry;
+  out.axes = structure.axes;
+  out.origin = structure.origin;
+  out.stress_free = structure.stress_free;
+  out.mesh = std::move(mesh);
+  fill(model, out);
   return out;
 }
 

@@ -99,7 +99,10 @@ struct Structure {
 /// @brief Builds the structure.
 /// @pre the model passed the reference and range checks of check()
 [[nodiscard]] Structure make_structure(const Model& model, const Discretization& discretization,
-                                       Geometry geometry, const ModeOffsets& modes = {});
+                                       Geometry geometry, const ModeOffsets& modes = {},
+                                       MeshUse use = MeshUse::final);
+/// @brief The structure of the same model, with the same imperfections, on another mesh.
+[[nodiscard]] Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh);
 
 /// @brief Functional that reads the displacement along (dx, dy), or the rotation, at a place.
 /// @param row (x, y, rotation) weights at that place

@@ -64,31 +64,47 @@ int fixed_count(const Discretization& d, const std::string& member) {
   return std::max(1, d.elements);
 }
 
-/// Elements of order `order` for a piece of a member, by the rule of make_mesh.
-int default_count(const Model& model, int member, const AxisCurve& axis, double from, double to) {
-  constexpr double kTurnPerElement = 25.0 * std::numbers::pi / 180.0;
-  constexpr double kDecayLengthsPerElement = 1.0;
-  constexpr double kLeast = 8.0;
+/// Constants of the rule of make_mesh.
+struct ChosenMesh {
+  int order;
+  double turn;           ///< of the axis, an element, degrees
+  double decay_lengths;  ///< an element
+  double least;          ///< elements a member
+  bool odd;              ///< odd numbers of elements a piece
+};
+
+/// High orders on few elements are the cheapest by digits, also where contact ends inside an element. All
+/// elements of a piece are equal, so that a ring keeps its symmetry, without which its bifurcations break.
+/// Their number is odd: an element half as long as a half wave buckles by itself, held at one end, when the
+/// member does, and its elimination loses most digits there; a member of 2 n equal elements meets that at its
+/// n-th mode.
+constexpr ChosenMesh kFirst{5, 60.0, 3.0, 3.0, true};
+constexpr ChosenMesh kFinal{4, 25.0, 1.0, 8.0, false};
+
+/// Elements for a piece of a member, by the rule of make_mesh.
+int default_count(const ChosenMesh& rule, const Model& model, int member, const AxisCurve& axis, double from,
+                  double to) {
   const Member& m = model.members[member];
   const double length = (to - from) * axis.length();
-  double n = kLeast * (to - from);
+  double n = rule.least * (to - from);
   constexpr int kSamples = 16;
   double turn = 0.0;
   for (int i = 0; i < kSamples; ++i)
     turn += std::abs(axis.at(axis.length() * (from + (to - from) * (i + 0.5) / kSamples)).curvature) *
             length / kSamples;
-  n = std::max(n, turn / kTurnPerElement);
+  n = std::max(n, turn / (rule.turn * std::numbers::pi / 180.0));
   const double EI = model.sections[index_of(model.sections, m.section)].EI;
   for (const Foundation& base : model.foundations) {
     if (base.member != m.id || base.stiffness <= 0.0 || base.range[1] <= from || base.range[0] >= to)
       continue;
-    n = std::max(n, length / (kDecayLengthsPerElement * std::pow(4.0 * EI / base.stiffness, 0.25)));
+    n = std::max(n, length / (rule.decay_lengths * std::pow(4.0 * EI / base.stiffness, 0.25)));
   }
   for (const Imperfection& imperfection : model.imperfections) {
     const auto* sine = std::get_if<SineImperfection>(&imperfection);
     if (sine != nullptr && sine->member == m.id) n = std::max(n, 2.0 * sine->half_waves * (to - from));
   }
-  return std::max(1, static_cast<int>(std::ceil(n - 1e-9)));
+  const int count = std::max(1, static_cast<int>(std::ceil(n - 1e-9)));
+  return rule.odd && count % 2 == 0 ? count + 1 : count;
 }
 
 void add_elements(Mesh& mesh, int member, const std::vector<double>& breaks, const std::vector<int>& counts) {
@@ -120,10 +136,10 @@ Axes make_axes(const Model& model) {
   return axes;
 }
 
-Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes) {
-  constexpr int kDefaultOrder = 4;
+Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes, MeshUse use) {
+  const ChosenMesh& rule = use == MeshUse::first ? kFirst : kFinal;
   Mesh mesh;
-  mesh.order = discretization.fixed_mesh ? discretization.order : kDefaultOrder;
+  mesh.order = discretization.fixed_mesh ? discretization.order : rule.order;
   mesh.foundation = discretization.fixed_mesh ? discretization.foundation : FoundationRule::consistent;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const int member = static_cast<int>(m);
@@ -136,12 +152,31 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
       counts = share(n, breaks);
     } else {
       for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
-        counts.push_back(default_count(model, member, *axes[m], breaks[i], breaks[i + 1]));
+        counts.push_back(default_count(rule, model, member, *axes[m], breaks[i], breaks[i + 1]));
     }
     add_elements(mesh, member, breaks, counts);
   }
   mesh.first.push_back(static_cast<int>(mesh.elements.size()));
   return mesh;
+}
+
+std::optional<Mesh> finer_mesh(const Mesh& mesh, bool kinks) {
+  constexpr std::size_t kMostElements = 4000;
+  Mesh out = mesh;
+  out.foundation = FoundationRule::consistent;
+  if (!kinks && mesh.order < kMaxOrder) {
+    ++out.order;
+    return out;
+  }
+  if (2 * mesh.elements.size() > kMostElements) return std::nullopt;
+  out.elements.clear();
+  for (const MeshElement& e : mesh.elements) {
+    const double middle = 0.5 * (e.from + e.to);
+    out.elements.push_back({e.member, e.from, middle});
+    out.elements.push_back({e.member, middle, e.to});
+  }
+  for (int& first : out.first) first *= 2;
+  return out;
 }
 
 }  // namespace snapthrough

@@ -3,6 +3,7 @@
 /// Members cut into elements.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,12 @@ struct Mesh {
 using Axes = std::vector<std::shared_ptr<const AxisCurve>>;
 [[nodiscard]] Axes make_axes(const Model& model);
 
+/// What a mesh that the solver chooses is for.
+enum class MeshUse {
+  final,  ///< nothing will check it: fine enough for every use
+  first   ///< the first of several, each finer, whose results are compared
+};
+
 /// @brief The mesh that an analysis asks for.
 ///
 /// Elements end where something begins, ends or acts on a member (loads, springs, ranges, spline knots). A
@@ -38,7 +45,16 @@ using Axes = std::vector<std::shared_ptr<const AxisCurve>>;
 /// fewer elements than pieces, they are equal and what lies inside an element acts inside it. Without a fixed
 /// mesh the number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of the bases and
 /// the half waves of imperfections.
-[[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes);
+/// @param use of the mesh where it isn't fixed
+[[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
+                             MeshUse use = MeshUse::final);
+
+/// @brief The next finer mesh, on which the error is much less: one order more on the same elements, or every
+/// element cut in two.
+/// @param kinks whether solutions have kinks inside elements (ends of contact), where a higher order gains
+/// little
+/// @return empty when it would have too many elements
+[[nodiscard]] std::optional<Mesh> finer_mesh(const Mesh& mesh, bool kinks);
 
 /// @brief Index of the thing with this id; -1 when there is none.
 template <typename T>

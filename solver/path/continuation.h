@@ -81,6 +81,12 @@ class Continuation {
   /// @brief Bounds the step sizes from now on by the caller's, which are fractions of the load scale.
   /// @param load_rate d lambda / ds at the start, positive
   void limit_steps(const StepOptions& steps, double load_rate);
+  /// @brief Measures paths in the norm of another follower, which has started, of the same structure on
+  /// another mesh: points can then be corrected and stepped from without a start.
+  void measure_as(const Continuation& other) {
+    load_scale_ = other.load_scale_;
+    metric_.load_weight = other.metric_.load_weight;
+  }
   /// @brief Takes the last step back, because it jumped to another path: the next one will be shorter.
   void reject(StepSize& step);
 

@@ -42,6 +42,7 @@ Result full_result() {
   r.states = {
       {0,
        66.25,
+       2,
        {{"m", {0.0, 1.0}, {2.0, 3.0}, {4.0, 5.0}, {6.0, 7.0}, {8.0, 9.0}, {10.0, 11.0}, {12.0, 13.0}}},
        {{"soil", {0.0, 1.0}, {0.25, 0.0}, {{0.0, 0.5}, {0.75, 1.0}}}}}};
   r.buckling = BucklingResult{{1.5, 2.5}, {{{{"m", {0.0}, {1.0}, {2.0}, {3.0}, {}, {}, {}}}}}};
@@ -70,7 +71,7 @@ TEST(WriteResult, EveryFieldOfTheContract) {
        "contact_fraction": {}, "termination": ""}],
     "contact_events": [{"branch": 1, "id": "soil", "type": "opened", "load_factor": 2.5, "arc_length": 0.5,
                         "zones_before": 2, "zones_after": 1}],
-    "states": [{"branch": 0, "load_factor": 66.25,
+    "states": [{"branch": 0, "load_factor": 66.25, "refinements": 2,
       "members": {"m": {"s": [0.0, 1.0], "x": [2.0, 3.0], "y": [4.0, 5.0], "rotation": [6.0, 7.0],
         "axial_force": [8.0, 9.0], "shear_force": [10.0, 11.0], "bending_moment": [12.0, 13.0]}},
       "foundations": {"soil": {"s": [0.0, 1.0], "reaction": [0.25, 0.0], "contact": [[0.0, 0.5], [0.75, 1.0]]}}}],

@@ -222,7 +222,7 @@ void Check::contact(const State& state, const RodState& at) {
 
 void Check::state(std::size_t index, std::optional<int> negative) {
   const State& s = result_.states[index];
-  if (rod_.points == 0 || has_mode_imperfection(model_) ||
+  if (s.refinements > 0 || rod_.points == 0 || has_mode_imperfection(model_) ||
       static_cast<int>(s.members.front().s.size()) != rod_.points) {
     ++out_.uncovered;
     return;

@@ -332,7 +332,8 @@ RodModel make_rod_model(const Model& model, const Analysis& analysis) {
   RodModel rod;
   Maker maker(model, rod);
   maker.scales();
-  rod.mesh = make_mesh(model, analysis.discretization, rod.axes);
+  const bool refined = analysis.type == AnalysisType::critical || analysis.type == AnalysisType::path;
+  rod.mesh = make_mesh(model, analysis.discretization, rod.axes, refined ? MeshUse::first : MeshUse::final);
   rod.lagrange = Lagrange(rod.mesh.order);
   rod.concentrated =
       rod.mesh.foundation == FoundationRule::lumped ||

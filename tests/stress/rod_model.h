@@ -89,7 +89,8 @@ struct RodModel {
   std::vector<RodElement> elements;
 };
 
-/// @brief The discrete structure of a request without mode imperfections, geometry nonlinear.
+/// @brief The discrete structure of a request without mode imperfections, geometry nonlinear, on the mesh of
+/// its path.
 [[nodiscard]] RodModel make_rod_model(const Model& model, const Analysis& analysis);
 
 /// @brief Functional of the displacement at xi, times the components of `row`.

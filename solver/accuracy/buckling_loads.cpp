@@ -1,0 +1,56 @@
+#include "solver/accuracy/buckling_loads.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "solver/accuracy/differences.h"
+
+namespace snapthrough {
+namespace {
+
+/// A structure on the finer mesh and its loads.
+struct Level {
+  std::shared_ptr<const Structure> structure;
+  LinearBuckling buckling;
+};
+
+Level solve_on(std::shared_ptr<const Structure> structure, int count) {
+  StructuralProblem problem(*structure);
+  LinearBuckling buckling = linear_buckling(*structure, problem, count, structure->scales.load);
+  return {std::move(structure), std::move(buckling)};
+}
+
+bool within(const std::vector<std::optional<double>>& errors, double accuracy) {
+  return std::all_of(errors.begin(), errors.end(),
+                     [accuracy](const std::optional<double>& e) { return e && *e <= accuracy; });
+}
+
+}  // namespace
+
+BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const Structure& structure) {
+  const bool fixed = analysis.discretization.fixed_mesh;
+  BucklingLoads out;
+  Level now = solve_on({std::shared_ptr<const Structure>(), &structure}, analysis.modes);
+  int factorizations = now.buckling.factorizations;
+  std::vector<Differences> differences(static_cast<std::size_t>(analysis.modes));
+  for (int level = 0;; ++level) {
+    out = {now.structure, now.buckling, {}, level, factorizations};
+    out.errors.resize(now.buckling.loads.size());
+    if (level >= kMostLevels) break;
+    auto mesh = finer_mesh(now.structure->mesh, structure.one_sided);
+    if (!mesh) break;
+    Level next = solve_on(std::make_shared<const Structure>(on_mesh(structure, model, *std::move(mesh))),
+                          analysis.modes);
+    factorizations += next.buckling.factorizations;
+    out.factorizations = factorizations;
+    const bool same_count = next.buckling.loads.size() == now.buckling.loads.size();
+    for (std::size_t i = 0; same_count && i < out.errors.size(); ++i)
+      out.errors[i] = differences[i].add(now.buckling.loads[i], next.buckling.loads[i]);
+    if (fixed || (same_count && within(out.errors, analysis.discretization.accuracy))) break;
+    now = std::move(next);
+  }
+  return out;
+}
+
+}  // namespace snapthrough

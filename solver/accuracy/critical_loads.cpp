@@ -1,0 +1,117 @@
+#include "solver/accuracy/critical_loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "solver/accuracy/differences.h"
+#include "solver/analysis/analyses.h"
+#include "solver/post/state.h"
+
+namespace snapthrough {
+
+TraceSink CriticalLoads::watch(TraceSink sink) {
+  TraceSink out = sink;
+  out.on_point = [this, inner = sink.on_point](const PathPoint& point) {
+    inner(point);
+    last_ = point;
+  };
+  out.on_critical = [this, inner = sink.on_critical](const CriticalEvent& event) {
+    inner(event);
+    targets_.push_back({event, last_, result_.critical_points.size() - 1});
+  };
+  return out;
+}
+
+const Structure& CriticalLoads::structure_of(int number) const {
+  return number == 0 ? structure_ : levels_[number - 1]->structure();
+}
+
+/// The finer mesh of a number from 1 on, built when first asked for; null when there is none.
+FineMesh* CriticalLoads::level(int number) {
+  while (static_cast<int>(levels_.size()) < number) {
+    const auto mesh = finer_mesh(structure_of(static_cast<int>(levels_.size())).mesh, structure_.one_sided);
+    if (!mesh) return nullptr;
+    const Discretization& asked = analysis_.discretization;
+    const double tolerance = asked.fixed_mesh ? 1e-9 : std::min(1e-7, 1e-3 * asked.accuracy);
+    levels_.push_back(
+        std::make_unique<FineMesh>(on_mesh(structure_, model_, *mesh), continuation_, tolerance));
+  }
+  return levels_[number - 1].get();
+}
+
+CriticalLoads::Answer CriticalLoads::answer_for(const Target& target) {
+  const bool fixed = analysis_.discretization.fixed_mesh;
+  const double accuracy = analysis_.discretization.accuracy;
+  Answer answer{{target.event, target.event.point}, 0, std::nullopt};
+  FoundPoint at = answer.found;
+  Differences differences;
+  for (int number = 1; number <= (fixed ? 1 : kMostLevels); ++number) {
+    FineMesh* mesh = level(number);
+    if (mesh == nullptr) break;
+    const auto next = mesh->find(structure_of(number - 1), at.event, structure_, target.before);
+    if (!next) break;
+    const double error = differences.add(at.event.point.lambda, next->event.point.lambda);
+    answer = {at, number - 1, error};
+    if (error <= accuracy) break;
+    at = *next;
+  }
+  return answer;
+}
+
+void CriticalLoads::report(const Target& target, const Answer& answer) {
+  CriticalPoint& point = result_.critical_points[target.index];
+  point.error_estimate = answer.error;
+  Summary& summary = result_.summary;
+  const bool is_first = summary.critical_load_factor && !summary.error_estimate && point.branch == 0 &&
+                        *summary.critical_load_factor == point.load_factor;
+  if (answer.level > 0) {
+    const Structure& structure = structure_of(answer.level);
+    point.load_factor = answer.found.event.point.lambda / structure.scales.load;
+    for (std::size_t i = 0; i < point.monitors.size(); ++i)
+      point.monitors[i].value = structure.monitors[i].row.dot(answer.found.event.point.y);
+    if (point.state) {
+      State& state = result_.states[*point.state];
+      const int branch = state.branch;
+      const PathPoint& at = answer.found.equilibrium;
+      state = make_state(structure, model_, at.y, at.lambda, analysis_.output.points_per_member);
+      state.branch = branch;
+      state.refinements = answer.level;
+    }
+  }
+  if (is_first) {
+    summary.critical_load_factor = point.load_factor;
+    summary.error_estimate = answer.error;
+  }
+}
+
+void CriticalLoads::report_meshes(int finest, double largest, int without) {
+  report_mesh(structure_of(finest), finest, result_);
+  std::string& message = result_.summary.message;
+  if (without > 0)
+    message += "; no error estimate for " + std::to_string(without) +
+               " critical points, which were not found again on a finer mesh";
+  if (analysis_.discretization.fixed_mesh || targets_.empty()) return;
+  if (without == 0) result_.discretization.estimated_accuracy = largest;
+  if (largest > analysis_.discretization.accuracy)
+    message += "; the accuracy asked for was not reached: estimated " + number(largest);
+}
+
+void CriticalLoads::estimate(const std::stop_token& stop) {
+  int finest = 0;
+  int without = 0;
+  double largest = 0.0;
+  for (const Target& target : targets_) {
+    Answer answer{{target.event, target.event.point}, 0, std::nullopt};
+    if (!stop.stop_requested()) answer = answer_for(target);
+    report(target, answer);
+    finest = std::max(finest, answer.level);
+    largest = std::max(largest, answer.error.value_or(0.0));
+    without += answer.error ? 0 : 1;
+  }
+  report_meshes(finest, largest, without);
+  for (const auto& mesh : levels_) add_statistics(mesh->statistics(), result_);
+}
+
+}  // namespace snapthrough

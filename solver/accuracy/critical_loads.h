@@ -1,0 +1,70 @@
+#pragma once
+/// @file
+/// Errors of critical loads: estimated on finer meshes, and brought down to what was asked for.
+
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "solver/accuracy/polish.h"
+#include "solver/path/trace.h"
+#include "solver/solve.h"
+
+namespace snapthrough {
+
+/// @brief Finds the critical points of a path again on ever finer meshes until their loads agree.
+///
+/// A load's error on one mesh is estimated by its difference to the next finer mesh's, which is nearer to the
+/// truth by a factor: one order more on the same elements where the solution is smooth, elements halved where
+/// contact ends inside them (Carstensen's saturation assumption; checked wherever three meshes were used:
+/// differences must fall). The value reported is that of the coarser of the two: the finer one's error is
+/// not known. With a fixed mesh the values stay and only the estimate is made.
+class CriticalLoads {
+ public:
+  /// @param continuation the follower of the path; it has to be alive and started when estimate() is called
+  CriticalLoads(const Model& model, const Analysis& analysis, const Structure& structure,
+                const Continuation& continuation, Result& result)
+      : model_(model),
+        analysis_(analysis),
+        structure_(structure),
+        continuation_(continuation),
+        result_(result) {}
+
+  /// @brief The same sink, which also remembers the critical points as they are added to the result.
+  [[nodiscard]] TraceSink watch(TraceSink sink);
+  /// @brief Sets the error estimates of all critical points seen, refines where they exceed the accuracy, and
+  /// reports the meshes.
+  void estimate(const std::stop_token& stop);
+
+ private:
+  /// A critical point of the coarse path.
+  struct Target {
+    CriticalEvent event;
+    PathPoint before;
+    std::size_t index = 0;  ///< in Result::critical_points
+  };
+  /// What is known of a load after some meshes.
+  struct Answer {
+    FoundPoint found;
+    int level = 0;  ///< 0: the path's own mesh
+    std::optional<double> error;
+  };
+
+  [[nodiscard]] FineMesh* level(int number);
+  [[nodiscard]] const Structure& structure_of(int number) const;
+  [[nodiscard]] Answer answer_for(const Target& target);
+  void report(const Target& target, const Answer& answer);
+  void report_meshes(int finest, double largest, int without);
+
+  const Model& model_;
+  const Analysis& analysis_;
+  const Structure& structure_;
+  const Continuation& continuation_;
+  Result& result_;
+  PathPoint last_;
+  std::vector<Target> targets_;
+  std::vector<std::unique_ptr<FineMesh>> levels_;
+};
+
+}  // namespace snapthrough

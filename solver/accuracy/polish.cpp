@@ -1,0 +1,182 @@
+#include "solver/accuracy/polish.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "solver/accuracy/transfer.h"
+
+namespace snapthrough {
+namespace {
+
+/// The one of the found points that is the known one; nearest by load where several are alike.
+std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<CriticalEvent>& found) {
+  const CriticalEvent* best = nullptr;
+  for (const CriticalEvent& event : found) {
+    if (event.type != known.type || event.negative_before != known.negative_before ||
+        event.negative_after != known.negative_after)
+      continue;
+    const double distance = std::abs(event.point.lambda - known.point.lambda);
+    if (!best || distance < std::abs(best->point.lambda - known.point.lambda)) best = &event;
+  }
+  if (best == nullptr) return std::nullopt;
+  return FoundPoint{*best, best->point};
+}
+
+/// A place along a chord with the value of a function there and the load's derivative along it.
+struct Sample {
+  double t = 0.0;
+  double value = 0.0;
+  double rate = 0.0;
+};
+
+/// Zero of the inverse quadratic through three samples.
+double inverse_root(const Sample& a, const Sample& b, const Sample& c) {
+  return a.t * (b.value * c.value) / ((a.value - b.value) * (a.value - c.value)) +
+         b.t * (a.value * c.value) / ((b.value - a.value) * (b.value - c.value)) +
+         c.t * (a.value * b.value) / ((c.value - a.value) * (c.value - b.value));
+}
+
+}  // namespace
+
+FineMesh::FineMesh(Structure structure, const Continuation& measure, double tolerance)
+    : structure_(std::move(structure)),
+      problem_(structure_),
+      continuation_(problem_, {}),
+      tolerance_(tolerance) {
+  continuation_.measure_as(measure);
+}
+
+PathPoint FineMesh::transferred(const Structure& from, const PathPoint& point) const {
+  PathPoint out = point;
+  out.y = transfer(from, point.y, structure_);
+  out.tangent = transfer(from, point.tangent, structure_);
+  const double norm = continuation_.metric().norm(out.tangent, out.tangent_lambda);
+  out.tangent /= norm;
+  out.tangent_lambda /= norm;
+  return out;
+}
+
+/// The path's point in the plane normal to the guess' tangent, `along` (from -1 to 1) reaches from the guess.
+std::optional<PathPoint> FineMesh::corrected(const PathPoint& guess, double along, double reach) {
+  const Chord chord{guess.tangent, guess.tangent_lambda, false};
+  PathPoint lo = guess;
+  PathPoint hi = guess;
+  lo.y -= reach * guess.tangent;
+  lo.lambda -= reach * guess.tangent_lambda;
+  lo.arc_length -= reach;
+  hi.y += reach * guess.tangent;
+  hi.lambda += reach * guess.tangent_lambda;
+  hi.arc_length += reach;
+  return continuation_.between(chord, lo, hi, 0.5 * (1.0 + along));
+}
+
+/// Zero at a critical point of the known one's type: the load's rate, or the determinant over it.
+double FineMesh::test_value(const CriticalEvent& known, const Chord& chord, const PathPoint& at,
+                            double log_abs_det) const {
+  const double rate = continuation_.load_rate(chord, at);
+  if (known.type != CriticalType::bifurcation) return rate;
+  return (at.negative % 2 == 0 ? 1.0 : -1.0) * std::exp(at.log_abs_det - log_abs_det) / rate;
+}
+
+/// A simple critical point from four samples or a few more: both ends, the secant's root, and inverse
+/// quadratic interpolation from there, which is not corrected any more. So no tangent is factorised where it
+/// is singular.
+std::optional<FoundPoint> FineMesh::interpolated(const CriticalEvent& known, const PathPoint& at,
+                                                 double reach) {
+  constexpr int kMostSamples = 4;
+  if (known.multiplicity != 1 || known.cause == CriticalCause::contact) return std::nullopt;
+  const Chord chord{at.tangent, at.tangent_lambda, false};
+  const auto before = corrected(at, -1.0, reach);
+  if (!before || before->negative != known.negative_before) return std::nullopt;
+  const auto after = corrected(at, 1.0, reach);
+  if (!after || after->negative != known.negative_after) return std::nullopt;
+  const auto sample = [&](double t, const PathPoint& point) {
+    return Sample{t, test_value(known, chord, point, before->log_abs_det),
+                  continuation_.load_rate(chord, point)};
+  };
+  Sample a = sample(-reach, *before);
+  Sample b = sample(reach, *after);
+  if ((a.value > 0.0) == (b.value > 0.0)) return std::nullopt;
+  double t = a.t - a.value * (b.t - a.t) / (b.value - a.value);
+  for (int n = 0; n < kMostSamples; ++n) {
+    if (!(std::abs(t) < reach)) return std::nullopt;
+    const auto point = corrected(at, t / reach, reach);
+    if (!point) return std::nullopt;
+    const Sample c = sample(t, *point);
+    const double root = inverse_root(a, b, c);
+    const double move = root - t;
+    const Sample& other = (c.value > 0.0) == (a.value > 0.0) ? b : a;
+    const double rate_at_root = c.rate + (other.rate - c.rate) * move / (other.t - c.t);
+    const double change = 0.5 * (c.rate + rate_at_root) * move;
+    // the interpolation's error is of the next order in the distances to the samples
+    const double error = std::abs(change) * std::abs(move) / reach;
+    if (error <= 0.1 * tolerance_ * std::abs(point->lambda) && std::abs(root) < reach) {
+      CriticalEvent event = known;
+      event.point = *point;
+      event.point.y += move / metric_rate(chord, *point) * point->tangent;
+      event.point.lambda += change;
+      event.point.tangent = at.tangent;
+      event.point.tangent_lambda = at.tangent_lambda;
+      return FoundPoint{event, *point};
+    }
+    ((c.value > 0.0) == (a.value > 0.0) ? a : b) = c;
+    t = root;
+  }
+  return std::nullopt;
+}
+
+/// d (distance along the chord) / ds of the path at a point.
+double FineMesh::metric_rate(const Chord& chord, const PathPoint& at) const {
+  return continuation_.metric().inner(at.tangent, at.tangent_lambda, chord.y, chord.lambda);
+}
+
+std::optional<FoundPoint> FineMesh::near(const CriticalEvent& known, const PathPoint& at, double reach) {
+  const auto before = corrected(at, -1.0, reach);
+  if (!before) return std::nullopt;
+  const auto after = corrected(at, 1.0, reach);
+  if (!after) return std::nullopt;
+  const LocatedEvents located = locate_critical_points(continuation_, *before, *after, tolerance_);
+  if (!located.same_path) return std::nullopt;
+  return same_as(known, located.events);
+}
+
+std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const PathPoint& before,
+                                           double distance) {
+  constexpr int kMostSteps = 12;
+  auto from = corrected(before, 0.0, distance);
+  if (!from) return std::nullopt;
+  StepSize size{0.0, distance};
+  PathPoint to;
+  for (int n = 0; n < kMostSteps; ++n) {
+    const StepOutcome outcome = continuation_.step(*from, size, to);
+    if (outcome == StepOutcome::step_underflow) return std::nullopt;
+    const LocatedEvents located = outcome == StepOutcome::turned
+                                      ? locate_at_turn(continuation_, *from, to, size.taken, tolerance_)
+                                      : locate_critical_points(continuation_, *from, to, tolerance_);
+    if (!located.same_path) {
+      continuation_.reject(size);
+      continue;
+    }
+    if (auto found = same_as(known, located.events)) return found;
+    std::swap(*from, to);
+  }
+  return std::nullopt;
+}
+
+std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEvent& known,
+                                         const Structure& base, const PathPoint& before) {
+  constexpr double kReach = 0.02;       // of the path so far
+  constexpr double kLongestPath = 0.3;  // a displacement gradient
+  constexpr double kWidening = 6.0;
+  const PathPoint at = transferred(from, known.point);
+  const double path = std::min(known.point.arc_length, kLongestPath);
+  if (auto found = interpolated(known, at, kReach * path)) return found;
+  for (const double reach : {kReach * path, kReach * kWidening * path})
+    if (auto found = near(known, at, reach)) return found;
+  const PathPoint start = transferred(base, before);
+  return follow(known, start, continuation_.distance(start, at));
+}
+
+}  // namespace snapthrough
