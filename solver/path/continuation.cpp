@@ -98,7 +98,8 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
   if (norm == 0.0) return first_point(zero, 0.0, response, direction, report);
   // small in both: a thin column hardly moves before it buckles
   double lambda =
-      direction * std::min(kSmallStart / norm, kSmallLoad * problem_.critical_load_scale(response));
+      direction * std::min({kSmallStart / norm, kSmallLoad * problem_.critical_load_scale(response),
+                            options_.largest_first_load});
   double last = std::numeric_limits<double>::infinity();
   VectorXd guess;
   for (int i = 0; i < kMostLoads; ++i) {
@@ -371,9 +372,15 @@ std::optional<PathPoint> Continuation::between(const Chord& chord, const PathPoi
   side_.normal = metric_.weights->cwiseProduct(chord.y);
   side_.normal_lambda = metric_.load_weight * chord.lambda;
   const double scale = std::max(distance_in(chord, lo, hi), chord.movement_only ? kLeastNoise : kNoise);
-  const auto outcome =
-      correct(problem_, metric_, side_, scale, options_.corrector, point.y, point.lambda, work_);
+  CorrectorOptions options = options_.corrector;
+  auto outcome = correct(problem_, metric_, side_, scale, options, point.y, point.lambda, work_);
   count(outcome);
+  if (outcome.status == CorrectorStatus::too_many_iterations && problem_.one_sided()) {
+    options.damped = true;
+    interpolate(chord, lo, hi, share, point);
+    outcome = correct(problem_, metric_, side_, scale, options, point.y, point.lambda, work_);
+    count(outcome);
+  }
   if (outcome.status != CorrectorStatus::converged) return std::nullopt;
   set_tangent(point, outcome, chord.y, chord.lambda);
   point.arc_length = (1.0 - share) * lo.arc_length + share * hi.arc_length;

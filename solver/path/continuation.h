@@ -3,6 +3,7 @@
 /// Pseudo-arc-length continuation with step control.
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -22,6 +23,8 @@ struct ContinuationOptions {
   double target_angle = 0.30;       ///< wanted angle between successive tangents, rad
   double max_angle = 0.9;           ///< a larger angle rejects the step, rad
   double max_growth = 2.5;
+  /// Load factor that the first state on one-sided supports must stay below.
+  double largest_first_load = std::numeric_limits<double>::infinity();
   CorrectorOptions corrector;
 };
 
