@@ -12,12 +12,13 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from lib.thesis_data import DOCS, EXAMPLES, ROOT, SPRINGS, read_csv, run_sweep  # noqa: E402
 from lib.thesis_figures import Runs, plot_all  # noqa: E402
+from lib.thesis_paths import check_paths, filled  # noqa: E402
 from lib.thesis_tables import converged_rows, errata_page, table_page  # noqa: E402
 
 CONVERGED_TOLERANCE = 1e-4  # the accuracy asked of converged values; the references have 10 digits
 ACCURACY_ASKED = 1e-6  # in the documents
 SPRING_TOLERANCE = 1e-6  # closed forms with 12 digits
-MINIMUM_COMPARED = 408  # so that a renamed column cannot empty the comparison
+MINIMUM_COMPARED = 469  # so that a renamed column cannot empty the comparison
 
 
 def compare(results):
@@ -60,14 +61,18 @@ def main():
         times.append(f"| {path.name} | {len(results[path.stem])} | {seconds:.2f} |")
     wrong, compared = compare(results)
     wrong += check_sensitivity(results["imperfection_sensitivity_arch"])
+    runs = Runs(arguments[0])
+    more_wrong, more = check_paths(runs)
+    wrong, compared = wrong + more_wrong, compared + more
     if compared < MINIMUM_COMPARED:
         wrong.append(f"only {compared} values were compared, {MINIMUM_COMPARED} were expected")
     print(f"{compared} values compared, {len(wrong)} off")
     if not check_only:
         DOCS.mkdir(parents=True, exist_ok=True)
-        runs = Runs(arguments[0])
         plot_all(runs, results)
         (DOCS / "tables.md").write_text(table_page(results), encoding="utf-8")
+        for page in sorted(EXAMPLES.glob("pages/*.md")):
+            (DOCS / page.name).write_text(filled(page.read_text(encoding="utf-8"), runs), encoding="utf-8")
         (DOCS / "times.md").write_text("\n".join(["# Run times", "", "The only page that changes from run to run.", "",
                                                   "| sweep | points | s |", "| --- | --- | --- |"] + times +
                                                  ["", "| request | changes | ms |", "| --- | --- | --- |"] + runs.times) + "\n",

@@ -2,10 +2,11 @@
 import math
 
 from lib.gnuplot import PALETTE, Axes, Curve, equilibrium_paths, line, marks, plot
-from lib.thesis_data import DOCS, SPRINGS, order_of, references, run_request, value_of
+from lib.thesis_data import DOCS, ROOT, SPRINGS, order_of, read_csv, references, run_request, value_of
 
 STIFFNESS = "/model/foundations/0/stiffness"
 BEAM_SUPPORTS = (("sliding", ["y"], 1e9), ("fixed, EA = 10^4", ["x", "y"], 1e4), ("fixed, EA = 10^6", ["x", "y"], 1e6))
+NONLINEAR_BEAM = ROOT / "tests/verification/data/beam_winkler_uniform_nonlinear_4_2.csv"
 LOG_K = ("set logscale x", "set format x '10^{%T}'")
 
 
@@ -62,6 +63,9 @@ def plot_beam(runs):
             number = [s for s, _, _ in BEAM_SUPPORTS].index(support)
             curves.append(line(f"K = {K}" if number == 0 else None, points, color, styles[number]))
         curves += [Curve(support, f"lines lw 1.8 lc rgb '#777777' {style}", None) for (support, _, _), style in zip(BEAM_SUPPORTS, styles)]
+        if index == 1:
+            known = [(float(row["wmid_over_L"]), float(row["Lam"])) for row in read_csv(NONLINEAR_BEAM) if row["K"] in ("1", "9", "30", "50")]
+            curves.append(marks("sliding, shooting", known, "#000000", 6, 0.6))
         plot(DOCS / f"{name}.svg", Axes(title, label, "Λ = q L^3/EI", ("set xrange [0:]", "set yrange [0:200]")), curves)
 
 
@@ -70,9 +74,9 @@ def plot_columns(runs):
     waves, slender = "/model/imperfections/0/half_waves", "/model/foundations/0/stiffness"
     crooked = [("n = 1", runs("column_bonded_base"))]
     plot(DOCS / "figure_4_12.svg", Axes("Imperfect column on a bonded base, L = 5, K = 10", "deflection at the crest w/L", "P",
-                                        ("set xrange [0:0.2]", "set yrange [0:80]")),
-         equilibrium_paths(crooked, lambda m: abs(m["crest"]) / 5) + [line("P_1 = 64.809", [(0, 64.808714), (0.2, 64.808714)], "#777777", "dt 3")])
-    for name, K, top in (("figure_4_14", 15.6, 260), ("figure_4_15", 47, 520)):
+                                        ("set xrange [0:0.1]", "set yrange [0:80]")),
+         equilibrium_paths(crooked, lambda m: abs(m["crest"]) / 5) + [line("P_1 = 64.809", [(0, 64.808714), (0.1, 64.808714)], "#777777", "dt 3")])
+    for name, K, top in (("figure_4_14", 15.6, 250), ("figure_4_15", 47, 250)):
         paths = [(f"n = {n}", runs("column_bonded_base", (slender, K), (length, 10), (waves, n), (crest, 0.5 / n))) for n in (1, 2, 3, 4)]
         plot(DOCS / f"{name}.svg", Axes(f"Imperfect columns on a bonded base, L = 10, K = {K}", "deflection at the first crest w/L", "P",
                                         ("set xrange [0:0.1]", f"set yrange [0:{top}]")),
@@ -82,9 +86,11 @@ def plot_columns(runs):
     rest = ("set xrange [0:0.1]", "set yrange [0:60]")
     plot(DOCS / "figure_4_17.svg", Axes("Imperfect column on a compression-only base", "|mid deflection| w/L", "P", rest),
          equilibrium_paths(free, lambda m: abs(m["mid"]) / 5) + [line("P(1 - P/EA) = P_e", [(0, 39.494012), (0.1, 39.494012)], "#777777", "dt 3")])
-    plot(DOCS / "figure_4_18.svg", Axes("The same: deflection at the quarter point, where the imperfection is",
-                                        "|deflection at L/4| w/L", "P", ("set logscale x", "set format x '10^{%T}'", "set yrange [0:60]")),
-         equilibrium_paths(free, lambda m: max(abs(m["quarter"]) / 5, 1e-12)))
+    before = [(f"K = {K}", runs("column_one_sided_base", (STIFFNESS, K), ("/analysis/stop/load_factor", [-1, 39.4]), ("/analysis/step/max", 0.02)))
+              for K in stiffnesses]
+    plot(DOCS / "figure_4_18.svg", Axes("The same before it leaves the base: deflection at the lower quarter", "10^6 w/L", "P",
+                                        ("set xrange [-12:12]", "set yrange [0:42]")),
+         equilibrium_paths(before, lambda m: 1e6 * m["quarter"] / 5))
 
 
 def arch_runs(runs, name, scale, stiffnesses):
@@ -108,7 +114,9 @@ def shape_curves(label, state, color, radius, mirrored=False):
     """Deformed axis, its contact regions drawn thick."""
     member = next(iter(state["members"].values()))
     x, y = ([value / radius for value in member[key]] for key in ("x", "y"))
-    thick = [stretch(member["s"], x, y, ends) for ends in state["foundations"]["soil"]["contact"]]
+    soil = state["foundations"]["soil"]
+    touching = soil["contact"] if any(soil["reaction"]) else []  # a base of stiffness 0 is not there
+    thick = [stretch(member["s"], x, y, ends) for ends in touching]
     pieces = [list(zip(x, y))]
     if mirrored:
         pieces += [[(-a, b) for a, b in piece] for piece in pieces]
@@ -138,8 +146,9 @@ def arc(half_angle, base=None):
     return [(math.sin(half_angle * i / 100), math.cos(half_angle * i / 100) - height) for i in range(-100, 101)]
 
 
-SHALLOW_SHAPE = ("set xrange [-0.19:0.19]",)
-ROUND = ("set size ratio -1",)
+SHALLOW_SHAPE = ("set xrange [-0.19:0.19]", "set yrange [*:0.017]")
+ROUND = ("set size ratio -1", "set xrange [-1.2:1.7]", "set yrange [-0.4:1.6]")
+RING = ("set size ratio -1", "set xrange [-1.2:1.2]", "set yrange [-1.15:1.15]")
 
 
 def plot_shallow_arches(runs):
@@ -164,7 +173,8 @@ def plot_shallow_arches(runs):
 
 
 def plot_deep_arch(runs):
-    paths = arch_runs(runs, "deep_arch_235", 1e-6, (0, 1e2, 1e3, 1e4, 1e5))
+    paths = [(f"k = {power(k)}", runs("deep_arch_235", (STIFFNESS, k * 1e-6), ("/analysis/step/max", 1 if k < 1e4 else 4)))
+             for k in (0, 1e2, 1e3, 1e4, 1e5)]
     plot(DOCS / "figure_4_31.svg", Axes("Deep arch of 235 degrees, base outside", "crown displacement v/R", "Λ = P R^2/EI",
                                         ("set xrange [0:2]", "set yrange [-2:30]")),
          equilibrium_paths(paths, lambda m: -m["crown"] / 100))
@@ -180,7 +190,7 @@ def plot_ring(runs, results):
                                         ("set xrange [0:1.2]", "set yrange [0:70]")),
          equilibrium_paths(paths, lambda m: -m["top"] / 10))
     states = [(label, state_at(result, "limit_max")) for label, result in paths]
-    plot_shapes(DOCS / "figure_4_36.svg", Axes("Ring, at the limit load", "x/R", "y/R", ROUND), [arc(math.pi, 0)], states, 10, True)
+    plot_shapes(DOCS / "figure_4_36.svg", Axes("Ring, at the limit load", "x/R", "y/R", RING), [arc(math.pi, 0)], states, 10, True)
     plot_reactions(DOCS / "figure_4_36_reaction.svg", "Ring, from the bottom to the top, at the limit load", states, 30)
     plot_limit_against_stiffness(results, "figure_4_35_ring", "figure_4_37.svg", "Ring in an elastic medium: limit load", "q R^3/EI")
 
