@@ -1,6 +1,5 @@
 """SVG plots through gnuplot, and equilibrium paths with their unstable parts dashed."""
 import dataclasses
-import re
 import subprocess
 
 PALETTE = ("#1f5fa8", "#c8501e", "#2e8540", "#7b3f99", "#8a6d00", "#b0246a", "#3a3a3a", "#0d8a8a")
@@ -32,15 +31,10 @@ def marks(label, points, color, kind=7, size=0.7):
     return Curve(label, f"points pt {kind} ps {size} lw 1.5 lc rgb '{color}'", [points])
 
 
-def spaced(text):
-    """Text whose space after a subscript stays: an SVG's ends are trimmed, and a subscript ends a piece of text."""
-    return re.sub(r"(_(?:\w|{[^}]*})) ", "\\1\u00a0", text)
-
-
 def plot(path, axes, curves):
     """Writes one SVG of 800 x 500."""
     script = ["set encoding utf8", "set terminal svg size 800,500 font 'DejaVu Sans,13' background 'white'",
-              f"set output '{path}'", f"set title '{axes.title}'", f"set xlabel '{spaced(axes.x)}'", f"set ylabel '{spaced(axes.y)}'",
+              f"set output '{path}'", f"set title '{axes.title}'", f"set xlabel '{axes.x}'", f"set ylabel '{axes.y}'",
               "set grid lc rgb '#dddddd'", "set border lc rgb '#555555'", "set key outside right Left reverse", *axes.settings]
     drawn = [curve for curve in curves if curve.pieces is None or any(curve.pieces)]
     for i, curve in enumerate(drawn):
@@ -51,7 +45,7 @@ def plot(path, axes, curves):
             script += [f"{x:.8g} {y:.8g}" for x, y in piece] + [""]
         script.append("E")
     script.append("plot " + ", ".join(
-        ("keyentry" if curve.pieces is None else f"$c{i}") + f" with {curve.style} " + (f"title '{spaced(curve.label)}'" if curve.label else "notitle") for i, curve in enumerate(drawn)))
+        ("keyentry" if curve.pieces is None else f"$c{i}") + f" with {curve.style} " + (f"title '{curve.label}'" if curve.label else "notitle") for i, curve in enumerate(drawn)))
     subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, check=True)
 
 

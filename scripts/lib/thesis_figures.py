@@ -48,14 +48,16 @@ def base_force(state):
 
 
 def beam_point(state):
-    """(load, mid deflection / L, R_b L^2/EI) of a state; L = 10, EI = 100."""
-    return state["load_factor"], -state["members"]["beam"]["y"][100] / 10, base_force(state)
+    """(load, mid deflection / L, r L^3/EI of the base in the middle, R L^2/EI of its resultant); L = 10, EI = 100."""
+    middle = state["foundations"]["soil"]["reaction"][100]
+    return state["load_factor"], -state["members"]["beam"]["y"][100] / 10, 10 * middle, base_force(state)
 
 
 def plot_beam(runs):
     styles = ("", "dt (8,4)", "dt (2,3)")
     for name, title, index, label in (("figure_4_2", "Beam on soil: load against mid deflection", 1, "mid deflection w/L"),
-                                      ("figure_4_3", "Beam on soil: load against resultant of the base", 2, "R_B = R_b L^2/EI")):
+                                      ("figure_4_3", "Beam on soil: load against base reaction in the middle", 2, "R_B = r L^3/EI"),
+                                      ("figure_4_3_resultant", "Beam on soil: load against resultant of the base", 3, "R L^2/EI")):
         curves = []
         for (K, support), result in beam_runs(runs).items():
             color = PALETTE[(1, 9, 30, 50).index(K)]
@@ -63,9 +65,10 @@ def plot_beam(runs):
             number = [s for s, _, _ in BEAM_SUPPORTS].index(support)
             curves.append(line(f"K = {K}" if number == 0 else None, points, color, styles[number]))
         curves += [Curve(support, f"lines lw 1.8 lc rgb '#777777' {style}", None) for (support, _, _), style in zip(BEAM_SUPPORTS, styles)]
-        if index == 1:
-            known = [(float(row["wmid_over_L"]), float(row["Lam"])) for row in read_csv(NONLINEAR_BEAM) if row["K"] in ("1", "9", "30", "50")]
-            curves.append(marks("sliding, shooting", known, "#000000", 6, 0.6))
+        column = {1: "wmid_over_L", 2: "k_wmid"}.get(index)
+        if column:
+            known = [(float(row[column]), float(row["Lam"])) for row in read_csv(NONLINEAR_BEAM) if row["K"] in ("1", "9", "30", "50")]
+            curves.append(marks("sliding, reference", known, "#000000", 6, 0.6))
         plot(DOCS / f"{name}.svg", Axes(title, label, "Λ = q L^3/EI", ("set xrange [0:]", "set yrange [0:200]")), curves)
 
 
@@ -77,7 +80,8 @@ def plot_columns(runs):
                                         ("set xrange [0:0.1]", "set yrange [0:80]")),
          equilibrium_paths(crooked, lambda m: abs(m["crest"]) / 5) + [line("P_1 = 64.809", [(0, 64.808714), (0.1, 64.808714)], "#777777", "dt 3")])
     for name, K, top in (("figure_4_14", 15.6, 250), ("figure_4_15", 47, 250)):
-        paths = [(f"n = {n}", runs("column_bonded_base", (slender, K), (length, 10), (waves, n), (crest, 0.5 / n))) for n in (1, 2, 3, 4)]
+        paths = [(f"n = {n}", runs("column_bonded_base", (slender, K), (length, 10), (waves, n), (crest, 0.5 / n),
+                                  ("/analysis/stop/load_factor", [-1, 260]))) for n in (1, 2, 3, 4)]
         plot(DOCS / f"{name}.svg", Axes(f"Imperfect columns on a bonded base, L = 10, K = {K}", "deflection at the first crest w/L", "P",
                                         ("set xrange [0:0.1]", f"set yrange [0:{top}]")),
              equilibrium_paths(paths, lambda m: abs(m["crest"]) / 10))
@@ -89,7 +93,7 @@ def plot_columns(runs):
     before = [(f"K = {K}", runs("column_one_sided_base", (STIFFNESS, K), ("/analysis/stop/load_factor", [-1, 39.4]), ("/analysis/step/max", 0.02)))
               for K in stiffnesses]
     plot(DOCS / "figure_4_18.svg", Axes("The same before it leaves the base: deflection at the lower quarter", "10^6 w/L", "P",
-                                        ("set xrange [-12:12]", "set yrange [0:42]")),
+                                        ("set xrange [-8:4]", "set yrange [0:42]")),
          equilibrium_paths(before, lambda m: 1e6 * m["quarter"] / 5))
 
 
