@@ -29,6 +29,15 @@ def run_sweep(program, path):
     return [dict(zip(table["columns"], row)) for row in table["rows"]], seconds
 
 
+def run_sweep_at(program, name, values):
+    """Rows of examples/thesis/NAME.json with other values, {parameter: [...]}."""
+    sweep = json.loads((EXAMPLES / f"{name}.json").read_text(encoding="utf-8"))
+    for parameter in sweep["parameters"]:
+        parameter["values"] = values[parameter["name"]]
+    table, _ = run_program([program, "sweep", "-"], name, json.dumps(sweep))
+    return [dict(zip(table["columns"], row)) for row in table["rows"]]
+
+
 def run_request(program, name, changes=()):
     """Result of examples/thesis/paths/NAME.json with changes ((JSON Pointer, value), ...), and the seconds it took."""
     request = copy.deepcopy(json.loads((EXAMPLES / "paths" / f"{name}.json").read_text(encoding="utf-8")))

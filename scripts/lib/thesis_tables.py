@@ -69,14 +69,17 @@ def stiffer_springs(results, file, source):
                        f"{float(r['converged']):.3f} |")
 
 
-def errata_page(results):
-    """The handwritten errata, with the loads of stiffer springs where {deep_arch} and {ring} stand."""
+def errata_page(results, springs):
+    """The handwritten errata, with the tables of springs and of stiffer bases where {springs}, {deep_arch}, {ring} stand."""
     text = (EXAMPLES / "errata.md").read_text(encoding="utf-8")
+    tables = {"{springs}": springs}
     for name, file, source in (("{deep_arch}", "errata_deep_arch_springs", "figure_4_31_deep_arch_235"),
                                ("{ring}", "errata_ring_springs", "figure_4_35_ring")):
+        tables[name] = list(stiffer_springs(results, file, source))[1:]
+    for name, table in tables.items():
         if text.count(name) != 1:
             raise SystemExit(f"errata.md: {name} must stand there once")
-        text = text.replace(name, "\n".join(stiffer_springs(results, file, source)).lstrip("\n"))
+        text = text.replace(name, "\n".join(table))
     return text
 
 
