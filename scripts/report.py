@@ -3,6 +3,7 @@
 
   scripts/report.py SNAPTHROUGH              writes docs/thesis/ (needs gnuplot)
   scripts/report.py SNAPTHROUGH --check      only compares; exit status 1 when a value is off or lacking
+  scripts/report.py --self-test              checks the report itself
 
 Everything written is the same from run to run but the run times: docs/thesis/times.md and the column "ms" of tables.md.
 """
@@ -13,6 +14,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from lib.thesis_data import DOCS, EXAMPLES, ROOT, SPRINGS, read_csv, run_sweep  # noqa: E402
 from lib.thesis_figures import Runs, plot_all  # noqa: E402
 from lib.thesis_paths import check_paths, filled  # noqa: E402
+from lib.thesis_self_test import self_test  # noqa: E402
 from lib.thesis_springs import special_values  # noqa: E402
 from lib.thesis_tables import converged_rows, errata_page, table_page  # noqa: E402
 
@@ -52,6 +54,8 @@ def check_sensitivity(rows):
 
 
 def main():
+    if sys.argv[1:] == ["--self-test"]:
+        raise SystemExit("\n".join(self_test()) or None)
     check_only = "--check" in sys.argv
     arguments = [a for a in sys.argv[1:] if a != "--check"]
     if len(arguments) != 1:
@@ -75,7 +79,7 @@ def main():
         (DOCS / "tables.md").write_text(table_page(results), encoding="utf-8")
         for page in sorted(EXAMPLES.glob("pages/*.md")):
             (DOCS / page.name).write_text(filled(page.read_text(encoding="utf-8"), runs), encoding="utf-8")
-        (DOCS / "times.md").write_text("\n".join(["# Run times", "", "The only page that changes from run to run.", "",
+        (DOCS / "times.md").write_text("\n".join(["# Run times", "", "Wall time of one run of the command line, its start and the writing of the result included. Besides the column \"ms\" of the tables only this changes from run to run.", "",
                                                   "| sweep | points | s |", "| --- | --- | --- |"] + times +
                                                  ["", "| request | changes | ms |", "| --- | --- | --- |"] + runs.times) + "\n",
                                        encoding="utf-8")

@@ -26,10 +26,11 @@ class Runs:
         self.program, self.results, self.times = program, {}, []
 
     def __call__(self, name, *changes):
+        changes = tuple((pointer, float(value) if isinstance(value, int) and pointer == STIFFNESS else value) for pointer, value in changes)
         key = (name, repr(changes))
         if key not in self.results:
             self.results[key], seconds = run_request(self.program, name, changes)
-            shown = ", ".join(f"`{pointer}` {value}" for pointer, value in changes)
+            shown = ", ".join(f"`{pointer}` {value:.6g}" if isinstance(value, float) else f"`{pointer}` {value}" for pointer, value in changes)
             self.times.append(f"| paths/{name}.json | {shown} | {1000 * seconds:.0f} |")
         return self.results[key]
 
