@@ -85,12 +85,16 @@ bool release_grip(Attempt& attempt, ContactState& state) {
 }  // namespace
 
 std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, const PathMetric& metric,
-                                               double lambda, Workspace& work, int& factorisations) {
+                                               double lambda, Workspace& work, int& factorisations,
+                                               const VectorXd& guess) {
   CorrectorOptions options;
   options.max_iterations = 40;
   options.largest_correction = std::numeric_limits<double>::infinity();
+  options.most_stalled = options.max_iterations;
   Attempt attempt{problem, metric, lambda, options, work, factorisations};
   ContactState state;
+  state.y = guess;
+  if (guess.size() > 0 && settle(attempt, state)) return state;
   ContactState glued;
   for (const bool bonded : {true, false}) {
     if (!first_guess(attempt, bonded, state)) continue;

@@ -27,11 +27,13 @@ struct ContactState {
 /// Newton's method fails; each problem on the way is strictly monotone and starts next to the last one's
 /// solution.
 ///
+/// @param guess tried first unless empty: a state under another load, in proportion
 /// @param options its limits on iterations and corrections are the caller's to widen
 /// @param factorisations counts are added to it
 /// @return empty when no equilibrium was found
 [[nodiscard]] std::optional<ContactState> find_contact_state(EquilibriumProblem& problem,
                                                              const PathMetric& metric, double lambda,
-                                                             Workspace& work, int& factorisations);
+                                                             Workspace& work, int& factorisations,
+                                                             const Eigen::VectorXd& guess = {});
 
 }  // namespace snapthrough

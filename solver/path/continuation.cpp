@@ -31,6 +31,10 @@ constexpr double kCornerLength = 4.0;
 /// for.
 constexpr double kTurnShrink = 1e-3;
 
+/// Share of the last size that was accepted at once below which corrections that cycle are damped; a larger
+/// step is shortened first, which costs less.
+constexpr double kPatientShare = 0.2;
+
 /// Corrections of this size are rounding's where the tangent is nearly singular, however close two points
 /// are.
 constexpr double kNoise = 1e-6;
@@ -100,8 +104,10 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
   double lambda =
       direction * std::min(kSmallStart / norm, kSmallLoad * problem_.critical_load_scale(response));
   double last = std::numeric_limits<double>::infinity();
+  VectorXd guess;  // supports without gaps answer in proportion
   for (int i = 0; i < kMostLoads; ++i) {
-    const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations);
+    const auto state =
+        find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations, guess);
     const double size = state ? metric_.norm(state->y, 0.0) : 0.0;
     if (state && size <= 10.0 * kSmallStart)
       return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
@@ -110,7 +116,9 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
       return first_point(state->y, lambda, response, direction, report);
     }
     if (state) last = size;
-    lambda *= state ? std::max(kSmallStart / size, kLargestFall) : 0.01;
+    const double fall = state ? std::max(kSmallStart / size, kLargestFall) : 0.01;
+    lambda *= fall;
+    if (state) guess = fall * state->y;
   }
   return std::nullopt;
 }
@@ -167,12 +175,14 @@ void Continuation::set_tangent(PathPoint& point, const CorrectorOutcome& outcome
 CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, double movement,
                                             PathPoint& to) {
   CorrectorOptions options = options_.corrector;
+  const bool patient = step < kPatientShare * easy_size_;
   for (;;) {
     to.y = from.y + step * from.tangent;
     to.lambda = from.lambda + step * from.tangent_lambda;
     const auto outcome = correct(problem_, metric_, side_, movement, options, to.y, to.lambda, work_);
     count(outcome);
-    if (options.damped || !problem_.one_sided() || outcome.status != CorrectorStatus::too_many_iterations)
+    if (options.damped || !patient || !problem_.one_sided() ||
+        outcome.status != CorrectorStatus::too_many_iterations)
       return outcome;
     options.damped = true;
   }
@@ -272,7 +282,9 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
       ++statistics_.corrections[std::min<std::size_t>(trial.corrections, statistics_.corrections.size() - 1)];
       if (size == first_size) easy_size_ = size;
       step.taken = size;
-      step.wanted = std::min(size * (smooth ? trial.growth : options_.max_growth), options_.max_step);
+      const double growth = smooth ? trial.growth : options_.max_growth;
+      step.wanted =
+          std::min(size * (smooth && size < first_size ? std::min(growth, 1.0) : growth), options_.max_step);
       return StepOutcome::advanced;
     }
     ++statistics_.rejected_steps;
