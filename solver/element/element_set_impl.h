@@ -106,8 +106,10 @@ class ElementSetOf final : public ElementSet {
                           const double* direction, double* out) const;
   void add_support_residual(int element, const double* y, double* residual, bool keep);
   void collect_strip(std::size_t index, const double* y, const ElementDofs& dofs, const Shape& shape);
-  void add_interval(const ContactStrip& strip, const Shape& shape, const ContactStrip::Interval& interval,
+  [[nodiscard]] Functional functional_at(const ContactStrip& strip, double h, double xi) const;
+  void add_interval(std::size_t index, const Shape& shape, const ContactStrip::Interval& interval,
                     double modulus, double gap);
+  void add_support_tangent(const Shape& shape, Factor& f);
   [[nodiscard]] double value(const Functional& f, const ElementDofs& dofs, const double* y) const;
   void to_strain_row(const Functional& f, const Shape& shape, const Kinematics& kin, ZetaVector& row) const;
   void add_geometric(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
@@ -155,8 +157,10 @@ class ElementSetOf final : public ElementSet {
   std::vector<Factor> factors_;
   std::vector<Functional> stations_;
   std::vector<ContactStrip> strips_;
+  std::vector<std::vector<Functional>> whole_strips_;  ///< Gauss points of each strip's whole range
   // scratch
   std::vector<Functional> acting_;  ///< supports of the current element that act
+  std::vector<ZetaVector> rows_;    ///< of them, in strains
   std::vector<ContactStrip::Interval> intervals_;
 };
 
@@ -211,6 +215,10 @@ void ElementSetOf<P>::add_station(const Station& station) {
 
 template <int P>
 void ElementSetOf<P>::add_strip(int element, ContactStrip strip) {
+  std::vector<Functional>& whole = whole_strips_.emplace_back();
+  const auto [from, to] = strip.range();
+  for (const double point : strip_quadrature_.points)
+    whole.push_back(functional_at(strip, shapes_[element].h, from + (to - from) * point));
   strips_.push_back(std::move(strip));
   ++shapes_[element].strip_count;
 }
@@ -376,12 +384,7 @@ void ElementSetOf<P>::assemble(int element, const double* y, double* residual) {
   }
   if (shape.station_count > 0 || shape.strip_count > 0) {
     add_support_residual(element, y, residual, true);
-    ZetaVector row;
-    for (const Functional& support : acting_) {
-      to_strain_row(support, shape, f.kin, row);
-      for (int i = 0; i < kZeta; ++i)
-        subtract_scaled<kRow>(f.H.row(i).data(), row.data(), -support.stiffness * row[i], i);
-    }
+    add_support_tangent(shape, f);
   }
   for (int i = 0; i < kZeta; ++i)
     for (int j = i + 1; j < kZeta; ++j) f.H(j, i) = f.H(i, j);
