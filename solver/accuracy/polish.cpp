@@ -172,6 +172,7 @@ std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEv
   constexpr double kWidening = 6.0;
   const PathPoint at = transferred(from, known.point);
   const double path = std::min(known.point.arc_length, kLongestPath);
+  if (!(path > 0.0)) return std::nullopt;
   if (auto found = interpolated(known, at, kReach * path)) return found;
   for (const double reach : {kReach * path, kReach * kWidening * path})
     if (auto found = near(known, at, reach)) return found;

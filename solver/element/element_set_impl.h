@@ -42,6 +42,7 @@ class ElementSetOf final : public ElementSet {
   void set_linear_geometry(bool linear) override { linear_ = linear; }
   void set_bonded(bool bonded) override { bonded_ = bonded; }
   void set_grip(double share) override { grip_ = share; }
+  void set_softness(double share) override { softness_ = share; }
   void freeze_contact(const Eigen::VectorXd& y, double tolerance) override;
   [[nodiscard]] double frozen_share(int element, int foundation) const override;
   void set_pressure(int element, double proportional, double constant) override;
@@ -144,6 +145,7 @@ class ElementSetOf final : public ElementSet {
   bool linear_ = false;
   bool bonded_ = false;
   double grip_ = 0.0;
+  double softness_ = 1.0;
   double proportional_ = 0.0;  ///< factors on the pressures
   double constant_ = 0.0;
   bool frozen_ = false;  ///< contact is as in frozen_intervals_ and frozen_stations_

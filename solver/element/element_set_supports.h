@@ -22,7 +22,7 @@ void ElementSetOf<P>::collect_strip(std::size_t index, const double* y, const El
   else
     strip.contact_intervals({y[dofs.a[0]], y[dofs.a[1]]}, dx, dy, intervals_);
   for (const auto& interval : intervals_)
-    add_interval(index, shape, interval, strip.modulus(), bonded_ ? 0.0 : strip.gap());
+    add_interval(index, shape, interval, softness_ * strip.modulus(), bonded_ ? 0.0 : strip.gap());
   if (grip_ > 0.0)
     add_interval(index, shape, {strip.range()[0], strip.range()[1]}, grip_ * strip.modulus(), 0.0);
 }
@@ -100,6 +100,7 @@ void ElementSetOf<P>::add_support_residual(int element, const double* y, double*
     }
     if (!acts(stations_[station], station, dofs, y)) continue;
     acting_.push_back(stations_[station]);
+    if (stations_[station].one_sided) acting_.back().stiffness *= softness_;
     if (bonded_) acting_.back().gap = 0.0;
   }
   for (const Functional& f : acting_) {

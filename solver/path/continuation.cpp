@@ -104,10 +104,10 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
   double lambda =
       direction * std::min(kSmallStart / norm, kSmallLoad * problem_.critical_load_scale(response));
   double last = std::numeric_limits<double>::infinity();
-  VectorXd guess;  // supports without gaps answer in proportion
+  VectorXd guess;
   for (int i = 0; i < kMostLoads; ++i) {
-    const auto state =
-        find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations, guess);
+    const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations,
+                                          guess.size() > 0 ? &guess : nullptr);
     const double size = state ? metric_.norm(state->y, 0.0) : 0.0;
     if (state && size <= 10.0 * kSmallStart)
       return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
@@ -115,10 +115,12 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
       if (!unit_response(state->y, lambda, false, response, report)) return std::nullopt;
       return first_point(state->y, lambda, response, direction, report);
     }
-    if (state) last = size;
     const double fall = state ? std::max(kSmallStart / size, kLargestFall) : 0.01;
+    if (state) {
+      last = size;
+      guess = fall * state->y;
+    }
     lambda *= fall;
-    if (state) guess = fall * state->y;
   }
   return std::nullopt;
 }
@@ -128,6 +130,7 @@ void Continuation::set_load_scale(const VectorXd& response) {
   load_scale_ = problem_.critical_load_scale(response);
   if (norm > 0.0) load_scale_ = std::min(load_scale_, kLargeGradient / norm);
   if (!std::isfinite(load_scale_)) load_scale_ = 1.0;
+  largest_load_scale_ = std::max(load_scale_, problem_.largest_critical_load_scale(response));
   const double gradient = std::clamp(norm * load_scale_, kSmallGradient, kLargeGradient) / load_scale_;
   metric_.load_weight = gradient * gradient;
 }

@@ -120,7 +120,7 @@ bool Tracer::ends_here(const PathPoint& at, int steps, const std::stop_token& st
   if (steps >= rules_.steps) return finish(TraceEnd::steps, at);
   if (continuation_.metric().norm(at.y, 0.0) > rules_.gradient)
     return finish(TraceEnd::displacement_bound, at);
-  if (std::abs(at.lambda) > rules_.load_bound * continuation_.load_scale())
+  if (std::abs(at.lambda) > rules_.load_bound * continuation_.largest_load_scale())
     return finish(TraceEnd::load_bound, at);
   return false;
 }
