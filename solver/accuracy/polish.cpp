@@ -43,7 +43,7 @@ double inverse_root(const Sample& a, const Sample& b, const Sample& c) {
 FineMesh::FineMesh(Structure structure, const Continuation& measure, double tolerance)
     : structure_(std::move(structure)),
       problem_(structure_),
-      continuation_(problem_, {}),
+      continuation_(problem_, measure.options()),
       tolerance_(tolerance) {
   continuation_.measure_as(measure);
 }

@@ -100,7 +100,7 @@ void SymmetricIndefinite::factorise(const Eigen::MatrixXd& a, double tolerance) 
     for (Index i = k + 1; i < n; ++i)
       if (std::abs(l_(i, k)) > lambda) lambda = std::abs(l_(r = i, k));
     swap_[2 * k] = k;
-    if (std::abs(l_(k, k)) >= alpha * lambda) {
+    if (!(std::abs(l_(k, k)) < alpha * lambda)) {  // also what is not a number: it goes on into the solution
       k = eliminate_one(k);
       continue;
     }

@@ -123,6 +123,7 @@ std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, cons
   options.max_iterations = 25;
   options.least_energy = true;
   options.largest_correction = std::numeric_limits<double>::infinity();
+  options.most_stalled = options.max_iterations;
   Attempt attempt{problem, metric, lambda, options, work, factorisations};
   ContactState state;
   ContactState glued;

@@ -28,6 +28,9 @@ double find_correction(EquilibriumProblem& problem, const SideCondition& side, c
   return dlambda;
 }
 
+/// Relative residual, over the tangent's tolerance, that the last correction may start from.
+constexpr double kNearResidual = 10.0;
+
 /// Corrections before a residual that no longer falls counts as rounding's.
 constexpr int kStagnantIterations = 4;
 
@@ -115,6 +118,8 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
   double previous = scale;
   double expected = std::numeric_limits<double>::infinity();
   double last_residual = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
+  int stalled = 0;
   for (int it = 0; it < options.max_iterations; ++it) {
     out.tangent = problem.linearise(y, lambda, work.residual);
     ++out.factorisations;
@@ -130,7 +135,9 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     const double size = metric.norm(work.correction, dlambda);
     if (!std::isfinite(size)) return out;
     if (it == 0) out.first_correction = size;
-    if (last && take_last(problem, options, y, lambda, dlambda, out, work)) {
+    const bool near = size <= options.tangent_tolerance * scale &&
+                      out.relative_residual <= kNearResidual * options.tangent_tolerance;
+    if ((last || near) && take_last(problem, options, y, lambda, dlambda, out, work)) {
       out.status = CorrectorStatus::converged;
       return out;
     }
@@ -140,6 +147,10 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     y += share * work.correction;
     lambda += share * dlambda;
     if (size > options.largest_correction * scale) return out;
+    // damped corrections may grow while the residual falls, and near rounding nothing falls
+    if (size > 0.5 * least && out.relative_residual > options.stagnant_residual) ++stalled;
+    least = std::min(least, size);
+    if (stalled > options.most_stalled && !options.damped) break;
     // quadratic convergence: the next ratio of corrections is about this one squared
     const double ratio = share < 1.0 ? 1.0 : std::min(1.0, size / previous);
     expected = size * ratio * ratio;

@@ -29,7 +29,11 @@ struct SideCondition {
 
 struct CorrectorOptions {
   int max_iterations = 12;
-  double tolerance = 1e-9;           ///< on the predicted norm of the next correction, relative to the step
+  int most_stalled = 3;     ///< corrections that are not half the least so far: it does not converge
+  double tolerance = 1e-9;  ///< on the predicted norm of the next correction, relative to the step
+  /// A correction below this share of the step is the last: the tangent at hand is the path's to this share,
+  /// the point to about its square. Zero: iterates to `tolerance`.
+  double tangent_tolerance = 0.0;
   double largest_residual = 1e-8;    ///< relative residual above which nothing counts as converged
   double largest_correction = 2.0;   ///< a correction beyond this many steps ends the iteration as diverged
   bool damped = false;               ///< shortens corrections that raise the residual, see correct()

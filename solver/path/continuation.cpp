@@ -31,6 +31,10 @@ constexpr double kCornerLength = 4.0;
 /// for.
 constexpr double kTurnShrink = 1e-3;
 
+/// Share of the last size that was accepted at once below which corrections that cycle are damped; a larger
+/// step is shortened first, which costs less.
+constexpr double kPatientShare = 0.2;
+
 /// Corrections of this size are rounding's where the tangent is nearly singular, however close two points
 /// are.
 constexpr double kNoise = 1e-6;
@@ -175,12 +179,14 @@ void Continuation::set_tangent(PathPoint& point, const CorrectorOutcome& outcome
 CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, double movement,
                                             PathPoint& to) {
   CorrectorOptions options = options_.corrector;
+  const bool patient = step < kPatientShare * easy_size_;
   for (;;) {
     to.y = from.y + step * from.tangent;
     to.lambda = from.lambda + step * from.tangent_lambda;
     const auto outcome = correct(problem_, metric_, side_, movement, options, to.y, to.lambda, work_);
     count(outcome);
-    if (options.damped || !problem_.one_sided() || outcome.status != CorrectorStatus::too_many_iterations)
+    if (options.damped || !patient || !problem_.one_sided() ||
+        outcome.status != CorrectorStatus::too_many_iterations)
       return outcome;
     options.damped = true;
   }
@@ -280,7 +286,9 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
       ++statistics_.corrections[std::min<std::size_t>(trial.corrections, statistics_.corrections.size() - 1)];
       if (size == first_size) easy_size_ = size;
       step.taken = size;
-      step.wanted = std::min(size * (smooth ? trial.growth : options_.max_growth), options_.max_step);
+      const double growth = smooth ? trial.growth : options_.max_growth;
+      step.wanted =
+          std::min(size * (smooth && size < first_size ? std::min(growth, 1.0) : growth), options_.max_step);
       return StepOutcome::advanced;
     }
     ++statistics_.rejected_steps;
