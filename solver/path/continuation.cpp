@@ -35,6 +35,9 @@ constexpr double kTurnShrink = 1e-3;
 /// step is shortened first, which costs less.
 constexpr double kPatientShare = 0.2;
 
+/// What an accepted step leaves of the memory of larger ones.
+constexpr double kForget = 0.7;
+
 /// Corrections of this size are rounding's where the tangent is nearly singular, however close two points
 /// are.
 constexpr double kNoise = 1e-6;
@@ -284,7 +287,8 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
     if (trial.converged && (smooth || is_corner(trial, size))) {
       ++statistics_.steps;
       ++statistics_.corrections[std::min<std::size_t>(trial.corrections, statistics_.corrections.size() - 1)];
-      if (size == first_size) easy_size_ = size;
+      // steps that close in on a corner are accepted, too, each much smaller than the last
+      if (size == first_size) easy_size_ = std::max(size, kForget * easy_size_);
       step.taken = size;
       const double growth = smooth ? trial.growth : options_.max_growth;
       step.wanted =
