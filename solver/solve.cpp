@@ -31,9 +31,10 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
     fail(result, "no_buckling_mode", error.what());
     return result;
   }
-  const bool adaptive = analysis.type == AnalysisType::critical || analysis.type == AnalysisType::path;
-  const Structure structure = make_structure(model, analysis.discretization, analysis.geometry, modes,
-                                             adaptive ? MeshUse::first : MeshUse::final);
+  const MeshUse use = analysis.type == AnalysisType::critical ? MeshUse::first
+                      : analysis.type == AnalysisType::path   ? MeshUse::path
+                                                              : MeshUse::final;
+  const Structure structure = make_structure(model, analysis.discretization, analysis.geometry, modes, use);
   switch (analysis.type) {
     case AnalysisType::critical:
     case AnalysisType::path:
