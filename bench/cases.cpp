@@ -94,12 +94,12 @@ Case case_named(const std::string& name) {
   throw std::invalid_argument("no case " + name);
 }
 
-Case growing_arch(int elements) {
+Case growing_arch(int elements, int order) {
   constexpr int kSteps = 4;
   Case out = shallow_arch("growing_arch", 0.0, 0.0, 0.0);
   out.analysis.stop = {};
   out.analysis.stop.steps = kSteps;
-  out.analysis.discretization = testing::fixed_mesh(elements, 1);
+  out.analysis.discretization = testing::fixed_mesh(elements, order);
   return out;
 }
 

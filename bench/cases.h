@@ -26,8 +26,8 @@ struct Case {
 /// @pre one of cases() has the name
 [[nodiscard]] Case case_named(const std::string& name);
 
-/// Pinned shallow arch without base on a mesh of that many elements of order 1, four steps of its path.
-[[nodiscard]] Case growing_arch(int elements);
+/// Pinned shallow arch without base on a mesh of that many elements, four steps of its path.
+[[nodiscard]] Case growing_arch(int elements, int order = 1);
 /// The shallow arch on a base outside of k = 1e6, cut into that many bases beside one another.
 [[nodiscard]] Case arch_on_pieces(int pieces);
 /// Pinned column with a spring of 100 EI / L^3 at half its length, linearised: P from the transfer matrix.

@@ -2,7 +2,8 @@
 /// outside.
 ///
 ///   bench_probe CASE ACCURACY TIMES       a case of bench/cases.h
-///   bench_probe growing ELEMENTS TIMES    four steps of an arch on that many elements
+///   bench_probe growing ELEMENTS TIMES    four steps of an arch on that many elements of order 1
+///   bench_probe growing3 ELEMENTS TIMES   of order 3; so to 8
 ///
 /// Prints the unknowns, the relative error (case) and the peak of the resident memory in kB.
 #include <sys/resource.h>
@@ -17,12 +18,13 @@
 
 int main(int argc, char** argv) {
   using namespace snapthrough;
-  const bool growing = argc == 4 && std::strcmp(argv[1], "growing") == 0;
+  const bool growing = argc == 4 && std::strncmp(argv[1], "growing", 7) == 0;
   if (argc != 4) {
     std::fprintf(stderr, "usage: bench_probe CASE ACCURACY TIMES | growing ELEMENTS TIMES\n");
     return 2;
   }
-  bench::Case c = growing ? bench::growing_arch(std::atoi(argv[2])) : bench::case_named(argv[1]);
+  bench::Case c = growing ? bench::growing_arch(std::atoi(argv[2]), argv[1][7] == 0 ? 1 : argv[1][7] - '0')
+                          : bench::case_named(argv[1]);
   if (!growing) c.analysis.discretization.accuracy = std::atof(argv[2]);
   Result result;
   for (int i = 0; i < std::atoi(argv[3]); ++i) result = solve(c.model, c.analysis);
