@@ -103,7 +103,7 @@ def summary_page(by_group):
     text.append(f"Time grows with the unknowns to the power {growth_rate(growth):.2f}.\n")
     plot("growth", "Four steps of an arch", "unknowns", "CPU ms",
          [("measured", [(r["unknowns"], r["cpu_time"]) for r in growth], "linespoints"),
-          ("n^1.1", [(r["unknowns"], growth[0]["cpu_time"] * (r["unknowns"] / growth[0]["unknowns"])**1.1) for r in growth], "lines")])
+          ("n^{1.1}", [(r["unknowns"], growth[0]["cpu_time"] * (r["unknowns"] / growth[0]["unknowns"])**1.1) for r in growth], "lines")])
     bases = sorted(by_group[("bases",)], key=lambda r: int(r["parts"][1]))
     text += ["## Growth with bases\n", "![Time against bases](bases.svg)\n",
              table(["bases", "elements", "factorisations", "ms"],

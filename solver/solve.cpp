@@ -31,7 +31,9 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
     fail(result, "no_buckling_mode", error.what());
     return result;
   }
-  const bool adaptive = analysis.type == AnalysisType::critical || analysis.type == AnalysisType::path;
+  // several buckling modes want elements anyway
+  const bool adaptive = analysis.type == AnalysisType::critical || analysis.type == AnalysisType::path ||
+                        (analysis.type == AnalysisType::buckling && analysis.modes == 1);
   const Structure structure = make_structure(model, analysis.discretization, analysis.geometry, modes,
                                              adaptive ? MeshUse::first : MeshUse::final);
   switch (analysis.type) {
