@@ -75,6 +75,10 @@ Json listed_value(const SweepParameter& parameter, std::uint64_t i) {
   if (i == 0 || i == last) {
     return i == 0 ? range.from : range.to;  // the ends are exact
   }
+  if (!range.log) {
+    // The product first: 1, 2, 3, ... stay whole, and a range that is widened keeps its values.
+    return range.from + (range.to - range.from) * static_cast<double>(i) / static_cast<double>(last);
+  }
   return in_range(range, static_cast<double>(i) / static_cast<double>(last));
 }
 

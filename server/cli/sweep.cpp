@@ -106,7 +106,7 @@ std::uint64_t solve_points(const api::Sweep& sweep, const Streams& streams, cons
   };
   const auto work = [&] {
     while (const std::optional<std::uint64_t> point = queue.next()) {
-      queue.put(*point, solve_point(sweep, *point, solver, {}));
+      queue.put(*point, solve_point(sweep, sweep.document_at(*point), solver, {}));
     }
   };
   {

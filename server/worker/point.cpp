@@ -17,9 +17,9 @@ std::string sentence_of(const std::vector<Finding>& findings) {
   return detail;
 }
 
-api::PointOutcome solved(const api::Sweep& sweep, std::uint64_t point, const SolveFunction& solve,
-                         const Hooks& hooks) {
-  const api::ReadOutcome read = api::read_request_document(sweep.document_at(point));
+api::PointOutcome solved(const api::Sweep& sweep, const std::shared_ptr<const nlohmann::json>& document,
+                         const SolveFunction& solve, const Hooks& hooks) {
+  const api::ReadOutcome read = api::read_request_document(document);
   if (!read.request) {
     return {"", "wrong_request", sentence_of(read.findings)};
   }
@@ -34,10 +34,10 @@ api::PointOutcome solved(const api::Sweep& sweep, std::uint64_t point, const Sol
 
 }  // namespace
 
-api::PointOutcome solve_point(const api::Sweep& sweep, std::uint64_t point, const SolveFunction& solve,
-                              const Hooks& hooks) {
+api::PointOutcome solve_point(const api::Sweep& sweep, const std::shared_ptr<const nlohmann::json>& document,
+                              const SolveFunction& solve, const Hooks& hooks) {
   try {
-    return solved(sweep, point, solve, hooks);
+    return solved(sweep, document, solve, hooks);
   } catch (const std::bad_alloc&) {
     return {"", "out_of_memory", "the analysis needs more memory than there is"};
   } catch (const std::exception& error) {

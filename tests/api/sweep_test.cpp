@@ -93,7 +93,11 @@ TEST(Sweep, RangesHaveExactEndsAndEqualStepsOrRatios) {
   EXPECT_DOUBLE_EQ(value(1), 1e4);
   EXPECT_EQ(value(3), 1e8);
   document["parameters"][0]["range"] = {{"from", 1}, {"to", 7}, {"count", 4}};
-  EXPECT_DOUBLE_EQ(value(2), 5.0);
+  EXPECT_EQ(value(2), 5.0);
+  document["parameters"][0]["range"] = {{"from", 0}, {"to", 100}, {"count", 1001}};
+  for (int i = 0; i <= 1000; i += 37) {
+    EXPECT_EQ(value(static_cast<std::uint64_t>(i)), i / 10.0) << "the nearest number to the decimal";
+  }
 }
 
 TEST(Sweep, WritesScaledValuesAtEveryTarget) {
