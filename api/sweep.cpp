@@ -1,5 +1,6 @@
 #include "api/sweep.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -84,6 +85,27 @@ std::shared_ptr<const Json> Sweep::document_at(std::uint64_t point) const {
     }
   }
   return document;
+}
+
+void Sweep::drop_unused(Result& result) const {
+  const auto looks_into = [&](std::string_view part, std::string_view list = {}) {
+    return std::any_of(data_->outputs.begin(), data_->outputs.end(), [&](const SweepOutput& output) {
+      return output.tokens[0] == part &&
+             (list.empty() || output.tokens.size() == 1 || output.tokens[1] == list);
+    });
+  };
+  const auto drop = [&](auto& list, std::string_view part) {
+    if (!looks_into(part)) {
+      list.clear();
+    }
+  };
+  drop(result.critical_points, "critical_points");
+  drop(result.contact_events, "contact_events");
+  drop(result.branches, "branches");
+  drop(result.states, "states");
+  if (result.buckling && !looks_into("buckling", "modes")) {
+    result.buckling->modes.clear();
+  }
 }
 
 PointOutcome Sweep::outcome(const Json& result) const {

@@ -60,6 +60,10 @@ class Sweep {
   /// @pre point < size()
   [[nodiscard]] std::shared_ptr<const nlohmann::json> document_at(std::uint64_t point) const;
 
+  /// @brief Empties the lists of a result that no output looks into, so that they are not written for
+  /// nothing: critical points, contact events, branches, states, buckling modes.
+  void drop_unused(Result& result) const;
+
   /// @brief The outputs of a point that was solved.
   /// @param result what write_result() gave. An output whose place the result cannot have is a failure;
   /// one past the end of a list (a second critical point where there is one) is null.

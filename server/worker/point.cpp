@@ -24,11 +24,12 @@ api::PointOutcome solved(const api::Sweep& sweep, const std::shared_ptr<const nl
     return {"", "wrong_request", sentence_of(read.findings)};
   }
   const auto start = std::chrono::steady_clock::now();
-  const Result result = solve(read.request->model, read.request->analysis, hooks);
+  Result result = solve(read.request->model, read.request->analysis, hooks);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   if (result.failure) {
     return {"", result.failure->code, result.failure->detail};
   }
+  sweep.drop_unused(result);
   return sweep.outcome(api::write_result(*read.request, result, elapsed.count()));
 }
 

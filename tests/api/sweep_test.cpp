@@ -127,6 +127,33 @@ TEST(Sweep, OutcomesHoldTheOutputsOrSayWhyNot) {
   EXPECT_EQ(sweep.outcome(other).code, "no_such_output") << "a field that is not there is an error";
 }
 
+TEST(Sweep, DropsOnlyWhatNoOutputLooksInto) {
+  Result full;
+  full.critical_points.resize(2);
+  full.contact_events.resize(1);
+  full.branches.resize(1);
+  full.states.resize(1);
+  full.buckling = BucklingResult{{1.0, 2.0}, std::vector<BucklingMode>(2)};
+  Result result = full;
+  (*read(sound_sweep()).sweep).drop_unused(result);
+  EXPECT_EQ(result.critical_points.size(), 2U) << "/critical_points/0/type";
+  EXPECT_TRUE(result.contact_events.empty() && result.branches.empty() && result.states.empty());
+  EXPECT_TRUE(result.buckling->modes.empty());
+  EXPECT_EQ(result.buckling->load_factors.size(), 2U);
+  json document = sound_sweep();
+  document["outputs"] = {"/buckling/modes/0/members", "/states", "/branches/0/load_factor",
+                         "/contact_events/0"};
+  result = full;
+  (*read(document).sweep).drop_unused(result);
+  EXPECT_TRUE(result.critical_points.empty());
+  EXPECT_EQ(result.contact_events.size() + result.branches.size() + result.states.size(), 3U);
+  EXPECT_EQ(result.buckling->modes.size(), 2U);
+  document["outputs"] = {"/buckling"};
+  result = full;
+  (*read(document).sweep).drop_unused(result);
+  EXPECT_EQ(result.buckling->modes.size(), 2U);
+}
+
 TEST(Sweep, TablesHoldValuesOutputsAndErrorInEveryForm) {
   const Sweep sweep = *read(sound_sweep()).sweep;
   const PointOutcome good{R"([2.5,"limit, \"max\""])", "", ""};
