@@ -1,5 +1,6 @@
-/// Figures 4.6 to 4.9 as one sweep (examples/sweeps/columns_with_one_spring.json): four pairs of ends, 21 places
-/// of a lateral spring, 101 stiffnesses, 8484 points. Its points are those of the document that have an exact value.
+/// Figures 4.6 to 4.9 as one sweep (examples/sweeps/columns_with_one_spring.json): four pairs of ends, 21
+/// places of a lateral spring, 101 stiffnesses, 8484 points. Its points are those of the document that have
+/// an exact value.
 ///
 /// Source: tests/verification/data/column_discrete_spring_gamma.csv (exact transfer matrix). Tolerance 1e-6:
 /// what the task of the sweep asks for.
@@ -47,8 +48,8 @@ TEST(Thesis431, OneSweepOfFourFiguresMeetsTheExactValues) {
     const double place = row.number("c_b") * 20.0;
     const double stiffness = row.number("kx") / 10.0;
     if (std::abs(place - std::round(place)) > 1e-9 || stiffness != std::floor(stiffness)) continue;
-    const auto which = static_cast<std::uint64_t>(
-        std::find(ends.begin(), ends.end(), row.text("bc")) - ends.begin());
+    const auto which =
+        static_cast<std::uint64_t>(std::find(ends.begin(), ends.end(), row.text("bc")) - ends.begin());
     const std::uint64_t point = (which * 21 + static_cast<std::uint64_t>(std::lround(place))) * 101 +
                                 static_cast<std::uint64_t>(stiffness);
     expect_relative(load_of(*read.sweep, point), row.number("Gamma"), 1e-6,
