@@ -43,7 +43,7 @@ double inverse_root(const Sample& a, const Sample& b, const Sample& c) {
 FineMesh::FineMesh(Structure structure, const Continuation& measure, double tolerance)
     : structure_(std::move(structure)),
       problem_(structure_),
-      continuation_(problem_, {}),
+      continuation_(problem_, measure.options()),
       tolerance_(tolerance) {
   continuation_.measure_as(measure);
 }
@@ -172,6 +172,7 @@ std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEv
   constexpr double kWidening = 6.0;
   const PathPoint at = transferred(from, known.point);
   const double path = std::min(known.point.arc_length, kLongestPath);
+  if (!(path > 0.0)) return std::nullopt;
   if (auto found = interpolated(known, at, kReach * path)) return found;
   for (const double reach : {kReach * path, kReach * kWidening * path})
     if (auto found = near(known, at, reach)) return found;

@@ -50,6 +50,15 @@ TraceRules rules_of(const Analysis& analysis, const Structure& structure) {
   return rules;
 }
 
+/// Where the path's points are not returned as states they need not be equilibria to rounding: those of a
+/// chosen mesh are the path's to a small part of the accuracy asked for.
+ContinuationOptions options_of(const Analysis& analysis) {
+  ContinuationOptions options;
+  if (!analysis.discretization.fixed_mesh && analysis.output.states == StateOutput::none)
+    options.corrector.tangent_tolerance = std::min(1e-4, 10.0 * analysis.discretization.accuracy);
+  return options;
+}
+
 const char* name_of(CriticalType type) {
   switch (type) {
     case CriticalType::bifurcation:
@@ -193,7 +202,7 @@ std::string BranchFollower::run() {
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
   StructuralProblem problem(structure);
-  Continuation continuation(problem, {});
+  Continuation continuation(problem, options_of(analysis));
   Recorder recorder(model, analysis, structure, continuation, result);
   const auto start = start_of_path(structure, problem, continuation, 1.0, hooks, result);
   if (start) {

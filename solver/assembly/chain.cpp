@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -32,23 +33,68 @@ std::optional<Matrix3d> semidefinite_root(const Matrix3d& F) {
   return L;
 }
 
-/// Negative eigenvalues of a symmetric matrix whose rows may differ by many orders of magnitude: counted
-/// after a diagonal congruence that brings the largest entry of each row to about one, since an eigenvalue is
-/// known to within rounding of the largest.
+/// Brings the largest entry of each row to about one by a diagonal congruence.
 template <int N>
-int count_negative(Eigen::Matrix<double, N, N> A) {
+void balance(Eigen::Matrix<double, N, N>& A) {
   constexpr int kPasses = 4;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const Eigen::Matrix<double, N, 1> d = A.cwiseAbs()
-                                              .rowwise()
-                                              .maxCoeff()
-                                              .cwiseMax(std::numeric_limits<double>::min())
-                                              .cwiseSqrt()
-                                              .cwiseInverse();
-    A = (d.asDiagonal() * A * d.asDiagonal()).eval();
+    std::array<double, N> d;
+    for (int i = 0; i < N; ++i)
+      d[i] = 1.0 / std::sqrt(std::max(A.col(i).cwiseAbs().maxCoeff(), std::numeric_limits<double>::min()));
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < N; ++i) A(i, j) *= d[i] * d[j];
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(A, Eigen::EigenvaluesOnly);
-  return static_cast<int>((solver.eigenvalues().array() < 0.0).count());
+}
+
+template <int N>
+void exchange(Eigen::Matrix<double, N, N>& A, int i, int j) {
+  if (i == j) return;
+  A.row(i).swap(A.row(j));
+  A.col(i).swap(A.col(j));
+}
+
+/// Negative eigenvalues of a symmetric matrix whose rows may differ by many orders of magnitude: the negative
+/// pivots of the balanced matrix, since a pivot is known to within rounding of the largest entry. Complete
+/// pivoting (Bunch and Parlett, SIAM J. Numer. Anal. 8, 1971) keeps the entries from growing; a block pivot
+/// has one eigenvalue of either sign.
+template <int N>
+int count_negative(Eigen::Matrix<double, N, N> A) {
+  const double alpha = (1.0 + std::sqrt(17.0)) / 8.0;
+  balance(A);
+  int negative = 0;
+  for (int k = 0; k < N;) {
+    int one = k;
+    int row = k;
+    int col = k;
+    for (int j = k; j < N; ++j) {
+      if (std::abs(A(j, j)) > std::abs(A(one, one))) one = j;
+      for (int i = j + 1; i < N; ++i)
+        if (row == col || std::abs(A(i, j)) > std::abs(A(row, col))) row = i, col = j;
+    }
+    const double diagonal = std::abs(A(one, one));
+    if (row == col || diagonal >= alpha * std::abs(A(row, col))) {
+      if (diagonal == 0.0) break;
+      exchange(A, k, one);
+      if (A(k, k) < 0.0) ++negative;
+      for (int j = k + 1; j < N; ++j) {
+        const double f = A(j, k) / A(k, k);
+        for (int i = k + 1; i < N; ++i) A(i, j) -= A(i, k) * f;
+      }
+      ++k;
+      continue;
+    }
+    exchange(A, k, col);
+    exchange(A, k + 1, row);
+    ++negative;
+    const double det = A(k, k) * A(k + 1, k + 1) - A(k + 1, k) * A(k + 1, k);
+    for (int j = k + 2; j < N; ++j) {
+      const double f = (A(k + 1, k + 1) * A(j, k) - A(k + 1, k) * A(j, k + 1)) / det;
+      const double g = (A(k, k) * A(j, k + 1) - A(k + 1, k) * A(j, k)) / det;
+      for (int i = k + 2; i < N; ++i) A(i, j) -= A(i, k) * f + A(i, k + 1) * g;
+    }
+    k += 2;
+  }
+  return negative;
 }
 
 /// Whether all pivots of C = L D L^T are well above zero.

@@ -66,6 +66,7 @@ void StructuralProblem::add_joint_springs(const VectorXd& y, VectorXd& f) {
     const double gap = bonded_ ? 0.0 : spring.gap;
     if (!frozen_) spring_active_[i] = bonded_ || !spring.one_sided || w > gap;
     double force = spring_active_[i] ? spring.stiffness * (w - gap) : 0.0;
+    if (spring.one_sided) force *= softness_;
     if (spring.one_sided) force += grip_ * spring.stiffness * w;
     for (int c = 0; c < 3; ++c) f[3 * spring.joint + c] += force * spring.row[c];
   }
@@ -73,7 +74,8 @@ void StructuralProblem::add_joint_springs(const VectorXd& y, VectorXd& f) {
 
 double StructuralProblem::acting_stiffness(std::size_t spring) const {
   const JointSpring& s = structure_.joint_springs[spring];
-  return s.stiffness * ((spring_active_[spring] ? 1.0 : 0.0) + (s.one_sided ? grip_ : 0.0));
+  if (!s.one_sided) return s.stiffness;
+  return s.stiffness * ((spring_active_[spring] ? softness_ : 0.0) + grip_);
 }
 
 /// Turns the rows of nodes into the axes of their supports.
@@ -255,6 +257,11 @@ void StructuralProblem::set_grip(double share) {
   structure_.elements->set_grip(share);
 }
 
+void StructuralProblem::set_softness(double share) {
+  softness_ = share;
+  structure_.elements->set_softness(share);
+}
+
 void StructuralProblem::freeze_contact(const VectorXd& y, double tolerance) {
   structure_.elements->freeze_contact(y, tolerance);
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
@@ -266,16 +273,33 @@ void StructuralProblem::freeze_contact(const VectorXd& y, double tolerance) {
   frozen_ = true;
 }
 
+double StructuralProblem::largest_axial_force(std::size_t member, const VectorXd& response) const {
+  double force = 0.0;
+  for (int e = structure_.mesh.first[member]; e < structure_.mesh.first[member + 1]; ++e)
+    for (int q = 0; q < structure_.mesh.order; ++q)
+      force = std::max(force, std::abs(response[structure_.dofs[e].s + q]));
+  return force;
+}
+
 double StructuralProblem::critical_load_scale(const VectorXd& unit_response) const {
   double scale = std::numeric_limits<double>::infinity();
-  const int p = structure_.mesh.order;
   for (std::size_t m = 0; m < members_; ++m) {
-    double compression = 0.0;
-    for (int e = structure_.mesh.first[m]; e < structure_.mesh.first[m + 1]; ++e)
-      for (int q = 0; q < p; ++q)
-        compression = std::max(compression, std::abs(unit_response[structure_.dofs[e].s + q]));
-    const double load = structure_.euler_loads[m];
-    if (compression > 0.0) scale = std::min(scale, load / compression);
+    const double force = largest_axial_force(m, unit_response);
+    if (force > 0.0) scale = std::min(scale, structure_.euler_loads[m] / force);
+  }
+  return scale;
+}
+
+double StructuralProblem::largest_critical_load_scale(const VectorXd& unit_response) const {
+  constexpr double kCounts = 1e-2;  // of the largest force: members with less do not decide
+  double largest = 0.0;
+  for (std::size_t m = 0; m < members_; ++m)
+    largest = std::max(largest, largest_axial_force(m, unit_response));
+  double scale = 0.0;
+  for (std::size_t m = 0; m < members_; ++m) {
+    const double force = largest_axial_force(m, unit_response);
+    if (force > kCounts * largest)
+      scale = std::max(scale, (structure_.euler_loads[m] + structure_.base_loads[m]) / force);
   }
   return scale;
 }

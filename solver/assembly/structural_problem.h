@@ -42,8 +42,10 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] bool one_sided() const override { return structure_.one_sided; }
   void set_bonded(bool bonded) override;
   void set_grip(double share) override;
+  void set_softness(double share) override;
   /// Euler's load of the most compressed member: pi^2 EI / (N l^2).
   [[nodiscard]] double critical_load_scale(const Eigen::VectorXd& unit_response) const override;
+  [[nodiscard]] double largest_critical_load_scale(const Eigen::VectorXd& unit_response) const override;
 
   /// What the load factor multiplies: the proportional actions, with the constant ones on; or, to put these
   /// on, the constant ones alone.
@@ -56,6 +58,7 @@ class StructuralProblem final : public EquilibriumProblem {
   void freeze_contact(const Eigen::VectorXd& y, double tolerance);
 
  private:
+  [[nodiscard]] double largest_axial_force(std::size_t member, const Eigen::VectorXd& response) const;
   /// x := S^-1 x with the symmetric part S of the tangent.
   void solve_symmetric(Eigen::VectorXd& x);
   void add_follower_ends(double lambda, TangentReport& report);
@@ -95,6 +98,7 @@ class StructuralProblem final : public EquilibriumProblem {
   Stage stage_ = Stage::proportional;
   bool bonded_ = false;
   double grip_ = 0.0;
+  double softness_ = 1.0;
   bool frozen_ = false;  ///< spring_active_ and the elements' contact stay as they are
 };
 

@@ -573,6 +573,11 @@ void fill(const Model& model, Structure& out) {
     const double length = out.axes[m]->length();
     out.euler_loads.push_back(std::numbers::pi * std::numbers::pi * EI /
                               (length * length * out.scales.force));
+    double base_load = 0.0;
+    for (const Foundation& base : model.foundations)
+      if (base.member == model.members[m].id)
+        base_load += 2.0 * std::sqrt(base.stiffness * EI) + base.shear_stiffness;
+    out.base_loads.push_back(base_load / out.scales.force);
   }
   const int p = out.mesh.order;
   out.free_displacements = 3 * out.joints + out.releases;

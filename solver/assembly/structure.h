@@ -92,8 +92,10 @@ struct Structure {
   std::vector<std::string> skipped;
   std::vector<FollowerEnd> follower_ends;
   std::vector<double> euler_loads;  ///< pi^2 EI / l^2 of each member
-  bool one_sided = false;           ///< some base or spring is not bilateral
-  bool has_constant = false;        ///< some action has the constant pattern
+  std::vector<double>
+      base_loads;             ///< 2 sqrt(K EI) + G of the bases of each member: what they can add to that
+  bool one_sided = false;     ///< some base or spring is not bilateral
+  bool has_constant = false;  ///< some action has the constant pattern
 };
 
 /// @brief Builds the structure.

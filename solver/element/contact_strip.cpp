@@ -7,18 +7,6 @@
 #include <utility>
 
 namespace snapthrough {
-namespace {
-
-/// Abscissa of the vertex of the parabola through three points.
-double parabola_vertex(double x0, double f0, double x1, double f1, double x2, double f2) {
-  const double d1 = (f1 - f0) / (x1 - x0);
-  const double d2 = (f2 - f1) / (x2 - x1);
-  const double curvature = (d2 - d1) / (x2 - x0);
-  if (curvature == 0.0) return x1;
-  return std::clamp(0.5 * (x0 + x1) - 0.5 * d1 / curvature, x0, x2);
-}
-
-}  // namespace
 
 ContactStrip::ContactStrip(int order, Direction direction, std::array<double, 2> range, double modulus,
                            double gap, int foundation)
@@ -30,13 +18,38 @@ ContactStrip::ContactStrip(int order, Direction direction, std::array<double, 2>
       foundation_(foundation) {
   const int count = 2 * order + 3;
   for (int i = 0; i < count; ++i) {
-    Sample sample;
     const double z = 0.5 - 0.5 * std::cos(std::numbers::pi * i / (count - 1));
-    sample.xi = i + 1 == count ? range_[1] : range_[0] + z * (range_[1] - range_[0]);
-    sample.direction = direction_at(sample.xi);
-    rule_->integrals_at(sample.xi, std::span(sample.a).first(order));
-    samples_.push_back(sample);
+    samples_.push_back(sample_at(i + 1 == count ? range_[1] : range_[0] + z * (range_[1] - range_[0])));
   }
+}
+
+ContactStrip::Sample ContactStrip::sample_at(double xi) const {
+  Sample out;
+  out.xi = xi;
+  out.direction = direction_at(xi);
+  rule_->integrals_at(xi, std::span(out.a).first(rule_->order()));
+  rule_->values_at(xi, std::span(out.rate).first(rule_->order()));
+  if (direction_.axis) {
+    const double turning = direction_.ds * direction_.axis->at(direction_.s0 + xi * direction_.ds).curvature;
+    out.turning = {-turning * out.direction[1], turning * out.direction[0]};
+  }
+  return out;
+}
+
+/// d g / d xi.
+double ContactStrip::slope_at(const Sample& sample, const Shape& shape) {
+  double ux = shape.ua[0];
+  double uy = shape.ua[1];
+  double along_x = 0.0;
+  double along_y = 0.0;
+  for (std::size_t r = 0; r < shape.dx.size(); ++r) {
+    ux += sample.a[r] * shape.dx[r];
+    uy += sample.a[r] * shape.dy[r];
+    along_x += sample.rate[r] * shape.dx[r];
+    along_y += sample.rate[r] * shape.dy[r];
+  }
+  return along_x * sample.direction[0] + along_y * sample.direction[1] + ux * sample.turning[0] +
+         uy * sample.turning[1];
 }
 
 ContactStrip ContactStrip::with_gap(double gap) const {
@@ -65,14 +78,13 @@ double ContactStrip::penetration(double xi, std::array<double, 2> ua, std::span<
   return ux * d[0] + uy * d[1] - gap_;
 }
 
-double ContactStrip::root_between(double lo, double g_lo, double hi, double g_hi, std::array<double, 2> ua,
-                                  std::span<const double> dx, std::span<const double> dy) const {
+double ContactStrip::root_between(double lo, double g_lo, double hi, double g_hi, const Shape& shape) const {
   // Illinois' variant of false position: keeps the bracket, converges faster than linearly
   int last = 0;
   for (int it = 0; it < 60; ++it) {
     const double x = hi - g_hi * (hi - lo) / (g_hi - g_lo);
     if (hi - lo < 1e-15 || x <= lo || x >= hi) break;
-    const double g = penetration(x, ua, dx, dy);
+    const double g = penetration(x, shape.ua, shape.dx, shape.dy);
     if (g == 0.0) return x;
     if ((g > 0.0) == (g_hi > 0.0)) {
       hi = x;
@@ -89,31 +101,48 @@ double ContactStrip::root_between(double lo, double g_lo, double hi, double g_hi
   return std::clamp(hi - g_hi * (hi - lo) / (g_hi - g_lo), lo, hi);
 }
 
-/// The least value of toward * g near sample i, or a place where it is negative: successive parabolas, as
-/// long as they may still change the sign.
-std::array<double, 2> ContactStrip::extremum_near(std::size_t i, double toward, std::span<const double> g,
-                                                  std::array<double, 2> ua, std::span<const double> dx,
-                                                  std::span<const double> dy) const {
-  constexpr int kMostRefinements = 6;
-  std::array<double, 3> x{samples_[i - 1].xi, samples_[i].xi, samples_[i + 1].xi};
-  std::array<double, 3> f{toward * g[i - 1], toward * g[i], toward * g[i + 1]};
-  for (int it = 0; it < kMostRefinements; ++it) {
-    const double xv = parabola_vertex(x[0], f[0], x[1], f[1], x[2], f[2]);
-    if (xv == x[1] || xv <= x[0] || xv >= x[2]) break;
-    const double fv = toward * penetration(xv, ua, dx, dy);
-    const double gain = f[1] - fv;
-    if (fv < f[1]) {
-      (xv < x[1] ? x[2] : x[0]) = x[1];
-      (xv < x[1] ? f[2] : f[0]) = f[1];
-      x[1] = xv;
-      f[1] = fv;
-    } else {
-      (xv < x[1] ? x[0] : x[2]) = xv;
-      (xv < x[1] ? f[0] : f[2]) = fv;
-    }
-    if (f[1] < 0.0 || std::abs(gain) < 0.25 * f[1]) break;
+ContactStrip::Place ContactStrip::place_at(double xi, const Shape& shape) const {
+  return {sample_at(xi), penetration(xi, shape.ua, shape.dx, shape.dy)};
+}
+
+/// A place between two where g has one sign, with the other sign, if g turns back there; the value has the
+/// first sign when there is none.
+std::array<double, 2> ContactStrip::dip_between(Place left, Place right, const Shape& shape) const {
+  constexpr int kMostTrials = 20;
+  const double sign = left.g > 0.0 ? 1.0 : -1.0;
+  const std::array<double, 2> none{left.sample.xi, left.g};
+  double fall = sign * slope_at(left.sample, shape);
+  double rise = sign * slope_at(right.sample, shape);
+  for (int n = 0; n < kMostTrials && fall < 0.0 && rise > 0.0; ++n) {
+    // what is convex stays above both tangents
+    const double width = right.sample.xi - left.sample.xi;
+    const double meet = (sign * (right.g - left.g) - rise * width) / (fall - rise);
+    if (sign * left.g + fall * meet > 0.0) break;
+    const double share = std::clamp(-fall / (rise - fall), 0.1, 0.9);
+    const Place middle = place_at(left.sample.xi + share * width, shape);
+    if (sign * middle.g <= 0.0) return {middle.sample.xi, middle.g};
+    const double slope = sign * slope_at(middle.sample, shape);
+    (slope < 0.0 ? left : right) = middle;
+    (slope < 0.0 ? fall : rise) = slope;
   }
-  return {x[1], toward * f[1]};
+  return none;
+}
+
+/// Tells `cross(place, whether contact begins there)` of the changes of sign between two places.
+template <class Cross>
+void ContactStrip::search_cell(const Place& left, const Place& right, const Shape& shape,
+                               const Cross& cross) const {
+  const double x0 = left.sample.xi;
+  const double x1 = right.sample.xi;
+  const bool inside = left.g > 0.0;
+  if (inside != (right.g > 0.0)) {
+    cross(root_between(x0, left.g, x1, right.g, shape), !inside);
+    return;
+  }
+  const auto [xv, gv] = dip_between(left, right, shape);
+  if ((gv > 0.0) == inside) return;
+  cross(root_between(x0, left.g, xv, gv, shape), !inside);
+  cross(root_between(xv, gv, x1, right.g, shape), inside);
 }
 
 void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
@@ -136,26 +165,24 @@ void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const d
     if (entering) from = at;
     if (!entering && at > from) out.push_back({from, at});
   };
+  const Shape shape{ua, dx, dy};
+  const auto rate = [&](std::size_t k) {
+    return std::abs(g[k + 1] - g[k]) / (samples_[k + 1].xi - samples_[k].xi);
+  };
   for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double x0 = samples_[i].xi;
-    const double x1 = samples_[i + 1].xi;
-    if ((g[i] > 0.0) != (g[i + 1] > 0.0)) {
-      cross(root_between(x0, g[i], x1, g[i + 1], ua, dx, dy), g[i + 1] > 0.0);
+    const double width = samples_[i + 1].xi - samples_[i].xi;
+    const double steepest = std::max({i > 0 ? rate(i - 1) : 0.0, rate(i), i + 2 < n ? rate(i + 1) : 0.0});
+    if ((g[i] > 0.0) == (g[i + 1] > 0.0) && std::min(std::abs(g[i]), std::abs(g[i + 1])) > steepest * width)
       continue;
+    // zones smaller than the sampling may begin and end here
+    constexpr int kParts = 4;
+    Place left{samples_[i], g[i]};
+    for (int part = 1; part <= kParts; ++part) {
+      const Place right = part == kParts ? Place{samples_[i + 1], g[i + 1]}
+                                         : place_at(samples_[i].xi + width * part / kParts, shape);
+      search_cell(left, right, shape, cross);
+      left = right;
     }
-    // no change of sign: a zone smaller than the sampling may still begin or end here, at an extremum of g
-    const bool inside = g[i] > 0.0;
-    const double toward = inside ? 1.0 : -1.0;
-    if (i == 0 || toward * g[i] > toward * g[i - 1] || toward * g[i] > toward * g[i + 1]) continue;
-    const auto [xv, gv] = extremum_near(i, toward, g, ua, dx, dy);
-    if ((gv > 0.0) == inside) continue;
-    const double xl = xv < x0 ? samples_[i - 1].xi : x0;
-    const double gl = xv < x0 ? g[i - 1] : g[i];
-    const double xr = xv < x0 ? x0 : x1;
-    const double gr = xv < x0 ? g[i] : g[i + 1];
-    if ((gl > 0.0) != inside || (gr > 0.0) != inside) continue;
-    cross(root_between(xl, gl, xv, gv, ua, dx, dy), !inside);
-    cross(root_between(xv, gv, xr, gr, ua, dx, dy), inside);
   }
   if (g[n - 1] > 0.0) out.push_back({from, range_[1]});
 }

@@ -97,6 +97,8 @@ class ElementSet {
   virtual void set_bonded(bool bonded) = 0;
   /// One-sided supports also react in both directions, without gap, with this share of their stiffness.
   virtual void set_grip(double share) = 0;
+  /// One-sided supports have this share of their stiffness only, in (0, 1].
+  virtual void set_softness(double share) = 0;
   /// @brief From now on one-sided supports are glued where they touch at y (penetration above `-tolerance`)
   /// and absent elsewhere, whatever the displacements.
   virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance) = 0;

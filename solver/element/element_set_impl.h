@@ -14,7 +14,8 @@
 ///
 /// plus the compliance terms. The strain rows read h b ds + H zeta - U^T m = tau with d eps = C ds + d, U the
 /// rows of u_b. Substituting ds = y / sqrt(C) gives   S y = g,  S = h b I + sqrt(C) H sqrt(C): symmetric, of
-/// size 2 P or 3 P, and the identity in the limit C = 0.
+/// size 2 P or 3 P, and the identity in the limit C = 0. The columns that couple y to (u_a, m) stand beside S
+/// while it is factorised, which gives the condensed element at once.
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -25,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/element/augmented_factor.h"
 #include "solver/element/element_set.h"
 
 namespace snapthrough {
@@ -40,6 +42,7 @@ class ElementSetOf final : public ElementSet {
   void set_linear_geometry(bool linear) override { linear_ = linear; }
   void set_bonded(bool bonded) override { bonded_ = bonded; }
   void set_grip(double share) override { grip_ = share; }
+  void set_softness(double share) override { softness_ = share; }
   void freeze_contact(const Eigen::VectorXd& y, double tolerance) override;
   [[nodiscard]] double frozen_share(int element, int foundation) const override;
   void set_pressure(int element, double proportional, double constant) override;
@@ -61,8 +64,11 @@ class ElementSetOf final : public ElementSet {
   static constexpr int kStrains = 3 * P;
   static constexpr int kZeta = 3 * P + 3;
   using Gauss = std::array<double, P>;
-  using ZetaMatrix = Eigen::Matrix<double, kZeta, kZeta, Eigen::RowMajor>;
-  using ZetaVector = Eigen::Matrix<double, kZeta, 1>;
+  static constexpr int kRow = padded(kZeta);  ///< whole blocks; what is beyond kZeta is zero
+  using ZetaMatrix = Eigen::Matrix<double, kRow, kRow, Eigen::RowMajor>;
+  using ZetaVector = Eigen::Matrix<double, kRow, 1>;
+  using EndRows = Eigen::Matrix<double, 3, kRow, Eigen::RowMajor>;
+  using Interior = AugmentedFactor<kStrains>;
 
   struct Shape {
     double h = 0.0;
@@ -88,12 +94,10 @@ class ElementSetOf final : public ElementSet {
   /// What solve needs of the last linearisation. Interior unknowns y: strains in the order e, (g,) k.
   struct Factor {
     Kinematics kin;
-    ZetaMatrix H;
-    Eigen::Matrix<double, 3, kZeta, Eigen::RowMajor> U;  ///< rows of u_b
-    Eigen::Matrix<double, kStrains, kStrains, Eigen::RowMajor>
-        L;  ///< unit lower factor; reciprocal pivots on the diagonal
-    Eigen::Matrix<double, kStrains, 6, Eigen::RowMajor> B, Z;  ///< coupling to (u_a, m), and S^-1 B
-    Eigen::Matrix<double, kStrains, 1> y0;
+    ZetaMatrix H;       ///< symmetric
+    EndRows U;          ///< rows of u_b
+    Interior interior;  ///< of S, with the columns of (u_a, m) beside it
+    alignas(32) std::array<double, Interior::kStride> reduced{};  ///< L^-1 times the last right-hand side
   };
 
   [[nodiscard]] Kinematics kinematics(const Shape& shape, const ElementDofs& dofs, const double* y) const;
@@ -103,8 +107,10 @@ class ElementSetOf final : public ElementSet {
                           const double* direction, double* out) const;
   void add_support_residual(int element, const double* y, double* residual, bool keep);
   void collect_strip(std::size_t index, const double* y, const ElementDofs& dofs, const Shape& shape);
-  void add_interval(const ContactStrip& strip, const Shape& shape, const ContactStrip::Interval& interval,
+  [[nodiscard]] Functional functional_at(const ContactStrip& strip, double h, double xi) const;
+  void add_interval(std::size_t index, const Shape& shape, const ContactStrip::Interval& interval,
                     double modulus, double gap);
+  void add_support_tangent(const Shape& shape, Factor& f);
   [[nodiscard]] double value(const Functional& f, const ElementDofs& dofs, const double* y) const;
   void to_strain_row(const Functional& f, const Shape& shape, const Kinematics& kin, ZetaVector& row) const;
   void add_geometric(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
@@ -119,17 +125,19 @@ class ElementSetOf final : public ElementSet {
                             const double* direction, double* out) const;
   [[nodiscard]] bool acts(const Functional& f, std::size_t station, const ElementDofs& dofs,
                           const double* y) const;
-  void end_rows(const Shape& shape, const Kinematics& kin,
-                Eigen::Matrix<double, 3, kZeta, Eigen::RowMajor>& U) const;
+  void end_rows(const Shape& shape, const Kinematics& kin, EndRows& U) const;
   void assemble(int element, const double* y, double* residual);
   void eliminate(int element, CondensedElement& out);
-  void factor_interior(Factor& f, const Shape& shape, CondensedElement& out) const;
+  template <int N>
+  void eliminate_interior(const Shape& shape, Factor& f, CondensedElement& out) const;
+  template <int N>
+  void recover_strains(const Shape& shape, const Factor& f, const Eigen::Matrix<double, 6, 1>& ends,
+                       ZetaVector& zeta, double* stress) const;
   /// Active index i of S to its position in zeta.
   [[nodiscard]] static int active(bool shearable, int i) { return shearable || i < P ? i : i + P; }
   [[nodiscard]] static int active_count(bool shearable) { return shearable ? 3 * P : 2 * P; }
   void strain_rhs(const Shape& shape, const Factor& f, const ElementDofs& dofs, const double* rhs,
                   ZetaVector& tau, Eigen::Matrix<double, kStrains, 1>& d) const;
-  void solve_interior(const Shape& shape, const Factor& f, Eigen::Matrix<double, kStrains, 1>& y) const;
 
   const CollocationRule* rule_;
   Gauss b_{};
@@ -137,6 +145,7 @@ class ElementSetOf final : public ElementSet {
   bool linear_ = false;
   bool bonded_ = false;
   double grip_ = 0.0;
+  double softness_ = 1.0;
   double proportional_ = 0.0;  ///< factors on the pressures
   double constant_ = 0.0;
   bool frozen_ = false;  ///< contact is as in frozen_intervals_ and frozen_stations_
@@ -150,8 +159,10 @@ class ElementSetOf final : public ElementSet {
   std::vector<Factor> factors_;
   std::vector<Functional> stations_;
   std::vector<ContactStrip> strips_;
+  std::vector<std::vector<Functional>> whole_strips_;  ///< Gauss points of each strip's whole range
   // scratch
   std::vector<Functional> acting_;  ///< supports of the current element that act
+  std::vector<ZetaVector> rows_;    ///< of them, in strains
   std::vector<ContactStrip::Interval> intervals_;
 };
 
@@ -206,6 +217,10 @@ void ElementSetOf<P>::add_station(const Station& station) {
 
 template <int P>
 void ElementSetOf<P>::add_strip(int element, ContactStrip strip) {
+  std::vector<Functional>& whole = whole_strips_.emplace_back();
+  const auto [from, to] = strip.range();
+  for (const double point : strip_quadrature_.points)
+    whole.push_back(functional_at(strip, shapes_[element].h, from + (to - from) * point));
   strips_.push_back(std::move(strip));
   ++shapes_[element].strip_count;
 }
@@ -308,8 +323,10 @@ void ElementSetOf<P>::to_strain_row(const Functional& f, const Shape& shape, con
   row[3 * P] = f.a[0];
   row[3 * P + 1] = f.a[1];
   row[3 * P + 2] = turn_a;
+  for (int i = kZeta; i < kRow; ++i) row[i] = 0.0;
 }
 
+/// Adds the upper triangle.
 template <int P>
 void ElementSetOf<P>::add_geometric(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
                                     const double* y, ZetaMatrix& H) const {
@@ -320,27 +337,22 @@ void ElementSetOf<P>::add_geometric(const Shape& shape, const ElementDofs& dofs,
     const double t = shape.hb[q] * s[P + q];
     const double w = n * kin.E[q] + t * kin.G[q];
     H(P + q, T) += n;
-    H(T, P + q) += n;
     H(q, T) -= t;
-    H(T, q) -= t;
     H(T, T) += w;
+    double ha[P];
+    for (int r = 0; r < P; ++r) ha[r] = shape.h * a_[q][r];
     for (int r = 0; r < P; ++r) {
-      const double ha = shape.h * a_[q][r];
       const int k = 2 * P + r;
-      H(P + q, k) += n * ha;
-      H(k, P + q) += n * ha;
-      H(q, k) -= t * ha;
-      H(k, q) -= t * ha;
-      H(T, k) += w * ha;
-      H(k, T) += w * ha;
-      for (int u = 0; u < P; ++u) H(k, 2 * P + u) += w * ha * shape.h * a_[q][u];
+      H(P + q, k) += n * ha[r];
+      H(q, k) -= t * ha[r];
+      H(k, T) += w * ha[r];
+      for (int u = 0; u < P; ++u) H(k, 2 * P + u) += w * ha[r] * ha[u];
     }
   }
 }
 
 template <int P>
-void ElementSetOf<P>::end_rows(const Shape& shape, const Kinematics& kin,
-                               Eigen::Matrix<double, 3, kZeta, Eigen::RowMajor>& U) const {
+void ElementSetOf<P>::end_rows(const Shape& shape, const Kinematics& kin, EndRows& U) const {
   U.setZero();
   for (int q = 0; q < P; ++q) {
     const double hb = shape.hb[q];
@@ -374,86 +386,56 @@ void ElementSetOf<P>::assemble(int element, const double* y, double* residual) {
   }
   if (shape.station_count > 0 || shape.strip_count > 0) {
     add_support_residual(element, y, residual, true);
-    ZetaVector row;
-    for (const Functional& support : acting_) {
-      to_strain_row(support, shape, f.kin, row);
-      for (int i = 0; i < kZeta; ++i) f.H.row(i) += (support.stiffness * row[i]) * row.transpose();
-    }
+    add_support_tangent(shape, f);
   }
+  for (int i = 0; i < kZeta; ++i)
+    for (int j = i + 1; j < kZeta; ++j) f.H(j, i) = f.H(i, j);
   end_rows(shape, f.kin, f.U);
 }
 
-/// S = L D L^T, row by row; reciprocal pivots on the diagonal of L; a pivot of exactly zero becomes tiny.
+/// With N = 2 P or 3 P active strains.
 template <int P>
-void ElementSetOf<P>::factor_interior(Factor& f, const Shape& shape, CondensedElement& out) const {
-  const int n = active_count(shape.shearable);
+template <int N>
+void ElementSetOf<P>::eliminate_interior(const Shape& shape, Factor& f, CondensedElement& out) const {
+  constexpr bool shearable = N == kStrains;
+  for (int i = 0; i < N; ++i) {
+    const int zi = active(shearable, i);
+    const double root = shape.root[zi];
+    const double* H = f.H.row(zi).data();
+    f.interior.clear_row(i);
+    double* row = f.interior.row(i);
+    f.interior.diagonal(i) = shape.hb[zi % P] + root * H[zi] * root;
+    for (int j = i + 1; j < N; ++j) {
+      const int zj = active(shearable, j);
+      row[j] = root * H[zj] * shape.root[zj];
+    }
+    for (int c = 0; c < 3; ++c) {
+      row[N + c] = root * H[3 * P + c];
+      row[N + 3 + c] = -root * f.U(c, zi);
+    }
+  }
+  Eigen::Matrix<double, 6, 6> schur;
+  f.interior.template factorise<N>(schur);
   out.negative = 0;
   double det = 1.0;
-  double w[kStrains];
-  for (int i = 0; i < n; ++i) {
-    const int zi = active(shape.shearable, i);
-    for (int j = 0; j < i; ++j) {
-      const int zj = active(shape.shearable, j);
-      double sum = shape.root[zi] * f.H(zi, zj) * shape.root[zj];
-      for (int k = 0; k < j; ++k) sum -= w[k] * f.L(j, k);
-      w[j] = sum;
-    }
-    double pivot = shape.hb[zi % P] + shape.compliance[zi] * f.H(zi, zi);
-    for (int k = 0; k < i; ++k) {
-      f.L(i, k) = w[k] * f.L(k, k);
-      pivot -= w[k] * f.L(i, k);
-    }
-    if (pivot == 0.0) pivot = 1e-300;
+  for (int i = 0; i < N; ++i) {
+    const double pivot = f.interior.pivot(i);
     if (pivot < 0.0) ++out.negative;
-    det *= std::abs(pivot) / shape.hb[zi % P];
-    f.L(i, i) = 1.0 / pivot;
+    det *= std::abs(pivot) / shape.hb[i % P];
   }
   out.log_det = std::log(det);
-}
-
-template <int P>
-void ElementSetOf<P>::solve_interior(const Shape& shape, const Factor& f,
-                                     Eigen::Matrix<double, kStrains, 1>& y) const {
-  const int n = active_count(shape.shearable);
-  for (int i = 0; i < n; ++i) {
-    double sum = y[i];
-    for (int k = 0; k < i; ++k) sum -= f.L(i, k) * y[k];
-    y[i] = sum;
-  }
-  for (int i = 0; i < n; ++i) y[i] *= f.L(i, i);
-  for (int i = n - 1; i >= 0; --i) {
-    double sum = y[i];
-    for (int k = i + 1; k < n; ++k) sum -= f.L(k, i) * y[k];
-    y[i] = sum;
-  }
+  out.K = f.H.template block<3, 3>(kStrains, kStrains) - schur.template topLeftCorner<3, 3>();
+  out.X = -f.U.template block<3, 3>(0, kStrains) - schur.template bottomLeftCorner<3, 3>();
+  out.F = schur.template bottomRightCorner<3, 3>();
 }
 
 template <int P>
 void ElementSetOf<P>::eliminate(int element, CondensedElement& out) {
   const Shape& shape = shapes_[element];
-  Factor& f = factors_[element];
-  const int n = active_count(shape.shearable);
-  factor_interior(f, shape, out);
-  for (int i = 0; i < n; ++i) {
-    const int z = active(shape.shearable, i);
-    for (int c = 0; c < 3; ++c) {
-      f.B(i, c) = shape.root[z] * f.H(z, 3 * P + c);
-      f.B(i, 3 + c) = -shape.root[z] * f.U(c, z);
-    }
-  }
-  // Z = S^-1 B, six right-hand sides at once
-  f.Z = f.B;
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < i; ++k) f.Z.row(i) -= f.L(i, k) * f.Z.row(k);
-  for (int i = 0; i < n; ++i) f.Z.row(i) *= f.L(i, i);
-  for (int i = n - 1; i >= 0; --i)
-    for (int k = i + 1; k < n; ++k) f.Z.row(i) -= f.L(k, i) * f.Z.row(k);
-  Eigen::Matrix<double, 6, 6> schur = Eigen::Matrix<double, 6, 6>::Zero();
-  for (int i = 0; i < n; ++i) schur += f.B.row(i).transpose() * f.Z.row(i);
-  const Eigen::Matrix3d Ua = f.U.template rightCols<3>();
-  out.K = f.H.template bottomRightCorner<3, 3>() - schur.template topLeftCorner<3, 3>();
-  out.X = -Ua - schur.template bottomLeftCorner<3, 3>();
-  out.F = schur.template bottomRightCorner<3, 3>();
+  if (shape.shearable)
+    eliminate_interior<3 * P>(shape, factors_[element], out);
+  else
+    eliminate_interior<2 * P>(shape, factors_[element], out);
 }
 
 template <int P>
@@ -503,20 +485,39 @@ void ElementSetOf<P>::reduce(const Eigen::VectorXd& rhs, std::span<CondensedElem
     CondensedElement& out = condensed[e];
     for (int c = 0; c < 3; ++c) out.rm[c] = rhs[dofs_[e].m + c];
     if (!d.isZero(0.0)) {
-      tau -= f.H.template leftCols<kStrains>() * d;
+      for (int z = 0; z < kStrains; ++z) subtract_scaled<kRow>(tau.data(), f.H.row(z).data(), d[z], 0);
       out.rm += f.U.template leftCols<kStrains>() * d;
     }
-    out.ra = tau.template tail<3>();
     const int n = active_count(shape.shearable);
+    f.reduced.fill(0.0);
     for (int i = 0; i < n; ++i) {
       const int z = active(shape.shearable, i);
-      f.y0[i] = shape.root[z] * tau[z];
+      f.reduced[i] = shape.root[z] * tau[z];
     }
-    for (int i = 0; i < n; ++i) {
-      out.ra -= f.Z.row(i).template head<3>().transpose() * f.y0[i];
-      out.rm -= f.Z.row(i).template tail<3>().transpose() * f.y0[i];
+    if (shape.shearable)
+      f.interior.template forward<3 * P>(f.reduced.data());
+    else
+      f.interior.template forward<2 * P>(f.reduced.data());
+    for (int c = 0; c < 3; ++c) {
+      out.ra[c] = tau[kStrains + c] + f.reduced[n + c];
+      out.rm[c] += f.reduced[n + 3 + c];
     }
-    solve_interior(shape, f, f.y0);
+  }
+}
+
+/// Strains and stresses of the active ones, added to zeta and put into `stress`.
+template <int P>
+template <int N>
+void ElementSetOf<P>::recover_strains(const Shape& shape, const Factor& f,
+                                      const Eigen::Matrix<double, 6, 1>& ends, ZetaVector& zeta,
+                                      double* stress) const {
+  alignas(32) std::array<double, Interior::kStride> y{};
+  for (int c = 0; c < 6; ++c) y[N + c] = ends[c];
+  f.interior.template backward<N>(f.reduced.data(), y.data());
+  for (int i = 0; i < N; ++i) {
+    const int z = active(N == kStrains, i);
+    zeta[z] += shape.root[z] * y[i];
+    stress[z] = y[i] / shape.root[z];
   }
 }
 
@@ -527,7 +528,7 @@ void ElementSetOf<P>::recover(Eigen::VectorXd& x) {
     const Factor& f = factors_[e];
     const ElementDofs& dofs = dofs_[e];
     ZetaVector tau;
-    ZetaVector zeta;
+    ZetaVector zeta = ZetaVector::Zero();
     Eigen::Matrix<double, kStrains, 1> d;
     strain_rhs(shape, f, dofs, x.data(), tau, d);
     Eigen::Matrix<double, 6, 1> ends;
@@ -536,17 +537,14 @@ void ElementSetOf<P>::recover(Eigen::VectorXd& x) {
       ends[3 + c] = x[dofs.m + c];
     }
     zeta.template head<kStrains>() = d;
-    zeta.template tail<3>() = ends.template head<3>();
-    const int n = active_count(shape.shearable);
-    for (int i = 0; i < n; ++i) {
-      const int z = active(shape.shearable, i);
-      const double y = f.y0[i] - f.Z.row(i).dot(ends);
-      zeta[z] += shape.root[z] * y;
-      x[dofs.s + z] = y / shape.root[z];
-    }
-    if (!shape.shearable) {
+    zeta.template segment<3>(kStrains) = ends.template head<3>();
+    if (shape.shearable) {
+      recover_strains<3 * P>(shape, f, ends, zeta, &x[dofs.s]);
+    } else {
+      recover_strains<2 * P>(shape, f, ends, zeta, &x[dofs.s]);
       for (int z = P; z < 2 * P; ++z) {
-        const double row = tau[z] - f.H.row(z).dot(zeta) + f.U.col(z).dot(ends.template tail<3>());
+        const double row = tau[z] - dot_from<kRow>(f.H.row(z).data(), zeta.data(), 0) +
+                           f.U.col(z).dot(ends.template tail<3>());
         x[dofs.s + z] = row / shape.hb[z - P];
       }
     }

@@ -22,31 +22,59 @@ void ElementSetOf<P>::collect_strip(std::size_t index, const double* y, const El
   else
     strip.contact_intervals({y[dofs.a[0]], y[dofs.a[1]]}, dx, dy, intervals_);
   for (const auto& interval : intervals_)
-    add_interval(strip, shape, interval, strip.modulus(), bonded_ ? 0.0 : strip.gap());
+    add_interval(index, shape, interval, softness_ * strip.modulus(), bonded_ ? 0.0 : strip.gap());
   if (grip_ > 0.0)
-    add_interval(strip, shape, {strip.range()[0], strip.range()[1]}, grip_ * strip.modulus(), 0.0);
+    add_interval(index, shape, {strip.range()[0], strip.range()[1]}, grip_ * strip.modulus(), 0.0);
 }
 
-/// Appends the Gauss points of an interval on which a strip acts with a modulus and a gap.
+/// The penetration at a place of a strip, with neither stiffness nor gap.
 template <int P>
-void ElementSetOf<P>::add_interval(const ContactStrip& strip, const Shape& shape,
-                                   const ContactStrip::Interval& interval, double modulus, double gap) {
+auto ElementSetOf<P>::functional_at(const ContactStrip& strip, double h, double xi) const -> Functional {
   Gauss a;
+  const auto d = strip.direction_at(xi);
+  rule_->integrals_at(xi, a);
+  Functional f;
+  f.a = {d[0], d[1], 0.0};
+  for (int q = 0; q < P; ++q) {
+    f.v[0][q] = d[0] * h * a[q];
+    f.v[1][q] = d[1] * h * a[q];
+    f.v[2][q] = 0.0;
+  }
+  return f;
+}
+
+/// Appends the Gauss points of an interval on which a strip acts with a modulus and a gap. Most elements
+/// touch on all of the strip or on none of it: those points are known beforehand.
+template <int P>
+void ElementSetOf<P>::add_interval(std::size_t index, const Shape& shape,
+                                   const ContactStrip::Interval& interval, double modulus, double gap) {
+  const ContactStrip& strip = strips_[index];
   const double width = interval.to - interval.from;
+  const bool whole = interval.from == strip.range()[0] && interval.to == strip.range()[1];
   for (std::size_t i = 0; i < strip_quadrature_.points.size(); ++i) {
-    const double xi = interval.from + width * strip_quadrature_.points[i];
-    const auto d = strip.direction_at(xi);
-    rule_->integrals_at(xi, a);
-    Functional f;
-    f.stiffness = modulus * width * strip_quadrature_.weights[i];
-    f.gap = gap;
-    f.a = {d[0], d[1], 0.0};
-    for (int q = 0; q < P; ++q) {
-      f.v[0][q] = d[0] * shape.h * a[q];
-      f.v[1][q] = d[1] * shape.h * a[q];
-      f.v[2][q] = 0.0;
+    if (whole)
+      acting_.push_back(whole_strips_[index][i]);
+    else
+      acting_.push_back(functional_at(strip, shape.h, interval.from + width * strip_quadrature_.points[i]));
+    acting_.back().stiffness = modulus * width * strip_quadrature_.weights[i];
+    acting_.back().gap = gap;
+  }
+}
+
+/// Adds the stiffness of all supports that act to the upper triangle of H, block by block over all of them.
+template <int P>
+void ElementSetOf<P>::add_support_tangent(const Shape& shape, Factor& f) {
+  const std::size_t n = acting_.size();
+  if (rows_.size() < n) rows_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) to_strain_row(acting_[k], shape, f.kin, rows_[k]);
+  for (int i = 0; i < kZeta; ++i) {
+    double* row = f.H.row(i).data();
+    for (int b = i / kBlock * kBlock; b < kRow; b += kBlock) {
+      Eigen::Array<double, kBlock, 1> sum = Block(row + b);
+      for (std::size_t k = 0; k < n; ++k)
+        sum += (acting_[k].stiffness * rows_[k][i]) * ConstBlock(rows_[k].data() + b);
+      Block(row + b) = sum;
     }
-    acting_.push_back(f);
   }
 }
 
@@ -72,6 +100,7 @@ void ElementSetOf<P>::add_support_residual(int element, const double* y, double*
     }
     if (!acts(stations_[station], station, dofs, y)) continue;
     acting_.push_back(stations_[station]);
+    if (stations_[station].one_sided) acting_.back().stiffness *= softness_;
     if (bonded_) acting_.back().gap = 0.0;
   }
   for (const Functional& f : acting_) {

@@ -64,6 +64,13 @@ Index SymmetricIndefinite::eliminate_two(Index k) {
   return k + 2;
 }
 
+/// Solutions with a matrix that is not finite are not finite either: pivots could not be chosen.
+void SymmetricIndefinite::refuse() {
+  l_.setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (Index k = 0; k < l_.rows(); ++k) swap_[2 * k] = k;
+  pivot_ratio_ = 0.0;
+}
+
 void SymmetricIndefinite::factorise(const Eigen::MatrixXd& a, double tolerance) {
   const Index n = a.rows();
   l_ = a;
@@ -74,9 +81,17 @@ void SymmetricIndefinite::factorise(const Eigen::MatrixXd& a, double tolerance) 
   smallest_ = std::numeric_limits<double>::infinity();
   largest_ = 0.0;
   double scale = 0.0;
+  double sum = 0.0;
   for (Index j = 0; j < n; ++j)
-    for (Index i = j; i < n; ++i) scale = std::max(scale, std::abs(a(i, j)));
+    for (Index i = j; i < n; ++i) {
+      scale = std::max(scale, std::abs(a(i, j)));
+      sum += std::abs(a(i, j));
+    }
   floor_ = tolerance * scale;
+  if (!std::isfinite(sum)) {
+    refuse();
+    return;
+  }
   const double alpha = (1.0 + std::sqrt(17.0)) / 8.0;
   for (Index k = 0; k < n;) {
     // Bunch and Kaufman's choice of pivot, by the largest entries of two columns
@@ -85,7 +100,7 @@ void SymmetricIndefinite::factorise(const Eigen::MatrixXd& a, double tolerance) 
     for (Index i = k + 1; i < n; ++i)
       if (std::abs(l_(i, k)) > lambda) lambda = std::abs(l_(r = i, k));
     swap_[2 * k] = k;
-    if (std::abs(l_(k, k)) >= alpha * lambda) {
+    if (!(std::abs(l_(k, k)) < alpha * lambda)) {  // also what is not a number: it goes on into the solution
       k = eliminate_one(k);
       continue;
     }

@@ -18,7 +18,8 @@ struct Inertia {
 /// Reads the lower triangle only. Backward stable whatever the inertia. Not thread safe while factorising.
 class SymmetricIndefinite {
  public:
-  /// @brief Factorises a (n x n). A pivot below `tolerance` times the largest entry counts as zero.
+  /// @brief Factorises a (n x n). A pivot below `tolerance` times the largest entry counts as zero. When an
+  /// entry is not finite, so are the solutions, and the pivot ratio is 0.
   void factorise(const Eigen::MatrixXd& a, double tolerance = 1e-15);
   /// @brief Solves in place, `x` of size n.
   void solve(Eigen::Ref<Eigen::VectorXd> x) const;
@@ -30,6 +31,7 @@ class SymmetricIndefinite {
 
  private:
   void swap_rows(Eigen::Index a, Eigen::Index b, Eigen::Index done);
+  void refuse();
   void note_pivot(double eigenvalue);
   Eigen::Index eliminate_one(Eigen::Index k);
   Eigen::Index eliminate_two(Eigen::Index k);

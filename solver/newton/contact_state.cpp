@@ -65,6 +65,38 @@ bool settle_with(Attempt& attempt, double grip, ContactState& state) {
   return settled;
 }
 
+/// With supports so soft that the structure leaves them or leans on them as a whole, which are then hardened
+/// by and by: on stiff ones Newton's method moves the ends of contact by some decay lengths an iteration.
+bool harden(Attempt& attempt, ContactState& state) {
+  constexpr double kSoftest = 1e-12;
+  constexpr double kSofter = 1e-3;
+  constexpr double kSlowest = 1.3;
+  double softness = kSofter;
+  const auto settle_at = [&](double share, bool from_guess) {
+    attempt.problem.set_softness(share);
+    ContactState trial = state;
+    const bool settled = (!from_guess || first_guess(attempt, true, trial)) && settle(attempt, trial);
+    attempt.problem.set_softness(1.0);
+    if (settled) state = std::move(trial);
+    return settled;
+  };
+  while (!settle_at(softness, true)) {
+    softness *= kSofter;
+    if (softness < kSoftest) return false;
+  }
+  double harder = 1.0 / kSofter;
+  while (softness < 1.0 && harder > kSlowest) {
+    const double next = std::min(1.0, softness * harder);
+    if (settle_at(next, false)) {
+      softness = next;
+      harder *= 2.0;
+    } else {
+      harder = std::sqrt(harder);
+    }
+  }
+  return softness == 1.0;
+}
+
 /// From the glued guess, with a grip that is let go by and by.
 bool release_grip(Attempt& attempt, ContactState& state) {
   double grip = 1.0;
@@ -85,19 +117,27 @@ bool release_grip(Attempt& attempt, ContactState& state) {
 }  // namespace
 
 std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, const PathMetric& metric,
-                                               double lambda, Workspace& work, int& factorisations) {
+                                               double lambda, Workspace& work, int& factorisations,
+                                               const VectorXd* guess) {
   CorrectorOptions options;
-  options.max_iterations = 40;
+  options.max_iterations = 25;
+  options.least_energy = true;
   options.largest_correction = std::numeric_limits<double>::infinity();
+  options.most_stalled = options.max_iterations;
   Attempt attempt{problem, metric, lambda, options, work, factorisations};
   ContactState state;
   ContactState glued;
+  if (guess != nullptr) {
+    state.y = *guess;
+    if (settle(attempt, state)) return state;
+  }
   for (const bool bonded : {true, false}) {
     if (!first_guess(attempt, bonded, state)) continue;
     if (bonded) glued = state;
     if (state.y.isZero(0.0) || settle(attempt, state)) return state;
   }
   if (glued.y.size() == 0) return std::nullopt;
+  if (harden(attempt, state)) return state;
   if (!release_grip(attempt, glued)) return std::nullopt;
   return glued;
 }

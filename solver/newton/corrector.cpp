@@ -28,6 +28,9 @@ double find_correction(EquilibriumProblem& problem, const SideCondition& side, c
   return dlambda;
 }
 
+/// Relative residual, over the tangent's tolerance, that the last correction may start from.
+constexpr double kNearResidual = 10.0;
+
 /// Corrections before a residual that no longer falls counts as rounding's.
 constexpr int kStagnantIterations = 4;
 
@@ -49,6 +52,44 @@ double damping(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lam
     }
   }
   return best_share;
+}
+
+/// Share of the correction at which the forces do no work on it any more. At a given load and small
+/// displacements one-sided supports have a convex energy, of which this is the least along the correction:
+/// so Newton's method can't cycle between contact patterns.
+double least_energy(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lambda, Workspace& work) {
+  constexpr int kMostTrials = 12;
+  constexpr double kWorkLeft = 0.1;
+  constexpr double kEnough = 0.5;
+  constexpr double kLongest = 64.0;
+  const double at_start = work.residual.dot(work.correction);
+  if (!(at_start < 0.0)) return 1.0;
+  const auto work_at = [&](double share) {
+    work.trial = y + share * work.correction;
+    problem.residual(work.trial, lambda, work.residual);
+    return work.residual.dot(work.correction);
+  };
+  double low = 0.0;
+  double high = 1.0;
+  double work_low = at_start;
+  double work_high = work_at(1.0);
+  // where contact is lost along the correction, the structure is softer than its tangent: further
+  while (work_high < kWorkLeft * at_start && high < kLongest) {
+    low = high;
+    work_low = work_high;
+    high *= 2.0;
+    work_high = work_at(high);
+  }
+  if (!(work_high > -kEnough * at_start)) return high;
+  for (int i = 0; i < kMostTrials; ++i) {
+    const double share = std::clamp(low - work_low * (high - low) / (work_high - work_low),
+                                    low + 0.05 * (high - low), high - 0.05 * (high - low));
+    const double at = work_at(share);
+    if (std::abs(at) <= -kWorkLeft * at_start) return share;
+    (at < 0.0 ? low : high) = share;
+    (at < 0.0 ? work_low : work_high) = at;
+  }
+  return low > 0.0 ? low : high;
 }
 
 /// Takes the last correction. Where supports act on one side only it may cross to other contact, where the
@@ -77,6 +118,8 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
   double previous = scale;
   double expected = std::numeric_limits<double>::infinity();
   double last_residual = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
+  int stalled = 0;
   for (int it = 0; it < options.max_iterations; ++it) {
     out.tangent = problem.linearise(y, lambda, work.residual);
     ++out.factorisations;
@@ -92,15 +135,22 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     const double size = metric.norm(work.correction, dlambda);
     if (!std::isfinite(size)) return out;
     if (it == 0) out.first_correction = size;
-    if (last && take_last(problem, options, y, lambda, dlambda, out, work)) {
+    const bool near = size <= options.tangent_tolerance * scale &&
+                      out.relative_residual <= kNearResidual * options.tangent_tolerance;
+    if ((last || near) && take_last(problem, options, y, lambda, dlambda, out, work)) {
       out.status = CorrectorStatus::converged;
       return out;
     }
-    const double share =
-        options.damped ? damping(problem, y, lambda, dlambda, out.relative_residual, work) : 1.0;
+    const double share = options.least_energy ? least_energy(problem, y, lambda, work)
+                         : options.damped ? damping(problem, y, lambda, dlambda, out.relative_residual, work)
+                                          : 1.0;
     y += share * work.correction;
     lambda += share * dlambda;
     if (size > options.largest_correction * scale) return out;
+    // damped corrections may grow while the residual falls, and near rounding nothing falls
+    if (size > 0.5 * least && out.relative_residual > options.stagnant_residual) ++stalled;
+    least = std::min(least, size);
+    if (stalled > options.most_stalled && !options.damped) break;
     // quadratic convergence: the next ratio of corrections is about this one squared
     const double ratio = share < 1.0 ? 1.0 : std::min(1.0, size / previous);
     expected = size * ratio * ratio;

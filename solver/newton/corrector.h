@@ -29,10 +29,15 @@ struct SideCondition {
 
 struct CorrectorOptions {
   int max_iterations = 12;
-  double tolerance = 1e-9;           ///< on the predicted norm of the next correction, relative to the step
+  int most_stalled = 3;     ///< corrections that are not half the least so far: it does not converge
+  double tolerance = 1e-9;  ///< on the predicted norm of the next correction, relative to the step
+  /// A correction below this share of the step is the last: the tangent at hand is the path's to this share,
+  /// the point to about its square. Zero: iterates to `tolerance`.
+  double tangent_tolerance = 0.0;
   double largest_residual = 1e-8;    ///< relative residual above which nothing counts as converged
   double largest_correction = 2.0;   ///< a correction beyond this many steps ends the iteration as diverged
   bool damped = false;               ///< shortens corrections that raise the residual, see correct()
+  bool least_energy = false;         ///< shortens corrections to where the energy is least, see correct()
   double residual_floor = 2e-13;     ///< relative residual that rounding allows; the iteration stops there
   double stagnant_residual = 1e-11;  ///< below it, one that no longer falls is rounding's, too
 };
@@ -59,7 +64,8 @@ struct Workspace {
 /// the tangent.
 /// Undamped it is the fastest while the contact changes little. Damped, a correction is halved until it
 /// lowers the residual (or four times at most): that ends cycles between contact patterns, at the price of
-/// some residuals.
+/// some residuals. With least_energy, for a given load and small displacements, a correction ends where the
+/// forces do no work on it: the energy of one-sided supports is convex, and falls with each.
 /// @param scale norm of the step that led to the starting point
 [[nodiscard]] CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric,
                                        const SideCondition& side, double scale,

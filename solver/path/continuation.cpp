@@ -31,6 +31,10 @@ constexpr double kCornerLength = 4.0;
 /// for.
 constexpr double kTurnShrink = 1e-3;
 
+/// Share of the last size that was accepted at once below which corrections that cycle are damped; a larger
+/// step is shortened first, which costs less.
+constexpr double kPatientShare = 0.2;
+
 /// Corrections of this size are rounding's where the tangent is nearly singular, however close two points
 /// are.
 constexpr double kNoise = 1e-6;
@@ -98,10 +102,13 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
   if (norm == 0.0) return first_point(zero, 0.0, response, direction, report);
   // small in both: a thin column hardly moves before it buckles
   double lambda =
-      direction * std::min(kSmallStart / norm, kSmallLoad * problem_.critical_load_scale(response));
+      direction * std::min({kSmallStart / norm, kSmallLoad * problem_.critical_load_scale(response),
+                            options_.largest_first_load});
   double last = std::numeric_limits<double>::infinity();
+  VectorXd guess;
   for (int i = 0; i < kMostLoads; ++i) {
-    const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations);
+    const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations,
+                                          guess.size() > 0 ? &guess : nullptr);
     const double size = state ? metric_.norm(state->y, 0.0) : 0.0;
     if (state && size <= 10.0 * kSmallStart)
       return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
@@ -109,8 +116,12 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
       if (!unit_response(state->y, lambda, false, response, report)) return std::nullopt;
       return first_point(state->y, lambda, response, direction, report);
     }
-    if (state) last = size;
-    lambda *= state ? std::max(kSmallStart / size, kLargestFall) : 0.01;
+    const double fall = state ? std::max(kSmallStart / size, kLargestFall) : 0.01;
+    if (state) {
+      last = size;
+      guess = fall * state->y;
+    }
+    lambda *= fall;
   }
   return std::nullopt;
 }
@@ -120,6 +131,7 @@ void Continuation::set_load_scale(const VectorXd& response) {
   load_scale_ = problem_.critical_load_scale(response);
   if (norm > 0.0) load_scale_ = std::min(load_scale_, kLargeGradient / norm);
   if (!std::isfinite(load_scale_)) load_scale_ = 1.0;
+  largest_load_scale_ = std::max(load_scale_, problem_.largest_critical_load_scale(response));
   const double gradient = std::clamp(norm * load_scale_, kSmallGradient, kLargeGradient) / load_scale_;
   metric_.load_weight = gradient * gradient;
 }
@@ -167,12 +179,14 @@ void Continuation::set_tangent(PathPoint& point, const CorrectorOutcome& outcome
 CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, double movement,
                                             PathPoint& to) {
   CorrectorOptions options = options_.corrector;
+  const bool patient = step < kPatientShare * easy_size_;
   for (;;) {
     to.y = from.y + step * from.tangent;
     to.lambda = from.lambda + step * from.tangent_lambda;
     const auto outcome = correct(problem_, metric_, side_, movement, options, to.y, to.lambda, work_);
     count(outcome);
-    if (options.damped || !problem_.one_sided() || outcome.status != CorrectorStatus::too_many_iterations)
+    if (options.damped || !patient || !problem_.one_sided() ||
+        outcome.status != CorrectorStatus::too_many_iterations)
       return outcome;
     options.damped = true;
   }
@@ -272,7 +286,9 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
       ++statistics_.corrections[std::min<std::size_t>(trial.corrections, statistics_.corrections.size() - 1)];
       if (size == first_size) easy_size_ = size;
       step.taken = size;
-      step.wanted = std::min(size * (smooth ? trial.growth : options_.max_growth), options_.max_step);
+      const double growth = smooth ? trial.growth : options_.max_growth;
+      step.wanted =
+          std::min(size * (smooth && size < first_size ? std::min(growth, 1.0) : growth), options_.max_step);
       return StepOutcome::advanced;
     }
     ++statistics_.rejected_steps;
@@ -364,9 +380,15 @@ std::optional<PathPoint> Continuation::between(const Chord& chord, const PathPoi
   side_.normal = metric_.weights->cwiseProduct(chord.y);
   side_.normal_lambda = metric_.load_weight * chord.lambda;
   const double scale = std::max(distance_in(chord, lo, hi), chord.movement_only ? kLeastNoise : kNoise);
-  const auto outcome =
-      correct(problem_, metric_, side_, scale, options_.corrector, point.y, point.lambda, work_);
+  CorrectorOptions options = options_.corrector;
+  auto outcome = correct(problem_, metric_, side_, scale, options, point.y, point.lambda, work_);
   count(outcome);
+  if (outcome.status == CorrectorStatus::too_many_iterations && problem_.one_sided()) {
+    options.damped = true;
+    interpolate(chord, lo, hi, share, point);
+    outcome = correct(problem_, metric_, side_, scale, options, point.y, point.lambda, work_);
+    count(outcome);
+  }
   if (outcome.status != CorrectorStatus::converged) return std::nullopt;
   set_tangent(point, outcome, chord.y, chord.lambda);
   point.arc_length = (1.0 - share) * lo.arc_length + share * hi.arc_length;

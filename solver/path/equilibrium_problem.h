@@ -44,9 +44,14 @@ class EquilibriumProblem {
   virtual void set_bonded(bool) {}
   /// One-sided supports also react in both directions, without gap, with this share of their stiffness.
   virtual void set_grip(double) {}
+  /// One-sided supports have this share of their stiffness only, in (0, 1].
+  virtual void set_softness(double) {}
   /// @brief Rough size of the first critical load factor from the response to a unit load; infinity when it
   /// gives none.
   [[nodiscard]] virtual double critical_load_scale(const Eigen::VectorXd& unit_response) const;
+  /// @brief Rough size of the load factor at which the member that buckles last does so; 0 when the response
+  /// gives none.
+  [[nodiscard]] virtual double largest_critical_load_scale(const Eigen::VectorXd&) const { return 0.0; }
   /// @brief Size of F relative to the forces and displacements that it balances; rounding gives about 1e-15.
   [[nodiscard]] virtual double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd& y,
                                                  double lambda) = 0;

@@ -33,6 +33,17 @@ double predicted_share(const Continuation& continuation, const Chord& chord, con
   return 0.5 * (lo + hi);
 }
 
+/// Whether the counts change at the start of the bracket itself, so that they are others at once beyond it:
+/// as where the load begins and everything that touches touches from nothing. Sets the counts beyond.
+bool changes_at_start(const Continuation& continuation, const Chord& chord, const Bracket& bracket,
+                      const ZoneCounter& count, const std::vector<int>& old, std::vector<int>& beyond) {
+  constexpr double kAtOnce = 1e-9;
+  PathPoint at;
+  continuation.interpolate(chord, bracket.before, bracket.after, kAtOnce, at);
+  count(at.y, beyond);
+  return beyond != old;
+}
+
 /// Just beyond the prediction, seen from the nearer end, so that the bracket closes from both sides.
 double next_share(double share) {
   constexpr double kBeyond = 1.5;
@@ -74,6 +85,11 @@ std::vector<ContactChange> locate_contact_changes(Continuation& continuation, co
   if (old == last) return out;
   const Chord chord = at_turn ? continuation.movement_chord(a, b) : continuation.chord(a, b);
   PathPoint from = a;
+  std::vector<int> beyond;
+  if (changes_at_start(continuation, chord, {a, b}, count, old, beyond)) {
+    out.push_back({a, old, beyond});
+    old = std::move(beyond);
+  }
   while (old != last && out.size() < kMostChanges) {
     Bracket bracket{from, b};
     close(continuation, chord, count, old, tolerance, bracket);

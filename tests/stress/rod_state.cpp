@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 
 namespace snapthrough::testing {
 namespace {
@@ -124,8 +125,11 @@ double extremum(const Function& f, double a, double b, bool from_above) {
 /// Places in [lo, hi] where f changes its sign, ascending; pairs between samples are found by the extrema.
 template <class Function>
 std::vector<double> sign_changes(const Function& f, double lo, double hi, int cells) {
+  // cosine spacing: beside an end an extremum has samples on one side only
   std::vector<double> x;
-  for (int i = 0; i <= cells; ++i) x.push_back(lo + (hi - lo) * i / cells);
+  for (int i = 0; i <= cells; ++i)
+    x.push_back(lo + (hi - lo) * (0.5 - 0.5 * std::cos(std::numbers::pi * i / cells)));
+  x.back() = hi;
   for (std::size_t i = 1; i + 1 < x.size(); ++i) {
     const double g = f(x[i]);
     const bool above = g > 0.0;

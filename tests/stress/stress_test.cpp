@@ -35,7 +35,7 @@ TEST(StressChecker, SeesAFalsePoint) {
 }
 
 TEST(Stress, SliceOfRandomModels) {
-  constexpr int kFirst = 20;
+  constexpr int kFirst = 28;
   constexpr int kSeeds = 12;
   int reached = 0;
   for (int seed = kFirst; seed < kFirst + kSeeds; ++seed) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdlib>
@@ -49,6 +51,17 @@ TEST(SymmetricIndefinite, AcceptsAnEmptyMatrix) {
   Eigen::VectorXd x(0);
   factor.solve(x);
   EXPECT_EQ(factor.inertia().negative, 0);
+}
+
+/// What diverges brings numbers that are none: they go on into the solution, nothing is read out of bounds.
+TEST(SymmetricIndefinite, PassesOnWhatIsNotANumber) {
+  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(4, 4);
+  a.diagonal().setConstant(std::numeric_limits<double>::quiet_NaN());
+  SymmetricIndefinite factor;
+  factor.factorise(a);
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(4);
+  factor.solve(x);
+  EXPECT_TRUE(x.array().isNaN().all());
 }
 
 }  // namespace
