@@ -382,6 +382,70 @@ void read_outputs(Object& root, SweepData& data) {
   }
 }
 
+/// Whether values are numbers that rise, or fall, from one to the next.
+bool is_monotonic(const SweepParameter& parameter) {
+  if (parameter.range) {
+    return parameter.range->from != parameter.range->to;
+  }
+  bool up = true;
+  bool down = true;
+  for (std::size_t i = 0; i < parameter.values.size(); ++i) {
+    if (!parameter.values[i].is_number()) {
+      return false;
+    }
+    if (i > 0) {
+      const double step = parameter.values[i].get<double>() - parameter.values[i - 1].get<double>();
+      up = up && step > 0.0;
+      down = down && step < 0.0;
+    }
+  }
+  return up || down;
+}
+
+/// What following needs: the last parameter of a grid, numbers in order, a critical analysis on a fixed mesh,
+/// and outputs that a curve has.
+void check_follow(const SweepData& data, const Value& follow) {
+  if (data.design != SweepDesign::grid) {
+    follow.report("not_supported", "a critical point is followed in a grid only");
+  } else if (!is_monotonic(data.parameters.back())) {
+    follow.report("not_supported",
+                  "the values of a parameter that is followed are numbers, rising or falling");
+  }
+  const Json none = Json::object();
+  const Json analysis = data.base.value("analysis", none);
+  const Json mesh = analysis.is_object() ? analysis.value("discretization", none) : none;
+  if (!analysis.is_object() || analysis.value("type", Json()) != "critical" || !mesh.is_object() ||
+      !mesh.contains("elements")) {
+    follow.report("not_supported",
+                  "a sweep that follows has an analysis of type critical on a mesh that is given (elements)");
+  }
+  for (const SweepOutput& output : data.outputs) {
+    if (output.pointer != "/summary/critical_load_factor" && output.pointer != "/summary/critical_type") {
+      follow.report(
+          "not_supported",
+          "a curve has /summary/critical_load_factor and /summary/critical_type, not " + output.pointer);
+    }
+  }
+}
+
+void read_follow(Object& root, SweepData& data) {
+  const auto follow = root.find("follow");
+  if (!follow) {
+    return;
+  }
+  std::string name;
+  read(*follow, name);
+  if (!follow->document_report().findings().empty()) {
+    return;  // it can't be judged
+  }
+  if (name != data.parameters.back().name) {
+    follow->report("unknown_reference", "follow names the last parameter, " + data.parameters.back().name);
+    return;
+  }
+  check_follow(data, *follow);
+  data.follow = true;
+}
+
 }  // namespace
 
 SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document, std::uint64_t most_points) {
@@ -401,6 +465,7 @@ SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document, st
     static_cast<void>(root.find("parameters"));  // known, although nothing can be said about it
   }
   read_outputs(root, *data);
+  read_follow(root, *data);
   root.finish();
   if (report.findings().empty()) {
     check_distinct(*data, report);

@@ -44,6 +44,16 @@ Found look_up(const Json& result, const std::vector<std::string>& tokens) {
 
 }  // namespace
 
+Json document_with(const SweepData& data, const std::vector<Json>& values) {
+  Json document = data.base;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (const SweepTarget& target : data.parameters[i].targets) {
+      document[target.place] = target.scale ? Json(values[i].get<double>() * *target.scale) : values[i];
+    }
+  }
+  return document;
+}
+
 std::uint64_t Sweep::size() const { return data_->points; }
 
 std::size_t Sweep::output_count() const { return data_->outputs.size(); }
@@ -77,14 +87,30 @@ std::string Sweep::title() const {
 Json Sweep::values(std::uint64_t point) const { return design_values(*data_, point); }
 
 std::shared_ptr<const Json> Sweep::document_at(std::uint64_t point) const {
-  auto document = std::make_shared<Json>(data_->base);
+  return std::make_shared<Json>(document_with(*data_, design_values(*data_, point)));
+}
+
+std::shared_ptr<const Json> Sweep::document_between(std::uint64_t point, double value) const {
   std::vector<Json> values = design_values(*data_, point);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    for (const SweepTarget& target : data_->parameters[i].targets) {
-      (*document)[target.place] = target.scale ? Json(values[i].get<double>() * *target.scale) : values[i];
-    }
+  values.back() = value;
+  return std::make_shared<Json>(document_with(*data_, values));
+}
+
+bool Sweep::follows() const { return data_->follow; }
+
+std::uint64_t Sweep::block() const { return data_->follow ? data_->parameters.back().count() : 1; }
+
+bool Sweep::follows_logarithm() const {
+  const std::optional<SweepRange>& range = data_->parameters.back().range;
+  return range && range->log;
+}
+
+std::string Sweep::curve_text(std::uint64_t point) const {
+  Json values = Json::array();
+  for (std::uint64_t i = 0; data_->follow && i < block(); ++i) {
+    values.push_back(design_values(*data_, point - point % block() + i).back());
   }
-  return document;
+  return data_->follow ? "follow" + values.dump() : "";
 }
 
 void Sweep::drop_unused(Result& result) const {

@@ -60,6 +60,19 @@ class Sweep {
   /// @pre point < size()
   [[nodiscard]] std::shared_ptr<const nlohmann::json> document_at(std::uint64_t point) const;
 
+  /// Whether the critical point is followed along the last parameter.
+  [[nodiscard]] bool follows() const;
+  /// @brief How many points, from a multiple of it on, are computed together: the length of a curve when the
+  /// critical point is followed, else 1.
+  [[nodiscard]] std::uint64_t block() const;
+  /// Whether a curve is followed in the logarithm of its parameter.
+  [[nodiscard]] bool follows_logarithm() const;
+  /// @brief The request document of a point with another value of the last parameter. @pre follows()
+  [[nodiscard]] std::shared_ptr<const nlohmann::json> document_between(std::uint64_t point,
+                                                                       double value) const;
+  /// All values of the curve that a point is on, as a text; empty when it is on none.
+  [[nodiscard]] std::string curve_text(std::uint64_t point) const;
+
   /// @brief Empties the lists of a result that no output looks into, so that they are not written for
   /// nothing: critical points, contact events, branches, states, buckling modes.
   void drop_unused(Result& result) const;

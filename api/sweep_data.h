@@ -52,6 +52,7 @@ struct SweepData {
   int samples = 1;  ///< of a Latin hypercube
   int seed = 0;     ///< of a Latin hypercube
   std::vector<SweepOutput> outputs;
+  bool follow = false;  ///< the critical point is followed along the last parameter
   std::uint64_t points = 0;
 };
 
@@ -60,6 +61,9 @@ struct SweepData {
 
 /// The number that an array index is written as (no sign, no leading zero), or nothing.
 [[nodiscard]] std::optional<std::size_t> array_index(std::string_view token);
+
+/// @brief The request document with these values of the parameters.
+[[nodiscard]] nlohmann::json document_with(const SweepData& data, const std::vector<nlohmann::json>& values);
 
 /// @brief The values of a point of the design, one for each parameter.
 /// @pre point < data.points

@@ -1,5 +1,6 @@
 #include "api/sweep.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <map>
@@ -35,14 +36,15 @@ class RowQueue {
     streams_.out << writer_.head();
   }
 
-  /// A point to solve; nothing when there are no more.
+  /// The first point of a block to solve; nothing when there are no more.
   std::optional<std::uint64_t> next() {
     std::unique_lock lock(mutex_);
     if (given_ == sweep_.size()) {
       return std::nullopt;
     }
-    const std::uint64_t point = given_++;
-    room_.wait(lock, [&] { return point < written_ + kLongestLead; });
+    const std::uint64_t point = given_;
+    given_ += sweep_.block();
+    room_.wait(lock, [&] { return point < written_ + std::max(kLongestLead, 4 * sweep_.block()); });
     return point;
   }
 
@@ -106,7 +108,14 @@ std::uint64_t solve_points(const api::Sweep& sweep, const Streams& streams, cons
   };
   const auto work = [&] {
     while (const std::optional<std::uint64_t> point = queue.next()) {
-      queue.put(*point, solve_point(sweep, sweep.document_at(*point), solver, {}));
+      if (!sweep.follows()) {
+        queue.put(*point, solve_point(sweep, sweep.document_at(*point), solver, {}));
+        continue;
+      }
+      std::vector<api::PointOutcome> outcomes = solve_curve(sweep, *point, {});
+      for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        queue.put(*point + i, std::move(outcomes[i]));
+      }
     }
   };
   {

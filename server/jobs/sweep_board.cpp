@@ -20,8 +20,13 @@ ActiveSweep::ActiveSweep(std::string name, api::Sweep read, OpenSweep open)
       outputs(sweep.outputs_text()),
       reuse(open.reuse),
       done_(std::move(open.done)) {
+  const auto block = static_cast<std::ptrdiff_t>(sweep.block());
+  for (auto begin = done_.begin(); sweep.follows() && begin != done_.end(); begin += block) {
+    const bool all = std::all_of(begin, begin + block, [](bool done) { return done; });
+    std::fill(begin, begin + block, all);  // a curve is computed wholly
+  }
   for (const auto& [point, crashes] : open.crashes) {
-    if (!done_.at(point)) {
+    if (!sweep.follows() && !done_.at(point)) {
       done_[point] = true;  // the process died with it once: not again with others beside it
       again_.push_back({point});
     }
@@ -74,6 +79,9 @@ std::vector<std::uint64_t> SweepBoard::next_points(ActiveSweep& sweep) {
   if (sweep.seconds_per_point_ > 0.0) {
     wanted = static_cast<std::size_t>(
         std::clamp(kChunkSeconds / sweep.seconds_per_point_, 1.0, static_cast<double>(kLargestChunk)));
+  }
+  if (sweep.sweep.follows()) {
+    wanted = static_cast<std::size_t>(sweep.sweep.block());  // the cursor is where a curve begins
   }
   while (points.size() < wanted && sweep.cursor_ < sweep.done_.size()) {
     if (!sweep.done_[sweep.cursor_]) {

@@ -30,11 +30,18 @@ struct Work {
   std::vector<std::uint64_t> rest;
 };
 
+/// Points of a curve are the same only on the same curve: following gives other last digits than tracing.
+/// @param curve Sweep::curve_text() of the chunk
+std::string key_of(const Chunk& chunk, const std::string& curve, const nlohmann::json& document) {
+  return point_key(document, chunk.sweep->outputs + curve, chunk.sweep->owner);
+}
+
 std::vector<Pending> pending_points(const Chunk& chunk) {
+  const std::string curve = chunk.sweep->sweep.curve_text(chunk.points.front());
   std::vector<Pending> all;
   for (const std::uint64_t point : chunk.points) {
     auto document = chunk.sweep->sweep.document_at(point);
-    std::string key = point_key(*document, chunk.sweep->outputs, chunk.sweep->owner);
+    std::string key = key_of(chunk, curve, *document);
     all.push_back({point, std::move(document), std::move(key)});
   }
   return all;
@@ -96,6 +103,30 @@ void compute(const Chunk& chunk, JobDesk& desk, const SolveFunction& solve, Swee
   }
 }
 
+/// Computes a curve, wholly or not at all.
+void compute_curve(const Chunk& chunk, JobDesk& desk, SweepBoard::Watch& watch, Work& work) {
+  if (work.pending.empty()) {
+    return;
+  }
+  work.rows.clear();  // what was found of a curve is not enough
+  watch.begin(desk.environment().now());
+  std::vector<api::PointOutcome> outcomes =
+      solve_curve(chunk.sweep->sweep, chunk.points.front(), watch.token());
+  const std::string curve = chunk.sweep->sweep.curve_text(chunk.points.front());
+  const bool late = watch.reason() == StopReason::time_limit;
+  if (watch.token().stop_requested() && !late) {
+    work.rest = chunk.points;
+    return;
+  }
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (late && outcomes[i].code == "cancelled") {
+      outcomes[i] = {"", "time_limit", "the curve took longer than one analysis may take"};
+    }
+    const auto document = chunk.sweep->sweep.document_at(chunk.points[i]);
+    work.rows.push_back({chunk.points[i], std::move(outcomes[i]), key_of(chunk, curve, *document)});
+  }
+}
+
 void pause(const std::stop_token& stop) {
   std::mutex mutex;
   std::condition_variable_any never;
@@ -114,7 +145,11 @@ void work_on(const Chunk& chunk, JobDesk& desk, const SolveFunction& solve, Log&
   Work work;
   work.pending = pending_points(chunk);
   look_up(chunk, desk, work);
-  compute(chunk, desk, solve, watch, work);
+  if (chunk.sweep->sweep.follows()) {
+    compute_curve(chunk, desk, watch, work);
+  } else {
+    compute(chunk, desk, solve, watch, work);
+  }
   const double seconds = desk.environment().monotonic_seconds() - start;
   Status status = desk.sweeps().settle(chunk, work.rows, work.rest, seconds);
   while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {

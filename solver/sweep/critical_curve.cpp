@@ -296,6 +296,10 @@ CriticalCurve Follower::run() {
   std::size_t checked = 0;  // values before it are certain
   for (std::size_t i = 0; i < count; ++i) {
     const double value = request_.values[i];
+    if (request_.stop.stop_requested()) {
+      curve_.points.push_back({value, std::nullopt, CriticalType::limit_max, false, "cancelled"});
+      continue;
+    }
     if (!follow_to(value, 0)) {
       if (i > checked && curve_.points.back().followed) check_from(checked, i - 1);
       curve_.points.push_back(trace_at(value));

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct CriticalCurveRequest {
   std::vector<double> values;          ///< ascending or descending, not empty
   bool logarithmic = false;            ///< the curve is smoother in the logarithm; values are positive then
   int check_every = 40;                ///< values from one check from scratch to the next, >= 1
+  std::stop_token stop = {};  ///< asked to stop, the values that are left have the failure "cancelled"
 };
 
 /// One value and its first critical point.

@@ -302,6 +302,42 @@ TEST(Sweep, SaysWhereATargetIsWrong) {
   EXPECT_THAT(mistakes(document), ElementsAre("/parameters/0/values/1 wrong_type"));
 }
 
+/// The sound sweep as one whose critical point is followed along the amplitude.
+json followed() {
+  json document = sound_sweep();
+  document["analysis"] = {{"type", "critical"}, {"discretization", {{"elements", 4}, {"order", 2}}}};
+  document["follow"] = "a";
+  document["outputs"] = {"/summary/critical_load_factor"};
+  return document;
+}
+
+TEST(Sweep, FollowsTheLastParameter) {
+  const SweepOutcome outcome = read(followed());
+  ASSERT_THAT(outcome.findings, IsEmpty());
+  EXPECT_TRUE(outcome.sweep->follows());
+  EXPECT_EQ(outcome.sweep->block(), 3U);
+  EXPECT_FALSE(outcome.sweep->follows_logarithm());
+  const auto between = outcome.sweep->document_between(3, 1.5e-4);
+  EXPECT_EQ(between->at("/model/foundations/0/stiffness"_json_pointer), 5);
+  EXPECT_EQ(between->at("/model/imperfections/0/amplitude"_json_pointer), 1.5e-4);
+  EXPECT_EQ(outcome.sweep->curve_text(3), outcome.sweep->curve_text(5));
+  EXPECT_EQ(read(sound_sweep()).sweep->block(), 1U);
+}
+
+TEST(Sweep, SaysWhatCannotBeFollowed) {
+  const auto with = [](const std::string& pointer, const json& value) {
+    json document = followed();
+    document[json::json_pointer(pointer)] = value;
+    return mistakes(document);
+  };
+  EXPECT_THAT(with("/follow", "k"), ElementsAre("/follow unknown_reference"));
+  EXPECT_THAT(with("/follow", 1), ElementsAre("/follow wrong_type"));
+  EXPECT_THAT(with("/design", "zip"), ::testing::Contains("/follow not_supported"));
+  EXPECT_THAT(with("/parameters/1/values", {1e-4, 3e-4, 2e-4}), ElementsAre("/follow not_supported"));
+  EXPECT_THAT(with("/analysis/type", "path"), ElementsAre("/follow not_supported"));
+  EXPECT_THAT(with("/outputs/0", "/summary/message"), ElementsAre("/follow not_supported"));
+}
+
 TEST(Sweep, CountsBeforeItExpands) {
   json document = sound_sweep();
   for (json& one : document["parameters"]) {

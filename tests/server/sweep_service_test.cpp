@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "api/sweep.h"
@@ -35,6 +37,11 @@ class CountingSolver {
   std::atomic<int> calls = 0;
   std::atomic<double> failing = -1.0;
 };
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 class SweepService : public ServiceTest {
  protected:
@@ -157,6 +164,28 @@ TEST_F(SweepService, RowsDoNotDependOnWorkersAndInterruptions) {
     service_.reset();
   }
   EXPECT_THAT(first, HasSubstr("\n1.0,2.46"));  // pi^2 / 4, P_cr of a clamped-free column
+}
+
+/// Half a ring in a medium that only presses, five stiffnesses: as traced one by one, and computed once.
+TEST_F(SweepService, AFollowedCurveIsOneUnitOfWork) {
+  start(solve);
+  json document = json::parse(read_text(SNAPTHROUGH_SOURCE_DIR "/examples/sweeps/ring_followed.json"));
+  document["analysis"]["discretization"]["elements"] = 16;
+  document["parameters"][0]["range"] = {{"from", 1e3}, {"to", 2e3}, {"count", 5}, {"spacing", "log"}};
+  const std::string followed = submit_sweep(document.dump());
+  EXPECT_EQ(ended(followed)["status"], "successful");
+  EXPECT_EQ(ended(submit_sweep(document.dump()))["counts"]["reused"], 5);
+  json alone = document;
+  alone.erase("follow");
+  const std::string traced = submit_sweep(alone.dump());
+  EXPECT_EQ(ended(traced)["counts"]["reused"], 0) << "last digits differ";
+  const json rows = table(followed)["rows"];
+  const json others = table(traced)["rows"];
+  ASSERT_EQ(rows.size(), 5U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_NEAR(rows[i][1].get<double>() / others[i][1].get<double>(), 1.0, 2e-8);
+    EXPECT_EQ(rows[i][2], others[i][2]);
+  }
 }
 
 TEST_F(SweepService, DismissalStopsItWithinASecondAndKeepsRows) {
