@@ -13,7 +13,7 @@ namespace snapthrough {
 namespace {
 
 /// A clamped arch of 60 degrees with a load off its crown, which has a limit point; on a base of stiffness k.
-void add_arch(Model& model, const std::string& name, double height, double k) {
+void add_arch(Model& model, const std::string& name, double height, double k, double force = 1.0) {
   model.nodes.push_back({name + "0", 0.0, height});
   model.nodes.push_back({name + "1", 10.0, height});
   model.members.push_back({name, name + "0", name + "1", "s", ArcCurve{-60.0}, false, false});
@@ -27,7 +27,7 @@ void add_arch(Model& model, const std::string& name, double height, double k) {
   load.at = Location{};
   load.at.member = name;
   load.at.fraction = 0.45;
-  load.force = {0.0, -1.0};
+  load.force = {0.0, -force};
   model.loads.push_back(load);
   if (k > 0.0) {
     Foundation base;
@@ -49,6 +49,14 @@ Model one_arch(double k) {
 Model two_arches(double k) {
   Model model = one_arch(0.02);
   add_arch(model, "other", 50.0, k);
+  return model;
+}
+
+/// An arch that has no limit point while its base is stiff, and one with half the load, which has its own
+/// later.
+Model early_and_late(double k) {
+  Model model = one_arch(k);
+  add_arch(model, "late", 50.0, 0.0025, 0.5);
   return model;
 }
 
@@ -96,11 +104,23 @@ TEST(CriticalCurve, NoticesThatAnotherPointComesFirst) {
   EXPECT_GT(curve.followed, 10);
 }
 
-TEST(CriticalCurve, ChecksFindWhatTheInertiaDoesNot) {
-  // Up: the other arch goes first until its base is stiffer than 0.02; then its own limit point is passed
-  // after that of the first, which the state shortly before shows.
+TEST(CriticalCurve, NoticesItTheOtherWayToo) {
+  // Up: the other arch goes first until its base is stiffer than 0.02; from there on the first one has lost
+  // its stability before, which the inertia shows.
   const CriticalCurveRequest request = request_for(two_arches, 2e-3, 0.2, 21);
-  expect_as_traced(request, follow_critical_point(request));
+  const CriticalCurve curve = follow_critical_point(request);
+  expect_as_traced(request, curve);
+  EXPECT_GT(curve.followed, 15);
+}
+
+TEST(CriticalCurve, ChecksFindAnEarlierPointThatTheInertiaDoesNotShow) {
+  // As the first base softens a maximum and a minimum of the load come up on its arch, one after the other
+  // and before the other arch's limit point: the state shortly before that is stable again.
+  const CriticalCurveRequest request = request_for(early_and_late, 0.06, 0.025, 9);
+  const CriticalCurve curve = follow_critical_point(request);
+  EXPECT_EQ(curve.disagreed, 1);
+  EXPECT_GT(*curve.points.front().load_factor, *curve.points.back().load_factor * 1.3);
+  expect_as_traced(request, curve);
 }
 
 TEST(CriticalCurve, DoesNotDependOnHowOftenItIsChecked) {
