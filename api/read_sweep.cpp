@@ -2,7 +2,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "api/json_text.h"
@@ -95,22 +97,29 @@ SweepTarget read_target(const Value& value, const Json& base) {
     pointer->report("invalid_pointer", "expected a JSON Pointer to something in /model or /analysis");
   } else if (!has_place(base, *tokens)) {
     pointer->report("no_such_place", "the request of this sweep has no " + target.pointer);
+  } else {
+    target.place = Json::json_pointer(target.pointer);
   }
   return target;
 }
 
-SweepRange read_range(const Value& value) {
+/// @param counted the design takes the values one by one, so the range says how many
+SweepRange read_range(const Value& value, bool counted) {
   static constexpr Named<bool> kSpacings[] = {{"linear", false}, {"log", true}};
   SweepRange range;
   Object in(value);
   in.required("from", range.from);
   in.required("to", range.to);
-  in.required("count", range.count);
+  if (counted) {
+    in.required("count", range.count);
+  } else if (const auto count = in.find("count")) {
+    count->report("excess_field", "a Latin hypercube draws from the whole range; its samples are the count");
+  }
   if (const auto spacing = in.find("spacing")) {
     read_named(*spacing, kSpacings, range.log);
   }
   in.finish();
-  if (const auto count = in.find("count"); count && count->is_number() && range.count < 2) {
+  if (const auto count = in.find("count"); counted && count && count->is_number() && range.count < 2) {
     count->report("out_of_range", "a range has at least its two ends: count must be 2 or more");
     range.count = 2;
   }
@@ -133,7 +142,7 @@ void check_scalable(const SweepParameter& parameter, const Value& values) {
   }
 }
 
-void read_values(Object& in, SweepParameter& parameter) {
+void read_values(Object& in, SweepParameter& parameter, bool counted) {
   const auto values = in.find("values");
   const auto range = in.find("range");
   if (values.has_value() == range.has_value()) {
@@ -141,7 +150,7 @@ void read_values(Object& in, SweepParameter& parameter) {
     return;
   }
   if (range) {
-    parameter.range = read_range(*range);
+    parameter.range = read_range(*range, counted);
   } else if (!values->is_array()) {
     values->report_type("an array");
   } else if (values->size() == 0) {
@@ -152,7 +161,7 @@ void read_values(Object& in, SweepParameter& parameter) {
   }
 }
 
-SweepParameter read_parameter(const Value& value, const Json& base) {
+SweepParameter read_parameter(const Value& value, const SweepData& data) {
   SweepParameter parameter;
   Object in(value);
   in.required("name", parameter.name);
@@ -166,12 +175,15 @@ SweepParameter read_parameter(const Value& value, const Json& base) {
     targets->report_type("an array");
   } else if (targets && targets->size() == 0) {
     targets->report("out_of_range", "a parameter needs a target");
+  } else if (targets && targets->size() > kMaxSweepTargets) {
+    targets->report("out_of_range",
+                    "a parameter has at most " + std::to_string(kMaxSweepTargets) + " targets");
   } else if (targets) {
     for (std::size_t i = 0; i < targets->size(); ++i) {
-      parameter.targets.push_back(read_target(targets->item(i), base));
+      parameter.targets.push_back(read_target(targets->item(i), data.base));
     }
   }
-  read_values(in, parameter);
+  read_values(in, parameter, data.design != SweepDesign::latin_hypercube);
   in.finish();
   return parameter;
 }
@@ -207,8 +219,11 @@ void check_distinct(const SweepData& data, Report& report) {
 }
 
 /// Counts without building anything; what is too many is not counted to its end.
-void count_points(SweepData& data, Report& report) {
+void count_points(SweepData& data, std::uint64_t most, Report& report) {
   data.points = data.design == SweepDesign::grid ? 1 : data.parameters[0].count();
+  if (data.design == SweepDesign::latin_hypercube) {
+    data.points = static_cast<std::uint64_t>(data.samples);
+  }
   for (std::size_t i = 0; i < data.parameters.size(); ++i) {
     const std::uint64_t count = data.parameters[i].count();
     if (data.design == SweepDesign::zip && count != data.points) {
@@ -217,13 +232,14 @@ void count_points(SweepData& data, Report& report) {
                      std::to_string(data.points) + " for the first");
       return;
     }
-    if (data.design == SweepDesign::grid && data.points <= kMaxSweepPoints) {
+    if (data.design == SweepDesign::grid && data.points <= most) {
       data.points *= count;  // both factors fit 32 bits
     }
   }
-  if (data.points > kMaxSweepPoints) {
-    report.add("/parameters", "too_many_points",
-               "the design has more than " + std::to_string(kMaxSweepPoints) + " points");
+  if (data.points > most) {
+    const bool sampled = data.design == SweepDesign::latin_hypercube;
+    report.add(sampled ? "/design/latin_hypercube/samples" : "/parameters", "too_many_points",
+               "the design has more than " + std::to_string(most) + " points");
   }
 }
 
@@ -251,6 +267,46 @@ void check_request(const Sweep& sweep, const SweepData& data, std::vector<Findin
   }
 }
 
+/// Why a target of the parameter does not take values of this one's type; empty when they all do.
+std::string type_refusal(const Json& first, const SweepParameter& parameter, const Json& value) {
+  const Json probe = value.is_number() ? Json(1) : value;  // 1 is of every type of number
+  const auto document = std::make_shared<Json>(first);
+  for (const SweepTarget& target : parameter.targets) {
+    (*document)[target.place] = probe;
+  }
+  for (const Finding& finding : read_request_document(document).findings) {
+    for (const SweepTarget& target : parameter.targets) {
+      if (finding.pointer == target.pointer && finding.code == "wrong_type") {
+        return finding.detail + ", at " + target.pointer;
+      }
+    }
+  }
+  return "";
+}
+
+/// Values that no point of theirs can do with, because they are of a type that the target does not take: each
+/// type of JSON that occurs is tried once.
+void check_value_types(const Sweep& sweep, const SweepData& data, std::vector<Finding>& findings) {
+  const auto first = sweep.document_at(0);
+  for (std::size_t i = 0; i < data.parameters.size(); ++i) {
+    const SweepParameter& parameter = data.parameters[i];
+    const std::string at = "/parameters/" + std::to_string(i);
+    if (const std::string why = parameter.range ? type_refusal(*first, parameter, 1) : ""; !why.empty()) {
+      findings.push_back({at + "/range", "wrong_type", why});
+    }
+    std::map<std::string_view, std::string> refused;  // why, by type; empty: it is taken
+    for (std::size_t v = 0; v < parameter.values.size() && findings.size() < kMaxFindings; ++v) {
+      const auto [known, is_new] = refused.try_emplace(parameter.values[v].type_name());
+      if (is_new) {
+        known->second = type_refusal(*first, parameter, parameter.values[v]);
+      }
+      if (!known->second.empty()) {
+        findings.push_back({at + "/values/" + std::to_string(v), "wrong_type", known->second});
+      }
+    }
+  }
+}
+
 void read_parameters(Object& root, SweepData& data) {
   const auto parameters = root.find_required("parameters");
   if (!parameters) {
@@ -260,22 +316,46 @@ void read_parameters(Object& root, SweepData& data) {
     parameters->report_type("an array with at least one parameter");
     return;
   }
+  if (parameters->size() > kMaxSweepParameters) {
+    parameters->report("out_of_range",
+                       "a sweep has at most " + std::to_string(kMaxSweepParameters) + " parameters");
+    return;
+  }
   for (std::size_t i = 0; i < parameters->size(); ++i) {
-    data.parameters.push_back(read_parameter(parameters->item(i), data.base));
+    data.parameters.push_back(read_parameter(parameters->item(i), data));
   }
 }
 
-void read_design(Object& root, SweepData& data) {
+void read_whole(Object& in, std::string_view key, int least, int& out) {
+  in.required(key, out);
+  if (const auto value = in.find(key); value && value->is_number() && out < least) {
+    value->report("out_of_range", std::string(key) + " must be " + std::to_string(least) + " or more");
+    out = least;
+  }
+}
+
+/// @return whether the design could be read: without it nothing is known of what parameters need
+bool read_design(Object& root, SweepData& data) {
   static constexpr Named<SweepDesign> kDesigns[] = {{"grid", SweepDesign::grid}, {"zip", SweepDesign::zip}};
   const auto design = root.find_required("design");
   if (!design) {
-    return;
+    return false;
   }
-  if (design->is_object() && design->member("latin_hypercube")) {
-    design->report("not_supported", "latin_hypercube is not supported by this version");
-    return;
+  if (!design->is_object()) {
+    const std::size_t before = design->document_report().findings().size();
+    read_named(*design, kDesigns, data.design);
+    return design->document_report().findings().size() == before;
   }
-  read_named(*design, kDesigns, data.design);
+  Object in(*design);
+  if (const auto hypercube = in.find_required("latin_hypercube")) {
+    Object fields(*hypercube);
+    read_whole(fields, "samples", 1, data.samples);
+    read_whole(fields, "seed", 0, data.seed);
+    fields.finish();
+    data.design = SweepDesign::latin_hypercube;
+  }
+  in.finish();
+  return data.design == SweepDesign::latin_hypercube;
 }
 
 void read_outputs(Object& root, SweepData& data) {
@@ -287,15 +367,88 @@ void read_outputs(Object& root, SweepData& data) {
     outputs->report_type("an array with at least one JSON Pointer");
     return;
   }
-  data.outputs.resize(outputs->size());
-  for (std::size_t i = 0; i < outputs->size(); ++i) {
-    read_pointer(outputs->item(i), data.outputs[i]);
+  if (outputs->size() > kMaxSweepOutputs) {
+    outputs->report("out_of_range", "a sweep has at most " + std::to_string(kMaxSweepOutputs) + " outputs");
+    return;
   }
+  data.outputs.resize(outputs->size());
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < outputs->size(); ++i) {
+    const Value output = outputs->item(i);
+    read_pointer(output, data.outputs[i]);
+    if (output.is_string() && !seen.insert(data.outputs[i].pointer).second) {
+      output.report("duplicate_name", "another column has this name");
+    }
+  }
+}
+
+/// Whether values are numbers that rise, or fall, from one to the next.
+bool is_monotonic(const SweepParameter& parameter) {
+  if (parameter.range) {
+    return parameter.range->from != parameter.range->to;
+  }
+  bool up = true;
+  bool down = true;
+  for (std::size_t i = 0; i < parameter.values.size(); ++i) {
+    if (!parameter.values[i].is_number()) {
+      return false;
+    }
+    if (i > 0) {
+      const double step = parameter.values[i].get<double>() - parameter.values[i - 1].get<double>();
+      up = up && step > 0.0;
+      down = down && step < 0.0;
+    }
+  }
+  return up || down;
+}
+
+/// What following needs: the last parameter of a grid, numbers in order, a critical analysis on a fixed mesh,
+/// and outputs that a curve has.
+void check_follow(const SweepData& data, const Value& follow) {
+  if (data.design != SweepDesign::grid) {
+    follow.report("not_supported", "a critical point is followed in a grid only");
+  } else if (!is_monotonic(data.parameters.back())) {
+    follow.report("not_supported",
+                  "the values of a parameter that is followed are numbers, rising or falling");
+  }
+  const Json none = Json::object();
+  const Json analysis = data.base.value("analysis", none);
+  const Json mesh = analysis.is_object() ? analysis.value("discretization", none) : none;
+  if (!analysis.is_object() || analysis.value("type", Json()) != "critical" || !mesh.is_object() ||
+      !mesh.contains("elements")) {
+    follow.report("not_supported",
+                  "a sweep that follows has an analysis of type critical on a mesh that is given (elements)");
+  }
+  for (const SweepOutput& output : data.outputs) {
+    if (output.pointer != "/summary/critical_load_factor" && output.pointer != "/summary/critical_type") {
+      follow.report(
+          "not_supported",
+          "a curve has /summary/critical_load_factor and /summary/critical_type, not " + output.pointer);
+    }
+  }
+}
+
+void read_follow(Object& root, SweepData& data) {
+  const auto follow = root.find("follow");
+  if (!follow) {
+    return;
+  }
+  std::string name;
+  read(*follow, name);
+  if (!follow->document_report().findings().empty()) {
+    return;  // it can't be judged
+  }
+  if (name != data.parameters.back().name) {
+    follow->report("unknown_reference", "follow names the last parameter, " + data.parameters.back().name);
+    return;
+  }
+  check_follow(data, *follow);
+  data.follow = true;
 }
 
 }  // namespace
 
-SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document) {
+SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document, std::uint64_t most_points) {
   SweepOutcome outcome;
   auto data = std::make_shared<SweepData>();
   Report report;
@@ -306,18 +459,23 @@ SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document) {
       data->base[part] = value->json();
     }
   }
-  read_parameters(root, *data);
-  read_design(root, *data);
+  if (read_design(root, *data)) {
+    read_parameters(root, *data);
+  } else {
+    static_cast<void>(root.find("parameters"));  // known, although nothing can be said about it
+  }
   read_outputs(root, *data);
+  read_follow(root, *data);
   root.finish();
   if (report.findings().empty()) {
     check_distinct(*data, report);
-    count_points(*data, report);
+    count_points(*data, std::min(most_points, kMaxSweepPoints), report);
   }
   outcome.findings = report.findings();
   if (outcome.findings.empty()) {
     const Sweep sweep(data);
     check_request(sweep, *data, outcome.findings);
+    check_value_types(sweep, *data, outcome.findings);
     if (outcome.findings.empty()) {
       outcome.sweep = sweep;
     }
@@ -325,12 +483,14 @@ SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document) {
   return outcome;
 }
 
-SweepOutcome read_sweep(std::string_view text) {
+bool is_sweep(const Json& document) { return document.is_object() && document.contains("parameters"); }
+
+SweepOutcome read_sweep(std::string_view text, std::uint64_t most_points) {
   ParsedText parsed = parse_json(text);
   if (parsed.document == nullptr) {
     return {.malformed = true, .findings = std::move(parsed.findings), .sweep = std::nullopt};
   }
-  return read_sweep_document(parsed.document);
+  return read_sweep_document(parsed.document, most_points);
 }
 
 }  // namespace snapthrough::api

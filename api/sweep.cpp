@@ -1,7 +1,6 @@
 #include "api/sweep.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -12,42 +11,6 @@ namespace snapthrough::api {
 namespace {
 
 using Json = nlohmann::json;
-
-Json value_at(const SweepParameter& parameter, std::uint64_t i) {
-  if (!parameter.range) {
-    return parameter.values[i];
-  }
-  const SweepRange& range = *parameter.range;
-  const auto last = static_cast<std::uint64_t>(range.count - 1);
-  if (i == 0 || i == last) {
-    return i == 0 ? range.from : range.to;  // the ends are exact
-  }
-  const double t = static_cast<double>(i) / static_cast<double>(last);
-  return range.log ? range.from * std::pow(range.to / range.from, t)
-                   : range.from + t * (range.to - range.from);
-}
-
-/// Position in each parameter's values of a point of the design.
-std::vector<std::uint64_t> positions(const SweepData& data, std::uint64_t point) {
-  std::vector<std::uint64_t> result(data.parameters.size(), point);
-  if (data.design == SweepDesign::grid) {
-    for (std::size_t i = result.size(); i-- > 0;) {
-      const std::uint64_t count = data.parameters[i].count();
-      result[i] = point % count;
-      point /= count;
-    }
-  }
-  return result;
-}
-
-std::vector<Json> values_at(const SweepData& data, std::uint64_t point) {
-  const std::vector<std::uint64_t> at = positions(data, point);
-  std::vector<Json> values;
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    values.push_back(value_at(data.parameters[i], at[i]));
-  }
-  return values;
-}
 
 /// What an output pointer found: a value, nothing where a list ended, or a place that results do not have.
 struct Found {
@@ -79,24 +42,21 @@ Found look_up(const Json& result, const std::vector<std::string>& tokens) {
   return {at, false};
 }
 
-std::string csv_field(const Json& value) {
-  if (value.is_null()) {
-    return "";
-  }
-  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return quoted + "\"";
-}
-
 }  // namespace
 
+Json document_with(const SweepData& data, const std::vector<Json>& values) {
+  Json document = data.base;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (const SweepTarget& target : data.parameters[i].targets) {
+      document[target.place] = target.scale ? Json(values[i].get<double>() * *target.scale) : values[i];
+    }
+  }
+  return document;
+}
+
 std::uint64_t Sweep::size() const { return data_->points; }
+
+std::size_t Sweep::output_count() const { return data_->outputs.size(); }
 
 std::vector<std::string> Sweep::columns() const {
   std::vector<std::string> names;
@@ -110,46 +70,80 @@ std::vector<std::string> Sweep::columns() const {
   return names;
 }
 
-std::shared_ptr<const Json> Sweep::document_at(std::uint64_t point) const {
-  auto document = std::make_shared<Json>(data_->base);
-  const std::vector<Json> values = values_at(*data_, point);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    for (const SweepTarget& target : data_->parameters[i].targets) {
-      (*document)[Json::json_pointer(target.pointer)] =
-          target.scale ? Json(values[i].get<double>() * *target.scale) : values[i];
-    }
+std::string Sweep::outputs_text() const {
+  Json list = Json::array();
+  for (const SweepOutput& output : data_->outputs) {
+    list.push_back(output.pointer);
   }
-  return document;
+  return list.dump();
 }
 
-Json Sweep::row(std::uint64_t point, const Json& result) const {
-  Json row = values_at(*data_, point);
+std::string Sweep::title() const {
+  const Json& model = data_->base.at("model");
+  const auto title = model.find("title");
+  return title != model.end() && title->is_string() ? title->get<std::string>() : "";
+}
+
+Json Sweep::values(std::uint64_t point) const { return design_values(*data_, point); }
+
+std::shared_ptr<const Json> Sweep::document_at(std::uint64_t point) const {
+  return std::make_shared<Json>(document_with(*data_, design_values(*data_, point)));
+}
+
+std::shared_ptr<const Json> Sweep::document_between(std::uint64_t point, double value) const {
+  std::vector<Json> values = design_values(*data_, point);
+  values.back() = value;
+  return std::make_shared<Json>(document_with(*data_, values));
+}
+
+bool Sweep::follows() const { return data_->follow; }
+
+std::uint64_t Sweep::block() const { return data_->follow ? data_->parameters.back().count() : 1; }
+
+bool Sweep::follows_logarithm() const {
+  const std::optional<SweepRange>& range = data_->parameters.back().range;
+  return range && range->log;
+}
+
+std::string Sweep::curve_text(std::uint64_t point) const {
+  Json values = Json::array();
+  for (std::uint64_t i = 0; data_->follow && i < block(); ++i) {
+    values.push_back(design_values(*data_, point - point % block() + i).back());
+  }
+  return data_->follow ? "follow" + values.dump() : "";
+}
+
+void Sweep::drop_unused(Result& result) const {
+  const auto looks_into = [&](std::string_view part, std::string_view list = {}) {
+    return std::any_of(data_->outputs.begin(), data_->outputs.end(), [&](const SweepOutput& output) {
+      return output.tokens[0] == part &&
+             (list.empty() || output.tokens.size() == 1 || output.tokens[1] == list);
+    });
+  };
+  const auto drop = [&](auto& list, std::string_view part) {
+    if (!looks_into(part)) {
+      list.clear();
+    }
+  };
+  drop(result.critical_points, "critical_points");
+  drop(result.contact_events, "contact_events");
+  drop(result.branches, "branches");
+  drop(result.states, "states");
+  if (result.buckling && !looks_into("buckling", "modes")) {
+    result.buckling->modes.clear();
+  }
+}
+
+PointOutcome Sweep::outcome(const Json& result) const {
+  Json outputs = Json::array();
   for (const SweepOutput& output : data_->outputs) {
     const Found found = look_up(result, output.tokens);
     if (found.no_such_field) {
-      return error_row(point, "no_such_output", "the result of this analysis has no " + output.pointer);
+      return {"", "no_such_output", "the result of this analysis has no " + output.pointer};
     }
-    row.push_back(found.value == nullptr ? Json() : *found.value);
+    outputs.push_back(found.value == nullptr ? Json() : *found.value);
   }
-  row.push_back(nullptr);
-  return row;
-}
-
-Json Sweep::error_row(std::uint64_t point, std::string_view code, std::string_view detail) const {
-  Json row = values_at(*data_, point);
-  for (std::size_t i = 0; i < data_->outputs.size(); ++i) {
-    row.push_back(nullptr);
-  }
-  row.push_back({{"code", code}, {"detail", detail}});
-  return row;
-}
-
-std::string csv_line(const Json& row) {
-  std::string line;
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    line += (i == 0 ? "" : ",") + csv_field(row[i]);
-  }
-  return line + "\n";
+  return {outputs.dump(), "", ""};
 }
 
 }  // namespace snapthrough::api

@@ -19,8 +19,21 @@ namespace snapthrough::api {
 
 /// Designs with more points than this are refused before any of them is built.
 inline constexpr std::uint64_t kMaxSweepPoints = 1'000'000;
+inline constexpr std::size_t kMaxSweepParameters = 64;
+/// Of one parameter.
+inline constexpr std::size_t kMaxSweepTargets = 64;
+inline constexpr std::size_t kMaxSweepOutputs = 256;
 
 struct SweepData;
+
+/// What became of a point: its outputs, or why there are none.
+struct PointOutcome {
+  std::string outputs = {};  ///< JSON array, one value for each output; empty: the point failed
+  std::string code = {};     ///< of the failure, e.g. "no_convergence"; empty: the point was solved
+  std::string detail = {};   ///< of the failure: a sentence
+
+  [[nodiscard]] bool failed() const { return !code.empty(); }
+};
 
 /// @brief A sweep document that was read and found to be without mistakes. Immutable, cheap to copy, and safe
 /// to use from several threads; points are built one by one when they are asked for.
@@ -33,19 +46,41 @@ class Sweep {
 
   /// Names of the parameters, pointers of the outputs, and "error": what a row holds, in this order.
   [[nodiscard]] std::vector<std::string> columns() const;
+  [[nodiscard]] std::size_t output_count() const;
+  /// The pointers of the outputs as a JSON array.
+  [[nodiscard]] std::string outputs_text() const;
+  /// Title of the model; may be empty.
+  [[nodiscard]] std::string title() const;
+
+  /// @brief The values of the parameters at a point, as a JSON array.
+  /// @pre point < size(). Points of a grid are numbered with the last parameter varying fastest.
+  [[nodiscard]] nlohmann::json values(std::uint64_t point) const;
 
   /// @brief The request document of a point: the sweep's model and analysis with the values written in.
-  /// @pre point < size(). Points of a grid are numbered with the last parameter varying fastest.
+  /// @pre point < size()
   [[nodiscard]] std::shared_ptr<const nlohmann::json> document_at(std::uint64_t point) const;
 
-  /// @brief The row of a point that was solved.
-  /// @param result what write_result() gave. An output whose place the result cannot have makes the row an
-  /// error; one past the end of a list (a second critical point where there is one) is null.
-  [[nodiscard]] nlohmann::json row(std::uint64_t point, const nlohmann::json& result) const;
+  /// Whether the critical point is followed along the last parameter.
+  [[nodiscard]] bool follows() const;
+  /// @brief How many points, from a multiple of it on, are computed together: the length of a curve when the
+  /// critical point is followed, else 1.
+  [[nodiscard]] std::uint64_t block() const;
+  /// Whether a curve is followed in the logarithm of its parameter.
+  [[nodiscard]] bool follows_logarithm() const;
+  /// @brief The request document of a point with another value of the last parameter. @pre follows()
+  [[nodiscard]] std::shared_ptr<const nlohmann::json> document_between(std::uint64_t point,
+                                                                       double value) const;
+  /// All values of the curve that a point is on, as a text; empty when it is on none.
+  [[nodiscard]] std::string curve_text(std::uint64_t point) const;
 
-  /// The row of a point that could not be solved: outputs null, `{"code", "detail"}` last.
-  [[nodiscard]] nlohmann::json error_row(std::uint64_t point, std::string_view code,
-                                         std::string_view detail) const;
+  /// @brief Empties the lists of a result that no output looks into, so that they are not written for
+  /// nothing: critical points, contact events, branches, states, buckling modes.
+  void drop_unused(Result& result) const;
+
+  /// @brief The outputs of a point that was solved.
+  /// @param result what write_result() gave. An output whose place the result cannot have is a failure;
+  /// one past the end of a list (a second critical point where there is one) is null.
+  [[nodiscard]] PointOutcome outcome(const nlohmann::json& result) const;
 
  private:
   std::shared_ptr<const SweepData> data_;
@@ -62,14 +97,15 @@ struct SweepOutcome {
 /// values, the number of points, output pointers, and the request as it stands around the targets. What is
 /// wrong with single points is left to reading their documents.
 /// @param text UTF-8 JSON; its size is the caller's to limit
-[[nodiscard]] SweepOutcome read_sweep(std::string_view text);
+/// @param most_points designs with more are refused; at most kMaxSweepPoints
+[[nodiscard]] SweepOutcome read_sweep(std::string_view text, std::uint64_t most_points = kMaxSweepPoints);
 
 /// @brief The same for a document in memory.
 /// @pre document is not null and nested no deeper than ParseLimits::depth (api/json_text.h)
-[[nodiscard]] SweepOutcome read_sweep_document(const std::shared_ptr<const nlohmann::json>& document);
+[[nodiscard]] SweepOutcome read_sweep_document(const std::shared_ptr<const nlohmann::json>& document,
+                                               std::uint64_t most_points = kMaxSweepPoints);
 
-/// @brief A line of comma-separated values (RFC 4180 quoting, ended by a line feed): null is empty, an object
-/// or array is its JSON.
-[[nodiscard]] std::string csv_line(const nlohmann::json& row);
+/// Whether a document is meant to be a sweep rather than a request: it has parameters.
+[[nodiscard]] bool is_sweep(const nlohmann::json& document);
 
 }  // namespace snapthrough::api

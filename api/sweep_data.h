@@ -11,7 +11,8 @@
 
 namespace snapthrough::api {
 
-/// `count` numbers from `from` to `to`, both among them, equally spaced or in equal ratios.
+/// `count` numbers from `from` to `to`, both among them, equally spaced or in equal ratios. A Latin hypercube
+/// has no count: it draws from the interval.
 struct SweepRange {
   double from = 0.0;
   double to = 0.0;
@@ -23,6 +24,7 @@ struct SweepRange {
 struct SweepTarget {
   std::string pointer;
   std::optional<double> scale;
+  nlohmann::json::json_pointer place;  ///< `pointer`, taken apart once
 };
 
 struct SweepParameter {
@@ -41,13 +43,16 @@ struct SweepOutput {
   std::vector<std::string> tokens;
 };
 
-enum class SweepDesign { grid, zip };
+enum class SweepDesign { grid, zip, latin_hypercube };
 
 struct SweepData {
   nlohmann::json base;  ///< model and analysis
   std::vector<SweepParameter> parameters;
   SweepDesign design = SweepDesign::grid;
+  int samples = 1;  ///< of a Latin hypercube
+  int seed = 0;     ///< of a Latin hypercube
   std::vector<SweepOutput> outputs;
+  bool follow = false;  ///< the critical point is followed along the last parameter
   std::uint64_t points = 0;
 };
 
@@ -56,5 +61,12 @@ struct SweepData {
 
 /// The number that an array index is written as (no sign, no leading zero), or nothing.
 [[nodiscard]] std::optional<std::size_t> array_index(std::string_view token);
+
+/// @brief The request document with these values of the parameters.
+[[nodiscard]] nlohmann::json document_with(const SweepData& data, const std::vector<nlohmann::json>& values);
+
+/// @brief The values of a point of the design, one for each parameter.
+/// @pre point < data.points
+[[nodiscard]] std::vector<nlohmann::json> design_values(const SweepData& data, std::uint64_t point);
 
 }  // namespace snapthrough::api

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <thread>
 
+#include "api/sweep.h"
+
 namespace snapthrough::server {
 namespace {
 
@@ -52,6 +54,10 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   require(workers >= 1 && workers <= kMostWorkers, "workers", "must be 1 to 1024");
   require(jobs.max_crashes >= 1, "jobs.max_crashes", "must be >= 1");
   require(jobs.queue >= 1, "jobs.queue", "must be >= 1");
+  require(jobs.sweeps >= 1, "jobs.sweeps", "must be >= 1");
+  require(jobs.sweep_points >= 1 && static_cast<std::uint64_t>(jobs.sweep_points) <= api::kMaxSweepPoints,
+          "jobs.sweep_points", "must be 1 to 1000000");
+  require(jobs.table_rows >= 1, "jobs.table_rows", "must be >= 1");
   require(jobs.lease.count() >= 1, "jobs.lease", "must be >= 1 s");
   require(jobs.longest_run.count() >= 1, "jobs.longest_run", "must be >= 1 s");
   require(jobs.keep_jobs.count() >= 0, "jobs.keep_jobs", "must be >= 0");

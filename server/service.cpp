@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "api/json_text.h"
+#include "api/sweep.h"
 #include "server/http/gateway.h"
 #include "server/http/listener.h"
 #include "server/http/routes.h"
@@ -33,6 +34,12 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"elements", number(kMaxElements)},
           {"order", number(kMaxOrder)},
           {"steps", number(kMaxSteps)},
+          {"sweep_points", number(config.jobs.sweep_points)},
+          {"sweep_parameters", number(api::kMaxSweepParameters)},
+          {"sweep_targets", number(api::kMaxSweepTargets)},
+          {"sweep_outputs", number(api::kMaxSweepOutputs)},
+          {"sweeps", number(config.jobs.sweeps)},
+          {"table_rows", number(config.jobs.table_rows)},
           {"buckling_modes", number(kMaxModes)},
           {"monitors", number(kMaxMonitors)},
           {"state_points", number(kMaxStatePoints)},
@@ -95,6 +102,15 @@ std::string Service::Parts::metrics_text() {
   gauge("snapthrough_buffered_bytes", "Of incomplete requests.", static_cast<double>(load.buffered_bytes));
   gauge("snapthrough_jobs_waiting", "Accepted jobs, about.", static_cast<double>(desk.waiting()));
   gauge("snapthrough_jobs_running", "Analyses of this process.", static_cast<double>(desk.active().count()));
+  const PointCounters& points = desk.sweeps().counters();
+  const auto counter = [&](const char* name, const char* help, std::int64_t value) {
+    write_metric(text, name, "counter", help, static_cast<double>(value));
+  };
+  gauge("snapthrough_sweeps_active", "Sweeps that points are given out of.",
+        static_cast<double>(desk.sweeps().board().count()));
+  counter("snapthrough_sweep_points_solved_total", "Points that were solved.", points.solved);
+  counter("snapthrough_sweep_points_failed_total", "Points that were tried and failed.", points.failed);
+  counter("snapthrough_sweep_points_reused_total", "Points that were known already.", points.reused);
   gauge("snapthrough_store_writable", "1 when the latest write went well.", health.writable ? 1 : 0);
   gauge("snapthrough_disk_has_space", "1 when new jobs are taken.", health.has_space ? 1 : 0);
   return text;
@@ -133,6 +149,16 @@ Status Service::start() {
     return recovery.status();
   }
   log_recovery(log_, *recovery, "the service died while it worked on this job");
+  const StatusOr<std::int64_t> points =
+      opened->sweeps().recover(config_.jobs.max_crashes, environment_.now());
+  if (!points.ok()) {
+    return points.status();
+  }
+  if (*points > 0) {
+    log_.write(LogLevel::warning, "sweep",
+               {{"points", *points},
+                {"detail", std::string_view("the service died while it worked on these points")}});
+  }
   parts_ = std::make_unique<Parts>(config_, environment_, solve_, log_, std::move(opened));
   if (Status status = parts_->listener.start(); !status.ok()) {
     stop();

@@ -148,6 +148,12 @@ std::vector<Setting> job_settings() {
       whole("workers", "Analyses at the same time", [](ServiceConfig& c) -> int& { return c.workers; }),
       whole("max_queue", "Jobs that may wait; the next is refused with 429",
             [](ServiceConfig& c) -> int& { return c.jobs.queue; }),
+      whole("max_sweeps", "Sweeps that may be unfinished; the next is refused with 429",
+            [](ServiceConfig& c) -> int& { return c.jobs.sweeps; }),
+      whole("max_sweep_points", "Points of a sweep, up to 1000000",
+            [](ServiceConfig& c) -> int& { return c.jobs.sweep_points; }),
+      whole("max_table_rows", "Rows of a sweep's table in one response",
+            [](ServiceConfig& c) -> int& { return c.jobs.table_rows; }),
       whole("max_crashes", "A job during which the service died so often is given up",
             [](ServiceConfig& c) -> int& { return c.jobs.max_crashes; }),
       duration(

@@ -20,6 +20,7 @@ namespace {
 struct Arguments {
   std::string request;
   bool csv = false;
+  bool ndjson = false;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string config_file;
   std::map<std::string, std::string> settings;  ///< by name, as given
@@ -46,7 +47,9 @@ CLI::App* add_sweep_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("sweep", "Solve every point of a sweep, one row each");
   command->add_option("sweep", arguments.request, "Sweep document (JSON); - reads standard input")
       ->required();
-  command->add_flag("--csv", arguments.csv, "Comma-separated values instead of JSON");
+  CLI::Option* csv = command->add_flag("--csv", arguments.csv, "Comma-separated values instead of JSON");
+  command->add_flag("--ndjson", arguments.ndjson, "One JSON object a line instead of one document")
+      ->excludes(csv);
   command->add_option("--threads", arguments.threads, "Points at the same time; rows do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -117,7 +120,11 @@ int run(int argc, const char* const* argv, const Streams& streams) {
       return check_command(arguments.request, streams);
     }
     if (*sweep) {
-      return sweep_command(arguments.request, streams, arguments.csv, arguments.threads);
+      const api::TableForm form = arguments.csv      ? api::TableForm::csv
+                                  : arguments.ndjson ? api::TableForm::ndjson
+                                                     : api::TableForm::json;
+      return sweep_command(arguments.request, streams,
+                           {form, arguments.threads, ::isatty(STDERR_FILENO) == 1});
     }
     if (app.got_subcommand("backup")) {
       return backup_command(arguments.store, arguments.target, streams);

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "api/sweep_table.h"
 #include "server/cli/app.h"
 #include "server/settings.h"
 
@@ -12,12 +13,18 @@ namespace snapthrough::server::cli {
 /// Result document on `out`; progress on `err` when `show_progress`. "-" reads `in`.
 int solve_command(const std::string& path, const Streams& streams, bool show_progress);
 
-/// Findings on `err`, one line each; a line on `out` when there are none.
+/// Findings of a request or a sweep document on `err`, one line each; a line on `out` when there are none.
 int check_command(const std::string& path, const Streams& streams);
 
-/// Rows of a sweep on `out`, as one JSON document or as CSV; points are solved on `threads` >= 1 threads.
-/// kNotCompleted when a point failed: its row says why, the others are there.
-int sweep_command(const std::string& path, const Streams& streams, bool csv, int threads);
+struct SweepOptions {
+  api::TableForm form = api::TableForm::json;
+  int threads = 1;             ///< points at the same time, >= 1; rows do not depend on it
+  bool show_progress = false;  ///< a bar on the error stream
+};
+
+/// Rows of a sweep on `out` in design order, as they come. kNotCompleted when a point failed: its row says
+/// why, the others are there.
+int sweep_command(const std::string& path, const Streams& streams, const SweepOptions& options);
 
 /// Runs the service until SIGTERM or SIGINT.
 int serve_command(const SettingSources& sources, const Streams& streams);

@@ -4,6 +4,8 @@
 #include <ostream>
 
 #include "api/api.h"
+#include "api/json_text.h"
+#include "api/sweep.h"
 #include "server/cli/commands.h"
 #include "server/cli/input.h"
 #include "solver/solve.h"
@@ -69,11 +71,27 @@ int solve_command(const std::string& path, const Streams& streams, bool show_pro
 }
 
 int check_command(const std::string& path, const Streams& streams) {
-  const Read read_request = read(path, streams);
-  if (read_request.request) {
-    streams.out << (path == "-" ? "standard input" : path) << ": valid\n";
+  const std::optional<std::string> text = read_all(path, streams);
+  if (!text) {
+    return kOther;
   }
-  return read_request.exit_status;
+  const std::string name = path == "-" ? "standard input" : path;
+  const api::ParsedText parsed = api::parse_json(*text);
+  std::vector<Finding> findings = parsed.findings;
+  std::string size;
+  if (parsed.document != nullptr && api::is_sweep(*parsed.document)) {
+    const api::SweepOutcome outcome = api::read_sweep_document(parsed.document);
+    findings = outcome.findings;
+    size = outcome.sweep ? ", a sweep of " + std::to_string(outcome.sweep->size()) + " points" : "";
+  } else if (parsed.document != nullptr) {
+    findings = api::read_request_document(parsed.document).findings;
+  }
+  print_findings(findings, streams);
+  if (!findings.empty()) {
+    return kWrongRequest;
+  }
+  streams.out << name << ": valid" << size << '\n';
+  return kDone;
 }
 
 }  // namespace snapthrough::server::cli

@@ -1,85 +1,136 @@
 #include "api/sweep.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <exception>
-#include <nlohmann/json.hpp>
+#include <condition_variable>
+#include <map>
+#include <mutex>
 #include <ostream>
 #include <thread>
 
+#include "api/sweep_table.h"
 #include "server/cli/commands.h"
 #include "server/cli/input.h"
+#include "server/cli/progress_bar.h"
+#include "server/worker/point.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server::cli {
 namespace {
 
-using nlohmann::json;
+using Clock = std::chrono::steady_clock;
 
-json solve_point(const api::Sweep& sweep, std::uint64_t point) {
-  const api::ReadOutcome outcome = api::read_request_document(sweep.document_at(point));
-  if (!outcome.request) {
-    std::string detail;
-    for (const Finding& finding : outcome.findings) {
-      detail += (detail.empty() ? "" : "; ") + finding.pointer + ": " + finding.detail;
+/// Rows wait here until those before them are written; workers further ahead than this wait, so that memory
+/// does not grow with the sweep.
+constexpr std::uint64_t kLongestLead = 4096;
+constexpr std::chrono::milliseconds kBetweenBars{100};
+
+/// @brief Gives points out and puts their rows in design order. Thread-safe.
+class RowQueue {
+ public:
+  RowQueue(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options)
+      : sweep_(sweep),
+        streams_(streams),
+        show_progress_(options.show_progress),
+        writer_(sweep, options.form) {
+    streams_.out << writer_.head();
+  }
+
+  /// The first point of a block to solve; nothing when there are no more.
+  std::optional<std::uint64_t> next() {
+    std::unique_lock lock(mutex_);
+    if (given_ == sweep_.size()) {
+      return std::nullopt;
     }
-    return sweep.error_row(point, "wrong_request", detail);
+    const std::uint64_t point = given_;
+    given_ += sweep_.block();
+    room_.wait(lock, [&] { return point < written_ + std::max(kLongestLead, 4 * sweep_.block()); });
+    return point;
   }
-  const auto start = std::chrono::steady_clock::now();
-  const Result result = solve(outcome.request->model, outcome.request->analysis);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  if (result.failure) {
-    return sweep.error_row(point, result.failure->code, result.failure->detail);
-  }
-  return sweep.row(point, api::write_result(*outcome.request, result, elapsed.count()));
-}
 
-json row_of(const api::Sweep& sweep, std::uint64_t point) {
-  try {
-    return solve_point(sweep, point);
-  } catch (const std::exception& error) {
-    return sweep.error_row(point, "internal", error.what());
+  void put(std::uint64_t point, api::PointOutcome outcome) {
+    const std::lock_guard guard(mutex_);
+    failed_ += outcome.failed() ? 1 : 0;
+    ++done_;
+    waiting_.emplace(point, std::move(outcome));
+    std::string text;
+    for (auto first = waiting_.begin(); first != waiting_.end() && first->first == written_;
+         first = waiting_.erase(first)) {
+      writer_.append_row(written_++, first->second, text);
+    }
+    if (!text.empty()) {
+      streams_.out << text;
+      room_.notify_all();
+    }
+    show_bar(false);
   }
-}
 
-/// Rows in design order. Each is computed alone, so that they do not depend on how many threads share them.
-std::vector<json> solve_points(const api::Sweep& sweep, int threads) {
-  std::vector<json> rows(sweep.size());
-  std::atomic<std::uint64_t> next{0};
+  /// To be called when all points were put. @return how many failed
+  std::uint64_t finish() {
+    const std::lock_guard guard(mutex_);
+    streams_.out << writer_.tail() << std::flush;
+    show_bar(true);
+    return failed_;
+  }
+
+ private:
+  void show_bar(bool last) {
+    const Clock::time_point now = Clock::now();
+    if (!show_progress_ || (!last && now < next_bar_)) {
+      return;
+    }
+    next_bar_ = now + kBetweenBars;
+    const std::chrono::duration<double> elapsed = now - start_;
+    streams_.err << '\r' << progress_line(done_, failed_, sweep_.size(), elapsed.count()) << "\x1b[K"
+                 << (last ? "\n" : "") << std::flush;
+  }
+
+  const api::Sweep& sweep_;
+  const Streams& streams_;
+  const bool show_progress_;
+  std::mutex mutex_;
+  std::condition_variable room_;
+  api::TableWriter writer_;
+  std::map<std::uint64_t, api::PointOutcome> waiting_;
+  std::uint64_t given_ = 0;
+  std::uint64_t written_ = 0;
+  std::uint64_t done_ = 0;
+  std::uint64_t failed_ = 0;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point next_bar_ = start_;
+};
+
+/// Each point is computed alone, so that rows do not depend on how many threads share them.
+std::uint64_t solve_points(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options) {
+  RowQueue queue(sweep, streams, options);
+  const SolveFunction solver = [](const Model& model, const Analysis& analysis, const Hooks& hooks) {
+    return solve(model, analysis, hooks);
+  };
   const auto work = [&] {
-    for (std::uint64_t point = next++; point < sweep.size(); point = next++) {
-      rows[point] = row_of(sweep, point);
+    while (const std::optional<std::uint64_t> point = queue.next()) {
+      if (!sweep.follows()) {
+        queue.put(*point, solve_point(sweep, sweep.document_at(*point), solver, {}));
+        continue;
+      }
+      std::vector<api::PointOutcome> outcomes = solve_curve(sweep, *point, {});
+      for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        queue.put(*point + i, std::move(outcomes[i]));
+      }
     }
   };
-  std::vector<std::jthread> others;
-  for (int i = 1; i < threads && static_cast<std::uint64_t>(i) < sweep.size(); ++i) {
-    others.emplace_back(work);
-  }
-  work();
-  others.clear();
-  return rows;
-}
-
-void print(const api::Sweep& sweep, const std::vector<json>& rows, bool csv, std::ostream& out) {
-  if (csv) {
-    out << api::csv_line(sweep.columns());
-    for (const json& row : rows) {
-      out << api::csv_line(row);
+  {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < options.threads && static_cast<std::uint64_t>(i) < sweep.size(); ++i) {
+      others.emplace_back(work);
     }
-    out << std::flush;
-    return;
+    work();
   }
-  out << "{\"columns\": " << json(sweep.columns()).dump() << ",\n \"rows\": [";
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    out << (i == 0 ? "\n  " : ",\n  ") << rows[i].dump();
-  }
-  out << "\n ]}\n" << std::flush;
+  return queue.finish();
 }
 
 }  // namespace
 
-int sweep_command(const std::string& path, const Streams& streams, bool csv, int threads) {
+int sweep_command(const std::string& path, const Streams& streams, const SweepOptions& options) {
   const std::optional<std::string> text = read_all(path, streams);
   if (!text) {
     return kOther;
@@ -89,16 +140,13 @@ int sweep_command(const std::string& path, const Streams& streams, bool csv, int
     print_findings(outcome.findings, streams);
     return kWrongRequest;
   }
-  const std::vector<json> rows = solve_points(*outcome.sweep, threads);
-  print(*outcome.sweep, rows, csv, streams.out);
+  const std::uint64_t failed = solve_points(*outcome.sweep, streams, options);
   if (!streams.out) {
     streams.err << "snapthrough: cannot write the rows\n";
     return kOther;
   }
-  const auto failed =
-      std::count_if(rows.begin(), rows.end(), [](const json& row) { return !row.back().is_null(); });
   if (failed > 0) {
-    streams.err << failed << " of " << rows.size()
+    streams.err << failed << " of " << outcome.sweep->size()
                 << " points could not be completed; the column error says why\n";
     return kNotCompleted;
   }

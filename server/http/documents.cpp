@@ -1,5 +1,6 @@
 #include "server/http/documents.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -73,7 +74,61 @@ ordered_json job_status(const Job& job, const std::optional<Progress>& progress)
   return status;
 }
 
+std::string sweep_message(const SweepRecord& sweep) {
+  switch (sweep.state) {
+    case JobState::accepted:
+      return "waits for a worker";
+    case JobState::running:
+      return std::to_string(sweep.done()) + " of " + std::to_string(sweep.points) + " points are done";
+    case JobState::successful:
+      return "the table is complete";
+    case JobState::failed:
+      return "the table is complete; " + std::to_string(sweep.failed) + " of " +
+             std::to_string(sweep.points) + " points failed";
+    case JobState::dismissed:
+      return "dismissed; " + std::to_string(sweep.done()) + " of " + std::to_string(sweep.points) +
+             " points have a row";
+  }
+  return "";
+}
+
+ordered_json sweep_status(const SweepRecord& sweep) {
+  const std::string path = sweep_path(sweep.id);
+  return {{"id", sweep.id},
+          {"status", to_string(sweep.state)},
+          {"progress", 100 * sweep.done() / std::max<std::int64_t>(sweep.points, 1)},
+          {"message", sweep_message(sweep)},
+          {"title", sweep.title},
+          {"points", sweep.points},
+          {"counts",
+           {{"successful", sweep.successful},
+            {"failed", sweep.failed},
+            {"reused", sweep.reused},
+            {"remaining", sweep.points - sweep.done()}}},
+          {"created", rfc3339(sweep.created)},
+          {"started", optional_time(sweep.started)},
+          {"finished", optional_time(sweep.finished)},
+          {"links", ordered_json::array({link("self", path), link("request", path + "/request"),
+                                         link("table", path + "/table")})}};
+}
+
 }  // namespace
+
+std::string sweep_path(std::string_view id) { return "/v1/sweeps/" + std::string(id); }
+
+std::string sweep_status_document(const SweepRecord& sweep) { return to_text(sweep_status(sweep)); }
+
+std::string sweep_list_document(const SweepPage& page, std::string_view next) {
+  ordered_json sweeps = ordered_json::array();
+  for (const SweepRecord& sweep : page.sweeps) {
+    sweeps.push_back(sweep_status(sweep));
+  }
+  ordered_json links = ordered_json::array();
+  if (!next.empty()) {
+    links.push_back(link("next", std::string(next)));
+  }
+  return to_text({{"sweeps", std::move(sweeps)}, {"links", std::move(links)}});
+}
 
 std::string job_path(std::string_view id) { return "/v1/jobs/" + std::string(id); }
 

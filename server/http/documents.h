@@ -34,6 +34,14 @@ struct Problem {
 /// A page of jobs; `next` is the path of the following page, empty on the last.
 [[nodiscard]] std::string job_list_document(const JobPage& page, std::string_view next);
 
+/// The sweep's place: "/v1/sweeps/<id>".
+[[nodiscard]] std::string sweep_path(std::string_view id);
+
+[[nodiscard]] std::string sweep_status_document(const SweepRecord& sweep);
+
+/// A page of sweeps; `next` is the path of the following page, empty on the last.
+[[nodiscard]] std::string sweep_list_document(const SweepPage& page, std::string_view next);
+
 /// application/problem+json for a request.
 [[nodiscard]] Response problem_response(const Problem& problem, const Request& request);
 

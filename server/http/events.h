@@ -18,4 +18,8 @@ namespace snapthrough::server::http {
 [[nodiscard]] std::shared_ptr<StreamSource> follow_job(JobDesk& desk, const std::string& id,
                                                        std::uint64_t last_id, Stream::Push push);
 
+/// @brief The same for a sweep: `status` at once, `progress` (counts) while points are computed, `end`.
+[[nodiscard]] std::shared_ptr<StreamSource> follow_sweep(JobDesk& desk, const std::string& id,
+                                                         std::uint64_t last_id, Stream::Push push);
+
 }  // namespace snapthrough::server::http

@@ -63,6 +63,21 @@ class Routes {
   Response result_of(const Request& request, const Job& job);
   Response path_table(const Request& request, const Job& job);
 
+  // routes_sweeps.cpp
+  Response create_sweep(const Request& request, const std::string& id);
+  Response list_sweeps(const Request& request, const std::string& id);
+  Response sweep_status(const Request& request, const std::string& id);
+  Response sweep_request(const Request& request, const std::string& id);
+  Response sweep_table(const Request& request, const std::string& id);
+  Response sweep_events(const Request& request, const std::string& id);
+  Response dismiss_sweep(const Request& request, const std::string& id);
+  Response retry_sweep(const Request& request, const std::string& id);
+  Response delete_sweep(const Request& request, const std::string& id);
+  /// Calls `answer` with the sweep if there is one and it is the owner's, else answers itself.
+  Response with_sweep(const Request& request, const std::string& id,
+                      const std::function<Response(const SweepRecord&)>& answer);
+  Response status_of_sweep(const Request& request, const std::string& id, int status);
+
   // routes_service.cpp
   Response check(const Request& request, const std::string& id);
   Response limits(const Request& request, const std::string& id);

@@ -5,6 +5,7 @@
 
 #include "server/http/csv.h"
 #include "server/http/events.h"
+#include "server/http/negotiation.h"
 #include "server/http/prefer.h"
 #include "server/http/routes.h"
 
@@ -13,18 +14,6 @@ namespace {
 
 constexpr int kDefaultPage = 20;
 constexpr int kLargestPage = 1000;
-constexpr std::size_t kLongestKey = 255;
-
-Response refused_document(const Request& request, Submission submission) {
-  Problem problem{422, "invalid-request", "Invalid request", "", std::move(submission.findings), "", ""};
-  if (submission.kind == Submission::Kind::malformed) {
-    problem = {400, "malformed-json", "Malformed JSON", "", std::move(problem.errors), "", ""};
-  }
-  const std::size_t count = problem.errors.size();
-  problem.detail = "The request document has " + std::to_string(count) + (count == 1 ? " error" : " errors") +
-                   "; nothing was stored.";
-  return problem_response(problem, request);
-}
 
 /// The problem of a failed job: the caller's model could not be analysed, or the service is to blame.
 Problem failure_problem(const JobFailure& failure) {
@@ -32,13 +21,6 @@ Problem failure_problem(const JobFailure& failure) {
   const bool own_fault = std::find(kOwnFaults.begin(), kOwnFaults.end(), failure.code) != kOwnFaults.end();
   return {own_fault ? 500 : 422, "analysis-failed", "The analysis could not be completed", failure.detail, {},
           failure.code,          failure.reached};
-}
-
-template <class Number>
-std::optional<Number> whole_number(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
 /// One parameter of a list's query; false when it is unknown or its value is not acceptable.
@@ -70,20 +52,6 @@ std::string next_page(const JobQuery& query, std::int64_t cursor) {
 /// A result never changes, so its job's id is a strong validator.
 std::string result_etag(const std::string& id, const char* form) { return "\"" + id + "." + form + "\""; }
 
-/// Whether If-None-Match names the tag, or the one of the same bytes compressed.
-bool matches_etag(const Request& request, const std::string& etag) {
-  const std::optional<std::string_view> header = request.header("If-None-Match");
-  if (!header) {
-    return false;
-  }
-  const std::string packed = etag.substr(0, etag.size() - 1) + "-gzip\"";
-  const std::vector<std::string_view> tags = split_list(*header, ',');
-  return std::any_of(tags.begin(), tags.end(), [&](std::string_view tag) {
-    const std::string_view strong = tag.starts_with("W/") ? tag.substr(2) : tag;
-    return strong == "*" || strong == etag || strong == packed;
-  });
-}
-
 enum class Form { json, csv, none };
 
 /// The form of a result that the client takes: by ?format= before Accept; JSON when both will do.
@@ -113,47 +81,6 @@ Form wanted_form(const Request& request) {
   return form;
 }
 
-/// Problems of submissions that left nothing in the store.
-std::optional<Response> refusal_of(const Request& request, Submission& submission) {
-  switch (submission.kind) {
-    case Submission::Kind::malformed:
-    case Submission::Kind::invalid:
-      return refused_document(request, std::move(submission));
-    case Submission::Kind::key_conflict:
-      return simple_problem(request, 422, "idempotency-key-reused", "Idempotency key reused",
-                            "This Idempotency-Key came with another document before.");
-    case Submission::Kind::key_in_use: {
-      Response response =
-          simple_problem(request, 409, "idempotency-key-in-use", "Idempotency key in use",
-                         "A request with this Idempotency-Key is being served at this moment.");
-      response.headers.emplace_back("Retry-After", "1");
-      return response;
-    }
-    case Submission::Kind::queue_full: {
-      Response response = simple_problem(request, 429, "queue-full", "Queue full",
-                                         "As many jobs wait as the service takes (see /v1/limits).");
-      response.headers.emplace_back("Retry-After", "10");
-      return response;
-    }
-    case Submission::Kind::stored:
-    case Submission::Kind::repeated:
-    case Submission::Kind::reused:
-      return std::nullopt;
-  }
-  return std::nullopt;
-}
-
-bool wants_fresh(const Request& request) {
-  const std::vector<std::string_view> parts = split_list(request.header("Cache-Control").value_or(""), ',');
-  return std::any_of(parts.begin(), parts.end(),
-                     [](std::string_view part) { return equal_ignoring_case(part, "no-cache"); });
-}
-
-bool is_key(std::string_view text) {
-  return !text.empty() && text.size() <= kLongestKey &&
-         std::all_of(text.begin(), text.end(), [](char c) { return c > 0x20 && c < 0x7F; });
-}
-
 }  // namespace
 
 Response Routes::create_job(const Request& request, const std::string& /*id*/) {
@@ -162,9 +89,8 @@ Response Routes::create_job(const Request& request, const std::string& /*id*/) {
                           "A request document has Content-Type: application/json.");
   }
   const std::optional<std::string_view> key = request.header("Idempotency-Key");
-  if (key && !is_key(*key)) {
-    return simple_problem(request, 400, "invalid-header", "Invalid header",
-                          "An Idempotency-Key has 1 to 255 visible ASCII characters.");
+  if (std::optional<Response> refusal = refused_key(request)) {
+    return *std::move(refusal);
   }
   StatusOr<Submission> outcome = desk_.submit(
       {request.body, request.id, request.owner, key, wait_of(request).count() > 0, !wants_fresh(request)});
@@ -172,7 +98,7 @@ Response Routes::create_job(const Request& request, const std::string& /*id*/) {
     return store_trouble(request, outcome.status());
   }
   Submission submission = std::move(outcome).value();
-  if (std::optional<Response> refusal = refusal_of(request, submission)) {
+  if (std::optional<Response> refusal = refusal_of(request, submission, "jobs")) {
     return *std::move(refusal);
   }
   return created(request, submission);

@@ -1,6 +1,10 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "api/api.h"
+#include "api/json_text.h"
+#include "api/sweep.h"
 #include "server/http/embedded.h"
 #include "server/http/routes.h"
 #include "solver/mesh/mesh.h"
@@ -27,6 +31,30 @@ int unknowns_of(const api::Request& request) {
   return unknowns;
 }
 
+/// What is wrong with a document, and how large it is.
+struct Checked {
+  std::vector<Finding> findings;
+  std::uint64_t points = 1;
+  int unknowns = 0;
+};
+
+Checked checked_request(const std::shared_ptr<const nlohmann::json>& document) {
+  api::ReadOutcome read = api::read_request_document(document);
+  return {std::move(read.findings), 1, read.request ? unknowns_of(*read.request) : 0};
+}
+
+/// Unknowns are those of the first point that is a valid request.
+Checked checked_sweep(const std::shared_ptr<const nlohmann::json>& document, const JobLimits& limits) {
+  constexpr std::uint64_t kTries = 10;
+  api::SweepOutcome read =
+      api::read_sweep_document(document, static_cast<std::uint64_t>(limits.sweep_points));
+  Checked checked{std::move(read.findings), read.sweep ? read.sweep->size() : 0, 0};
+  for (std::uint64_t i = 0; i < std::min(checked.points, kTries) && checked.unknowns == 0; ++i) {
+    checked.unknowns = checked_request(read.sweep->document_at(i)).unknowns;
+  }
+  return checked;
+}
+
 Response fresh(Response response) {
   response.headers.emplace_back("Cache-Control", "no-store");
   return response;
@@ -39,16 +67,19 @@ Response Routes::check(const Request& request, const std::string& /*id*/) {
     return simple_problem(request, 415, "unsupported-media-type", "Unsupported media type",
                           "A request document has Content-Type: application/json.");
   }
-  const api::ReadOutcome read = api::read_request(request.body);
-  if (read.malformed) {
+  const api::ParsedText parsed = api::parse_json(request.body);
+  if (parsed.document == nullptr) {
     return problem_response({400, "malformed-json", "Malformed JSON", "The body is no acceptable JSON text.",
-                             read.findings, "", ""},
+                             parsed.findings, "", ""},
                             request);
   }
-  ordered_json document{
-      {"valid", read.request.has_value()}, {"errors", api::write_findings(read.findings)}, {"size", nullptr}};
-  if (read.request) {
-    document["size"] = {{"points", 1}, {"unknowns", unknowns_of(*read.request)}};
+  const Checked checked = api::is_sweep(*parsed.document) ? checked_sweep(parsed.document, desk_.limits())
+                                                          : checked_request(parsed.document);
+  ordered_json document{{"valid", checked.findings.empty()},
+                        {"errors", api::write_findings(checked.findings)},
+                        {"size", nullptr}};
+  if (checked.findings.empty()) {
+    document["size"] = {{"points", checked.points}, {"unknowns", checked.unknowns}};
   }
   return json_response(200, document.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }

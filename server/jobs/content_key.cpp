@@ -59,4 +59,11 @@ std::string content_key(const json& document) {
   return sha256_hex(text);
 }
 
+std::string point_key(const json& document, std::string_view outputs, std::string_view owner) {
+  std::string text = "snapthrough " SNAPTHROUGH_VERSION " point 1 ";
+  text.append(outputs).append(json(owner).dump(-1, ' ', false, json::error_handler_t::replace));
+  append(document, text);
+  return sha256_hex(text);
+}
+
 }  // namespace snapthrough::server

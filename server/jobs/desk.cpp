@@ -72,7 +72,12 @@ class JobDesk::KeyInUse {
 };
 
 JobDesk::JobDesk(Store& store, const Environment& environment, Log& log, JobLimits limits)
-    : store_(store), environment_(environment), log_(log), limits_(limits), instance_(new_id(environment)) {}
+    : store_(store),
+      environment_(environment),
+      log_(log),
+      limits_(limits),
+      instance_(new_id(environment)),
+      sweeps_({store_.sweeps(), environment_, log_, limits_, health_, exchange_, ends_}) {}
 
 Lease JobDesk::new_lease() const { return {instance_, environment_.now() + limits_.lease}; }
 

@@ -11,57 +11,16 @@
 #include <vector>
 
 #include "server/environment.h"
+#include "server/jobs/limits.h"
 #include "server/jobs/notices.h"
+#include "server/jobs/submission.h"
+#include "server/jobs/sweep_desk.h"
 #include "server/jobs/work.h"
 #include "server/log/log.h"
 #include "server/store/store.h"
-#include "solver/model/check.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server {
-
-/// A request document and how it was handed in.
-struct Order {
-  std::string_view document;
-  std::string_view request_id = {};                      ///< for the log
-  std::string owner = {};                                ///< see Job
-  std::optional<std::string_view> idempotency_key = {};  ///< a second order with it is the first
-  bool waits = false;                                    ///< the caller waits for the outcome
-  bool reuse = true;                                     ///< a stored result of the same request will do
-};
-
-/// What became of an order.
-struct Submission {
-  enum class Kind {
-    stored,        ///< `id` is a new job
-    repeated,      ///< `id` is the job of the same idempotency key
-    reused,        ///< `id` is a successful job of the same content
-    malformed,     ///< not a JSON document, see findings; nothing was stored
-    invalid,       ///< see findings; nothing was stored
-    key_conflict,  ///< the idempotency key came with another document before
-    key_in_use,    ///< a request with this idempotency key is being served at this moment
-    queue_full
-  } kind = Kind::stored;
-  std::vector<Finding> findings = {};
-  std::string id = {};
-};
-
-/// Bounds on what is kept and worked on.
-struct JobLimits {
-  int queue = 100'000;                         ///< jobs that may wait, >= 1
-  std::chrono::seconds lease{30};              ///< a worker that is silent for so long has lost its job
-  std::chrono::seconds longest_run{3600};      ///< of one job
-  int max_crashes = 3;                         ///< a job during which the service died so often is given up
-  std::chrono::seconds keep_jobs{30 * 86400};  ///< after their end; 0: for ever
-  std::chrono::seconds keep_keys{86400};       ///< idempotency keys
-};
-
-/// Whether writing to the store works. Thread-safe.
-struct StoreHealth {
-  std::atomic<bool> writable = true;   ///< the latest write that tells
-  std::atomic<bool> has_space = true;  ///< enough for new jobs
-  std::atomic<bool> draining = false;  ///< the service is about to stop
-};
 
 /// @brief Where jobs are handed in and asked for. Thread-safe; the parts it is given must outlive it.
 class JobDesk {
@@ -93,6 +52,8 @@ class JobDesk {
   [[nodiscard]] WorkExchange& exchange() { return exchange_; }
   [[nodiscard]] ActiveJobs& active() { return active_; }
   [[nodiscard]] ProgressBoard& progress_board() { return progress_; }
+  /// Sweeps, for callers and workers.
+  [[nodiscard]] SweepDesk& sweeps() { return sweeps_; }
   /// A lease from now on, for this instance of the service.
   [[nodiscard]] Lease new_lease() const;
 
@@ -114,6 +75,7 @@ class JobDesk {
   WorkExchange exchange_;
   ActiveJobs active_;
   ProgressBoard progress_;
+  SweepDesk sweeps_;
 };
 
 }  // namespace snapthrough::server

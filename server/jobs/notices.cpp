@@ -60,36 +60,4 @@ void JobEnds::close() {
   }
 }
 
-ProgressBoard::Follower::Follower(ProgressBoard& board, std::string id,
-                                  std::function<void(const Progress&)> callback)
-    : board_(board), id_(std::move(id)), callback_(std::move(callback)) {
-  const std::lock_guard guard(board_.mutex_);
-  board_.followers_.emplace(id_, this);
-}
-
-ProgressBoard::Follower::~Follower() {
-  const std::lock_guard guard(board_.mutex_);
-  erase_entry(board_.followers_, id_, this);
-}
-
-void ProgressBoard::set(const std::string& id, const Progress& progress) {
-  const std::lock_guard guard(mutex_);
-  latest_[id] = progress;
-  const auto [first, last] = followers_.equal_range(id);
-  for (auto it = first; it != last; ++it) {
-    it->second->callback_(progress);
-  }
-}
-
-void ProgressBoard::erase(const std::string& id) {
-  const std::lock_guard guard(mutex_);
-  latest_.erase(id);
-}
-
-std::optional<Progress> ProgressBoard::get(const std::string& id) const {
-  const std::lock_guard guard(mutex_);
-  const auto found = latest_.find(id);
-  return found == latest_.end() ? std::nullopt : std::optional(found->second);
-}
-
 }  // namespace snapthrough::server

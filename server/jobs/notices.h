@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "solver/solve.h"
 
@@ -52,35 +53,75 @@ class JobEnds {
   std::unordered_multimap<std::string, Ticket*> tickets_;
 };
 
-/// @brief Latest progress of the jobs that run in this process, and who follows it. Thread-safe.
-class ProgressBoard {
+/// @brief The latest news of what this process works on, by id, and who follows it. Thread-safe.
+template <class News>
+class NewsBoard {
  public:
-  /// Follows one job for as long as it exists.
+  /// Follows one id for as long as it exists.
   class Follower {
    public:
     /// The callback must be quick, must not throw, and must not use the board.
-    Follower(ProgressBoard& board, std::string id, std::function<void(const Progress&)> callback);
-    ~Follower();
+    Follower(NewsBoard& board, std::string id, std::function<void(const News&)> callback)
+        : board_(board), id_(std::move(id)), callback_(std::move(callback)) {
+      const std::lock_guard guard(board_.mutex_);
+      board_.followers_.emplace(id_, this);
+    }
+    ~Follower() {
+      const std::lock_guard guard(board_.mutex_);
+      const auto [first, last] = board_.followers_.equal_range(id_);
+      for (auto it = first; it != last; ++it) {
+        if (it->second == this) {
+          board_.followers_.erase(it);
+          return;
+        }
+      }
+    }
     Follower(const Follower&) = delete;
     Follower& operator=(const Follower&) = delete;
     Follower(Follower&&) = delete;
     Follower& operator=(Follower&&) = delete;
 
    private:
-    friend class ProgressBoard;
-    ProgressBoard& board_;
+    friend class NewsBoard;
+    NewsBoard& board_;
     std::string id_;
-    std::function<void(const Progress&)> callback_;
+    std::function<void(const News&)> callback_;
   };
 
-  void set(const std::string& id, const Progress& progress);
-  void erase(const std::string& id);
-  [[nodiscard]] std::optional<Progress> get(const std::string& id) const;
+  /// Remembers the news and tells the followers.
+  void set(const std::string& id, const News& news) {
+    const std::lock_guard guard(mutex_);
+    latest_.insert_or_assign(id, news);
+    tell(id, news);
+  }
+  /// Only tells the followers.
+  void pass_on(const std::string& id, const News& news) const {
+    const std::lock_guard guard(mutex_);
+    tell(id, news);
+  }
+  void erase(const std::string& id) {
+    const std::lock_guard guard(mutex_);
+    latest_.erase(id);
+  }
+  [[nodiscard]] std::optional<News> get(const std::string& id) const {
+    const std::lock_guard guard(mutex_);
+    const auto found = latest_.find(id);
+    return found == latest_.end() ? std::nullopt : std::optional(found->second);
+  }
 
  private:
+  void tell(const std::string& id, const News& news) const {
+    const auto [first, last] = followers_.equal_range(id);
+    for (auto it = first; it != last; ++it) {
+      it->second->callback_(news);
+    }
+  }
   mutable std::mutex mutex_;
-  std::unordered_map<std::string, Progress> latest_;
+  std::unordered_map<std::string, News> latest_;
   std::unordered_multimap<std::string, Follower*> followers_;
 };
+
+/// Where the jobs are that run in this process.
+using ProgressBoard = NewsBoard<Progress>;
 
 }  // namespace snapthrough::server

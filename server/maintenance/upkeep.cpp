@@ -11,6 +11,9 @@ constexpr std::chrono::seconds kPause{1};
 constexpr std::chrono::seconds kBetweenRetirements{10};
 /// Jobs that are removed in one transaction, so that it stays short.
 constexpr int kRetiredAtOnce = 200;
+/// Rows of removed sweeps that are given back in one transaction, and such transactions in a row.
+constexpr int kPurgedRows = 2000;
+constexpr int kPurgesAtOnce = 100;
 
 }  // namespace
 
@@ -30,6 +33,7 @@ void log_recovery(Log& log, const Recovery& recovery, std::string_view why) {
 void Upkeep::run_once(Time now) {
   look_at_disk(now);
   desk_.active().stop_older(now - desk_.limits().longest_run, StopReason::time_limit);
+  desk_.sweeps().board().stop_older(now - desk_.limits().longest_run);
   if (now >= next_renewal_) {
     next_renewal_ = now + desk_.limits().lease / 4;
     renew_leases(now);
@@ -38,6 +42,7 @@ void Upkeep::run_once(Time now) {
   if (now >= next_retirement_) {
     next_retirement_ = now + kBetweenRetirements;
     retire(now);
+    retire_sweeps(now);
     count_waiting();
   }
 }
@@ -102,6 +107,25 @@ void Upkeep::retire(Time now) {
     }
   }
   if (const Status status = desk_.store().forget_keys(now - limits.keep_keys); !status.ok()) {
+    log_.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
+  }
+}
+
+/// Sweeps that are kept no longer, and the space of those that were removed.
+void Upkeep::retire_sweeps(Time now) {
+  SweepStore& store = desk_.store().sweeps();
+  const JobLimits& limits = desk_.limits();
+  if (limits.keep_jobs.count() > 0) {
+    const StatusOr<int> retired = store.retire(now - limits.keep_jobs);
+    if (retired.ok() && *retired > 0) {
+      log_.write(LogLevel::info, "retired", {{"sweeps", static_cast<std::int64_t>(*retired)}});
+    }
+  }
+  StatusOr<bool> more = true;
+  for (int i = 0; i < kPurgesAtOnce && more.ok() && *more; ++i) {
+    more = store.purge(kPurgedRows);
+  }
+  if (const Status status = store.forget_keys(now - limits.keep_keys); !status.ok()) {
     log_.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
   }
 }

@@ -23,6 +23,7 @@ class Upkeep {
   void rescue(Time now);
   void look_at_disk(Time now);
   void retire(Time now);
+  void retire_sweeps(Time now);
   void count_waiting();
 
   JobDesk& desk_;

@@ -13,6 +13,7 @@
 
 #include "server/jobs/job.h"
 #include "server/status.h"
+#include "server/store/sweep_store.h"
 
 namespace snapthrough::server {
 
@@ -118,6 +119,9 @@ class Store {
   virtual StatusOr<std::optional<std::string>> result(std::string_view id) = 0;
   /// The path of a successful or failed job; empty lists when there is none.
   virtual StatusOr<StoredPath> path(std::string_view id) = 0;
+
+  /// What is kept of sweeps; lives as long as this.
+  virtual SweepStore& sweeps() = 0;
 };
 
 }  // namespace snapthrough::server

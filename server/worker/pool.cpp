@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "api/api.h"
+#include "server/worker/chunk.h"
 
 namespace snapthrough::server {
 namespace {
@@ -233,17 +234,27 @@ bool WorkerPool::claim_and_work(const std::stop_token& stop) {
   return true;
 }
 
+bool WorkerPool::take_chunk_and_work(const std::stop_token& stop) {
+  const std::optional<Chunk> chunk = stop.stop_requested() ? std::nullopt : desk_.sweeps().take();
+  if (chunk) {
+    work_on(*chunk, desk_, solve_, log_, stop);
+  }
+  return chunk.has_value();
+}
+
 void WorkerPool::run(const std::stop_token& stop) {
   std::uint64_t seen = 0;
   while (!stop.stop_requested()) {
-    if (claim_and_work(stop)) {
+    // In turn: neither jobs nor sweeps wait for the end of the other.
+    const bool worked = claim_and_work(stop);
+    if (take_chunk_and_work(stop) || worked) {
       continue;
     }
     // Jobs that are given directly come before those that wait: nobody is idle while some wait.
     std::optional<Handoff> handoff;
     while ((handoff = desk_.exchange().wait(seen, stop, kLongestNap))) {
       work_on(*handoff, desk_, solve_, log_, stop);
-      if (desk_.waiting() > 0 || stop.stop_requested()) {
+      if (desk_.waiting() > 0 || desk_.sweeps().has_work() || stop.stop_requested()) {
         break;
       }
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The threads that claim, solve and complete jobs.
+/// The threads that claim, solve and complete jobs and points of sweeps.
 
 #include <functional>
 #include <stop_token>
@@ -44,6 +44,7 @@ class WorkerPool {
  private:
   void run(const std::stop_token& stop);
   bool claim_and_work(const std::stop_token& stop);
+  bool take_chunk_and_work(const std::stop_token& stop);
 
   JobDesk& desk_;
   SolveFunction solve_;

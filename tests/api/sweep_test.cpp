@@ -5,8 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "api/sweep_table.h"
 #include "tests/api/documents.h"
 
 namespace snapthrough::api {
@@ -90,7 +93,11 @@ TEST(Sweep, RangesHaveExactEndsAndEqualStepsOrRatios) {
   EXPECT_DOUBLE_EQ(value(1), 1e4);
   EXPECT_EQ(value(3), 1e8);
   document["parameters"][0]["range"] = {{"from", 1}, {"to", 7}, {"count", 4}};
-  EXPECT_DOUBLE_EQ(value(2), 5.0);
+  EXPECT_EQ(value(2), 5.0);
+  document["parameters"][0]["range"] = {{"from", 0}, {"to", 100}, {"count", 1001}};
+  for (int i = 0; i <= 1000; i += 37) {
+    EXPECT_EQ(value(static_cast<std::uint64_t>(i)), i / 10.0) << "the nearest number to the decimal";
+  }
 }
 
 TEST(Sweep, WritesScaledValuesAtEveryTarget) {
@@ -103,29 +110,163 @@ TEST(Sweep, WritesScaledValuesAtEveryTarget) {
   EXPECT_EQ(outcome.sweep->document_at(0)->at("/model/springs/0/stiffness"_json_pointer), 12.0);
 }
 
-TEST(Sweep, RowsHoldValuesOutputsAndError) {
+std::string one_row(const Sweep& sweep, TableForm form, std::uint64_t point, const PointOutcome& outcome) {
+  TableWriter writer(sweep, form);
+  std::string text;
+  writer.append_row(point, outcome, text);
+  return text;
+}
+
+TEST(Sweep, OutcomesHoldTheOutputsOrSayWhyNot) {
   const Sweep sweep = *read(sound_sweep()).sweep;
   EXPECT_THAT(sweep.columns(),
               ElementsAre("k", "a", "/summary/critical_load_factor", "/critical_points/0/type", "error"));
   const json result = {{"summary", {{"critical_load_factor", 2.5}}}, {"critical_points", json::array()}};
-  EXPECT_EQ(sweep.row(3, result), json::parse("[5, 1e-4, 2.5, null, null]")) << "a list that ended is null";
+  EXPECT_EQ(sweep.outcome(result).outputs, "[2.5,null]") << "a list that ended is null";
   const json other = {{"summary", json::object()}, {"critical_points", json::array()}};
-  EXPECT_EQ(sweep.row(3, other)[4].at("code"), "no_such_output") << "a field that is not there is an error";
-  EXPECT_EQ(sweep.error_row(0, "c", "d"),
-            json::parse(R"([3, 1e-4, null, null, {"code": "c", "detail": "d"}])"));
+  EXPECT_EQ(sweep.outcome(other).code, "no_such_output") << "a field that is not there is an error";
 }
 
-TEST(Sweep, CsvQuotesWhatNeedsIt) {
-  EXPECT_EQ(csv_line(json::parse(R"([1.5, null, "a,b", "say \"x\"", {"code": 1}])")),
-            "1.5,,\"a,b\",\"say \"\"x\"\"\",\"{\"\"code\"\":1}\"\n");
+TEST(Sweep, DropsOnlyWhatNoOutputLooksInto) {
+  Result full;
+  full.critical_points.resize(2);
+  full.contact_events.resize(1);
+  full.branches.resize(1);
+  full.states.resize(1);
+  full.buckling = BucklingResult{{1.0, 2.0}, std::vector<BucklingMode>(2)};
+  Result result = full;
+  (*read(sound_sweep()).sweep).drop_unused(result);
+  EXPECT_EQ(result.critical_points.size(), 2U) << "/critical_points/0/type";
+  EXPECT_TRUE(result.contact_events.empty() && result.branches.empty() && result.states.empty());
+  EXPECT_TRUE(result.buckling->modes.empty());
+  EXPECT_EQ(result.buckling->load_factors.size(), 2U);
+  json document = sound_sweep();
+  document["outputs"] = {"/buckling/modes/0/members", "/states", "/branches/0/load_factor",
+                         "/contact_events/0"};
+  result = full;
+  (*read(document).sweep).drop_unused(result);
+  EXPECT_TRUE(result.critical_points.empty());
+  EXPECT_EQ(result.contact_events.size() + result.branches.size() + result.states.size(), 3U);
+  EXPECT_EQ(result.buckling->modes.size(), 2U);
+  document["outputs"] = {"/buckling"};
+  result = full;
+  (*read(document).sweep).drop_unused(result);
+  EXPECT_EQ(result.buckling->modes.size(), 2U);
+}
+
+TEST(Sweep, TablesHoldValuesOutputsAndErrorInEveryForm) {
+  const Sweep sweep = *read(sound_sweep()).sweep;
+  const PointOutcome good{R"([2.5,"limit, \"max\""])", "", ""};
+  const PointOutcome bad{"", "no_convergence", "step 3"};
+  TableWriter writer(sweep, TableForm::json);
+  std::string text = writer.head();
+  writer.append_row(3, good, text);
+  writer.append_row(0, bad, text);
+  EXPECT_EQ(json::parse(text + writer.tail()), json::parse(R"({
+    "columns": ["k", "a", "/summary/critical_load_factor", "/critical_points/0/type", "error"],
+    "rows": [[5, 1e-4, 2.5, "limit, \"max\"", null],
+             [3, 1e-4, null, null, {"code": "no_convergence", "detail": "step 3"}]]})"));
+  EXPECT_EQ(TableWriter(sweep, TableForm::csv).head(),
+            "k,a,/summary/critical_load_factor,/critical_points/0/type,error\n");
+  EXPECT_EQ(one_row(sweep, TableForm::csv, 3, good), "5,0.0001,2.5,\"limit, \"\"max\"\"\",\n");
+  EXPECT_EQ(one_row(sweep, TableForm::csv, 0, bad),
+            "3,0.0001,,,\"{\"\"code\"\":\"\"no_convergence\"\",\"\"detail\"\":\"\"step 3\"\"}\"\n");
+  const json line = json::parse(one_row(sweep, TableForm::ndjson, 0, bad));
+  EXPECT_EQ(line["k"], 3);
+  EXPECT_TRUE(line["/critical_points/0/type"].is_null());
+  EXPECT_EQ(line["error"]["code"], "no_convergence");
+  EXPECT_EQ(json::parse(one_row(sweep, TableForm::ndjson, 3, good))["/summary/critical_load_factor"], 2.5);
+}
+
+json hypercube(int samples, int seed) {
+  json document = sound_sweep();
+  document["design"] = {{"latin_hypercube", {{"samples", samples}, {"seed", seed}}}};
+  document["parameters"][0].erase("values");
+  document["parameters"][0]["range"] = {{"from", 1e2}, {"to", 1e6}, {"spacing", "log"}};
+  return document;
+}
+
+/// The definition: of n samples, exactly one lies in each of n equal parts of each range, and a list of
+/// values gets its equal shares.
+TEST(Sweep, ALatinHypercubeHasOneSampleInEachPart) {
+  for (const int samples : {1, 2, 3, 17, 64, 999, 4096}) {
+    const SweepOutcome outcome = read(hypercube(samples, 7));
+    ASSERT_THAT(outcome.findings, IsEmpty());
+    ASSERT_EQ(outcome.sweep->size(), static_cast<std::uint64_t>(samples));
+    std::vector<int> parts(static_cast<std::size_t>(samples));
+    std::map<double, int> shares;
+    for (std::uint64_t i = 0; i < outcome.sweep->size(); ++i) {
+      const json values = outcome.sweep->values(i);
+      const double t = std::log(values[0].get<double>() / 1e2) / std::log(1e4);
+      ++parts.at(static_cast<std::size_t>(t * samples));
+      ++shares[values[1].get<double>()];
+    }
+    EXPECT_THAT(parts, ::testing::Each(1)) << samples;
+    for (const auto& [value, count] : shares) {
+      EXPECT_NEAR(count, samples / 3.0, 1.0) << value;
+    }
+  }
+}
+
+/// Correlations of independent permutations have variance 1/(n - 1): six deviations hardly ever happen.
+TEST(Sweep, ALatinHypercubeIsNotCorrelatedAndDependsOnItsSeed) {
+  json document = hypercube(4000, 1);
+  document["parameters"][0]["range"] = {{"from", 0}, {"to", 1}};
+  document["parameters"][1].erase("values");
+  document["parameters"][1]["range"] = {{"from", 0}, {"to", 1}};
+  const auto points = [](const json& of) {
+    const Sweep sweep = *read(of).sweep;
+    std::vector<std::pair<double, double>> all;
+    for (std::uint64_t i = 0; i < sweep.size(); ++i) {
+      const json values = sweep.values(i);
+      all.emplace_back(values[0].get<double>(), values[1].get<double>());
+    }
+    return all;
+  };
+  const auto first = points(document);
+  double across = 0.0;
+  double along = 0.0;
+  double next = 0.0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const auto [x, y] = first[i];
+    across += (x - 0.5) * (y - 0.5) * 12.0 / 4000.0;
+    along += (x - 0.5) * (static_cast<double>(i) / 4000.0 - 0.5) * 12.0 / 4000.0;
+    next += (x - 0.5) * (first[(i + 1) % 4000].first - 0.5) * 12.0 / 4000.0;
+  }
+  const double bound = 6.0 / std::sqrt(3999.0);
+  EXPECT_LT(std::abs(across), bound);
+  EXPECT_LT(std::abs(along), bound);
+  EXPECT_LT(std::abs(next), bound);
+  EXPECT_EQ(points(document), first);
+  document["design"]["latin_hypercube"]["seed"] = 2;
+  EXPECT_NE(points(document), first);
+}
+
+TEST(Sweep, SaysWhatIsWrongWithALatinHypercube) {
+  const auto with = [](const std::string& pointer, const json& value) {
+    json document = hypercube(10, 1);
+    document[json::json_pointer(pointer)] = value;
+    return mistakes(document);
+  };
+  const std::string design = "/design/latin_hypercube";
+  EXPECT_THAT(with(design, json::object()),
+              ElementsAre(design + "/samples missing_field", design + "/seed missing_field"));
+  EXPECT_THAT(with(design + "/samples", 0), ElementsAre(design + "/samples out_of_range"));
+  EXPECT_THAT(with(design + "/samples", 2'000'000), ElementsAre(design + "/samples too_many_points"));
+  EXPECT_THAT(with(design + "/samples", 1e12), ElementsAre(design + "/samples out_of_range"));
+  EXPECT_THAT(with(design + "/seed", -1), ElementsAre(design + "/seed out_of_range"));
+  EXPECT_THAT(with(design + "/sead", 1), ElementsAre(design + "/sead unknown_field"));
+  EXPECT_THAT(with("/design", {{"latin_square", 1}}),
+              ElementsAre("/design/latin_hypercube missing_field", "/design/latin_square unknown_field"));
+  EXPECT_THAT(with("/parameters/0/range/count", 3), ElementsAre("/parameters/0/range/count excess_field"));
 }
 
 TEST(Sweep, SaysWhereAMistakeIs) {
   EXPECT_THAT(mistakes_with("/design", "gird"), ElementsAre("/design unknown_value"));
-  EXPECT_THAT(mistakes_with("/design", {{"latin_hypercube", {{"samples", 10}, {"seed", 1}}}}),
-              ElementsAre("/design not_supported"));
   EXPECT_THAT(mistakes_with("/outputs", json::array()), ElementsAre("/outputs wrong_type"));
   EXPECT_THAT(mistakes_with("/outputs/0", "summary"), ElementsAre("/outputs/0 invalid_pointer"));
+  EXPECT_THAT(mistakes_with("/outputs/0", "/critical_points/0/type"),
+              ElementsAre("/outputs/1 duplicate_name"));
   EXPECT_THAT(mistakes_with("/outputs/0", "/sumary/message"), ElementsAre("/outputs/0 unknown_field"));
   EXPECT_THAT(mistakes_with("/parameters", json::array()), ElementsAre("/parameters wrong_type"));
   EXPECT_THAT(mistakes_with("/parameters/1/name", "k"), ElementsAre("/parameters/1/name duplicate_name"));
@@ -147,10 +288,54 @@ TEST(Sweep, SaysWhereATargetIsWrong) {
   EXPECT_THAT(mistakes_with(first, "/model/foundations/0/stifness"), ElementsAre(first + " unknown_field"));
   EXPECT_THAT(mistakes_with(first, "/model/imperfections/0"),
               ElementsAre("/parameters/1/targets/0/pointer overlapping_targets"));
+  EXPECT_THAT(mistakes_with("/parameters/0/values", {1, "x", 2.5, "y", nullptr}),
+              ElementsAre("/parameters/0/values/1 wrong_type", "/parameters/0/values/3 wrong_type",
+                          "/parameters/0/values/4 wrong_type"));
+  EXPECT_THAT(mistakes_with("/parameters/1/targets/0/pointer", "/model/members/0/section"),
+              ElementsAre("/parameters/1/values/0 wrong_type", "/parameters/1/values/1 wrong_type",
+                          "/parameters/1/values/2 wrong_type"));
+  EXPECT_THAT(mistakes_with("/parameters/0/targets", json(std::vector<int>(65))),
+              ElementsAre("/parameters/0/targets out_of_range"));
   json document = sound_sweep();
   document["parameters"][0]["targets"][0]["scale"] = 2;
   document["parameters"][0]["values"] = {1, "x"};
   EXPECT_THAT(mistakes(document), ElementsAre("/parameters/0/values/1 wrong_type"));
+}
+
+/// The sound sweep as one whose critical point is followed along the amplitude.
+json followed() {
+  json document = sound_sweep();
+  document["analysis"] = {{"type", "critical"}, {"discretization", {{"elements", 4}, {"order", 2}}}};
+  document["follow"] = "a";
+  document["outputs"] = {"/summary/critical_load_factor"};
+  return document;
+}
+
+TEST(Sweep, FollowsTheLastParameter) {
+  const SweepOutcome outcome = read(followed());
+  ASSERT_THAT(outcome.findings, IsEmpty());
+  EXPECT_TRUE(outcome.sweep->follows());
+  EXPECT_EQ(outcome.sweep->block(), 3U);
+  EXPECT_FALSE(outcome.sweep->follows_logarithm());
+  const auto between = outcome.sweep->document_between(3, 1.5e-4);
+  EXPECT_EQ(between->at("/model/foundations/0/stiffness"_json_pointer), 5);
+  EXPECT_EQ(between->at("/model/imperfections/0/amplitude"_json_pointer), 1.5e-4);
+  EXPECT_EQ(outcome.sweep->curve_text(3), outcome.sweep->curve_text(5));
+  EXPECT_EQ(read(sound_sweep()).sweep->block(), 1U);
+}
+
+TEST(Sweep, SaysWhatCannotBeFollowed) {
+  const auto with = [](const std::string& pointer, const json& value) {
+    json document = followed();
+    document[json::json_pointer(pointer)] = value;
+    return mistakes(document);
+  };
+  EXPECT_THAT(with("/follow", "k"), ElementsAre("/follow unknown_reference"));
+  EXPECT_THAT(with("/follow", 1), ElementsAre("/follow wrong_type"));
+  EXPECT_THAT(with("/design", "zip"), ::testing::Contains("/follow not_supported"));
+  EXPECT_THAT(with("/parameters/1/values", {1e-4, 3e-4, 2e-4}), ElementsAre("/follow not_supported"));
+  EXPECT_THAT(with("/analysis/type", "path"), ElementsAre("/follow not_supported"));
+  EXPECT_THAT(with("/outputs/0", "/summary/message"), ElementsAre("/follow not_supported"));
 }
 
 TEST(Sweep, CountsBeforeItExpands) {

@@ -10,6 +10,7 @@
 #include "server/http/gateway.h"
 #include "server/http/library.h"
 #include "server/http/request_reader.h"
+#include "tests/server/support/failing_sweep_store.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -42,10 +43,12 @@ class EmptyStore final : public Store {
   StatusOr<std::optional<std::string>> result(std::string_view) override {
     return std::optional<std::string>();
   }
+  SweepStore& sweeps() override { return sweeps_; }
   StatusOr<StoredPath> path(std::string_view) override { return StoredPath{}; }
 
  private:
   static Status full() { return {StatusCode::unavailable, "full"}; }
+  test::FailingSweepStore sweeps_{StatusCode::unavailable};
 };
 
 struct Front {

@@ -184,6 +184,40 @@ class ContractOverHttp : public ServiceTest {
     expect_published(method, path, call(port(), method, target, body, headers));
   }
 
+  void use_sweeps() {
+    const Headers headers{"Content-Type: application/json", "Idempotency-Key: s"};
+    for (const char* body : {"", "{", "{}", "[]"}) {
+      use("POST", "/v1/sweeps", "/v1/sweeps", body);
+    }
+    use("POST", "/v1/sweeps", "/v1/sweeps", column_sweep(2), {"Content-Type: text/plain"});
+    use("POST", "/v1/sweeps", "/v1/sweeps", column_sweep(3), headers);
+    use("POST", "/v1/sweeps", "/v1/sweeps", column_sweep(4), headers);  // another document
+    use("POST", "/v1/check", "/v1/check", column_sweep(3));
+    EXPECT_TRUE(schemas_.valid(schemas_.named("SweepDocument"), json::parse(column_sweep(3))));
+    json failing = json::parse(column_sweep(3));
+    failing["parameters"][0]["range"]["from"] = -1;  // not a stiffness
+    const std::string sweep = post(port(), "/v1/sweeps", failing.dump()).header("Location");
+    const std::string missing = "/v1/sweeps/00000000-0000-7000-8000-000000000000";
+    for (const std::string& at : {sweep, missing}) {
+      expect_published("GET", "/v1/sweeps/{id}", get(port(), at, {"Prefer: wait=20"}));
+      use("GET", "/v1/sweeps/{id}/request", at + "/request");
+      use("GET", "/v1/sweeps/{id}/table", at + "/table");
+      use("GET", "/v1/sweeps/{id}/table", at + "/table?format=csv&status=failed&first=1&count=1");
+      use("GET", "/v1/sweeps/{id}/table", at + "/table?format=ndjson");
+      use("GET", "/v1/sweeps/{id}/table", at + "/table?format=xml");
+      use("GET", "/v1/sweeps/{id}/table", at + "/table?rows=1");
+      use("GET", "/v1/sweeps/{id}/table", at + "/table", "", {"If-None-Match: *"});
+      use("GET", "/v1/sweeps/{id}/events", at + "/events");
+      use("POST", "/v1/sweeps/{id}/dismiss", at + "/dismiss");
+      use("POST", "/v1/sweeps/{id}/retry", at + "/retry?status=failed");
+      use("POST", "/v1/sweeps/{id}/retry", at + "/retry?status=all");
+      expect_published("GET", "/v1/sweeps/{id}", get(port(), at, {"Prefer: wait=20"}));
+      use("DELETE", "/v1/sweeps/{id}", at);
+    }
+    use("GET", "/v1/sweeps", "/v1/sweeps?limit=1");
+    use("GET", "/v1/sweeps", "/v1/sweeps?limit=0");
+  }
+
   Schemas schemas_{description()};
   std::set<std::string> seen_;
 };
@@ -212,6 +246,7 @@ TEST_F(ContractOverHttp, EveryResponseIsAsPublished) {
       {"Content-Type: application/json", "Prefer: respond-async", "Cache-Control: no-cache"});
   use("POST", "/v1/jobs", "/v1/jobs", column_request(), {"Content-Type: text/plain"});
   use("POST", "/v1/check", "/v1/check", column_request());
+  use_sweeps();
   use("GET", "/v1/jobs", "/v1/jobs?limit=1");
   use("GET", "/v1/jobs", "/v1/jobs?limit=0");
   for (const char* path :

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/server/support/failing_sweep_store.h"
 #include "tests/server/support/samples.h"
 
 namespace snapthrough::server::http {
@@ -48,11 +49,13 @@ class FailingStore final : public Store {
     throw std::runtime_error("secret");
   }
   StatusOr<std::optional<std::string>> result(std::string_view) override { return status(); }
+  SweepStore& sweeps() override { return sweeps_; }
   StatusOr<StoredPath> path(std::string_view) override { return status(); }
 
  private:
   [[nodiscard]] Status status() const { return {code_, "the disk /dev/secret is full"}; }
   StatusCode code_;
+  test::FailingSweepStore sweeps_{code_};
 };
 
 struct Bench {

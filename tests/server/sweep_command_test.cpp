@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "server/cli/app.h"
+#include "server/cli/progress_bar.h"
 
 namespace snapthrough::server::cli {
 namespace {
@@ -67,6 +69,39 @@ TEST(SweepCommand, RowsDoNotDependOnTheNumberOfThreads) {
   const Outcome five = run_sweep(column_sweep(), {"--csv", "--threads", "5"});
   EXPECT_THAT(one.out, HasSubstr("k,/buckling/load_factors/0,error\n0,"));
   EXPECT_EQ(one.out, five.out);
+}
+
+TEST(SweepCommand, GivesALineForEachPointAsNdjson) {
+  const Outcome outcome = run_sweep(column_sweep(), {"--ndjson"});
+  ASSERT_EQ(outcome.exit_status, kDone) << outcome.err;
+  std::istringstream lines(outcome.out);
+  int k = 0;
+  for (std::string line; std::getline(lines, line); ++k) {
+    const json row = json::parse(line);
+    EXPECT_EQ(row.at("k"), k);
+    EXPECT_NEAR(row.at("/buckling/load_factors/0").get<double>(), 1.0 + k, 1e-6);
+    EXPECT_TRUE(row.at("error").is_null());
+  }
+  EXPECT_EQ(k, 3);
+  EXPECT_EQ(run_sweep(column_sweep(), {"--ndjson", "--csv"}).exit_status, kOther);
+}
+
+TEST(SweepCommand, CheckTakesSweepsToo) {
+  std::istringstream in(column_sweep().dump());
+  std::ostringstream out;
+  std::ostringstream err;
+  const std::array<const char*, 3> arguments{"snapthrough", "check", "-"};
+  EXPECT_EQ(run(3, arguments.data(), {in, out, err}), kDone) << err.str();
+  EXPECT_THAT(out.str(), HasSubstr("3 points"));
+}
+
+TEST(ProgressLine, TellsRateAndTimeLeft) {
+  EXPECT_EQ(progress_line(0, 0, 600, 0.0), "[..............................] 0/600");
+  EXPECT_EQ(progress_line(200, 0, 600, 100.0),
+            "[##########....................] 200/600, 2 points/s, 03:20 left");
+  EXPECT_EQ(progress_line(600, 3, 600, 6000.0),
+            "[##############################] 600/600, 0.1 points/s, 00:00 left, 3 failed");
+  EXPECT_THAT(progress_line(1, 0, 2, 4000.0), HasSubstr("1:06:40 left"));
 }
 
 TEST(SweepCommand, AFailedPointKeepsTheOthers) {

@@ -1,53 +1,20 @@
 #include "server/store/sqlite/sqlite_store.h"
 
 #include <filesystem>
-#include <mutex>
 #include <utility>
 
-#include "server/store/sqlite/connection.h"
+#include "server/store/sqlite/database.h"
 #include "server/store/sqlite/file_lock.h"
 #include "server/store/sqlite/rows.h"
-#include "server/store/sqlite/writer.h"
+#include "server/store/sqlite/sweeps.h"
 
 namespace snapthrough::server::sqlite {
 namespace {
 
-/// Read-only connections that are not in use; one is opened when none is free.
-class ReaderPool {
- public:
-  explicit ReaderPool(std::string path) : path_(std::move(path)) {}
-
-  template <class Use>
-  auto with(const Use& use) {
-    std::unique_ptr<Connection> reader = take();
-    auto result = use(*reader);
-    const std::lock_guard guard(mutex_);
-    idle_.push_back(std::move(reader));  // not after an exception: that connection is dropped
-    return result;
-  }
-
- private:
-  std::unique_ptr<Connection> take() {
-    {
-      const std::lock_guard guard(mutex_);
-      if (!idle_.empty()) {
-        std::unique_ptr<Connection> reader = std::move(idle_.back());
-        idle_.pop_back();
-        return reader;
-      }
-    }
-    return std::make_unique<Connection>(path_, Access::read_only);
-  }
-
-  std::string path_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Connection>> idle_;
-};
-
 class SqliteStore final : public Store {
  public:
   SqliteStore(FileLock lock, std::unique_ptr<Connection> writer, const std::string& path)
-      : lock_(std::move(lock)), writer_(std::move(writer)), readers_(path) {}
+      : lock_(std::move(lock)), database_(std::move(writer), path), sweeps_(database_) {}
 
   using Store::submit;
   StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) override;
@@ -71,40 +38,14 @@ class SqliteStore final : public Store {
   StatusOr<std::optional<std::string>> request(std::string_view id) override;
   StatusOr<std::optional<std::string>> result(std::string_view id) override;
   StatusOr<StoredPath> path(std::string_view id) override;
+  SweepStore& sweeps() override { return sweeps_; }
 
  private:
-  /// Runs `work(connection)`, which gives a StatusOr<T>, in a write transaction.
-  template <class T, class Work>
-  StatusOr<T> write(const Work& work, Durability durability = Durability::synced,
-                    const std::function<void()>& queued = {}, bool patient = false) {
-    StatusOr<T> outcome = Status(StatusCode::io_error, "nothing was done");
-    Status status = writer_.run(
-        [&](Connection& connection) {
-          outcome = work(connection);
-          return outcome.status();
-        },
-        durability, queued, patient);
-    if (!status.ok()) {
-      return status;
-    }
-    return outcome;
-  }
-  Status write_only(const Writer::Work& work) { return writer_.run(work, Durability::synced); }
-
-  template <class T, class Work>
-  StatusOr<T> read(const Work& work) {
-    try {
-      return readers_.with([&](const Connection& connection) -> T { return work(connection); });
-    } catch (const Error& error) {
-      return to_status(error);
-    }
-  }
-
   StatusOr<std::optional<std::string>> document(const char* table, std::string_view id);
 
   FileLock lock_;
-  Writer writer_;
-  ReaderPool readers_;
+  Database database_;
+  SqliteSweepStore sweeps_;
 };
 
 /// The row number of the claimed job if the claim still holds, i.e. (id, running, attempt) matches.
@@ -229,12 +170,12 @@ StatusOr<Submitted> SqliteStore::submit(const NewJob& job, const std::function<v
     }
     return submitted;
   };
-  return write<Submitted>(work, Durability::synced, queued, job.patient);
+  return database_.write<Submitted>(work, Durability::synced, queued, job.patient);
 }
 
 StatusOr<std::optional<Claim>> SqliteStore::claim(const Lease& lease, Time now) {
   using Outcome = StatusOr<std::optional<Claim>>;
-  return write<std::optional<Claim>>(
+  return database_.write<std::optional<Claim>>(
       [&](Connection& connection) -> Outcome {
         Statement row = connection.prepare(
             "SELECT jobs.seq, jobs.id, jobs.attempt, requests.document FROM jobs"
@@ -261,7 +202,7 @@ StatusOr<std::optional<Claim>> SqliteStore::claim(const Lease& lease, Time now) 
 
 StatusOr<std::vector<std::string>> SqliteStore::renew(const std::vector<Claim>& claims, Time until,
                                                       Time now) {
-  return write<std::vector<std::string>>(
+  return database_.write<std::vector<std::string>>(
       [&](Connection& connection) -> StatusOr<std::vector<std::string>> {
         std::vector<std::string> lost;
         for (const Claim& claim : claims) {
@@ -281,7 +222,7 @@ StatusOr<std::vector<std::string>> SqliteStore::renew(const std::vector<Claim>& 
 }
 
 Status SqliteStore::finish(const Claim& claim, const JobResult& result, Time now) {
-  return write_only([&](Connection& connection) {
+  return database_.write_only([&](Connection& connection) {
     const std::optional<std::int64_t> job = leased_job(connection, claim, now);
     if (!job) {
       return lost_claim(claim);
@@ -306,7 +247,7 @@ Status SqliteStore::finish(const Claim& claim, const JobResult& result, Time now
 }
 
 Status SqliteStore::fail(const Claim& claim, const JobFailure& failure, const StoredPath& reached, Time now) {
-  return write_only([&](Connection& connection) {
+  return database_.write_only([&](Connection& connection) {
     const std::optional<std::int64_t> job = leased_job(connection, claim, now);
     if (!job) {
       return lost_claim(claim);
@@ -319,7 +260,7 @@ Status SqliteStore::fail(const Claim& claim, const JobFailure& failure, const St
 }
 
 Status SqliteStore::requeue(const Claim& claim) {
-  return write_only([&](Connection& connection) {
+  return database_.write_only([&](Connection& connection) {
     const std::optional<std::int64_t> job = held_job(connection, claim);
     if (!job) {
       return lost_claim(claim);
@@ -380,19 +321,19 @@ Recovery take_all_back(Connection& connection, Time ended_before, std::string_vi
 }
 
 StatusOr<Recovery> SqliteStore::recover(int max_crashes, Time now) {
-  return write<Recovery>([&](Connection& connection) -> StatusOr<Recovery> {
+  return database_.write<Recovery>([&](Connection& connection) -> StatusOr<Recovery> {
     return take_all_back(connection, Time::max(), "", max_crashes, now);
   });
 }
 
 StatusOr<Recovery> SqliteStore::rescue(std::string_view worker, int max_crashes, Time now) {
-  return write<Recovery>([&](Connection& connection) -> StatusOr<Recovery> {
+  return database_.write<Recovery>([&](Connection& connection) -> StatusOr<Recovery> {
     return take_all_back(connection, now, worker, max_crashes, now);
   });
 }
 
 StatusOr<Dismissal> SqliteStore::dismiss(std::string_view id, Time now) {
-  return write<Dismissal>([&](Connection& connection) -> StatusOr<Dismissal> {
+  return database_.write<Dismissal>([&](Connection& connection) -> StatusOr<Dismissal> {
     Statement row = connection.prepare("SELECT seq, status FROM jobs WHERE id = ?");
     row.bind(id);
     if (!row.step()) {
@@ -411,14 +352,14 @@ StatusOr<Dismissal> SqliteStore::dismiss(std::string_view id, Time now) {
 }
 
 StatusOr<bool> SqliteStore::remove(std::string_view id) {
-  return write<bool>([&](Connection& connection) -> StatusOr<bool> {
+  return database_.write<bool>([&](Connection& connection) -> StatusOr<bool> {
     connection.prepare("DELETE FROM jobs WHERE id = ?").bind(id).run();
     return connection.changes() > 0;
   });
 }
 
 StatusOr<int> SqliteStore::retire(Time ended_before, int most) {
-  return write<int>([&](Connection& connection) -> StatusOr<int> {
+  return database_.write<int>([&](Connection& connection) -> StatusOr<int> {
     connection
         .prepare(
             "DELETE FROM jobs WHERE seq IN (SELECT seq FROM jobs WHERE finished_us < ? ORDER BY finished_us"
@@ -431,14 +372,14 @@ StatusOr<int> SqliteStore::retire(Time ended_before, int most) {
 }
 
 Status SqliteStore::forget_keys(Time used_before) {
-  return write_only([&](Connection& connection) {
+  return database_.write_only([&](Connection& connection) {
     connection.prepare("DELETE FROM idempotency_keys WHERE created_us < ?").bind(to_row(used_before)).run();
     return Status();
   });
 }
 
 Status SqliteStore::probe(Time now) {
-  return write_only([&](Connection& connection) {
+  return database_.write_only([&](Connection& connection) {
     connection.prepare("INSERT OR REPLACE INTO probes (number, at_us) VALUES (1, ?)").bind(to_row(now)).run();
     return Status();
   });
@@ -446,14 +387,15 @@ Status SqliteStore::probe(Time now) {
 
 StatusOr<std::optional<std::string>> SqliteStore::find_result(std::string_view content_key,
                                                               std::string_view owner) {
-  return read<std::optional<std::string>>([&](const Connection& connection) -> std::optional<std::string> {
-    auto same = same_content(connection, content_key, owner);
-    return same ? std::optional(std::move(same->second)) : std::nullopt;
-  });
+  return database_.read<std::optional<std::string>>(
+      [&](const Connection& connection) -> std::optional<std::string> {
+        auto same = same_content(connection, content_key, owner);
+        return same ? std::optional(std::move(same->second)) : std::nullopt;
+      });
 }
 
 StatusOr<JobCounts> SqliteStore::counts() {
-  return read<JobCounts>([&](const Connection& connection) {
+  return database_.read<JobCounts>([&](const Connection& connection) {
     Statement row = connection.prepare("SELECT status, count(*) FROM jobs GROUP BY status");
     JobCounts counts{};
     while (row.step()) {
@@ -464,7 +406,7 @@ StatusOr<JobCounts> SqliteStore::counts() {
 }
 
 StatusOr<std::optional<Job>> SqliteStore::get(std::string_view id) {
-  return read<std::optional<Job>>([&](const Connection& connection) -> std::optional<Job> {
+  return database_.read<std::optional<Job>>([&](const Connection& connection) -> std::optional<Job> {
     Statement row = connection.prepare("SELECT " + std::string(kJobColumns) +
                                        ", failures.code, failures.detail, failures.reached FROM jobs"
                                        " LEFT JOIN failures ON failures.job = jobs.seq WHERE jobs.id = ?");
@@ -482,7 +424,7 @@ StatusOr<std::optional<Job>> SqliteStore::get(std::string_view id) {
 }
 
 StatusOr<JobPage> SqliteStore::list(const JobQuery& query) {
-  return read<JobPage>([&](const Connection& connection) {
+  return database_.read<JobPage>([&](const Connection& connection) {
     std::string sql = "SELECT " + std::string(kJobColumns) + ", jobs.seq FROM jobs WHERE jobs.seq < ?";
     sql += query.state ? " AND jobs.status = ?" : "";
     sql += query.owner ? " AND jobs.owner = ?" : "";
@@ -511,12 +453,13 @@ StatusOr<JobPage> SqliteStore::list(const JobQuery& query) {
 }
 
 StatusOr<std::optional<std::string>> SqliteStore::document(const char* table, std::string_view id) {
-  return read<std::optional<std::string>>([&](const Connection& connection) -> std::optional<std::string> {
-    Statement row = connection.prepare("SELECT document FROM " + std::string(table) +
-                                       " JOIN jobs ON jobs.seq = job WHERE jobs.id = ?");
-    row.bind(id);
-    return row.step() ? std::optional(row.text(0)) : std::nullopt;
-  });
+  return database_.read<std::optional<std::string>>(
+      [&](const Connection& connection) -> std::optional<std::string> {
+        Statement row = connection.prepare("SELECT document FROM " + std::string(table) +
+                                           " JOIN jobs ON jobs.seq = job WHERE jobs.id = ?");
+        row.bind(id);
+        return row.step() ? std::optional(row.text(0)) : std::nullopt;
+      });
 }
 
 StatusOr<std::optional<std::string>> SqliteStore::request(std::string_view id) {
@@ -528,7 +471,7 @@ StatusOr<std::optional<std::string>> SqliteStore::result(std::string_view id) {
 }
 
 StatusOr<StoredPath> SqliteStore::path(std::string_view id) {
-  return read<StoredPath>([&](const Connection& connection) -> StoredPath {
+  return database_.read<StoredPath>([&](const Connection& connection) -> StoredPath {
     Statement row = connection.prepare("SELECT seq FROM jobs WHERE id = ?");
     row.bind(id);
     if (!row.step()) {

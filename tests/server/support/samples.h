@@ -26,6 +26,16 @@ inline std::string column_request(const std::string& title = "column") {
   "stop": {"steps": 20}}})";
 }
 
+/// A sweep of that column over as many stiffnesses, 1, 2, 3, ...
+inline std::string column_sweep(int points, const std::string& title = "column") {
+  const std::string request = column_request(title);
+  return request.substr(0, request.rfind('}')) + R"(,
+ "parameters": [{"name": "EI", "targets": [{"pointer": "/model/sections/0/EI"}],
+                 "range": {"from": 1, "to": )" +
+         std::to_string(points) + R"(, "count": )" + std::to_string(points) + R"(}}],
+ "design": "grid", "outputs": ["/summary/critical_load_factor", "/summary/termination"]})";
+}
+
 inline Time at_second(int seconds) {
   return Time(std::chrono::hours(24 * 365 * 50) + std::chrono::seconds(seconds));
 }

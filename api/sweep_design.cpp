@@ -1,0 +1,108 @@
+/// Points of grids, zips and Latin hypercubes. Every point is computed alone, from its number.
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "api/sweep_data.h"
+
+namespace snapthrough::api {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection of 64-bit numbers that mixes all bits.
+std::uint64_t mix(std::uint64_t x) {
+  x += 0x9E3779B97F4A7C15U;
+  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
+  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
+  return x ^ (x >> 31U);
+}
+
+/// @brief Where `i` goes in a random permutation of 0 to n - 1.
+///
+/// A Feistel network permutes the numbers of the next even number of bits, and is applied until the number is
+/// below n again (cycle walking; Black, Rogaway 2002): no table, so that a design takes no memory however
+/// large it is.
+std::uint64_t permuted(std::uint64_t i, std::uint64_t n, std::uint64_t key) {
+  constexpr std::uint64_t kRounds = 8;
+  const unsigned half = std::max(1U, (static_cast<unsigned>(std::bit_width(n - 1)) + 1) / 2);
+  const std::uint64_t mask = (std::uint64_t{1} << half) - 1;
+  do {
+    std::uint64_t left = i >> half;
+    std::uint64_t right = i & mask;
+    for (std::uint64_t round = 0; round < kRounds; ++round) {
+      const std::uint64_t next = left ^ (mix(key + mix((round << 32U) + right)) & mask);
+      left = right;
+      right = next;
+    }
+    i = (left << half) | right;
+  } while (i >= n);
+  return i;
+}
+
+/// @brief Coordinate in [0, 1) of a sample: exactly one sample lies in each of `samples` equal parts, at a
+/// random place in it (McKay, Beckman, Conover 1979).
+double hypercube_coordinate(const SweepData& data, std::size_t parameter, std::uint64_t point) {
+  const auto samples = static_cast<std::uint64_t>(data.samples);
+  const std::uint64_t key = mix(mix(static_cast<std::uint64_t>(data.seed)) + parameter);
+  const std::uint64_t part = permuted(point, samples, key);
+  const double place = static_cast<double>(mix(~key + mix(point)) >> 11U) * 0x1p-53;
+  const double last = std::nextafter(1.0, 0.0);
+  return std::min((static_cast<double>(part) + place) / static_cast<double>(samples), last);
+}
+
+Json in_range(const SweepRange& range, double t) {
+  return range.log ? range.from * std::pow(range.to / range.from, t)
+                   : range.from + t * (range.to - range.from);
+}
+
+Json sampled_value(const SweepParameter& parameter, double t) {
+  if (parameter.range) {
+    return in_range(*parameter.range, t);
+  }
+  const auto count = static_cast<double>(parameter.values.size());
+  return parameter.values[static_cast<std::size_t>(t * count)];
+}
+
+Json listed_value(const SweepParameter& parameter, std::uint64_t i) {
+  if (!parameter.range) {
+    return parameter.values[i];
+  }
+  const SweepRange& range = *parameter.range;
+  const auto last = static_cast<std::uint64_t>(range.count - 1);
+  if (i == 0 || i == last) {
+    return i == 0 ? range.from : range.to;  // the ends are exact
+  }
+  if (!range.log) {
+    // The product first: 1, 2, 3, ... stay whole, and a range that is widened keeps its values.
+    return range.from + (range.to - range.from) * static_cast<double>(i) / static_cast<double>(last);
+  }
+  return in_range(range, static_cast<double>(i) / static_cast<double>(last));
+}
+
+}  // namespace
+
+std::vector<Json> design_values(const SweepData& data, std::uint64_t point) {
+  std::vector<Json> values(data.parameters.size());
+  std::uint64_t rest = point;
+  for (std::size_t i = values.size(); i-- > 0;) {
+    const SweepParameter& parameter = data.parameters[i];
+    switch (data.design) {
+      case SweepDesign::grid:
+        values[i] = listed_value(parameter, rest % parameter.count());
+        rest /= parameter.count();
+        break;
+      case SweepDesign::zip:
+        values[i] = listed_value(parameter, point);
+        break;
+      case SweepDesign::latin_hypercube:
+        values[i] = sampled_value(parameter, hypercube_coordinate(data, i, point));
+        break;
+    }
+  }
+  return values;
+}
+
+}  // namespace snapthrough::api

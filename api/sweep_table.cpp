@@ -1,0 +1,147 @@
+#include "api/sweep_table.h"
+
+#include <nlohmann/json.hpp>
+
+namespace snapthrough::api {
+
+namespace {
+
+using Json = nlohmann::json;
+
+void append_csv_text(const std::string& field, std::string& text) {
+  if (field.find_first_of(",\"\r\n") == std::string::npos) {
+    text += field;
+    return;
+  }
+  text += '"';
+  for (const char c : field) {
+    text += c;
+    if (c == '"') {
+      text += '"';
+    }
+  }
+  text += '"';
+}
+
+void append_csv_value(const Json& value, std::string& text) {
+  if (value.is_null()) {
+    return;
+  }
+  append_csv_text(value.is_string() ? value.get<std::string>() : value.dump(), text);
+}
+
+Json error_of(const PointOutcome& outcome) { return {{"code", outcome.code}, {"detail", outcome.detail}}; }
+
+/// Texts of analyses are UTF-8, those of exceptions may be anything.
+std::string dumped(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace
+
+std::optional<TableForm> table_form_from(std::string_view name) {
+  if (name == "json") {
+    return TableForm::json;
+  }
+  if (name == "csv") {
+    return TableForm::csv;
+  }
+  return name == "ndjson" ? std::optional(TableForm::ndjson) : std::nullopt;
+}
+
+TableWriter::TableWriter(const Sweep& sweep, TableForm form) : sweep_(sweep), form_(form) {
+  for (const std::string& column : sweep.columns()) {
+    keys_.push_back(Json(column).dump());
+  }
+}
+
+std::string TableWriter::head() const {
+  std::string text;
+  switch (form_) {
+    case TableForm::json:
+      return "{\"columns\": " + Json(sweep_.columns()).dump() + ",\n \"rows\": [";
+    case TableForm::csv:
+      for (const std::string& column : sweep_.columns()) {
+        text += text.empty() ? "" : ",";
+        append_csv_text(column, text);
+      }
+      return text + "\n";
+    case TableForm::ndjson:
+      return "";
+  }
+  return text;
+}
+
+std::string TableWriter::tail() const { return form_ == TableForm::json ? "\n ]}\n" : ""; }
+
+void TableWriter::append_row(std::uint64_t point, const PointOutcome& outcome, std::string& text) {
+  switch (form_) {
+    case TableForm::json:
+      text += first_ ? "\n  " : ",\n  ";
+      append_json(point, outcome, text);
+      break;
+    case TableForm::csv:
+      append_csv(point, outcome, text);
+      break;
+    case TableForm::ndjson:
+      append_ndjson(point, outcome, text);
+      break;
+  }
+  first_ = false;
+}
+
+void TableWriter::append_json(std::uint64_t point, const PointOutcome& outcome, std::string& text) const {
+  text += '[';
+  for (const Json& value : sweep_.values(point)) {
+    text += value.dump() + ",";
+  }
+  if (outcome.failed()) {
+    for (std::size_t i = 0; i < sweep_.output_count(); ++i) {
+      text += "null,";
+    }
+    text += dumped(error_of(outcome)) + "]";
+    return;
+  }
+  text.append(outcome.outputs, 1, outcome.outputs.size() - 2);  // without its brackets
+  text += ",null]";
+}
+
+void TableWriter::append_csv(std::uint64_t point, const PointOutcome& outcome, std::string& text) const {
+  for (const Json& value : sweep_.values(point)) {
+    append_csv_value(value, text);
+    text += ',';
+  }
+  if (outcome.failed()) {
+    text.append(sweep_.output_count(), ',');
+    append_csv_text(dumped(error_of(outcome)), text);
+  } else {
+    for (const Json& value : Json::parse(outcome.outputs)) {
+      append_csv_value(value, text);
+      text += ',';
+    }
+  }
+  text += '\n';
+}
+
+void TableWriter::append_ndjson(std::uint64_t point, const PointOutcome& outcome, std::string& text) const {
+  std::size_t column = 0;
+  const auto member = [&](const std::string& value) {
+    text += (column == 0 ? "{" : ",") + keys_[column] + ":" + value;
+    ++column;
+  };
+  for (const Json& value : sweep_.values(point)) {
+    member(value.dump());
+  }
+  if (outcome.failed()) {
+    for (std::size_t i = 0; i < sweep_.output_count(); ++i) {
+      member("null");
+    }
+    member(dumped(error_of(outcome)));
+  } else {
+    for (const Json& value : Json::parse(outcome.outputs)) {
+      member(value.dump());
+    }
+    member("null");
+  }
+  text += "}\n";
+}
+
+}  // namespace snapthrough::api

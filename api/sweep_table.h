@@ -1,0 +1,47 @@
+#pragma once
+/// @file
+/// The table of a sweep as text: JSON, CSV, or NDJSON, piece by piece, so that no table has to be in memory.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "api/sweep.h"
+
+namespace snapthrough::api {
+
+enum class TableForm {
+  json,   ///< `{"columns": [...], "rows": [[...], ...]}`
+  csv,    ///< header and rows (RFC 4180 quoting, lines end with a line feed); null is empty
+  ndjson  ///< one object a line, members named like the columns
+};
+
+/// The form of that name ("json", "csv", "ndjson"), or nothing.
+[[nodiscard]] std::optional<TableForm> table_form_from(std::string_view name);
+
+/// @brief Writes the rows of one sweep. Not thread-safe.
+class TableWriter {
+ public:
+  TableWriter(const Sweep& sweep, TableForm form);
+
+  /// What comes before the rows.
+  [[nodiscard]] std::string head() const;
+  /// Appends the row of a point. @pre outcome.outputs is a JSON array of sweep.output_count() values, or
+  /// outcome.failed()
+  void append_row(std::uint64_t point, const PointOutcome& outcome, std::string& text);
+  /// What comes after the rows.
+  [[nodiscard]] std::string tail() const;
+
+ private:
+  void append_json(std::uint64_t point, const PointOutcome& outcome, std::string& text) const;
+  void append_csv(std::uint64_t point, const PointOutcome& outcome, std::string& text) const;
+  void append_ndjson(std::uint64_t point, const PointOutcome& outcome, std::string& text) const;
+
+  Sweep sweep_;
+  TableForm form_;
+  std::vector<std::string> keys_;  ///< of NDJSON, quoted
+  bool first_ = true;
+};
+
+}  // namespace snapthrough::api

@@ -1,0 +1,79 @@
+#pragma once
+/// @file
+/// A sweep and what is kept of it. Plain data.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "api/sweep.h"
+#include "server/jobs/job.h"
+
+namespace snapthrough::server {
+
+/// @brief What is known of a sweep without its document and rows.
+///
+/// A sweep is accepted until a worker takes its first points, running until every point has its row, and then
+/// successful, or failed when some of its points are. A failed or dismissed sweep that is tried again is
+/// accepted.
+struct SweepRecord {
+  std::string id;
+  JobState state = JobState::accepted;
+  std::string owner;  ///< as of a job
+  std::string title;
+  std::int64_t points = 0;      ///< of the design
+  std::int64_t successful = 0;  ///< rows with outputs
+  std::int64_t failed = 0;      ///< rows with an error
+  std::int64_t reused = 0;      ///< of the successful ones: taken from another sweep
+  Time created;
+  std::optional<Time> started;
+  std::optional<Time> finished;  ///< exactly in a final state
+
+  [[nodiscard]] std::int64_t done() const { return successful + failed; }
+};
+
+/// A sweep as it is handed in.
+struct NewSweep {
+  std::string id;  ///< from new_id()
+  std::string title = {};
+  std::string document;  ///< JSON text as received
+  std::int64_t points = 0;
+  Time created;
+  std::string owner = {};
+  std::optional<IdempotencyKey> idempotency = {};
+  bool reuse = true;  ///< rows of other sweeps of the same owner will do
+};
+
+/// A row of a sweep's table.
+struct PointRow {
+  std::uint64_t point = 0;
+  api::PointOutcome outcome;
+  std::string key = {};  ///< equal for points with equal outputs; empty: not reused
+  bool reused = false;
+};
+
+/// What a worker needs of a sweep to go on with it.
+struct OpenSweep {
+  std::string document;
+  std::string owner;
+  bool reuse = true;
+  std::vector<bool> done;                          ///< by point: it has a row
+  std::unordered_map<std::uint64_t, int> crashes;  ///< how often the process died during a point, if it did
+};
+
+/// Points that a worker has, so that those are known during which the process died.
+struct PointClaim {
+  std::int64_t number = 0;
+  std::string sweep;
+};
+
+/// What of a sweep's table to read.
+struct PointQuery {
+  std::uint64_t first = 0;
+  std::uint64_t count = UINT64_MAX;  ///< points from there on, with a row or not
+  std::optional<bool> failed;        ///< only these
+};
+
+}  // namespace snapthrough::server

@@ -1,0 +1,93 @@
+#pragma once
+/// @file
+/// One writer and many readers of a database file, for the parts of the driver.
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/status.h"
+#include "server/store/sqlite/connection.h"
+#include "server/store/sqlite/writer.h"
+
+namespace snapthrough::server::sqlite {
+
+/// Read-only connections that are not in use; one is opened when none is free. Thread-safe.
+class ReaderPool {
+ public:
+  explicit ReaderPool(std::string path) : path_(std::move(path)) {}
+
+  template <class Use>
+  auto with(const Use& use) {
+    std::unique_ptr<Connection> reader = take();
+    auto result = use(*reader);
+    const std::lock_guard guard(mutex_);
+    idle_.push_back(std::move(reader));  // not after an exception: that connection is dropped
+    return result;
+  }
+
+ private:
+  std::unique_ptr<Connection> take() {
+    {
+      const std::lock_guard guard(mutex_);
+      if (!idle_.empty()) {
+        std::unique_ptr<Connection> reader = std::move(idle_.back());
+        idle_.pop_back();
+        return reader;
+      }
+    }
+    return std::make_unique<Connection>(path_, Access::read_only);
+  }
+
+  std::string path_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Connection>> idle_;
+};
+
+/// @brief Transactions of both kinds on one database. Thread-safe.
+class Database {
+ public:
+  Database(std::unique_ptr<Connection> writer, const std::string& path)
+      : writer_(std::move(writer)), readers_(path) {}
+
+  /// Runs `work(connection)`, which gives a StatusOr<T>, in a write transaction.
+  template <class T, class Work>
+  StatusOr<T> write(const Work& work, Durability durability = Durability::synced,
+                    const std::function<void()>& queued = {}, bool patient = false) {
+    StatusOr<T> outcome = Status(StatusCode::io_error, "nothing was done");
+    Status status = writer_.run(
+        [&](Connection& connection) {
+          outcome = work(connection);
+          return outcome.status();
+        },
+        durability, queued, patient);
+    if (!status.ok()) {
+      return status;
+    }
+    return outcome;
+  }
+
+  /// Runs work that gives nothing but a status in a write transaction.
+  Status write_only(const Writer::Work& work, Durability durability = Durability::synced) {
+    return writer_.run(work, durability);
+  }
+
+  /// Runs `work(connection)`, which gives a T, on a reader.
+  template <class T, class Work>
+  StatusOr<T> read(const Work& work) {
+    try {
+      return readers_.with([&](const Connection& connection) -> T { return work(connection); });
+    } catch (const Error& error) {
+      return to_status(error);
+    }
+  }
+
+ private:
+  Writer writer_;
+  ReaderPool readers_;
+};
+
+}  // namespace snapthrough::server::sqlite

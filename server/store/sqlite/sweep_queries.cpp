@@ -1,0 +1,168 @@
+/// What is known of sweeps: verbs that read.
+
+#include <utility>
+
+#include "server/store/sqlite/rows.h"
+#include "server/store/sqlite/sweeps.h"
+
+namespace snapthrough::server::sqlite {
+namespace {
+
+std::vector<bool> done_points(const Connection& connection, std::int64_t sweep, std::int64_t points) {
+  std::vector<bool> done(static_cast<std::size_t>(points));
+  Statement rows = connection.prepare("SELECT point FROM sweep_points WHERE sweep = ?");
+  rows.bind(sweep);
+  while (rows.step()) {
+    done.at(static_cast<std::size_t>(rows.integer(0))) = true;
+  }
+  return done;
+}
+
+}  // namespace
+
+const char* const kSweepColumns =
+    "sweeps.id, sweeps.status, sweeps.owner, sweeps.title, sweeps.points, sweeps.successful, sweeps.failed,"
+    " sweeps.reused, sweeps.created_us, sweeps.started_us, sweeps.finished_us";
+
+SweepRecord read_sweep_record(const Statement& row) {
+  const auto time = [&](int column) {
+    const std::optional<std::int64_t> value = row.optional_integer(column);
+    return value ? std::optional(Time(std::chrono::microseconds(*value))) : std::nullopt;
+  };
+  const std::optional<JobState> state = job_state_from(row.text(1));
+  if (!state) {
+    throw Error(0, "unknown sweep status in the store: " + row.text(1));
+  }
+  SweepRecord sweep;
+  sweep.id = row.text(0);
+  sweep.state = *state;
+  sweep.owner = row.text(2);
+  sweep.title = row.text(3);
+  sweep.points = row.integer(4);
+  sweep.successful = row.integer(5);
+  sweep.failed = row.integer(6);
+  sweep.reused = row.integer(7);
+  sweep.created = time(8).value();
+  sweep.started = time(9);
+  sweep.finished = time(10);
+  return sweep;
+}
+
+StatusOr<std::vector<std::string>> SqliteSweepStore::unfinished() {
+  return database_.read<std::vector<std::string>>([](const Connection& connection) {
+    Statement rows = connection.prepare(
+        "SELECT id FROM sweeps WHERE status IN ('accepted', 'running') AND removed = 0 ORDER BY seq");
+    std::vector<std::string> ids;
+    while (rows.step()) {
+      ids.push_back(rows.text(0));
+    }
+    return ids;
+  });
+}
+
+StatusOr<std::optional<OpenSweep>> SqliteSweepStore::open(std::string_view id) {
+  return database_.read<std::optional<OpenSweep>>([&](const Connection& connection)
+                                                      -> std::optional<OpenSweep> {
+    Statement row = connection.prepare(
+        "SELECT seq, document, owner, reuse, points FROM sweeps JOIN sweep_documents ON sweep = seq"
+        " WHERE id = ? AND status IN ('accepted', 'running') AND removed = 0");
+    row.bind(id);
+    if (!row.step()) {
+      return std::nullopt;
+    }
+    const std::int64_t sweep = row.integer(0);
+    OpenSweep open{
+        row.text(1), row.text(2), row.integer(3) == 1, done_points(connection, sweep, row.integer(4)), {}};
+    Statement crashes = connection.prepare("SELECT point, crashes FROM sweep_crashes WHERE sweep = ?");
+    crashes.bind(sweep);
+    while (crashes.step()) {
+      open.crashes[static_cast<std::uint64_t>(crashes.integer(0))] = static_cast<int>(crashes.integer(1));
+    }
+    return open;
+  });
+}
+
+StatusOr<std::optional<SweepRecord>> SqliteSweepStore::get(std::string_view id) {
+  return database_.read<std::optional<SweepRecord>>(
+      [&](const Connection& connection) -> std::optional<SweepRecord> {
+        Statement row = connection.prepare("SELECT " + std::string(kSweepColumns) +
+                                           " FROM sweeps WHERE id = ? AND removed = 0");
+        row.bind(id);
+        return row.step() ? std::optional(read_sweep_record(row)) : std::nullopt;
+      });
+}
+
+StatusOr<SweepPage> SqliteSweepStore::list(const SweepQuery& query) {
+  return database_.read<SweepPage>([&](const Connection& connection) {
+    std::string sql = "SELECT " + std::string(kSweepColumns) +
+                      ", sweeps.seq FROM sweeps WHERE owner = ? AND removed = 0 AND seq < ?";
+    sql += query.state ? " AND status = ?" : "";
+    sql += " ORDER BY seq DESC LIMIT ?";
+    Statement rows = connection.prepare(sql);
+    rows.bind(query.owner).bind(query.before.value_or(INT64_MAX));
+    if (query.state) {
+      rows.bind(to_string(*query.state));
+    }
+    rows.bind(query.limit + 1);  // one more, to see whether another page follows
+    SweepPage page;
+    std::int64_t last = 0;
+    while (rows.step()) {
+      if (static_cast<int>(page.sweeps.size()) == query.limit) {
+        page.next = last;
+        break;
+      }
+      page.sweeps.push_back(read_sweep_record(rows));
+      last = rows.integer(kSweepColumnCount);
+    }
+    return page;
+  });
+}
+
+StatusOr<std::optional<std::string>> SqliteSweepStore::document(std::string_view id) {
+  return database_.read<std::optional<std::string>>(
+      [&](const Connection& connection) -> std::optional<std::string> {
+        Statement row = connection.prepare(
+            "SELECT document FROM sweep_documents JOIN sweeps ON seq = sweep WHERE id = ? AND removed = 0");
+        row.bind(id);
+        return row.step() ? std::optional(row.text(0)) : std::nullopt;
+      });
+}
+
+Status SqliteSweepStore::each_row(std::string_view id, const PointQuery& query,
+                                  const std::function<void(std::uint64_t, const api::PointOutcome&)>& use) {
+  const auto largest = static_cast<std::uint64_t>(INT64_MAX);
+  const std::uint64_t first = std::min(query.first, largest);
+  const std::uint64_t end = first + std::min(query.count, largest - first);
+  const StatusOr<bool> read = database_.read<bool>([&](const Connection& connection) {
+    std::string sql =
+        "SELECT point, outputs, code, detail FROM sweep_points"
+        " WHERE sweep = (SELECT seq FROM sweeps WHERE id = ? AND removed = 0) AND point >= ? AND point < ?";
+    if (query.failed) {
+      sql += *query.failed ? " AND code IS NOT NULL" : " AND code IS NULL";
+    }
+    Statement rows = connection.prepare(sql + " ORDER BY point");
+    rows.bind(id).bind(static_cast<std::int64_t>(first)).bind(static_cast<std::int64_t>(end));
+    while (rows.step()) {
+      use(static_cast<std::uint64_t>(rows.integer(0)), {rows.text(1), rows.text(2), rows.text(3)});
+    }
+    return true;
+  });
+  return read.status();
+}
+
+StatusOr<std::vector<std::optional<std::string>>> SqliteSweepStore::find_outputs(
+    const std::vector<std::string>& keys) {
+  using Found = std::vector<std::optional<std::string>>;
+  return database_.read<Found>([&](const Connection& connection) {
+    Found found;
+    for (const std::string& key : keys) {
+      Statement row = connection.prepare(
+          "SELECT outputs FROM sweep_points WHERE content_key = ? AND outputs IS NOT NULL LIMIT 1");
+      row.bind(key);
+      found.push_back(row.step() ? std::optional(row.text(0)) : std::nullopt);
+    }
+    return found;
+  });
+}
+
+}  // namespace snapthrough::server::sqlite

@@ -1,0 +1,45 @@
+#pragma once
+/// @file
+/// The tables of sweeps.
+
+#include "server/store/sqlite/database.h"
+#include "server/store/sweep_store.h"
+
+namespace snapthrough::server::sqlite {
+
+class SqliteSweepStore final : public SweepStore {
+ public:
+  /// The database must outlive this.
+  explicit SqliteSweepStore(Database& database) : database_(database) {}
+
+  StatusOr<Submitted> submit(const NewSweep& sweep) override;
+  StatusOr<std::vector<std::string>> unfinished() override;
+  StatusOr<std::optional<OpenSweep>> open(std::string_view id) override;
+  StatusOr<PointClaim> claim(std::string_view id, const std::vector<std::uint64_t>& points,
+                             Time now) override;
+  StatusOr<SweepRecord> put(const PointClaim& claim, const std::vector<PointRow>& rows, Time now) override;
+  StatusOr<std::int64_t> recover(int max_crashes, Time now) override;
+  StatusOr<SweepChange> dismiss(std::string_view id, Time now) override;
+  StatusOr<SweepChange> retry(std::string_view id) override;
+  StatusOr<bool> remove(std::string_view id) override;
+  StatusOr<int> retire(Time ended_before) override;
+  StatusOr<bool> purge(int most) override;
+  Status forget_keys(Time used_before) override;
+  StatusOr<std::optional<SweepRecord>> get(std::string_view id) override;
+  StatusOr<SweepPage> list(const SweepQuery& query) override;
+  StatusOr<std::optional<std::string>> document(std::string_view id) override;
+  Status each_row(std::string_view id, const PointQuery& query,
+                  const std::function<void(std::uint64_t, const api::PointOutcome&)>& use) override;
+  StatusOr<std::vector<std::optional<std::string>>> find_outputs(
+      const std::vector<std::string>& keys) override;
+
+ private:
+  Database& database_;
+};
+
+/// The columns that read_sweep_record() reads, for SELECT; needs the table `sweeps`.
+extern const char* const kSweepColumns;
+inline constexpr int kSweepColumnCount = 11;
+[[nodiscard]] SweepRecord read_sweep_record(const Statement& row);
+
+}  // namespace snapthrough::server::sqlite

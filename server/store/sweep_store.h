@@ -1,0 +1,91 @@
+#pragma once
+/// @file
+/// What the service needs from a database for sweeps. Same promises as Store (server/store/store.h).
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/jobs/sweep.h"
+#include "server/status.h"
+
+namespace snapthrough::server {
+
+/// Which sweeps to list.
+struct SweepQuery {
+  int limit = 20;                      ///< > 0
+  std::optional<std::int64_t> before;  ///< SweepPage::next of the page before; empty: from the newest
+  std::optional<JobState> state;       ///< only these
+  std::string owner = {};              ///< only of this owner
+};
+
+/// One page of sweeps, newest first.
+struct SweepPage {
+  std::vector<SweepRecord> sweeps;
+  std::optional<std::int64_t> next;  ///< where the next page starts; empty: this is the last
+};
+
+/// What was asked of a sweep: what it was before (empty: there is none), and whether it is done now.
+struct SweepChange {
+  std::optional<JobState> before;
+  bool changed = false;
+};
+
+/// @brief The stored sweeps and their points. Thread-safe; every verb happens wholly or not at all.
+class SweepStore {
+ public:
+  SweepStore() = default;
+  SweepStore(const SweepStore&) = delete;
+  SweepStore& operator=(const SweepStore&) = delete;
+  SweepStore(SweepStore&&) = delete;
+  SweepStore& operator=(SweepStore&&) = delete;
+  virtual ~SweepStore() = default;
+
+  /// Adds a sweep in state accepted, unless its idempotency key is known.
+  virtual StatusOr<Submitted> submit(const NewSweep& sweep) = 0;
+  /// Ids of sweeps that are accepted or running, the oldest first.
+  virtual StatusOr<std::vector<std::string>> unfinished() = 0;
+  /// What a worker needs to go on with an accepted or running sweep; empty when there is none.
+  virtual StatusOr<std::optional<OpenSweep>> open(std::string_view id) = 0;
+
+  /// Notes that a worker begins with these points and makes the sweep running; `conflict` when it is neither
+  /// accepted nor running. It survives the death of the process, not that of the machine.
+  virtual StatusOr<PointClaim> claim(std::string_view id, const std::vector<std::uint64_t>& points,
+                                     Time now) = 0;
+  /// Stores rows of a claim, ends the claim, and ends the sweep when all points have a row. `conflict`, and
+  /// nothing is stored, when the claim is not known or the sweep is not running. A point that has a row keeps
+  /// it.
+  virtual StatusOr<SweepRecord> put(const PointClaim& claim, const std::vector<PointRow>& rows, Time now) = 0;
+  /// Deals with the claims of a process that is gone: their points without a row are given out again, or get
+  /// a row with the code "crashed" when that happened `max_crashes` times. To be called once, before the
+  /// first claim. @return how many points are given out again
+  virtual StatusOr<std::int64_t> recover(int max_crashes, Time now) = 0;
+
+  /// Makes an accepted or running sweep dismissed; its rows stay.
+  virtual StatusOr<SweepChange> dismiss(std::string_view id, Time now) = 0;
+  /// Takes the failed rows out of a failed or dismissed sweep and makes it accepted.
+  virtual StatusOr<SweepChange> retry(std::string_view id) = 0;
+  /// Nobody shall find the sweep any more; purge() gives its space back. False when there is none.
+  virtual StatusOr<bool> remove(std::string_view id) = 0;
+  /// Removes sweeps that ended before that time; how many.
+  virtual StatusOr<int> retire(Time ended_before) = 0;
+  /// Gives back the space of at most `most` rows of removed sweeps; true when there may be more.
+  virtual StatusOr<bool> purge(int most) = 0;
+  /// Forgets idempotency keys that were first used before that time.
+  virtual Status forget_keys(Time used_before) = 0;
+
+  virtual StatusOr<std::optional<SweepRecord>> get(std::string_view id) = 0;
+  virtual StatusOr<SweepPage> list(const SweepQuery& query) = 0;
+  /// The sweep document; empty when there is no such sweep.
+  virtual StatusOr<std::optional<std::string>> document(std::string_view id) = 0;
+  /// Calls it with each row that is there, in the order of points.
+  virtual Status each_row(std::string_view id, const PointQuery& query,
+                          const std::function<void(std::uint64_t, const api::PointOutcome&)>& use) = 0;
+  /// Outputs of points with these keys that were solved before; empty where there is none.
+  virtual StatusOr<std::vector<std::optional<std::string>>> find_outputs(
+      const std::vector<std::string>& keys) = 0;
+};
+
+}  // namespace snapthrough::server

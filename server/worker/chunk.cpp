@@ -1,0 +1,165 @@
+#include "server/worker/chunk.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "server/jobs/content_key.h"
+#include "server/worker/point.h"
+
+namespace snapthrough::server {
+namespace {
+
+/// A chunk that takes longer ends after the point it is at; when jobs wait, sooner.
+constexpr double kLongest = 0.25;
+constexpr double kLongestWhileJobsWait = 0.02;
+constexpr std::chrono::milliseconds kRetryPause{200};
+
+/// A point that is still to be computed.
+struct Pending {
+  std::uint64_t point = 0;
+  std::shared_ptr<const nlohmann::json> document;
+  std::string key;
+};
+
+struct Work {
+  std::vector<PointRow> rows;
+  std::vector<Pending> pending;
+  std::vector<std::uint64_t> rest;
+};
+
+/// Points of a curve are the same only on the same curve: following gives other last digits than tracing.
+/// @param curve Sweep::curve_text() of the chunk
+std::string key_of(const Chunk& chunk, const std::string& curve, const nlohmann::json& document) {
+  return point_key(document, chunk.sweep->outputs + curve, chunk.sweep->owner);
+}
+
+std::vector<Pending> pending_points(const Chunk& chunk) {
+  const std::string curve = chunk.sweep->sweep.curve_text(chunk.points.front());
+  std::vector<Pending> all;
+  for (const std::uint64_t point : chunk.points) {
+    auto document = chunk.sweep->sweep.document_at(point);
+    std::string key = key_of(chunk, curve, *document);
+    all.push_back({point, std::move(document), std::move(key)});
+  }
+  return all;
+}
+
+/// Takes what is known already.
+void look_up(const Chunk& chunk, JobDesk& desk, Work& work) {
+  if (!chunk.sweep->reuse) {
+    return;
+  }
+  std::vector<std::string> keys;
+  for (const Pending& pending : work.pending) {
+    keys.push_back(pending.key);
+  }
+  const auto found = desk.sweeps().find_outputs(keys);
+  if (!found.ok()) {
+    return;  // they are computed then
+  }
+  std::vector<Pending> unknown;
+  for (std::size_t i = 0; i < work.pending.size(); ++i) {
+    Pending& pending = work.pending[i];
+    if ((*found)[i]) {
+      work.rows.push_back({pending.point, {*(*found)[i], "", ""}, std::move(pending.key), true});
+    } else {
+      unknown.push_back(std::move(pending));
+    }
+  }
+  work.pending = std::move(unknown);
+}
+
+bool is_late(double seconds, const JobDesk& desk) {
+  return seconds > kLongest || (seconds > kLongestWhileJobsWait && desk.waiting() > 0);
+}
+
+/// Computes what is pending; what it does not come to is left as the rest.
+void compute(const Chunk& chunk, JobDesk& desk, const SolveFunction& solve, SweepBoard::Watch& watch,
+             Work& work) {
+  const double start = desk.environment().monotonic_seconds();
+  bool stopped = false;
+  for (std::size_t i = 0; i < work.pending.size(); ++i) {
+    Pending& pending = work.pending[i];
+    stopped = stopped || watch.token().stop_requested() ||
+              (i > 0 && is_late(desk.environment().monotonic_seconds() - start, desk));
+    if (stopped) {
+      work.rest.push_back(pending.point);
+      continue;
+    }
+    watch.begin(desk.environment().now());
+    api::PointOutcome outcome = solve_point(chunk.sweep->sweep, pending.document, solve, {watch.token(), {}});
+    if (outcome.code == "cancelled" && watch.reason() == StopReason::time_limit) {
+      outcome = {"", "time_limit",
+                 "the analysis took longer than " + std::to_string(desk.limits().longest_run.count()) + " s"};
+    } else if (outcome.code == "cancelled") {
+      stopped = true;
+      work.rest.push_back(pending.point);
+      continue;
+    }
+    work.rows.push_back({pending.point, std::move(outcome), std::move(pending.key)});
+  }
+}
+
+/// Computes a curve, wholly or not at all.
+void compute_curve(const Chunk& chunk, JobDesk& desk, SweepBoard::Watch& watch, Work& work) {
+  if (work.pending.empty()) {
+    return;
+  }
+  work.rows.clear();  // what was found of a curve is not enough
+  watch.begin(desk.environment().now());
+  std::vector<api::PointOutcome> outcomes =
+      solve_curve(chunk.sweep->sweep, chunk.points.front(), watch.token());
+  const std::string curve = chunk.sweep->sweep.curve_text(chunk.points.front());
+  const bool late = watch.reason() == StopReason::time_limit;
+  if (watch.token().stop_requested() && !late) {
+    work.rest = chunk.points;
+    return;
+  }
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (late && outcomes[i].code == "cancelled") {
+      outcomes[i] = {"", "time_limit", "the curve took longer than one analysis may take"};
+    }
+    const auto document = chunk.sweep->sweep.document_at(chunk.points[i]);
+    work.rows.push_back({chunk.points[i], std::move(outcomes[i]), key_of(chunk, curve, *document)});
+  }
+}
+
+void pause(const std::stop_token& stop) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  std::unique_lock lock(mutex);
+  never.wait_for(lock, stop, kRetryPause, [] { return false; });
+}
+
+}  // namespace
+
+void work_on(const Chunk& chunk, JobDesk& desk, const SolveFunction& solve, Log& log,
+             const std::stop_token& stop) {
+  SweepBoard::Watch watch(desk.sweeps().board(), desk.environment().now());
+  const std::stop_callback on_shutdown(stop, [&] { watch.stop(StopReason::shutdown); });
+  const std::stop_callback on_dismissal(chunk.sweep->stopped(), [&] { watch.stop(StopReason::dismissed); });
+  const double start = desk.environment().monotonic_seconds();
+  Work work;
+  work.pending = pending_points(chunk);
+  look_up(chunk, desk, work);
+  if (chunk.sweep->sweep.follows()) {
+    compute_curve(chunk, desk, watch, work);
+  } else {
+    compute(chunk, desk, solve, watch, work);
+  }
+  const double seconds = desk.environment().monotonic_seconds() - start;
+  Status status = desk.sweeps().settle(chunk, work.rows, work.rest, seconds);
+  while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
+    pause(stop);
+    status = desk.sweeps().settle(chunk, work.rows, work.rest, seconds);
+  }
+  if (!status.ok() && status.code() != StatusCode::conflict) {
+    log.write(LogLevel::error, "store",
+              {{"sweep", std::string_view(chunk.sweep->id)}, {"detail", std::string_view(status.message())}});
+  }
+}
+
+}  // namespace snapthrough::server

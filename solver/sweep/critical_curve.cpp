@@ -1,0 +1,333 @@
+#include "solver/sweep/critical_curve.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "solver/analysis/analyses.h"
+#include "solver/path/trace.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kReach = 0.01;       // of the path so far, from the critical point to its two neighbours
+constexpr double kLongestPath = 0.3;  // a displacement gradient
+constexpr double kInterpolation = 1e-8;
+constexpr double kSameLoad = 1e-6;
+constexpr int kMostHalvings = 7;
+constexpr std::size_t kHistory = 4;  // extrapolation is cubic
+
+/// An equilibrium, or a coefficient of an expansion of equilibria.
+struct Place {
+  VectorXd y;
+  double lambda = 0.0;
+};
+
+/// A critical point with its neighbourhood on the path, for prediction at other values.
+struct Expansion {
+  double t = 0.0;  ///< the value or its logarithm
+  double reach = 0.0;
+  /// The path as a power series of the distance from the critical point, along its direction there.
+  std::array<Place, 4> series;
+  int negative_before = 0;
+  int negative_after = 0;
+
+  [[nodiscard]] Place at(double s) const {
+    Place place = series[0];
+    double power = s;
+    for (std::size_t i = 1; i < series.size(); ++i, power *= s) {
+      place.y += power * series[i].y;
+      place.lambda += power * series[i].lambda;
+    }
+    return place;
+  }
+};
+
+/// The model of one value, on the mesh of all.
+struct Family {
+  Family(const CriticalCurveRequest& request, double value)
+      : model(request.model(value)),
+        structure(make_structure(model, request.analysis.discretization, request.analysis.geometry,
+                                 mode_offsets(model, request.analysis), MeshUse::first)),
+        problem(structure),
+        continuation(problem, {}) {}
+
+  Model model;
+  Structure structure;
+  StructuralProblem problem;
+  Continuation continuation;
+};
+
+/// The path between two points as a cubic, in the distance along a chord from the first.
+class Cubic {
+ public:
+  Cubic(const Continuation& continuation, const Chord& chord, const PathPoint& a, const PathPoint& b)
+      : a_(a), b_(b), length_(continuation.distance_along(chord, a, b)) {
+    rate_a_ = continuation.metric().inner(a.tangent, a.tangent_lambda, chord.y, chord.lambda);
+    rate_b_ = continuation.metric().inner(b.tangent, b.tangent_lambda, chord.y, chord.lambda);
+  }
+  [[nodiscard]] double length() const { return length_; }
+  [[nodiscard]] double load_rate_a() const { return a_.tangent_lambda / rate_a_; }
+  [[nodiscard]] double load_rate_b() const { return b_.tangent_lambda / rate_b_; }
+
+  /// The cubic about a place on it.
+  [[nodiscard]] std::array<Place, 4> series(double s) const {
+    const auto about = [&](const auto& a, const auto& b, const auto& ma, const auto& mb) {
+      const auto c2 = ((3.0 / length_ * (b - a) - 2.0 * ma - mb) / length_).eval();
+      const auto c3 = ((-2.0 / length_ * (b - a) + ma + mb) / (length_ * length_)).eval();
+      return std::array<VectorXd, 4>{a + s * (ma + s * (c2 + s * c3)), ma + s * (2.0 * c2 + 3.0 * s * c3),
+                                     c2 + 3.0 * s * c3, c3};
+    };
+    const auto number = [](double value) { return VectorXd::Constant(1, value).eval(); };
+    const auto y = about(a_.y, b_.y, VectorXd(a_.tangent / rate_a_), VectorXd(b_.tangent / rate_b_));
+    const auto lambda =
+        about(number(a_.lambda), number(b_.lambda), number(load_rate_a()), number(load_rate_b()));
+    std::array<Place, 4> out;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {y[i], lambda[i][0]};
+    return out;
+  }
+  /// Where the load is stationary, inside; negative when it is nowhere.
+  [[nodiscard]] double stationary() const {
+    // derivative of the load: c0 + c1 x + c2 x^2
+    const double r0 = load_rate_a();
+    const double r1 = load_rate_b();
+    const double mean = (b_.lambda - a_.lambda) / length_;
+    const double c1 = 6.0 * mean - 4.0 * r0 - 2.0 * r1;
+    const double c2 = 3.0 * (r0 + r1) - 6.0 * mean;
+    const double root = c1 * c1 - 4.0 * c2 * r0;
+    if (!(r0 * r1 < 0.0) || !(root >= 0.0)) return -1.0;
+    const double q = -0.5 * (c1 + (c1 < 0.0 ? -1.0 : 1.0) * std::sqrt(root));
+    for (const double x : {r0 / q, q / c2})
+      if (x > 0.0 && x < 1.0) return x * length_;
+    return -1.0;
+  }
+
+ private:
+  const PathPoint& a_;
+  const PathPoint& b_;
+  double length_ = 0.0;
+  double rate_a_ = 1.0;
+  double rate_b_ = 1.0;
+};
+
+class Follower {
+ public:
+  explicit Follower(const CriticalCurveRequest& request) : request_(request) {}
+  [[nodiscard]] CriticalCurve run();
+
+ private:
+  [[nodiscard]] double place_of(double value) const { return request_.logarithmic ? std::log(value) : value; }
+  [[nodiscard]] double value_at(double t) const { return request_.logarithmic ? std::exp(t) : t; }
+  [[nodiscard]] CriticalCurvePoint trace_at(double value);
+  [[nodiscard]] bool follow_to(double value, int halvings);
+  [[nodiscard]] Expansion predicted(double t) const;
+  void check_from(std::size_t first, std::size_t last);
+  void remember(std::optional<Expansion> node);
+
+  const CriticalCurveRequest& request_;
+  CriticalCurve curve_;
+  std::unique_ptr<Family> measure_;  ///< whose norm and scales hold for all
+  std::deque<Expansion> nodes_;      ///< the latest last
+};
+
+void Follower::remember(std::optional<Expansion> node) {
+  if (!node) return;
+  nodes_.push_back(*std::move(node));
+  if (nodes_.size() > kHistory) nodes_.pop_front();
+}
+
+/// The path's direction at the critical point, of norm one.
+VectorXd direction_of(const Expansion& node, const Continuation& continuation) {
+  const VectorXd& first = node.series[1].y;
+  return first / continuation.metric().norm(first, 0.0);
+}
+
+/// The equilibrium in the plane normal to the chord at a distance from the guessed critical point.
+std::optional<PathPoint> equilibrium(Continuation& continuation, const Expansion& guess, const Chord& chord,
+                                     double distance) {
+  const Place place = guess.at(distance);
+  PathPoint lo;
+  lo.y = place.y - guess.reach * chord.y;
+  lo.lambda = place.lambda;
+  lo.tangent = chord.y;
+  PathPoint hi = lo;
+  hi.y = place.y + guess.reach * chord.y;
+  return continuation.between(chord, lo, hi, 0.5);
+}
+
+/// The limit point that a guess is near to; empty when it can't be told with certainty.
+std::optional<Expansion> corrected(Continuation& continuation, const Expansion& guess, int attempts = 3) {
+  const Chord chord{direction_of(guess, continuation), 0.0, false};
+  const auto before = equilibrium(continuation, guess, chord, -guess.reach);
+  if (!before || before->negative != guess.negative_before) return std::nullopt;
+  const auto after = equilibrium(continuation, guess, chord, guess.reach);
+  if (!after || after->negative != guess.negative_after) return std::nullopt;
+  const Cubic path(continuation, chord, *before, *after);
+  if (!(path.length() > 0.0)) return std::nullopt;
+  const double s = path.stationary();
+  if (s < 0.0) return std::nullopt;
+  Expansion node = guess;
+  node.series = path.series(s);
+  const double load = node.series[0].lambda;
+  // What linear rates alone would have given differs by the next order: times the distance over the path's
+  // length it bounds the cubic's own error.
+  const double linear = path.length() * path.load_rate_a() / (path.load_rate_a() - path.load_rate_b());
+  const double change = std::abs(before->lambda + 0.5 * path.load_rate_a() * linear - load);
+  // The neighbours come nearer, or go farther, so that the error stays well below what is accepted.
+  const double wanted = 0.1 * kInterpolation * std::abs(load) / kReach;
+  node.reach = guess.reach * std::clamp(std::cbrt(wanted / std::max(change, 1e-3 * wanted)), 0.3, 1.2);
+  if (change <= 10.0 * wanted) return node;
+  return attempts > 1 ? corrected(continuation, node, attempts - 1) : std::nullopt;
+}
+
+/// Extrapolates (Lagrange) from the latest nodes.
+Expansion Follower::predicted(double t) const {
+  Expansion guess = nodes_.back();
+  guess.t = t;
+  for (Place& place : guess.series) {
+    place.y.setZero();
+    place.lambda = 0.0;
+  }
+  for (const Expansion& node : nodes_) {
+    double weight = 1.0;
+    for (const Expansion& other : nodes_)
+      if (&other != &node) weight *= (t - other.t) / (node.t - other.t);
+    for (std::size_t i = 0; i < guess.series.size(); ++i) {
+      guess.series[i].y += weight * node.series[i].y;
+      guess.series[i].lambda += weight * node.series[i].lambda;
+    }
+  }
+  return guess;
+}
+
+/// Whether the critical point was found from the nodes; it is the latest of them then.
+bool Follower::follow_to(double value, int halvings) {
+  if (nodes_.empty()) return false;
+  const double t = place_of(value);
+  Family member(request_, value);
+  const Scales& scales = measure_->structure.scales;
+  if (member.structure.size != measure_->structure.size || member.structure.scales.load != scales.load ||
+      member.structure.scales.force != scales.force || member.structure.scales.length != scales.length)
+    return false;
+  member.continuation.measure_as(measure_->continuation);
+  std::optional<Expansion> node = corrected(member.continuation, predicted(t));
+  curve_.factorizations += member.continuation.statistics().factorizations;
+  if (node) {
+    remember(std::move(node));
+    return true;
+  }
+  if (halvings == kMostHalvings) return false;
+  const double middle = value_at(0.5 * (nodes_.back().t + t));
+  if (!follow_to(middle, halvings + 1)) return false;
+  ++curve_.inserted;
+  return follow_to(value, halvings + 1);
+}
+
+/// Traces the path of a value; its critical point becomes the only node when it can be followed.
+CriticalCurvePoint Follower::trace_at(double value) {
+  ++curve_.traced;
+  nodes_.clear();
+  CriticalCurvePoint point{value, std::nullopt, CriticalType::limit_max, false, ""};
+  auto member = std::make_unique<Family>(request_, value);
+  Result result;
+  const auto start = start_of_path(member->structure, member->problem, member->continuation, 1.0, {}, result);
+  if (!start) {
+    point.failure = result.failure ? result.failure->code : "no_start";
+    return point;
+  }
+  TraceRules rules;
+  rules.first_loss_of_stability = true;
+  const TraceOutcome outcome = trace(member->continuation, start, rules, request_.analysis.step, {}, {});
+  if (outcome.end == TraceEnd::step_underflow) point.failure = "step_underflow";
+  if (outcome.end == TraceEnd::critical_point) {
+    const CriticalEvent& event = outcome.critical.back();
+    point.load_factor = event.point.lambda / member->structure.scales.load;
+    point.type = event.type;
+    if (event.type != CriticalType::bifurcation && event.cause == CriticalCause::smooth &&
+        event.multiplicity == 1) {
+      Expansion guess;
+      guess.t = place_of(value);
+      guess.reach = kReach * std::min(event.point.arc_length, kLongestPath);
+      const VectorXd zero = VectorXd::Zero(event.point.y.size());
+      const VectorXd along =
+          event.point.tangent / member->continuation.metric().norm(event.point.tangent, 0.0);
+      guess.series = {Place{event.point.y, event.point.lambda}, {along, 0.0}, {zero, 0.0}, {zero, 0.0}};
+      guess.negative_before = event.negative_before;
+      guess.negative_after = event.negative_after;
+      remember(corrected(member->continuation, guess));
+    }
+  }
+  curve_.factorizations += member->continuation.statistics().factorizations;
+  measure_ = std::move(member);
+  return point;
+}
+
+/// Checks a followed point by its own path; where that has another critical point, all since `first` are
+/// traced.
+void Follower::check_from(std::size_t first, std::size_t last) {
+  const std::deque<Expansion> nodes = nodes_;
+  std::unique_ptr<Family> measure = std::move(measure_);
+  const CriticalCurvePoint traced = trace_at(request_.values[last]);
+  CriticalCurvePoint& followed = curve_.points[last];
+  const bool same =
+      traced.load_factor && traced.type == followed.type &&
+      std::abs(*traced.load_factor - *followed.load_factor) <= kSameLoad * std::abs(*traced.load_factor);
+  if (same) {
+    measure_ = std::move(measure);
+    nodes_ = nodes;
+    return;
+  }
+  ++curve_.disagreed;
+  for (std::size_t i = first; i < last; ++i)
+    if (curve_.points[i].followed) curve_.points[i] = trace_at(request_.values[i]);
+  followed = trace_at(request_.values[last]);
+}
+
+CriticalCurve Follower::run() {
+  const std::size_t count = request_.values.size();
+  std::size_t checked = 0;  // values before it are certain
+  for (std::size_t i = 0; i < count; ++i) {
+    const double value = request_.values[i];
+    if (request_.stop.stop_requested()) {
+      curve_.points.push_back({value, std::nullopt, CriticalType::limit_max, false, "cancelled"});
+      continue;
+    }
+    if (!follow_to(value, 0)) {
+      if (i > checked && curve_.points.back().followed) check_from(checked, i - 1);
+      curve_.points.push_back(trace_at(value));
+      checked = i + 1;
+      continue;
+    }
+    const CriticalCurvePoint& last = curve_.points.back();
+    const double load = nodes_.back().series[0].lambda / measure_->structure.scales.load;
+    curve_.points.push_back({value, load, last.type, true, ""});
+    if (i + 1 == count || i - checked + 1 >= static_cast<std::size_t>(request_.check_every)) {
+      check_from(checked, i);
+      checked = i + 1;
+    }
+  }
+  curve_.followed = static_cast<int>(std::count_if(curve_.points.begin(), curve_.points.end(),
+                                                   [](const auto& point) { return point.followed; }));
+  return std::move(curve_);
+}
+
+}  // namespace
+
+CriticalCurve follow_critical_point(const CriticalCurveRequest& request) {
+  if (request.values.empty() || request.check_every < 1 || request.analysis.type != AnalysisType::critical ||
+      !request.analysis.discretization.fixed_mesh)
+    throw std::invalid_argument("a critical point is followed on a fixed mesh, over at least one value");
+  if (request.logarithmic && *std::min_element(request.values.begin(), request.values.end()) <= 0.0)
+    throw std::invalid_argument("values must be positive where the logarithm is followed");
+  return Follower(request).run();
+}
+
+}  // namespace snapthrough

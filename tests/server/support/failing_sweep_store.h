@@ -1,0 +1,48 @@
+#pragma once
+/// @file
+/// A store of sweeps of which every verb fails as it is told to.
+
+#include <string>
+#include <vector>
+
+#include "server/store/sweep_store.h"
+
+namespace snapthrough::server::test {
+
+class FailingSweepStore final : public SweepStore {
+ public:
+  explicit FailingSweepStore(StatusCode code) : code_(code) {}
+
+  StatusOr<Submitted> submit(const NewSweep&) override { return status(); }
+  StatusOr<std::vector<std::string>> unfinished() override { return status(); }
+  StatusOr<std::optional<OpenSweep>> open(std::string_view) override { return status(); }
+  StatusOr<PointClaim> claim(std::string_view, const std::vector<std::uint64_t>&, Time) override {
+    return status();
+  }
+  StatusOr<SweepRecord> put(const PointClaim&, const std::vector<PointRow>&, Time) override {
+    return status();
+  }
+  StatusOr<std::int64_t> recover(int, Time) override { return status(); }
+  StatusOr<SweepChange> dismiss(std::string_view, Time) override { return status(); }
+  StatusOr<SweepChange> retry(std::string_view) override { return status(); }
+  StatusOr<bool> remove(std::string_view) override { return status(); }
+  StatusOr<int> retire(Time) override { return status(); }
+  StatusOr<bool> purge(int) override { return status(); }
+  Status forget_keys(Time) override { return status(); }
+  StatusOr<std::optional<SweepRecord>> get(std::string_view) override { return status(); }
+  StatusOr<SweepPage> list(const SweepQuery&) override { return status(); }
+  StatusOr<std::optional<std::string>> document(std::string_view) override { return status(); }
+  Status each_row(std::string_view, const PointQuery&,
+                  const std::function<void(std::uint64_t, const api::PointOutcome&)>&) override {
+    return status();
+  }
+  StatusOr<std::vector<std::optional<std::string>>> find_outputs(const std::vector<std::string>&) override {
+    return status();
+  }
+
+ private:
+  [[nodiscard]] Status status() const { return {code_, "the disk /dev/secret is full"}; }
+  StatusCode code_;
+};
+
+}  // namespace snapthrough::server::test

@@ -1,0 +1,320 @@
+/// @file
+/// Sweeps over HTTP: rows, reuse, failures, dismissal, retry, refusals, independence of workers.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "api/sweep.h"
+#include "tests/server/support/running_service.h"
+
+namespace snapthrough::server::test {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A solver that counts, gives the stiffness as the critical load, and fails where it is told to.
+class CountingSolver {
+ public:
+  Result operator()(const Model& model, const Analysis&, const Hooks&) {
+    ++calls;
+    Result result;
+    const double stiffness = model.sections.front().EI;
+    if (stiffness == failing.load()) {
+      result.failure = Failure{"no_convergence", "as it was told"};
+    }
+    result.summary.critical_load_factor = stiffness;
+    result.summary.critical_type = CriticalType::limit_max;
+    result.summary.termination = "limit_points";
+    return result;
+  }
+  std::atomic<int> calls = 0;
+  std::atomic<double> failing = -1.0;
+};
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class SweepService : public ServiceTest {
+ protected:
+  void start_counting() {
+    start([solver = solver_](const Model& model, const Analysis& analysis, const Hooks& hooks) {
+      return (*solver)(model, analysis, hooks);
+    });
+  }
+  std::string submit_sweep(const std::string& document, const Headers& more = {}) {
+    Headers headers{"Content-Type: application/json"};
+    headers.insert(headers.end(), more.begin(), more.end());
+    const Reply reply = post(port(), "/v1/sweeps", document, headers);
+    EXPECT_EQ(reply.status, 201) << reply.body;
+    return reply.header("Location");
+  }
+  /// The status when it has ended.
+  json ended(const std::string& sweep) { return json::parse(get(port(), sweep, {"Prefer: wait=30"}).body); }
+  json table(const std::string& sweep, const std::string& query = "") {
+    return json::parse(get(port(), sweep + "/table" + query).body);
+  }
+  [[nodiscard]] int calls() const { return solver_->calls; }
+
+  std::shared_ptr<CountingSolver> solver_ = std::make_shared<CountingSolver>();
+};
+
+TEST_F(SweepService, EveryPointHasItsRowInEveryForm) {
+  start_counting();
+  const std::string sweep = submit_sweep(column_sweep(1000));
+  const json status = ended(sweep);
+  EXPECT_EQ(status["status"], "successful");
+  EXPECT_EQ(status["progress"], 100);
+  EXPECT_EQ(status["counts"], json::parse(R"({"successful":1000,"failed":0,"reused":0,"remaining":0})"));
+  EXPECT_EQ(calls(), 1000);
+  const json all = table(sweep);
+  EXPECT_EQ(all["columns"],
+            json::parse(R"(["EI", "/summary/critical_load_factor", "/summary/termination", "error"])"));
+  ASSERT_EQ(all["rows"].size(), 1000U);
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_EQ(all["rows"][i][0], 1.0 + i);
+    EXPECT_EQ(all["rows"][i][1], 1.0 + i);
+  }
+  const Reply csv = get(port(), sweep + "/table?format=csv&first=998");
+  EXPECT_EQ(csv.header("X-Complete"), "true");
+  EXPECT_EQ(csv.body,
+            "EI,/summary/critical_load_factor,/summary/termination,error\n999.0,999.0,limit_points,\n"
+            "1000.0,1000.0,limit_points,\n");
+  const Reply lines = get(port(), sweep + "/table?count=1", {"Accept: application/x-ndjson"});
+  EXPECT_EQ(json::parse(lines.body)["/summary/critical_load_factor"], 1.0);
+  EXPECT_EQ(get(port(), sweep + "/table?format=csv",
+                {"If-None-Match: " + get(port(), sweep + "/table?format=csv").header("ETag")})
+                .status,
+            304);
+}
+
+TEST_F(SweepService, WhatWasComputedIsNotComputedAgain) {
+  start_counting();
+  ended(submit_sweep(column_sweep(300)));
+  EXPECT_EQ(calls(), 300);
+  EXPECT_EQ(ended(submit_sweep(column_sweep(300)))["counts"]["reused"], 300);
+  EXPECT_EQ(calls(), 300);
+  const std::string wider = submit_sweep(column_sweep(400));
+  EXPECT_EQ(ended(wider)["counts"]["reused"], 300);
+  EXPECT_EQ(calls(), 400);
+  EXPECT_EQ(table(wider)["rows"][299][1], 300.0);
+  ended(submit_sweep(column_sweep(300), {"Cache-Control: no-cache"}));
+  EXPECT_EQ(calls(), 700);
+  ended(submit_sweep(column_sweep(300, "another model")));
+  EXPECT_EQ(calls(), 1000);
+}
+
+TEST_F(SweepService, AFailedPointIsARowAndIsTriedAgain) {
+  start_counting();
+  solver_->failing = 7.0;
+  const std::string sweep = submit_sweep(column_sweep(20));
+  const json status = ended(sweep);
+  EXPECT_EQ(status["status"], "failed");
+  EXPECT_EQ(status["counts"]["failed"], 1);
+  const json failed = table(sweep, "?status=failed")["rows"];
+  ASSERT_EQ(failed.size(), 1U);
+  EXPECT_EQ(failed[0][0], 7.0);
+  EXPECT_EQ(failed[0][3]["code"], "no_convergence");
+  EXPECT_EQ(table(sweep)["rows"].size(), 20U);
+  solver_->failing = -1.0;
+  const Reply retried = post(port(), sweep + "/retry?status=failed", "");
+  EXPECT_EQ(retried.status, 200);
+  EXPECT_EQ(ended(sweep)["status"], "successful");
+  EXPECT_EQ(calls(), 21);
+  EXPECT_EQ(table(sweep)["rows"][6][1], 7.0);
+  EXPECT_EQ(post(port(), sweep + "/retry", "").status, 409);
+}
+
+TEST_F(SweepService, APointWhoseModelIsInvalidIsARow) {
+  start_counting();
+  json document = json::parse(column_sweep(3));
+  document["parameters"][0].erase("range");
+  document["parameters"][0]["values"] = {1, -5, 2};
+  const std::string sweep = submit_sweep(document.dump());
+  EXPECT_EQ(ended(sweep)["status"], "failed");
+  const json rows = table(sweep)["rows"];
+  EXPECT_EQ(rows[1][3]["code"], "wrong_request");
+  EXPECT_THAT(rows[1][3]["detail"].get<std::string>(), HasSubstr("/model/sections/0/EI"));
+  EXPECT_EQ(rows[2][1], 2.0);
+}
+
+/// The real solver: the same bytes whatever the workers, the order, and the grouping by restarts.
+TEST_F(SweepService, RowsDoNotDependOnWorkersAndInterruptions) {
+  std::string first;
+  for (const int workers : {1, 2, 3}) {
+    workers_ = workers;
+    start(solve);
+    const std::string sweep = submit_sweep(column_sweep(40), {"Cache-Control: no-cache"});
+    if (workers == 3) {
+      service_.reset();  // SIGTERM does the same
+      start(solve);
+    }
+    EXPECT_EQ(ended(sweep)["status"], "successful");
+    const std::string csv = get(port(), sweep + "/table?format=csv").body;
+    first = first.empty() ? csv : first;
+    EXPECT_EQ(csv, first);
+    service_.reset();
+  }
+  EXPECT_THAT(first, HasSubstr("\n1.0,2.46"));  // pi^2 / 4, P_cr of a clamped-free column
+}
+
+/// Half a ring in a medium that only presses, five stiffnesses: as traced one by one, and computed once.
+TEST_F(SweepService, AFollowedCurveIsOneUnitOfWork) {
+  start(solve);
+  json document = json::parse(read_text(SNAPTHROUGH_SOURCE_DIR "/examples/sweeps/ring_followed.json"));
+  document["analysis"]["discretization"]["elements"] = 16;
+  document["parameters"][0]["range"] = {{"from", 1e3}, {"to", 2e3}, {"count", 5}, {"spacing", "log"}};
+  const std::string followed = submit_sweep(document.dump());
+  EXPECT_EQ(ended(followed)["status"], "successful");
+  EXPECT_EQ(ended(submit_sweep(document.dump()))["counts"]["reused"], 5);
+  json alone = document;
+  alone.erase("follow");
+  const std::string traced = submit_sweep(alone.dump());
+  EXPECT_EQ(ended(traced)["counts"]["reused"], 0) << "last digits differ";
+  const json rows = table(followed)["rows"];
+  const json others = table(traced)["rows"];
+  ASSERT_EQ(rows.size(), 5U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_NEAR(rows[i][1].get<double>() / others[i][1].get<double>(), 1.0, 2e-8);
+    EXPECT_EQ(rows[i][2], others[i][2]);
+  }
+}
+
+TEST_F(SweepService, DismissalStopsItWithinASecondAndKeepsRows) {
+  const auto solver = std::make_shared<GatedSolver>();
+  start(gated(solver));
+  const std::string sweep = submit_sweep(column_sweep(100));
+  solver->wait_started(2);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(post(port(), sweep + "/dismiss", "").status, 200);
+  EXPECT_EQ(post(port(), sweep + "/dismiss", "").status, 200);
+  const std::string job = submit();  // needs a worker
+  solver->open();
+  EXPECT_EQ(json::parse(get(port(), job, {"Prefer: wait=20"}).body)["status"], "successful");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
+  EXPECT_EQ(json::parse(get(port(), sweep).body)["status"], "dismissed");
+  EXPECT_EQ(get(port(), sweep + "/table").header("X-Complete"), "false");
+  EXPECT_EQ(post(port(), sweep + "/retry", "").status, 200);
+  EXPECT_EQ(ended(sweep)["status"], "successful");
+  EXPECT_EQ(post(port(), sweep + "/dismiss", "").status, 409);
+  EXPECT_EQ(call(port(), "DELETE", sweep, "", {}).status, 204);
+  EXPECT_EQ(get(port(), sweep).status, 404);
+}
+
+TEST_F(SweepService, EventsTellHowFarItIs) {
+  const auto solver = std::make_shared<GatedSolver>();
+  start(gated(solver));
+  const std::string sweep = submit_sweep(column_sweep(200));
+  solver->wait_started(1);
+  Socket stream(port());
+  stream.send("GET " + sweep + "/events HTTP/1.1\r\nHost: a\r\n\r\n");
+  EXPECT_EQ(stream.receive().header("Content-Type"), "text/event-stream");
+  solver->open();
+  const std::string text = stream.rest();
+  EXPECT_THAT(text, HasSubstr("event: status\ndata: {\"id\""));
+  EXPECT_THAT(text, HasSubstr("event: progress\ndata: {\"points\":200"));
+  EXPECT_THAT(text, HasSubstr("event: end\ndata: {\"id\""));
+  EXPECT_THAT(text, HasSubstr("\"status\":\"successful\""));
+}
+
+TEST_F(SweepService, JobsAreAnsweredWhileASweepRuns) {
+  workers_ = 1;
+  start([](const Model&, const Analysis&, const Hooks&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    Result result;
+    result.summary.termination = "steps";
+    return result;
+  });
+  const std::string sweep = submit_sweep(column_sweep(2000));  // ten seconds
+  for (int i = 0; i < 5; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(post(port(), "/v1/jobs", column_request("job " + std::to_string(i))).status, 200);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  }
+  EXPECT_EQ(json::parse(get(port(), sweep).body)["status"], "running");
+  EXPECT_GT(json::parse(get(port(), sweep).body)["counts"]["successful"], 0);
+}
+
+/// Best of three, since the machine may be busy: the refusals themselves take well below a millisecond.
+TEST_F(SweepService, WrongSweepsAreRefusedAtOnceWithPointers) {
+  start_counting();
+  const auto refused = [&](const json& document) {
+    double best = 1e9;
+    Reply reply;
+    for (int i = 0; i < 3; ++i) {
+      const auto start = std::chrono::steady_clock::now();
+      reply = post(port(), "/v1/sweeps", document.dump());
+      best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    EXPECT_EQ(reply.status, 422);
+    EXPECT_LT(best, 0.010);
+    std::vector<std::string> all;
+    const json problem = json::parse(reply.body);
+    for (const json& error : problem["errors"]) {
+      all.push_back(error["pointer"].get<std::string>() + " " + error["code"].get<std::string>());
+    }
+    return all;
+  };
+  json huge = json::parse(column_sweep(2));
+  huge["parameters"][0]["range"]["count"] = 1'000'000;
+  huge["parameters"].push_back(huge["parameters"][0]);
+  huge["parameters"][1]["name"] = "EA";
+  huge["parameters"][1]["targets"][0]["pointer"] = "/model/sections/0/EA";
+  EXPECT_THAT(refused(huge), ElementsAre("/parameters too_many_points"));
+  json missing = json::parse(column_sweep(2));
+  missing["parameters"][0]["targets"][0]["pointer"] = "/model/springs/0/stiffness";
+  EXPECT_THAT(refused(missing), ElementsAre("/parameters/0/targets/0/pointer no_such_place"));
+  json typed = json::parse(column_sweep(2));
+  typed["parameters"][0].erase("range");
+  typed["parameters"][0]["values"] = {1, "stiff"};
+  EXPECT_THAT(refused(typed), ElementsAre("/parameters/0/values/1 wrong_type"));
+  json twice = json::parse(column_sweep(2));
+  twice["parameters"].push_back(twice["parameters"][0]);
+  twice["parameters"][1]["name"] = "same";
+  EXPECT_THAT(refused(twice), ElementsAre("/parameters/1/targets/0/pointer overlapping_targets"));
+  EXPECT_EQ(calls(), 0);
+}
+
+TEST_F(SweepService, LargeTablesAreAskedForInParts) {
+  ServiceConfig small = config();
+  small.jobs.table_rows = 10;
+  service_ = std::make_unique<Service>(small, Environment::system(), std::ref(*solver_), log_);
+  ASSERT_TRUE(service_->start().ok());
+  const std::string sweep = submit_sweep(column_sweep(15));
+  ended(sweep);
+  const Reply whole = get(port(), sweep + "/table");
+  EXPECT_EQ(whole.status, 400);
+  EXPECT_THAT(whole.body, HasSubstr("table-too-large"));
+  EXPECT_EQ(table(sweep, "?first=0&count=10")["rows"].size(), 10U);
+  EXPECT_EQ(table(sweep, "?first=10&count=10")["rows"].size(), 5U);
+}
+
+TEST_F(SweepService, AStrangersSweepIsNotThere) {
+  ServiceConfig keyed = config();
+  // SHA-256 of "alice" and "bob", from sha256sum.
+  keyed.keys = {{"ann", "2bd806c97f0e00af1a1fc3328fa763a9269723c8db8fac4f93af71db186d6e90"},
+                {"bob", "81b637d8fcd2c6da6359e6963113a1170de795e4b725b84d1e0b4cfd9ec58ce9"}};
+  service_ = std::make_unique<Service>(keyed, Environment::system(), std::ref(*solver_), log_);
+  ASSERT_TRUE(service_->start().ok());
+  const std::string sweep = submit_sweep(column_sweep(5), {"Authorization: Bearer alice"});
+  for (const std::string& target : {sweep, sweep + "/table", sweep + "/request", sweep + "/events"}) {
+    EXPECT_EQ(get(port(), target, {"Authorization: Bearer bob"}).status, 404) << target;
+  }
+  EXPECT_EQ(call(port(), "DELETE", sweep, "", {"Authorization: Bearer bob"}).status, 404);
+  EXPECT_EQ(call(port(), "POST", sweep + "/dismiss", "", {"Authorization: Bearer bob"}).status, 404);
+  get(port(), sweep, {"Prefer: wait=30", "Authorization: Bearer alice"});
+  const std::string same = submit_sweep(column_sweep(5), {"Authorization: Bearer bob"});
+  const Reply status = get(port(), same, {"Prefer: wait=30", "Authorization: Bearer bob"});
+  EXPECT_EQ(json::parse(status.body)["counts"]["reused"], 0) << "results of others are not told";
+}
+
+}  // namespace
+}  // namespace snapthrough::server::test
