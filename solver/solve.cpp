@@ -17,6 +17,14 @@ void report_unchecked_mesh(const Analysis& analysis, const Structure& structure,
   if (chosen) result.summary.message += "; the mesh was chosen by rule, its error was not estimated";
 }
 
+MeshUse mesh_use(const Analysis& analysis) {
+  if (analysis.type == AnalysisType::critical) return MeshUse::first;
+  if (analysis.type == AnalysisType::path) return MeshUse::path;
+  // several buckling modes want elements anyway
+  const bool one_mode = analysis.type == AnalysisType::buckling && analysis.modes == 1;
+  return one_mode ? MeshUse::first : MeshUse::final;
+}
+
 }  // namespace
 
 Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
@@ -31,9 +39,8 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
     fail(result, "no_buckling_mode", error.what());
     return result;
   }
-  const bool adaptive = analysis.type == AnalysisType::critical || analysis.type == AnalysisType::path;
-  const Structure structure = make_structure(model, analysis.discretization, analysis.geometry, modes,
-                                             adaptive ? MeshUse::first : MeshUse::final);
+  const Structure structure =
+      make_structure(model, analysis.discretization, analysis.geometry, modes, mesh_use(analysis));
   switch (analysis.type) {
     case AnalysisType::critical:
     case AnalysisType::path:

@@ -8,7 +8,7 @@ BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-de
 # What scripts/run.sh needs besides, to talk to the service.
 RUN_PACKAGES=(curl jq)
 # What scripts/test.sh needs besides.
-TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev clang-format python3)
+TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev valgrind clang-format python3)
 # What scripts/report.sh needs besides, to draw plots (fonts for what their labels measure).
 REPORT_PACKAGES=(python3 gnuplot-nox fonts-dejavu-core)
 

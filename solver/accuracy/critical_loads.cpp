@@ -92,7 +92,11 @@ void CriticalLoads::report_meshes(int finest, double largest, int without) {
   if (without > 0)
     message += "; no error estimate for " + std::to_string(without) +
                " critical points, which were not found again on a finer mesh";
-  if (analysis_.discretization.fixed_mesh || targets_.empty()) return;
+  if (analysis_.discretization.fixed_mesh) return;
+  if (targets_.empty()) {
+    message += "; no critical point was met, so the error of the path's mesh was not estimated";
+    return;
+  }
   if (without == 0) result_.discretization.estimated_accuracy = largest;
   if (largest > analysis_.discretization.accuracy)
     message += "; the accuracy asked for was not reached: estimated " + number(largest);

@@ -184,6 +184,7 @@ void Chain::join_next(Run& all, std::span<const CondensedElement> elements) {
 
 void Chain::factorise(std::span<const CondensedElement> elements) {
   joins_.clear();
+  joins_.reserve(elements.size());
   ends_.negative = 0;
   ends_.log_det = 0.0;
   for (const CondensedElement& element : elements) {

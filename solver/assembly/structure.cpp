@@ -115,6 +115,7 @@ void Builder::set_scales() {
 void Builder::number_unknowns() {
   const Mesh& mesh = out_.mesh;
   const int p = mesh.order;
+  out_.dofs.reserve(mesh.elements.size());
   out_.joints = static_cast<int>(model_.nodes.size());
   int next = 3 * out_.joints;
   std::vector<std::array<int, 2>> released(model_.members.size(), {-1, -1});
@@ -294,6 +295,7 @@ void Builder::add_element_supports(int element) {
 
 void Builder::add_elements(Geometry geometry) {
   out_.elements = make_element_set(out_.mesh.order);
+  out_.elements->reserve(static_cast<int>(out_.mesh.elements.size()));
   out_.elements->set_linear_geometry(geometry == Geometry::linear);
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
     const StressFreeAxis& axis = *out_.stress_free[m];

@@ -4,9 +4,18 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "solver/element/chebyshev_series.h"
+
 namespace snapthrough {
+namespace {
+
+/// With fewer the turning of a curved axis on one element would be seen.
+constexpr int kLeastSamples = 13;
+
+}  // namespace
 
 ContactStrip::ContactStrip(int order, Direction direction, std::array<double, 2> range, double modulus,
                            double gap, int foundation)
@@ -16,10 +25,11 @@ ContactStrip::ContactStrip(int order, Direction direction, std::array<double, 2>
       modulus_(modulus),
       gap_(gap),
       foundation_(foundation) {
-  const int count = 2 * order + 3;
+  const int count = std::max(2 * order + 3, direction_.axis ? kLeastSamples : 0);
   for (int i = 0; i < count; ++i) {
     const double z = 0.5 - 0.5 * std::cos(std::numbers::pi * i / (count - 1));
     samples_.push_back(sample_at(i + 1 == count ? range_[1] : range_[0] + z * (range_[1] - range_[0])));
+    samples_.back().z = i + 1 == count ? 1.0 : z;
   }
 }
 
@@ -28,28 +38,7 @@ ContactStrip::Sample ContactStrip::sample_at(double xi) const {
   out.xi = xi;
   out.direction = direction_at(xi);
   rule_->integrals_at(xi, std::span(out.a).first(rule_->order()));
-  rule_->values_at(xi, std::span(out.rate).first(rule_->order()));
-  if (direction_.axis) {
-    const double turning = direction_.ds * direction_.axis->at(direction_.s0 + xi * direction_.ds).curvature;
-    out.turning = {-turning * out.direction[1], turning * out.direction[0]};
-  }
   return out;
-}
-
-/// d g / d xi.
-double ContactStrip::slope_at(const Sample& sample, const Shape& shape) {
-  double ux = shape.ua[0];
-  double uy = shape.ua[1];
-  double along_x = 0.0;
-  double along_y = 0.0;
-  for (std::size_t r = 0; r < shape.dx.size(); ++r) {
-    ux += sample.a[r] * shape.dx[r];
-    uy += sample.a[r] * shape.dy[r];
-    along_x += sample.rate[r] * shape.dx[r];
-    along_y += sample.rate[r] * shape.dy[r];
-  }
-  return along_x * sample.direction[0] + along_y * sample.direction[1] + ux * sample.turning[0] +
-         uy * sample.turning[1];
 }
 
 ContactStrip ContactStrip::with_gap(double gap) const {
@@ -78,50 +67,53 @@ double ContactStrip::penetration(double xi, std::array<double, 2> ua, std::span<
   return ux * d[0] + uy * d[1] - gap_;
 }
 
-double ContactStrip::root_between(double lo, double g_lo, double hi, double g_hi, const Shape& shape) const {
+namespace {
+
+/// A place of the range, from 0 to 1, with the penetration there.
+struct Place {
+  double z = 0.0;
+  double g = 0.0;
+};
+
+double root_between(const ChebyshevSeries& gap, Place lo, Place hi) {
   // Illinois' variant of false position: keeps the bracket, converges faster than linearly
   int last = 0;
   for (int it = 0; it < 60; ++it) {
-    const double x = hi - g_hi * (hi - lo) / (g_hi - g_lo);
-    if (hi - lo < 1e-15 || x <= lo || x >= hi) break;
-    const double g = penetration(x, shape.ua, shape.dx, shape.dy);
-    if (g == 0.0) return x;
-    if ((g > 0.0) == (g_hi > 0.0)) {
-      hi = x;
-      g_hi = g;
-      if (last == 1) g_lo *= 0.5;
+    const double z = hi.z - hi.g * (hi.z - lo.z) / (hi.g - lo.g);
+    if (hi.z - lo.z < 1e-15 || z <= lo.z || z >= hi.z) break;
+    const double g = gap.value(z);
+    if (g == 0.0) return z;
+    if ((g > 0.0) == (hi.g > 0.0)) {
+      hi = {z, g};
+      if (last == 1) lo.g *= 0.5;
       last = 1;
     } else {
-      lo = x;
-      g_lo = g;
-      if (last == -1) g_hi *= 0.5;
+      lo = {z, g};
+      if (last == -1) hi.g *= 0.5;
       last = -1;
     }
   }
-  return std::clamp(hi - g_hi * (hi - lo) / (g_hi - g_lo), lo, hi);
-}
-
-ContactStrip::Place ContactStrip::place_at(double xi, const Shape& shape) const {
-  return {sample_at(xi), penetration(xi, shape.ua, shape.dx, shape.dy)};
+  return std::clamp(hi.z - hi.g * (hi.z - lo.z) / (hi.g - lo.g), lo.z, hi.z);
 }
 
 /// A place between two where g has one sign, with the other sign, if g turns back there; the value has the
 /// first sign when there is none.
-std::array<double, 2> ContactStrip::dip_between(Place left, Place right, const Shape& shape) const {
+Place dip_between(const ChebyshevSeries& gap, Place left, Place right) {
   constexpr int kMostTrials = 20;
   const double sign = left.g > 0.0 ? 1.0 : -1.0;
-  const std::array<double, 2> none{left.sample.xi, left.g};
-  double fall = sign * slope_at(left.sample, shape);
-  double rise = sign * slope_at(right.sample, shape);
+  const Place none = left;
+  double fall = sign * gap.slope(left.z);
+  double rise = sign * gap.slope(right.z);
   for (int n = 0; n < kMostTrials && fall < 0.0 && rise > 0.0; ++n) {
     // what is convex stays above both tangents
-    const double width = right.sample.xi - left.sample.xi;
+    const double width = right.z - left.z;
     const double meet = (sign * (right.g - left.g) - rise * width) / (fall - rise);
     if (sign * left.g + fall * meet > 0.0) break;
     const double share = std::clamp(-fall / (rise - fall), 0.1, 0.9);
-    const Place middle = place_at(left.sample.xi + share * width, shape);
-    if (sign * middle.g <= 0.0) return {middle.sample.xi, middle.g};
-    const double slope = sign * slope_at(middle.sample, shape);
+    const double z = left.z + share * width;
+    const Place middle{z, gap.value(z)};
+    if (sign * middle.g <= 0.0) return middle;
+    const double slope = sign * gap.slope(z);
     (slope < 0.0 ? left : right) = middle;
     (slope < 0.0 ? fall : rise) = slope;
   }
@@ -130,25 +122,24 @@ std::array<double, 2> ContactStrip::dip_between(Place left, Place right, const S
 
 /// Tells `cross(place, whether contact begins there)` of the changes of sign between two places.
 template <class Cross>
-void ContactStrip::search_cell(const Place& left, const Place& right, const Shape& shape,
-                               const Cross& cross) const {
-  const double x0 = left.sample.xi;
-  const double x1 = right.sample.xi;
+void search_cell(const ChebyshevSeries& gap, const Place& left, const Place& right, const Cross& cross) {
   const bool inside = left.g > 0.0;
   if (inside != (right.g > 0.0)) {
-    cross(root_between(x0, left.g, x1, right.g, shape), !inside);
+    cross(root_between(gap, left, right), !inside);
     return;
   }
-  const auto [xv, gv] = dip_between(left, right, shape);
-  if ((gv > 0.0) == inside) return;
-  cross(root_between(x0, left.g, xv, gv, shape), !inside);
-  cross(root_between(xv, gv, x1, right.g, shape), inside);
+  const Place dip = dip_between(gap, left, right);
+  if ((dip.g > 0.0) == inside) return;
+  cross(root_between(gap, left, dip), !inside);
+  cross(root_between(gap, dip, right), inside);
 }
+
+}  // namespace
 
 void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
                                      std::span<const double> dy, std::vector<Interval>& out) const {
   out.clear();
-  std::array<double, 2 * kMaxOrder + 3> g{};
+  std::array<double, ChebyshevSeries::kMostPoints> g{};
   const std::size_t n = samples_.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Sample& sample = samples_[i];
@@ -160,27 +151,33 @@ void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const d
     }
     g[i] = ux * sample.direction[0] + uy * sample.direction[1] - gap_;
   }
+  const double length = range_[1] - range_[0];
   double from = range_[0];
-  const auto cross = [&](double at, bool entering) {
+  const auto cross = [&](double z, bool entering) {
+    const double at = range_[0] + length * z;
     if (entering) from = at;
     if (!entering && at > from) out.push_back({from, at});
   };
-  const Shape shape{ua, dx, dy};
-  const auto rate = [&](std::size_t k) {
-    return std::abs(g[k + 1] - g[k]) / (samples_[k + 1].xi - samples_[k].xi);
-  };
+  std::array<double, ChebyshevSeries::kMostPoints> rate{};
+  for (std::size_t i = 0; i + 1 < n; ++i)
+    rate[i] = std::abs(g[i + 1] - g[i]) / (samples_[i + 1].z - samples_[i].z);
+  std::optional<ChebyshevSeries> gap;  // the samples are Chebyshev's points: so no other places are needed
   for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double width = samples_[i + 1].xi - samples_[i].xi;
-    const double steepest = std::max({i > 0 ? rate(i - 1) : 0.0, rate(i), i + 2 < n ? rate(i + 1) : 0.0});
+    const double width = samples_[i + 1].z - samples_[i].z;
+    const double steepest = std::max({i > 0 ? rate[i - 1] : 0.0, rate[i], rate[i + 1]});
     if ((g[i] > 0.0) == (g[i + 1] > 0.0) && std::min(std::abs(g[i]), std::abs(g[i + 1])) > steepest * width)
       continue;
+    if (!gap) gap.emplace(std::span<const double>(g).first(n));
     // zones smaller than the sampling may begin and end here
     constexpr int kParts = 4;
-    Place left{samples_[i], g[i]};
+    Place left{samples_[i].z, g[i]};
     for (int part = 1; part <= kParts; ++part) {
-      const Place right = part == kParts ? Place{samples_[i + 1], g[i + 1]}
-                                         : place_at(samples_[i].xi + width * part / kParts, shape);
-      search_cell(left, right, shape, cross);
+      Place right{samples_[i + 1].z, g[i + 1]};
+      if (part < kParts) {
+        right.z = samples_[i].z + width * part / kParts;
+        right.g = gap->value(right.z);
+      }
+      search_cell(*gap, left, right, cross);
       left = right;
     }
   }

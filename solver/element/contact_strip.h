@@ -56,29 +56,12 @@ class ContactStrip {
 
  private:
   struct Sample {
-    double xi = 0.0;
+    double z = 0.0;   ///< in the range, from 0 to 1
+    double xi = 0.0;  ///< in the element
     std::array<double, 2> direction{};
     std::array<double, kMaxOrder> a{};
-    std::array<double, 2> turning{};       ///< d direction / d xi
-    std::array<double, kMaxOrder> rate{};  ///< d a / d xi
-  };
-  /// The displacements of one element.
-  struct Shape {
-    std::array<double, 2> ua;
-    std::span<const double> dx, dy;
-  };
-  /// A sample with the penetration there.
-  struct Place {
-    Sample sample;
-    double g = 0.0;
   };
   [[nodiscard]] Sample sample_at(double xi) const;
-  [[nodiscard]] Place place_at(double xi, const Shape& shape) const;
-  [[nodiscard]] static double slope_at(const Sample& sample, const Shape& shape);
-  [[nodiscard]] double root_between(double lo, double g_lo, double hi, double g_hi, const Shape& shape) const;
-  [[nodiscard]] std::array<double, 2> dip_between(Place left, Place right, const Shape& shape) const;
-  template <class Cross>
-  void search_cell(const Place& left, const Place& right, const Shape& shape, const Cross& cross) const;
 
   const CollocationRule* rule_;
   Direction direction_;

@@ -87,6 +87,8 @@ class ElementSet {
   virtual ~ElementSet() = default;
 
   [[nodiscard]] virtual int size() const = 0;
+  /// Makes room for that many elements.
+  virtual void reserve(int elements) = 0;
   /// @brief Adds an element; elements are numbered in the order of adding.
   virtual void add(const ElementShape& shape, const ElementDofs& dofs) = 0;
   virtual void add_station(const Station& station) = 0;

@@ -36,6 +36,11 @@ class ElementSetOf final : public ElementSet {
  public:
   ElementSetOf();
   [[nodiscard]] int size() const override { return static_cast<int>(shapes_.size()); }
+  void reserve(int elements) override {
+    shapes_.reserve(elements);
+    dofs_.reserve(elements);
+    factors_.reserve(elements);
+  }
   void add(const ElementShape& shape, const ElementDofs& dofs) override;
   void add_station(const Station& station) override;
   void add_strip(int element, ContactStrip strip) override;

@@ -79,6 +79,7 @@ struct ChosenMesh {
 /// member does, and its elimination loses most digits there; a member of 2 n equal elements meets that at its
 /// n-th mode.
 constexpr ChosenMesh kFirst{5, 60.0, 3.0, 3.0, true};
+constexpr ChosenMesh kPath{5, 60.0, 3.0, 5.0, true};
 constexpr ChosenMesh kFinal{4, 25.0, 1.0, 8.0, false};
 
 /// Elements for a piece of a member, by the rule of make_mesh.
@@ -137,7 +138,7 @@ Axes make_axes(const Model& model) {
 }
 
 Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes, MeshUse use) {
-  const ChosenMesh& rule = use == MeshUse::first ? kFirst : kFinal;
+  const ChosenMesh& rule = use == MeshUse::first ? kFirst : use == MeshUse::path ? kPath : kFinal;
   Mesh mesh;
   mesh.order = discretization.fixed_mesh ? discretization.order : rule.order;
   mesh.foundation = discretization.fixed_mesh ? discretization.foundation : FoundationRule::consistent;

@@ -35,6 +35,7 @@ using Axes = std::vector<std::shared_ptr<const AxisCurve>>;
 /// What a mesh that the solver chooses is for.
 enum class MeshUse {
   final,  ///< nothing will check it: fine enough for every use
+  path,   ///< of a path beyond its first critical point: fine enough for some half waves a member
   first   ///< the first of several, each finer, whose results are compared
 };
 

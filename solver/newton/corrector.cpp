@@ -6,8 +6,6 @@
 
 namespace snapthrough {
 
-double PathMetric::norm(const Eigen::VectorXd& a, double la) const { return std::sqrt(inner(a, la, a, la)); }
-
 namespace {
 
 /// One bordered Newton correction with the factors at hand, in work.correction; returns its part in lambda.

@@ -3,6 +3,7 @@
 /// Newton's method on F(y, lambda) = 0 with one linear side condition.
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "solver/path/equilibrium_problem.h"
 
@@ -13,10 +14,16 @@ struct PathMetric {
   const Eigen::VectorXd* weights = nullptr;  ///< not owned
   double load_weight = 0.0;
 
-  [[nodiscard]] double inner(const Eigen::VectorXd& a, double la, const Eigen::VectorXd& b, double lb) const {
+  template <class A, class B>
+  [[nodiscard]] double inner(const Eigen::MatrixBase<A>& a, double la, const Eigen::MatrixBase<B>& b,
+                             double lb) const {
     return (a.array() * weights->array() * b.array()).sum() + load_weight * la * lb;
   }
-  [[nodiscard]] double norm(const Eigen::VectorXd& a, double la) const;
+  /// Also of a difference, which is not put into a vector for it.
+  template <class A>
+  [[nodiscard]] double norm(const Eigen::MatrixBase<A>& a, double la) const {
+    return std::sqrt(inner(a, la, a, la));
+  }
 };
 
 /// @brief The side condition normal.(y - y_0) + normal_lambda (lambda - lambda_0) = 0 through the starting

@@ -38,11 +38,12 @@ class Tracer {
     bool found = false;
     TraceEnd end = TraceEnd::load_factor;
   };
-  [[nodiscard]] std::optional<Bound> bounded_end(const PathPoint& from, const PathPoint& to);
+  [[nodiscard]] std::optional<Bound> bounded_end(const PathPoint& from, const PathPoint& to, bool corner);
   [[nodiscard]] bool take_events(const std::vector<CriticalEvent>& events);
   [[nodiscard]] bool ends_here(const PathPoint& at, int steps, const std::stop_token& stop);
   [[nodiscard]] bool accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events,
                             const std::optional<Bound>& bound);
+  [[nodiscard]] bool turns_sharply(const PathPoint& from, const PathPoint& to) const;
   [[nodiscard]] bool is_known(const PathPoint& point) const;
   bool finish(TraceEnd end, const PathPoint& last);
 
@@ -53,6 +54,12 @@ class Tracer {
   int limit_points_ = 0;
   std::vector<ContactChange> changes_;  ///< on the step that is being taken
 };
+
+bool Tracer::turns_sharply(const PathPoint& from, const PathPoint& to) const {
+  constexpr double kSharply = 0.8;  // cosine; smooth steps turn less
+  return continuation_.metric().inner(from.tangent, from.tangent_lambda, to.tangent, to.tangent_lambda) <
+         kSharply;
+}
 
 double Tracer::first_step(const StepOptions& steps, const PathPoint& start) const {
   constexpr double kDefaultInitial = 0.15;
@@ -67,7 +74,7 @@ bool Tracer::finish(TraceEnd end, const PathPoint& last) {
 }
 
 /// The point where the step first crosses a bound of the stop rules; empty when it crosses none.
-std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const PathPoint& to) {
+std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const PathPoint& to, bool corner) {
   std::vector<Crossing> crossings;
   if (rules_.load) {
     const auto load = [](const PathPoint& at) { return at.lambda; };
@@ -82,6 +89,7 @@ std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const Pa
     if ((rate(from) > 0.0) != (rate(to) > 0.0)) crossings.push_back({TraceEnd::monitor_turned, rate});
   }
   constexpr double kReached = 1e-9;  // of the step's change
+  constexpr double kShort = 1e-6;
   std::optional<Bound> first;
   for (const Crossing& crossing : crossings) {
     const double va = crossing.value(from);
@@ -92,8 +100,12 @@ std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const Pa
     };
     const LocatedRoot root =
         find_root(continuation_, continuation_.chord(from, to), from, va, to, vb, crossing.value, done);
-    const bool found =
-        root.found || std::min(std::abs(root.value_before), std::abs(root.value_after)) <= kReached * size;
+    const bool outside_before = (va > 0.0) == (vb > 0.0);
+    // a rate jumps at a corner, which then is where it changes its sign
+    const bool jumps =
+        crossing.end == TraceEnd::monitor_turned && (corner || continuation_.distance(from, to) < kShort);
+    const bool found = root.found || outside_before || jumps ||
+                       std::min(std::abs(root.value_before), std::abs(root.value_after)) <= kReached * size;
     if (first && found && first->point.arc_length <= root.root.arc_length) continue;
     first = Bound{root.root, found, crossing.end};
     if (!found) break;
@@ -129,7 +141,7 @@ bool Tracer::ends_here(const PathPoint& at, int steps, const std::stop_token& st
   if (steps >= rules_.steps) return finish(TraceEnd::steps, at);
   if (continuation_.metric().norm(at.y, 0.0) > rules_.gradient)
     return finish(TraceEnd::displacement_bound, at);
-  if (std::abs(at.lambda) > rules_.load_bound * continuation_.largest_load_scale())
+  if (!rules_.load && std::abs(at.lambda) > continuation_.load_bound())
     return finish(TraceEnd::load_bound, at);
   return false;
 }
@@ -175,7 +187,8 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
     const LocatedEvents located = outcome == StepOutcome::turned
                                       ? locate_at_turn(continuation_, from, to, size.taken, rules_.tolerance)
                                       : locate_critical_points(continuation_, from, to, rules_.tolerance);
-    const auto bound = located.same_path ? bounded_end(from, to) : std::nullopt;
+    const bool corner = outcome == StepOutcome::turned || turns_sharply(from, to);
+    const auto bound = located.same_path ? bounded_end(from, to, corner) : std::nullopt;
     if (!located.same_path || (bound && !bound->found)) {
       continuation_.reject(size);
       continue;

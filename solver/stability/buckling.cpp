@@ -109,11 +109,14 @@ int Pencil::count(double lambda) {
 
 VectorXd Pencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }
 
-/// Splits (lo, hi) until each bracket holds one eigenvalue or a cluster that is narrow, ascending.
+/// Splits (lo, hi) until each bracket holds one eigenvalue and is short, or a cluster that is narrow,
+/// ascending.
 void isolate(Pencil& pencil, const Bracket& bracket, int wanted, std::vector<Bracket>& out) {
   constexpr double kNarrow = 1e-4;
+  constexpr double kShort = 1e-2;  // where inverse iteration gains two digits by iteration or more
   if (bracket.below_hi == bracket.below_lo || bracket.below_lo >= wanted) return;
-  const bool narrow = bracket.hi - bracket.lo <= kNarrow * bracket.hi;
+  const bool single = bracket.below_hi - bracket.below_lo == 1;
+  const bool narrow = bracket.hi - bracket.lo <= (single ? kShort : kNarrow) * bracket.hi;
   if (narrow) {
     // eigenvalues on both sides of a common end are one cluster
     if (!out.empty() && out.back().hi == bracket.lo) {

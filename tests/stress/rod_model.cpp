@@ -332,8 +332,8 @@ RodModel make_rod_model(const Model& model, const Analysis& analysis) {
   RodModel rod;
   Maker maker(model, rod);
   maker.scales();
-  const bool refined = analysis.type == AnalysisType::critical || analysis.type == AnalysisType::path;
-  rod.mesh = make_mesh(model, analysis.discretization, rod.axes, refined ? MeshUse::first : MeshUse::final);
+  const MeshUse use = analysis.type == AnalysisType::critical ? MeshUse::first : MeshUse::path;
+  rod.mesh = make_mesh(model, analysis.discretization, rod.axes, use);
   rod.lagrange = Lagrange(rod.mesh.order);
   rod.concentrated =
       rod.mesh.foundation == FoundationRule::lumped ||

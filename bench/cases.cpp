@@ -1,0 +1,142 @@
+#include "bench/cases.h"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "tests/solver/structures.h"
+
+namespace snapthrough::bench {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Analysis first_limit_point() {
+  Analysis analysis;
+  analysis.type = AnalysisType::path;
+  analysis.stop.limit_points = 1;
+  analysis.output.states = StateOutput::none;
+  return analysis;
+}
+
+Analysis first_loss_of_stability() {
+  Analysis analysis;
+  analysis.type = AnalysisType::critical;
+  analysis.output.states = StateOutput::none;
+  return analysis;
+}
+
+Case column_on_base() {
+  constexpr double kBase = 100.0;
+  Case out{"column", testing::column(1.0, 1.0, 1e14, kBase), first_loss_of_stability(),
+           kPi * kPi + kBase / (kPi * kPi), 0.0};
+  return out;
+}
+
+Case shallow_arch(const std::string& name, double k, double load, double target) {
+  Case out{name, testing::arch(20.0, 420.0, 1.4), first_limit_point(), load, target};
+  if (k > 0.0) testing::add_soil(out.model, k);
+  return out;
+}
+
+/// Half a ring in a medium outside, under its weight.
+Case ring(const std::string& name, double k, double load, double target) {
+  constexpr double kRadius = 10.0;
+  constexpr double kEI = 30e3;
+  Case out{name, {}, first_limit_point(), load, target};
+  Model& model = out.model;
+  model.nodes = {{"bottom", 0.0, -kRadius}, {"top", 0.0, kRadius}};
+  model.sections = {{"s", 36e6, kEI, {}}};
+  model.members = {{"m", "bottom", "top", "s", ArcCurve{180.0}, false, false}};
+  model.supports = {{"bottom", true, false, true, 0.0, {}}, {"top", true, false, true, 0.0, {}}};
+  Foundation soil;
+  soil.id = "soil";
+  soil.member = "m";
+  soil.stiffness = k * kEI / std::pow(kRadius, 4);
+  soil.reaction = Reaction::compression_only;
+  soil.side = Side::right;
+  model.foundations = {soil};
+  model.loads = {DistributedLoad{
+      "m", {0.0, -kEI / std::pow(kRadius, 3)}, {0.0, 1.0}, LoadMeasure::length, Pattern::proportional}};
+  return out;
+}
+
+/// Lee's frame, inextensible.
+Case frame() {
+  constexpr double kLength = 120.0;
+  Case out{"frame", {}, first_limit_point(), 18.55874653948, 0.0};
+  Model& model = out.model;
+  model.nodes = {{"foot", 0.0, 0.0}, {"corner", 0.0, kLength}, {"end", kLength, kLength}};
+  model.sections = {{"s", 4.32e17, 1.44e7, {}}};
+  model.members = {{"column", "foot", "corner", "s", LineCurve{}, false, false},
+                   {"beam", "corner", "end", "s", LineCurve{}, false, false}};
+  model.supports = {{"foot", true, true, false, 0.0, {}}, {"end", true, true, false, 0.0, {}}};
+  model.loads = {PointLoad{{"", "beam", 0.2}, {0.0, -1000.0}, 0.0, Pattern::proportional}};
+  return out;
+}
+
+}  // namespace
+
+std::vector<Case> cases() {
+  return {column_on_base(),
+          shallow_arch("shallow_arch", 0.0, 76.1493461733, 1.0),
+          shallow_arch("shallow_arch_k1e7", 1e7, 93.1178142194, 1.5),
+          shallow_arch("shallow_arch_k1e9", 1e9, 102.9341234421, 3.0),
+          Case{"deep_arch", testing::arch(215.0, 1e8, 1e6, true), first_limit_point(), 8.97294947594, 2.0},
+          ring("ring_k1200", 1200.0, 13.626899644, 1.5),
+          ring("ring_k180000", 180000.0, 65.729726832, 4.0),
+          frame()};
+}
+
+Case case_named(const std::string& name) {
+  for (Case& c : cases())
+    if (c.name == name) return c;
+  throw std::invalid_argument("no case " + name);
+}
+
+Case growing_arch(int elements, int order) {
+  constexpr int kSteps = 4;
+  Case out = shallow_arch("growing_arch", 0.0, 0.0, 0.0);
+  out.analysis.stop = {};
+  out.analysis.stop.steps = kSteps;
+  out.analysis.discretization = testing::fixed_mesh(elements, order);
+  return out;
+}
+
+Case arch_on_pieces(int pieces) {
+  Case out = shallow_arch("arch_on_pieces", 1e6, 0.0, 0.0);
+  const Foundation whole = out.model.foundations.front();
+  out.model.foundations.clear();
+  for (int i = 0; i < pieces; ++i) {
+    Foundation piece = whole;
+    piece.id = "soil" + std::to_string(i);
+    piece.range = {static_cast<double>(i) / pieces, static_cast<double>(i + 1) / pieces};
+    out.model.foundations.push_back(piece);
+  }
+  return out;
+}
+
+Case column_with_spring() {
+  constexpr double kStiffness = 100.0;
+  constexpr double kHalf = 0.5;
+  // symmetric mode A sin(a x) + B x of each half: k (l - tan(a l) / a) = 2 P, a^2 = P / EI
+  double low = 0.51 * kPi / kHalf;
+  double high = 0.99 * kPi / kHalf;
+  for (int i = 0; i < 200; ++i) {
+    const double a = 0.5 * (low + high);
+    (kStiffness * (kHalf - std::tan(a * kHalf) / a) > 2.0 * a * a ? low : high) = a;
+  }
+  Case out{"column_with_spring", testing::column(1.0, 1.0, 1e14, 0.0), {}, low * low, 0.06};
+  out.analysis.type = AnalysisType::buckling;
+  out.analysis.output.points_per_member = 2;
+  out.model.monitors.clear();
+  Spring spring;
+  spring.id = "spring";
+  spring.at = {"", "column", 0.5};
+  spring.direction = std::array<double, 2>{0.0, 1.0};
+  spring.stiffness = kStiffness;
+  out.model.springs = {spring};
+  return out;
+}
+
+}  // namespace snapthrough::bench

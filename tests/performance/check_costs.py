@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Guards the cost of solving by ratios that do not depend on the machine: instructions, counted by callgrind,
+and memory by unknown.
+
+  check_costs.py BENCH_PROBE              exit status 1 when a ratio is over its bound
+"""
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+# (case, most instructions at accuracy 1e-6 over those at 1e-3): smooth cases, then with contact
+ACCURACY = [("shallow_arch", 4.0), ("deep_arch", 4.0), ("frame", 4.0), ("shallow_arch_k1e7", 8.0),
+            ("ring_k1200", 8.0)]
+# (case, other case, most instructions of the first over the second): what one-sided contact may cost
+CONTACT = [("shallow_arch_k1e7", "shallow_arch", 2.5)]
+GROWTH = (100, 3000)  # elements
+MOST_GROWTH = 1.1  # power of the unknowns
+MEMORY = (5000, 15000)  # elements
+# (case, most bytes by unknown): elements of order 1 have three unknowns each to share what an element costs
+MOST_BYTES = [("growing", 1500.0), ("growing3", 1000.0), ("growing5", 1000.0)]
+
+
+def run(probe, case, argument, times, counted):
+    """Output of the probe, and the instructions it took when they are counted."""
+    command = [probe, case, str(argument), str(times)]
+    if not counted:
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout, 0
+    with tempfile.TemporaryDirectory() as folder:
+        out = os.path.join(folder, "callgrind.out")
+        done = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}"] + command,
+                              capture_output=True, text=True, check=True)
+    return done.stdout, int(re.search(r"Collected : (\d+)", done.stderr).group(1))
+
+
+def instructions(probe, case, argument):
+    """Of one solve: the difference between two and one, so that starting the program does not count."""
+    return run(probe, case, argument, 2, True)[1] - run(probe, case, argument, 1, True)[1]
+
+
+def reported(text, name):
+    return float(re.search(name + r" ([0-9.e+-]+)", text).group(1))
+
+
+def main():
+    if len(sys.argv) != 2:
+        raise SystemExit(__doc__)
+    probe = sys.argv[1]
+    failures = 0
+
+    def judge(what, value, bound):
+        nonlocal failures
+        failures += value > bound
+        print(f"{'ok  ' if value <= bound else 'OVER'} {what}: {value:.2f}, at most {bound:g}")
+
+    at_default = {}
+    for case, bound in ACCURACY:
+        at_default[case] = instructions(probe, case, 1e-3)
+        judge(f"{case}, accuracy 1e-6 over 1e-3", instructions(probe, case, 1e-6) / at_default[case], bound)
+    for case, other, bound in CONTACT:
+        judge(f"{case} over {other}", at_default[case] / at_default[other], bound)
+    counts = [instructions(probe, "growing", n) for n in GROWTH]
+    unknowns = [reported(run(probe, "growing", n, 1, False)[0], "unknowns") for n in GROWTH]
+    judge("growth, power of the unknowns", math.log(counts[1] / counts[0]) / math.log(unknowns[1] / unknowns[0]),
+          MOST_GROWTH)
+    for case, bound in MOST_BYTES:
+        few, many = [run(probe, case, n, 1, False)[0] for n in MEMORY]
+        kilobytes = reported(many, "peak_kb") - reported(few, "peak_kb")
+        judge(f"{case}, bytes by unknown",
+              1024.0 * kilobytes / (reported(many, "unknowns") - reported(few, "unknowns")), bound)
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
