@@ -32,4 +32,5 @@ echo "== tests"
 ctest --test-dir "build/$preset" --parallel "$jobs" --output-on-failure --no-tests=error
 
 echo "== thesis examples"
+python3 scripts/report.py --self-test
 python3 scripts/report.py "build/$preset/snapthrough" --check

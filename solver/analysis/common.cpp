@@ -50,7 +50,9 @@ std::optional<PathPoint> start_of_path(const Structure& structure, StructuralPro
     return start;
   }
   problem.set_stage(StructuralProblem::Stage::constant);
-  Continuation loading(problem, {});
+  ContinuationOptions options;
+  options.largest_first_load = 1e-2;
+  Continuation loading(problem, options);
   TraceRules rules;
   rules.load = {{-1.0, 1.0}};
   rules.limit_points = 1;
@@ -59,6 +61,15 @@ std::optional<PathPoint> start_of_path(const Structure& structure, StructuralPro
   add_statistics(loading.statistics(), result);
   if (outcome.end == TraceEnd::cancelled) {
     fail(result, "cancelled", "cancelled while the constant actions were put on");
+    return std::nullopt;
+  }
+  if (outcome.end == TraceEnd::limit_points ||
+      (outcome.end != TraceEnd::load_factor && outcome.last.negative > 0)) {
+    fail(result, "constant_actions_limit",
+         "the structure can't carry the constant actions: " +
+             std::string(outcome.end == TraceEnd::limit_points ? "their limit point is"
+                                                               : "the path, unstable by then, was left") +
+             " at " + number(outcome.last.lambda) + " of them");
     return std::nullopt;
   }
   if (outcome.end != TraceEnd::load_factor) {

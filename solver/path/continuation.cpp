@@ -35,6 +35,13 @@ constexpr double kTurnShrink = 1e-3;
 /// step is shortened first, which costs less.
 constexpr double kPatientShare = 0.2;
 
+/// A path's load bound over the scale of the member that buckles first, and of that which does so last.
+constexpr double kAboveWeakest = 1e4;
+constexpr double kAboveStrongest = 30.0;
+
+/// What an accepted step leaves of the memory of larger ones.
+constexpr double kForget = 0.7;
+
 /// Corrections of this size are rounding's where the tangent is nearly singular, however close two points
 /// are.
 constexpr double kNoise = 1e-6;
@@ -102,7 +109,8 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
   if (norm == 0.0) return first_point(zero, 0.0, response, direction, report);
   // small in both: a thin column hardly moves before it buckles
   double lambda =
-      direction * std::min(kSmallStart / norm, kSmallLoad * problem_.critical_load_scale(response));
+      direction * std::min({kSmallStart / norm, kSmallLoad * problem_.critical_load_scale(response),
+                            options_.largest_first_load});
   double last = std::numeric_limits<double>::infinity();
   VectorXd guess;
   for (int i = 0; i < kMostLoads; ++i) {
@@ -130,7 +138,8 @@ void Continuation::set_load_scale(const VectorXd& response) {
   load_scale_ = problem_.critical_load_scale(response);
   if (norm > 0.0) load_scale_ = std::min(load_scale_, kLargeGradient / norm);
   if (!std::isfinite(load_scale_)) load_scale_ = 1.0;
-  largest_load_scale_ = std::max(load_scale_, problem_.largest_critical_load_scale(response));
+  load_bound_ =
+      std::max(kAboveWeakest * load_scale_, kAboveStrongest * problem_.largest_critical_load_scale(response));
   const double gradient = std::clamp(norm * load_scale_, kSmallGradient, kLargeGradient) / load_scale_;
   metric_.load_weight = gradient * gradient;
 }
@@ -269,8 +278,8 @@ bool Continuation::turn(const PathPoint& from, double size, PathPoint& to) {
       metric_.inner(corner.tangent, corner.tangent_lambda, from.tangent, from.tangent_lambda);
   if (cosine > std::cos(kLeastTurn)) return false;
   const Trial trial = try_step(corner, kBeyond * size, to);
-  return trial.converged && trial.angle <= options_.max_angle && trial.correction <= kLargestCorrection &&
-         keeps_orientation(from, to);
+  return trial.converged && trial.angle <= options_.max_angle && trial.correction <= kCornerLength &&
+         trial.length <= kCornerLength * kBeyond * size && keeps_orientation(from, to);
 }
 
 StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint& to) {
@@ -283,7 +292,8 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
     if (trial.converged && (smooth || is_corner(trial, size))) {
       ++statistics_.steps;
       ++statistics_.corrections[std::min<std::size_t>(trial.corrections, statistics_.corrections.size() - 1)];
-      if (size == first_size) easy_size_ = size;
+      // steps that close in on a corner are accepted, too, each much smaller than the last
+      if (size == first_size) easy_size_ = std::max(size, kForget * easy_size_);
       step.taken = size;
       const double growth = smooth ? trial.growth : options_.max_growth;
       step.wanted =
@@ -379,9 +389,15 @@ std::optional<PathPoint> Continuation::between(const Chord& chord, const PathPoi
   side_.normal = metric_.weights->cwiseProduct(chord.y);
   side_.normal_lambda = metric_.load_weight * chord.lambda;
   const double scale = std::max(distance_in(chord, lo, hi), chord.movement_only ? kLeastNoise : kNoise);
-  const auto outcome =
-      correct(problem_, metric_, side_, scale, options_.corrector, point.y, point.lambda, work_);
+  CorrectorOptions options = options_.corrector;
+  auto outcome = correct(problem_, metric_, side_, scale, options, point.y, point.lambda, work_);
   count(outcome);
+  if (outcome.status == CorrectorStatus::too_many_iterations && problem_.one_sided()) {
+    options.damped = true;
+    interpolate(chord, lo, hi, share, point);
+    outcome = correct(problem_, metric_, side_, scale, options, point.y, point.lambda, work_);
+    count(outcome);
+  }
   if (outcome.status != CorrectorStatus::converged) return std::nullopt;
   set_tangent(point, outcome, chord.y, chord.lambda);
   point.arc_length = (1.0 - share) * lo.arc_length + share * hi.arc_length;

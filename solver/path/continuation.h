@@ -3,6 +3,7 @@
 /// Pseudo-arc-length continuation with step control.
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -22,6 +23,8 @@ struct ContinuationOptions {
   double target_angle = 0.30;       ///< wanted angle between successive tangents, rad
   double max_angle = 0.9;           ///< a larger angle rejects the step, rad
   double max_growth = 2.5;
+  /// Load factor that the first state on one-sided supports must stay below.
+  double largest_first_load = std::numeric_limits<double>::infinity();
   CorrectorOptions corrector;
 };
 
@@ -85,7 +88,7 @@ class Continuation {
   /// another mesh: points can then be corrected and stepped from without a start.
   void measure_as(const Continuation& other) {
     load_scale_ = other.load_scale_;
-    largest_load_scale_ = other.largest_load_scale_;
+    load_bound_ = other.load_bound_;
     metric_.load_weight = other.metric_.load_weight;
   }
   /// @brief Takes the last step back, because it jumped to another path: the next one will be shorter.
@@ -116,8 +119,9 @@ class Continuation {
   [[nodiscard]] const PathMetric& metric() const { return metric_; }
   /// Scale of the first critical load factor that the load is measured by.
   [[nodiscard]] double load_scale() const { return load_scale_; }
-  /// The load at which the member that buckles last might do so, its bases helping; at least load_scale().
-  [[nodiscard]] double largest_load_scale() const { return largest_load_scale_; }
+  /// Load beyond which nothing of interest can be: far above what buckles the weakest member, and above what
+  /// buckles the strongest with its bases helping.
+  [[nodiscard]] double load_bound() const { return load_bound_; }
   [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
 
  private:
@@ -157,7 +161,7 @@ class Continuation {
   ContinuationStatistics statistics_;
   PathMetric metric_;
   double load_scale_ = 1.0;
-  double largest_load_scale_ = 1.0;
+  double load_bound_ = 1.0;
   Corner corner_;
   double easy_size_ = 0.0;  ///< of the last step that was accepted at its first size
   Workspace work_;

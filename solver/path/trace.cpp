@@ -33,10 +33,17 @@ class Tracer {
 
  private:
   [[nodiscard]] double first_step(const StepOptions& steps, const PathPoint& start) const;
-  [[nodiscard]] std::optional<PathPoint> bounded_end(const PathPoint& from, const PathPoint& to);
+  struct Bound {
+    PathPoint point;
+    bool found = false;
+    TraceEnd end = TraceEnd::load_factor;
+  };
+  [[nodiscard]] std::optional<Bound> bounded_end(const PathPoint& from, const PathPoint& to, bool corner);
   [[nodiscard]] bool take_events(const std::vector<CriticalEvent>& events);
   [[nodiscard]] bool ends_here(const PathPoint& at, int steps, const std::stop_token& stop);
-  [[nodiscard]] bool accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events);
+  [[nodiscard]] bool accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events,
+                            const std::optional<Bound>& bound);
+  [[nodiscard]] bool turns_sharply(const PathPoint& from, const PathPoint& to) const;
   [[nodiscard]] bool is_known(const PathPoint& point) const;
   bool finish(TraceEnd end, const PathPoint& last);
 
@@ -47,6 +54,12 @@ class Tracer {
   int limit_points_ = 0;
   std::vector<ContactChange> changes_;  ///< on the step that is being taken
 };
+
+bool Tracer::turns_sharply(const PathPoint& from, const PathPoint& to) const {
+  constexpr double kSharply = 0.8;  // cosine; smooth steps turn less
+  return continuation_.metric().inner(from.tangent, from.tangent_lambda, to.tangent, to.tangent_lambda) <
+         kSharply;
+}
 
 double Tracer::first_step(const StepOptions& steps, const PathPoint& start) const {
   constexpr double kDefaultInitial = 0.15;
@@ -61,7 +74,7 @@ bool Tracer::finish(TraceEnd end, const PathPoint& last) {
 }
 
 /// The point where the step first crosses a bound of the stop rules; empty when it crosses none.
-std::optional<PathPoint> Tracer::bounded_end(const PathPoint& from, const PathPoint& to) {
+std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const PathPoint& to, bool corner) {
   std::vector<Crossing> crossings;
   if (rules_.load) {
     const auto load = [](const PathPoint& at) { return at.lambda; };
@@ -75,7 +88,9 @@ std::optional<PathPoint> Tracer::bounded_end(const PathPoint& from, const PathPo
     const auto rate = [this](const PathPoint& at) { return rules_.monitor_rate(at); };
     if ((rate(from) > 0.0) != (rate(to) > 0.0)) crossings.push_back({TraceEnd::monitor_turned, rate});
   }
-  std::optional<PathPoint> first;
+  constexpr double kReached = 1e-9;  // of the step's change
+  constexpr double kShort = 1e-6;
+  std::optional<Bound> first;
   for (const Crossing& crossing : crossings) {
     const double va = crossing.value(from);
     const double vb = crossing.value(to);
@@ -85,9 +100,15 @@ std::optional<PathPoint> Tracer::bounded_end(const PathPoint& from, const PathPo
     };
     const LocatedRoot root =
         find_root(continuation_, continuation_.chord(from, to), from, va, to, vb, crossing.value, done);
-    if (first && first->arc_length <= root.root.arc_length) continue;
-    first = root.root;
-    out_.end = crossing.end;
+    const bool outside_before = (va > 0.0) == (vb > 0.0);
+    // a rate jumps at a corner, which then is where it changes its sign
+    const bool jumps =
+        crossing.end == TraceEnd::monitor_turned && (corner || continuation_.distance(from, to) < kShort);
+    const bool found = root.found || outside_before || jumps ||
+                       std::min(std::abs(root.value_before), std::abs(root.value_after)) <= kReached * size;
+    if (first && found && first->point.arc_length <= root.root.arc_length) continue;
+    first = Bound{root.root, found, crossing.end};
+    if (!found) break;
   }
   return first;
 }
@@ -120,24 +141,23 @@ bool Tracer::ends_here(const PathPoint& at, int steps, const std::stop_token& st
   if (steps >= rules_.steps) return finish(TraceEnd::steps, at);
   if (continuation_.metric().norm(at.y, 0.0) > rules_.gradient)
     return finish(TraceEnd::displacement_bound, at);
-  if (std::abs(at.lambda) > rules_.load_bound * continuation_.largest_load_scale())
+  if (!rules_.load && std::abs(at.lambda) > continuation_.load_bound())
     return finish(TraceEnd::load_bound, at);
   return false;
 }
 
 /// Takes the step from -> to into the path; true when it ends there (then `to` is the path's last point).
-bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events) {
-  const auto bounded = bounded_end(from, to);
-  if (bounded) to = *bounded;
+bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events,
+                    const std::optional<Bound>& bound) {
+  if (bound) to = bound->point;
   std::vector<CriticalEvent> reached;
   for (const CriticalEvent& event : events)
-    if (!bounded || event.point.arc_length <= to.arc_length) reached.push_back(event);
-  const TraceEnd by_bound = out_.end;
+    if (!bound || event.point.arc_length <= to.arc_length) reached.push_back(event);
   bool ended = take_events(reached);
   if (ended)
     to = out_.last;
-  else if (bounded)
-    ended = finish(by_bound, to);
+  else if (bound)
+    ended = finish(bound->end, to);
   // a turn within rounding's reach still is a step
   const double least = ended || reached.empty() ? from.arc_length : reached.back().point.arc_length;
   if (to.arc_length <= least) to.arc_length = std::nextafter(least, std::numeric_limits<double>::infinity());
@@ -167,7 +187,9 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
     const LocatedEvents located = outcome == StepOutcome::turned
                                       ? locate_at_turn(continuation_, from, to, size.taken, rules_.tolerance)
                                       : locate_critical_points(continuation_, from, to, rules_.tolerance);
-    if (!located.same_path) {
+    const bool corner = outcome == StepOutcome::turned || turns_sharply(from, to);
+    const auto bound = located.same_path ? bounded_end(from, to, corner) : std::nullopt;
+    if (!located.same_path || (bound && !bound->found)) {
       continuation_.reject(size);
       continue;
     }
@@ -175,7 +197,7 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
     if (rules_.zones)
       changes_ = locate_contact_changes(continuation_, from, to, outcome == StepOutcome::turned, rules_.zones,
                                         rules_.tolerance);
-    if (accept(from, to, located.events)) break;
+    if (accept(from, to, located.events, bound)) break;
     std::swap(from, to);
   }
   return std::move(out_);

@@ -31,7 +31,6 @@ struct TraceRules {
   std::optional<double> first_step;  ///< in the path's norm; empty: from the load's scale
   /// Critical points of other branches: the path ends where it meets one of them again.
   std::vector<PathPoint> known;
-  double load_bound = 1e4;  ///< load, over its largest scale, beyond which nothing is looked for any more
   double tolerance = 1e-9;  ///< of located points, relative in the load factor
 };
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "solver/mesh/mesh.h"
+#include "solver/model/check.h"
 #include "tests/stress/random_numbers.h"
 
 namespace snapthrough::testing {
@@ -315,6 +316,14 @@ RandomRequest Drawer::draw() {
 
 }  // namespace
 
-RandomRequest broad_request(std::uint64_t seed) { return Drawer(seed).draw(); }
+RandomRequest broad_request(std::uint64_t seed) {
+  // what is drawn may be a mechanism: then it is drawn again
+  constexpr std::uint64_t kAnotherDraw = 0x9e3779b97f4a7c15;
+  for (;;) {
+    RandomRequest request = Drawer(seed).draw();
+    if (check(request.model, request.analysis).empty()) return request;
+    seed += kAnotherDraw;
+  }
+}
 
 }  // namespace snapthrough::testing

@@ -41,7 +41,9 @@ class Bound {
 /// interest, which always hold (a path to infinity meets no other; a search for a loss of stability that gets
 /// there has its answer).
 bool reached(const Analysis& analysis, const std::string& termination) {
-  constexpr std::array<std::string_view, 2> kBounds{"load_bound", "displacement_bound"};
+  // a structure that can't carry its constant actions has no path to follow: that is the answer
+  constexpr std::array<std::string_view, 3> kBounds{"load_bound", "displacement_bound",
+                                                    "constant_actions_limit"};
   constexpr std::array<std::string_view, 5> kPath{"limit_points", "load_factor", "monitor", "monitor_turned",
                                                   "steps"};
   constexpr std::array<std::string_view, 2> kCritical{"critical_point", "unstable_at_start"};
