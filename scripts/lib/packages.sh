@@ -9,7 +9,7 @@ BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-de
 RUN_PACKAGES=(curl jq)
 # What scripts/test.sh needs besides.
 TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev valgrind clang-format python3)
-# What scripts/report.sh needs besides, to draw plots (fonts for what their labels measure).
+# What scripts/report.sh and scripts/bench.sh need besides, to draw plots (fonts for what their labels measure).
 REPORT_PACKAGES=(python3 gnuplot-nox fonts-dejavu-core)
 
 # missing_packages NAME...: prints those that are not installed, one a line.
