@@ -114,7 +114,7 @@ VectorXd Pencil::geometric(const VectorXd& x) { return product(1.0, x) - product
 void isolate(Pencil& pencil, const Bracket& bracket, int wanted, std::vector<Bracket>& out) {
   constexpr double kNarrow = 1e-4;
   constexpr double kShort = 1e-2;  // where inverse iteration gains two digits by iteration or more
-  if (bracket.below_hi == bracket.below_lo || bracket.below_lo >= wanted) return;
+  if (bracket.below_hi <= bracket.below_lo || bracket.below_lo >= wanted) return;
   const bool single = bracket.below_hi - bracket.below_lo == 1;
   const bool narrow = bracket.hi - bracket.lo <= (single ? kShort : kNarrow) * bracket.hi;
   if (narrow) {
@@ -128,7 +128,8 @@ void isolate(Pencil& pencil, const Bracket& bracket, int wanted, std::vector<Bra
     return;
   }
   const double middle = 0.5 * (bracket.lo + bracket.hi);
-  const int below = pencil.count(middle);
+  // a count that lost its digits must not say more than its neighbours
+  const int below = std::clamp(pencil.count(middle), bracket.below_lo, bracket.below_hi);
   isolate(pencil, {bracket.lo, middle, bracket.below_lo, below}, wanted, out);
   isolate(pencil, {middle, bracket.hi, below, bracket.below_hi}, wanted, out);
 }
@@ -234,8 +235,12 @@ void confirm(Pencil& pencil, const Bracket& bracket, std::vector<EigenPair>& pai
 Bracket enclose(Pencil& pencil, int count, int at_start) {
   constexpr int kDoublings = 60;
   Bracket bracket{0.0, 0.0, at_start, at_start};
+  // Elements held at one end buckle at simple multiples of the scale, where their elimination loses all
+  // digits: neither doubling nor halving from here meets one.
+  constexpr double kOffMultiples = 1.0770329614269007;
   double hi = pencil.scale();
   if (!std::isfinite(hi) || hi <= 0.0) hi = 1.0;
+  hi *= kOffMultiples;
   for (int i = 0; i < kDoublings && bracket.below_hi - at_start < count; ++i) {
     bracket.hi = hi;
     bracket.below_hi = pencil.count(hi);
