@@ -237,7 +237,7 @@ Bracket enclose(Pencil& pencil, int count, int at_start) {
   Bracket bracket{0.0, 0.0, at_start, at_start};
   // Elements held at one end buckle at simple multiples of the scale, where their elimination loses all
   // digits: neither doubling nor halving from here meets one.
-  constexpr double kOffMultiples = 1.0770329614269007;
+  constexpr double kOffMultiples = 1.1180339887498949;  // the root of 5, halved
   double hi = pencil.scale();
   if (!std::isfinite(hi) || hi <= 0.0) hi = 1.0;
   hi *= kOffMultiples;
