@@ -137,7 +137,8 @@ void search_cell(const ChebyshevSeries& gap, const Place& left, const Place& rig
 }  // namespace
 
 void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
-                                     std::span<const double> dy, std::vector<Interval>& out) const {
+                                     std::span<const double> dy, std::vector<Interval>& out,
+                                     double depth) const {
   out.clear();
   std::array<double, ChebyshevSeries::kMostPoints> g{};
   const std::size_t n = samples_.size();
@@ -149,7 +150,7 @@ void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const d
       ux += sample.a[r] * dx[r];
       uy += sample.a[r] * dy[r];
     }
-    g[i] = ux * sample.direction[0] + uy * sample.direction[1] - gap_;
+    g[i] = ux * sample.direction[0] + uy * sample.direction[1] - gap_ - depth;
   }
   const double length = range_[1] - range_[0];
   double from = range_[0];

@@ -103,13 +103,18 @@ void ElementSetOf<P>::add_support_residual(int element, const double* y, double*
     if (stations_[station].one_sided) acting_.back().stiffness *= softness_;
     if (bonded_) acting_.back().gap = 0.0;
   }
+  double rounding = 0.0;
   for (const Functional& f : acting_) {
+    const double size = std::abs(f.a[0] * y[dofs.a[0]]) + std::abs(f.a[1] * y[dofs.a[1]]) +
+                        std::abs(f.a[2] * y[dofs.a[2]]) + f.gap;
+    rounding += f.stiffness * size * std::numeric_limits<double>::epsilon();
     const double force = f.stiffness * (value(f, dofs, y) - f.gap);
     for (int c = 0; c < 3; ++c) {
       residual[dofs.a[c]] += force * f.a[c];
       for (int q = 0; q < P; ++q) residual[dofs.v + c * P + q] += force * f.v[c][q];
     }
   }
+  support_rounding_ = std::max(support_rounding_, rounding);
   if (!keep) acting_.clear();
 }
 
