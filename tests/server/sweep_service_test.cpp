@@ -212,13 +212,7 @@ TEST_F(SweepService, DismissalStopsItWithinASecondAndKeepsRows) {
 TEST_F(SweepService, EventsTellHowFarItIs) {
   const auto solver = std::make_shared<GatedSolver>();
   start(gated(solver));
-  const std::string sweep = submit_sweep(column_sweep(200));
-  solver->wait_started(1);
-  Socket stream(port());
-  stream.send("GET " + sweep + "/events HTTP/1.1\r\nHost: a\r\n\r\n");
-  EXPECT_EQ(stream.receive().header("Content-Type"), "text/event-stream");
-  solver->open();
-  const std::string text = stream.rest();
+  const std::string text = all_events(*solver, submit_sweep(column_sweep(200)));
   EXPECT_THAT(text, HasSubstr("event: status\ndata: {\"id\""));
   EXPECT_THAT(text, HasSubstr("event: progress\ndata: {\"points\":200"));
   EXPECT_THAT(text, HasSubstr("event: end\ndata: {\"id\""));
