@@ -6,6 +6,7 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <new>
 
@@ -52,8 +53,9 @@ void metered_free(void* pointer) {
   __real_free(pointer);
 }
 
+/// As the standard has it: the handler is asked for more room until there is none.
 template <class Allocate>
-void* metered_new(std::size_t size, Allocate allocate) {
+void* new_with(std::size_t size, Allocate allocate) {
   while (true) {
     if (void* const pointer = metered(size, allocate)) {
       return pointer;
@@ -63,6 +65,29 @@ void* metered_new(std::size_t size, Allocate allocate) {
       throw std::bad_alloc();
     }
     handler();
+  }
+}
+
+void* metered_new(std::size_t size) {
+  const std::size_t bytes = size == 0 ? 1 : size;
+  return new_with(bytes, [bytes] { return __real_malloc(bytes); });
+}
+
+void* metered_new(std::size_t size, std::align_val_t alignment) {
+  const auto step = static_cast<std::size_t>(alignment);
+  const std::size_t bytes = size == 0 ? step : size;
+  return new_with(bytes, [=] {
+    void* pointer = nullptr;
+    return ::posix_memalign(&pointer, std::max(step, sizeof(void*)), bytes) == 0 ? pointer : nullptr;
+  });
+}
+
+template <class Allocate>
+void* or_null(Allocate allocate) noexcept {
+  try {
+    return allocate();
+  } catch (const std::bad_alloc&) {
+    return nullptr;
   }
 }
 
@@ -99,18 +124,37 @@ void* __wrap_realloc(void* pointer, std::size_t size) {
 
 void __wrap_free(void* pointer) { metered_free(pointer); }
 
-void* operator new(std::size_t size) {
-  const std::size_t bytes = size == 0 ? 1 : size;
-  return metered_new(bytes, [bytes] { return __real_malloc(bytes); });
+// Every form is here: a sanitizer brings its own of those that are not, and they don't mix.
+void* operator new(std::size_t size) { return metered_new(size); }
+void* operator new[](std::size_t size) { return metered_new(size); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return metered_new(size, alignment); }
+void* operator new[](std::size_t size, std::align_val_t alignment) { return metered_new(size, alignment); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return or_null([=] { return metered_new(size); });
 }
-
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  const auto step = static_cast<std::size_t>(alignment);
-  const std::size_t bytes = (size / step + (size % step == 0 && size > 0 ? 0 : 1)) * step;
-  return metered_new(bytes, [=] { return std::aligned_alloc(step, bytes); });
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+  return or_null([=] { return metered_new(size); });
+}
+void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  return or_null([=] { return metered_new(size, alignment); });
+}
+void* operator new[](std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  return or_null([=] { return metered_new(size, alignment); });
 }
 
 void operator delete(void* pointer) noexcept { metered_free(pointer); }
+void operator delete[](void* pointer) noexcept { metered_free(pointer); }
 void operator delete(void* pointer, std::size_t) noexcept { metered_free(pointer); }
+void operator delete[](void* pointer, std::size_t) noexcept { metered_free(pointer); }
 void operator delete(void* pointer, std::align_val_t) noexcept { metered_free(pointer); }
+void operator delete[](void* pointer, std::align_val_t) noexcept { metered_free(pointer); }
 void operator delete(void* pointer, std::size_t, std::align_val_t) noexcept { metered_free(pointer); }
+void operator delete[](void* pointer, std::size_t, std::align_val_t) noexcept { metered_free(pointer); }
+void operator delete(void* pointer, const std::nothrow_t&) noexcept { metered_free(pointer); }
+void operator delete[](void* pointer, const std::nothrow_t&) noexcept { metered_free(pointer); }
+void operator delete(void* pointer, std::align_val_t, const std::nothrow_t&) noexcept {
+  metered_free(pointer);
+}
+void operator delete[](void* pointer, std::align_val_t, const std::nothrow_t&) noexcept {
+  metered_free(pointer);
+}
