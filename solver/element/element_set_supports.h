@@ -61,23 +61,6 @@ void ElementSetOf<P>::add_interval(std::size_t index, const Shape& shape,
   }
 }
 
-/// Adds the stiffness of all supports that act to the upper triangle of H, block by block over all of them.
-template <int P>
-void ElementSetOf<P>::add_support_tangent(const Shape& shape, Factor& f) {
-  const std::size_t n = acting_.size();
-  if (rows_.size() < n) rows_.resize(n);
-  for (std::size_t k = 0; k < n; ++k) to_strain_row(acting_[k], shape, f.kin, rows_[k]);
-  for (int i = 0; i < kZeta; ++i) {
-    double* row = f.H.row(i).data();
-    for (int b = i / kBlock * kBlock; b < kRow; b += kBlock) {
-      Eigen::Array<double, kBlock, 1> sum = Block(row + b);
-      for (std::size_t k = 0; k < n; ++k)
-        sum += (acting_[k].stiffness * rows_[k][i]) * ConstBlock(rows_[k].data() + b);
-      Block(row + b) = sum;
-    }
-  }
-}
-
 template <int P>
 bool ElementSetOf<P>::acts(const Functional& f, std::size_t station, const ElementDofs& dofs,
                            const double* y) const {
@@ -206,28 +189,22 @@ void ElementSetOf<P>::add_pressure_load(const Eigen::VectorXd& y, double proport
 }
 
 /// The symmetric part of the follower force's derivative: minus pressure times the second derivative of the
-/// area 1/2 int (x y' - y x') ds. What is left out belongs to the element's ends, cancels between neighbours
-/// under the same pressure, and vanishes at fixed ends.
+/// area 1/2 int (x y' - y x') ds, appended to acting_ as squares, since 4 a b = (a + b)^2 - (a - b)^2. What
+/// is left out belongs to the element's ends, cancels between neighbours under the same pressure, and
+/// vanishes at fixed ends.
 template <int P>
-void ElementSetOf<P>::add_pressure_tangent(const Shape& shape, const Kinematics& kin, double pressure,
-                                           ZetaMatrix& H) const {
-  Functional place[2];
-  Functional slope[2];
-  ZetaVector u[2];
-  ZetaVector du[2];
+void ElementSetOf<P>::collect_pressure(const Shape& shape, double pressure) {
   for (int q = 0; q < P; ++q) {
-    for (int c = 0; c < 2; ++c) {
-      place[c] = {};
-      slope[c] = {};
-      place[c].a[c] = 1.0;
-      for (int r = 0; r < P; ++r) place[c].v[c][r] = shape.h * a_[q][r];
-      slope[c].v[c][q] = 1.0;
-      to_strain_row(place[c], shape, kin, u[c]);
-      to_strain_row(slope[c], shape, kin, du[c]);
+    for (const int c : {0, 1}) {
+      for (const double sign : {1.0, -1.0}) {
+        Functional f;
+        f.a[c] = 1.0;
+        for (int r = 0; r < P; ++r) f.v[c][r] = shape.h * a_[q][r];
+        f.v[1 - c][q] = sign;
+        f.stiffness = (c == 0 ? -0.25 : 0.25) * sign * pressure * shape.hb[q];
+        acting_.push_back(f);
+      }
     }
-    const double w = -0.5 * pressure * shape.hb[q];
-    H += w * (u[0] * du[1].transpose() + du[1] * u[0].transpose());
-    H -= w * (u[1] * du[0].transpose() + du[0] * u[1].transpose());
   }
 }
 
