@@ -14,23 +14,42 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Lower Cholesky factor of a positive semidefinite F; empty when F is clearly not semidefinite.
-std::optional<Matrix3d> semidefinite_root(const Matrix3d& F) {
+/// F = L J L^T with J = diag(+-1); columns of L are zero in rigid directions.
+struct SignedRoot {
   Matrix3d L = Matrix3d::Zero();
-  const double floor = 1e-13 * F.diagonal().cwiseAbs().maxCoeff();
+  Vector3d J = Vector3d::Ones();
+  int minus = 0;  ///< -1 in J
+};
+
+/// Empty when F is not semidefinite and the signs of its pivots are not beyond doubt.
+std::optional<SignedRoot> signed_root(const Matrix3d& F) {
+  constexpr double kCancelled = 1e-3;
+  SignedRoot out;
+  Matrix3d& L = out.L;
+  const double floor = 1e-13 * std::max({std::abs(F(0, 0)), std::abs(F(1, 1)), std::abs(F(2, 2))});
+  bool clear = true;
   for (int j = 0; j < 3; ++j) {
     double d = F(j, j);
-    for (int k = 0; k < j; ++k) d -= L(j, k) * L(j, k);
-    if (d < -floor) return std::nullopt;
-    if (d <= 1e-3 * floor) continue;  // a rigid direction
-    L(j, j) = std::sqrt(d);
+    double size = std::abs(d);
+    for (int k = 0; k < j; ++k) {
+      d -= out.J[k] * L(j, k) * L(j, k);
+      size += L(j, k) * L(j, k);
+    }
+    if (d >= -floor && d <= 1e-3 * floor) continue;  // a rigid direction
+    clear = clear && std::abs(d) > kCancelled * size;
+    if (d < 0.0) {
+      out.J[j] = -1.0;
+      ++out.minus;
+    }
+    if (out.minus > 0 && !clear) return std::nullopt;
+    L(j, j) = std::sqrt(std::abs(d));
     for (int i = j + 1; i < 3; ++i) {
       double sum = F(i, j);
-      for (int k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
-      L(i, j) = sum / L(j, j);
+      for (int k = 0; k < j; ++k) sum -= out.J[k] * L(i, k) * L(j, k);
+      L(i, j) = out.J[j] * sum / L(j, j);
     }
   }
-  return L;
+  return out;
 }
 
 /// Brings the largest entry of each row to about one by a diagonal congruence.
@@ -97,25 +116,56 @@ int count_negative(Eigen::Matrix<double, N, N> A) {
   return negative;
 }
 
-/// Whether all pivots of C = L D L^T are well above zero.
-bool clearly_positive(const Matrix3d& C) {
+/// Negative pivots of C = L D L^T, when all of them are well away from zero and nothing of what they are the
+/// difference of was much larger: then their signs are sure without balance and pivoting.
+std::optional<int> clearly_negative(const Matrix3d& C) {
+  constexpr double kSmallest = 1e-2;   // C is I plus what is compared with it
+  constexpr double kCancelled = 1e-3;  // of what a pivot is the difference of
+  int negative = 0;
+  const auto clear = [&](double d, double size) {
+    negative += d < 0.0 ? 1 : 0;
+    return std::abs(d) > std::max(kSmallest, kCancelled * size);
+  };
   const double d0 = C(0, 0);
-  if (d0 < 1e-2) return false;
+  if (!clear(d0, 0.0)) return std::nullopt;
   const double l10 = C(1, 0) / d0;
   const double l20 = C(2, 0) / d0;
   const double d1 = C(1, 1) - l10 * C(1, 0);
-  if (d1 < 1e-2) return false;
-  const double l21 = (C(2, 1) - l20 * C(1, 0)) / d1;
-  return C(2, 2) - l20 * C(2, 0) - l21 * l21 * d1 > 1e-2;
+  if (!clear(d1, std::abs(C(1, 1)) + std::abs(l10 * C(1, 0)))) return std::nullopt;
+  const double left = C(2, 1) - l20 * C(1, 0);
+  const double d2 = C(2, 2) - l20 * C(2, 0) - left / d1 * left;
+  const double size = std::abs(C(2, 2)) + std::abs(l20 * C(2, 0)) +
+                      (std::abs(C(2, 1)) + std::abs(l20 * C(1, 0))) * std::abs(left / d1);
+  if (!clear(d2, size)) return std::nullopt;
+  return negative;
+}
+
+/// A B, written out: Eigen calls a function for it.
+Matrix3d product(const Matrix3d& A, const Matrix3d& B) {
+  Matrix3d out;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) out(i, j) = A(i, 0) * B(0, j) + A(i, 1) * B(1, j) + A(i, 2) * B(2, j);
+  return out;
+}
+
+/// The symmetric part: what is left of it is rounding.
+Matrix3d symmetric(const Matrix3d& A) {
+  Matrix3d out;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) out(i, j) = 0.5 * (A(i, j) + A(j, i));
+  return out;
 }
 
 }  // namespace
 
+/// With F = L J L^T the matrix is congruent to [[-J, I], [I, L^T K L]], and so has as many negative
+/// eigenvalues as -J and C = J + L^T K L together.
 int extra_negative(const Matrix3d& F, const Matrix3d& K) {
-  if (const auto L = semidefinite_root(F)) {
-    const Matrix3d C = Matrix3d::Identity() + L->transpose() * K * *L;
-    if (clearly_positive(C)) return 0;
-    return count_negative<3>(C);
+  if (const auto root = signed_root(F)) {
+    Matrix3d C = product(root->L.transpose(), product(K, root->L));
+    for (int i = 0; i < 3; ++i) C(i, i) += root->J[i];
+    if (const auto negative = clearly_negative(C)) return *negative - root->minus;
+    if (root->minus == 0) return count_negative<3>(C);
   }
   Eigen::Matrix<double, 6, 6> A;
   A << -F, Matrix3d::Identity(), Matrix3d::Identity(), K;
@@ -123,7 +173,8 @@ int extra_negative(const Matrix3d& F, const Matrix3d& K) {
 }
 
 Chain::Pivot Chain::pivot_of(const Run& first, const Run& second) {
-  const Matrix3d matrix = Matrix3d::Identity() + second.K * first.F;
+  Matrix3d matrix = product(second.K, first.F);
+  for (int i = 0; i < 3; ++i) matrix(i, i) += 1.0;
   Pivot pivot;
   pivot.det = matrix.determinant();
   if (pivot.det == 0.0) pivot.det = std::numeric_limits<double>::min();
@@ -143,17 +194,13 @@ void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
   join.K2 = second.K;
   join.X2 = second.X;
   join.M = pivot.inverse;
-  const Matrix3d MK = join.M * second.K;
-  const Matrix3d FM = first.F * join.M;
   ends_.negative += extra_negative(first.F, second.K);
   ends_.log_det += std::log(std::abs(pivot.det));
-  first.K += join.X.transpose() * MK * join.X;
-  first.X = -second.X * (join.X - join.F * MK * join.X);
-  first.F = second.F + second.X * FM * second.X.transpose();
+  const Matrix3d MKX = product(join.M, product(second.K, join.X));
+  first.K = symmetric(first.K + product(join.X.transpose(), MKX));
+  first.X = -product(second.X, join.X - product(join.F, MKX));
+  first.F = symmetric(second.F + product(product(second.X, product(join.F, join.M)), second.X.transpose()));
   first.last = second.last;
-  // rounding only: both are symmetric
-  first.K = 0.5 * (first.K + first.K.transpose()).eval();
-  first.F = 0.5 * (first.F + first.F.transpose()).eval();
 }
 
 /// Joins the next element, or the next two at once where that pivot is much better.
