@@ -140,11 +140,17 @@ std::optional<int> clearly_negative(const Matrix3d& C) {
   return negative;
 }
 
-/// A B, written out: Eigen calls a function for it.
-Matrix3d product(const Matrix3d& A, const Matrix3d& B) {
+/// A B, a column at a time: Eigen calls a function for it.
+template <class Left, class Right>
+Matrix3d product(const Left& A, const Right& B) {
+  const Eigen::Array4d a0(A(0, 0), A(1, 0), A(2, 0), 0.0);
+  const Eigen::Array4d a1(A(0, 1), A(1, 1), A(2, 1), 0.0);
+  const Eigen::Array4d a2(A(0, 2), A(1, 2), A(2, 2), 0.0);
   Matrix3d out;
-  for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) out(i, j) = A(i, 0) * B(0, j) + A(i, 1) * B(1, j) + A(i, 2) * B(2, j);
+  for (int j = 0; j < 3; ++j) {
+    const Eigen::Array4d column = a0 * B(0, j) + a1 * B(1, j) + a2 * B(2, j);
+    for (int i = 0; i < 3; ++i) out(i, j) = column[i];
+  }
   return out;
 }
 
@@ -198,7 +204,7 @@ void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
   ends_.log_det += std::log(std::abs(pivot.det));
   const Matrix3d MKX = product(join.M, product(second.K, join.X));
   first.K = symmetric(first.K + product(join.X.transpose(), MKX));
-  first.X = -product(second.X, join.X - product(join.F, MKX));
+  first.X = -product(second.X, Matrix3d(join.X - product(join.F, MKX)));
   first.F = symmetric(second.F + product(product(second.X, product(join.F, join.M)), second.X.transpose()));
   first.last = second.last;
 }

@@ -336,17 +336,21 @@ double ElementSetOf<P>::value(const Functional& f, const ElementDofs& dofs, cons
 template <int P>
 void ElementSetOf<P>::to_strain_row(const Functional& f, const Shape& shape, const Tangent& t,
                                     ZetaVector& row) const {
+  Gauss turn;
+  Gauss bend = f.v[2];
   double turn_a = f.a[2];
-  for (int r = 0; r < P; ++r) row[2 * P + r] = f.v[2][r];
   for (int q = 0; q < P; ++q) {
     const double vx = f.v[0][q];
     const double vy = f.v[1][q];
     row[q] = vx * t.c[q] + vy * t.s[q];
     row[P + q] = -vx * t.s[q] + vy * t.c[q];
-    const double turn = vx * t.px[q] + vy * t.py[q];
-    turn_a += turn;
-    for (int r = 0; r < P; ++r) row[2 * P + r] += turn * shape.h * a_[q][r];
+    turn[q] = vx * t.px[q] + vy * t.py[q];
+    turn_a += turn[q];
+    turn[q] *= shape.h;
   }
+  for (int q = 0; q < P; ++q)
+    for (int r = 0; r < P; ++r) bend[r] += turn[q] * a_[q][r];
+  for (int r = 0; r < P; ++r) row[2 * P + r] = bend[r];
   row[3 * P] = f.a[0];
   row[3 * P + 1] = f.a[1];
   row[3 * P + 2] = turn_a;

@@ -86,13 +86,21 @@ void ElementSetOf<P>::add_support_residual(int element, const double* y, double*
     if (stations_[station].one_sided) acting_.back().stiffness *= softness_;
     if (bonded_) acting_.back().gap = 0.0;
   }
+  std::array<double, kStrains> v;  // apart from y and the residual, so that loops over them need no order
+  std::array<double, kStrains> forces{};
+  double at_start[3] = {0.0, 0.0, 0.0};
+  for (int i = 0; i < kStrains; ++i) v[i] = y[dofs.v + i];
   for (const Functional& f : acting_) {
-    const double force = f.stiffness * (value(f, dofs, y) - f.gap);
-    for (int c = 0; c < 3; ++c) {
-      residual[dofs.a[c]] += force * f.a[c];
-      for (int q = 0; q < P; ++q) residual[dofs.v + c * P + q] += force * f.v[c][q];
-    }
+    double w = -f.gap;
+    for (int c = 0; c < 3; ++c) w += f.a[c] * y[dofs.a[c]];
+    const double* row = f.v[0].data();
+    for (int i = 0; i < kStrains; ++i) w += row[i] * v[i];
+    const double force = f.stiffness * w;
+    for (int c = 0; c < 3; ++c) at_start[c] += force * f.a[c];
+    for (int i = 0; i < kStrains; ++i) forces[i] += force * row[i];
   }
+  for (int c = 0; c < 3; ++c) residual[dofs.a[c]] += at_start[c];
+  for (int i = 0; i < kStrains; ++i) residual[dofs.v + i] += forces[i];
   if (!keep) acting_.clear();
 }
 

@@ -133,6 +133,9 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     const double size = metric.norm(work.correction, dlambda);
     if (!std::isfinite(size)) return out;
     if (it == 0) out.first_correction = size;
+    if (size > (it == 0 ? options.largest_first * scale : options.largest_growth * previous) &&
+        out.relative_residual > options.stagnant_residual)
+      return out;
     const bool near = size <= options.tangent_tolerance * scale &&
                       out.relative_residual <= kNearResidual * options.tangent_tolerance;
     if ((last || near) && take_last(problem, options, y, lambda, dlambda, out, work)) {
