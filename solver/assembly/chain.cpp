@@ -212,13 +212,12 @@ void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
 /// Joins the next element, or the next two at once where that pivot is much better.
 void Chain::join_next(Run& all, std::span<const CondensedElement> elements) {
   constexpr double kPoorPivot = 1e-3;
-  const auto run_of = [&elements](std::size_t i) {
-    return Run{elements[i].K, elements[i].X, elements[i].F, i, i};
-  };
-  const std::size_t i = all.last + 1;
+  const auto run_of = [&elements](int i) { return Run{elements[i].K, elements[i].X, elements[i].F, i, i}; };
+  const int i = all.last + 1;
+  const int count = static_cast<int>(elements.size());
   const Run next = run_of(i);
   const Pivot pivot = pivot_of(all, next);
-  if (pivot.quality < kPoorPivot && i + 1 < elements.size()) {
+  if (pivot.quality < kPoorPivot && i + 1 < count) {
     const auto saved = ends_;
     const std::size_t joins = joins_.size();
     Run two = next;
@@ -245,37 +244,40 @@ void Chain::factorise(std::span<const CondensedElement> elements) {
     ends_.log_det += element.log_det;
   }
   Run all{elements[0].K, elements[0].X, elements[0].F, 0, 0};
-  while (all.last + 1 < elements.size()) join_next(all, elements);
+  while (all.last + 1 < static_cast<int>(elements.size())) join_next(all, elements);
   ends_.K = all.K;
   ends_.X = all.X;
   ends_.F = all.F;
 }
 
-void Chain::reduce(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
+void Chain::reduce(std::span<CondensedElement> elements, std::span<const ElementDofs> dofs,
                    const Eigen::VectorXd& rhs) {
-  rhs_.resize(elements.size());
-  for (std::size_t i = 0; i < elements.size(); ++i) rhs_[i] = {elements[i].ra, elements[i].rm};
-  for (Join& join : joins_) {
-    auto& [ra, rm] = rhs_[join.first_first];
-    const auto& [ra2, rm2] = rhs_[join.second_first];
-    join.c1 = rm;
-    join.c2 = ra2;
-    for (int c = 0; c < 3; ++c) join.c2[c] += rhs[dofs[join.second_first].a[c]];
-    const Vector3d m = join.M * (join.c2 - join.K2 * join.c1);
-    ra -= join.X.transpose() * m;
-    rm = rm2 - join.X2 * (join.c1 + join.F * m);
+  for (const Join& join : joins_) {
+    CondensedElement& first = elements[join.first_first];  // holds what its run has become so far
+    CondensedElement& second = elements[join.second_first];
+    const Vector3d c1 = first.rm;
+    Vector3d c2 = second.ra;
+    for (int c = 0; c < 3; ++c) c2[c] += rhs[dofs[join.second_first].a[c]];
+    const Vector3d m = join.M * (c2 - join.K2 * c1);
+    first.ra -= join.X.transpose() * m;
+    first.rm = second.rm - join.X2 * (c1 + join.F * m);
+    // the second run is not met again
+    second.rm = c1;
+    second.ra = c2;
   }
-  ends_.ra = rhs_[0][0];
-  ends_.rm = rhs_[0][1];
+  ends_.ra = elements[0].ra;
+  ends_.rm = elements[0].rm;
 }
 
-void Chain::recover(std::span<const ElementDofs> dofs, Eigen::VectorXd& x) const {
+void Chain::recover(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
+                    Eigen::VectorXd& x) const {
   for (auto join = joins_.rbegin(); join != joins_.rend(); ++join) {
     const auto& start = dofs[join->first_first].a;
     const Vector3d us(x[start[0]], x[start[1]], x[start[2]]);
     const Vector3d end = x.segment<3>(dofs[join->second_last].m);
-    const Vector3d free = join->c1 - join->X * us;
-    const Vector3d m = join->M * (join->c2 - join->X2.transpose() * end - join->K2 * free);
+    const CondensedElement& second = elements[join->second_first];
+    const Vector3d free = second.rm - join->X * us;
+    const Vector3d m = join->M * (second.ra - join->X2.transpose() * end - join->K2 * free);
     const Vector3d u = free + join->F * m;
     const ElementDofs& node = dofs[join->second_first];
     for (int c = 0; c < 3; ++c) x[node.a[c]] = u[c];

@@ -75,7 +75,7 @@ class ElementSetOf final : public ElementSet {
   struct Shape {
     double h = 0.0;
     bool shearable = false;
-    Gauss angle{}, cos0{}, sin0{}, tx{}, ty{}, e0{}, g0{}, hb{};
+    Gauss cos0{}, sin0{}, tx{}, ty{}, e0{}, g0{}, hb{};
     std::array<double, kStrains> compliance{};
     std::array<double, kStrains> root{};  ///< sqrt of the compliance
     int first_station = 0, station_count = 0;
@@ -202,7 +202,6 @@ void ElementSetOf<P>::add(const ElementShape& in, const ElementDofs& dofs) {
   Shape shape;
   shape.h = in.length;
   for (int q = 0; q < P; ++q) {
-    shape.angle[q] = in.angle[q];
     shape.cos0[q] = std::cos(in.angle[q]);
     shape.sin0[q] = std::sin(in.angle[q]);
     shape.tx[q] = in.t[q][0];
