@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bench/cases.h"
+#include "bench/kernels.h"
 #include "solver/solve.h"
 #include "tests/solver/structures.h"
 
@@ -91,6 +92,14 @@ void add_skips() {
   c.analysis.output.states = StateOutput::none;
   c.analysis.type = AnalysisType::critical;
   add("skip/critical_load_only", c);
+  Case deep = case_named("deep_arch");
+  add("skip/first_limit_point_by_path", deep);
+  deep.analysis.type = AnalysisType::critical;
+  add("skip/first_limit_point_alone", deep);
+  Case column = case_named("column");
+  add("skip/straight_by_path", column);
+  column.analysis.type = AnalysisType::buckling;
+  add("skip/straight_linearised", column);
   c.load = 0.0;
   c.target_ms = 0.0;
   c.model.foundations[0].reaction = Reaction::bilateral;
@@ -101,6 +110,9 @@ void add_skips() {
   add("skip/base_bilateral", c);
   c.model.foundations[0].reaction = Reaction::compression_only;
   add("skip/base_one_sided", c);
+  c.model.foundations[0].reaction = Reaction::bilateral;
+  c.model.foundations[0].stiffness = 1e-12;
+  add("skip/base_of_tiny_stiffness", c);
   c.model.foundations[0].stiffness = 0.0;
   add("skip/base_of_stiffness_0", c);
   c.model.foundations.clear();
@@ -116,6 +128,7 @@ int main(int argc, char** argv) {
   snapthrough::bench::add_meshes();
   snapthrough::bench::add_growth();
   snapthrough::bench::add_skips();
+  snapthrough::bench::add_kernels();
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

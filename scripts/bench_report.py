@@ -19,9 +19,20 @@ SKIPS = [("path_with_all_states", "path_without_states",
           "states at all points: points corrected to rounding, states computed"),
          ("path_with_critical_states", "path_without_states",
           "states at critical points only, against none"),
+         ("path_without_states", "critical_load_only",
+          "arch on a base: points recorded, contact changes located, against the critical load alone"),
+         ("first_limit_point_by_path", "first_limit_point_alone", "the same without a base"),
          ("base_one_sided", "base_bilateral", "no contact search where a base is bilateral"),
-         ("base_bilateral", "base_of_stiffness_0", "no base assembly at stiffness 0"),
-         ("base_of_stiffness_0", "no_base", "nothing is left of a base of stiffness 0")]
+         ("base_of_tiny_stiffness", "base_of_stiffness_0", "no base assembly at stiffness 0, against a tiny one"),
+         ("base_of_stiffness_0", "no_base", "nothing is left of a base of stiffness 0"),
+         ("straight_by_path", "straight_linearised", "straight column by its path, against linearised (not taken up)")]
+# parts of one correction: (with, without, what)
+KERNELS = [("dense", "linearise", "interiors eliminated: all unknowns factorised as one full matrix, against linearise()"),
+           ("structure_each_time", "linearise", "constant data of elements: made for each linearisation, against once"),
+           ("two_factorisations_two_solves", "one_factorisation_two_solves",
+            "factors reused within a correction: one for each right-hand side, against one"),
+           ("linearise", "residual", "linearise() against the residual alone"),
+           ("linearise", "solve", "linearise() against one solve")]
 
 
 def plot(name, title, xlabel, ylabel, curves):
@@ -79,6 +90,10 @@ def precision_pages(by_group):
     (DOCS / "precision.md").write_text("\n".join(text), encoding="utf-8")
 
 
+def compared(rows, a, b, what):
+    return what, ms(rows[a]), ms(rows[b]), f"{rows[a]['cpu_time'] / rows[b]['cpu_time']:.2f}"
+
+
 def summary_page(by_group):
     """Targets, growth, bases and what is skipped."""
     text = ["# Measured performance\n",
@@ -113,7 +128,10 @@ def summary_page(by_group):
     skips = {r["parts"][1]: r for r in by_group[("skip",)]}
     text += ["## What is not done\n",
              table(["skipped", "with, ms", "without, ms", "ratio"],
-                   [(what, ms(skips[a]), ms(skips[b]), f"{skips[a]['cpu_time'] / skips[b]['cpu_time']:.2f}") for a, b, what in SKIPS])]
+                   [compared(skips, *pair) for pair in SKIPS])]
+    kernels = {r["parts"][1]: r for r in by_group[("kernel",)]}
+    text += ["Parts of one correction, five elements of order 5 without base:\n",
+             table(["what", "with, ms", "without, ms", "ratio"], [compared(kernels, *pair) for pair in KERNELS])]
     (DOCS / "README.md").write_text("\n".join(text), encoding="utf-8")
 
 

@@ -2,8 +2,10 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/skipped.h"
 
 namespace snapthrough {
 namespace {
@@ -53,8 +55,9 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
       run_buckling(model, analysis, structure, result);
       break;
   }
-  result.diagnostics.skipped.insert(result.diagnostics.skipped.begin(), structure.skipped.begin(),
-                                    structure.skipped.end());
+  result.diagnostics.skipped = structure.skipped;
+  for (std::string& what : skipped_work(model, analysis))
+    result.diagnostics.skipped.push_back(std::move(what));
   report_unchecked_mesh(analysis, structure, result);
   return result;
 }

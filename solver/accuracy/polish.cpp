@@ -80,17 +80,22 @@ double FineMesh::test_value(const CriticalEvent& known, const Chord& chord, cons
   return (at.negative % 2 == 0 ? 1.0 : -1.0) * std::exp(at.log_abs_det - log_abs_det) / rate;
 }
 
-/// A simple critical point from four samples or a few more: both ends, the secant's root, and inverse
-/// quadratic interpolation from there, which is not corrected any more. So no tangent is factorised where it
-/// is singular.
+/// A simple critical point from three samples or a few more: the known point's place, points on both sides,
+/// predicted from there, and inverse quadratic interpolation, which is not corrected any more. So no tangent
+/// is factorised where it is singular.
 std::optional<FoundPoint> FineMesh::interpolated(const CriticalEvent& known, const PathPoint& at,
                                                  double reach) {
-  constexpr int kMostSamples = 4;
+  constexpr int kMostSamples = 5;
   if (known.multiplicity != 1 || known.cause == CriticalCause::contact) return std::nullopt;
+  const auto middle = corrected(at, 0.0, reach);
+  if (!middle) return std::nullopt;
   const Chord chord{at.tangent, at.tangent_lambda, false};
-  const auto before = corrected(at, -1.0, reach);
+  PathPoint guess = *middle;
+  guess.tangent = at.tangent;
+  guess.tangent_lambda = at.tangent_lambda;
+  const auto before = corrected(guess, -1.0, reach);
   if (!before || before->negative != known.negative_before) return std::nullopt;
-  const auto after = corrected(at, 1.0, reach);
+  const auto after = corrected(guess, 1.0, reach);
   if (!after || after->negative != known.negative_after) return std::nullopt;
   const auto sample = [&](double t, const PathPoint& point) {
     return Sample{t, test_value(known, chord, point, before->log_abs_det),
@@ -99,11 +104,9 @@ std::optional<FoundPoint> FineMesh::interpolated(const CriticalEvent& known, con
   Sample a = sample(-reach, *before);
   Sample b = sample(reach, *after);
   if ((a.value > 0.0) == (b.value > 0.0)) return std::nullopt;
-  double t = a.t - a.value * (b.t - a.t) / (b.value - a.value);
-  for (int n = 0; n < kMostSamples; ++n) {
-    if (!(std::abs(t) < reach)) return std::nullopt;
-    const auto point = corrected(at, t / reach, reach);
-    if (!point) return std::nullopt;
+  double t = 0.0;
+  std::optional<PathPoint> point = middle;
+  for (int n = 1;; ++n) {
     const Sample c = sample(t, *point);
     const double root = inverse_root(a, b, c);
     const double move = root - t;
@@ -112,7 +115,8 @@ std::optional<FoundPoint> FineMesh::interpolated(const CriticalEvent& known, con
     const double change = 0.5 * (c.rate + rate_at_root) * move;
     // the interpolation's error is of the next order in the distances to the samples
     const double error = std::abs(change) * std::abs(move) / reach;
-    if (error <= 0.1 * tolerance_ * std::abs(point->lambda) && std::abs(root) < reach) {
+    if (!(std::abs(root) < reach)) return std::nullopt;
+    if (error <= 0.1 * tolerance_ * std::abs(point->lambda)) {
       CriticalEvent event = known;
       event.point = *point;
       event.point.y += move / metric_rate(chord, *point) * point->tangent;
@@ -121,10 +125,12 @@ std::optional<FoundPoint> FineMesh::interpolated(const CriticalEvent& known, con
       event.point.tangent_lambda = at.tangent_lambda;
       return FoundPoint{event, *point};
     }
+    if (n == kMostSamples) return std::nullopt;
     ((c.value > 0.0) == (a.value > 0.0) ? a : b) = c;
     t = root;
+    point = corrected(guess, t / reach, reach);
+    if (!point) return std::nullopt;
   }
-  return std::nullopt;
 }
 
 /// d (distance along the chord) / ds of the path at a point.

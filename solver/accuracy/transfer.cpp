@@ -9,13 +9,10 @@
 namespace snapthrough {
 namespace {
 
-/// Value at xi of the polynomial through `order` values at the Gauss points.
-double value_at(const CollocationRule& rule, double xi, const Eigen::VectorXd& y, int first) {
-  std::array<double, kMaxOrder> l{};
-  const int p = rule.order();
-  rule.values_at(xi, std::span(l).first(p));
+/// Sum of the first `order` of l times the values from y[first] on.
+double sum_of(const std::array<double, kMaxOrder>& l, int order, const Eigen::VectorXd& y, int first) {
   double sum = 0.0;
-  for (int q = 0; q < p; ++q) sum += l[q] * y[first + q];
+  for (int q = 0; q < order; ++q) sum += l[q] * y[first + q];
   return sum;
 }
 
@@ -32,9 +29,11 @@ void transfer_element(const Structure& from, const Eigen::VectorXd& y, const Str
     const MeshPlace at =
         place_of(from.mesh, cell.member, cell.from + target.point(q) * (cell.to - cell.from));
     const ElementDofs& old = from.dofs[at.element];
+    std::array<double, kMaxOrder> l{};
+    source.values_at(at.xi, std::span(l).first(source_order));
     for (int c = 0; c < 3; ++c) {
-      out[dofs.v + c * p + q] = value_at(source, at.xi, y, old.v + c * source_order);
-      out[dofs.s + c * p + q] = value_at(source, at.xi, y, old.s + c * source_order);
+      out[dofs.v + c * p + q] = sum_of(l, source_order, y, old.v + c * source_order);
+      out[dofs.s + c * p + q] = sum_of(l, source_order, y, old.s + c * source_order);
     }
   }
   // the element that ends here or holds the end

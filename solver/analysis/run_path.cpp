@@ -9,6 +9,7 @@
 #include "solver/accuracy/critical_loads.h"
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/recorder.h"
+#include "solver/analysis/skipped.h"
 #include "solver/path/trace.h"
 #include "solver/stability/branch.h"
 
@@ -54,7 +55,7 @@ TraceRules rules_of(const Analysis& analysis, const Structure& structure) {
 /// chosen mesh are the path's to a small part of the accuracy asked for.
 ContinuationOptions options_of(const Analysis& analysis) {
   ContinuationOptions options;
-  if (!analysis.discretization.fixed_mesh && analysis.output.states == StateOutput::none)
+  if (points_are_not_polished(analysis))
     options.corrector.tangent_tolerance = std::min(1e-4, 10.0 * analysis.discretization.accuracy);
   return options;
 }

@@ -14,23 +14,42 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Lower Cholesky factor of a positive semidefinite F; empty when F is clearly not semidefinite.
-std::optional<Matrix3d> semidefinite_root(const Matrix3d& F) {
+/// F = L J L^T with J = diag(+-1); columns of L are zero in rigid directions.
+struct SignedRoot {
   Matrix3d L = Matrix3d::Zero();
-  const double floor = 1e-13 * F.diagonal().cwiseAbs().maxCoeff();
+  Vector3d J = Vector3d::Ones();
+  int minus = 0;  ///< -1 in J
+};
+
+/// Empty when F is not semidefinite and the signs of its pivots are not beyond doubt.
+std::optional<SignedRoot> signed_root(const Matrix3d& F) {
+  constexpr double kCancelled = 1e-3;
+  SignedRoot out;
+  Matrix3d& L = out.L;
+  const double floor = 1e-13 * std::max({std::abs(F(0, 0)), std::abs(F(1, 1)), std::abs(F(2, 2))});
+  bool clear = true;
   for (int j = 0; j < 3; ++j) {
     double d = F(j, j);
-    for (int k = 0; k < j; ++k) d -= L(j, k) * L(j, k);
-    if (d < -floor) return std::nullopt;
-    if (d <= 1e-3 * floor) continue;  // a rigid direction
-    L(j, j) = std::sqrt(d);
+    double size = std::abs(d);
+    for (int k = 0; k < j; ++k) {
+      d -= out.J[k] * L(j, k) * L(j, k);
+      size += L(j, k) * L(j, k);
+    }
+    if (d >= -floor && d <= 1e-3 * floor) continue;  // a rigid direction
+    clear = clear && std::abs(d) > kCancelled * size;
+    if (d < 0.0) {
+      out.J[j] = -1.0;
+      ++out.minus;
+    }
+    if (out.minus > 0 && !clear) return std::nullopt;
+    L(j, j) = std::sqrt(std::abs(d));
     for (int i = j + 1; i < 3; ++i) {
       double sum = F(i, j);
-      for (int k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
-      L(i, j) = sum / L(j, j);
+      for (int k = 0; k < j; ++k) sum -= out.J[k] * L(i, k) * L(j, k);
+      L(i, j) = out.J[j] * sum / L(j, j);
     }
   }
-  return L;
+  return out;
 }
 
 /// Brings the largest entry of each row to about one by a diagonal congruence.
@@ -97,25 +116,62 @@ int count_negative(Eigen::Matrix<double, N, N> A) {
   return negative;
 }
 
-/// Whether all pivots of C = L D L^T are well above zero.
-bool clearly_positive(const Matrix3d& C) {
+/// Negative pivots of C = L D L^T, when all of them are well away from zero and nothing of what they are the
+/// difference of was much larger: then their signs are sure without balance and pivoting.
+std::optional<int> clearly_negative(const Matrix3d& C) {
+  constexpr double kSmallest = 1e-2;   // C is I plus what is compared with it
+  constexpr double kCancelled = 1e-3;  // of what a pivot is the difference of
+  int negative = 0;
+  const auto clear = [&](double d, double size) {
+    negative += d < 0.0 ? 1 : 0;
+    return std::abs(d) > std::max(kSmallest, kCancelled * size);
+  };
   const double d0 = C(0, 0);
-  if (d0 < 1e-2) return false;
+  if (!clear(d0, 0.0)) return std::nullopt;
   const double l10 = C(1, 0) / d0;
   const double l20 = C(2, 0) / d0;
   const double d1 = C(1, 1) - l10 * C(1, 0);
-  if (d1 < 1e-2) return false;
-  const double l21 = (C(2, 1) - l20 * C(1, 0)) / d1;
-  return C(2, 2) - l20 * C(2, 0) - l21 * l21 * d1 > 1e-2;
+  if (!clear(d1, std::abs(C(1, 1)) + std::abs(l10 * C(1, 0)))) return std::nullopt;
+  const double left = C(2, 1) - l20 * C(1, 0);
+  const double d2 = C(2, 2) - l20 * C(2, 0) - left / d1 * left;
+  const double size = std::abs(C(2, 2)) + std::abs(l20 * C(2, 0)) +
+                      (std::abs(C(2, 1)) + std::abs(l20 * C(1, 0))) * std::abs(left / d1);
+  if (!clear(d2, size)) return std::nullopt;
+  return negative;
+}
+
+/// A B, a column at a time: Eigen calls a function for it.
+template <class Left, class Right>
+Matrix3d product(const Left& A, const Right& B) {
+  const Eigen::Array4d a0(A(0, 0), A(1, 0), A(2, 0), 0.0);
+  const Eigen::Array4d a1(A(0, 1), A(1, 1), A(2, 1), 0.0);
+  const Eigen::Array4d a2(A(0, 2), A(1, 2), A(2, 2), 0.0);
+  Matrix3d out;
+  for (int j = 0; j < 3; ++j) {
+    const Eigen::Array4d column = a0 * B(0, j) + a1 * B(1, j) + a2 * B(2, j);
+    for (int i = 0; i < 3; ++i) out(i, j) = column[i];
+  }
+  return out;
+}
+
+/// The symmetric part: what is left of it is rounding.
+Matrix3d symmetric(const Matrix3d& A) {
+  Matrix3d out;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) out(i, j) = 0.5 * (A(i, j) + A(j, i));
+  return out;
 }
 
 }  // namespace
 
+/// With F = L J L^T the matrix is congruent to [[-J, I], [I, L^T K L]], and so has as many negative
+/// eigenvalues as -J and C = J + L^T K L together.
 int extra_negative(const Matrix3d& F, const Matrix3d& K) {
-  if (const auto L = semidefinite_root(F)) {
-    const Matrix3d C = Matrix3d::Identity() + L->transpose() * K * *L;
-    if (clearly_positive(C)) return 0;
-    return count_negative<3>(C);
+  if (const auto root = signed_root(F)) {
+    Matrix3d C = product(root->L.transpose(), product(K, root->L));
+    for (int i = 0; i < 3; ++i) C(i, i) += root->J[i];
+    if (const auto negative = clearly_negative(C)) return *negative - root->minus;
+    if (root->minus == 0) return count_negative<3>(C);
   }
   Eigen::Matrix<double, 6, 6> A;
   A << -F, Matrix3d::Identity(), Matrix3d::Identity(), K;
@@ -123,7 +179,8 @@ int extra_negative(const Matrix3d& F, const Matrix3d& K) {
 }
 
 Chain::Pivot Chain::pivot_of(const Run& first, const Run& second) {
-  const Matrix3d matrix = Matrix3d::Identity() + second.K * first.F;
+  Matrix3d matrix = product(second.K, first.F);
+  for (int i = 0; i < 3; ++i) matrix(i, i) += 1.0;
   Pivot pivot;
   pivot.det = matrix.determinant();
   if (pivot.det == 0.0) pivot.det = std::numeric_limits<double>::min();
@@ -143,29 +200,24 @@ void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
   join.K2 = second.K;
   join.X2 = second.X;
   join.M = pivot.inverse;
-  const Matrix3d MK = join.M * second.K;
-  const Matrix3d FM = first.F * join.M;
   ends_.negative += extra_negative(first.F, second.K);
   ends_.log_det += std::log(std::abs(pivot.det));
-  first.K += join.X.transpose() * MK * join.X;
-  first.X = -second.X * (join.X - join.F * MK * join.X);
-  first.F = second.F + second.X * FM * second.X.transpose();
+  const Matrix3d MKX = product(join.M, product(second.K, join.X));
+  first.K = symmetric(first.K + product(join.X.transpose(), MKX));
+  first.X = -product(second.X, Matrix3d(join.X - product(join.F, MKX)));
+  first.F = symmetric(second.F + product(product(second.X, product(join.F, join.M)), second.X.transpose()));
   first.last = second.last;
-  // rounding only: both are symmetric
-  first.K = 0.5 * (first.K + first.K.transpose()).eval();
-  first.F = 0.5 * (first.F + first.F.transpose()).eval();
 }
 
 /// Joins the next element, or the next two at once where that pivot is much better.
 void Chain::join_next(Run& all, std::span<const CondensedElement> elements) {
   constexpr double kPoorPivot = 1e-3;
-  const auto run_of = [&elements](std::size_t i) {
-    return Run{elements[i].K, elements[i].X, elements[i].F, i, i};
-  };
-  const std::size_t i = all.last + 1;
+  const auto run_of = [&elements](int i) { return Run{elements[i].K, elements[i].X, elements[i].F, i, i}; };
+  const int i = all.last + 1;
+  const int count = static_cast<int>(elements.size());
   const Run next = run_of(i);
   const Pivot pivot = pivot_of(all, next);
-  if (pivot.quality < kPoorPivot && i + 1 < elements.size()) {
+  if (pivot.quality < kPoorPivot && i + 1 < count) {
     const auto saved = ends_;
     const std::size_t joins = joins_.size();
     Run two = next;
@@ -192,37 +244,40 @@ void Chain::factorise(std::span<const CondensedElement> elements) {
     ends_.log_det += element.log_det;
   }
   Run all{elements[0].K, elements[0].X, elements[0].F, 0, 0};
-  while (all.last + 1 < elements.size()) join_next(all, elements);
+  while (all.last + 1 < static_cast<int>(elements.size())) join_next(all, elements);
   ends_.K = all.K;
   ends_.X = all.X;
   ends_.F = all.F;
 }
 
-void Chain::reduce(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
+void Chain::reduce(std::span<CondensedElement> elements, std::span<const ElementDofs> dofs,
                    const Eigen::VectorXd& rhs) {
-  rhs_.resize(elements.size());
-  for (std::size_t i = 0; i < elements.size(); ++i) rhs_[i] = {elements[i].ra, elements[i].rm};
-  for (Join& join : joins_) {
-    auto& [ra, rm] = rhs_[join.first_first];
-    const auto& [ra2, rm2] = rhs_[join.second_first];
-    join.c1 = rm;
-    join.c2 = ra2;
-    for (int c = 0; c < 3; ++c) join.c2[c] += rhs[dofs[join.second_first].a[c]];
-    const Vector3d m = join.M * (join.c2 - join.K2 * join.c1);
-    ra -= join.X.transpose() * m;
-    rm = rm2 - join.X2 * (join.c1 + join.F * m);
+  for (const Join& join : joins_) {
+    CondensedElement& first = elements[join.first_first];  // holds what its run has become so far
+    CondensedElement& second = elements[join.second_first];
+    const Vector3d c1 = first.rm;
+    Vector3d c2 = second.ra;
+    for (int c = 0; c < 3; ++c) c2[c] += rhs[dofs[join.second_first].a[c]];
+    const Vector3d m = join.M * (c2 - join.K2 * c1);
+    first.ra -= join.X.transpose() * m;
+    first.rm = second.rm - join.X2 * (c1 + join.F * m);
+    // the second run is not met again
+    second.rm = c1;
+    second.ra = c2;
   }
-  ends_.ra = rhs_[0][0];
-  ends_.rm = rhs_[0][1];
+  ends_.ra = elements[0].ra;
+  ends_.rm = elements[0].rm;
 }
 
-void Chain::recover(std::span<const ElementDofs> dofs, Eigen::VectorXd& x) const {
+void Chain::recover(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
+                    Eigen::VectorXd& x) const {
   for (auto join = joins_.rbegin(); join != joins_.rend(); ++join) {
     const auto& start = dofs[join->first_first].a;
     const Vector3d us(x[start[0]], x[start[1]], x[start[2]]);
     const Vector3d end = x.segment<3>(dofs[join->second_last].m);
-    const Vector3d free = join->c1 - join->X * us;
-    const Vector3d m = join->M * (join->c2 - join->X2.transpose() * end - join->K2 * free);
+    const CondensedElement& second = elements[join->second_first];
+    const Vector3d free = second.rm - join->X * us;
+    const Vector3d m = join->M * (second.ra - join->X2.transpose() * end - join->K2 * free);
     const Vector3d u = free + join->F * m;
     const ElementDofs& node = dofs[join->second_first];
     for (int c = 0; c < 3; ++c) x[node.a[c]] = u[c];

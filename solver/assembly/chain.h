@@ -3,8 +3,6 @@
 /// Elimination of the nodes inside a member, in mixed form.
 
 #include <Eigen/Core>
-#include <array>
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -36,12 +34,14 @@ class Chain {
   /// @brief Eliminates all inner nodes of `elements` (one member, in order, not empty).
   void factorise(std::span<const CondensedElement> elements);
   /// @brief Right-hand side at the ends (ends().ra, ends().rm), from the elements' ra, rm and the node rows
-  /// of `rhs`.
-  void reduce(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
+  /// of `rhs`. The elements' ra, rm become what recover() needs: no vectors are kept for it.
+  void reduce(std::span<CondensedElement> elements, std::span<const ElementDofs> dofs,
               const Eigen::VectorXd& rhs);
   /// @brief Writes the solution at the inner nodes and the multipliers into `x`, which holds it already at
   /// the start (first element's a) and in the last element's multiplier.
-  void recover(std::span<const ElementDofs> dofs, Eigen::VectorXd& x) const;
+  /// @param elements as reduce() left them
+  void recover(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
+               Eigen::VectorXd& x) const;
 
   [[nodiscard]] const CondensedElement& ends() const { return ends_; }
 
@@ -49,14 +49,13 @@ class Chain {
   /// A run of elements.
   struct Run {
     Eigen::Matrix3d K, X, F;
-    std::size_t first = 0, last = 0;
+    int first = 0, last = 0;
   };
   /// The join of two runs at the start of element `second_first`.
   struct Join {
-    std::size_t first_first = 0, second_first = 0, second_last = 0;
+    int first_first = 0, second_first = 0, second_last = 0;
     Eigen::Matrix3d X, F, M;  ///< of the first run, and of the pivot
     Eigen::Matrix3d K2, X2;   ///< of the second run
-    Eigen::Vector3d c1, c2;
   };
   /// Pivot I + K' F of a join with its inverse.
   struct Pivot {
@@ -69,7 +68,6 @@ class Chain {
   void join_next(Run& all, std::span<const CondensedElement> elements);
 
   std::vector<Join> joins_;
-  std::vector<std::array<Eigen::Vector3d, 2>> rhs_;  ///< (ra, rm) of the run that starts at each element
   CondensedElement ends_;
 };
 

@@ -242,7 +242,8 @@ void StructuralProblem::solve_symmetric(VectorXd& x) {
     const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
     const auto count = static_cast<std::size_t>(structure_.mesh.first[m + 1]) - first;
     x.segment<3>(structure_.dofs[first + count - 1].m) = rhs.segment<3>(multiplier(m));
-    chains_[m].recover(std::span(structure_.dofs).subspan(first, count), x);
+    chains_[m].recover(std::span(condensed_).subspan(first, count),
+                       std::span(structure_.dofs).subspan(first, count), x);
   }
   structure_.elements->recover(x);
 }

@@ -3,8 +3,10 @@
 /// L D L^T of a small symmetric matrix together with six columns beside it, of fixed size and without heap.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace snapthrough {
 
@@ -12,8 +14,11 @@ namespace snapthrough {
 inline constexpr int kBlock = 4;
 [[nodiscard]] constexpr int padded(int n) { return (n + kBlock - 1) / kBlock * kBlock; }
 
-using Block = Eigen::Map<Eigen::Array<double, kBlock, 1>, Eigen::Aligned32>;
-using ConstBlock = Eigen::Map<const Eigen::Array<double, kBlock, 1>, Eigen::Aligned32>;
+using Lanes = Eigen::Array<double, kBlock, 1>;
+using Block = Eigen::Map<Lanes, Eigen::Aligned32>;
+using ConstBlock = Eigen::Map<const Lanes, Eigen::Aligned32>;
+
+inline void store(const Lanes& lanes, double* to) { Block{to} = lanes; }
 
 /// y -= f x over the blocks from the one that holds `first` on.
 /// @pre y and x aligned to 32 bytes, `Width` whole blocks
@@ -25,70 +30,116 @@ inline void subtract_scaled(double* y, const double* x, double f, int first) {
 /// x.y over the blocks from the one that holds `first` on.
 template <int Width>
 [[nodiscard]] inline double dot_from(const double* x, const double* y, int first) {
-  Eigen::Array<double, kBlock, 1> sum = Eigen::Array<double, kBlock, 1>::Zero();
+  Lanes sum = Lanes::Zero();
   for (int b = first / kBlock * kBlock; b < Width; b += kBlock) sum += ConstBlock(x + b) * ConstBlock(y + b);
   return sum.sum();
 }
 
-/// @brief [S B] reduced to [D L^T  L^-1 B] for S = L D L^T of up to Max rows, and B of six columns.
+/// @brief The upper triangle of a symmetric matrix of N rows and six more, by rows of whole blocks.
 ///
-/// Row i of the input holds S_ij for j > i, then B, the diagonal is kept apart, and factors have zeros left
-/// of it. So every inner loop runs over whole blocks. The sums are those of outer products, which have no
-/// chain of dependent additions.
-template <int Max>
-class AugmentedFactor {
- public:
+/// What is left of the diagonal within its block is arbitrary, what is beyond the last column zero.
+template <int N>
+struct AugmentedMatrix {
   static constexpr int kSides = 6;
-  static constexpr int kStride = padded(Max + kSides);
+  static constexpr int kRows = N + kSides;
+  static constexpr int kWidth = padded(kRows);
 
-  /// Starts a row: all zero.
-  double* row(int i) { return rows_[i].data(); }
-  void clear_row(int i) { rows_[i].fill(0.0); }
-  double& diagonal(int i) { return pivots_[i]; }
+  alignas(32) std::array<std::array<double, kWidth>, kRows> rows;
 
-  /// @brief Factorises the first N rows; pivots of exactly zero become tiny.
-  /// @param schur B^T S^-1 B, 6 x 6
-  template <int N>
-  void factorise(Eigen::Matrix<double, kSides, kSides>& schur) {
-    constexpr int width = padded(N + kSides);
-    schur.setZero();
-    for (int k = 0; k < N; ++k) {
-      double* top = rows_[k].data();
-      for (int j = k / kBlock * kBlock; j <= k; ++j) top[j] = 0.0;  // whole blocks reached it from above
-      if (pivots_[k] == 0.0) pivots_[k] = 1e-300;
-      const double inverse = 1.0 / pivots_[k];
-      inverses_[k] = inverse;
-      for (int i = k + 1; i < N; ++i) {
-        const double f = top[i] * inverse;
-        pivots_[i] -= f * top[i];
-        subtract_scaled<width>(rows_[i].data(), top, f, i);
-      }
-      const double* side = top + N;
-      for (int c = 0; c < kSides; ++c)
-        for (int r = 0; r < kSides; ++r) schur(r, c) += inverse * side[c] * side[r];
-    }
+  double& operator()(int i, int j) { return rows[i][j]; }
+  double operator()(int i, int j) const { return rows[i][j]; }
+  void set_zero() {
+    for (auto& row : rows) row.fill(0.0);
   }
-  [[nodiscard]] double pivot(int i) const { return pivots_[i]; }
-
-  /// @brief x := L^-1 x in its first N entries; the six that follow become -B^T S^-1 x.
-  /// @pre x aligned, kStride long, zero from entry N on
-  template <int N>
-  void forward(double* x) const {
-    for (int k = 0; k < N; ++k)
-      subtract_scaled<padded(N + kSides)>(x, rows_[k].data(), inverses_[k] * x[k], k + 1);
-  }
-  /// @brief y := S^-1 (r - B sides) from x = L^-1 r; y holds `sides` in the six entries after its first N.
-  /// @pre y aligned, kStride long, zero but for the sides
-  template <int N>
-  void backward(const double* x, double* y) const {
-    for (int k = N - 1; k >= 0; --k)
-      y[k] = (x[k] - dot_from<padded(N + kSides)>(rows_[k].data(), y, k + 1)) * inverses_[k];
+  /// A vector as long as a row, and what its square is multiplied by.
+  struct Weighted {
+    alignas(32) std::array<double, kWidth> x;
+    double weight;
+  };
+  /// @brief Adds sum_k weight_k x_k x_k^T to the rows from `First` on.
+  template <int First>
+  void add_squares(const Weighted* x, std::size_t count) {
+    add_squares_from<First>(x, count, std::make_integer_sequence<int, kWidth / kBlock>());
   }
 
  private:
-  alignas(32) std::array<std::array<double, kStride>, Max> rows_{};
-  std::array<double, Max> pivots_{};
-  std::array<double, Max> inverses_{};
+  template <int First, int... R>
+  void add_squares_from(const Weighted* x, std::size_t count, std::integer_sequence<int, R...>) {
+    (add_squares_to_block<First, R>(x, count), ...);
+  }
+  /// Block row R: what is added to one row stays in registers.
+  template <int First, int R>
+  void add_squares_to_block(const Weighted* x, std::size_t count) {
+    constexpr int blocks = kWidth / kBlock - R;
+    constexpr int begin = std::max(First, kBlock * R);
+    for (int i = begin; i < std::min(kBlock * (R + 1), kRows); ++i) {
+      std::array<Lanes, blocks> sum;
+      for (int b = 0; b < blocks; ++b) sum[b] = Block(&rows[i][kBlock * (R + b)]);
+      for (std::size_t k = 0; k < count; ++k) {
+        const double f = x[k].weight * x[k].x[i];
+        for (int b = 0; b < blocks; ++b) sum[b] += f * ConstBlock(&x[k].x[kBlock * (R + b)]);
+      }
+      for (int b = 0; b < blocks; ++b) store(sum[b], &rows[i][kBlock * (R + b)]);
+    }
+  }
+};
+
+/// @brief [S B] reduced to [D L^T  L^-1 B] for S = L D L^T of N rows, and B of six columns.
+///
+/// Rows have zeros up to and on the diagonal, so that every inner loop runs over whole blocks.
+template <int N>
+class AugmentedFactor {
+ public:
+  using Matrix = AugmentedMatrix<N>;
+  static constexpr int kWidth = Matrix::kWidth;
+
+  /// @brief Eliminates the first N rows of `a` = [S B; B^T C]; pivots of exactly zero become tiny.
+  ///
+  /// Row by row, each with all pivots above it, so that a row stays in registers. On return the last six rows
+  /// of `a` hold the upper triangle of C - B^T S^-1 B.
+  /// @param pivots the diagonal of D
+  void factorise(Matrix& a, std::array<double, N>& pivots) {
+    factorise_blocks(a, pivots, std::make_integer_sequence<int, kWidth / kBlock>());
+  }
+
+  /// @brief x := L^-1 x in its first N entries; the six that follow become -B^T S^-1 x.
+  /// @pre x aligned, kWidth long, zero from entry N on
+  void forward(double* x) const {
+    for (int k = 0; k < N; ++k) subtract_scaled<kWidth>(x, rows_[k].data(), inverses_[k] * x[k], k + 1);
+  }
+  /// @brief y := S^-1 (r - B sides) from x = L^-1 r; y holds `sides` in the six entries after its first N.
+  /// @pre y aligned, kWidth long, zero but for the sides
+  void backward(const double* x, double* y) const {
+    for (int k = N - 1; k >= 0; --k)
+      y[k] = (x[k] - dot_from<kWidth>(rows_[k].data(), y, k + 1)) * inverses_[k];
+  }
+
+ private:
+  template <int... R>
+  void factorise_blocks(Matrix& a, std::array<double, N>& pivots, std::integer_sequence<int, R...>) {
+    (factorise_block<R>(a, pivots), ...);
+  }
+  template <int R>
+  void factorise_block(Matrix& a, std::array<double, N>& pivots) {
+    constexpr int blocks = kWidth / kBlock - R;
+    for (int i = kBlock * R; i < std::min(kBlock * (R + 1), Matrix::kRows); ++i) {
+      std::array<Lanes, blocks> row;
+      for (int b = 0; b < blocks; ++b) row[b] = ConstBlock(&a.rows[i][kBlock * (R + b)]);
+      for (int k = 0; k < std::min(i, N); ++k) {
+        const double f = inverses_[k] * rows_[k][i];
+        for (int b = 0; b < blocks; ++b) row[b] -= f * ConstBlock(&rows_[k][kBlock * (R + b)]);
+      }
+      double* out = i < N ? rows_[i].data() : a.rows[i].data();
+      for (int b = 0; b < blocks; ++b) store(row[b], out + kBlock * (R + b));
+      if (i >= N) continue;
+      pivots[i] = out[i] == 0.0 ? 1e-300 : out[i];
+      inverses_[i] = 1.0 / pivots[i];
+      for (int j = kBlock * R; j <= i; ++j) out[j] = 0.0;
+    }
+  }
+
+  alignas(32) std::array<std::array<double, kWidth>, N> rows_{};
+  std::array<double, N> inverses_{};
 };
 
 }  // namespace snapthrough

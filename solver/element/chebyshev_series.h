@@ -2,6 +2,7 @@
 /// @file
 /// A smooth function on an interval from its values at Chebyshev's points.
 
+#include <Eigen/Core>
 #include <array>
 #include <span>
 
@@ -19,17 +20,20 @@ class ChebyshevSeries {
   explicit ChebyshevSeries(std::span<const double> values);
 
   [[nodiscard]] double value(double xi) const { return sum(coefficients_, xi); }
+  /// At four places at once.
+  [[nodiscard]] Eigen::Array4d values(const Eigen::Array4d& xi) const { return sum(coefficients_, xi); }
   [[nodiscard]] double slope(double xi) const { return sum(slopes_, xi); }
 
  private:
   using Coefficients = std::array<double, kMostPoints>;
   /// Clenshaw's recurrence.
-  [[nodiscard]] double sum(const Coefficients& c, double xi) const {
-    const double t = 2.0 * xi - 1.0;
-    double b1 = 0.0;
-    double b2 = 0.0;
+  template <class Real>
+  [[nodiscard]] Real sum(const Coefficients& c, const Real& xi) const {
+    const Real t = 2.0 * xi - 1.0;
+    Real b1 = 0.0 * xi;
+    Real b2 = b1;
     for (int k = size_ - 1; k > 0; --k) {
-      const double b = c[k] - b2 + 2.0 * t * b1;
+      const Real b = c[k] - b2 + 2.0 * t * b1;
       b2 = b1;
       b1 = b;
     }

@@ -25,20 +25,19 @@ ContactStrip::ContactStrip(int order, Direction direction, std::array<double, 2>
       modulus_(modulus),
       gap_(gap),
       foundation_(foundation) {
-  const int count = std::max(2 * order + 3, direction_.axis ? kLeastSamples : 0);
-  for (int i = 0; i < count; ++i) {
-    const double z = 0.5 - 0.5 * std::cos(std::numbers::pi * i / (count - 1));
-    samples_.push_back(sample_at(i + 1 == count ? range_[1] : range_[0] + z * (range_[1] - range_[0])));
-    samples_.back().z = i + 1 == count ? 1.0 : z;
+  count_ = std::max(2 * order + 3, direction_.axis ? kLeastSamples : 0);
+  blocks_ = (count_ + kLanes - 1) / kLanes;
+  samples_.assign(static_cast<std::size_t>(blocks_) * (2 + order), Lanes::Zero());
+  for (int i = 0; i < count_; ++i) {
+    z_[i] = i + 1 == count_ ? 1.0 : 0.5 - 0.5 * std::cos(std::numbers::pi * i / (count_ - 1));
+    const double xi = i + 1 == count_ ? range_[1] : range_[0] + z_[i] * (range_[1] - range_[0]);
+    std::array<double, kMaxOrder> a{};
+    rule_->integrals_at(xi, std::span(a).first(order));
+    Lanes* block = &samples_[static_cast<std::size_t>(i / kLanes) * (2 + order)];
+    const auto d = direction_at(xi);
+    for (int c = 0; c < 2; ++c) block[c][i % kLanes] = d[c];
+    for (int r = 0; r < order; ++r) block[2 + r][i % kLanes] = a[r];
   }
-}
-
-ContactStrip::Sample ContactStrip::sample_at(double xi) const {
-  Sample out;
-  out.xi = xi;
-  out.direction = direction_at(xi);
-  rule_->integrals_at(xi, std::span(out.a).first(rule_->order()));
-  return out;
 }
 
 ContactStrip ContactStrip::with_gap(double gap) const {
@@ -122,7 +121,7 @@ Place dip_between(const ChebyshevSeries& gap, Place left, Place right) {
 
 /// Tells `cross(place, whether contact begins there)` of the changes of sign between two places.
 template <class Cross>
-void search_cell(const ChebyshevSeries& gap, const Place& left, const Place& right, const Cross& cross) {
+void search_part(const ChebyshevSeries& gap, const Place& left, const Place& right, const Cross& cross) {
   const bool inside = left.g > 0.0;
   if (inside != (right.g > 0.0)) {
     cross(root_between(gap, left, right), !inside);
@@ -134,24 +133,59 @@ void search_cell(const ChebyshevSeries& gap, const Place& left, const Place& rig
   cross(root_between(gap, dip, right), inside);
 }
 
+/// Whether g may change its sign between two places, because it is no further from zero than it moves there
+/// or next to there.
+bool may_cross(double left, double right, double movement) {
+  return (left > 0.0) != (right > 0.0) || std::min(std::abs(left), std::abs(right)) <= movement;
+}
+
+/// As search_part, between two samples, where zones smaller than the sampling may begin and end.
+/// @param before, after how far g moves on the parts next to these ends
+template <class Cross>
+void search_cell(const ChebyshevSeries& gap, const Place& left, const Place& right, double before,
+                 double after, const Cross& cross) {
+  constexpr int kParts = 4;
+  const double width = right.z - left.z;
+  const Eigen::Array4d z =
+      left.z + width * Eigen::Array4d(1.0 / kParts, 2.0 / kParts, 3.0 / kParts, 4.0 / kParts);
+  const Eigen::Array4d inner = gap.values(z);
+  std::array<Place, kParts + 1> places{left, Place{z[0], inner[0]}, Place{z[1], inner[1]},
+                                       Place{z[2], inner[2]}, right};
+  std::array<double, kParts + 2> moves{before};
+  for (int i = 0; i < kParts; ++i) moves[i + 1] = std::abs(places[i + 1].g - places[i].g);
+  moves[kParts + 1] = after;
+  for (int i = 0; i < kParts; ++i)
+    if (may_cross(places[i].g, places[i + 1].g, std::max({moves[i], moves[i + 1], moves[i + 2]})))
+      search_part(gap, places[i], places[i + 1], cross);
+}
+
 }  // namespace
+
+/// g at the samples, over another gap.
+void ContactStrip::penetrations(std::array<double, 2> ua, std::span<const double> dx,
+                                std::span<const double> dy, double gap, Values& g) const {
+  const std::size_t p = dx.size();
+  for (int b = 0; b < blocks_; ++b) {
+    const Lanes* block = &samples_[static_cast<std::size_t>(b) * (2 + p)];
+    Lanes ux = Lanes::Constant(ua[0]);
+    Lanes uy = Lanes::Constant(ua[1]);
+    for (std::size_t r = 0; r < p; ++r) {
+      ux += dx[r] * block[2 + r];
+      uy += dy[r] * block[2 + r];
+    }
+    const Lanes values = ux * block[0] + uy * block[1] - gap;
+    for (int i = 0; i < kLanes; ++i) g[kLanes * b + i] = values[i];
+  }
+}
 
 void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
                                      std::span<const double> dy, std::vector<Interval>& out,
                                      double depth) const {
+  constexpr double kParts = 4.0;  // of a cell, in search_cell
   out.clear();
-  std::array<double, ChebyshevSeries::kMostPoints> g{};
-  const std::size_t n = samples_.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Sample& sample = samples_[i];
-    double ux = ua[0];
-    double uy = ua[1];
-    for (std::size_t r = 0; r < dx.size(); ++r) {
-      ux += sample.a[r] * dx[r];
-      uy += sample.a[r] * dy[r];
-    }
-    g[i] = ux * sample.direction[0] + uy * sample.direction[1] - gap_ - depth;
-  }
+  Values g;
+  penetrations(ua, dx, dy, gap_ + depth, g);
+  const int n = count_;
   const double length = range_[1] - range_[0];
   double from = range_[0];
   const auto cross = [&](double z, bool entering) {
@@ -159,28 +193,17 @@ void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const d
     if (entering) from = at;
     if (!entering && at > from) out.push_back({from, at});
   };
-  std::array<double, ChebyshevSeries::kMostPoints> rate{};
-  for (std::size_t i = 0; i + 1 < n; ++i)
-    rate[i] = std::abs(g[i + 1] - g[i]) / (samples_[i + 1].z - samples_[i].z);
+  Values rate;  // of the cell before sample i
+  rate[0] = 0.0;
+  for (int i = 1; i < n; ++i) rate[i] = std::abs(g[i] - g[i - 1]) / (z_[i] - z_[i - 1]);
+  rate[n] = 0.0;
   std::optional<ChebyshevSeries> gap;  // the samples are Chebyshev's points: so no other places are needed
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double width = samples_[i + 1].z - samples_[i].z;
-    const double steepest = std::max({i > 0 ? rate[i - 1] : 0.0, rate[i], rate[i + 1]});
-    if ((g[i] > 0.0) == (g[i + 1] > 0.0) && std::min(std::abs(g[i]), std::abs(g[i + 1])) > steepest * width)
-      continue;
+  for (int i = 0; i + 1 < n; ++i) {
+    const double width = z_[i + 1] - z_[i];
+    if (!may_cross(g[i], g[i + 1], width * std::max({rate[i], rate[i + 1], rate[i + 2]}))) continue;
     if (!gap) gap.emplace(std::span<const double>(g).first(n));
-    // zones smaller than the sampling may begin and end here
-    constexpr int kParts = 4;
-    Place left{samples_[i].z, g[i]};
-    for (int part = 1; part <= kParts; ++part) {
-      Place right{samples_[i + 1].z, g[i + 1]};
-      if (part < kParts) {
-        right.z = samples_[i].z + width * part / kParts;
-        right.g = gap->value(right.z);
-      }
-      search_cell(*gap, left, right, cross);
-      left = right;
-    }
+    search_cell(*gap, Place{z_[i], g[i]}, Place{z_[i + 1], g[i + 1]}, rate[i] * width / kParts,
+                rate[i + 2] * width / kParts, cross);
   }
   if (g[n - 1] > 0.0) out.push_back({from, range_[1]});
 }

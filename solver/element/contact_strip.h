@@ -2,12 +2,14 @@
 /// @file
 /// The part of a one-sided base that lies on one element.
 
+#include <Eigen/Core>
 #include <array>
 #include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "solver/element/chebyshev_series.h"
 #include "solver/element/gauss_rule.h"
 #include "solver/model/axis_curve.h"
 
@@ -55,13 +57,14 @@ class ContactStrip {
                          std::vector<Interval>& out, double depth = 0.0) const;
 
  private:
-  struct Sample {
-    double z = 0.0;   ///< in the range, from 0 to 1
-    double xi = 0.0;  ///< in the element
-    std::array<double, 2> direction{};
-    std::array<double, kMaxOrder> a{};
-  };
-  [[nodiscard]] Sample sample_at(double xi) const;
+  /// Something at four of the samples; lanes beyond the last sample are zero.
+  using Lanes = Eigen::Array4d;
+  static constexpr int kLanes = 4;
+  static constexpr int kMostBlocks = (ChebyshevSeries::kMostPoints + kLanes - 1) / kLanes;
+  using Values = std::array<double, kLanes * kMostBlocks>;
+
+  void penetrations(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                    double gap, Values& g) const;
 
   const CollocationRule* rule_;
   Direction direction_;
@@ -69,7 +72,10 @@ class ContactStrip {
   double modulus_;
   double gap_;
   int foundation_;
-  std::vector<Sample> samples_;
+  int count_ = 0;               ///< samples: Chebyshev's points of the range
+  int blocks_ = 0;              ///< of them
+  Values z_{};                  ///< in the range, from 0 to 1
+  std::vector<Lanes> samples_;  ///< a block after the other: direction x and y, then A_r for every r
 };
 
 }  // namespace snapthrough

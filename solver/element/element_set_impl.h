@@ -40,7 +40,7 @@ class ElementSetOf final : public ElementSet {
   void reserve(int elements) override {
     shapes_.reserve(elements);
     dofs_.reserve(elements);
-    factors_.reserve(elements);
+    tangents_.reserve(elements);
   }
   void add(const ElementShape& shape, const ElementDofs& dofs) override;
   void add_station(const Station& station) override;
@@ -72,20 +72,18 @@ class ElementSetOf final : public ElementSet {
   static constexpr int kZeta = 3 * P + 3;
   using Gauss = std::array<double, P>;
   static constexpr int kRow = padded(kZeta);  ///< whole blocks; what is beyond kZeta is zero
-  using ZetaMatrix = Eigen::Matrix<double, kRow, kRow, Eigen::RowMajor>;
   using ZetaVector = Eigen::Matrix<double, kRow, 1>;
-  using EndRows = Eigen::Matrix<double, 3, kRow, Eigen::RowMajor>;
-  using Interior = AugmentedFactor<kStrains>;
 
   struct Shape {
     double h = 0.0;
     bool shearable = false;
-    Gauss angle{}, cos0{}, sin0{}, tx{}, ty{}, e0{}, g0{}, hb{};
+    Gauss cos0{}, sin0{}, tx{}, ty{}, e0{}, g0{}, hb{};
     std::array<double, kStrains> compliance{};
     std::array<double, kStrains> root{};  ///< sqrt of the compliance
     int first_station = 0, station_count = 0;
     int first_strip = 0, strip_count = 0;
     double pressure = 0.0, constant_pressure = 0.0;  ///< along the deformed right normal
+    int factor = 0;                                  ///< in stiff_ or in shearable_
   };
   struct Functional {
     double stiffness = 0.0;
@@ -98,13 +96,23 @@ class ElementSetOf final : public ElementSet {
   struct Kinematics {
     Gauss c, s, xp, yp, E, G, px, py;
   };
-  /// What solve needs of the last linearisation. Interior unknowns y: strains in the order e, (g,) k.
-  struct Factor {
-    Kinematics kin;
-    ZetaMatrix H;       ///< symmetric
-    EndRows U;          ///< rows of u_b
-    Interior interior;  ///< of S, with the columns of (u_a, m) beside it
-    alignas(32) std::array<double, Interior::kStride> reduced{};  ///< L^-1 times the last right-hand side
+  /// What solve needs of the last linearisation: H as it is made, not its entries.
+  struct Tangent {
+    Gauss c, s, px, py;
+    Gauss n, t, w;                     ///< h b_q times N, Q and N E + Q G; zero for small displacements
+    int first_row = 0, row_count = 0;  ///< of supports and pressure, in rows_
+  };
+  /// stiffness (row.zeta)^2 / 2 is part of the energy's second variation.
+  struct StrainRow {
+    ZetaVector row;
+    double stiffness = 0.0;
+  };
+  /// An element's interior y of N active strains, in the order e, (g,) k, with the columns of (u_a, m)
+  /// beside.
+  template <int N>
+  struct Interior {
+    AugmentedFactor<N> factor;                                             ///< of S
+    alignas(32) std::array<double, AugmentedFactor<N>::kWidth> reduced{};  ///< L^-1 times the last rhs
   };
 
   [[nodiscard]] Kinematics kinematics(const Shape& shape, const ElementDofs& dofs, const double* y) const;
@@ -117,34 +125,39 @@ class ElementSetOf final : public ElementSet {
   [[nodiscard]] Functional functional_at(const ContactStrip& strip, double h, double xi) const;
   void add_interval(std::size_t index, const Shape& shape, const ContactStrip::Interval& interval,
                     double modulus, double gap);
-  void add_support_tangent(const Shape& shape, Factor& f);
   [[nodiscard]] double value(const Functional& f, const ElementDofs& dofs, const double* y) const;
-  void to_strain_row(const Functional& f, const Shape& shape, const Kinematics& kin, ZetaVector& row) const;
-  void add_geometric(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
-                     ZetaMatrix& H) const;
+  void to_strain_row(const Functional& f, const Shape& shape, const Tangent& t, ZetaVector& row) const;
+  template <int N>
+  void add_end_columns(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const;
+  template <int N>
+  void add_geometric(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const;
+  template <int N>
+  void add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S);
+  void collect_rows(int element, const Kinematics& kin, const double* y, double* residual);
   [[nodiscard]] double pressure_of(const Shape& shape) const {
     return proportional_ * shape.pressure + constant_ * shape.constant_pressure;
   }
   void add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, double pressure,
                     const double* y, double* load) const;
-  void add_pressure_tangent(const Shape& shape, const Kinematics& kin, double pressure, ZetaMatrix& H) const;
+  void collect_pressure(const Shape& shape, double pressure);
   void add_pressure_product(const Shape& shape, const ElementDofs& dofs, double pressure,
                             const double* direction, double* out) const;
   [[nodiscard]] bool acts(const Functional& f, std::size_t station, const ElementDofs& dofs,
                           const double* y) const;
-  void end_rows(const Shape& shape, const Kinematics& kin, EndRows& U) const;
-  void assemble(int element, const double* y, double* residual);
-  void eliminate(int element, CondensedElement& out);
   template <int N>
-  void eliminate_interior(const Shape& shape, Factor& f, CondensedElement& out) const;
+  void linearise_element(int element, const double* y, double* residual, Interior<N>& interior,
+                         CondensedElement& out);
   template <int N>
-  void recover_strains(const Shape& shape, const Factor& f, const Eigen::Matrix<double, 6, 1>& ends,
-                       ZetaVector& zeta, double* stress) const;
+  void reduce_element(int element, const double* rhs, Interior<N>& interior, CondensedElement& out) const;
+  template <int N>
+  void recover_element(int element, const Interior<N>& interior, double* x) const;
+  void subtract_strains(const Shape& shape, const Tangent& t, const ZetaVector& d, ZetaVector& tau,
+                        Eigen::Vector3d& rm) const;
   /// Active index i of S to its position in zeta.
-  [[nodiscard]] static int active(bool shearable, int i) { return shearable || i < P ? i : i + P; }
-  [[nodiscard]] static int active_count(bool shearable) { return shearable ? 3 * P : 2 * P; }
-  void strain_rhs(const Shape& shape, const Factor& f, const ElementDofs& dofs, const double* rhs,
-                  ZetaVector& tau, Eigen::Matrix<double, kStrains, 1>& d) const;
+  template <int N>
+  [[nodiscard]] static constexpr int active(int i) {
+    return N == kStrains || i < P ? i : i + P;
+  }
 
   const CollocationRule* rule_;
   Gauss b_{};
@@ -164,13 +177,17 @@ class ElementSetOf final : public ElementSet {
   Quadrature strip_quadrature_;
   std::vector<Shape> shapes_;
   std::vector<ElementDofs> dofs_;
-  std::vector<Factor> factors_;
+  std::vector<Tangent> tangents_;
+  std::vector<StrainRow> rows_;         ///< of all elements, from the last linearisation
+  std::vector<Interior<2 * P>> stiff_;  ///< of unshearable elements
+  std::vector<Interior<3 * P>> shearable_;
   std::vector<Functional> stations_;
   std::vector<ContactStrip> strips_;
   std::vector<std::vector<Functional>> whole_strips_;  ///< Gauss points of each strip's whole range
   // scratch
   std::vector<Functional> acting_;  ///< supports of the current element that act
-  std::vector<ZetaVector> rows_;    ///< of them, in strains
+  std::vector<typename AugmentedMatrix<2 * P>::Weighted> stiff_rows_;  ///< of the current element, scaled
+  std::vector<typename AugmentedMatrix<3 * P>::Weighted> shearable_rows_;
   std::vector<ContactStrip::Interval> intervals_;
 };
 
@@ -188,7 +205,6 @@ void ElementSetOf<P>::add(const ElementShape& in, const ElementDofs& dofs) {
   Shape shape;
   shape.h = in.length;
   for (int q = 0; q < P; ++q) {
-    shape.angle[q] = in.angle[q];
     shape.cos0[q] = std::cos(in.angle[q]);
     shape.sin0[q] = std::sin(in.angle[q]);
     shape.tx[q] = in.t[q][0];
@@ -204,9 +220,14 @@ void ElementSetOf<P>::add(const ElementShape& in, const ElementDofs& dofs) {
   for (int i = 0; i < kStrains; ++i) shape.root[i] = std::sqrt(shape.compliance[i]);
   shape.first_station = static_cast<int>(stations_.size());
   shape.first_strip = static_cast<int>(strips_.size());
+  shape.factor = static_cast<int>(shape.shearable ? shearable_.size() : stiff_.size());
+  if (shape.shearable)
+    shearable_.emplace_back();
+  else
+    stiff_.emplace_back();
   shapes_.push_back(shape);
   dofs_.push_back(dofs);
-  factors_.emplace_back();
+  tangents_.emplace_back();
 }
 
 /// Stations and strips belong to the element added last, so that each element's are contiguous.
@@ -315,135 +336,176 @@ double ElementSetOf<P>::value(const Functional& f, const ElementDofs& dofs, cons
 }
 
 template <int P>
-void ElementSetOf<P>::to_strain_row(const Functional& f, const Shape& shape, const Kinematics& kin,
+void ElementSetOf<P>::to_strain_row(const Functional& f, const Shape& shape, const Tangent& t,
                                     ZetaVector& row) const {
+  Gauss turn;
+  Gauss bend = f.v[2];
   double turn_a = f.a[2];
-  for (int r = 0; r < P; ++r) row[2 * P + r] = f.v[2][r];
   for (int q = 0; q < P; ++q) {
     const double vx = f.v[0][q];
     const double vy = f.v[1][q];
-    row[q] = vx * kin.c[q] + vy * kin.s[q];
-    row[P + q] = -vx * kin.s[q] + vy * kin.c[q];
-    const double turn = vx * kin.px[q] + vy * kin.py[q];
-    turn_a += turn;
-    for (int r = 0; r < P; ++r) row[2 * P + r] += turn * shape.h * a_[q][r];
+    row[q] = vx * t.c[q] + vy * t.s[q];
+    row[P + q] = -vx * t.s[q] + vy * t.c[q];
+    turn[q] = vx * t.px[q] + vy * t.py[q];
+    turn_a += turn[q];
+    turn[q] *= shape.h;
   }
+  for (int q = 0; q < P; ++q)
+    for (int r = 0; r < P; ++r) bend[r] += turn[q] * a_[q][r];
+  for (int r = 0; r < P; ++r) row[2 * P + r] = bend[r];
   row[3 * P] = f.a[0];
   row[3 * P + 1] = f.a[1];
   row[3 * P + 2] = turn_a;
   for (int i = kZeta; i < kRow; ++i) row[i] = 0.0;
 }
 
-/// Adds the upper triangle.
-template <int P>
-void ElementSetOf<P>::add_geometric(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
-                                    const double* y, ZetaMatrix& H) const {
-  const double* s = y + dofs.s;
-  constexpr int T = 3 * P + 2;  // rotation at the start
-  for (int q = 0; q < P; ++q) {
-    const double n = shape.hb[q] * s[q];
-    const double t = shape.hb[q] * s[P + q];
-    const double w = n * kin.E[q] + t * kin.G[q];
-    H(P + q, T) += n;
-    H(q, T) -= t;
-    H(T, T) += w;
-    double ha[P];
-    for (int r = 0; r < P; ++r) ha[r] = shape.h * a_[q][r];
-    for (int r = 0; r < P; ++r) {
-      const int k = 2 * P + r;
-      H(P + q, k) += n * ha[r];
-      H(q, k) -= t * ha[r];
-      H(k, T) += w * ha[r];
-      for (int u = 0; u < P; ++u) H(k, 2 * P + u) += w * ha[r] * ha[u];
-    }
-  }
-}
-
-template <int P>
-void ElementSetOf<P>::end_rows(const Shape& shape, const Kinematics& kin, EndRows& U) const {
-  U.setZero();
-  for (int q = 0; q < P; ++q) {
-    const double hb = shape.hb[q];
-    U(0, q) = hb * kin.c[q];
-    U(0, P + q) = -hb * kin.s[q];
-    U(1, q) = hb * kin.s[q];
-    U(1, P + q) = hb * kin.c[q];
-    U(2, 2 * P + q) = hb;
-    U(0, 3 * P + 2) += hb * kin.px[q];
-    U(1, 3 * P + 2) += hb * kin.py[q];
-    for (int r = 0; r < P; ++r) {
-      U(0, 2 * P + r) += hb * kin.px[q] * shape.h * a_[q][r];
-      U(1, 2 * P + r) += hb * kin.py[q] * shape.h * a_[q][r];
-    }
-  }
-  for (int c = 0; c < 3; ++c) U(c, 3 * P + c) = 1.0;
-}
-
-template <int P>
-void ElementSetOf<P>::assemble(int element, const double* y, double* residual) {
-  const Shape& shape = shapes_[element];
-  const ElementDofs& dofs = dofs_[element];
-  Factor& f = factors_[element];
-  f.kin = kinematics(shape, dofs, y);
-  add_strain_residual(shape, dofs, f.kin, y, residual);
-  f.H.setZero();
-  if (!linear_) add_geometric(shape, dofs, f.kin, y, f.H);
-  if (const double pressure = pressure_of(shape); pressure != 0.0) {
-    add_pressure(shape, dofs, f.kin, -pressure, y, residual);
-    if (!linear_) add_pressure_tangent(shape, f.kin, pressure, f.H);
-  }
-  if (shape.station_count > 0 || shape.strip_count > 0) {
-    add_support_residual(element, y, residual, true);
-    add_support_tangent(shape, f);
-  }
-  for (int i = 0; i < kZeta; ++i)
-    for (int j = i + 1; j < kZeta; ++j) f.H(j, i) = f.H(i, j);
-  end_rows(shape, f.kin, f.U);
-}
-
-/// With N = 2 P or 3 P active strains.
+/// The columns of m beside S and u_a: minus the rows of u_b, which are those of an end's displacement.
 template <int P>
 template <int N>
-void ElementSetOf<P>::eliminate_interior(const Shape& shape, Factor& f, CondensedElement& out) const {
-  constexpr bool shearable = N == kStrains;
-  for (int i = 0; i < N; ++i) {
-    const int zi = active(shearable, i);
-    const double root = shape.root[zi];
-    const double* H = f.H.row(zi).data();
-    f.interior.clear_row(i);
-    double* row = f.interior.row(i);
-    f.interior.diagonal(i) = shape.hb[zi % P] + root * H[zi] * root;
-    for (int j = i + 1; j < N; ++j) {
-      const int zj = active(shearable, j);
-      row[j] = root * H[zj] * shape.root[zj];
+void ElementSetOf<P>::add_end_columns(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const {
+  constexpr int K = N - P;  // first curvature
+  constexpr int A = N;      // u_a
+  constexpr int M = N + 3;
+  for (int q = 0; q < P; ++q) {
+    const double e = shape.hb[q] * shape.root[q];
+    S(q, M) = -e * t.c[q];
+    S(q, M + 1) = -e * t.s[q];
+    if constexpr (N == kStrains) {
+      const double g = shape.hb[q] * shape.root[P + q];
+      S(P + q, M) = g * t.s[q];
+      S(P + q, M + 1) = -g * t.c[q];
     }
-    for (int c = 0; c < 3; ++c) {
-      row[N + c] = root * H[3 * P + c];
-      row[N + 3 + c] = -root * f.U(c, zi);
+    S(K + q, M + 2) = -shape.hb[q] * shape.root[2 * P + q];
+  }
+  double x = 0.0;
+  double y = 0.0;
+  Gauss kx{};
+  Gauss ky{};
+  for (int q = 0; q < P; ++q) {
+    const double px = shape.hb[q] * t.px[q];
+    const double py = shape.hb[q] * t.py[q];
+    x += px;
+    y += py;
+    for (int r = 0; r < P; ++r) {
+      kx[r] += px * a_[q][r];
+      ky[r] += py * a_[q][r];
     }
   }
-  Eigen::Matrix<double, 6, 6> schur;
-  f.interior.template factorise<N>(schur);
+  for (int r = 0; r < P; ++r) {
+    const double f = -shape.h * shape.root[2 * P + r];
+    S(K + r, M) = f * kx[r];
+    S(K + r, M + 1) = f * ky[r];
+  }
+  S(A + 2, M) = -x;
+  S(A + 2, M + 1) = -y;
+  for (int c = 0; c < 3; ++c) S(A + c, M + c) = -1.0;
+}
+
+template <int P>
+template <int N>
+void ElementSetOf<P>::add_geometric(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const {
+  constexpr int K = N - P;
+  using Weighted = typename AugmentedMatrix<N>::Weighted;
+  std::array<Weighted, P> turn;  // db_q
+  for (int q = 0; q < P; ++q) {
+    turn[q].x.fill(0.0);
+    turn[q].weight = t.w[q];
+    for (int r = 0; r < P; ++r) turn[q].x[K + r] = shape.h * a_[q][r] * shape.root[2 * P + r];
+    turn[q].x[N + 2] = 1.0;
+    const auto add = [&](int row, double f) {
+      for (int b = K / kBlock * kBlock; b < AugmentedMatrix<N>::kWidth; b += kBlock)
+        store(ConstBlock(&S(row, b)) + f * ConstBlock(&turn[q].x[b]), &S(row, b));
+    };
+    add(q, -t.t[q] * shape.root[q]);
+    if constexpr (N == kStrains) add(P + q, t.n[q] * shape.root[P + q]);
+  }
+  S.template add_squares<K>(turn.data(), P);
+}
+
+/// Adds the rows of supports and pressure, scaled.
+template <int P>
+template <int N>
+void ElementSetOf<P>::add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) {
+  auto& scaled = [this]() -> auto& {
+    if constexpr (N == kStrains)
+      return shearable_rows_;
+    else
+      return stiff_rows_;
+  }
+  ();
+  const auto count = static_cast<std::size_t>(t.row_count);
+  if (scaled.size() < count) scaled.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const StrainRow& in = rows_[t.first_row + k];
+    auto& x = scaled[k].x;
+    scaled[k].weight = in.stiffness;
+    for (int i = 0; i < N; ++i) x[i] = shape.root[active<N>(i)] * in.row[active<N>(i)];
+    for (int c = 0; c < 3; ++c) x[N + c] = in.row[kStrains + c];
+    for (int i = N + 3; i < AugmentedMatrix<N>::kWidth; ++i) x[i] = 0.0;
+  }
+  S.template add_squares<0>(scaled.data(), count);
+}
+
+/// The supports and the pressure that act at y, as rows in strains, and their forces.
+template <int P>
+void ElementSetOf<P>::collect_rows(int element, const Kinematics& kin, const double* y, double* residual) {
+  const Shape& shape = shapes_[element];
+  acting_.clear();
+  if (shape.station_count > 0 || shape.strip_count > 0) add_support_residual(element, y, residual, true);
+  if (const double pressure = pressure_of(shape); pressure != 0.0) {
+    add_pressure(shape, dofs_[element], kin, -pressure, y, residual);
+    if (!linear_) collect_pressure(shape, pressure);
+  }
+  Tangent& t = tangents_[element];
+  t.first_row = static_cast<int>(rows_.size());
+  t.row_count = static_cast<int>(acting_.size());
+  for (const Functional& f : acting_) {
+    StrainRow& out = rows_.emplace_back();
+    to_strain_row(f, shape, t, out.row);
+    out.stiffness = f.stiffness;
+  }
+}
+
+template <int P>
+template <int N>
+void ElementSetOf<P>::linearise_element(int element, const double* y, double* residual, Interior<N>& interior,
+                                        CondensedElement& out) {
+  const Shape& shape = shapes_[element];
+  const ElementDofs& dofs = dofs_[element];
+  const Kinematics kin = kinematics(shape, dofs, y);
+  add_strain_residual(shape, dofs, kin, y, residual);
+  Tangent& t = tangents_[element];
+  t.c = kin.c;
+  t.s = kin.s;
+  t.px = kin.px;
+  t.py = kin.py;
+  for (int q = 0; q < P; ++q) {
+    t.n[q] = linear_ ? 0.0 : shape.hb[q] * y[dofs.s + q];
+    t.t[q] = linear_ ? 0.0 : shape.hb[q] * y[dofs.s + P + q];
+    t.w[q] = t.n[q] * kin.E[q] + t.t[q] * kin.G[q];
+  }
+  collect_rows(element, kin, y, residual);
+  AugmentedMatrix<N> S;
+  S.set_zero();
+  for (int i = 0; i < N; ++i) S(i, i) = shape.hb[i % P];
+  add_end_columns<N>(shape, t, S);
+  if (!linear_) add_geometric<N>(shape, t, S);
+  if (t.row_count > 0) add_rows<N>(shape, t, S);
+  std::array<double, N> pivots;
+  interior.factor.factorise(S, pivots);
   out.negative = 0;
   double det = 1.0;
   for (int i = 0; i < N; ++i) {
-    const double pivot = f.interior.pivot(i);
-    if (pivot < 0.0) ++out.negative;
-    det *= std::abs(pivot) / shape.hb[i % P];
+    if (pivots[i] < 0.0) ++out.negative;
+    det *= std::abs(pivots[i]) / shape.hb[i % P];
   }
   out.log_det = std::log(det);
-  out.K = f.H.template block<3, 3>(kStrains, kStrains) - schur.template topLeftCorner<3, 3>();
-  out.X = -f.U.template block<3, 3>(0, kStrains) - schur.template bottomLeftCorner<3, 3>();
-  out.F = schur.template bottomRightCorner<3, 3>();
-}
-
-template <int P>
-void ElementSetOf<P>::eliminate(int element, CondensedElement& out) {
-  const Shape& shape = shapes_[element];
-  if (shape.shearable)
-    eliminate_interior<3 * P>(shape, factors_[element], out);
-  else
-    eliminate_interior<2 * P>(shape, factors_[element], out);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      out.K(i, j) = S(N + std::min(i, j), N + std::max(i, j));
+      out.X(i, j) = S(N + j, N + 3 + i);
+      out.F(i, j) = -S(N + 3 + std::min(i, j), N + 3 + std::max(i, j));
+    }
 }
 
 template <int P>
@@ -463,71 +525,121 @@ template <int P>
 void ElementSetOf<P>::linearise(const Eigen::VectorXd& y, Eigen::VectorXd& residual,
                                 std::span<CondensedElement> condensed) {
   support_rounding_ = 0.0;
+  rows_.clear();
   for (int e = 0; e < size(); ++e) {
-    assemble(e, y.data(), residual.data());
-    eliminate(e, condensed[e]);
+    const Shape& shape = shapes_[e];
+    if (shape.shearable)
+      linearise_element<3 * P>(e, y.data(), residual.data(), shearable_[shape.factor], condensed[e]);
+    else
+      linearise_element<2 * P>(e, y.data(), residual.data(), stiff_[shape.factor], condensed[e]);
   }
 }
 
-/// tau = interior rows of a right-hand side in the strain basis (the start's entries included), d = strain
-/// rows.
+/// What given strains d leave of the right-hand sides of the strains, tau - H d, and of m, rm + U d.
 template <int P>
-void ElementSetOf<P>::strain_rhs(const Shape& shape, const Factor& f, const ElementDofs& dofs,
-                                 const double* rhs, ZetaVector& tau,
-                                 Eigen::Matrix<double, kStrains, 1>& d) const {
+void ElementSetOf<P>::subtract_strains(const Shape& shape, const Tangent& t, const ZetaVector& d,
+                                       ZetaVector& tau, Eigen::Vector3d& rm) const {
+  for (int q = 0; q < P; ++q) {
+    const double e = d[q];
+    const double g = d[P + q];
+    double b = 0.0;
+    for (int r = 0; r < P; ++r) b += a_[q][r] * d[2 * P + r];
+    b *= shape.h;
+    tau[q] += t.t[q] * b;
+    tau[P + q] -= t.n[q] * b;
+    const double turn = t.n[q] * g - t.t[q] * e + t.w[q] * b;
+    for (int r = 0; r < P; ++r) tau[2 * P + r] -= turn * shape.h * a_[q][r];
+    tau[kStrains + 2] -= turn;
+    rm[0] += shape.hb[q] * (t.c[q] * e - t.s[q] * g + t.px[q] * b);
+    rm[1] += shape.hb[q] * (t.s[q] * e + t.c[q] * g + t.py[q] * b);
+    rm[2] += shape.hb[q] * d[2 * P + q];
+  }
+  for (int k = t.first_row; k < t.first_row + t.row_count; ++k) {
+    const StrainRow& row = rows_[k];
+    subtract_scaled<kRow>(tau.data(), row.row.data(),
+                          row.stiffness * dot_from<kRow>(row.row.data(), d.data(), 0), 0);
+  }
+}
+
+template <int P>
+template <int N>
+void ElementSetOf<P>::reduce_element(int element, const double* rhs, Interior<N>& interior,
+                                     CondensedElement& out) const {
+  const Shape& shape = shapes_[element];
+  const ElementDofs& dofs = dofs_[element];
   Functional row;
-  for (int c = 0; c < 3; ++c)
-    for (int q = 0; q < P; ++q) {
-      row.v[c][q] = rhs[dofs.v + c * P + q];
-      d[c * P + q] = rhs[dofs.s + c * P + q] / shape.hb[q];
-    }
-  to_strain_row(row, shape, f.kin, tau);
+  ZetaVector d = ZetaVector::Zero();
+  bool strained = false;
+  for (int i = 0; i < kStrains; ++i) {
+    row.v[i / P][i % P] = rhs[dofs.v + i];
+    d[i] = rhs[dofs.s + i] / shape.hb[i % P];
+    strained = strained || d[i] != 0.0;
+  }
+  ZetaVector tau;  // interior rows in the strain basis, the start's entries included
+  to_strain_row(row, shape, tangents_[element], tau);
+  for (int c = 0; c < 3; ++c) out.rm[c] = rhs[dofs.m + c];
+  if (strained) subtract_strains(shape, tangents_[element], d, tau, out.rm);
+  interior.reduced.fill(0.0);
+  for (int i = 0; i < N; ++i) interior.reduced[i] = shape.root[active<N>(i)] * tau[active<N>(i)];
+  interior.factor.forward(interior.reduced.data());
+  for (int c = 0; c < 3; ++c) {
+    out.ra[c] = tau[kStrains + c] + interior.reduced[N + c];
+    out.rm[c] += interior.reduced[N + 3 + c];
+  }
 }
 
 template <int P>
 void ElementSetOf<P>::reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) {
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
-    Factor& f = factors_[e];
-    ZetaVector tau;
-    Eigen::Matrix<double, kStrains, 1> d;
-    strain_rhs(shape, f, dofs_[e], rhs.data(), tau, d);
-    CondensedElement& out = condensed[e];
-    for (int c = 0; c < 3; ++c) out.rm[c] = rhs[dofs_[e].m + c];
-    if (!d.isZero(0.0)) {
-      for (int z = 0; z < kStrains; ++z) subtract_scaled<kRow>(tau.data(), f.H.row(z).data(), d[z], 0);
-      out.rm += f.U.template leftCols<kStrains>() * d;
-    }
-    const int n = active_count(shape.shearable);
-    f.reduced.fill(0.0);
-    for (int i = 0; i < n; ++i) {
-      const int z = active(shape.shearable, i);
-      f.reduced[i] = shape.root[z] * tau[z];
-    }
     if (shape.shearable)
-      f.interior.template forward<3 * P>(f.reduced.data());
+      reduce_element<3 * P>(e, rhs.data(), shearable_[shape.factor], condensed[e]);
     else
-      f.interior.template forward<2 * P>(f.reduced.data());
-    for (int c = 0; c < 3; ++c) {
-      out.ra[c] = tau[kStrains + c] + f.reduced[n + c];
-      out.rm[c] += f.reduced[n + 3 + c];
-    }
+      reduce_element<2 * P>(e, rhs.data(), stiff_[shape.factor], condensed[e]);
   }
 }
 
-/// Strains and stresses of the active ones, added to zeta and put into `stress`.
 template <int P>
 template <int N>
-void ElementSetOf<P>::recover_strains(const Shape& shape, const Factor& f,
-                                      const Eigen::Matrix<double, 6, 1>& ends, ZetaVector& zeta,
-                                      double* stress) const {
-  alignas(32) std::array<double, Interior::kStride> y{};
-  for (int c = 0; c < 6; ++c) y[N + c] = ends[c];
-  f.interior.template backward<N>(f.reduced.data(), y.data());
+void ElementSetOf<P>::recover_element(int element, const Interior<N>& interior, double* x) const {
+  const Shape& shape = shapes_[element];
+  const ElementDofs& dofs = dofs_[element];
+  const Tangent& t = tangents_[element];
+  ZetaVector zeta = ZetaVector::Zero();
+  for (int i = 0; i < kStrains; ++i) zeta[i] = x[dofs.s + i] / shape.hb[i % P];
+  for (int c = 0; c < 3; ++c) zeta[kStrains + c] = x[dofs.a[c]];
+  alignas(32) std::array<double, AugmentedFactor<N>::kWidth> y{};
+  for (int c = 0; c < 3; ++c) {
+    y[N + c] = x[dofs.a[c]];
+    y[N + 3 + c] = x[dofs.m + c];
+  }
+  interior.factor.backward(interior.reduced.data(), y.data());
   for (int i = 0; i < N; ++i) {
-    const int z = active(N == kStrains, i);
+    const int z = active<N>(i);
     zeta[z] += shape.root[z] * y[i];
-    stress[z] = y[i] / shape.root[z];
+    x[dofs.s + z] = y[i] / shape.root[z];
+  }
+  Gauss b;
+  for (int q = 0; q < P; ++q) {
+    b[q] = 0.0;
+    for (int r = 0; r < P; ++r) b[q] += a_[q][r] * zeta[2 * P + r];
+    b[q] = zeta[kStrains + 2] + shape.h * b[q];
+  }
+  if constexpr (N < kStrains) {  // shear forces from their rows, as no strain goes with them
+    Gauss row;
+    for (int q = 0; q < P; ++q)
+      row[q] = t.c[q] * (x[dofs.v + P + q] + shape.hb[q] * x[dofs.m + 1]) -
+               t.s[q] * (x[dofs.v + q] + shape.hb[q] * x[dofs.m]) - t.n[q] * b[q];
+    for (int k = t.first_row; k < t.first_row + t.row_count; ++k) {
+      const double f = rows_[k].stiffness * dot_from<kRow>(rows_[k].row.data(), zeta.data(), 0);
+      for (int q = 0; q < P; ++q) row[q] -= f * rows_[k].row[P + q];
+    }
+    for (int q = 0; q < P; ++q) x[dofs.s + P + q] = row[q] / shape.hb[q];
+  }
+  for (int q = 0; q < P; ++q) {
+    x[dofs.v + q] = t.c[q] * zeta[q] - t.s[q] * zeta[P + q] + t.px[q] * b[q];
+    x[dofs.v + P + q] = t.s[q] * zeta[q] + t.c[q] * zeta[P + q] + t.py[q] * b[q];
+    x[dofs.v + 2 * P + q] = zeta[2 * P + q];
   }
 }
 
@@ -535,37 +647,10 @@ template <int P>
 void ElementSetOf<P>::recover(Eigen::VectorXd& x) {
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
-    const Factor& f = factors_[e];
-    const ElementDofs& dofs = dofs_[e];
-    ZetaVector tau;
-    ZetaVector zeta = ZetaVector::Zero();
-    Eigen::Matrix<double, kStrains, 1> d;
-    strain_rhs(shape, f, dofs, x.data(), tau, d);
-    Eigen::Matrix<double, 6, 1> ends;
-    for (int c = 0; c < 3; ++c) {
-      ends[c] = x[dofs.a[c]];
-      ends[3 + c] = x[dofs.m + c];
-    }
-    zeta.template head<kStrains>() = d;
-    zeta.template segment<3>(kStrains) = ends.template head<3>();
-    if (shape.shearable) {
-      recover_strains<3 * P>(shape, f, ends, zeta, &x[dofs.s]);
-    } else {
-      recover_strains<2 * P>(shape, f, ends, zeta, &x[dofs.s]);
-      for (int z = P; z < 2 * P; ++z) {
-        const double row = tau[z] - dot_from<kRow>(f.H.row(z).data(), zeta.data(), 0) +
-                           f.U.col(z).dot(ends.template tail<3>());
-        x[dofs.s + z] = row / shape.hb[z - P];
-      }
-    }
-    for (int q = 0; q < P; ++q) {
-      double b = 0.0;
-      for (int r = 0; r < P; ++r) b += a_[q][r] * zeta[2 * P + r];
-      b = ends[2] + shape.h * b;
-      x[dofs.v + q] = f.kin.c[q] * zeta[q] - f.kin.s[q] * zeta[P + q] + f.kin.px[q] * b;
-      x[dofs.v + P + q] = f.kin.s[q] * zeta[q] + f.kin.c[q] * zeta[P + q] + f.kin.py[q] * b;
-      x[dofs.v + 2 * P + q] = zeta[2 * P + q];
-    }
+    if (shape.shearable)
+      recover_element<3 * P>(e, shearable_[shape.factor], x.data());
+    else
+      recover_element<2 * P>(e, stiff_[shape.factor], x.data());
   }
 }
 

@@ -61,23 +61,6 @@ void ElementSetOf<P>::add_interval(std::size_t index, const Shape& shape,
   }
 }
 
-/// Adds the stiffness of all supports that act to the upper triangle of H, block by block over all of them.
-template <int P>
-void ElementSetOf<P>::add_support_tangent(const Shape& shape, Factor& f) {
-  const std::size_t n = acting_.size();
-  if (rows_.size() < n) rows_.resize(n);
-  for (std::size_t k = 0; k < n; ++k) to_strain_row(acting_[k], shape, f.kin, rows_[k]);
-  for (int i = 0; i < kZeta; ++i) {
-    double* row = f.H.row(i).data();
-    for (int b = i / kBlock * kBlock; b < kRow; b += kBlock) {
-      Eigen::Array<double, kBlock, 1> sum = Block(row + b);
-      for (std::size_t k = 0; k < n; ++k)
-        sum += (acting_[k].stiffness * rows_[k][i]) * ConstBlock(rows_[k].data() + b);
-      Block(row + b) = sum;
-    }
-  }
-}
-
 template <int P>
 bool ElementSetOf<P>::acts(const Functional& f, std::size_t station, const ElementDofs& dofs,
                            const double* y) const {
@@ -103,17 +86,25 @@ void ElementSetOf<P>::add_support_residual(int element, const double* y, double*
     if (stations_[station].one_sided) acting_.back().stiffness *= softness_;
     if (bonded_) acting_.back().gap = 0.0;
   }
+  std::array<double, kStrains> v;  // apart from y and the residual, so that loops over them need no order
+  std::array<double, kStrains> forces{};
+  double at_start[3] = {0.0, 0.0, 0.0};
+  for (int i = 0; i < kStrains; ++i) v[i] = y[dofs.v + i];
   double rounding = 0.0;
   for (const Functional& f : acting_) {
-    const double size = std::abs(f.a[0] * y[dofs.a[0]]) + std::abs(f.a[1] * y[dofs.a[1]]) +
-                        std::abs(f.a[2] * y[dofs.a[2]]) + f.gap;
+    double size = f.gap;
+    for (int c = 0; c < 3; ++c) size += std::abs(f.a[c] * y[dofs.a[c]]);
     rounding += f.stiffness * size * std::numeric_limits<double>::epsilon();
-    const double force = f.stiffness * (value(f, dofs, y) - f.gap);
-    for (int c = 0; c < 3; ++c) {
-      residual[dofs.a[c]] += force * f.a[c];
-      for (int q = 0; q < P; ++q) residual[dofs.v + c * P + q] += force * f.v[c][q];
-    }
+    double w = -f.gap;
+    for (int c = 0; c < 3; ++c) w += f.a[c] * y[dofs.a[c]];
+    const double* row = f.v[0].data();
+    for (int i = 0; i < kStrains; ++i) w += row[i] * v[i];
+    const double force = f.stiffness * w;
+    for (int c = 0; c < 3; ++c) at_start[c] += force * f.a[c];
+    for (int i = 0; i < kStrains; ++i) forces[i] += force * row[i];
   }
+  for (int c = 0; c < 3; ++c) residual[dofs.a[c]] += at_start[c];
+  for (int i = 0; i < kStrains; ++i) residual[dofs.v + i] += forces[i];
   support_rounding_ = std::max(support_rounding_, rounding);
   if (!keep) acting_.clear();
 }
@@ -211,28 +202,22 @@ void ElementSetOf<P>::add_pressure_load(const Eigen::VectorXd& y, double proport
 }
 
 /// The symmetric part of the follower force's derivative: minus pressure times the second derivative of the
-/// area 1/2 int (x y' - y x') ds. What is left out belongs to the element's ends, cancels between neighbours
-/// under the same pressure, and vanishes at fixed ends.
+/// area 1/2 int (x y' - y x') ds, appended to acting_ as squares, since 4 a b = (a + b)^2 - (a - b)^2. What
+/// is left out belongs to the element's ends, cancels between neighbours under the same pressure, and
+/// vanishes at fixed ends.
 template <int P>
-void ElementSetOf<P>::add_pressure_tangent(const Shape& shape, const Kinematics& kin, double pressure,
-                                           ZetaMatrix& H) const {
-  Functional place[2];
-  Functional slope[2];
-  ZetaVector u[2];
-  ZetaVector du[2];
+void ElementSetOf<P>::collect_pressure(const Shape& shape, double pressure) {
   for (int q = 0; q < P; ++q) {
-    for (int c = 0; c < 2; ++c) {
-      place[c] = {};
-      slope[c] = {};
-      place[c].a[c] = 1.0;
-      for (int r = 0; r < P; ++r) place[c].v[c][r] = shape.h * a_[q][r];
-      slope[c].v[c][q] = 1.0;
-      to_strain_row(place[c], shape, kin, u[c]);
-      to_strain_row(slope[c], shape, kin, du[c]);
+    for (const int c : {0, 1}) {
+      for (const double sign : {1.0, -1.0}) {
+        Functional f;
+        f.a[c] = 1.0;
+        for (int r = 0; r < P; ++r) f.v[c][r] = shape.h * a_[q][r];
+        f.v[1 - c][q] = sign;
+        f.stiffness = (c == 0 ? -0.25 : 0.25) * sign * pressure * shape.hb[q];
+        acting_.push_back(f);
+      }
     }
-    const double w = -0.5 * pressure * shape.hb[q];
-    H += w * (u[0] * du[1].transpose() + du[1] * u[0].transpose());
-    H -= w * (u[1] * du[0].transpose() + du[0] * u[1].transpose());
   }
 }
 

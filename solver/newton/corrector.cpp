@@ -161,6 +161,9 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
         return out;
       }
     }
+    if (size > (it == 0 ? options.largest_first * scale : options.largest_growth * previous) &&
+        out.relative_residual > options.stagnant_residual)
+      return out;
     const bool near = size <= options.tangent_tolerance * scale &&
                       out.relative_residual <= kNearResidual * options.tangent_tolerance;
     if ((last || near) && take_last(problem, options, y, lambda, dlambda, out, work)) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 
 #include "solver/path/equilibrium_problem.h"
 
@@ -41,8 +42,10 @@ struct CorrectorOptions {
   /// A correction below this share of the step is the last: the tangent at hand is the path's to this share,
   /// the point to about its square. Zero: iterates to `tolerance`.
   double tangent_tolerance = 0.0;
-  double largest_residual = 1e-8;    ///< relative residual above which nothing counts as converged
-  double largest_correction = 2.0;   ///< a correction beyond this many steps ends the iteration as diverged
+  double largest_residual = 1e-8;   ///< relative residual above which nothing counts as converged
+  double largest_correction = 2.0;  ///< a correction beyond this many steps ends the iteration as diverged
+  double largest_first = std::numeric_limits<double>::infinity();   ///< the same for the first
+  double largest_growth = std::numeric_limits<double>::infinity();  ///< from one correction to the next
   bool damped = false;               ///< shortens corrections that raise the residual, see correct()
   bool least_energy = false;         ///< shortens corrections to where the energy is least, see correct()
   double residual_floor = 2e-13;     ///< relative residual that rounding allows; the iteration stops there

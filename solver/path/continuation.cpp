@@ -24,6 +24,13 @@ constexpr double kSingularResponse = 1e13;
 constexpr double kLeastGrowth = 0.3;
 /// First correction, over the step, beyond which the predictor said nothing about where the path goes.
 constexpr double kLargestCorrection = 0.5;
+/// What a step that was never shortened much is given up at, to try a shorter one, which costs less.
+constexpr double kLargestGrowth = 2.0;
+constexpr int kMostStalled = 2;
+/// Where supports act on one side only the first step may be far too short, as its scale knows nothing of
+/// their stiffness: then steps grow by this much, so long as they stay this far from what limits them.
+constexpr double kFastGrowth = 8.0;
+constexpr double kFarFromLimits = 0.1;
 /// A turn is a corner when it did not change while the steps shrank by this much, and their chords with them.
 constexpr double kCornerShrink = 0.02;
 constexpr double kCornerLength = 4.0;
@@ -191,6 +198,11 @@ CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, 
                                             PathPoint& to) {
   CorrectorOptions options = options_.corrector;
   const bool patient = step < kPatientShare * easy_size_;
+  if (!patient) {
+    options.largest_first = kLargestCorrection;
+    options.largest_growth = kLargestGrowth;
+    options.most_stalled = std::min(options.most_stalled, kMostStalled);
+  }
   for (;;) {
     to.y = from.y + step * from.tangent;
     to.lambda = from.lambda + step * from.tangent_lambda;
@@ -219,9 +231,10 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   trial.angle = std::acos(cosine);
   // what the residual does not show is rounding, which shorter steps would not lessen
   if (outcome.first_residual > kRoundingResidual) trial.correction = outcome.first_correction / movement;
-  trial.growth = std::min({options_.max_growth, options_.target_angle / std::max(trial.angle, 1e-12),
-                           options_.target_correction / std::max(trial.correction, 1e-12)});
-  trial.growth = std::max(trial.growth, kLeastGrowth);
+  const double room = std::min(options_.target_angle / std::max(trial.angle, 1e-12),
+                               options_.target_correction / std::max(trial.correction, 1e-12));
+  const double fast = problem_.one_sided() ? std::min(kFastGrowth, kFarFromLimits * room) : 0.0;
+  trial.growth = std::clamp(room, kLeastGrowth, std::max(options_.max_growth, fast));
   trial.length = metric_.norm(to.y - from.y, to.lambda - from.lambda);
   to.arc_length = from.arc_length + trial.length;
   statistics_.max_relative_residual = std::max(statistics_.max_relative_residual, outcome.relative_residual);

@@ -50,10 +50,17 @@ double bifurcation_function(const Search& search, const PathPoint& at) {
 constexpr double kJump = 1e-3;
 
 /// A function whose sign changes in a closed bracket without passing zero jumps, because a support begins or
-/// ceases to act.
-CriticalCause cause_of(const Search& search, const LocatedRoot& root, double first_value) {
+/// ceases to act. Where the step itself is short the bracket is closed at a share of it at which a smooth
+/// function still has its share of the first value.
+CriticalCause cause_of(const Search& search, const LocatedRoot& root, double first_value, const PathPoint& a,
+                       const PathPoint& b) {
+  constexpr double kCurved = 10.0;  // times what a linear function leaves
+  const Continuation& path = search.continuation;
+  const double share =
+      path.distance_along(search.chord, root.before, root.after) / path.distance_along(search.chord, a, b);
   const double left = std::max(std::abs(root.value_before), std::abs(root.value_after));
-  return search.continuation.problem().one_sided() && left > kJump * std::abs(first_value)
+  return search.continuation.problem().one_sided() &&
+                 left > std::max(kJump, kCurved * share) * std::abs(first_value)
              ? CriticalCause::contact
              : CriticalCause::smooth;
 }
@@ -89,7 +96,7 @@ void add_simple_event(Search& search, CriticalType type, LocatedRoot root, doubl
                       const PathPoint& a, const PathPoint& b) {
   root.found = root.found && root.before.negative == a.negative && root.after.negative == b.negative;
   add_event(search, type, root, a.negative, b.negative);
-  if (root.found) search.out.events.back().cause = cause_of(search, root, first_value);
+  if (root.found) search.out.events.back().cause = cause_of(search, root, first_value, a, b);
 }
 
 /// Whether the load turns at a corner where the tangent is singular: two paths that cross there, and the step
