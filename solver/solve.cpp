@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "solver/analysis/analyses.h"
 
@@ -37,6 +38,11 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
     modes = mode_offsets(model, analysis);
   } catch (const std::runtime_error& error) {
     fail(result, "no_buckling_mode", error.what());
+    return result;
+  }
+  if (analysis.type == AnalysisType::buckling && run_exact_column(model, analysis, result)) {
+    const std::vector<std::string> absent = without_stiffness(model);
+    result.diagnostics.skipped.insert(result.diagnostics.skipped.begin(), absent.begin(), absent.end());
     return result;
   }
   const Structure structure =
