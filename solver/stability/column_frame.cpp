@@ -131,9 +131,7 @@ class Walk {
     add_spring(0, joint.spring);
     if (joint.held) replace(0, 2);
   }
-  void add_spring(int row, double stiffness) {
-    for (int c = 0; c < 2; ++c) f_.rows[row + 2][c] += stiffness * f_.rows[row][c];
-  }
+  void add_spring(int row, double stiffness);
   void replace(int zero, int unit);
   void release();
   [[nodiscard]] double minor(int i, int j) const {
@@ -146,6 +144,20 @@ class Walk {
   ColumnCount count_;
   Matrix2 joint_map_{{{1.0, 0.0}, {0.0, 1.0}}};
 };
+
+/// One column is made free of the displacement first, so that a stiff spring leaves its digits alone.
+void Walk::add_spring(int row, double stiffness) {
+  if (stiffness == 0.0) return;
+  const double size = std::hypot(f_.rows[row][0], f_.rows[row][1]);
+  if (size == 0.0) return;
+  const double a = f_.rows[row][1] / size;
+  const double b = -f_.rows[row][0] / size;
+  for (auto& r : f_.rows) r = {a * r[0] + b * r[1], a * r[1] - b * r[0]};
+  f_.rows[row][0] = 0.0;
+  f_.rows[row + 2][1] += stiffness * f_.rows[row][1];
+  joint_map_ = product(joint_map_, {{{a, -b}, {b, a}}});
+  settle_joint();
+}
 
 /// The combination whose row `zero` vanishes, and beside it the unit vector of row `unit`.
 void Walk::replace(int zero, int unit) {

@@ -39,11 +39,13 @@ class LoadSearch {
   int wanted_;
   ColumnBuckling out_;
   std::vector<int> below_;  ///< counts below each of the loads
+  double scale_ = 0.0;
+  bool lost_ = false;
 };
 
 /// A load factor with as many loads below it as are wanted.
 bool LoadSearch::enclose(Bracket& bracket) {
-  constexpr double kMostPieces = 2e5;
+  constexpr double kMostPieces = 5e4;
   constexpr int kDoublings = 100;
   double hi = std::numeric_limits<double>::infinity();
   double length = 0.0;
@@ -57,6 +59,7 @@ bool LoadSearch::enclose(Bracket& bracket) {
   if (!std::isfinite(hi)) return true;                  // nothing is compressed: no load is too much
   constexpr double kOffMultiples = 1.1180339887498949;  // most columns buckle at a multiple of Euler's load
   hi *= kOffMultiples;
+  scale_ = hi;
   for (int i = 0; i < kDoublings && bracket.below_hi - bracket.below_lo < wanted_; ++i, hi *= 2.0) {
     if (piece_count(line_, hi) > kMostPieces) return false;
     bracket.hi = hi;
@@ -70,6 +73,10 @@ void LoadSearch::isolate(const Bracket& bracket) {
   constexpr double kEqual = 1e-14;
   const int at_start = out_.negative_at_start;
   if (bracket.below_hi <= bracket.below_lo || bracket.below_lo - at_start >= wanted_) return;
+  // loads that many times below Euler's are those of a mechanism
+  constexpr double kNone = 1e-25;
+  lost_ = lost_ || bracket.hi <= kNone * scale_;
+  if (lost_) return;
   const double middle = 0.5 * (bracket.lo + bracket.hi);
   if (bracket.below_hi - bracket.below_lo == 1) {
     out_.loads.push_back(root(bracket));
@@ -102,7 +109,8 @@ double LoadSearch::root(const Bracket& bracket) {
   const auto value = [&](double lambda, bool& above) {
     const ColumnCount now = count(lambda);
     above = now.negative > bracket.below_lo;
-    const double size = std::min(std::abs(ratio(now.determinant, at_hi.determinant)), 1e300);
+    if (now.determinant.mantissa == 0.0) return 0.0;
+    const double size = std::clamp(std::abs(ratio(now.determinant, at_hi.determinant)), 1e-300, 1e300);
     return above ? size : -size;
   };
   bool above = false;
@@ -158,6 +166,7 @@ std::optional<ColumnBuckling> LoadSearch::run() {
   Bracket all;
   if (!enclose(all)) return std::nullopt;
   isolate(all);
+  if (lost_) return std::nullopt;
   if (static_cast<int>(out_.loads.size()) > wanted_) out_.loads.resize(static_cast<std::size_t>(wanted_));
   for (std::size_t i = 0; i < out_.loads.size(); ++i)
     if (!confirm(out_.loads[i], below_[i])) return std::nullopt;

@@ -263,6 +263,22 @@ TEST(ExactColumn, TensionAndOverloadAreReportedAsByElements) {
   expect_relative(overloaded.buckling->load_factors[0], 4.0 * kPi * kPi - 20.0, kRounding, "second load");
 }
 
+/// Springs of 1e8 and 1e10 EI / L^3 beside free spans, and tension of thousands of Euler loads: these columns
+/// once lost digits or could not be done.
+TEST(ExactColumn, KeepsItsDigitsBesideStiffSpringsAndStrongTension) {
+  for (const std::uint64_t seed : {213, 1240, 1283, 2530, 3181}) {
+    const Result result = solve_exactly(random_column(seed), buckling(5));
+    EXPECT_EQ(result.buckling->load_factors.size(), 5U) << "seed " << seed;
+    EXPECT_LE(result.discretization.estimated_accuracy.value_or(1.0), kRounding) << "seed " << seed;
+  }
+  // the node of the second mode stays where it is, however stiff the spring
+  for (const double stiffness : {1e6, 1e9, 1e12, 1e15}) {
+    Model model = column_of("xy", "y");
+    model.springs = {{"k", at_member("m", 0.5), std::array{0.0, 1.0}, stiffness, Reaction::bilateral, 0.0}};
+    expect_relative(first_load(model), 4.0 * kPi * kPi, kRounding, std::to_string(stiffness));
+  }
+}
+
 /// Whatever the equation leaves out is left to the elements.
 TEST(ExactColumn, LeavesOtherStructuresToElements) {
   const Model column = column_of("xy", "y");
