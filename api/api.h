@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -48,8 +49,10 @@ inline constexpr int kMaxFindings = 1000;
 
 /// @brief The result document.
 /// @param wall_time_s seconds that the analysis took, as its caller measured them
+/// @param parts names of the document's members that are wanted; none: all of them
 /// @throws std::runtime_error with the JSON Pointer of the first number that is not finite
-[[nodiscard]] nlohmann::json write_result(const Request& request, const Result& result, double wall_time_s);
+[[nodiscard]] nlohmann::json write_result(const Request& request, const Result& result, double wall_time_s,
+                                          std::span<const std::string_view> parts = {});
 
 /// @brief `[{"pointer", "code", "detail"}, ...]`, in the order given.
 [[nodiscard]] nlohmann::json write_findings(const std::vector<Finding>& findings);

@@ -64,7 +64,7 @@ ReadOutcome read_request_document(std::shared_ptr<const nlohmann::json> document
   ReadOutcome outcome;
   Request request;
   Report report;
-  Object root(Value(*document, "", report));
+  Object root(Value(*document, PointerPath(), report));
   root.required("model", request.model);
   root.required("analysis", request.analysis);
   root.finish();

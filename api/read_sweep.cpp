@@ -452,7 +452,7 @@ SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document, st
   SweepOutcome outcome;
   auto data = std::make_shared<SweepData>();
   Report report;
-  Object root(Value(*document, "", report));
+  Object root(Value(*document, PointerPath(), report));
   data->base = Json::object();
   for (const char* part : {"model", "analysis"}) {
     if (const auto value = root.find_required(part)) {

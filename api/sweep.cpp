@@ -44,13 +44,18 @@ Found look_up(const Json& result, const std::vector<std::string>& tokens) {
 
 }  // namespace
 
-Json document_with(const SweepData& data, const std::vector<Json>& values) {
-  Json document = data.base;
+/// @param document the base, or what this has made of it for other values
+static void write_values(const SweepData& data, const std::vector<Json>& values, Json& document) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     for (const SweepTarget& target : data.parameters[i].targets) {
       document[target.place] = target.scale ? Json(values[i].get<double>() * *target.scale) : values[i];
     }
   }
+}
+
+Json document_with(const SweepData& data, const std::vector<Json>& values) {
+  Json document = data.base;
+  write_values(data, values, document);
   return document;
 }
 
@@ -90,6 +95,13 @@ std::shared_ptr<const Json> Sweep::document_at(std::uint64_t point) const {
   return std::make_shared<Json>(document_with(*data_, design_values(*data_, point)));
 }
 
+void Sweep::write_document(std::uint64_t point, std::shared_ptr<Json>& document) const {
+  if (document == nullptr) {
+    document = std::make_shared<Json>(data_->base);
+  }
+  write_values(*data_, design_values(*data_, point), *document);
+}
+
 std::shared_ptr<const Json> Sweep::document_between(std::uint64_t point, double value) const {
   std::vector<Json> values = design_values(*data_, point);
   values.back() = value;
@@ -113,13 +125,28 @@ std::string Sweep::curve_text(std::uint64_t point) const {
   return data_->follow ? "follow" + values.dump() : "";
 }
 
+bool Sweep::looks_into(std::string_view part, std::string_view list) const {
+  return std::any_of(data_->outputs.begin(), data_->outputs.end(), [&](const SweepOutput& output) {
+    return output.tokens[0] == part &&
+           (list.empty() || output.tokens.size() == 1 || output.tokens[1] == list);
+  });
+}
+
+std::vector<std::string_view> Sweep::parts() const {
+  std::vector<std::string_view> parts;
+  for (const SweepOutput& output : data_->outputs) {
+    parts.emplace_back(output.tokens[0]);
+  }
+  return parts;
+}
+
+void Sweep::spare_unused(Analysis& analysis) const {
+  if (!looks_into("states") && !looks_into("buckling", "modes")) {
+    analysis.output.points_per_member = std::min(analysis.output.points_per_member, 2);
+  }
+}
+
 void Sweep::drop_unused(Result& result) const {
-  const auto looks_into = [&](std::string_view part, std::string_view list = {}) {
-    return std::any_of(data_->outputs.begin(), data_->outputs.end(), [&](const SweepOutput& output) {
-      return output.tokens[0] == part &&
-             (list.empty() || output.tokens.size() == 1 || output.tokens[1] == list);
-    });
-  };
   const auto drop = [&](auto& list, std::string_view part) {
     if (!looks_into(part)) {
       list.clear();

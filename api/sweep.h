@@ -73,16 +73,27 @@ class Sweep {
   /// All values of the curve that a point is on, as a text; empty when it is on none.
   [[nodiscard]] std::string curve_text(std::uint64_t point) const;
 
+  /// @brief The document of a point, written over that of another point of this sweep: every point writes all
+  /// of its targets, so nothing of the other one stays. Null makes a new one.
+  void write_document(std::uint64_t point, std::shared_ptr<nlohmann::json>& document) const;
+
+  /// @brief Spares an analysis what no output looks into: places along the members where states and modes
+  /// are given.
+  void spare_unused(Analysis& analysis) const;
   /// @brief Empties the lists of a result that no output looks into, so that they are not written for
   /// nothing: critical points, contact events, branches, states, buckling modes.
   void drop_unused(Result& result) const;
 
   /// @brief The outputs of a point that was solved.
-  /// @param result what write_result() gave. An output whose place the result cannot have is a failure;
-  /// one past the end of a list (a second critical point where there is one) is null.
+  /// @param result what write_result() gave, with at least parts(). An output whose place the result cannot
+  /// have is a failure; one past the end of a list (a second critical point where there is one) is null.
   [[nodiscard]] PointOutcome outcome(const nlohmann::json& result) const;
+  /// Members of the result document that outputs look into. Refers to the sweep.
+  [[nodiscard]] std::vector<std::string_view> parts() const;
 
  private:
+  [[nodiscard]] bool looks_into(std::string_view part, std::string_view list = {}) const;
+
   std::shared_ptr<const SweepData> data_;
 };
 

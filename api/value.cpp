@@ -103,14 +103,14 @@ bool Value::is_string() const { return json_->is_string(); }
 bool Value::is_number() const { return json_->is_number(); }
 std::size_t Value::size() const { return json_->size(); }
 
-Value Value::item(std::size_t i) const { return {(*json_)[i], pointer_ + "/" + std::to_string(i), *report_}; }
+Value Value::item(std::size_t i) const { return {(*json_)[i], path_.with(i), *report_}; }
 
 std::optional<Value> Value::member(std::string_view key) const {
   const auto found = json_->find(key);
   if (found == json_->end()) {
     return std::nullopt;
   }
-  return Value(*found, pointer_ + "/" + escape_pointer_token(key), *report_);
+  return Value(*found, path_.with(found.key()), *report_);  // the document's key lives long enough
 }
 
 std::vector<std::string> Value::keys() const {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "solver/model/check.h"
+#include "solver/model/pointer.h"
 
 namespace snapthrough::api {
 
@@ -45,11 +46,11 @@ class Report {
 /// A value of the document and its pointer. Refers to the document and the report, which must outlive it.
 class Value {
  public:
-  Value(const nlohmann::json& json, std::string pointer, Report& report)
-      : json_(&json), pointer_(std::move(pointer)), report_(&report) {}
+  Value(const nlohmann::json& json, PointerPath path, Report& report)
+      : json_(&json), path_(std::move(path)), report_(&report) {}
 
   [[nodiscard]] const nlohmann::json& json() const { return *json_; }
-  [[nodiscard]] const std::string& pointer() const { return pointer_; }
+  [[nodiscard]] std::string pointer() const { return path_.text(); }
   [[nodiscard]] Report& document_report() const { return *report_; }
 
   [[nodiscard]] bool is_object() const;
@@ -66,14 +67,14 @@ class Value {
   [[nodiscard]] std::vector<std::string> keys() const;
 
   void report(std::string_view code, std::string detail) const {
-    report_->add(pointer_, code, std::move(detail));
+    report_->add(pointer(), code, std::move(detail));
   }
   /// Reports that `expected` ("a number", ...) was wanted here.
   void report_type(std::string_view expected) const;
 
  private:
   const nlohmann::json* json_;
-  std::string pointer_;
+  PointerPath path_;
   Report* report_;
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -185,21 +186,30 @@ void require_finite_numbers(const Json& json, const std::string& pointer) {
 
 }  // namespace
 
-nlohmann::json write_result(const Request& request, const Result& result, double wall_time_s) {
-  Json document{{"model", write(request.model)},
-                {"summary", write(result.summary)},
-                {"critical_points", write_all(result.critical_points)},
-                {"contact_events", write_all(result.contact_events)},
-                {"branches", write_all(result.branches)},
-                {"states", write_all(result.states)},
-                {"discretization", write(result.discretization)},
-                {"diagnostics", write(result.diagnostics, wall_time_s)}};
+nlohmann::json write_result(const Request& request, const Result& result, double wall_time_s,
+                            std::span<const std::string_view> parts) {
+  Json document = Json::object();
+  const auto add = [&](std::string_view part, const auto& make) {
+    if (parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end()) {
+      document.emplace(part, make());
+    }
+  };
+  add("model", [&] { return write(request.model); });
+  add("summary", [&] { return write(result.summary); });
+  add("critical_points", [&] { return write_all(result.critical_points); });
+  add("contact_events", [&] { return write_all(result.contact_events); });
+  add("branches", [&] { return write_all(result.branches); });
+  add("states", [&] { return write_all(result.states); });
+  add("discretization", [&] { return write(result.discretization); });
+  add("diagnostics", [&] { return write(result.diagnostics, wall_time_s); });
   if (result.buckling) {
-    document["buckling"] = {{"load_factors", result.buckling->load_factors},
-                            {"modes", write_all(result.buckling->modes)}};
+    add("buckling", [&] {
+      return Json{{"load_factors", result.buckling->load_factors},
+                  {"modes", write_all(result.buckling->modes)}};
+    });
   }
   if (result.failure) {
-    document["failure"] = {{"code", result.failure->code}, {"detail", result.failure->detail}};
+    add("failure", [&] { return Json{{"code", result.failure->code}, {"detail", result.failure->detail}}; });
   }
   require_finite_numbers(document, "");
   return document;

@@ -23,7 +23,7 @@ struct Case {
 /// Sources: column and base, P = P_e + K L^2 / pi^2; all others collocation of the boundary-value problems,
 /// 10 to 12 digits (tests/verification/data).
 [[nodiscard]] std::vector<Case> cases();
-/// @pre one of cases() has the name
+/// @pre one of cases() has the name, or it is "column_with_spring"
 [[nodiscard]] Case case_named(const std::string& name);
 
 /// Pinned shallow arch without base on a mesh of that many elements, four steps of its path.

@@ -41,14 +41,16 @@ int main(int argc, char** argv) {
   double solving = 0.0;
   const server::SolveFunction solver = [&](const Model& model, const Analysis& analysis, const Hooks& hooks) {
     const Clock::time_point start = Clock::now();
-    Result result = solve(model, analysis, hooks);
+    Result result = solve_checked(model, analysis, hooks);
     solving += seconds_since(start);
     return result;
   };
   const Clock::time_point start = Clock::now();
   std::uint64_t failed = 0;
+  std::shared_ptr<nlohmann::json> document;
   for (std::uint64_t point = 0; point < sweep.size(); ++point) {
-    failed += server::solve_point(sweep, sweep.document_at(point), solver, {}).failed() ? 1 : 0;
+    sweep.write_document(point, document);
+    failed += server::solve_point(sweep, document, solver, {}).failed() ? 1 : 0;
   }
   const double all = seconds_since(start);
   const Clock::time_point keys = Clock::now();

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/skipped.h"
@@ -32,6 +33,10 @@ MeshUse mesh_use(const Analysis& analysis) {
 Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
   if (const auto findings = check(model, analysis); !findings.empty())
     throw std::invalid_argument(findings.front().pointer + ": " + findings.front().detail);
+  return solve_checked(model, analysis, hooks);
+}
+
+Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& hooks) {
   Result result;
   result.diagnostics = {0, 0, 0, 0, 0.0, {}, {}};
   ModeOffsets modes;
@@ -39,6 +44,11 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
     modes = mode_offsets(model, analysis);
   } catch (const std::runtime_error& error) {
     fail(result, "no_buckling_mode", error.what());
+    return result;
+  }
+  if (analysis.type == AnalysisType::buckling && run_exact_column(model, analysis, result)) {
+    const std::vector<std::string> absent = without_stiffness(model);
+    result.diagnostics.skipped.insert(result.diagnostics.skipped.begin(), absent.begin(), absent.end());
     return result;
   }
   const Structure structure =

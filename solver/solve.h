@@ -35,4 +35,8 @@ struct Hooks {
 /// Thread safety: reentrant, shares nothing. Deterministic: the same request gives bit-identical results.
 [[nodiscard]] Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks = {});
 
+/// @brief The same for a request that check() has passed already, without checking it again.
+/// @pre check(model, analysis) is empty; otherwise undefined.
+[[nodiscard]] Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& hooks = {});
+
 }  // namespace snapthrough

@@ -75,7 +75,7 @@ int serve_command(const SettingSources& sources, const Streams& streams) {
   const Environment environment = Environment::system();
   Log log(config.log_level, environment.now);
   log_config(log, config);
-  Service service(config, environment, solve, log);
+  Service service(config, environment, solve_checked, log);
   if (const Status status = service.start(); !status.ok()) {
     streams.err << "snapthrough: " << status.message() << '\n';
     return kOther;

@@ -37,7 +37,7 @@ Result solve_watched(const api::Request& request, const Streams& streams, bool s
                   << progress.load_factor << "   " << std::flush;
     };
   }
-  Result result = solve(request.model, request.analysis, hooks);
+  Result result = solve_checked(request.model, request.analysis, hooks);
   if (show_progress) {
     streams.err << '\n';
   }

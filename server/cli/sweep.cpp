@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <ostream>
 #include <thread>
 
@@ -104,12 +105,14 @@ class RowQueue {
 std::uint64_t solve_points(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options) {
   RowQueue queue(sweep, streams, options);
   const SolveFunction solver = [](const Model& model, const Analysis& analysis, const Hooks& hooks) {
-    return solve(model, analysis, hooks);
+    return solve_checked(model, analysis, hooks);
   };
   const auto work = [&] {
+    std::shared_ptr<nlohmann::json> document;
     while (const std::optional<std::uint64_t> point = queue.next()) {
       if (!sweep.follows()) {
-        queue.put(*point, solve_point(sweep, sweep.document_at(*point), solver, {}));
+        sweep.write_document(*point, document);
+        queue.put(*point, solve_point(sweep, document, solver, {}));
         continue;
       }
       std::vector<api::PointOutcome> outcomes = solve_curve(sweep, *point, {});

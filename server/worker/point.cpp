@@ -25,10 +25,11 @@ std::string sentence_of(const std::vector<Finding>& findings) {
 
 api::PointOutcome solved(const api::Sweep& sweep, const std::shared_ptr<const nlohmann::json>& document,
                          const SolveFunction& solve, const Hooks& hooks) {
-  const api::ReadOutcome read = api::read_request_document(document);
+  api::ReadOutcome read = api::read_request_document(document);
   if (!read.request) {
     return {"", "wrong_request", sentence_of(read.findings)};
   }
+  sweep.spare_unused(read.request->analysis);
   const auto start = std::chrono::steady_clock::now();
   Result result = solve(read.request->model, read.request->analysis, hooks);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
@@ -36,7 +37,7 @@ api::PointOutcome solved(const api::Sweep& sweep, const std::shared_ptr<const nl
     return {"", result.failure->code, result.failure->detail};
   }
   sweep.drop_unused(result);
-  return sweep.outcome(api::write_result(*read.request, result, elapsed.count()));
+  return sweep.outcome(api::write_result(*read.request, result, elapsed.count(), sweep.parts()));
 }
 
 /// A model of the curve, which need not be a point's.

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "solver/assembly/structural_problem.h"
 #include "solver/assembly/structure.h"
@@ -21,6 +22,23 @@ void run_static(const Model& model, const Analysis& analysis, const Structure& s
                 Result& result);
 /// `buckling`: linearised eigenvalues about the reference load.
 void run_buckling(const Model& model, const Analysis& analysis, const Structure& structure, Result& result);
+
+/// @brief `buckling` of a straight column by its differential equation.
+/// @return false, with nothing in `result`, when the model is no such column or asks for a mesh
+[[nodiscard]] bool run_exact_column(const Model& model, const Analysis& analysis, Result& result);
+
+/// Buckling loads as results report them.
+struct FoundLoads {
+  std::vector<double> loads;  ///< load factors of the model, ascending
+  std::vector<BucklingMode> modes;
+  std::vector<std::optional<double>> errors;  ///< relative, one a load
+  int negative_at_start = 0;
+};
+/// Fills the summary and the list of modes.
+void report_buckling(const Analysis& analysis, FoundLoads found, Result& result);
+/// Scales a mode so that its largest displacement at the sampled places is one, its first large component
+/// positive.
+void scale_to_largest(BucklingMode& mode);
 
 /// @brief Offsets of the model's mode imperfections, from the linearised buckling of the same model without
 /// imperfections; empty when it has none.

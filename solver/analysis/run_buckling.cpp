@@ -17,27 +17,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Displacements of a mode at equally spaced places, the largest of them one, its first large component
-/// positive.
-BucklingMode shape_of_mode(const Structure& structure, const Model& model, const VectorXd& mode, int points) {
-  BucklingMode out{mode_displacements(structure, model, mode, points)};
-  double largest = 0.0;
-  double sign = 1.0;
-  for (const MemberState& member : out.members) {
-    for (std::size_t i = 0; i < member.s.size(); ++i) {
-      const double size = std::hypot(member.x[i], member.y[i]);
-      if (size <= largest * (1.0 + 1e-6)) continue;
-      largest = size;
-      sign = std::abs(member.x[i]) > std::abs(member.y[i]) ? member.x[i] : member.y[i];
-    }
-  }
-  const double scale = largest == 0.0 ? 1.0 : (sign < 0.0 ? -1.0 : 1.0) / largest;
-  for (MemberState& member : out.members)
-    for (auto* values : {&member.x, &member.y, &member.rotation})
-      for (double& value : *values) value *= scale;
-  return out;
-}
-
 /// Which one-sided bases count as glued, in words.
 std::string contact_text(const Structure& structure, const Model& model) {
   std::string text;
@@ -77,29 +56,37 @@ void report_errors(const Analysis& analysis, const BucklingLoads& loads, Result&
 
 }  // namespace
 
-void run_buckling(const Model& model, const Analysis& analysis, const Structure& first, Result& result) {
-  const BucklingLoads loads = buckling_loads(model, analysis, first);
-  const Structure& structure = *loads.structure;
-  const LinearBuckling& buckling = loads.buckling;
-  result.diagnostics.factorizations += loads.factorizations;
-  BucklingResult out;
-  for (std::size_t i = 0; i < buckling.loads.size(); ++i) {
-    out.load_factors.push_back(buckling.loads[i] / structure.scales.load);
-    out.modes.push_back(
-        shape_of_mode(structure, model, buckling.modes[i], analysis.output.points_per_member));
+void scale_to_largest(BucklingMode& mode) {
+  double largest = 0.0;
+  double sign = 1.0;
+  for (const MemberState& member : mode.members) {
+    for (std::size_t i = 0; i < member.s.size(); ++i) {
+      const double size = std::hypot(member.x[i], member.y[i]);
+      if (size <= largest * (1.0 + 1e-6)) continue;
+      largest = size;
+      sign = std::abs(member.x[i]) > std::abs(member.y[i]) ? member.x[i] : member.y[i];
+    }
   }
+  const double scale = largest == 0.0 ? 1.0 : (sign < 0.0 ? -1.0 : 1.0) / largest;
+  for (MemberState& member : mode.members)
+    for (auto* values : {&member.x, &member.y, &member.rotation})
+      for (double& value : *values) value *= scale;
+}
+
+void report_buckling(const Analysis& analysis, FoundLoads found, Result& result) {
+  BucklingResult out{std::move(found.loads), std::move(found.modes)};
   Summary& summary = result.summary;
-  if (buckling.negative_at_start > 0) {
+  if (found.negative_at_start > 0) {
     summary.termination = "unstable_at_start";
     summary.message =
-        "the constant actions alone exceed " + std::to_string(buckling.negative_at_start) + " buckling loads";
+        "the constant actions alone exceed " + std::to_string(found.negative_at_start) + " buckling loads";
   } else if (out.load_factors.empty()) {
     summary.termination = "no_buckling";
     summary.message = "no positive load factor makes the structure buckle";
   } else {
     summary.critical_load_factor = out.load_factors.front();
     summary.critical_type = CriticalType::bifurcation;
-    summary.error_estimate = loads.errors.front();
+    summary.error_estimate = found.errors.front();
     summary.termination = "modes";
     summary.message = "linearised about the reference load";
   }
@@ -107,9 +94,24 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
     fail(result, "fewer_modes",
          "only " + std::to_string(out.load_factors.size()) + " of " + std::to_string(analysis.modes) +
              " buckling modes exist on this mesh");
-  summary.message += contact_text(structure, model);
-  report_errors(analysis, loads, result);
   result.buckling = std::move(out);
+}
+
+void run_buckling(const Model& model, const Analysis& analysis, const Structure& first, Result& result) {
+  const BucklingLoads loads = buckling_loads(model, analysis, first);
+  const Structure& structure = *loads.structure;
+  const LinearBuckling& buckling = loads.buckling;
+  result.diagnostics.factorizations += loads.factorizations;
+  FoundLoads found{{}, {}, loads.errors, buckling.negative_at_start};
+  for (std::size_t i = 0; i < buckling.loads.size(); ++i) {
+    found.loads.push_back(buckling.loads[i] / structure.scales.load);
+    found.modes.push_back(
+        {mode_displacements(structure, model, buckling.modes[i], analysis.output.points_per_member)});
+    scale_to_largest(found.modes.back());
+  }
+  report_buckling(analysis, std::move(found), result);
+  result.summary.message += contact_text(structure, model);
+  report_errors(analysis, loads, result);
 }
 
 ModeOffsets mode_offsets(const Model& model, const Analysis& analysis) {

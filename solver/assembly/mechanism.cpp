@@ -1,9 +1,16 @@
 #include "solver/assembly/mechanism.h"
 
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
 #include <string>
+#include <variant>
 
 #include "solver/assembly/structural_problem.h"
 
@@ -32,7 +39,74 @@ Eigen::VectorXd scattered_forces(const Structure& structure) {
   return forces;
 }
 
+/// Length of a straight member or an arc; nothing for other curves.
+std::optional<double> length_of(const Model& model, const Member& member) {
+  const Node& a = model.nodes[index_of(model.nodes, member.start)];
+  const Node& b = model.nodes[index_of(model.nodes, member.end)];
+  const double chord = std::hypot(b.x - a.x, b.y - a.y);
+  if (std::holds_alternative<LineCurve>(member.curve)) return chord;
+  const auto* arc = std::get_if<ArcCurve>(&member.curve);
+  if (arc == nullptr) return std::nullopt;
+  const double half = 0.5 * std::abs(arc->sweep_degrees) * std::numbers::pi / 180.0;
+  return chord * half / std::sin(half);
+}
+
+bool is_connected(const Model& model) {
+  std::vector<std::size_t> group(model.nodes.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (const Member& member : model.members) {
+    const std::size_t one = group[index_of(model.nodes, member.start)];
+    const std::size_t other = group[index_of(model.nodes, member.end)];
+    std::replace(group.begin(), group.end(), one, other);
+  }
+  return std::all_of(group.begin(), group.end(), [&](std::size_t g) { return g == group.front(); });
+}
+
+/// How firmly the supports hold a rigid body: the determinant of the sum of r r^T over the directions r
+/// (force, force, moment by unit length) that they hold, over that of equal eigenvalues.
+double firmness(const Model& model, double length) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  const Node& origin = model.nodes.front();
+  for (const Support& support : model.supports) {
+    const Node& node = model.nodes[index_of(model.nodes, support.node)];
+    const double angle = support.angle_degrees * std::numbers::pi / 180.0;
+    const auto hold = [&](double dx, double dy) {
+      const double moment = ((node.x - origin.x) * dy - (node.y - origin.y) * dx) / length;
+      const Eigen::Vector3d row(dx, dy, moment);
+      sum += row * row.transpose();
+    };
+    if (support.x) hold(std::cos(angle), std::sin(angle));
+    if (support.y) hold(-std::sin(angle), std::cos(angle));
+    if (support.rotation) sum(2, 2) += 1.0;
+  }
+  const double mean = sum.trace() / 3.0;
+  return mean > 0.0 ? sum.determinant() / (mean * mean * mean) : 0.0;
+}
+
 }  // namespace
+
+bool is_plainly_held(const Model& model) {
+  constexpr std::size_t kFew = 10;
+  constexpr double kComparable = 1e-3;
+  constexpr double kFirm = 1e-3;
+  if (model.members.size() > kFew || model.supports.empty()) return false;
+  double length = 0.0;
+  double least_EI = std::numeric_limits<double>::infinity();
+  double largest_EI = 0.0;
+  double least_force = least_EI;
+  for (const Member& member : model.members) {
+    const Section& section = model.sections[index_of(model.sections, member.section)];
+    const std::optional<double> own = length_of(model, member);
+    if (!own || member.release_start_rotation || member.release_end_rotation) return false;
+    length = std::max(length, *own);
+    least_EI = std::min(least_EI, section.EI);
+    largest_EI = std::max(largest_EI, section.EI);
+    least_force = std::min({least_force, section.EA, section.GA.value_or(section.EA)});
+  }
+  return least_EI >= kComparable * largest_EI &&
+         least_force >= kComparable * largest_EI / (length * length) && is_connected(model) &&
+         firmness(model, length) >= kFirm;
+}
 
 std::vector<Finding> find_mechanism(const Model& model) {
   Model bare = model;

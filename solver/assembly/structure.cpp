@@ -304,10 +304,7 @@ void Builder::add_elements(Geometry geometry) {
       add_element_supports(e);
     }
   }
-  for (const Foundation& base : model_.foundations)
-    if (base.stiffness == 0.0) out_.skipped.push_back("foundation " + base.id + ": stiffness 0");
-  for (const Spring& spring : model_.springs)
-    if (spring.stiffness == 0.0) out_.skipped.push_back("spring " + spring.id + ": stiffness 0");
+  out_.skipped = without_stiffness(model_);
 }
 
 void Builder::add_supports() {
@@ -504,6 +501,15 @@ void Builder::add_monitors() {
 }
 
 }  // namespace
+
+std::vector<std::string> without_stiffness(const Model& model) {
+  std::vector<std::string> out;
+  for (const Foundation& base : model.foundations)
+    if (base.stiffness == 0.0) out.push_back("foundation " + base.id + ": stiffness 0");
+  for (const Spring& spring : model.springs)
+    if (spring.stiffness == 0.0) out.push_back("spring " + spring.id + ": stiffness 0");
+  return out;
+}
 
 ElementShape shape_of_element(const Structure& structure, const Model& model, int element) {
   const int member = structure.mesh.elements[element].member;

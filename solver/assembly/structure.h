@@ -106,6 +106,9 @@ struct Structure {
 /// @brief The structure of the same model, with the same imperfections, on another mesh.
 [[nodiscard]] Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh);
 
+/// @brief Bases and springs that are left out because their stiffness is zero, in words.
+[[nodiscard]] std::vector<std::string> without_stiffness(const Model& model);
+
 /// @brief Functional that reads the displacement along (dx, dy), or the rotation, at a place.
 /// @param row (x, y, rotation) weights at that place
 [[nodiscard]] SparseRow displacement_row(const Structure& structure, const Model& model, const Location& at,

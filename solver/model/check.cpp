@@ -7,7 +7,7 @@ namespace snapthrough {
 
 std::vector<Finding> check(const Model& model, const Analysis& analysis) {
   std::vector<Finding> findings;
-  const checks::Place root("", findings);
+  const checks::Place root(PointerPath(), findings);
   const checks::Place place = root / "model";
   checks::Names names;
   checks::check_nodes(place, model, names);
@@ -22,7 +22,7 @@ std::vector<Finding> check(const Model& model, const Analysis& analysis) {
   checks::check_monitors(place, model, names);
   checks::check_analysis(root, model, analysis, names);
   checks::check_supported(root, model, analysis);
-  return findings.empty() ? find_mechanism(model) : findings;
+  return findings.empty() && !is_plainly_held(model) ? find_mechanism(model) : findings;
 }
 
 }  // namespace snapthrough

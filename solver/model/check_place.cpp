@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "solver/model/limits.h"
-#include "solver/model/pointer.h"
 
 namespace snapthrough::checks {
 
@@ -13,28 +12,25 @@ namespace {
 
 bool is_bounded(double value) { return std::abs(value) <= kMaxMagnitude; }
 
-bool report_unless(bool holds, const Place& place, const std::string& rule, double value) {
+/// @param rule makes the text of the rule
+template <class Rule>
+bool report_unless(bool holds, const Place& place, double value, const Rule& rule) {
   if (!holds) {
-    place.report("out_of_range", place.name() + " must be " + rule + ", got " + text(value));
+    place.report("out_of_range", place.name() + " must be " + rule() + ", got " + text(value));
   }
   return holds;
 }
 
 }  // namespace
 
-Place Place::operator/(std::string_view key) const {
-  return {pointer_ + "/" + escape_pointer_token(key), *findings_};
-}
-
-Place Place::operator/(std::size_t index) const {
-  return {pointer_ + "/" + std::to_string(index), *findings_};
-}
-
 void Place::report(std::string_view code, std::string detail) const {
-  findings_->push_back({pointer_, std::string(code), std::move(detail)});
+  findings_->push_back({path_.text(), std::string(code), std::move(detail)});
 }
 
-std::string Place::name() const { return pointer_.substr(pointer_.rfind('/') + 1); }
+std::string Place::name() const {
+  const std::string pointer = path_.text();
+  return pointer.substr(pointer.rfind('/') + 1);
+}
 
 std::string text(double value) {
   std::array<char, 32> buffer{};
@@ -52,19 +48,22 @@ std::string in_quotes(std::string_view id) {
 }
 
 bool require_finite(const Place& place, double value) {
-  return report_unless(is_bounded(value), place, "a finite number of at most " + text(kMaxMagnitude), value);
+  return report_unless(is_bounded(value), place, value,
+                       [] { return "a finite number of at most " + text(kMaxMagnitude); });
 }
 
 bool require_positive(const Place& place, double value) {
-  return report_unless(value > 0.0 && is_bounded(value), place, "positive and finite", value);
+  return report_unless(value > 0.0 && is_bounded(value), place, value, [] { return "positive and finite"; });
 }
 
 bool require_not_negative(const Place& place, double value) {
-  return report_unless(value >= 0.0 && is_bounded(value), place, "zero or positive, and finite", value);
+  return report_unless(value >= 0.0 && is_bounded(value), place, value,
+                       [] { return "zero or positive, and finite"; });
 }
 
 bool require_between(const Place& place, double value, double lo, double hi) {
-  return report_unless(value >= lo && value <= hi, place, "from " + text(lo) + " to " + text(hi), value);
+  return report_unless(value >= lo && value <= hi, place, value,
+                       [&] { return "from " + text(lo) + " to " + text(hi); });
 }
 
 bool require_between(const Place& place, int value, int lo, int hi) {

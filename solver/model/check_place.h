@@ -7,23 +7,24 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "solver/model/check.h"
+#include "solver/model/pointer.h"
 
 namespace snapthrough::checks {
 
 /// @brief A place in the request document that findings can be reported at. A small value, made on the way
-/// down: `model / "members" / 3 / "section"`.
+/// down: `model / "members" / 3 / "section"`. Keys are referred to.
 class Place {
  public:
-  Place(std::string pointer, std::vector<Finding>& findings)
-      : pointer_(std::move(pointer)), findings_(&findings) {}
+  Place(PointerPath path, std::vector<Finding>& findings) : path_(std::move(path)), findings_(&findings) {}
 
   /// The member `key` of the object here.
-  [[nodiscard]] Place operator/(std::string_view key) const;
+  [[nodiscard]] Place operator/(std::string_view key) const { return {path_.with(key), *findings_}; }
   /// The element `index` of the array here.
-  [[nodiscard]] Place operator/(std::size_t index) const;
+  [[nodiscard]] Place operator/(std::size_t index) const { return {path_.with(index), *findings_}; }
 
   void report(std::string_view code, std::string detail) const;
 
@@ -31,7 +32,7 @@ class Place {
   [[nodiscard]] std::string name() const;
 
  private:
-  std::string pointer_;
+  PointerPath path_;
   std::vector<Finding>* findings_;
 };
 

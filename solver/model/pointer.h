@@ -2,8 +2,11 @@
 /// @file
 /// JSON Pointers (RFC 6901), as text: how a finding says where it stands.
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace snapthrough {
 
@@ -22,5 +25,39 @@ namespace snapthrough {
   }
   return escaped;
 }
+
+/// @brief A pointer that grows by tokens and becomes a text only when it is asked for: nearly all places of a
+/// document are never reported. Keys are referred to, and must outlive it.
+class PointerPath {
+ public:
+  explicit PointerPath(std::string prefix = {}) : prefix_(std::move(prefix)) {}
+
+  [[nodiscard]] PointerPath with(std::string_view key) const { return with({key, 0, false}); }
+  [[nodiscard]] PointerPath with(std::size_t index) const { return with({{}, index, true}); }
+  [[nodiscard]] std::string text() const {
+    std::string all = prefix_;
+    for (std::size_t i = 0; i < size_; ++i) {
+      all += "/";
+      all += tokens_[i].is_index ? std::to_string(tokens_[i].index) : escape_pointer_token(tokens_[i].key);
+    }
+    return all;
+  }
+
+ private:
+  struct Token {
+    std::string_view key;
+    std::size_t index = 0;
+    bool is_index = false;
+  };
+  [[nodiscard]] PointerPath with(const Token& token) const {
+    PointerPath longer = size_ < tokens_.size() ? *this : PointerPath(text());
+    longer.tokens_[longer.size_++] = token;
+    return longer;
+  }
+
+  std::string prefix_;  ///< what does not fit into the tokens, or was given
+  std::array<Token, 8> tokens_{};
+  std::size_t size_ = 0;
+};
 
 }  // namespace snapthrough

@@ -21,7 +21,7 @@ template <class T>
 T read_whole(const nlohmann::json& json) {
   Report report;
   T out;
-  read(Value(json, "", report), out);
+  read(Value(json, PointerPath(), report), out);
   for (const Finding& finding : report.findings()) {
     ADD_FAILURE() << finding.pointer << " " << finding.code << " " << finding.detail;
   }

@@ -127,6 +127,36 @@ TEST(Sweep, OutcomesHoldTheOutputsOrSayWhyNot) {
   EXPECT_EQ(sweep.outcome(other).code, "no_such_output") << "a field that is not there is an error";
 }
 
+TEST(Sweep, DocumentsWrittenOverOneAnotherAreThoseOfTheirPoints) {
+  json swept = sound_sweep();
+  swept["parameters"].push_back(
+      parameter("all", "/model/supports", {json::array(), json::array({{{"node", "a"}, {"fixed", {"x"}}}})}));
+  const Sweep sweep = *read_sweep_document(std::make_shared<json>(swept)).sweep;
+  ASSERT_EQ(sweep.size(), 12U);
+  std::shared_ptr<json> document;
+  for (const std::uint64_t point : {3, 0, 11, 10, 1, 1, 7, 2}) {
+    sweep.write_document(point, document);
+    EXPECT_EQ(*document, *sweep.document_at(point)) << point;
+  }
+}
+
+TEST(Sweep, SparesPlacesThatNoOutputLooksAt) {
+  json document = sound_sweep();
+  const auto places_for = [&](const char* output) {
+    document["outputs"] = {output};
+    const SweepOutcome outcome = read(document);
+    Analysis analysis;
+    outcome.sweep->spare_unused(analysis);
+    EXPECT_EQ(outcome.sweep->parts(), std::vector<std::string_view>{outcome.sweep->parts()[0]});
+    return analysis.output.points_per_member;
+  };
+  EXPECT_EQ(places_for("/summary/critical_load_factor"), 2);
+  EXPECT_EQ(places_for("/buckling/load_factors/0"), 2);
+  EXPECT_EQ(places_for("/buckling/modes/0"), 101);
+  EXPECT_EQ(places_for("/buckling"), 101);
+  EXPECT_EQ(places_for("/states/0/load_factor"), 101);
+}
+
 TEST(Sweep, DropsOnlyWhatNoOutputLooksInto) {
   Result full;
   full.critical_points.resize(2);

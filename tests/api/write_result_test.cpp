@@ -51,6 +51,16 @@ Result full_result() {
   return r;
 }
 
+TEST(WriteResult, PartsAreThoseOfTheWholeDocument) {
+  Result result = full_result();
+  const json whole = write_result(some_request(), result, 0.5);
+  const std::string_view parts[] = {"buckling", "summary", "nothing"};
+  const json some = write_result(some_request(), result, 0.5, parts);
+  EXPECT_EQ(some.size(), 2U);
+  EXPECT_EQ(some["buckling"], whole["buckling"]);
+  EXPECT_EQ(some["summary"], whole["summary"]);
+}
+
 TEST(WriteResult, EveryFieldOfTheContract) {
   const json expected = json::parse(R"({
     "model": {"title": "arch", "units": {"length": "m"}},

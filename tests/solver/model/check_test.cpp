@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "solver/model/limits.h"
+#include "solver/model/pointer.h"
 #include "tests/findings.h"
 #include "tests/solver/model/sound_model.h"
 
@@ -28,6 +29,16 @@ std::vector<Finding> check_rules(const Model& model, const Analysis& analysis) {
   std::vector<Finding> findings = check(model, analysis);
   std::erase_if(findings, [](const Finding& f) { return f.code == "unsupported"; });
   return findings;
+}
+
+TEST(PointerPath, IsAsLongAsItMustBe) {
+  PointerPath path("/model");
+  std::string expected = "/model";
+  for (std::size_t i = 0; i < 30; ++i) {
+    path = path.with("a/b~").with(i);
+    expected += "/a~1b~0/" + std::to_string(i);
+    EXPECT_EQ(path.text(), expected);
+  }
 }
 
 struct Case {

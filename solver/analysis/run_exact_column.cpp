@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solver/analysis/analyses.h"
+#include "solver/stability/exact_column.h"
+
+namespace snapthrough {
+namespace {
+
+/// Displacements of a mode at equally spaced places of each member.
+BucklingMode sample(const ColumnLine& line, const ColumnMode& mode, const Model& model,
+                    const std::vector<double>& lengths, int points) {
+  BucklingMode out;
+  out.members.resize(model.members.size());
+  for (std::size_t m = 0; m < out.members.size(); ++m) {
+    MemberState& member = out.members[m];
+    member.id = model.members[m].id;
+    for (auto* values : {&member.s, &member.x, &member.y, &member.rotation})
+      values->resize(static_cast<std::size_t>(points));
+  }
+  for (std::size_t i = 0; i < line.spans.size(); ++i) {
+    const ColumnSpan& span = line.spans[i];
+    MemberState& member = out.members[span.member];
+    const double lo = std::min(span.fractions[0], span.fractions[1]);
+    const double hi = std::max(span.fractions[0], span.fractions[1]);
+    // a place between two spans belongs to the one that is written last: they agree there
+    for (int k = std::max(0, static_cast<int>(lo * (points - 1))); k < points; ++k) {
+      const double fraction = static_cast<double>(k) / (points - 1);
+      if (fraction < lo) continue;
+      if (fraction > hi) break;
+      const double share = (fraction - span.fractions[0]) / (span.fractions[1] - span.fractions[0]);
+      const ColumnMode::Value value = mode.at(static_cast<int>(i), share * span.length);
+      member.s[k] = fraction * lengths[span.member];
+      member.x[k] = value.w * line.normal[0] + 0.0;  // no negative zeros
+      member.y[k] = value.w * line.normal[1] + 0.0;
+      member.rotation[k] = value.slope;
+    }
+  }
+  return out;
+}
+
+void report_loads(const Analysis& analysis, const ColumnLine& line, const ColumnBuckling& buckling,
+                  Result& result) {
+  result.diagnostics.factorizations += buckling.counts;
+  MeshReport& report = result.discretization;
+  report.elements = static_cast<int>(line.spans.size());
+  report.refinements = 0;
+  report.unknowns = 0;
+  report.requested_accuracy = analysis.discretization.accuracy;
+  for (std::size_t i = 0; i < line.joints.size(); ++i) {
+    const ColumnJoint& joint = line.joints[i];
+    const bool left = i > 0 && (joint.hinge || i + 1 == line.joints.size());
+    const bool right = i + 1 < line.joints.size();
+    report.unknowns +=
+        (joint.held ? 0 : 1) + (left && !joint.left.held ? 1 : 0) + (right && !joint.right.held ? 1 : 0);
+  }
+  if (!buckling.errors.empty())
+    report.estimated_accuracy = *std::max_element(buckling.errors.begin(), buckling.errors.end());
+}
+
+}  // namespace
+
+bool run_exact_column(const Model& model, const Analysis& analysis, Result& result) {
+  if (analysis.discretization.fixed_mesh) return false;
+  const std::optional<ColumnLine> line = column_line(model);
+  if (!line) return false;
+  const auto buckling = column_buckling(*line, analysis.modes);
+  if (!buckling) return false;
+  const std::vector<ColumnMode> modes = column_modes(*line, buckling->loads);
+  if (modes.size() != buckling->loads.size()) return false;
+  std::vector<double> lengths(model.members.size(), 0.0);
+  for (const ColumnSpan& span : line->spans) lengths[span.member] += span.length * line->length;
+  FoundLoads found{buckling->loads, {}, {}, buckling->negative_at_start};
+  for (const ColumnMode& mode : modes) {
+    found.modes.push_back(sample(*line, mode, model, lengths, analysis.output.points_per_member));
+    scale_to_largest(found.modes.back());
+  }
+  found.errors.assign(buckling->errors.begin(), buckling->errors.end());
+  report_buckling(analysis, std::move(found), result);
+  report_loads(analysis, *line, *buckling, result);
+  result.diagnostics.skipped.emplace_back(
+      "mesh and its refinement: the column's differential equation was solved");
+  return true;
+}
+
+}  // namespace snapthrough
