@@ -109,14 +109,19 @@ int Pencil::count(double lambda) {
 
 VectorXd Pencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }
 
+/// Width of a bracket of one eigenvalue over its end, below which inverse iteration gains two digits by
+/// iteration or more.
+constexpr double kShort = 1e-2;
+
 /// Splits (lo, hi) until each bracket holds one eigenvalue and is short, or a cluster that is narrow,
 /// ascending.
 void isolate(Pencil& pencil, const Bracket& bracket, int wanted, std::vector<Bracket>& out) {
   constexpr double kNarrow = 1e-4;
-  constexpr double kShort = 1e-2;  // where inverse iteration gains two digits by iteration or more
   if (bracket.below_hi <= bracket.below_lo || bracket.below_lo >= wanted) return;
   const bool single = bracket.below_hi - bracket.below_lo == 1;
-  const bool narrow = bracket.hi - bracket.lo <= (single ? kShort : kNarrow) * bracket.hi;
+  // the only load that is wanted may have a wide bracket: there is no other beside it to be mixed up with
+  const bool only = single && out.empty() && bracket.below_hi == wanted;
+  const bool narrow = only || bracket.hi - bracket.lo <= (single ? kShort : kNarrow) * bracket.hi;
   if (narrow) {
     // eigenvalues on both sides of a common end are one cluster
     if (!out.empty() && out.back().hi == bracket.lo) {
@@ -174,11 +179,69 @@ std::vector<EigenPair> ritz(Pencil& pencil, double shift, const std::vector<Vect
   return pairs;
 }
 
+/// One step of inverse iteration with what the pencil was factorised at. @return largest relative change
+double iterate(Pencil& pencil, double shift, std::vector<EigenPair>& pairs) {
+  std::vector<VectorXd> b;
+  std::vector<VectorXd> y;
+  for (const EigenPair& pair : pairs) {
+    b.push_back(pencil.geometric(pair.mode));
+    y.push_back(b.back());
+    pencil.solve(y.back());
+  }
+  auto next = ritz(pencil, shift, y, b);
+  double change = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    change = std::max(change, std::abs(next[i].load / pairs[i].load - 1.0));
+  pairs = std::move(next);
+  return change;
+}
+
+/// Draws the lower end of a wide bracket of one load up to just below it: a few iterations from the lower end
+/// say where it is, and a count says whether they are right. Factorised there when it is true.
+bool draw_up(Pencil& pencil, Bracket& bracket, std::vector<EigenPair>& pairs) {
+  constexpr int kTries = 3;
+  constexpr int kIterations = 3;
+  constexpr double kBelow = 2e-3;  // as for the shift of refine()
+  for (int i = 0; i < kTries; ++i) {
+    if (pencil.count(bracket.lo) != bracket.below_lo) return false;
+    for (int k = 0; k < kIterations; ++k) iterate(pencil, bracket.lo, pairs);
+    const double load = pairs[0].load;
+    if (!(load > bracket.lo && load < bracket.hi)) return false;  // some other load is nearer
+    const double shift = load * (1.0 - kBelow);
+    if (shift <= bracket.lo) return pencil.count(bracket.lo) == bracket.below_lo;
+    if (pencil.count(shift) == bracket.below_lo) {
+      bracket.lo = shift;
+      return true;
+    }
+    bracket.hi = shift;
+  }
+  return false;
+}
+
+/// Halves a bracket of one load until inverse iteration gains two digits by iteration or more.
+void narrow(Pencil& pencil, Bracket& bracket) {
+  while (bracket.hi - bracket.lo > kShort * bracket.hi) {
+    const double middle = 0.5 * (bracket.lo + bracket.hi);
+    (pencil.count(middle) > bracket.below_lo ? bracket.hi : bracket.lo) = middle;
+  }
+}
+
 /// Inverse iteration with a block on one bracket: its eigenvalues ascending, with their vectors.
-std::vector<EigenPair> refine(Pencil& pencil, const Bracket& bracket, Index size) {
+std::vector<EigenPair> refine(Pencil& pencil, Bracket& bracket, Index size) {
   constexpr int kMaxIterations = 60;
   constexpr double kTolerance = 1e-13;
   const int m = bracket.below_hi - bracket.below_lo;
+  std::vector<EigenPair> pairs(static_cast<std::size_t>(m));
+  for (int i = 0; i < m; ++i) pairs[i] = {bracket.hi, pseudo_random(size, static_cast<unsigned>(i + 1))};
+  if (m == 1 && bracket.hi - bracket.lo > kShort * bracket.hi) {
+    if (draw_up(pencil, bracket, pairs)) {
+      for (int it = 0; it < kMaxIterations; ++it)
+        if (iterate(pencil, bracket.lo, pairs) <= kTolerance) break;
+      return pairs;
+    }
+    narrow(pencil, bracket);
+    pairs[0] = {bracket.hi, pseudo_random(size, 1U)};
+  }
   // Well off the eigenvalues, where elimination is accurate even if parts of the structure buckle at the same
   // load, as long as no other eigenvalue is met on the way; else inside the bracket, off the places of the
   // bisection.
@@ -187,22 +250,8 @@ std::vector<EigenPair> refine(Pencil& pencil, const Bracket& bracket, Index size
     shift = bracket.lo + 0.381966 * (bracket.hi - bracket.lo);
     static_cast<void>(pencil.count(shift));  // factorises there
   }
-  std::vector<EigenPair> pairs(static_cast<std::size_t>(m));
-  for (int i = 0; i < m; ++i) pairs[i] = {bracket.hi, pseudo_random(size, static_cast<unsigned>(i + 1))};
-  for (int it = 0; it < kMaxIterations; ++it) {
-    std::vector<VectorXd> b;
-    std::vector<VectorXd> y;
-    for (const EigenPair& pair : pairs) {
-      b.push_back(pencil.geometric(pair.mode));
-      y.push_back(b.back());
-      pencil.solve(y.back());
-    }
-    auto next = ritz(pencil, shift, y, b);
-    double change = 0.0;
-    for (int i = 0; i < m; ++i) change = std::max(change, std::abs(next[i].load / pairs[i].load - 1.0));
-    pairs = std::move(next);
-    if (it > 0 && change <= kTolerance) break;
-  }
+  for (int it = 0; it < kMaxIterations; ++it)
+    if (iterate(pencil, shift, pairs) <= kTolerance && it > 0) break;
   return pairs;
 }
 
@@ -260,7 +309,7 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
   const Bracket all = enclose(pencil, count, out.negative_at_start);
   std::vector<Bracket> brackets;
   isolate(pencil, all, out.negative_at_start + count, brackets);
-  for (const Bracket& bracket : brackets) {
+  for (Bracket& bracket : brackets) {
     auto pairs = refine(pencil, bracket, problem.size());
     confirm(pencil, bracket, pairs);
     for (EigenPair& pair : pairs) {
