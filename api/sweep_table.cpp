@@ -2,32 +2,19 @@
 
 #include <nlohmann/json.hpp>
 
+#include "api/csv_field.h"
+
 namespace snapthrough::api {
 
 namespace {
 
 using Json = nlohmann::json;
 
-void append_csv_text(const std::string& field, std::string& text) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) {
-    text += field;
-    return;
-  }
-  text += '"';
-  for (const char c : field) {
-    text += c;
-    if (c == '"') {
-      text += '"';
-    }
-  }
-  text += '"';
-}
-
 void append_csv_value(const Json& value, std::string& text) {
   if (value.is_null()) {
     return;
   }
-  append_csv_text(value.is_string() ? value.get<std::string>() : value.dump(), text);
+  append_csv_field(text, value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 Json error_of(const PointOutcome& outcome) { return {{"code", outcome.code}, {"detail", outcome.detail}}; }
@@ -61,7 +48,7 @@ std::string TableWriter::head() const {
     case TableForm::csv:
       for (const std::string& column : sweep_.columns()) {
         text += text.empty() ? "" : ",";
-        append_csv_text(column, text);
+        append_csv_field(text, column);
       }
       return text + "\n";
     case TableForm::ndjson:
@@ -111,7 +98,7 @@ void TableWriter::append_csv(std::uint64_t point, const PointOutcome& outcome, s
   }
   if (outcome.failed()) {
     text.append(sweep_.output_count(), ',');
-    append_csv_text(dumped(error_of(outcome)), text);
+    append_csv_field(text, dumped(error_of(outcome)));
   } else {
     for (const Json& value : Json::parse(outcome.outputs)) {
       append_csv_value(value, text);

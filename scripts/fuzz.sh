@@ -14,6 +14,6 @@ for target in request http; do
   found="$build/found_$target"
   mkdir -p "$found"
   "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len=8192 -timeout=10 -rss_limit_mb=2048 \
-    -print_final_stats=1 -artifact_prefix="$build/" "$found" "$corpus" 2>&1 | tail -12
+    -dict="tests/fuzz/$target.dict" -print_final_stats=1 -artifact_prefix="$build/" "$found" "$corpus" 2>&1 | tail -12
   "$build/tests/fuzz/fuzz_$target" -use_counters=0 -set_cover_merge=1 "$corpus" "$found" 2>&1 | tail -1
 done

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Keeps the service at about 70 % of the load it can take for MINUTES (30), with retention and backups running, and
-# prints memory, descriptors, log, WAL and store sizes once a minute; at the end a restored backup has to answer.
+# prints jobs solved, memory, descriptors, log, WAL and store sizes once a minute; at the end a restored backup has to answer.
 #   scripts/soak.sh [MINUTES]      needs a built tree (build/release)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -26,14 +26,15 @@ start() {
 }
 
 report() {
-  local rss files wal db log
+  local rss files wal db log solved
+  solved="$(sed -n 's/^solved \([0-9]*\) .*/\1/p' "$folder/load.log")"
   rss="$(awk '/VmRSS/ {print int($2 / 1024)}' "/proc/$service/status")"
   files="$(find "/proc/$service/fd" -mindepth 1 2>/dev/null | wc -l)"
   wal="$(stat -c %s "$folder/soak.db-wal" 2>/dev/null || echo 0)"
   db="$(stat -c %s "$folder/soak.db")"
   log="$(stat -c %s "$folder/log")"
-  printf 'minute %3d: memory %4d MB, descriptors %3d, WAL %3d MB, store %4d MB, log %6d B\n' "$1" "$rss" "$files" \
-    $((wal / 1048576)) $((db / 1048576)) "$log"
+  printf 'minute %3d: %5d jobs/s, memory %4d MB, descriptors %3d, WAL %3d MB, store %4d MB, log %6d B\n' "$1" \
+    "$solved" "$rss" "$files" $((wal / 1048576)) $((db / 1048576)) "$log"
 }
 
 start "$folder/soak.db" "$folder/log"

@@ -60,6 +60,7 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   require(jobs.table_rows >= 1, "jobs.table_rows", "must be >= 1");
   require(jobs.lease.count() >= 1, "jobs.lease", "must be >= 1 s");
   require(jobs.longest_run.count() >= 1, "jobs.longest_run", "must be >= 1 s");
+  require(jobs.job_memory >= kLeastJobMemory, "jobs.job_memory", "must be >= 1048576 bytes");
   require(jobs.keep_jobs.count() >= 0, "jobs.keep_jobs", "must be >= 0");
   require(jobs.keep_keys.count() >= 0, "jobs.keep_keys", "must be >= 0");
   require(ballast_bytes >= 0, "ballast_bytes", "must be >= 0");

@@ -48,6 +48,7 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"queue", number(config.jobs.queue)},
           {"workers", number(config.workers)},
           {"max_run_s", number(config.jobs.longest_run.count())},
+          {"max_job_memory_bytes", number(config.jobs.job_memory)},
           {"max_crashes", number(config.jobs.max_crashes)},
           {"lease_s", number(config.jobs.lease.count())},
           {"default_wait_s", number(config.waits.default_wait.count())},

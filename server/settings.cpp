@@ -161,6 +161,8 @@ std::vector<Setting> job_settings() {
           [](ServiceConfig & c) -> auto& { return c.jobs.lease; }),
       duration(
           "max_run_s", "Time of one analysis", [](ServiceConfig & c) -> auto& { return c.jobs.longest_run; }),
+      whole("max_job_memory_bytes", "Memory of one analysis, its result document included",
+            [](ServiceConfig& c) -> std::int64_t& { return c.jobs.job_memory; }),
       duration(
           "keep_jobs_s", "How long jobs are kept after their end; 0: for ever",
           [](ServiceConfig & c) -> auto& { return c.jobs.keep_jobs; }),

@@ -20,10 +20,13 @@ struct Progress {
   int negative_eigenvalues = 0;
 };
 
-/// What a caller may watch or stop. `on_progress` is called from the solving thread at each accepted step.
+/// What a caller may watch or stop. The functions are called from the solving thread: `on_progress` at each
+/// accepted step, `on_critical` when a critical point was located, with its load on the path's own mesh. What
+/// finer meshes make of that load, and its error estimate, come with the result.
 struct Hooks {
   std::stop_token stop;
-  std::function<void(const Progress&)> on_progress;
+  std::function<void(const Progress&)> on_progress = {};
+  std::function<void(const CriticalPoint&)> on_critical = {};
 };
 
 /// @brief Runs one analysis.

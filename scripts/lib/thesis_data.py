@@ -59,10 +59,10 @@ def references():
     return read_csv(EXAMPLES / "reference.csv")
 
 
-def order_of(row):
-    """Order of a row's elements; 0 where the mesh follows from the accuracy asked for."""
+def on_thesis_mesh(row):
+    """Whether a row's mesh is the thesis'; the other meshes follow from the accuracy asked for."""
     mesh = row.get("mesh")
-    return mesh.get("order", 0) if mesh else 1  # a sweep over `elements` alone is on straight elements
+    return not mesh or "accuracy" not in mesh  # a sweep over `elements` alone has no other
 
 
 def elements_of(row):
@@ -74,7 +74,6 @@ def value_of(row, what):
     """(load factor, error estimate) of `buckling n` or of the nth critical point of a kind; None where there is none."""
     kind, _, number = what.partition(" ")
     if kind == "buckling":
-        number = number.split("|")[-1 if order_of(row) == 1 else 0]
         return row["/buckling/load_factors/" + number], row["/discretization/accuracy/estimated"]
     wanted = int(number or 1)
     for i in range(12):
@@ -85,13 +84,13 @@ def value_of(row, what):
     return None
 
 
-def pick(rows, reference, order_1):
+def pick(rows, reference, on_thesis):
     """The row and its value beside a reference: on the thesis' own mesh, or converged. (None, None) without one."""
     for row in rows:
-        if (order_of(row) == 1) != order_1:
+        if on_thesis_mesh(row) != on_thesis:
             continue
         if reference["key"] == "elements":
-            if order_1 and elements_of(row) != float(reference["value"]):
+            if on_thesis and elements_of(row) != float(reference["value"]):
                 continue
         elif abs(row[reference["key"]] - float(reference["value"])) > 1e-9 * abs(row[reference["key"]]):
             continue

@@ -2,7 +2,7 @@
 import math
 
 from lib.gnuplot import PALETTE, Axes, Curve, equilibrium_paths, line, marks, plot
-from lib.thesis_data import DOCS, ROOT, SPRINGS, order_of, read_csv, references, run_request, value_of
+from lib.thesis_data import DOCS, ROOT, SPRINGS, on_thesis_mesh, read_csv, references, run_request, value_of
 
 STIFFNESS = "/model/foundations/0/stiffness"
 BEAM_SUPPORTS = (("sliding", ["y"], 1e9), ("fixed, EA = 10^4", ["x", "y"], 1e4), ("fixed, EA = 10^6", ["x", "y"], 1e6))
@@ -202,7 +202,7 @@ def plot_ring(runs, results):
 
 def plot_limit_against_stiffness(results, file, name, title, group):
     curves = [line(label, [(row["k"], value_of(row, "limit_max")[0]) for row in results[file]
-                           if row["k"] > 0 and (order_of(row) == 1) == coarse], color)
+                           if row["k"] > 0 and on_thesis_mesh(row) == coarse], color)
               for label, coarse, color in (("thesis mesh", True, PALETTE[1]), ("converged", False, PALETTE[0]))]
     curves += [marks(None, curve.pieces[0], color) for curve, color in zip(curves, (PALETTE[1], PALETTE[0]))]
     published = [(float(r["value"]), float(r["published"])) for r in references()

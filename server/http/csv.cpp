@@ -5,6 +5,8 @@
 #include <charconv>
 #include <vector>
 
+#include "api/csv_field.h"
+
 namespace snapthrough::server::http {
 namespace {
 
@@ -14,21 +16,6 @@ void append(std::string& text, double value) {
   std::array<char, 40> digits{};
   const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
   text.append(digits.data(), end);
-}
-
-void append_quoted(std::string& text, const std::string& field) {
-  if (field.find_first_of(",\"\r\n") == std::string::npos) {
-    text += field;
-    return;
-  }
-  text += '"';
-  for (const char c : field) {
-    text += c;
-    if (c == '"') {
-      text += '"';
-    }
-  }
-  text += '"';
 }
 
 /// The ids of all branches, each once, in the order they come.
@@ -61,10 +48,10 @@ std::string path_csv(const StoredPath& path) {
   const std::vector<std::string> bases = ids_of(path, &Branch::contact_fraction);
   std::string text = "branch,point,load_factor,arc_length,negative_eigenvalues";
   for (const std::string& id : monitors) {
-    append_quoted(text += ',', id);
+    api::append_csv_field(text += ',', id);
   }
   for (const std::string& id : bases) {
-    append_quoted(text += ',', "contact_fraction:" + id);
+    api::append_csv_field(text += ',', "contact_fraction:" + id);
   }
   text += kLineEnd;
   for (const Branch& branch : path.branches) {

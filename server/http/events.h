@@ -11,8 +11,9 @@
 
 namespace snapthrough::server::http {
 
-/// @brief Sends `status` at once, `progress` while the analysis runs (at most 20 a second), and when the job
-/// has ended its `critical_point` events and `end`, which is the last.
+/// @brief Sends `status` at once; while the analysis runs `progress` (at most 20 a second) and each
+/// `critical_point` as it is found, those that were found before among them; when the job has ended its
+/// `critical_point` events as the result has them (`final`: true) and `end`, which is the last.
 ///
 /// Event ids grow; what a client has seen (`last_id`, from Last-Event-ID) is not sent again.
 [[nodiscard]] std::shared_ptr<StreamSource> follow_job(JobDesk& desk, const std::string& id,

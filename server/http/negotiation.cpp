@@ -40,7 +40,74 @@ std::optional<api::TableForm> accepted_form(std::string_view range) {
   return json ? std::optional(api::TableForm::json) : std::nullopt;
 }
 
+/// False when it is unknown or its value is not acceptable.
+bool read_list_parameter(const std::string& name, const std::string& value, const ListQuery& query) {
+  if (name == "limit") {
+    query.limit = whole_number<int>(value).value_or(0);
+    return query.limit >= 1 && query.limit <= kLargestPage;
+  }
+  if (name == "cursor") {
+    query.before = whole_number<std::int64_t>(value);
+    return query.before.has_value();
+  }
+  if (name == "status") {
+    query.state = job_state_from(value);
+    return query.state.has_value();
+  }
+  return false;
+}
+
 }  // namespace
+
+std::optional<Response> read_list_query(const Request& request, ListQuery query) {
+  for (const auto& [name, value] : request.query) {
+    if (!read_list_parameter(name, value, query)) {
+      return wrong_parameter(
+          request, "limit (1 to " + std::to_string(kLargestPage) + "), cursor (from a next link) and status",
+          name, value);
+    }
+  }
+  return std::nullopt;
+}
+
+std::string next_page(const Request& request, ListQuery query, std::optional<std::int64_t> cursor) {
+  if (!cursor) {
+    return "";
+  }
+  std::string target =
+      request.path + "?limit=" + std::to_string(query.limit) + "&cursor=" + std::to_string(*cursor);
+  if (query.state) {
+    target += "&status=" + std::string(to_string(*query.state));
+  }
+  return target;
+}
+
+Response list_page(std::string document, const std::string& next) {
+  Response response = json_response(200, std::move(document));
+  if (!next.empty()) {
+    response.headers.emplace_back("Link", "<" + next + ">; rel=\"next\"");
+  }
+  return response;
+}
+
+Response wrong_parameter(const Request& request, const std::string& expected, const std::string& name,
+                         const std::string& value) {
+  return simple_problem(
+      request, 400, "invalid-parameter", "Invalid parameter",
+      "The query parameters are " + expected + "; this is none of them: " + name + "=" + value);
+}
+
+Response event_stream(const Request& request,
+                      std::function<std::shared_ptr<StreamSource>(std::uint64_t, Stream::Push)> follow) {
+  Response response;
+  response.content_type = "text/event-stream";
+  response.headers.emplace_back("Cache-Control", "no-store");
+  const std::uint64_t last =
+      whole_number<std::uint64_t>(request.header("Last-Event-ID").value_or("")).value_or(0);
+  response.stream =
+      Stream{[follow = std::move(follow), last](Stream::Push push) { return follow(last, std::move(push)); }};
+  return response;
+}
 
 bool matches_etag(const Request& request, const std::string& etag) {
   const std::optional<std::string_view> header = request.header("If-None-Match");

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include "server/http/csv.h"
@@ -12,41 +11,12 @@
 namespace snapthrough::server::http {
 namespace {
 
-constexpr int kDefaultPage = 20;
-constexpr int kLargestPage = 1000;
-
 /// The problem of a failed job: the caller's model could not be analysed, or the service is to blame.
 Problem failure_problem(const JobFailure& failure) {
   static constexpr std::array kOwnFaults{"internal_error", "out_of_memory", "crashed", "not_stored"};
   const bool own_fault = std::find(kOwnFaults.begin(), kOwnFaults.end(), failure.code) != kOwnFaults.end();
   return {own_fault ? 500 : 422, "analysis-failed", "The analysis could not be completed", failure.detail, {},
           failure.code,          failure.reached};
-}
-
-/// One parameter of a list's query; false when it is unknown or its value is not acceptable.
-bool read_list_parameter(const std::string& name, const std::string& value, JobQuery& query) {
-  if (name == "limit") {
-    const std::optional<int> limit = whole_number<int>(value);
-    query.limit = limit.value_or(0);
-    return query.limit >= 1 && query.limit <= kLargestPage;
-  }
-  if (name == "cursor") {
-    query.before = whole_number<std::int64_t>(value);
-    return query.before.has_value();
-  }
-  if (name == "status") {
-    query.state = job_state_from(value);
-    return query.state.has_value();
-  }
-  return false;
-}
-
-std::string next_page(const JobQuery& query, std::int64_t cursor) {
-  std::string path = "/v1/jobs?limit=" + std::to_string(query.limit) + "&cursor=" + std::to_string(cursor);
-  if (query.state) {
-    path += "&status=" + std::string(to_string(*query.state));
-  }
-  return path;
 }
 
 /// A result never changes, so its job's id is a strong validator.
@@ -172,26 +142,17 @@ Response Routes::outcome_of(const Request& request, const std::string& id, bool 
 
 Response Routes::list_jobs(const Request& request, const std::string& /*id*/) {
   JobQuery query;
-  query.limit = kDefaultPage;
   query.owner = request.owner;
-  for (const auto& [name, value] : request.query) {
-    if (!read_list_parameter(name, value, query)) {
-      return simple_problem(request, 400, "invalid-parameter", "Invalid parameter",
-                            "The query parameters are limit (1 to " + std::to_string(kLargestPage) +
-                                "), cursor (from a next link) and status; this is none of them: " + name +
-                                "=" + value);
-    }
+  const ListQuery list{query.limit, query.before, query.state};
+  if (std::optional<Response> refusal = read_list_query(request, list)) {
+    return *std::move(refusal);
   }
   const StatusOr<JobPage> page = desk_.store().list(query);
   if (!page.ok()) {
     return store_trouble(request, page.status());
   }
-  const std::string next = page->next ? next_page(query, *page->next) : "";
-  Response response = json_response(200, job_list_document(*page, next));
-  if (!next.empty()) {
-    response.headers.emplace_back("Link", "<" + next + ">; rel=\"next\"");
-  }
-  return response;
+  const std::string next = next_page(request, list, page->next);
+  return list_page(job_list_document(*page, next), next);
 }
 
 Response Routes::job_status(const Request& request, const std::string& id) {
@@ -280,14 +241,9 @@ Response Routes::job_events(const Request& request, const std::string& id) {
   if (!job.ok() || !job->has_value()) {
     return job.ok() ? job_missing(request, id) : store_trouble(request, job.status());
   }
-  Response response;
-  response.content_type = "text/event-stream";
-  response.headers.emplace_back("Cache-Control", "no-store");
-  const std::uint64_t last =
-      whole_number<std::uint64_t>(request.header("Last-Event-ID").value_or("")).value_or(0);
-  response.stream =
-      Stream{[this, id, last](Stream::Push push) { return follow_job(desk_, id, last, std::move(push)); }};
-  return response;
+  return event_stream(request, [this, id](std::uint64_t last, Stream::Push push) {
+    return follow_job(desk_, id, last, std::move(push));
+  });
 }
 
 Response Routes::dismiss_job(const Request& request, const std::string& id) {

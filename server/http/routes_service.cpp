@@ -7,6 +7,7 @@
 #include "api/sweep.h"
 #include "server/http/embedded.h"
 #include "server/http/routes.h"
+#include "server/jobs/least_memory.h"
 #include "solver/mesh/mesh.h"
 
 namespace snapthrough::server::http {
@@ -38,9 +39,13 @@ struct Checked {
   int unknowns = 0;
 };
 
-Checked checked_request(const std::shared_ptr<const nlohmann::json>& document) {
+/// @param memory bytes that an analysis may use
+Checked checked_request(const std::shared_ptr<const nlohmann::json>& document, std::int64_t memory) {
   api::ReadOutcome read = api::read_request_document(document);
-  return {std::move(read.findings), 1, read.request ? unknowns_of(*read.request) : 0};
+  if (!read.request) {
+    return {std::move(read.findings), 1, 0};
+  }
+  return {check_memory(read.request->model, read.request->analysis, memory), 1, unknowns_of(*read.request)};
 }
 
 /// Unknowns are those of the first point that is a valid request.
@@ -50,7 +55,7 @@ Checked checked_sweep(const std::shared_ptr<const nlohmann::json>& document, con
       api::read_sweep_document(document, static_cast<std::uint64_t>(limits.sweep_points));
   Checked checked{std::move(read.findings), read.sweep ? read.sweep->size() : 0, 0};
   for (std::uint64_t i = 0; i < std::min(checked.points, kTries) && checked.unknowns == 0; ++i) {
-    checked.unknowns = checked_request(read.sweep->document_at(i)).unknowns;
+    checked.unknowns = checked_request(read.sweep->document_at(i), limits.job_memory).unknowns;
   }
   return checked;
 }
@@ -73,8 +78,9 @@ Response Routes::check(const Request& request, const std::string& /*id*/) {
                              parsed.findings, "", ""},
                             request);
   }
-  const Checked checked = api::is_sweep(*parsed.document) ? checked_sweep(parsed.document, desk_.limits())
-                                                          : checked_request(parsed.document);
+  const Checked checked = api::is_sweep(*parsed.document)
+                              ? checked_sweep(parsed.document, desk_.limits())
+                              : checked_request(parsed.document, desk_.limits().job_memory);
   ordered_json document{{"valid", checked.findings.empty()},
                         {"errors", api::write_findings(checked.findings)},
                         {"size", nullptr}};

@@ -10,34 +10,9 @@
 namespace snapthrough::server::http {
 namespace {
 
-constexpr int kLargestPage = 1000;
-
 Response sweep_missing(const Request& request, const std::string& id) {
   return simple_problem(request, 404, "no-such-sweep", "No such sweep",
                         "There is no sweep with the id " + id + ".");
-}
-
-Response wrong_parameter(const Request& request, const std::string& expected, const std::string& name,
-                         const std::string& value) {
-  return simple_problem(
-      request, 400, "invalid-parameter", "Invalid parameter",
-      "The query parameters are " + expected + "; this is none of them: " + name + "=" + value);
-}
-
-bool read_list_parameter(const std::string& name, const std::string& value, SweepQuery& query) {
-  if (name == "limit") {
-    query.limit = whole_number<int>(value).value_or(0);
-    return query.limit >= 1 && query.limit <= kLargestPage;
-  }
-  if (name == "cursor") {
-    query.before = whole_number<std::int64_t>(value);
-    return query.before.has_value();
-  }
-  if (name == "status") {
-    query.state = job_state_from(value);
-    return query.state.has_value();
-  }
-  return false;
 }
 
 bool read_table_parameter(const std::string& name, const std::string& value, PointQuery& query) {
@@ -151,27 +126,16 @@ Response Routes::create_sweep(const Request& request, const std::string& /*id*/)
 Response Routes::list_sweeps(const Request& request, const std::string& /*id*/) {
   SweepQuery query;
   query.owner = request.owner;
-  for (const auto& [name, value] : request.query) {
-    if (!read_list_parameter(name, value, query)) {
-      return wrong_parameter(
-          request, "limit (1 to " + std::to_string(kLargestPage) + "), cursor (from a next link) and status",
-          name, value);
-    }
+  const ListQuery list{query.limit, query.before, query.state};
+  if (std::optional<Response> refusal = read_list_query(request, list)) {
+    return *std::move(refusal);
   }
   const StatusOr<SweepPage> page = desk_.sweeps().store().list(query);
   if (!page.ok()) {
     return store_trouble(request, page.status());
   }
-  std::string next;
-  if (page->next) {
-    next = "/v1/sweeps?limit=" + std::to_string(query.limit) + "&cursor=" + std::to_string(*page->next);
-    next += query.state ? "&status=" + std::string(to_string(*query.state)) : "";
-  }
-  Response response = json_response(200, sweep_list_document(*page, next));
-  if (!next.empty()) {
-    response.headers.emplace_back("Link", "<" + next + ">; rel=\"next\"");
-  }
-  return response;
+  const std::string next = next_page(request, list, page->next);
+  return list_page(sweep_list_document(*page, next), next);
 }
 
 Response Routes::sweep_status(const Request& request, const std::string& id) {
@@ -243,14 +207,9 @@ Response Routes::sweep_table(const Request& request, const std::string& id) {
 
 Response Routes::sweep_events(const Request& request, const std::string& id) {
   return with_sweep(request, id, [&](const SweepRecord&) {
-    Response response;
-    response.content_type = "text/event-stream";
-    response.headers.emplace_back("Cache-Control", "no-store");
-    const std::uint64_t last =
-        whole_number<std::uint64_t>(request.header("Last-Event-ID").value_or("")).value_or(0);
-    response.stream = Stream{
-        [this, id, last](Stream::Push push) { return follow_sweep(desk_, id, last, std::move(push)); }};
-    return response;
+    return event_stream(request, [this, id](std::uint64_t last, Stream::Push push) {
+      return follow_sweep(desk_, id, last, std::move(push));
+    });
   });
 }
 

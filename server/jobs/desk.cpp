@@ -5,6 +5,7 @@
 #include "api/api.h"
 #include "server/digest.h"
 #include "server/jobs/content_key.h"
+#include "server/jobs/least_memory.h"
 
 namespace snapthrough::server {
 namespace {
@@ -93,6 +94,11 @@ StatusOr<Submission> JobDesk::submit(const Order& order) {
   if (read.malformed || !read.findings.empty() || !read.request) {
     return Submission{read.malformed ? Submission::Kind::malformed : Submission::Kind::invalid,
                       std::move(read.findings)};
+  }
+  if (std::vector<Finding> findings =
+          check_memory(read.request->model, read.request->analysis, limits_.job_memory);
+      !findings.empty()) {
+    return Submission{Submission::Kind::invalid, std::move(findings)};
   }
   std::string key = content_key(*read.request->document);
   if (order.reuse && !order.idempotency_key) {

@@ -37,7 +37,10 @@ class JobDesk {
   /// Removes a job, after stopping its analysis. @pre get() found it
   Status remove(const std::string& id);
 
-  [[nodiscard]] std::optional<Progress> progress(const std::string& id) const { return progress_.get(id); }
+  /// Where a running analysis stands; nothing before its first step.
+  [[nodiscard]] std::optional<Progress> progress(const std::string& id) const {
+    return progress_.get(id, &JobNews::progress).value_or(std::nullopt);
+  }
   [[nodiscard]] Store& store() { return store_; }
   [[nodiscard]] const Environment& environment() const { return environment_; }
   [[nodiscard]] const JobLimits& limits() const { return limits_; }

@@ -4,14 +4,19 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 
 namespace snapthrough::server {
 
+/// With less no analysis would get far.
+inline constexpr std::int64_t kLeastJobMemory = 1 << 20;
+
 /// Bounds on what is kept and worked on.
 struct JobLimits {
-  int queue = 100'000;                     ///< jobs that may wait, >= 1
-  std::chrono::seconds lease{30};          ///< a worker that is silent for so long has lost its job
-  std::chrono::seconds longest_run{3600};  ///< of one job, or of one point of a sweep
+  int queue = 100'000;                              ///< jobs that may wait, >= 1
+  std::chrono::seconds lease{30};                   ///< a worker that is silent for so long has lost its job
+  std::chrono::seconds longest_run{3600};           ///< of one job, or of one point of a sweep
+  std::int64_t job_memory = std::int64_t{1} << 30;  ///< bytes of one analysis, >= kLeastJobMemory
   int max_crashes = 3;  ///< a job (or point) during which the service died so often is given up
   std::chrono::seconds keep_jobs{30 * 86400};  ///< jobs and sweeps after their end; 0: for ever
   std::chrono::seconds keep_keys{86400};       ///< idempotency keys

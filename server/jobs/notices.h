@@ -3,6 +3,7 @@
 /// How threads of one process learn that something happened to a job, without asking the store again and
 /// again.
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -10,6 +11,7 @@
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "solver/solve.h"
 
@@ -60,11 +62,15 @@ class NewsBoard {
   /// Follows one id for as long as it exists.
   class Follower {
    public:
-    /// The callback must be quick, must not throw, and must not use the board.
+    /// Tells the latest news at once if there are any. The callback is called by one thread at a time; it
+    /// must be quick, must not throw, and must not use the board.
     Follower(NewsBoard& board, std::string id, std::function<void(const News&)> callback)
         : board_(board), id_(std::move(id)), callback_(std::move(callback)) {
       const std::lock_guard guard(board_.mutex_);
       board_.followers_.emplace(id_, this);
+      if (const auto latest = board_.latest_.find(id_); latest != board_.latest_.end()) {
+        callback_(latest->second);
+      }
     }
     ~Follower() {
       const std::lock_guard guard(board_.mutex_);
@@ -88,10 +94,13 @@ class NewsBoard {
     std::function<void(const News&)> callback_;
   };
 
-  /// Remembers the news and tells the followers.
-  void set(const std::string& id, const News& news) {
+  /// Changes what is remembered (which begins empty) and tells the followers.
+  /// @param change called with News&
+  template <class Change>
+  void update(const std::string& id, Change change) {
     const std::lock_guard guard(mutex_);
-    latest_.insert_or_assign(id, news);
+    News& news = latest_[id];
+    change(news);
     tell(id, news);
   }
   /// Only tells the followers.
@@ -103,10 +112,12 @@ class NewsBoard {
     const std::lock_guard guard(mutex_);
     latest_.erase(id);
   }
-  [[nodiscard]] std::optional<News> get(const std::string& id) const {
+  /// One field of what is remembered.
+  template <class Field>
+  [[nodiscard]] std::optional<Field> get(const std::string& id, Field News::*field) const {
     const std::lock_guard guard(mutex_);
     const auto found = latest_.find(id);
-    return found == latest_.end() ? std::nullopt : std::optional(found->second);
+    return found == latest_.end() ? std::nullopt : std::optional<Field>(found->second.*field);
   }
 
  private:
@@ -121,7 +132,21 @@ class NewsBoard {
   std::unordered_multimap<std::string, Follower*> followers_;
 };
 
+/// A critical point that a running analysis has found.
+struct FoundPoint {
+  std::uint64_t number = 0;  ///< JobNews::number of the news that brought it
+  CriticalPoint point;
+};
+
+/// What a running analysis has told so far.
+struct JobNews {
+  int attempt = 0;
+  std::uint64_t number = 0;          ///< how often it told something in this attempt
+  std::optional<Progress> progress;  ///< the latest
+  std::vector<FoundPoint> found;     ///< all, in the order they were found
+};
+
 /// Where the jobs are that run in this process.
-using ProgressBoard = NewsBoard<Progress>;
+using ProgressBoard = NewsBoard<JobNews>;
 
 }  // namespace snapthrough::server

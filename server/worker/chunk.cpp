@@ -90,7 +90,8 @@ void compute(const Chunk& chunk, JobDesk& desk, const SolveFunction& solve, Swee
       continue;
     }
     watch.begin(desk.environment().now());
-    api::PointOutcome outcome = solve_point(chunk.sweep->sweep, pending.document, solve, {watch.token(), {}});
+    api::PointOutcome outcome = solve_point(chunk.sweep->sweep, pending.document, solve, {watch.token(), {}},
+                                            desk.limits().job_memory);
     if (outcome.code == "cancelled" && watch.reason() == StopReason::time_limit) {
       outcome = {"", "time_limit",
                  "the analysis took longer than " + std::to_string(desk.limits().longest_run.count()) + " s"};
@@ -111,7 +112,7 @@ void compute_curve(const Chunk& chunk, JobDesk& desk, SweepBoard::Watch& watch, 
   work.rows.clear();  // what was found of a curve is not enough
   watch.begin(desk.environment().now());
   std::vector<api::PointOutcome> outcomes =
-      solve_curve(chunk.sweep->sweep, chunk.points.front(), watch.token());
+      solve_curve(chunk.sweep->sweep, chunk.points.front(), watch.token(), desk.limits().job_memory);
   const std::string curve = chunk.sweep->sweep.curve_text(chunk.points.front());
   const bool late = watch.reason() == StopReason::time_limit;
   if (watch.token().stop_requested() && !late) {

@@ -2,16 +2,17 @@
 
 #include <array>
 #include <chrono>
-#include <exception>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "server/worker/bounded_run.h"
 #include "solver/sweep/critical_curve.h"
 
 namespace snapthrough::server {
 namespace {
+
+api::PointOutcome failed(const JobFailure& failure) { return {"", failure.code, failure.detail}; }
 
 /// All that is wrong with a request in one text.
 std::string sentence_of(const std::vector<Finding>& findings) {
@@ -95,31 +96,17 @@ std::vector<api::PointOutcome> followed(const api::Sweep& sweep, std::uint64_t f
 }  // namespace
 
 std::vector<api::PointOutcome> solve_curve(const api::Sweep& sweep, std::uint64_t first,
-                                           const std::stop_token& stop) {
-  api::PointOutcome failure;
-  try {
-    return followed(sweep, first, stop);
-  } catch (const std::bad_alloc&) {
-    failure = {"", "out_of_memory", "the analysis needs more memory than there is"};
-  } catch (const std::exception& error) {
-    failure = {"", "internal_error", error.what()};
-  } catch (...) {
-    failure = {"", "internal_error", "unknown exception"};
-  }
-  return std::vector<api::PointOutcome>(sweep.block(), failure);
+                                           const std::stop_token& stop, std::int64_t memory) {
+  std::vector<api::PointOutcome> outcomes;
+  const BoundedRun run = run_bounded(memory, [&] { outcomes = followed(sweep, first, stop); });
+  return run.mishap ? std::vector<api::PointOutcome>(sweep.block(), failed(*run.mishap)) : outcomes;
 }
 
 api::PointOutcome solve_point(const api::Sweep& sweep, const std::shared_ptr<const nlohmann::json>& document,
-                              const SolveFunction& solve, const Hooks& hooks) {
-  try {
-    return solved(sweep, document, solve, hooks);
-  } catch (const std::bad_alloc&) {
-    return {"", "out_of_memory", "the analysis needs more memory than there is"};
-  } catch (const std::exception& error) {
-    return {"", "internal_error", error.what()};
-  } catch (...) {
-    return {"", "internal_error", "unknown exception"};
-  }
+                              const SolveFunction& solve, const Hooks& hooks, std::int64_t memory) {
+  api::PointOutcome outcome;
+  const BoundedRun run = run_bounded(memory, [&] { outcome = solved(sweep, document, solve, hooks); });
+  return run.mishap ? failed(*run.mishap) : outcome;
 }
 
 }  // namespace snapthrough::server

@@ -8,22 +8,27 @@
 #include <vector>
 
 #include "api/sweep.h"
+#include "server/worker/bounded_run.h"
 #include "server/worker/pool.h"
 
 namespace snapthrough::server {
 
 /// @brief Solves a point, given its document (Sweep::document_at()). Whatever goes wrong is an outcome: a
 /// document that is no valid request
-/// ("wrong_request"), an analysis that fails (its code), an exception ("internal_error"), memory
-/// ("out_of_memory"). Asked to stop, it is "cancelled". Thread-safe if `solve` is.
+/// ("wrong_request"), an analysis that fails (its code), and what run_bounded() calls a mishap.
+/// Asked to stop, it is "cancelled". Thread-safe if `solve` is.
+/// @param memory bytes that it may use, > 0
 [[nodiscard]] api::PointOutcome solve_point(const api::Sweep& sweep,
                                             const std::shared_ptr<const nlohmann::json>& document,
-                                            const SolveFunction& solve, const Hooks& hooks);
+                                            const SolveFunction& solve, const Hooks& hooks,
+                                            std::int64_t memory = kNoMemoryLimit);
 
 /// @brief The outcomes of the `block()` points from `first` on, which is a multiple of it, by following the
 /// critical point along the last parameter (solver/sweep/critical_curve.h). A point whose document is no
 /// valid request is left out of the curve. Thread-safe. @pre sweep.follows()
+/// @param memory bytes that the whole curve may use, > 0
 [[nodiscard]] std::vector<api::PointOutcome> solve_curve(const api::Sweep& sweep, std::uint64_t first,
-                                                         const std::stop_token& stop);
+                                                         const std::stop_token& stop,
+                                                         std::int64_t memory = kNoMemoryLimit);
 
 }  // namespace snapthrough::server

@@ -2,13 +2,14 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <exception>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "api/api.h"
+#include "server/worker/bounded_run.h"
 #include "server/worker/chunk.h"
+#include "server/worker/memory_meter.h"
 
 namespace snapthrough::server {
 namespace {
@@ -25,11 +26,10 @@ struct Outcome {
   std::optional<JobResult> result;
   std::optional<JobFailure> failure;
   StoredPath reached;  ///< with a failure
+  std::int64_t peak_bytes = 0;
 };
 
-Outcome failed(std::string code, std::string detail) {
-  return {std::nullopt, JobFailure{std::move(code), std::move(detail), ""}, {}};
-}
+Outcome failed(JobFailure failure) { return {std::nullopt, std::move(failure), {}}; }
 
 Outcome to_outcome(const api::Request& request, Result result, double seconds) {
   std::string document = api::write_result(request, result, seconds).dump();
@@ -45,20 +45,36 @@ Outcome to_outcome(const api::Request& request, Result result, double seconds) {
           {}};
 }
 
+/// Hooks that let the followers of a job know what its analysis does.
+Hooks told_hooks(const Claim& claim, ProgressBoard& board, const std::stop_token& stop) {
+  const auto tell = [&claim, &board](auto change) {
+    const MemoryMeter::Pause pause;  // news belong to the service
+    board.update(claim.id, [&](JobNews& news) {
+      news.attempt = claim.attempt;
+      ++news.number;
+      change(news);
+    });
+  };
+  return {stop, [tell](const Progress& progress) { tell([&](JobNews& news) { news.progress = progress; }); },
+          [tell](const CriticalPoint& point) {
+            tell([&](JobNews& news) { news.found.push_back({news.number, point}); });
+          }};
+}
+
 Outcome attempt(const Claim& claim, const api::Request& request, JobDesk& desk, const SolveFunction& solve,
                 const std::stop_token& stop) {
-  try {
-    const Hooks hooks{stop, [&](const Progress& progress) { desk.progress_board().set(claim.id, progress); }};
+  const Hooks hooks = told_hooks(claim, desk.progress_board(), stop);
+  Outcome outcome;
+  BoundedRun run = run_bounded(desk.limits().job_memory, [&] {
     const double start = desk.environment().monotonic_seconds();
     Result result = solve(request.model, request.analysis, hooks);
-    return to_outcome(request, std::move(result), desk.environment().monotonic_seconds() - start);
-  } catch (const std::bad_alloc&) {
-    return failed("out_of_memory", "the analysis needs more memory than the service has");
-  } catch (const std::exception& error) {
-    return failed("internal_error", error.what());
-  } catch (...) {
-    return failed("internal_error", "unknown exception");
+    outcome = to_outcome(request, std::move(result), desk.environment().monotonic_seconds() - start);
+  });
+  if (run.mishap) {
+    outcome = failed(*std::move(run.mishap));
   }
+  outcome.peak_bytes = run.peak_bytes;
+  return outcome;
 }
 
 /// A job begins or goes back to the queue.
@@ -70,14 +86,16 @@ void log_job(Log& log, const Claim& claim, JobState state) {
 }
 
 /// A job ended: with a termination or failure code, and a sentence.
-void log_job_end(Log& log, const Claim& claim, JobState state, std::string_view code,
-                 std::string_view detail) {
-  log.write(state == JobState::failed ? LogLevel::warning : LogLevel::info, "job",
-            {{"job", std::string_view(claim.id)},
-             {"status", to_string(state)},
-             {"attempt", static_cast<std::int64_t>(claim.attempt)},
-             {"code", code},
-             {"detail", detail}});
+void log_job_end(Log& log, const Claim& claim, const Outcome& outcome) {
+  const bool failed = outcome.failure.has_value();
+  log.write(
+      failed ? LogLevel::warning : LogLevel::info, "job",
+      {{"job", std::string_view(claim.id)},
+       {"status", to_string(failed ? JobState::failed : JobState::successful)},
+       {"attempt", static_cast<std::int64_t>(claim.attempt)},
+       {"peak_bytes", outcome.peak_bytes},
+       {"code", std::string_view(failed ? outcome.failure->code : outcome.result->summary.termination)},
+       {"detail", std::string_view(failed ? outcome.failure->detail : outcome.result->summary.message)}});
 }
 
 void log_trouble(Log& log, const Claim& claim, const Status& status) {
@@ -163,10 +181,11 @@ void run_job(const Claim& claim, const api::Request* request, const std::shared_
   log_job(log, claim, JobState::running);
   ActiveJobs::Entry entry(desk.active(), claim, desk.environment().now());
   const std::stop_callback on_shutdown(stop, [&] { entry.stop(StopReason::shutdown); });
-  Outcome outcome = request != nullptr
-                        ? attempt(claim, *request, desk, solve, entry.token())
-                        : failed("invalid_request",
-                                 "this version of the service does not accept the stored request any more");
+  Outcome outcome =
+      request != nullptr
+          ? attempt(claim, *request, desk, solve, entry.token())
+          : failed({"invalid_request",
+                    "this version of the service does not accept the stored request any more", ""});
   desk.progress_board().erase(claim.id);
   if (stored != nullptr && !stored->get()) {
     return;
@@ -178,11 +197,7 @@ void run_job(const Claim& claim, const api::Request* request, const std::shared_
     return log_trouble(log, claim, status);
   }
   desk.ends().announce(claim.id);
-  if (outcome.failure) {
-    return log_job_end(log, claim, JobState::failed, outcome.failure->code, outcome.failure->detail);
-  }
-  log_job_end(log, claim, JobState::successful, outcome.result->summary.termination,
-              outcome.result->summary.message);
+  log_job_end(log, claim, outcome);
 }
 
 }  // namespace

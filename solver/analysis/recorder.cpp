@@ -126,7 +126,10 @@ TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> pare
     ++step;
   };
   sink.on_contact = [this](const ContactChange& change) { add_contact(change); };
-  sink.on_critical = [this](const CriticalEvent& event) { add_critical(event); };
+  sink.on_critical = [this, found = hooks.on_critical](const CriticalEvent& event) {
+    add_critical(event);
+    if (found) found(result_.critical_points.back());
+  };
   if (analysis_.output.states == StateOutput::at_load_factors)
     sink.on_step = [this](const PathPoint& from, const PathPoint& to) { add_states_at_loads(from, to); };
   return sink;

@@ -41,8 +41,7 @@ StressFreeAxis::StressFreeAxis(const Model& model, int member, std::shared_ptr<c
   }
 }
 
-StressFreePoint StressFreeAxis::at(double s) const {
-  const AxisPoint p = axis_->at(s);
+StressFreePoint StressFreeAxis::at(double s, const AxisPoint& p) const {
   if (sines_.empty() && splines_.empty()) return {p.x, p.y, p.angle, 1.0};
   double w = 0.0;
   double dw = 0.0;

@@ -32,7 +32,9 @@ class StressFreeAxis {
   /// @param modes offsets from buckling modes, may be empty
   StressFreeAxis(const Model& model, int member, std::shared_ptr<const AxisCurve> axis,
                  const std::vector<CubicSpline>& modes);
-  [[nodiscard]] StressFreePoint at(double s) const;
+  [[nodiscard]] StressFreePoint at(double s) const { return at(s, axis_->at(s)); }
+  /// @param perfect the perfect axis at s
+  [[nodiscard]] StressFreePoint at(double s, const AxisPoint& perfect) const;
   [[nodiscard]] const AxisCurve& perfect() const { return *axis_; }
 
  private:

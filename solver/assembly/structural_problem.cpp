@@ -305,12 +305,33 @@ double StructuralProblem::largest_critical_load_scale(const VectorXd& unit_respo
   return scale;
 }
 
-double StructuralProblem::relative_residual(const VectorXd& f, const VectorXd& y, double lambda) {
-  const int p = structure_.mesh.order;
+double StructuralProblem::largest_force(const VectorXd& y, double lambda) const {
   double force = std::abs(lambda) * structure_.proportional_load.lpNorm<Eigen::Infinity>();
-  double displacement = 1.0;
   for (const ElementDofs& dofs : structure_.dofs)
     force = std::max(force, y.segment<3>(dofs.m).lpNorm<Eigen::Infinity>());
+  return force;
+}
+
+double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) const {
+  constexpr double kRoundings = 4.0;      // from two elements and a spring at a node
+  constexpr double kMostRounding = 1e-6;  // beyond, supports are too stiff for this arithmetic
+  double largest = structure_.elements->support_rounding();
+  for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
+    const JointSpring& spring = structure_.joint_springs[i];
+    const double stiffness = acting_stiffness(i);
+    if (stiffness == 0.0) continue;
+    double size = spring.gap;
+    for (int c = 0; c < 3; ++c) size += std::abs(spring.row[c] * y[3 * spring.joint + c]);
+    largest = std::max(largest, stiffness * size * std::numeric_limits<double>::epsilon());
+  }
+  const double force = largest_force(y, lambda);
+  return force > 0.0 ? std::min(kRoundings * largest / force, kMostRounding) : 0.0;
+}
+
+double StructuralProblem::relative_residual(const VectorXd& f, const VectorXd& y, double lambda) {
+  const int p = structure_.mesh.order;
+  const double force = largest_force(y, lambda);
+  double displacement = 1.0;
   double forces = f.head(3 * structure_.joints + structure_.releases).lpNorm<Eigen::Infinity>();
   double gaps = 0.0;
   for (const ElementDofs& dofs : structure_.dofs) {

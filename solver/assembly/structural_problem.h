@@ -38,6 +38,7 @@ class StructuralProblem final : public EquilibriumProblem {
   void solve(Eigen::VectorXd& x) override;
   [[nodiscard]] double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd& y,
                                          double lambda) override;
+  [[nodiscard]] double residual_rounding(const Eigen::VectorXd& y, double lambda) const override;
 
   [[nodiscard]] bool one_sided() const override { return structure_.one_sided; }
   void set_bonded(bool bonded) override;
@@ -71,6 +72,8 @@ class StructuralProblem final : public EquilibriumProblem {
   void add_joint_springs(const Eigen::VectorXd& y, Eigen::VectorXd& f);
   /// Stiffness of a joint spring in the tangent, as add_joint_springs() last found it.
   [[nodiscard]] double acting_stiffness(std::size_t spring) const;
+  /// Of the loads and of the members' ends.
+  [[nodiscard]] double largest_force(const Eigen::VectorXd& y, double lambda) const;
   void constrain_residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) const;
   void assemble_joints();
   void add_member(std::size_t member);

@@ -161,9 +161,9 @@ void search_cell(const ChebyshevSeries& gap, const Place& left, const Place& rig
 
 }  // namespace
 
-/// g at the samples.
+/// g at the samples, over another gap.
 void ContactStrip::penetrations(std::array<double, 2> ua, std::span<const double> dx,
-                                std::span<const double> dy, Values& g) const {
+                                std::span<const double> dy, double gap, Values& g) const {
   const std::size_t p = dx.size();
   for (int b = 0; b < blocks_; ++b) {
     const Lanes* block = &samples_[static_cast<std::size_t>(b) * (2 + p)];
@@ -173,17 +173,18 @@ void ContactStrip::penetrations(std::array<double, 2> ua, std::span<const double
       ux += dx[r] * block[2 + r];
       uy += dy[r] * block[2 + r];
     }
-    const Lanes values = ux * block[0] + uy * block[1] - gap_;
+    const Lanes values = ux * block[0] + uy * block[1] - gap;
     for (int i = 0; i < kLanes; ++i) g[kLanes * b + i] = values[i];
   }
 }
 
 void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
-                                     std::span<const double> dy, std::vector<Interval>& out) const {
+                                     std::span<const double> dy, std::vector<Interval>& out,
+                                     double depth) const {
   constexpr double kParts = 4.0;  // of a cell, in search_cell
   out.clear();
   Values g;
-  penetrations(ua, dx, dy, g);
+  penetrations(ua, dx, dy, gap_ + depth, g);
   const int n = count_;
   const double length = range_[1] - range_[0];
   double from = range_[0];

@@ -52,9 +52,9 @@ class ContactStrip {
   /// @param ua displacement (x, y) at the element's start; dx, dy: h times u'_x, u'_y at the Gauss points
   [[nodiscard]] double penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                    std::span<const double> dy) const;
-  /// @brief Intervals of [0, 1] in contact (g > 0), ascending; `out` is overwritten.
+  /// @brief Intervals of [0, 1] in contact (g > depth), ascending; `out` is overwritten.
   void contact_intervals(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
-                         std::vector<Interval>& out) const;
+                         std::vector<Interval>& out, double depth = 0.0) const;
 
  private:
   /// Something at four of the samples; lanes beyond the last sample are zero.
@@ -64,7 +64,7 @@ class ContactStrip {
   using Values = std::array<double, kLanes * kMostBlocks>;
 
   void penetrations(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
-                    Values& g) const;
+                    double gap, Values& g) const;
 
   const CollocationRule* rule_;
   Direction direction_;

@@ -126,6 +126,10 @@ class ElementSet {
   /// @brief Replaces the interior rows of `x` (a right-hand side on entry) by the solution, from the solution
   /// at the ends and the multipliers that `x` already holds.
   virtual void recover(Eigen::VectorXd& x) = 0;
+  /// @brief Rounding of the forces of bases and springs at the last residual or linearisation, the largest of
+  /// an element: stiffness times the rounding of the displacements that their penetrations are differences
+  /// of.
+  [[nodiscard]] virtual double support_rounding() const = 0;
   /// Adds the second derivative of the energy times `direction` to `out` (test use and eigenvalue problems).
   virtual void add_tangent_product(const Eigen::VectorXd& y, const Eigen::VectorXd& direction,
                                    Eigen::VectorXd& out) = 0;

@@ -22,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -48,6 +49,7 @@ class ElementSetOf final : public ElementSet {
   void set_bonded(bool bonded) override { bonded_ = bonded; }
   void set_grip(double share) override { grip_ = share; }
   void set_softness(double share) override { softness_ = share; }
+  [[nodiscard]] double support_rounding() const override { return support_rounding_; }
   void freeze_contact(const Eigen::VectorXd& y, double tolerance) override;
   [[nodiscard]] double frozen_share(int element, int foundation) const override;
   void set_pressure(int element, double proportional, double constant) override;
@@ -164,6 +166,7 @@ class ElementSetOf final : public ElementSet {
   bool bonded_ = false;
   double grip_ = 0.0;
   double softness_ = 1.0;
+  double support_rounding_ = 0.0;
   double proportional_ = 0.0;  ///< factors on the pressures
   double constant_ = 0.0;
   bool frozen_ = false;  ///< contact is as in frozen_intervals_ and frozen_stations_
@@ -507,6 +510,7 @@ void ElementSetOf<P>::linearise_element(int element, const double* y, double* re
 
 template <int P>
 void ElementSetOf<P>::add_residual(const Eigen::VectorXd& y, Eigen::VectorXd& residual) {
+  support_rounding_ = 0.0;
   for (int e = 0; e < size(); ++e) {
     const Kinematics kin = kinematics(shapes_[e], dofs_[e], y.data());
     add_strain_residual(shapes_[e], dofs_[e], kin, y.data(), residual.data());
@@ -520,6 +524,7 @@ void ElementSetOf<P>::add_residual(const Eigen::VectorXd& y, Eigen::VectorXd& re
 template <int P>
 void ElementSetOf<P>::linearise(const Eigen::VectorXd& y, Eigen::VectorXd& residual,
                                 std::span<CondensedElement> condensed) {
+  support_rounding_ = 0.0;
   rows_.clear();
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];

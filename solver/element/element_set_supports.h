@@ -90,7 +90,11 @@ void ElementSetOf<P>::add_support_residual(int element, const double* y, double*
   std::array<double, kStrains> forces{};
   double at_start[3] = {0.0, 0.0, 0.0};
   for (int i = 0; i < kStrains; ++i) v[i] = y[dofs.v + i];
+  double rounding = 0.0;
   for (const Functional& f : acting_) {
+    double size = f.gap;
+    for (int c = 0; c < 3; ++c) size += std::abs(f.a[c] * y[dofs.a[c]]);
+    rounding += f.stiffness * size * std::numeric_limits<double>::epsilon();
     double w = -f.gap;
     for (int c = 0; c < 3; ++c) w += f.a[c] * y[dofs.a[c]];
     const double* row = f.v[0].data();
@@ -101,6 +105,7 @@ void ElementSetOf<P>::add_support_residual(int element, const double* y, double*
   }
   for (int c = 0; c < 3; ++c) residual[dofs.a[c]] += at_start[c];
   for (int i = 0; i < kStrains; ++i) residual[dofs.v + i] += forces[i];
+  support_rounding_ = std::max(support_rounding_, rounding);
   if (!keep) acting_.clear();
 }
 

@@ -52,7 +52,15 @@ PlaneSpline spline_through(const PointsCurve& curve, std::array<double, 2> start
   return {CubicSpline(t, x), CubicSpline(t, y), t};
 }
 
+/// Hermite's cubic on [0, 1] from 0 to `rise` with the slopes at its ends.
+double cubic(double u, double rise, double slope0, double slope1) {
+  return u * (slope0 + u * (3.0 * rise - 2.0 * slope0 - slope1 + u * (slope0 + slope1 - 2.0 * rise)));
+}
+
 }  // namespace
+
+/// |d(x, y) / dt|; lengths of models are far from the ends of the number range.
+double AxisCurve::speed_of(const Jet& j) { return std::sqrt(j.dx * j.dx + j.dy * j.dy); }
 
 AxisCurve::AxisCurve(const Curve& curve, std::array<double, 2> start, std::array<double, 2> end) {
   const Chord chord = chord_of(start, end);
@@ -126,7 +134,7 @@ double AxisCurve::length_to(double t) const {
   double s = table_s_[k];
   for (std::size_t q = 0; q < gauss.points.size(); ++q) {
     const Jet j = jet_(t0 + (t - t0) * gauss.points[q]);
-    s += (t - t0) * gauss.weights[q] * std::hypot(j.dx, j.dy);
+    s += (t - t0) * gauss.weights[q] * speed_of(j);
   }
   return s;
 }
@@ -137,39 +145,44 @@ void AxisCurve::set_parametric(std::function<Jet(double)> jet, int intervals) {
   table_s_.assign(1, 0.0);
   Jet j = jet_(0.0);
   table_angle_.assign(1, std::atan2(j.dy, j.dx));
+  table_speed_.assign(1, speed_of(j));
   const double dt = 1.0 / intervals;
   for (int i = 0; i < intervals; ++i) {
     double ds = 0.0;
     for (std::size_t q = 0; q < gauss.points.size(); ++q) {
       j = jet_((i + gauss.points[q]) * dt);
-      ds += gauss.weights[q] * dt * std::hypot(j.dx, j.dy);
+      ds += gauss.weights[q] * dt * speed_of(j);
     }
     table_s_.push_back(table_s_.back() + ds);
     j = jet_((i + 1) * dt);
     const double turn = std::remainder(std::atan2(j.dy, j.dx) - table_angle_.back(), 2.0 * std::numbers::pi);
     table_angle_.push_back(table_angle_.back() + turn);
+    table_speed_.push_back(speed_of(j));
   }
   length_ = table_s_.back();
 }
 
 double AxisCurve::parameter_at(double s) const {
   static const Quadrature gauss = gauss_legendre(12);
+  // with the start by Hermite's cubic below, one Newton step leaves its square
+  constexpr double kOneStepMore = 1e-9;
   const auto upper = std::upper_bound(table_s_.begin() + 1, table_s_.end() - 1, s);
   const auto i = static_cast<std::size_t>(upper - table_s_.begin()) - 1;
   const double dt = 1.0 / static_cast<double>(table_s_.size() - 1);
   const double t0 = static_cast<double>(i) * dt;
   const double rest = s - table_s_[i];
-  double t = t0 + dt * rest / (table_s_[i + 1] - table_s_[i]);
+  const double whole = table_s_[i + 1] - table_s_[i];
+  double t = t0 + cubic(rest / whole, dt, whole / table_speed_[i], whole / table_speed_[i + 1]);
   for (int it = 0; it < 20; ++it) {
     double length = 0.0;
     for (std::size_t q = 0; q < gauss.points.size(); ++q) {
       const Jet j = jet_(t0 + (t - t0) * gauss.points[q]);
-      length += (t - t0) * gauss.weights[q] * std::hypot(j.dx, j.dy);
+      length += (t - t0) * gauss.weights[q] * speed_of(j);
     }
     const Jet j = jet_(t);
-    const double step = (length - rest) / std::hypot(j.dx, j.dy);
+    const double step = (length - rest) / speed_of(j);
     t -= step;
-    if (std::abs(step) < 1e-15) break;
+    if (std::abs(step) < kOneStepMore) break;
   }
   return t;
 }
@@ -183,7 +196,7 @@ AxisPoint AxisCurve::at(double s) const {
                  table_angle_.size() - 1);
     const double angle =
         table_angle_[i] + std::remainder(std::atan2(j.dy, j.dx) - table_angle_[i], 2.0 * std::numbers::pi);
-    const double speed = std::hypot(j.dx, j.dy);
+    const double speed = speed_of(j);
     return {j.x, j.y, angle, (j.dx * j.ddy - j.dy * j.ddx) / (speed * speed * speed)};
   }
   const double angle = start_angle_ + curvature_ * s;

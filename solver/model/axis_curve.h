@@ -41,6 +41,7 @@ class AxisCurve {
   struct Jet {
     double x, y, dx, dy, ddx, ddy;
   };
+  static double speed_of(const Jet& j);
   void set_parametric(std::function<Jet(double)> jet, int intervals);
   void set_spline(const PointsCurve& curve, std::array<double, 2> start, std::array<double, 2> end);
   [[nodiscard]] double parameter_at(double s) const;
@@ -52,10 +53,11 @@ class AxisCurve {
   std::array<double, 2> start_{};
   double start_angle_ = 0.0;
   double curvature_ = 0.0;
-  // others: jet of a parameter, with a table of arc length and angle at equal parameter intervals
+  // others: jet of a parameter, with tables of arc length and angle at equal parameter intervals
   std::function<Jet(double)> jet_;
   std::vector<double> table_s_;
   std::vector<double> table_angle_;
+  std::vector<double> table_speed_;  ///< ds/dt at the same parameters
   std::vector<double> knots_;
 };
 

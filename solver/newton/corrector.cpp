@@ -29,6 +29,13 @@ double find_correction(EquilibriumProblem& problem, const SideCondition& side, c
 /// Relative residual, over the tangent's tolerance, that the last correction may start from.
 constexpr double kNearResidual = 10.0;
 
+/// Relative residual that nothing can be taken from.
+constexpr double kExact = 1e-15;
+
+/// Relative residual below which a last correction is not asked what it gained, and the gain that is enough.
+constexpr double kSettled = 1e-11;
+constexpr double kLastGain = 0.1;
+
 /// Corrections before a residual that no longer falls counts as rounding's.
 constexpr int kStagnantIterations = 4;
 
@@ -101,9 +108,22 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, Eig
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
     if (size > std::max(out.relative_residual, options.residual_floor))
       return out.relative_residual <= options.stagnant_residual;
+    // a correction that hardly lessens the residual led to other contact: it was not the last
+    const bool exact = options.tangent_tolerance == 0.0;
+    if (exact && size > kSettled && size > kLastGain * out.relative_residual) return false;
   }
   y.swap(work.trial);
   lambda += dlambda;
+  return true;
+}
+
+/// Whether what the corrections left is what the supports' rounding leaves anyway.
+bool settled_to_rounding(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lambda,
+                         CorrectorOutcome& out, Workspace& work) {
+  problem.residual(y, lambda, work.residual);
+  const double size = problem.relative_residual(work.residual, y, lambda);
+  if (!(size <= problem.residual_rounding(y, lambda))) return false;
+  out.relative_residual = size;
   return true;
 }
 
@@ -132,7 +152,15 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     const double dlambda = find_correction(problem, side, y, lambda, work);
     const double size = metric.norm(work.correction, dlambda);
     if (!std::isfinite(size)) return out;
-    if (it == 0) out.first_correction = size;
+    if (it == 0) {
+      out.first_correction = size;
+      out.first_residual = out.relative_residual;
+      // the correction is rounding's, however large it is where the tangent is nearly singular
+      if (out.relative_residual <= kExact && size > options.tangent_tolerance * scale) {
+        out.status = CorrectorStatus::converged;
+        return out;
+      }
+    }
     if (size > (it == 0 ? options.largest_first * scale : options.largest_growth * previous) &&
         out.relative_residual > options.stagnant_residual)
       return out;
@@ -157,7 +185,8 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     expected = size * ratio * ratio;
     previous = size;
   }
-  out.status = CorrectorStatus::too_many_iterations;
+  out.status = settled_to_rounding(problem, y, lambda, out, work) ? CorrectorStatus::converged
+                                                                  : CorrectorStatus::too_many_iterations;
   return out;
 }
 

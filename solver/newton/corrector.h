@@ -58,6 +58,7 @@ struct CorrectorOutcome {
   CorrectorStatus status = CorrectorStatus::diverged;
   int factorisations = 0;
   double first_correction = 0.0;   ///< norm of the first correction: the predictor's error
+  double first_residual = 0.0;     ///< relative residual at the predictor
   double relative_residual = 0.0;  ///< at the last linearisation, before the last correction
   TangentReport tangent;           ///< at the last linearisation
 };

@@ -58,6 +58,9 @@ constexpr double kSmallStart = 1e-7;
 /// Largest share of the critical load's scale for that step.
 constexpr double kSmallLoad = 1e-4;
 
+/// Relative residual of a predictor that is as good as exact.
+constexpr double kRoundingResidual = 1e-14;
+
 /// Cubic Hermite interpolation on [0, d] at tau with end values and slopes.
 struct Hermite {
   double a, da, b, db;
@@ -226,7 +229,8 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   trial.converged = true;
   trial.corrections = outcome.factorisations;
   trial.angle = std::acos(cosine);
-  trial.correction = outcome.first_correction / movement;
+  // what the residual does not show is rounding, which shorter steps would not lessen
+  if (outcome.first_residual > kRoundingResidual) trial.correction = outcome.first_correction / movement;
   const double room = std::min(options_.target_angle / std::max(trial.angle, 1e-12),
                                options_.target_correction / std::max(trial.correction, 1e-12));
   const double fast = problem_.one_sided() ? std::min(kFastGrowth, kFarFromLimits * room) : 0.0;
@@ -295,6 +299,32 @@ bool Continuation::turn(const PathPoint& from, double size, PathPoint& to) {
          trial.length <= kCornerLength * kBeyond * size && keeps_orientation(from, to);
 }
 
+/// From a stable point on to the equilibrium at the load beyond, downhill in the energy: where supports touch
+/// without pressure, any increment of the load, however small, changes where they act, in proportion to
+/// itself. The last tangent says nothing there, and Newton's method cycles between contact patterns at every
+/// size.
+bool Continuation::settle_beyond(const PathPoint& from, double size, PathPoint& to) {
+  constexpr double kProportional = 0.1;  // of the movement: what the end's tangent may miss it by
+  const double dlambda = size * from.tangent_lambda;
+  if (from.negative > 0 || dlambda == 0.0) return false;
+  CorrectorOptions options = options_.corrector;
+  options.max_iterations = 40;
+  options.most_stalled = options.max_iterations;
+  options.largest_correction = std::numeric_limits<double>::infinity();
+  options.least_energy = true;
+  to.y = from.y;
+  to.lambda = from.lambda + dlambda;
+  const auto outcome = correct(problem_, metric_, {}, size, options, to.y, to.lambda, work_);
+  count(outcome);
+  if (outcome.status != CorrectorStatus::converged || outcome.tangent.negative > 0) return false;
+  const VectorXd movement = to.y - from.y;
+  set_tangent(to, outcome, movement, dlambda);
+  to.arc_length = from.arc_length + metric_.norm(movement, dlambda);
+  const VectorXd missed = movement - (dlambda / to.tangent_lambda) * to.tangent;
+  return metric_.norm(missed, 0.0) <= kProportional * metric_.norm(movement, dlambda) &&
+         keeps_orientation(from, to);
+}
+
 StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint& to) {
   double size = std::min(step.wanted, options_.max_step);
   const double first_size = size;
@@ -316,7 +346,7 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
     ++statistics_.rejected_steps;
     size *= std::min(trial.growth, 0.5);
     if (problem_.one_sided() && size < kTurnShrink * easy_size_ &&
-        (step_by_movement(from, size, to) || turn(from, size, to))) {
+        (step_by_movement(from, size, to) || turn(from, size, to) || settle_beyond(from, size, to))) {
       ++statistics_.steps;
       step.taken = size;
       step.wanted = std::min(size * options_.max_growth, options_.max_step);

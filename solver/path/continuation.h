@@ -153,6 +153,7 @@ class Continuation {
                                               PathPoint& to);
   [[nodiscard]] bool step_by_movement(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] bool turn(const PathPoint& from, double size, PathPoint& to);
+  [[nodiscard]] bool settle_beyond(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] Trial try_step(const PathPoint& from, double step, PathPoint& to);
   void count(const CorrectorOutcome& outcome);
 

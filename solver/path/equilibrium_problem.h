@@ -55,6 +55,9 @@ class EquilibriumProblem {
   /// @brief Size of F relative to the forces and displacements that it balances; rounding gives about 1e-15.
   [[nodiscard]] virtual double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd& y,
                                                  double lambda) = 0;
+  /// @brief Relative residual that the rounding of stiff supports' forces leaves at y, where residual() or
+  /// linearise() was called last; corrections that gain no more need not get below.
+  [[nodiscard]] virtual double residual_rounding(const Eigen::VectorXd&, double) const { return 0.0; }
 };
 
 inline double EquilibriumProblem::critical_load_scale(const Eigen::VectorXd&) const {

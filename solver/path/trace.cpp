@@ -43,6 +43,7 @@ class Tracer {
   [[nodiscard]] bool ends_here(const PathPoint& at, int steps, const std::stop_token& stop);
   [[nodiscard]] bool accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events,
                             const std::optional<Bound>& bound);
+  void measure_arc(const PathPoint& from, std::vector<CriticalEvent>& events, PathPoint& to) const;
   [[nodiscard]] bool turns_sharply(const PathPoint& from, const PathPoint& to) const;
   [[nodiscard]] bool is_known(const PathPoint& point) const;
   bool finish(TraceEnd end, const PathPoint& last);
@@ -54,6 +55,16 @@ class Tracer {
   int limit_points_ = 0;
   std::vector<ContactChange> changes_;  ///< on the step that is being taken
 };
+
+/// Round a corner a point's share of the step is not its share of the arc: along the polygon instead.
+void Tracer::measure_arc(const PathPoint& from, std::vector<CriticalEvent>& events, PathPoint& to) const {
+  const PathPoint* last = &from;
+  for (CriticalEvent& event : events) {
+    event.point.arc_length = last->arc_length + continuation_.distance(*last, event.point);
+    last = &event.point;
+  }
+  to.arc_length = last->arc_length + continuation_.distance(*last, to);
+}
 
 bool Tracer::turns_sharply(const PathPoint& from, const PathPoint& to) const {
   constexpr double kSharply = 0.8;  // cosine; smooth steps turn less
@@ -184,9 +195,10 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
       finish(TraceEnd::step_underflow, from);
       break;
     }
-    const LocatedEvents located = outcome == StepOutcome::turned
-                                      ? locate_at_turn(continuation_, from, to, size.taken, rules_.tolerance)
-                                      : locate_critical_points(continuation_, from, to, rules_.tolerance);
+    LocatedEvents located = outcome == StepOutcome::turned
+                                ? locate_at_turn(continuation_, from, to, size.taken, rules_.tolerance)
+                                : locate_critical_points(continuation_, from, to, rules_.tolerance);
+    if (outcome == StepOutcome::turned) measure_arc(from, located.events, to);
     const bool corner = outcome == StepOutcome::turned || turns_sharply(from, to);
     const auto bound = located.same_path ? bounded_end(from, to, corner) : std::nullopt;
     if (!located.same_path || (bound && !bound->found)) {

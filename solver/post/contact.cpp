@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "solver/post/element_reader.h"
 
@@ -12,21 +13,23 @@ namespace {
 constexpr double kNoInterval = 1e-9;
 /// Share of a member's length below which two intervals are one.
 constexpr double kNoDistance = 1e-9;
+/// Rounding of a position, over the structure's length.
+constexpr double kNoDepth = 4.0 * std::numeric_limits<double>::epsilon();
 
 /// Contact intervals of one part of a foundation, in its element's coordinate.
 void local_intervals(const Structure& structure, const FoundationPart& part, const Eigen::VectorXd& y,
-                     std::vector<ContactStrip::Interval>& out) {
+                     double depth, std::vector<ContactStrip::Interval>& out) {
   out.assign(1, {part.range[0], part.range[1]});
   if (!part.strip) return;
   const ElementReader reader(structure, y, part.element);
   part.strip->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
-                                reader.gradient(1), out);
+                                reader.gradient(1), out, depth);
 }
 
 }  // namespace
 
 std::vector<std::array<double, 2>> contact_intervals(const Structure& structure, const Model& model,
-                                                     const Eigen::VectorXd& y, int foundation) {
+                                                     const Eigen::VectorXd& y, int foundation, double depth) {
   if (model.foundations[foundation].stiffness == 0.0) return {};
   const int member = index_of(model.members, model.foundations[foundation].member);
   const double length = structure.axes[member]->length();
@@ -34,7 +37,7 @@ std::vector<std::array<double, 2>> contact_intervals(const Structure& structure,
   std::vector<ContactStrip::Interval> local;
   for (const FoundationPart& part : structure.foundation_parts) {
     if (part.foundation != foundation) continue;
-    local_intervals(structure, part, y, local);
+    local_intervals(structure, part, y, depth, local);
     const MeshElement& cell = structure.mesh.elements[part.element];
     for (const auto& interval : local) {
       if (interval.to - interval.from <= kNoInterval) continue;
@@ -75,9 +78,9 @@ ContactZones::ContactZones(const Structure& structure, const Model& model)
 void ContactZones::count(const Eigen::VectorXd& y, std::vector<int>& zones) const {
   zones.clear();
   for (const int foundation : foundations_)
-    zones.push_back(static_cast<int>(contact_intervals(structure_, model_, y, foundation).size()));
+    zones.push_back(static_cast<int>(contact_intervals(structure_, model_, y, foundation, kNoDepth).size()));
   for (const SpringRow& spring : springs_)
-    zones.push_back(spring.sign * spring.row.dot(y) > spring.gap ? 1 : 0);
+    zones.push_back(spring.sign * spring.row.dot(y) > spring.gap + kNoDepth ? 1 : 0);
 }
 
 }  // namespace snapthrough

@@ -14,11 +14,15 @@ namespace snapthrough {
 
 /// @brief Contact intervals [s0, s1] of a foundation in its member's arc length, ascending, neighbours
 /// joined; the whole range of a bilateral one.
+/// @param depth penetration over the structure's length that is taken for none, at least 0
 [[nodiscard]] std::vector<std::array<double, 2>> contact_intervals(const Structure& structure,
                                                                    const Model& model,
-                                                                   const Eigen::VectorXd& y, int foundation);
+                                                                   const Eigen::VectorXd& y, int foundation,
+                                                                   double depth = 0.0);
 
 /// @brief Counts contact zones: of each one-sided foundation its intervals, of each one-sided spring 0 or 1.
+/// What is not deeper than the rounding of positions is no contact here: where nothing moves, zones of
+/// rounding would come and go at every step.
 class ContactZones {
  public:
   /// @param structure, model kept by reference, must outlive this

@@ -27,7 +27,8 @@ SectionForces::SectionForces(const Structure& structure, const Model& model, con
       model_(model),
       element_(element),
       cell_(structure.mesh.elements[element]),
-      reader_(structure, y, element) {
+      reader_(structure, y, element),
+      gauss_(gauss_legendre(structure.mesh.order + 2)) {
   for (int c = 0; c < 3; ++c) end_[c] = y[structure.dofs[element].m + c];
   add_loads(lambda / structure.scales.load, 1.0);
   if (pressure_ != 0.0) release_end_of_pressure(y);
@@ -144,14 +145,17 @@ void SectionForces::add_springs() {
   }
 }
 
-double SectionForces::angle_at(double xi) const {
+const AxisPoint& SectionForces::axis_at(double xi) const {
   const AxisCurve& axis = *structure_.axes[cell_.member];
-  return axis.at(axis.length() * (cell_.from + xi * (cell_.to - cell_.from))).angle;
+  if (xi != last_xi_) last_ = axis.at(axis.length() * (cell_.from + xi * (cell_.to - cell_.from)));
+  last_xi_ = xi;
+  return last_;
 }
 
 Vec2 SectionForces::position(double xi) const {
   const StressFreeAxis& axis = *structure_.stress_free[cell_.member];
-  const StressFreePoint p = axis.at(axis.perfect().length() * (cell_.from + xi * (cell_.to - cell_.from)));
+  const StressFreePoint p =
+      axis.at(axis.perfect().length() * (cell_.from + xi * (cell_.to - cell_.from)), axis_at(xi));
   const double x = p.x / structure_.scales.length;
   const double y = p.y / structure_.scales.length;
   if (structure_.geometry == Geometry::linear) return {x, y};  // equilibrium is that of the undeformed shape
@@ -167,7 +171,7 @@ Vec2 SectionForces::base_normal(int foundation, double xi) const {
     return {pull * (*base.direction)[0] / size, pull * (*base.direction)[1] / size};
   }
   const double sign = pull * (base.side == Side::left ? 1.0 : -1.0);
-  const double angle = angle_at(xi);
+  const double angle = axis_at(xi).angle;
   return {-sign * std::sin(angle), sign * std::cos(angle)};
 }
 
@@ -176,8 +180,8 @@ Vec2 SectionForces::density(double xi) const {
   for (const DeadLoad& load : dead_) {
     if (xi < load.range[0] || xi > load.range[1]) continue;
     double measure = 1.0;
-    if (load.per == LoadMeasure::horizontal) measure = std::abs(std::cos(angle_at(xi)));
-    if (load.per == LoadMeasure::vertical) measure = std::abs(std::sin(angle_at(xi)));
+    if (load.per == LoadMeasure::horizontal) measure = std::abs(std::cos(axis_at(xi).angle));
+    if (load.per == LoadMeasure::vertical) measure = std::abs(std::sin(axis_at(xi).angle));
     for (int c = 0; c < 2; ++c) f[c] += measure * load.force[c];
   }
   const auto u = reader_.displacement(xi);
@@ -198,8 +202,7 @@ double SectionForces::shear_layer(const Base& base, double xi) const {
   const auto du = reader_.derivative(xi);
   double slope = du[0] * n[0] + du[1] * n[1];
   if (!model_.foundations[base.foundation].direction) {
-    const AxisCurve& axis = *structure_.axes[cell_.member];
-    const AxisPoint at = axis.at(axis.length() * (cell_.from + xi * (cell_.to - cell_.from)));
+    const AxisPoint& at = axis_at(xi);
     const double turn = at.curvature * structure_.scales.length;
     const double sign = model_.foundations[base.foundation].side == Side::left ? 1.0 : -1.0;
     slope -= sign * turn * (u[0] * std::cos(at.angle) + u[1] * std::sin(at.angle));
@@ -209,18 +212,16 @@ double SectionForces::shear_layer(const Base& base, double xi) const {
 
 /// Shear layers on [from, to] of the part beyond xi: by virtual work of its rigid motions, -int G w' dw' ds.
 void SectionForces::add_shear_layers(double xi, double from, double to, std::array<double, 3>& sum) const {
-  const Quadrature gauss = gauss_legendre(structure_.mesh.order + 2);
   const Vec2 x0 = position(xi);
   for (const Base& base : bases_) {
     if (base.shear == 0.0) continue;
     const double lo = std::max(from, base.range[0]);
     const double hi = std::min(to, base.range[1]);
-    for (std::size_t i = 0; lo < hi && i < gauss.points.size(); ++i) {
-      const double at = lo + (hi - lo) * gauss.points[i];
-      const double force = shear_layer(base, at) * gauss.weights[i] * (hi - lo) * reader_.length();
+    for (std::size_t i = 0; lo < hi && i < gauss_.points.size(); ++i) {
+      const double at = lo + (hi - lo) * gauss_.points[i];
+      const double force = shear_layer(base, at) * gauss_.weights[i] * (hi - lo) * reader_.length();
       const Vec2 n = base_normal(base.foundation, at);
-      const AxisCurve& axis = *structure_.axes[cell_.member];
-      const AxisPoint p = axis.at(axis.length() * (cell_.from + at * (cell_.to - cell_.from)));
+      const AxisPoint p = axis_at(at);
       const double side = model_.foundations[base.foundation].direction
                               ? 0.0
                               : (model_.foundations[base.foundation].side == Side::left ? 1.0 : -1.0);
@@ -257,7 +258,6 @@ std::vector<double> SectionForces::breaks_beyond(double xi) const {
 }
 
 std::array<double, 3> SectionForces::at(double xi) const {
-  const Quadrature gauss = gauss_legendre(structure_.mesh.order + 2);
   const Vec2 x0 = position(xi);
   const Vec2 xb = position(1.0);
   std::array<double, 3> sum = end_;
@@ -283,10 +283,10 @@ std::array<double, 3> SectionForces::at(double xi) const {
   const std::vector<double> breaks = breaks_beyond(xi);
   for (std::size_t b = 0; b + 1 < breaks.size() && (!dead_.empty() || !bases_.empty()); ++b) {
     const double width = breaks[b + 1] - breaks[b];
-    for (std::size_t i = 0; i < gauss.points.size(); ++i) {
-      const double at = breaks[b] + width * gauss.points[i];
+    for (std::size_t i = 0; i < gauss_.points.size(); ++i) {
+      const double at = breaks[b] + width * gauss_.points[i];
       const Vec2 f = density(at);
-      const double ds = width * gauss.weights[i] * reader_.length();
+      const double ds = width * gauss_.weights[i] * reader_.length();
       add(position(at), ds * f[0], ds * f[1]);
     }
     add_shear_layers(xi, breaks[b], breaks[b + 1], sum);

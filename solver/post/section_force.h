@@ -57,7 +57,8 @@ class SectionForces {
   void add_bases();
   void add_springs();
   void add_lumped(const Foundation& base, int index, Vec2 range, double modulus);
-  [[nodiscard]] double angle_at(double xi) const;
+  /// The perfect axis at xi; the last place asked for is kept, it is asked for several times.
+  [[nodiscard]] const AxisPoint& axis_at(double xi) const;
   [[nodiscard]] Vec2 position(double xi) const;
   [[nodiscard]] Vec2 base_normal(int foundation, double xi) const;
   /// Density of forces at a section: everything continuous but the shear layer.
@@ -71,6 +72,9 @@ class SectionForces {
   int element_;
   const MeshElement& cell_;
   ElementReader reader_;
+  Quadrature gauss_;
+  mutable double last_xi_ = -1.0;
+  mutable AxisPoint last_;
   std::array<double, 3> end_{};
   std::vector<DeadLoad> dead_;
   std::vector<Base> bases_;

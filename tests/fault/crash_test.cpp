@@ -19,7 +19,7 @@
 #include <thread>
 
 #include "tests/server/support/client.h"
-#include "tests/server/support/process.h"
+#include "tests/server/support/killed_service.h"
 #include "tests/server/support/samples.h"
 
 namespace snapthrough::server::test {
@@ -38,18 +38,8 @@ struct Told {
   std::atomic<int> requests = 0;
 };
 
-class Crash : public testing::Test {
+class Crash : public KilledServiceTest {
  protected:
-  std::unique_ptr<Process> serve() {
-    auto service = std::make_unique<Process>(
-        folder_,
-        std::vector<std::string>{"serve", "--listen", "127.0.0.1:0", "--store", folder_.file("jobs.db"),
-                                 "--workers", "2", "--max-crashes", "50", "--ballast-bytes", "0"});
-    port_ = listening_port(*service);
-    EXPECT_GT(port_, 0) << service->err();
-    return service;
-  }
-
   /// Uses the service until it is gone.
   void use(unsigned seed) {
     std::mt19937 random(seed);
@@ -177,10 +167,8 @@ class Crash : public testing::Test {
                 successful, told_.removed.size(), told_.requests.load());
   }
 
-  TempDir folder_;
   Told told_;
   std::map<std::string, int> ends_;
-  int port_ = 0;
 };
 
 TEST_F(Crash, EveryAcknowledgedJobIsThereAndEndsOnce) {

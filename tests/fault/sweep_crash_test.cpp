@@ -9,7 +9,7 @@
 #include <regex>
 
 #include "tests/server/support/client.h"
-#include "tests/server/support/process.h"
+#include "tests/server/support/killed_service.h"
 #include "tests/server/support/samples.h"
 
 namespace snapthrough::server::test {
@@ -18,17 +18,8 @@ namespace {
 using nlohmann::json;
 using std::chrono::milliseconds;
 
-class SweepCrash : public testing::Test {
+class SweepCrash : public KilledServiceTest {
  protected:
-  std::unique_ptr<Process> serve() {
-    auto service = std::make_unique<Process>(
-        folder_,
-        std::vector<std::string>{"serve", "--listen", "127.0.0.1:0", "--store", folder_.file("jobs.db"),
-                                 "--workers", "2", "--max-crashes", "50", "--ballast-bytes", "0"});
-    port_ = listening_port(*service);
-    EXPECT_GT(port_, 0) << service->err();
-    return service;
-  }
   [[nodiscard]] std::int64_t done(const std::string& sweep) const {
     const json counts = json::parse(get(port_, sweep).body)["counts"];
     return counts["successful"].get<std::int64_t>() + counts["failed"].get<std::int64_t>();
@@ -41,9 +32,6 @@ class SweepCrash : public testing::Test {
                ? std::stoll(found[1])
                : -1;
   }
-
-  TempDir folder_;
-  int port_ = 0;
 };
 
 TEST_F(SweepCrash, GoesOnWhereItWasKilled) {

@@ -3,59 +3,25 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "server/http/gateway.h"
 #include "server/http/library.h"
 #include "server/http/request_reader.h"
-#include "tests/server/support/failing_sweep_store.h"
+#include "tests/fuzz/one_of_each.h"
 
 namespace snapthrough::server::http {
 namespace {
-
-/// A store with nothing in it, and no room for anything.
-class EmptyStore final : public Store {
- public:
-  StatusOr<Submitted> submit(const NewJob&, const std::function<void()>&) override { return full(); }
-  StatusOr<std::optional<Claim>> claim(const Lease&, Time) override { return std::optional<Claim>(); }
-  StatusOr<std::vector<std::string>> renew(const std::vector<Claim>&, Time, Time) override { return full(); }
-  Status finish(const Claim&, const JobResult&, Time) override { return full(); }
-  Status fail(const Claim&, const JobFailure&, const StoredPath&, Time) override { return full(); }
-  Status requeue(const Claim&) override { return full(); }
-  StatusOr<Recovery> recover(int, Time) override { return full(); }
-  StatusOr<Recovery> rescue(std::string_view, int, Time) override { return full(); }
-  StatusOr<Dismissal> dismiss(std::string_view, Time) override { return Dismissal{}; }
-  StatusOr<bool> remove(std::string_view) override { return false; }
-  StatusOr<int> retire(Time, int) override { return 0; }
-  Status forget_keys(Time) override { return full(); }
-  Status probe(Time) override { return full(); }
-  StatusOr<std::optional<std::string>> find_result(std::string_view, std::string_view) override {
-    return std::optional<std::string>();
-  }
-  StatusOr<JobCounts> counts() override { return JobCounts{}; }
-  StatusOr<std::optional<Job>> get(std::string_view) override { return std::optional<Job>(); }
-  StatusOr<JobPage> list(const JobQuery&) override { return JobPage{}; }
-  StatusOr<std::optional<std::string>> request(std::string_view) override {
-    return std::optional<std::string>();
-  }
-  StatusOr<std::optional<std::string>> result(std::string_view) override {
-    return std::optional<std::string>();
-  }
-  SweepStore& sweeps() override { return sweeps_; }
-  StatusOr<StoredPath> path(std::string_view) override { return StoredPath{}; }
-
- private:
-  static Status full() { return {StatusCode::unavailable, "full"}; }
-  test::FailingSweepStore sweeps_{StatusCode::unavailable};
-};
 
 struct Front {
   std::ostringstream text;
   Environment environment = Environment::system();
   Log log{LogLevel::off, environment.now, text};
-  EmptyStore store;
+  test::FuzzedStore store;
   JobDesk desk{store, environment, log};
   RequestMetrics metrics;
   Routes routes{desk, {}};
@@ -64,7 +30,21 @@ struct Front {
   WireLimits limits;
 };
 
-void check_response(const Response& response) {
+void check_response(Response response) {
+  while (response.deferred) {
+    Response late = response.deferred->resume();  // the wait is over
+    response = std::move(late);
+  }
+  if (response.stream) {
+    const std::shared_ptr<StreamSource> source =
+        response.stream->open([](const std::string& piece, bool last) {
+          if (!last && !piece.empty() && !piece.ends_with("\n\n")) {
+            std::abort();  // events are whole
+          }
+          return true;
+        });
+    source->poll();
+  }
   const std::string bytes = to_bytes(response, false, true);
   if (response.status < 200 || response.status > 599 || reason_phrase(response.status) == "Unknown" ||
       bytes.find("\r\n\r\n") == std::string::npos) {

@@ -313,16 +313,49 @@ TEST_F(ContractOverHttp, TheSameRequestIsAnsweredFromItsResult) {
 TEST_F(ContractOverHttp, EventsTellTheLifeOfAJob) {
   const auto solver = std::make_shared<GatedSolver>();
   start(gated(solver));
-  const std::string job = submit();
-  solver->wait_started(1);
-  Socket stream(port());
-  stream.send("GET " + job + "/events HTTP/1.1\r\nHost: a\r\n\r\n");
-  EXPECT_EQ(stream.receive().header("Content-Type"), "text/event-stream");
-  solver->open();
-  const std::string text = stream.rest();
+  const std::string text = all_events(*solver, submit());
   EXPECT_THAT(text, testing::HasSubstr("event: status\ndata: {\"id\""));
   EXPECT_THAT(text, testing::HasSubstr("event: end\ndata: {\"id\""));
   EXPECT_THAT(text, testing::HasSubstr("\"status\":\"successful\""));
+}
+
+/// How often a text occurs.
+int count_of(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST_F(ContractOverHttp, CriticalPointsAreToldAsTheyAreFound) {
+  const auto solver = std::make_shared<GatedSolver>();
+  start(gated(solver));
+  const std::string job = submit();
+  solver->wait_started(1);
+  Socket stream(port());
+  follow(stream, job);
+  const std::string early = stream.read_until("\"final\":false}\n\n");
+  EXPECT_THAT(early, testing::HasSubstr("event: critical_point\ndata: {\"branch\":0"));
+  EXPECT_THAT(early, testing::HasSubstr("\"load_factor\":3.25,"));
+  EXPECT_THAT(early, testing::HasSubstr("\"error_estimate\":null"));
+  EXPECT_EQ(json::parse(get(port(), job).body)["status"], "running");
+  // Who comes back is not told again what was seen; who comes late is told all.
+  const std::string mark = "\nevent: critical_point";
+  const std::string before = early.substr(0, early.find(mark));
+  const std::string id = before.substr(before.rfind("id: ") + 4);
+  Socket again(port());
+  follow(again, job, id);
+  const std::string seen = again.read_until("event: progress");  // the news after the point
+  EXPECT_EQ(count_of(seen, "critical_point"), 0) << seen;
+  solver->open();
+  for (Socket* one : {&stream, &again}) {
+    const std::string rest = one->rest();
+    EXPECT_EQ(count_of(rest, "event: critical_point"), 1) << rest;
+    EXPECT_THAT(rest, testing::HasSubstr("\"load_factor\":3.125,"));
+    EXPECT_THAT(rest, testing::HasSubstr("\"error_estimate\":0.0001,\"final\":true}"));
+    EXPECT_THAT(rest, testing::HasSubstr("event: end\n"));
+  }
 }
 
 TEST_F(ContractOverHttp, AStrangersJobIsNotThere) {

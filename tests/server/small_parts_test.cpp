@@ -75,6 +75,7 @@ TEST(Config, NamesTheFieldThatIsWrong) {
               ElementsAre("waits.longest_wait"));
   EXPECT_THAT(fields([](auto& c) { c.store_path = ""; }), ElementsAre("store_path"));
   EXPECT_THAT(fields([](auto& c) { c.jobs.max_crashes = 0; }), ElementsAre("jobs.max_crashes"));
+  EXPECT_THAT(fields([](auto& c) { c.jobs.job_memory = 1000; }), ElementsAre("jobs.job_memory"));
   EXPECT_THAT(fields([](auto& c) { c.workers = 0, c.listener.port = -1; }),
               ElementsAre("listener.port", "workers"));
 }

@@ -16,7 +16,7 @@
 #include "server/store/sqlite/sqlite_store.h"
 #include "server/store/store.h"
 #include "tests/server/support/samples.h"
-#include "tests/server/support/temp_dir.h"
+#include "tests/server/support/store_driver.h"
 
 namespace snapthrough::server::test {
 namespace {
@@ -27,25 +27,8 @@ using testing::IsEmpty;
 /// Longer than any test.
 const Lease kLease{"worker", at_second(1'000'000)};
 
-struct StoreDriver {
-  const char* name;
-  std::function<StatusOr<std::unique_ptr<Store>>(const TempDir&)> open;
-};
-
-class StoreConformance : public testing::TestWithParam<StoreDriver> {
+class StoreConformance : public StoreTest {
  protected:
-  void SetUp() override { open(); }
-
-  void open() {
-    StatusOr<std::unique_ptr<Store>> opened = GetParam().open(folder_);
-    ASSERT_TRUE(opened.ok()) << opened.status().message();
-    store_ = std::move(opened).value();
-  }
-  void reopen() {
-    store_.reset();
-    open();
-  }
-
   void submit(int number) { ASSERT_TRUE(store_->submit(new_job(id_number(number), number)).ok()); }
   /// Claims the next job, which must exist.
   Claim claim(int second = 100) {
@@ -71,9 +54,6 @@ class StoreConformance : public testing::TestWithParam<StoreDriver> {
   Status fail(const Claim& held) {
     return store_->fail(held, {"no_convergence", "why", R"({"reached": 1})"}, {}, at_second(200));
   }
-
-  TempDir folder_;
-  std::unique_ptr<Store> store_;
 };
 
 TEST_P(StoreConformance, ASubmittedJobIsAcceptedAndKeepsItsRequest) {
@@ -394,7 +374,7 @@ TEST_P(StoreConformance, AcknowledgedJobsSurviveKill) {
   }
   ::close(pipe_ends[0]);
   ASSERT_GE(acknowledged, 100);
-  open();
+  reopen();
   ASSERT_TRUE(store_->recover(3, at_second(1)).ok());
   for (int i = 0; i <= acknowledged; ++i) {
     EXPECT_EQ(job(i).state, JobState::accepted) << i;

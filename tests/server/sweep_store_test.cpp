@@ -7,7 +7,7 @@
 
 #include "server/store/sqlite/sqlite_store.h"
 #include "tests/server/support/samples.h"
-#include "tests/server/support/temp_dir.h"
+#include "tests/server/support/store_driver.h"
 
 namespace snapthrough::server::test {
 namespace {
@@ -15,20 +15,8 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-struct SweepDriver {
-  const char* name;
-  std::function<StatusOr<std::unique_ptr<Store>>(const TempDir&)> open;
-};
-
-class SweepStoreConformance : public testing::TestWithParam<SweepDriver> {
+class SweepStoreConformance : public StoreTest {
  protected:
-  void SetUp() override { reopen(); }
-  void reopen() {
-    store_.reset();
-    StatusOr<std::unique_ptr<Store>> opened = GetParam().open(folder_);
-    ASSERT_TRUE(opened.ok()) << opened.status().message();
-    store_ = std::move(opened).value();
-  }
   SweepStore& sweeps() { return store_->sweeps(); }
 
   std::string submit(int number, std::int64_t points, const std::string& owner = "") {
@@ -61,9 +49,6 @@ class SweepStoreConformance : public testing::TestWithParam<SweepDriver> {
                     .ok());
     return all;
   }
-
-  TempDir folder_;
-  std::unique_ptr<Store> store_;
 };
 
 TEST_P(SweepStoreConformance, ASweepIsThereAsItWasHandedIn) {
@@ -234,7 +219,7 @@ TEST_P(SweepStoreConformance, AnIdempotencyKeyIsOneSweep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Drivers, SweepStoreConformance,
-                         testing::Values(SweepDriver{"Sqlite",
+                         testing::Values(StoreDriver{"Sqlite",
                                                      [](const TempDir& folder) {
                                                        return sqlite::open_store(folder.file("store.db"),
                                                                                  at_second(0));

@@ -55,7 +55,8 @@ int negative_eigenvalues(Eigen::MatrixXd a) {
       if (d < 0.0) ++negative;
       if (d != 0.0 && rest > 0) {
         const Eigen::VectorXd l = a.col(k).tail(rest);
-        for (Index j = 0; j < rest; ++j) a.col(k + 1 + j).tail(rest - j) -= (l[j] / d) * l.tail(rest - j);
+        for (Index j = 0; j < rest; ++j)
+          if (l[j] != 0.0) a.col(k + 1 + j).tail(rest - j) -= (l[j] / d) * l.tail(rest - j);
       }
       k += 1;
       continue;
@@ -68,6 +69,7 @@ int negative_eigenvalues(Eigen::MatrixXd a) {
     const Eigen::VectorXd u = a.col(k).tail(rest);
     const Eigen::VectorXd v = a.col(k + 1).tail(rest);
     for (Index j = 0; j < rest; ++j) {
+      if (u[j] == 0.0 && v[j] == 0.0) continue;
       const double wu = (q * u[j] - v[j]) / (b * det);
       const double wv = (p * v[j] - u[j]) / (b * det);
       a.col(k + 2 + j).tail(rest - j) -= wu * u.tail(rest - j) + wv * v.tail(rest - j);

@@ -162,10 +162,11 @@ void Check::inertia(std::size_t index, const RodState& at, int negative) {
   const double noise = 64.0 * kEps * t.matrix.norm();
   MatrixXd shifted = t.matrix;
   shifted.diagonal().head(free).array() += noise;
-  const int low = negative_eigenvalues(shifted) - t.constraints;
+  // no count is below zero: what is comes from the shift itself, where constraints are nearly dependent
+  const int low = std::max(negative_eigenvalues(shifted) - t.constraints, 0);
   shifted = t.matrix;
   shifted.diagonal().head(free).array() -= noise;
-  const int high = negative_eigenvalues(shifted) - t.constraints;
+  const int high = std::max(negative_eigenvalues(shifted) - t.constraints, 0);
   ++out_.inertia;
   if (low != high) ++out_.undecided;
   // this count is of the symmetric part; where a pressed line ends free the index follows the determinant

@@ -2,7 +2,7 @@
 ///   stress_run <first|broad> FIRST COUNT STRIDE SECONDS
 /// "start seed", then "done seed reached termination points uncovered residual inertia undecided stretch
 /// seconds" and a line "fail seed what" for each failure, "note seed why" where no stop rule was reached.
-#include <unistd.h>
+#include <sys/time.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -23,6 +23,13 @@ void print(unsigned long seed, const snapthrough::testing::StressOutcome& out) {
   std::fflush(stdout);
 }
 
+/// Ends the process by a signal after that much processor time from now.
+void end_after(double seconds) {
+  itimerval timer{};
+  timer.it_value.tv_sec = static_cast<time_t>(seconds);
+  setitimer(ITIMER_PROF, &timer, nullptr);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -39,7 +46,7 @@ int main(int argc, char** argv) {
   for (unsigned long seed = first; seed < first + count; seed += stride) {
     std::printf("start %lu\n", seed);
     std::fflush(stdout);
-    alarm(static_cast<unsigned>(3.0 * bound) + 30);  // ends the process where the solver does not listen
+    end_after(10.0 * bound + 60.0);  // where the solver does not listen, or its result takes long to check
     print(seed, snapthrough::testing::run_seed(draw, seed, bound));
   }
   return 0;

@@ -19,12 +19,6 @@ CriticalType critical_type(std::string_view name) {
   throw Error(0, "unknown kind of critical point in the store: " + std::string(name));
 }
 
-Time time_from_row(std::int64_t microseconds) { return Time(std::chrono::microseconds(microseconds)); }
-
-std::optional<Time> optional_time(const Statement& row, int column) {
-  return row.is_null(column) ? std::nullopt : std::optional(time_from_row(row.integer(column)));
-}
-
 std::optional<int> optional_int(const Statement& row, int column) {
   return row.is_null(column) ? std::nullopt : std::optional(static_cast<int>(row.integer(column)));
 }
@@ -102,6 +96,30 @@ const char* const kJobColumns =
 
 std::int64_t to_row(Time time) { return time.time_since_epoch().count(); }
 
+Time time_in(const Statement& row, int column) {
+  return Time(std::chrono::microseconds(row.integer(column)));
+}
+
+std::optional<Time> optional_time_in(const Statement& row, int column) {
+  return row.is_null(column) ? std::nullopt : std::optional(time_in(row, column));
+}
+
+JobState state_in(const Statement& row, int column) {
+  const std::optional<JobState> state = job_state_from(row.text(column));
+  if (!state) {
+    throw Error(0, "unknown status in the store: " + row.text(column));
+  }
+  return *state;
+}
+
+std::optional<Submitted> known_key(Statement& row, const IdempotencyKey& key) {
+  if (!row.step()) {
+    return std::nullopt;
+  }
+  const bool same = row.text(0) == key.fingerprint;
+  return Submitted{same ? Submitted::Kind::repeated : Submitted::Kind::key_conflict, row.text(1)};
+}
+
 std::string_view to_row(CriticalType type) {
   for (const auto& [candidate, text] : kCriticalTypes) {
     if (candidate == type) {
@@ -112,20 +130,16 @@ std::string_view to_row(CriticalType type) {
 }
 
 Job read_job(const Statement& row) {
-  const std::optional<JobState> state = job_state_from(row.text(1));
-  if (!state) {
-    throw Error(0, "unknown job status in the store: " + row.text(1));
-  }
   Job job;
   job.id = row.text(0);
-  job.state = *state;
+  job.state = state_in(row, 1);
   job.attempt = static_cast<int>(row.integer(2));
   job.crashes = static_cast<int>(row.integer(3));
   job.title = row.text(4);
   job.analysis_type = row.text(5);
-  job.created = time_from_row(row.integer(6));
-  job.started = optional_time(row, 7);
-  job.finished = optional_time(row, 8);
+  job.created = time_in(row, 6);
+  job.started = optional_time_in(row, 7);
+  job.finished = optional_time_in(row, 8);
   job.owner = row.text(9);
   return job;
 }

@@ -13,6 +13,14 @@ namespace snapthrough::server::sqlite {
 
 /// Microseconds since 1970, as times are stored.
 [[nodiscard]] std::int64_t to_row(Time time);
+// A column of the current row.
+[[nodiscard]] Time time_in(const Statement& row, int column);
+[[nodiscard]] std::optional<Time> optional_time_in(const Statement& row, int column);
+[[nodiscard]] JobState state_in(const Statement& row, int column);
+
+/// @brief What an idempotency key that is known amounts to; empty when it is new.
+/// @param row a bound statement that selects the key's fingerprint and the id of what was made with it
+[[nodiscard]] std::optional<Submitted> known_key(Statement& row, const IdempotencyKey& key);
 
 /// The columns that read_job() reads, for SELECT; needs the table `jobs`.
 extern const char* const kJobColumns;

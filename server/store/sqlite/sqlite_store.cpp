@@ -94,11 +94,7 @@ std::optional<Submitted> known_key(Connection& connection, const NewJob& job) {
       "SELECT idempotency_keys.fingerprint, jobs.id FROM idempotency_keys JOIN jobs ON jobs.seq = job"
       " WHERE idempotency_keys.owner = ? AND idempotency_keys.key = ?");
   row.bind(job.owner).bind(job.idempotency->key);
-  if (!row.step()) {
-    return std::nullopt;
-  }
-  const bool same = row.text(0) == job.idempotency->fingerprint;
-  return Submitted{same ? Submitted::Kind::repeated : Submitted::Kind::key_conflict, row.text(1)};
+  return known_key(row, *job.idempotency);
 }
 
 void insert_job(Connection& connection, const NewJob& job) {

@@ -25,26 +25,18 @@ const char* const kSweepColumns =
     " sweeps.reused, sweeps.created_us, sweeps.started_us, sweeps.finished_us";
 
 SweepRecord read_sweep_record(const Statement& row) {
-  const auto time = [&](int column) {
-    const std::optional<std::int64_t> value = row.optional_integer(column);
-    return value ? std::optional(Time(std::chrono::microseconds(*value))) : std::nullopt;
-  };
-  const std::optional<JobState> state = job_state_from(row.text(1));
-  if (!state) {
-    throw Error(0, "unknown sweep status in the store: " + row.text(1));
-  }
   SweepRecord sweep;
   sweep.id = row.text(0);
-  sweep.state = *state;
+  sweep.state = state_in(row, 1);
   sweep.owner = row.text(2);
   sweep.title = row.text(3);
   sweep.points = row.integer(4);
   sweep.successful = row.integer(5);
   sweep.failed = row.integer(6);
   sweep.reused = row.integer(7);
-  sweep.created = time(8).value();
-  sweep.started = time(9);
-  sweep.finished = time(10);
+  sweep.created = time_in(row, 8);
+  sweep.started = optional_time_in(row, 9);
+  sweep.finished = optional_time_in(row, 10);
   return sweep;
 }
 

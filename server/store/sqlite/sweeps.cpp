@@ -27,11 +27,7 @@ std::optional<Submitted> known_key(const Connection& connection, const NewSweep&
       "SELECT sweep_keys.fingerprint, sweeps.id FROM sweep_keys JOIN sweeps ON sweeps.seq = sweep"
       " WHERE sweep_keys.owner = ? AND sweep_keys.key = ? AND removed = 0");
   row.bind(sweep.owner).bind(sweep.idempotency->key);
-  if (!row.step()) {
-    return std::nullopt;
-  }
-  const bool same = row.text(0) == sweep.idempotency->fingerprint;
-  return Submitted{same ? Submitted::Kind::repeated : Submitted::Kind::key_conflict, row.text(1)};
+  return known_key(row, *sweep.idempotency);
 }
 
 void insert_sweep(Connection& connection, const NewSweep& sweep) {

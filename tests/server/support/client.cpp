@@ -87,6 +87,18 @@ Reply Socket::receive(bool without_body) {
   return reply;
 }
 
+std::string Socket::read_until(const std::string& mark) {
+  std::size_t found = 0;
+  while ((found = buffer_.find(mark)) == std::string::npos) {
+    if (!fill()) {
+      return std::move(buffer_);
+    }
+  }
+  std::string text = buffer_.substr(0, found + mark.size());
+  buffer_.erase(0, text.size());
+  return text;
+}
+
 std::string Socket::rest() {
   while (fill()) {
   }

@@ -30,6 +30,8 @@ class Socket {
   void send(const std::string& bytes) const;
   /// The next response; status 0 when the connection ends first. Interim responses (1xx) are returned too.
   Reply receive(bool without_body = false);
+  /// Everything up to and with the mark; less when the other side closes first.
+  std::string read_until(const std::string& mark);
   /// Everything until the other side closes.
   std::string rest();
   /// Whether the other side has closed and nothing is left to read.

@@ -27,8 +27,16 @@ class GatedSolver {
     if (hooks.on_progress) {
       hooks.on_progress({0, 7, 3.5, 1});
     }
-    changed_.wait(lock, hooks.stop, [&] { return open_; });
     Result result;
+    result.critical_points = {CriticalPoint{}};
+    result.critical_points[0].load_factor = 3.25;
+    if (hooks.on_critical) {
+      hooks.on_critical(result.critical_points[0]);
+      hooks.on_progress({0, 7, 3.5, 1});
+    }
+    changed_.wait(lock, hooks.stop, [&] { return open_; });
+    result.critical_points[0].load_factor = 3.125;
+    result.critical_points[0].error_estimate = 1e-4;
     result.summary.termination = "steps";
     if (!open_) {
       result.failure = Failure{"cancelled", "asked to stop"};
@@ -83,6 +91,21 @@ class ServiceTest : public testing::Test {
                              {"Content-Type: application/json", "Prefer: respond-async"});
     EXPECT_EQ(reply.status, 201) << reply.body;
     return reply.header("Location");
+  }
+
+  /// Begins to follow the events of a job or sweep. @param last_id of the last that was seen
+  static void follow(Socket& stream, const std::string& path, const std::string& last_id = "") {
+    const std::string seen = last_id.empty() ? "" : "Last-Event-ID: " + last_id + "\r\n";
+    stream.send("GET " + path + "/events HTTP/1.1\r\nHost: a\r\n" + seen + "\r\n");
+    EXPECT_EQ(stream.receive().header("Content-Type"), "text/event-stream");
+  }
+  /// The events of something that the solver works on and ends when its gate is opened.
+  std::string all_events(GatedSolver& solver, const std::string& path) const {
+    solver.wait_started(1);
+    Socket stream(port());
+    follow(stream, path);
+    solver.open();
+    return stream.rest();
   }
 
   TempDir folder_;
