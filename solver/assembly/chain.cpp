@@ -140,17 +140,12 @@ std::optional<int> clearly_negative(const Matrix3d& C) {
   return negative;
 }
 
-/// A B, a column at a time: Eigen calls a function for it.
+/// A B, written out in place: Eigen calls a function for it.
 template <class Left, class Right>
-Matrix3d product(const Left& A, const Right& B) {
-  const Eigen::Array4d a0(A(0, 0), A(1, 0), A(2, 0), 0.0);
-  const Eigen::Array4d a1(A(0, 1), A(1, 1), A(2, 1), 0.0);
-  const Eigen::Array4d a2(A(0, 2), A(1, 2), A(2, 2), 0.0);
+[[gnu::always_inline]] inline Matrix3d product(const Left& A, const Right& B) {
   Matrix3d out;
-  for (int j = 0; j < 3; ++j) {
-    const Eigen::Array4d column = a0 * B(0, j) + a1 * B(1, j) + a2 * B(2, j);
-    for (int i = 0; i < 3; ++i) out(i, j) = column[i];
-  }
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) out(i, j) = A(i, 0) * B(0, j) + A(i, 1) * B(1, j) + A(i, 2) * B(2, j);
   return out;
 }
 

@@ -110,11 +110,22 @@ class AugmentedFactor {
   /// @brief y := S^-1 (r - B sides) from x = L^-1 r; y holds `sides` in the six entries after its first N.
   /// @pre y aligned, kWidth long, zero but for the sides
   void backward(const double* x, double* y) const {
-    for (int k = N - 1; k >= 0; --k)
-      y[k] = (x[k] - dot_from<kWidth>(rows_[k].data(), y, k + 1)) * inverses_[k];
+    backward_rows(x, y, std::make_integer_sequence<int, N>());
   }
 
  private:
+  template <int... K>
+  void backward_rows(const double* x, double* y, std::integer_sequence<int, K...>) const {
+    (backward_row<N - 1 - K>(x, y, std::make_integer_sequence<int, K + Matrix::kSides>()), ...);
+  }
+  /// Number by number, the one that was found last at the end: blocks of y would have to wait for the parts
+  /// that were just written.
+  template <int K, int... J>
+  void backward_row(const double* x, double* y, std::integer_sequence<int, J...>) const {
+    double sum = x[K];
+    ((sum -= rows_[K][Matrix::kRows - 1 - J] * y[Matrix::kRows - 1 - J]), ...);
+    y[K] = sum * inverses_[K];
+  }
   template <int... R>
   void factorise_blocks(Matrix& a, std::array<double, N>& pivots, std::integer_sequence<int, R...>) {
     (factorise_block<R>(a, pivots), ...);
