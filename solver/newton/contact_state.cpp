@@ -122,6 +122,8 @@ std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, cons
   CorrectorOptions options;
   options.max_iterations = 25;
   options.least_energy = true;
+  options.tangent_tolerance =
+      1e-5;  // only the direction is taken from it, and the last correction squares this
   options.largest_correction = std::numeric_limits<double>::infinity();
   options.most_stalled = options.max_iterations;
   Attempt attempt{problem, metric, lambda, options, work, factorisations};

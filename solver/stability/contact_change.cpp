@@ -37,7 +37,7 @@ double predicted_share(const Continuation& continuation, const Chord& chord, con
 /// as where the load begins and everything that touches touches from nothing. Sets the counts beyond.
 bool changes_at_start(const Continuation& continuation, const Chord& chord, const Bracket& bracket,
                       const ZoneCounter& count, const std::vector<int>& old, std::vector<int>& beyond) {
-  constexpr double kAtOnce = 1e-9;
+  constexpr double kAtOnce = 1e-6;  // enough for zones to be deeper than rounding where all grow from nothing
   PathPoint at;
   continuation.interpolate(chord, bracket.before, bracket.after, kAtOnce, at);
   count(at.y, beyond);
