@@ -6,9 +6,9 @@
 namespace snapthrough::server {
 namespace {
 
-/// Bytes for each unknown at the least: measured peaks are 860 and more (docs/performance.md), and
+/// Bytes for each unknown at the least: measured peaks are 388 and more
 /// MemoryLimit.TheLeastIsBelowEveryPeak holds this one to be lower than all.
-constexpr std::int64_t kLeastBytesByUnknown = 500;
+constexpr std::int64_t kLeastBytesByUnknown = 350;
 
 }  // namespace
 

@@ -313,8 +313,8 @@ double StructuralProblem::largest_force(const VectorXd& y, double lambda) const 
 }
 
 double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) const {
-  constexpr double kRoundings = 4.0;      // from two elements and a spring at a node
-  constexpr double kMostRounding = 1e-6;  // beyond, supports are too stiff for this arithmetic
+  constexpr double kRoundings = 0.5;  // half a unit in the last place; signs vary over the places of a base
+  constexpr double kMostRounding = 1e-7;  // beyond, supports are too stiff for this arithmetic
   double largest = structure_.elements->support_rounding();
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
     const JointSpring& spring = structure_.joint_springs[i];

@@ -308,11 +308,11 @@ bool Continuation::settle_beyond(const PathPoint& from, double size, PathPoint& 
   const double dlambda = size * from.tangent_lambda;
   if (from.negative > 0 || dlambda == 0.0) return false;
   CorrectorOptions options = options_.corrector;
-  options.max_iterations = 40;
+  options.max_iterations = 60;
   options.most_stalled = options.max_iterations;
   options.largest_correction = std::numeric_limits<double>::infinity();
   options.least_energy = true;
-  to.y = from.y;
+  to.y = from.y + size * from.tangent;
   to.lambda = from.lambda + dlambda;
   const auto outcome = correct(problem_, metric_, {}, size, options, to.y, to.lambda, work_);
   count(outcome);

@@ -37,8 +37,9 @@ TEST(StressChecker, SeesAFalsePoint) {
 /// Models that once ended without a stop rule, or with a point that the checker refused: contact on bases of
 /// hundreds of decay lengths, corners, tiny constant actions, zones of contact between samples.
 TEST(Stress, ModelsThatFailedOnce) {
-  for (const std::uint64_t seed : {13,   75,   146,  337,  552,  564,  608,  790,  836,  982,  1073,
-                                   1122, 2073, 2091, 2169, 2302, 2308, 2341, 2432, 3101, 3326, 3400}) {
+  for (const std::uint64_t seed :
+       {13,   75,   146,  337,  552,  564,  608, 790,  836,  982,  1073, 1122, 2073, 2091, 2169, 2302,
+        2308, 2341, 2432, 3101, 3326, 3400, 136, 2144, 3260, 4353, 6003, 6011, 8132, 9462, 9644}) {
     const StressOutcome out = run_seed(Draw::broad, seed, 60.0);
     EXPECT_TRUE(out.reached) << "seed " << seed << ": " << out.termination << ", " << out.detail;
     for (const std::string& what : out.check.failures)
