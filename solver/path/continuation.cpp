@@ -375,6 +375,21 @@ void Continuation::limit_steps(const StepOptions& steps, double load_rate) {
   if (steps.max) options_.max_step = *steps.max * load_scale_ / load_rate;
 }
 
+void Continuation::settle(const PathPoint& from, PathPoint& point) {
+  CorrectorOptions options = options_.corrector;
+  if (options.tangent_tolerance == 0.0) return;
+  options.tangent_tolerance = 0.0;
+  side_.normal = metric_.weights->cwiseProduct(point.tangent);
+  side_.normal_lambda = metric_.load_weight * point.tangent_lambda;
+  PathPoint settled = point;
+  const double scale = std::min(distance(from, point), kLargeGradient);
+  const auto outcome = correct(problem_, metric_, side_, scale, options, settled.y, settled.lambda, work_);
+  count(outcome);
+  if (outcome.status != CorrectorStatus::converged) return;
+  set_tangent(settled, outcome, point.tangent, point.tangent_lambda);
+  point = std::move(settled);
+}
+
 void Continuation::reject(StepSize& step) {
   --statistics_.steps;
   ++statistics_.rejected_steps;

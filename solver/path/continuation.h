@@ -93,6 +93,10 @@ class Continuation {
   }
   /// @brief Takes the last step back, because it jumped to another path: the next one will be shorter.
   void reject(StepSize& step);
+  /// @brief Corrects a point as far as rounding allows where it was corrected for its tangent only, so that
+  /// its inertia is that of the path: on a plateau the point before the last correction may be across a
+  /// singularity.
+  void settle(const PathPoint& from, PathPoint& point);
 
   /// @brief The straight line from one point of the path to another: places between are told by their
   /// distance along it.

@@ -195,6 +195,7 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
       finish(TraceEnd::step_underflow, from);
       break;
     }
+    if (outcome == StepOutcome::advanced && to.negative != from.negative) continuation_.settle(from, to);
     LocatedEvents located = outcome == StepOutcome::turned
                                 ? locate_at_turn(continuation_, from, to, size.taken, rules_.tolerance)
                                 : locate_critical_points(continuation_, from, to, rules_.tolerance);

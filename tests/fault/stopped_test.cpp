@@ -25,7 +25,7 @@ using std::chrono::milliseconds;
 /// A path that takes seconds.
 std::string long_request(const std::string& title) {
   json request = json::parse(column_request(title));
-  request["analysis"]["discretization"]["elements"] = 200;
+  request["analysis"]["discretization"]["elements"] = 2000;
   request["analysis"]["stop"]["steps"] = 4000;
   return request.dump();
 }
