@@ -83,8 +83,9 @@ def check_paths(runs):
         result = runs("column_one_sided_base", (STIFFNESS, K))
         loads = plateau_points(result)
         wrong += [] if len(loads) > 1 and not result["critical_points"] else [f"column on one side, K = {K}: no plateau"]
-        for load in loads:
-            compare(f"column on one side, K = {K}", load, PLATEAU, 2e-5)  # Koiter: the load rises by (w pi/L)^2/8
+        # how many points a path has there is the steps' business: the farthest stands for all
+        farthest = max(loads, key=lambda load: abs(load / PLATEAU - 1), default=float("nan"))
+        compare(f"column on one side, K = {K}", farthest, PLATEAU, 2e-5)  # Koiter: the load rises by (w pi/L)^2/8
     for elements, published, ours in column_meshes(runs):
         compare(f"table 4.1, {elements} elements", ours, published, 0.02)
     for name, ours, reference in known_limits(runs):

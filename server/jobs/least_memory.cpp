@@ -6,7 +6,7 @@
 namespace snapthrough::server {
 namespace {
 
-/// Bytes for each unknown at the least: measured peaks are 388 and more
+/// Bytes for each unknown at the least: measured peaks are 388 and more, and
 /// MemoryLimit.TheLeastIsBelowEveryPeak holds this one to be lower than all.
 constexpr std::int64_t kLeastBytesByUnknown = 350;
 

@@ -119,13 +119,9 @@ bool release_grip(Attempt& attempt, ContactState& state) {
 std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, const PathMetric& metric,
                                                double lambda, Workspace& work, int& factorisations,
                                                const VectorXd* guess) {
-  CorrectorOptions options;
-  options.max_iterations = 25;
-  options.least_energy = true;
-  options.tangent_tolerance =
-      1e-5;  // only the direction is taken from it, and the last correction squares this
-  options.largest_correction = std::numeric_limits<double>::infinity();
-  options.most_stalled = options.max_iterations;
+  CorrectorOptions options = downhill({}, 25);
+  // only the direction is taken from it, and the last correction squares this
+  options.tangent_tolerance = 1e-5;
   Attempt attempt{problem, metric, lambda, options, work, factorisations};
   ContactState state;
   ContactState glued;

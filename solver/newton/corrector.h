@@ -52,6 +52,15 @@ struct CorrectorOptions {
   double stagnant_residual = 1e-11;  ///< below it, one that no longer falls is rounding's, too
 };
 
+/// @brief The same options for going downhill in the energy at a given load, however far that leads.
+[[nodiscard]] inline CorrectorOptions downhill(CorrectorOptions options, int max_iterations) {
+  options.max_iterations = max_iterations;
+  options.most_stalled = max_iterations;
+  options.largest_correction = std::numeric_limits<double>::infinity();
+  options.least_energy = true;
+  return options;
+}
+
 enum class CorrectorStatus { converged, too_many_iterations, diverged };
 
 struct CorrectorOutcome {

@@ -307,11 +307,7 @@ bool Continuation::settle_beyond(const PathPoint& from, double size, PathPoint& 
   constexpr double kProportional = 0.1;  // of the movement: what the end's tangent may miss it by
   const double dlambda = size * from.tangent_lambda;
   if (from.negative > 0 || dlambda == 0.0) return false;
-  CorrectorOptions options = options_.corrector;
-  options.max_iterations = 60;
-  options.most_stalled = options.max_iterations;
-  options.largest_correction = std::numeric_limits<double>::infinity();
-  options.least_energy = true;
+  const CorrectorOptions options = downhill(options_.corrector, 60);
   to.y = from.y + size * from.tangent;
   to.lambda = from.lambda + dlambda;
   const auto outcome = correct(problem_, metric_, {}, size, options, to.y, to.lambda, work_);

@@ -8,20 +8,13 @@
 #include <utility>
 
 #include "solver/newton/corrector.h"
+#include "solver/stability/load_bracket.h"
 
 namespace snapthrough {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-/// An interval of load factors with the number of eigenvalues below each end.
-struct Bracket {
-  double lo = 0.0;
-  double hi = 0.0;
-  int below_lo = 0;
-  int below_hi = 0;
-};
 
 /// The pencil J(lambda) = J_0 + lambda G in the mixed unknowns: displacements zero, stresses s_c + lambda
 /// s_p.
@@ -115,7 +108,7 @@ constexpr double kShort = 1e-2;
 
 /// Splits (lo, hi) until each bracket holds one eigenvalue and is short, or a cluster that is narrow,
 /// ascending.
-void isolate(Pencil& pencil, const Bracket& bracket, int wanted, std::vector<Bracket>& out) {
+void isolate(Pencil& pencil, const LoadBracket& bracket, int wanted, std::vector<LoadBracket>& out) {
   constexpr double kNarrow = 1e-4;
   if (bracket.below_hi <= bracket.below_lo || bracket.below_lo >= wanted) return;
   const bool single = bracket.below_hi - bracket.below_lo == 1;
@@ -198,7 +191,7 @@ double iterate(Pencil& pencil, double shift, std::vector<EigenPair>& pairs) {
 
 /// Draws the lower end of a wide bracket of one load up to just below it: a few iterations from the lower end
 /// say where it is, and a count says whether they are right. Factorised there when it is true.
-bool draw_up(Pencil& pencil, Bracket& bracket, std::vector<EigenPair>& pairs) {
+bool draw_up(Pencil& pencil, LoadBracket& bracket, std::vector<EigenPair>& pairs) {
   constexpr int kTries = 3;
   constexpr int kIterations = 3;
   constexpr double kBelow = 2e-3;  // as for the shift of refine()
@@ -219,7 +212,7 @@ bool draw_up(Pencil& pencil, Bracket& bracket, std::vector<EigenPair>& pairs) {
 }
 
 /// Halves a bracket of one load until inverse iteration gains two digits by iteration or more.
-void narrow(Pencil& pencil, Bracket& bracket) {
+void narrow(Pencil& pencil, LoadBracket& bracket) {
   while (bracket.hi - bracket.lo > kShort * bracket.hi) {
     const double middle = 0.5 * (bracket.lo + bracket.hi);
     (pencil.count(middle) > bracket.below_lo ? bracket.hi : bracket.lo) = middle;
@@ -227,7 +220,7 @@ void narrow(Pencil& pencil, Bracket& bracket) {
 }
 
 /// Inverse iteration with a block on one bracket: its eigenvalues ascending, with their vectors.
-std::vector<EigenPair> refine(Pencil& pencil, Bracket& bracket, Index size) {
+std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, Index size) {
   constexpr int kMaxIterations = 60;
   constexpr double kTolerance = 1e-13;
   const int m = bracket.below_hi - bracket.below_lo;
@@ -269,7 +262,7 @@ double bisect(Pencil& pencil, double lo, double hi, int below) {
 /// Holds each value of a bracket against the counts just beside it; where elimination was poor at the shift
 /// (a single element held at one end buckles near it) the value is taken from the counts instead, which need
 /// signs only.
-void confirm(Pencil& pencil, const Bracket& bracket, std::vector<EigenPair>& pairs) {
+void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>& pairs) {
   constexpr double kBeside = 1e-9;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const int below = bracket.below_lo + static_cast<int>(i);
@@ -281,12 +274,9 @@ void confirm(Pencil& pencil, const Bracket& bracket, std::vector<EigenPair>& pai
 }
 
 /// A load factor with at least `count` eigenvalues below it; empty bracket when there is none.
-Bracket enclose(Pencil& pencil, int count, int at_start) {
+LoadBracket enclose(Pencil& pencil, int count, int at_start) {
   constexpr int kDoublings = 60;
-  Bracket bracket{0.0, 0.0, at_start, at_start};
-  // Elements held at one end buckle at simple multiples of the scale, where their elimination loses all
-  // digits: neither doubling nor halving from here meets one.
-  constexpr double kOffMultiples = 1.1180339887498949;  // the root of 5, halved
+  LoadBracket bracket{0.0, 0.0, at_start, at_start};
   double hi = pencil.scale();
   if (!std::isfinite(hi) || hi <= 0.0) hi = 1.0;
   hi *= kOffMultiples;
@@ -306,10 +296,10 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
   Pencil pencil(structure, problem);
   pencil.set_prestress(reference);
   out.negative_at_start = pencil.count(0.0);
-  const Bracket all = enclose(pencil, count, out.negative_at_start);
-  std::vector<Bracket> brackets;
+  const LoadBracket all = enclose(pencil, count, out.negative_at_start);
+  std::vector<LoadBracket> brackets;
   isolate(pencil, all, out.negative_at_start + count, brackets);
-  for (Bracket& bracket : brackets) {
+  for (LoadBracket& bracket : brackets) {
     auto pairs = refine(pencil, bracket, problem.size());
     confirm(pencil, bracket, pairs);
     for (EigenPair& pair : pairs) {

@@ -7,17 +7,10 @@
 #include <numbers>
 
 #include "solver/stability/column_frame.h"
+#include "solver/stability/load_bracket.h"
 
 namespace snapthrough {
 namespace {
-
-/// An interval of load factors with the number of buckling loads below each end.
-struct Bracket {
-  double lo = 0.0;
-  double hi = 0.0;
-  int below_lo = 0;
-  int below_hi = 0;
-};
 
 /// The search for the loads of one column.
 class LoadSearch {
@@ -30,9 +23,9 @@ class LoadSearch {
     ++out_.counts;
     return count_below(line_, lambda);
   }
-  [[nodiscard]] bool enclose(Bracket& bracket);
-  void isolate(const Bracket& bracket);
-  [[nodiscard]] double root(const Bracket& bracket);
+  [[nodiscard]] bool enclose(LoadBracket& bracket);
+  void isolate(const LoadBracket& bracket);
+  [[nodiscard]] double root(const LoadBracket& bracket);
   [[nodiscard]] bool confirm(double load, int below);
 
   const ColumnLine& line_;
@@ -44,7 +37,7 @@ class LoadSearch {
 };
 
 /// A load factor with as many loads below it as are wanted.
-bool LoadSearch::enclose(Bracket& bracket) {
+bool LoadSearch::enclose(LoadBracket& bracket) {
   constexpr double kMostPieces = 5e4;
   constexpr int kDoublings = 100;
   double hi = std::numeric_limits<double>::infinity();
@@ -56,8 +49,7 @@ bool LoadSearch::enclose(Bracket& bracket) {
           std::min(hi, std::numbers::pi * std::numbers::pi * span.EI / (length * length * span.proportional));
   out_.negative_at_start = count(0.0).negative;
   bracket = {0.0, 0.0, out_.negative_at_start, out_.negative_at_start};
-  if (!std::isfinite(hi)) return true;                  // nothing is compressed: no load is too much
-  constexpr double kOffMultiples = 1.1180339887498949;  // most columns buckle at a multiple of Euler's load
+  if (!std::isfinite(hi)) return true;  // nothing is compressed: no load is too much
   hi *= kOffMultiples;
   scale_ = hi;
   for (int i = 0; i < kDoublings && bracket.below_hi - bracket.below_lo < wanted_; ++i, hi *= 2.0) {
@@ -69,7 +61,7 @@ bool LoadSearch::enclose(Bracket& bracket) {
 }
 
 /// Splits a bracket until each part holds one load, or equal ones.
-void LoadSearch::isolate(const Bracket& bracket) {
+void LoadSearch::isolate(const LoadBracket& bracket) {
   constexpr double kEqual = 1e-14;
   const int at_start = out_.negative_at_start;
   if (bracket.below_hi <= bracket.below_lo || bracket.below_lo - at_start >= wanted_) return;
@@ -101,7 +93,7 @@ double ratio(const WideNumber& a, const WideNumber& b) {
 }
 
 /// The one load of a bracket.
-double LoadSearch::root(const Bracket& bracket) {
+double LoadSearch::root(const LoadBracket& bracket) {
   constexpr double kDigits = 1e-15;
   constexpr int kMost = 200;
   const ColumnCount at_hi = count(bracket.hi);
@@ -163,7 +155,7 @@ bool LoadSearch::confirm(double load, int below) {
 }
 
 std::optional<ColumnBuckling> LoadSearch::run() {
-  Bracket all;
+  LoadBracket all;
   if (!enclose(all)) return std::nullopt;
   isolate(all);
   if (lost_) return std::nullopt;
