@@ -52,7 +52,6 @@ std::optional<PathPoint> start_of_path(const Structure& structure, StructuralPro
   problem.set_stage(StructuralProblem::Stage::constant);
   ContinuationOptions options;
   options.largest_first_load = 1e-2;
-  options.max_step = 1e12;  // where constant actions dwarf what the members can buckle under
   Continuation loading(problem, options);
   TraceRules rules;
   rules.load = {{-1.0, 1.0}};

@@ -16,6 +16,10 @@
 namespace snapthrough {
 namespace {
 
+/// A search for the loss of stability has no bound that its user can choose: only a path that gets nowhere
+/// meets this one.
+constexpr int kMostStepsOfSearch = 20000;
+
 const SparseRow* row_of(const Structure& structure, const std::string& monitor) {
   const auto found = std::find_if(structure.monitors.begin(), structure.monitors.end(),
                                   [&monitor](const MonitorRow& m) { return m.id == monitor; });
@@ -29,6 +33,7 @@ TraceRules rules_of(const Analysis& analysis, const Structure& structure) {
       analysis.discretization.fixed_mesh ? 1e-9 : std::min(1e-7, 1e-3 * analysis.discretization.accuracy);
   if (analysis.type == AnalysisType::critical) {
     rules.first_loss_of_stability = true;
+    rules.steps = kMostStepsOfSearch;
     return rules;
   }
   const StopRules& stop = analysis.stop;

@@ -180,7 +180,8 @@ Chain::Pivot Chain::pivot_of(const Run& first, const Run& second) {
   pivot.det = matrix.determinant();
   if (pivot.det == 0.0) pivot.det = std::numeric_limits<double>::min();
   pivot.inverse = matrix.inverse();
-  const double size = matrix.cwiseAbs().maxCoeff() * pivot.inverse.cwiseAbs().maxCoeff();
+  // of the inverse alone: what is stiff beside what is soft makes the pivot large, but loses nothing
+  const double size = pivot.inverse.cwiseAbs().maxCoeff();
   pivot.quality = std::isfinite(size) ? 1.0 / size : 0.0;
   return pivot;
 }
@@ -204,29 +205,30 @@ void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
   first.last = second.last;
 }
 
-/// Joins the next element, or the next two at once where that pivot is much better.
+/// Joins the next element, or the next few at once where that pivot is much better.
 void Chain::join_next(Run& all, std::span<const CondensedElement> elements) {
-  constexpr double kPoorPivot = 1e-3;
+  constexpr double kPoorPivot = 1e-2;
+  constexpr int kMostAhead = 4;
   const auto run_of = [&elements](int i) { return Run{elements[i].K, elements[i].X, elements[i].F, i, i}; };
-  const int i = all.last + 1;
-  const int count = static_cast<int>(elements.size());
-  const Run next = run_of(i);
-  const Pivot pivot = pivot_of(all, next);
-  if (pivot.quality < kPoorPivot && i + 1 < count) {
+  const int next = all.last + 1;
+  const Pivot pivot = pivot_of(all, run_of(next));
+  if (pivot.quality < kPoorPivot) {
     const auto saved = ends_;
     const std::size_t joins = joins_.size();
-    Run two = next;
-    const Run after = run_of(i + 1);
-    join(two, after, pivot_of(two, after));
-    const Pivot better = pivot_of(all, two);
-    if (better.quality > 10.0 * pivot.quality) {
-      join(all, two, better);
+    Run ahead = run_of(next);
+    const int last = std::min(next + kMostAhead, static_cast<int>(elements.size())) - 1;
+    while (ahead.last < last) {
+      const Run after = run_of(ahead.last + 1);
+      join(ahead, after, pivot_of(ahead, after));
+      const Pivot better = pivot_of(all, ahead);
+      if (better.quality < 10.0 * pivot.quality) continue;
+      join(all, ahead, better);
       return;
     }
     joins_.resize(joins);
     ends_ = saved;
   }
-  join(all, next, pivot);
+  join(all, run_of(next), pivot);
 }
 
 void Chain::factorise(std::span<const CondensedElement> elements) {

@@ -27,8 +27,8 @@ namespace snapthrough {
 ///
 /// Runs are joined from the start of the member on. A pivot is singular when the two runs together, held at
 /// their start and free at their end, are at a buckling load of their own; that may be the very load that is
-/// looked for (half of a pinned column is a cantilever). Where a pivot is poor, the next two elements are
-/// joined to one another first.
+/// looked for (half of a pinned column is a cantilever). Where a pivot is poor, the next elements, four at
+/// most, are joined to one another first.
 class Chain {
  public:
   /// @brief Eliminates all inner nodes of `elements` (one member, in order, not empty).
@@ -61,7 +61,7 @@ class Chain {
   struct Pivot {
     Eigen::Matrix3d inverse;
     double det = 0.0;
-    double quality = 0.0;  ///< reciprocal condition: 1 is perfect, 0 singular
+    double quality = 0.0;  ///< over the inverse's largest entry: 1 is perfect, 0 singular
   };
   [[nodiscard]] static Pivot pivot_of(const Run& first, const Run& second);
   void join(Run& first, const Run& second, const Pivot& pivot);

@@ -38,6 +38,26 @@ ContactStrip::ContactStrip(int order, Direction direction, std::array<double, 2>
     for (int c = 0; c < 2; ++c) block[c][i % kLanes] = d[c];
     for (int r = 0; r < order; ++r) block[2 + r][i % kLanes] = a[r];
   }
+  exact_ = !direction_.axis || resolved();
+}
+
+/// Whether the samples resolve the direction times what displacements of the element's degree add.
+bool ContactStrip::resolved() const {
+  constexpr double kRounding = 1e-14;
+  constexpr std::array<double, 5> kBetween{0.02, 0.19, 0.41, 0.68, 0.93};
+  const double degree = rule_->order();
+  for (int c = 0; c < 2; ++c) {
+    std::array<double, ChebyshevSeries::kMostPoints> values{};
+    for (int i = 0; i < count_; ++i)
+      values[i] = samples_[static_cast<std::size_t>(i / kLanes) * (2 + rule_->order()) + c][i % kLanes] *
+                  std::pow(z_[i], degree);
+    const ChebyshevSeries series(std::span<const double>(values).first(count_));
+    for (const double z : kBetween) {
+      const double exact = direction_at(range_[0] + z * (range_[1] - range_[0]))[c] * std::pow(z, degree);
+      if (std::abs(series.value(z) - exact) > kRounding) return false;
+    }
+  }
+  return true;
 }
 
 ContactStrip ContactStrip::with_gap(double gap) const {
@@ -66,7 +86,73 @@ double ContactStrip::penetration(double xi, std::array<double, 2> ua, std::span<
   return ux * d[0] + uy * d[1] - gap_;
 }
 
+double ContactStrip::penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
+                                       std::span<const double> dy) const {
+  std::array<double, kMaxOrder> a{};
+  std::array<double, kMaxOrder> l{};
+  rule_->integrals_at(xi, std::span(a).first(dx.size()));
+  rule_->values_at(xi, std::span(l).first(dx.size()));
+  std::array<double, 2> u = ua;
+  std::array<double, 2> du{};
+  for (std::size_t r = 0; r < dx.size(); ++r) {
+    u[0] += a[r] * dx[r];
+    u[1] += a[r] * dy[r];
+    du[0] += l[r] * dx[r];
+    du[1] += l[r] * dy[r];
+  }
+  const auto d = direction_at(xi);
+  const double slope = du[0] * d[0] + du[1] * d[1];
+  if (!direction_.axis) return slope;
+  const double turn = direction_.ds * direction_.axis->at(direction_.s0 + xi * direction_.ds).curvature;
+  return slope + turn * (u[1] * d[0] - u[0] * d[1]);
+}
+
 namespace {
+
+/// The penetration between its samples, set up when it is first asked for: most searches end without.
+class SampledGap {
+ public:
+  explicit SampledGap(std::span<const double> samples) : samples_(samples) {}
+
+  [[nodiscard]] double value(double z) const { return series().value(z); }
+  [[nodiscard]] double slope(double z) const { return series().slope(z); }
+  [[nodiscard]] Eigen::Array4d values(const Eigen::Array4d& z) const { return series().values(z); }
+
+ private:
+  [[nodiscard]] const ChebyshevSeries& series() const {
+    if (!series_) series_.emplace(samples_);
+    return *series_;
+  }
+
+  std::span<const double> samples_;
+  mutable std::optional<ChebyshevSeries> series_;
+};
+
+/// Penetration less a depth on the range, from 0 to 1, where samples do not resolve it.
+class ExactGap {
+ public:
+  ExactGap(const ContactStrip& strip, std::array<double, 2> ua, std::span<const double> dx,
+           std::span<const double> dy, double depth)
+      : strip_(strip), ua_(ua), dx_(dx), dy_(dy), depth_(depth) {}
+
+  [[nodiscard]] double value(double z) const { return strip_.penetration(at(z), ua_, dx_, dy_) - depth_; }
+  [[nodiscard]] double slope(double z) const {
+    return (strip_.range()[1] - strip_.range()[0]) * strip_.penetration_slope(at(z), ua_, dx_, dy_);
+  }
+  [[nodiscard]] Eigen::Array4d values(const Eigen::Array4d& z) const {
+    return {value(z[0]), value(z[1]), value(z[2]), value(z[3])};
+  }
+
+ private:
+  [[nodiscard]] double at(double z) const {
+    return strip_.range()[0] + z * (strip_.range()[1] - strip_.range()[0]);
+  }
+
+  const ContactStrip& strip_;
+  std::array<double, 2> ua_;
+  std::span<const double> dx_, dy_;
+  double depth_;
+};
 
 /// A place of the range, from 0 to 1, with the penetration there.
 struct Place {
@@ -74,7 +160,8 @@ struct Place {
   double g = 0.0;
 };
 
-double root_between(const ChebyshevSeries& gap, Place lo, Place hi) {
+template <class Gap>
+double root_between(const Gap& gap, Place lo, Place hi) {
   // Illinois' variant of false position: keeps the bracket, converges faster than linearly
   int last = 0;
   for (int it = 0; it < 60; ++it) {
@@ -95,14 +182,28 @@ double root_between(const ChebyshevSeries& gap, Place lo, Place hi) {
   return std::clamp(hi.z - hi.g * (hi.z - lo.z) / (hi.g - lo.g), lo.z, hi.z);
 }
 
-/// A place between two where g has one sign, with the other sign, if g turns back there; the value has the
-/// first sign when there is none.
-Place dip_between(const ChebyshevSeries& gap, Place left, Place right) {
+/// Where the cubic with values f and slopes m at 0 and 1 is least between them; empty when at an end.
+std::optional<double> least_of_cubic(double f0, double m0, double f1, double m1) {
+  const double a = 3.0 * (2.0 * (f0 - f1) + m0 + m1);
+  const double b =
+      3.0 * (f1 - f0) - 2.0 * m0 - m1;  // a t^2 + 2 b t + m0: its slope, rising where it is least
+  const double root = std::sqrt(std::max(b * b - a * m0, 0.0));
+  const double t = b > 0.0 ? -m0 / (b + root) : (root - b) / a;
+  return t > 0.0 && t < 1.0 ? std::optional(t) : std::nullopt;
+}
+
+/// A place between two where g has not the given sign, as it has at both, if it turns back there.
+template <class Gap>
+std::optional<Place> dip_between(const Gap& gap, Place left, Place right, double sign) {
   constexpr int kMostTrials = 20;
-  const double sign = left.g > 0.0 ? 1.0 : -1.0;
-  const Place none = left;
   double fall = sign * gap.slope(left.z);
   double rise = sign * gap.slope(right.z);
+  const double whole = right.z - left.z;
+  // beside a clamped end, where g and its slope are zero, it is not convex
+  if (const auto t = least_of_cubic(sign * left.g, fall * whole, sign * right.g, rise * whole)) {
+    const double z = left.z + *t * whole;
+    if (const Place least{z, gap.value(z)}; sign * least.g < 0.0) return least;
+  }
   for (int n = 0; n < kMostTrials && fall < 0.0 && rise > 0.0; ++n) {
     // what is convex stays above both tangents
     const double width = right.z - left.z;
@@ -116,21 +217,35 @@ Place dip_between(const ChebyshevSeries& gap, Place left, Place right) {
     (slope < 0.0 ? left : right) = middle;
     (slope < 0.0 ? fall : rise) = slope;
   }
-  return none;
+  return std::nullopt;
+}
+
+/// The change of sign between two places. Beside a held node g is zero but for rounding, whose sign says
+/// nothing of what happens on the way there.
+template <class Gap>
+double change_between(const Gap& gap, const Place& left, const Place& right) {
+  constexpr double kRounding = 1e-10;
+  const bool to_zero = std::abs(right.g) < kRounding * std::abs(left.g);
+  const bool from_zero = std::abs(left.g) < kRounding * std::abs(right.g);
+  if (!to_zero && !from_zero) return root_between(gap, left, right);
+  const Place& far = to_zero ? left : right;
+  const auto dip = dip_between(gap, left, right, far.g > 0.0 ? 1.0 : -1.0);
+  if (!dip) return to_zero ? right.z : left.z;
+  return to_zero ? root_between(gap, left, *dip) : root_between(gap, *dip, right);
 }
 
 /// Tells `cross(place, whether contact begins there)` of the changes of sign between two places.
-template <class Cross>
-void search_part(const ChebyshevSeries& gap, const Place& left, const Place& right, const Cross& cross) {
+template <class Gap, class Cross>
+void search_part(const Gap& gap, const Place& left, const Place& right, const Cross& cross) {
   const bool inside = left.g > 0.0;
   if (inside != (right.g > 0.0)) {
-    cross(root_between(gap, left, right), !inside);
+    cross(change_between(gap, left, right), !inside);
     return;
   }
-  const Place dip = dip_between(gap, left, right);
-  if ((dip.g > 0.0) == inside) return;
-  cross(root_between(gap, left, dip), !inside);
-  cross(root_between(gap, dip, right), inside);
+  const auto dip = dip_between(gap, left, right, inside ? 1.0 : -1.0);
+  if (!dip || (dip->g > 0.0) == inside) return;
+  cross(root_between(gap, left, *dip), !inside);
+  cross(root_between(gap, *dip, right), inside);
 }
 
 /// Whether g may change its sign between two places, because it is no further from zero than it moves there
@@ -141,9 +256,9 @@ bool may_cross(double left, double right, double movement) {
 
 /// As search_part, between two samples, where zones smaller than the sampling may begin and end.
 /// @param before, after how far g moves on the parts next to these ends
-template <class Cross>
-void search_cell(const ChebyshevSeries& gap, const Place& left, const Place& right, double before,
-                 double after, const Cross& cross) {
+template <class Gap, class Cross>
+void search_cell(const Gap& gap, const Place& left, const Place& right, double before, double after,
+                 const Cross& cross) {
   constexpr int kParts = 4;
   const double width = right.z - left.z;
   const Eigen::Array4d z =
@@ -178,13 +293,10 @@ void ContactStrip::penetrations(std::array<double, 2> ua, std::span<const double
   }
 }
 
-void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
-                                     std::span<const double> dy, std::vector<Interval>& out,
-                                     double depth) const {
+/// The intervals in contact from the penetration, less a depth, and its values g at the samples.
+template <class Gap>
+void ContactStrip::search(const Gap& gap, const Values& g, std::vector<Interval>& out) const {
   constexpr double kParts = 4.0;  // of a cell, in search_cell
-  out.clear();
-  Values g;
-  penetrations(ua, dx, dy, gap_ + depth, g);
   const int n = count_;
   const double length = range_[1] - range_[0];
   double from = range_[0];
@@ -197,15 +309,25 @@ void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const d
   rate[0] = 0.0;
   for (int i = 1; i < n; ++i) rate[i] = std::abs(g[i] - g[i - 1]) / (z_[i] - z_[i - 1]);
   rate[n] = 0.0;
-  std::optional<ChebyshevSeries> gap;  // the samples are Chebyshev's points: so no other places are needed
   for (int i = 0; i + 1 < n; ++i) {
     const double width = z_[i + 1] - z_[i];
     if (!may_cross(g[i], g[i + 1], width * std::max({rate[i], rate[i + 1], rate[i + 2]}))) continue;
-    if (!gap) gap.emplace(std::span<const double>(g).first(n));
-    search_cell(*gap, Place{z_[i], g[i]}, Place{z_[i + 1], g[i + 1]}, rate[i] * width / kParts,
+    search_cell(gap, Place{z_[i], g[i]}, Place{z_[i + 1], g[i + 1]}, rate[i] * width / kParts,
                 rate[i + 2] * width / kParts, cross);
   }
   if (g[n - 1] > 0.0) out.push_back({from, range_[1]});
+}
+
+void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
+                                     std::span<const double> dy, std::vector<Interval>& out,
+                                     double depth) const {
+  out.clear();
+  Values g;
+  penetrations(ua, dx, dy, gap_ + depth, g);
+  if (exact_)
+    search(SampledGap(std::span<const double>(g).first(count_)), g, out);
+  else
+    search(ExactGap(*this, ua, dx, dy, depth), g, out);
 }
 
 }  // namespace snapthrough

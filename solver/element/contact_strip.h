@@ -52,6 +52,9 @@ class ContactStrip {
   /// @param ua displacement (x, y) at the element's start; dx, dy: h times u'_x, u'_y at the Gauss points
   [[nodiscard]] double penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                    std::span<const double> dy) const;
+  /// @brief d penetration / d xi.
+  [[nodiscard]] double penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
+                                         std::span<const double> dy) const;
   /// @brief Intervals of [0, 1] in contact (g > depth), ascending; `out` is overwritten.
   void contact_intervals(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                          std::vector<Interval>& out, double depth = 0.0) const;
@@ -65,6 +68,9 @@ class ContactStrip {
 
   void penetrations(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                     double gap, Values& g) const;
+  [[nodiscard]] bool resolved() const;
+  template <class Gap>
+  void search(const Gap& gap, const Values& g, std::vector<Interval>& out) const;
 
   const CollocationRule* rule_;
   Direction direction_;
@@ -74,6 +80,7 @@ class ContactStrip {
   int foundation_;
   int count_ = 0;               ///< samples: Chebyshev's points of the range
   int blocks_ = 0;              ///< of them
+  bool exact_ = true;           ///< the samples give the penetration between them to rounding
   Values z_{};                  ///< in the range, from 0 to 1
   std::vector<Lanes> samples_;  ///< a block after the other: direction x and y, then A_r for every r
 };

@@ -32,12 +32,14 @@ constexpr double kNearResidual = 10.0;
 /// Relative residual that nothing can be taken from.
 constexpr double kExact = 1e-15;
 
-/// Relative residual below which a last correction is not asked what it gained, and the gain that is enough.
-constexpr double kSettled = 1e-11;
-constexpr double kLastGain = 0.1;
-
 /// Corrections before a residual that no longer falls counts as rounding's.
 constexpr int kStagnantIterations = 4;
+
+/// A correction (displacement gradient) that is rounding's, of sums of direction cosines, and its share of the
+/// step; and how many come first. Very stiff supports make a large residual of it.
+constexpr double kRoundingSize = 2e-15;
+constexpr double kRoundingShare = 1e-13;
+constexpr int kLeastIterations = 3;
 
 /// Share of the correction to take so that the residual, `now` before it, falls.
 double damping(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lambda, double dlambda,
@@ -99,8 +101,9 @@ double least_energy(EquilibriumProblem& problem, const Eigen::VectorXd& y, doubl
 
 /// Takes the last correction. Where supports act on one side only it may cross to other contact, where the
 /// factors say nothing: then the point stays, if it is good enough as it is.
+/// @param exact whether another may follow that leaves less than this one
 /// @return false when neither is
-bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, Eigen::VectorXd& y,
+bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, bool exact, Eigen::VectorXd& y,
                double& lambda, double dlambda, const CorrectorOutcome& out, Workspace& work) {
   work.trial = y + work.correction;
   if (problem.one_sided()) {
@@ -108,9 +111,10 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, Eig
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
     if (size > std::max(out.relative_residual, options.residual_floor))
       return out.relative_residual <= options.stagnant_residual;
-    // a correction that hardly lessens the residual led to other contact: it was not the last
-    const bool exact = options.tangent_tolerance == 0.0;
-    if (exact && size > kSettled && size > kLastGain * out.relative_residual) return false;
+    // one that leaves more led to other contact: it was not the last
+    if (exact && size > options.residual_floor &&
+        size > problem.residual_rounding(work.trial, lambda + dlambda))
+      return false;
   }
   y.swap(work.trial);
   lambda += dlambda;
@@ -161,12 +165,18 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
         return out;
       }
     }
+    if (it >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * scale) &&
+        out.relative_residual <= options.largest_residual) {
+      out.status = CorrectorStatus::converged;
+      return out;
+    }
     if (size > (it == 0 ? options.largest_first * scale : options.largest_growth * previous) &&
         out.relative_residual > options.stagnant_residual)
       return out;
     const bool near = size <= options.tangent_tolerance * scale &&
                       out.relative_residual <= kNearResidual * options.tangent_tolerance;
-    if ((last || near) && take_last(problem, options, y, lambda, dlambda, out, work)) {
+    const bool exact = options.tangent_tolerance == 0.0 && !stagnant;
+    if ((last || near) && take_last(problem, options, exact, y, lambda, dlambda, out, work)) {
       out.status = CorrectorStatus::converged;
       return out;
     }

@@ -310,8 +310,17 @@ bool Continuation::settle_beyond(const PathPoint& from, double size, PathPoint& 
   const CorrectorOptions options = downhill(options_.corrector, 60);
   to.y = from.y + size * from.tangent;
   to.lambda = from.lambda + dlambda;
-  const auto outcome = correct(problem_, metric_, {}, size, options, to.y, to.lambda, work_);
+  auto outcome = correct(problem_, metric_, {}, size, options, to.y, to.lambda, work_);
   count(outcome);
+  if (outcome.status != CorrectorStatus::converged && from.arc_length == 0.0) {
+    // where constant actions leave parts unloaded that lie on stiff supports: as at the start of a path
+    const auto state =
+        find_contact_state(problem_, metric_, to.lambda, work_, statistics_.factorizations, &from.y);
+    if (!state) return false;
+    to.y = state->y;
+    outcome = correct(problem_, metric_, {}, size, options, to.y, to.lambda, work_);
+    count(outcome);
+  }
   if (outcome.status != CorrectorStatus::converged || outcome.tangent.negative > 0) return false;
   const VectorXd movement = to.y - from.y;
   set_tangent(to, outcome, movement, dlambda);

@@ -18,7 +18,7 @@ namespace snapthrough {
 struct ContinuationOptions {
   double initial_step = 0.05;
   double min_step = 1e-13;
-  double max_step = 100.0;
+  double max_step = 1e12;           ///< a path that no longer turns soon meets the bound on its load
   double target_correction = 0.08;  ///< wanted ratio of the first correction to the step
   double target_angle = 0.30;       ///< wanted angle between successive tangents, rad
   double max_angle = 0.9;           ///< a larger angle rejects the step, rad

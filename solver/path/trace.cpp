@@ -199,8 +199,8 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
     LocatedEvents located = outcome == StepOutcome::turned
                                 ? locate_at_turn(continuation_, from, to, size.taken, rules_.tolerance)
                                 : locate_critical_points(continuation_, from, to, rules_.tolerance);
-    if (outcome == StepOutcome::turned) measure_arc(from, located.events, to);
     const bool corner = outcome == StepOutcome::turned || turns_sharply(from, to);
+    if (corner) measure_arc(from, located.events, to);
     const auto bound = located.same_path ? bounded_end(from, to, corner) : std::nullopt;
     if (!located.same_path || (bound && !bound->found)) {
       continuation_.reject(size);
