@@ -35,8 +35,8 @@ constexpr double kExact = 1e-15;
 /// Corrections before a residual that no longer falls counts as rounding's.
 constexpr int kStagnantIterations = 4;
 
-/// A correction (displacement gradient) that is rounding's, of sums of direction cosines, and its share of the
-/// step; and how many come first. Very stiff supports make a large residual of it.
+/// A correction (displacement gradient) that is rounding's, of sums of direction cosines, and its share of
+/// the step; and how many come first. Very stiff supports make a large residual of it.
 constexpr double kRoundingSize = 2e-15;
 constexpr double kRoundingShare = 1e-13;
 constexpr int kLeastIterations = 3;

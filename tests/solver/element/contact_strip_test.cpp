@@ -99,5 +99,68 @@ TEST(ContactStrip, EndsOfContactAreRootsOfThePenetration) {
   }
 }
 
+/// An axis with knots inside the element, which no polynomial follows to rounding.
+TEST(ContactStrip, EndsOfContactAreRootsWhereSamplesDoNotResolveTheAxis) {
+  const auto axis =
+      std::make_shared<const AxisCurve>(PointsCurve{{{0.3, 0.25}, {0.8, 0.05}, {1.1, 0.3}, {1.6, -0.1}}},
+                                        std::array{0.0, 0.0}, std::array{2.0, 0.0});
+  std::mt19937 random(11);
+  int ends = 0;
+  for (int n = 0; n < 200; ++n) {
+    const int order = 1 + n % 8;
+    const Drawn u = draw(random, order);
+    const ContactStrip strip(order, {axis, 1.0, 0.0, axis->length(), {}}, {0.05, 1.0}, 1.0, 0.02, 0);
+    std::vector<ContactStrip::Interval> zones;
+    strip.contact_intervals(u.ua, u.dx, u.dy, zones);
+    for (const auto& zone : zones)
+      for (const double at : {zone.from, zone.to}) {
+        if (at == 0.05 || at == 1.0) continue;
+        ++ends;
+        EXPECT_LT(std::abs(strip.penetration(at, u.ua, u.dx, u.dy)), 1e-13) << "draw " << n << " at " << at;
+      }
+  }
+  EXPECT_GT(ends, 100);
+}
+
+TEST(ContactStrip, SlopeIsTheDerivativeOfThePenetration) {
+  std::mt19937 random(5);
+  for (const bool curved : {false, true}) {
+    const Drawn u = draw(random, 5);
+    const ContactStrip strip(5, direction(curved), {0.0, 1.0}, 1.0, 0.1, 0);
+    constexpr double kStep = 1e-4;
+    for (const double at : {0.13, 0.5, 0.88}) {
+      const double difference = (strip.penetration(at + kStep, u.ua, u.dx, u.dy) -
+                                 strip.penetration(at - kStep, u.ua, u.dx, u.dy)) /
+                                (2.0 * kStep);
+      EXPECT_NEAR(strip.penetration_slope(at, u.ua, u.dx, u.dy), difference, 1e-6) << at;
+    }
+  }
+}
+
+/// The shape t^2 (c - t), t the distance from an end that is clamped: contact, or the loss of it, in the last
+/// c of the element, while the value at the end is rounding's, of either sign.
+TEST(ContactStrip, FindsZonesBesideAClampedEnd) {
+  const CollocationRule& rule = CollocationRule::of(3);
+  for (const double c : {0.3, 0.03, 3e-3, 3e-4})
+    for (const double sign : {1.0, -1.0})
+      for (const bool at_start : {false, true}) {
+        Drawn u;
+        u.dx.assign(3, 0.0);
+        for (int q = 0; q < 3; ++q) {
+          const double t = at_start ? rule.point(q) : 1.0 - rule.point(q);
+          u.dy.push_back((at_start ? sign : -sign) * (2.0 * t * c - 3.0 * t * t));
+        }
+        u.ua = {0.0, at_start ? 0.0 : sign * (c - 1.0)};
+        for (const double rounding : {0.0, 1e-19, -1e-19}) {
+          const ContactStrip strip(3, {nullptr, 1.0, 0.0, 0.0, {0.0, 1.0}}, {0.0, 1.0}, 1.0, rounding, 0);
+          std::vector<ContactStrip::Interval> zones;
+          strip.contact_intervals(u.ua, u.dx, u.dy, zones);
+          const auto place = [at_start](double t) { return at_start ? t : 1.0 - t; };
+          EXPECT_EQ(contact_at(zones, place(0.5 * c)), sign > 0.0 ? 1.0 : 0.0) << c << " " << rounding;
+          EXPECT_EQ(contact_at(zones, place(2.0 * c)), sign > 0.0 ? 0.0 : 1.0) << c << " " << rounding;
+        }
+      }
+}
+
 }  // namespace
 }  // namespace snapthrough
