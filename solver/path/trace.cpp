@@ -53,6 +53,7 @@ class Tracer {
   const TraceSink& sink_;
   TraceOutcome out_;
   int limit_points_ = 0;
+  double travelled_ = 0.0;              ///< sum of the movements of all steps
   std::vector<ContactChange> changes_;  ///< on the step that is being taken
 };
 
@@ -150,7 +151,7 @@ bool Tracer::take_events(const std::vector<CriticalEvent>& events) {
 bool Tracer::ends_here(const PathPoint& at, int steps, const std::stop_token& stop) {
   if (stop.stop_requested()) return finish(TraceEnd::cancelled, at);
   if (steps >= rules_.steps) return finish(TraceEnd::steps, at);
-  if (continuation_.metric().norm(at.y, 0.0) > rules_.gradient)
+  if (continuation_.metric().norm(at.y, 0.0) > rules_.gradient || travelled_ > rules_.travel)
     return finish(TraceEnd::displacement_bound, at);
   if (!rules_.load && std::abs(at.lambda) > continuation_.load_bound())
     return finish(TraceEnd::load_bound, at);
@@ -164,6 +165,7 @@ bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<Crit
   std::vector<CriticalEvent> reached;
   for (const CriticalEvent& event : events)
     if (!bound || event.point.arc_length <= to.arc_length) reached.push_back(event);
+  travelled_ += continuation_.metric().norm(to.y - from.y, 0.0);
   bool ended = take_events(reached);
   if (ended)
     to = out_.last;
