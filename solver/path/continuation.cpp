@@ -123,24 +123,37 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
                             options_.largest_first_load});
   double last = std::numeric_limits<double>::infinity();
   VectorXd guess;
+  VectorXd rest;  // the state at the load before, at which the structure is better held than at this one
+  double rest_lambda = 0.0;
   for (int i = 0; i < kMostLoads; ++i) {
     const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations,
                                           guess.size() > 0 ? &guess : nullptr);
     const double size = state ? metric_.norm(state->y, 0.0) : 0.0;
     if (state && size <= 10.0 * kSmallStart)
       return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
-    if (state && size > 0.5 * last) {
-      if (!unit_response(state->y, lambda, false, response, report)) return std::nullopt;
-      return first_point(state->y, lambda, response, direction, report);
-    }
+    if (state && size > 0.5 * last) return start_at_rest(rest, rest_lambda, direction);
     const double fall = state ? std::max(kSmallStart / size, kLargestFall) : 0.01;
     if (state) {
       last = size;
+      rest = state->y;
+      rest_lambda = lambda;
       guess = fall * state->y;
     }
     lambda *= fall;
   }
   return std::nullopt;
+}
+
+/// From a state that the structure moved to under a very small load, corrected to the last digit.
+std::optional<PathPoint> Continuation::start_at_rest(VectorXd y, double lambda, double direction) {
+  const auto outcome = correct(problem_, metric_, {}, metric_.norm(y, 0.0), downhill(options_.corrector, 25),
+                               y, lambda, work_);
+  count(outcome);
+  VectorXd response;
+  TangentReport report;
+  if (outcome.status != CorrectorStatus::converged || !unit_response(y, lambda, false, response, report))
+    return std::nullopt;
+  return first_point(y, lambda, response, direction, report);
 }
 
 void Continuation::set_load_scale(const VectorXd& response) {

@@ -132,6 +132,7 @@ class Continuation {
   [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, double lambda, bool bonded,
                                    Eigen::VectorXd& response, TangentReport& report);
   [[nodiscard]] std::optional<PathPoint> one_sided_start(double direction);
+  [[nodiscard]] std::optional<PathPoint> start_at_rest(Eigen::VectorXd y, double lambda, double direction);
   [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, double lambda,
                                       const Eigen::VectorXd& response, double direction,
                                       const TangentReport& report);
