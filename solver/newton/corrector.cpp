@@ -100,18 +100,19 @@ double least_energy(EquilibriumProblem& problem, const Eigen::VectorXd& y, doubl
 }
 
 /// Takes the last correction. Where supports act on one side only it may cross to other contact, where the
-/// factors say nothing: then the point stays, if it is good enough as it is.
+/// factors say nothing: then the point stays, if it is good enough as it is. The factors may also have lost
+/// digits, where a part of a member is at a buckling load of its own.
 /// @param exact whether another may follow that leaves less than this one
 /// @return false when neither is
 bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, bool exact, Eigen::VectorXd& y,
                double& lambda, double dlambda, const CorrectorOutcome& out, Workspace& work) {
   work.trial = y + work.correction;
-  if (problem.one_sided()) {
+  if (exact || problem.one_sided()) {
     problem.residual(work.trial, lambda + dlambda, work.residual);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
     if (size > std::max(out.relative_residual, options.residual_floor))
       return out.relative_residual <= options.stagnant_residual;
-    // one that leaves more led to other contact: it was not the last
+    // one that leaves more was not the last
     if (exact && size > options.residual_floor &&
         size > problem.residual_rounding(work.trial, lambda + dlambda))
       return false;
@@ -119,6 +120,14 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
   y.swap(work.trial);
   lambda += dlambda;
   return true;
+}
+
+/// Whether the correction at hand is rounding's: however large it is where the tangent is nearly singular, or
+/// however much residual very stiff supports make of it.
+bool is_rounding(int iteration, double size, double scale, const CorrectorOptions& options, double residual) {
+  if (iteration == 0) return residual <= kExact && size > options.tangent_tolerance * scale;
+  return iteration >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * scale) &&
+         residual <= options.largest_residual;
 }
 
 /// Whether what the corrections left is what the supports' rounding leaves anyway.
@@ -159,14 +168,8 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     if (it == 0) {
       out.first_correction = size;
       out.first_residual = out.relative_residual;
-      // the correction is rounding's, however large it is where the tangent is nearly singular
-      if (out.relative_residual <= kExact && size > options.tangent_tolerance * scale) {
-        out.status = CorrectorStatus::converged;
-        return out;
-      }
     }
-    if (it >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * scale) &&
-        out.relative_residual <= options.largest_residual) {
+    if (is_rounding(it, size, scale, options, out.relative_residual)) {
       out.status = CorrectorStatus::converged;
       return out;
     }

@@ -162,18 +162,23 @@ bool Tracer::ends_here(const PathPoint& at, int steps, const std::stop_token& st
 bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events,
                     const std::optional<Bound>& bound) {
   if (bound) to = bound->point;
+  // a turn within rounding's reach still is a step, and what is on it is not on the last one
+  const auto beyond = [](double arc) { return std::nextafter(arc, std::numeric_limits<double>::infinity()); };
   std::vector<CriticalEvent> reached;
-  for (const CriticalEvent& event : events)
-    if (!bound || event.point.arc_length <= to.arc_length) reached.push_back(event);
+  for (const CriticalEvent& event : events) {
+    if (bound && event.point.arc_length > to.arc_length) continue;
+    reached.push_back(event);
+    double& arc = reached.back().point.arc_length;
+    arc = std::max(arc, beyond(from.arc_length));
+  }
   travelled_ += continuation_.metric().norm(to.y - from.y, 0.0);
   bool ended = take_events(reached);
   if (ended)
     to = out_.last;
   else if (bound)
     ended = finish(bound->end, to);
-  // a turn within rounding's reach still is a step
   const double least = ended || reached.empty() ? from.arc_length : reached.back().point.arc_length;
-  if (to.arc_length <= least) to.arc_length = std::nextafter(least, std::numeric_limits<double>::infinity());
+  to.arc_length = std::max(to.arc_length, beyond(least));
   for (const ContactChange& change : changes_)
     if (sink_.on_contact && change.point.arc_length <= to.arc_length) sink_.on_contact(change);
   if (sink_.on_step) sink_.on_step(from, to);

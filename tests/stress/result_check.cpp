@@ -131,16 +131,14 @@ void Check::changes(const Branch& branch) {
   for (std::size_t i = 1; i < branch.arc_length.size(); ++i) {
     const double from = branch.arc_length[i - 1];
     const double to = branch.arc_length[i];
-    const double slack = 1e-9 * (to - from);
     if (!(to > from)) fail("arc_length: does not grow at point " + std::to_string(i));
     int now = branch.negative_eigenvalues[i - 1];
     bool listed = false;
     for (const CriticalPoint& c : result_.critical_points) {
-      if (c.branch != branch.id || c.arc_length <= from - slack || c.arc_length > to + slack) continue;
-      // a branch starts at a bifurcation of its parent; a path may end on the point it looked for
-      if (i == 1 && branch.parent && c.arc_length <= from + slack) continue;
+      // a path may end on the point it looked for
+      if (c.branch != branch.id || c.arc_length <= from || c.arc_length > to) continue;
       listed = true;
-      if (c.negative_before != now && c.arc_length > from + slack)
+      if (c.negative_before != now)
         fail("brackets: point at arc length " + text(c.arc_length) + " has " +
              std::to_string(c.negative_before) + " before it, the path " + std::to_string(now));
       now = c.negative_after;
