@@ -177,7 +177,8 @@ std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEv
   constexpr double kLongestPath = 0.3;  // a displacement gradient
   constexpr double kWidening = 6.0;
   const PathPoint at = transferred(from, known.point);
-  const double path = std::min(known.point.arc_length, kLongestPath);
+  const double path =
+      std::min({known.point.arc_length, continuation_.metric().norm(at.y, at.lambda), kLongestPath});
   if (!(path > 0.0)) return std::nullopt;
   if (auto found = interpolated(known, at, kReach * path)) return found;
   for (const double reach : {kReach * path, kReach * kWidening * path})

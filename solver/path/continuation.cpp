@@ -58,6 +58,9 @@ constexpr double kSmallStart = 1e-7;
 /// Largest share of the critical load's scale for that step.
 constexpr double kSmallLoad = 1e-4;
 
+/// Share of the load in the path's norm, over that of the displacement, at which the load is weighed anew.
+constexpr double kLoadDominates = 3.0;
+
 /// Relative residual of a predictor that is as good as exact.
 constexpr double kRoundingResidual = 1e-14;
 
@@ -165,6 +168,7 @@ void Continuation::set_load_scale(const VectorXd& response) {
       std::max(kAboveWeakest * load_scale_, kAboveStrongest * problem_.largest_critical_load_scale(response));
   const double gradient = std::clamp(norm * load_scale_, kSmallGradient, kLargeGradient) / load_scale_;
   metric_.load_weight = gradient * gradient;
+  arc_weight_ = metric_.load_weight;
 }
 
 PathPoint Continuation::first_point(const VectorXd& y, double lambda, const VectorXd& response,
@@ -249,7 +253,7 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   const double fast = problem_.one_sided() ? std::min(kFastGrowth, kFarFromLimits * room) : 0.0;
   trial.growth = std::clamp(room, kLeastGrowth, std::max(options_.max_growth, fast));
   trial.length = metric_.norm(to.y - from.y, to.lambda - from.lambda);
-  to.arc_length = from.arc_length + trial.length;
+  to.arc_length = from.arc_length + arc(from, to);
   statistics_.max_relative_residual = std::max(statistics_.max_relative_residual, outcome.relative_residual);
   return trial;
 }
@@ -267,7 +271,7 @@ bool Continuation::step_by_movement(const PathPoint& from, double size, PathPoin
   set_tangent(to, outcome, from.tangent, 0.0);
   const double along = metric_.inner(to.tangent, 0.0, from.tangent, 0.0);
   const double norms = metric_.norm(to.tangent, 0.0) * metric_.norm(from.tangent, 0.0);
-  to.arc_length = from.arc_length + metric_.norm(to.y - from.y, to.lambda - from.lambda);
+  to.arc_length = from.arc_length + arc(from, to);
   return along > std::cos(kLargestTurn) * norms && keeps_orientation(from, to) &&
          metric_.norm(to.y - from.y, 0.0) < kCornerLength * movement;
 }
@@ -337,7 +341,7 @@ bool Continuation::settle_beyond(const PathPoint& from, double size, PathPoint& 
   if (outcome.status != CorrectorStatus::converged || outcome.tangent.negative > 0) return false;
   const VectorXd movement = to.y - from.y;
   set_tangent(to, outcome, movement, dlambda);
-  to.arc_length = from.arc_length + metric_.norm(movement, dlambda);
+  to.arc_length = from.arc_length + arc(from, to);
   const VectorXd missed = movement - (dlambda / to.tangent_lambda) * to.tangent;
   return metric_.norm(missed, 0.0) <= kProportional * metric_.norm(movement, dlambda) &&
          keeps_orientation(from, to);
@@ -408,10 +412,29 @@ void Continuation::settle(const PathPoint& from, PathPoint& point) {
   point = std::move(settled);
 }
 
+void Continuation::weigh_load(PathPoint& at, StepSize& step) {
+  const double loaded = std::sqrt(metric_.load_weight) * std::abs(at.lambda);
+  const double moved = std::max(metric_.norm(at.y, 0.0), kSmallGradient);
+  if (loaded <= kLoadDominates * moved) return;
+  metric_.load_weight *= (moved / loaded) * (moved / loaded);
+  const double length = metric_.norm(at.tangent, at.tangent_lambda);
+  at.tangent /= length;
+  at.tangent_lambda /= length;
+  step.wanted *= length;
+  easy_size_ *= length;
+  options_.min_step *= length;
+  options_.max_step *= length;
+  corner_ = {};
+}
+
 void Continuation::reject(StepSize& step) {
   --statistics_.steps;
   ++statistics_.rejected_steps;
   step.wanted = 0.3 * step.taken;
+}
+
+double Continuation::arc(const PathPoint& a, const PathPoint& b) const {
+  return PathMetric{metric_.weights, arc_weight_}.norm(b.y - a.y, b.lambda - a.lambda);
 }
 
 double Continuation::distance(const PathPoint& a, const PathPoint& b) const {

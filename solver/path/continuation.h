@@ -90,7 +90,13 @@ class Continuation {
     load_scale_ = other.load_scale_;
     load_bound_ = other.load_bound_;
     metric_.load_weight = other.metric_.load_weight;
+    arc_weight_ = other.arc_weight_;
   }
+  /// @brief Weighs the load anew in the path's norm where it dwarfs the displacement there: a structure that
+  /// carries far more than its members' scale says would meet its limit load as a corner. Arc lengths stay in
+  /// the norm that the path began with.
+  /// @param at the point to go on from; its tangent is normalised again
+  void weigh_load(PathPoint& at, StepSize& step);
   /// @brief Takes the last step back, because it jumped to another path: the next one will be shorter.
   void reject(StepSize& step);
   /// @brief Corrects a point as far as rounding allows where it was corrected for its tangent only, so that
@@ -111,6 +117,8 @@ class Continuation {
   /// y and lambda only.
   void interpolate(const Chord& chord, const PathPoint& lo, const PathPoint& hi, double share,
                    PathPoint& at) const;
+  /// Distance of two points in the norm that the path began with: of their arc lengths.
+  [[nodiscard]] double arc(const PathPoint& a, const PathPoint& b) const;
   /// Distance of two points in the path's norm, in a chord's, and along a chord.
   [[nodiscard]] double distance(const PathPoint& a, const PathPoint& b) const;
   [[nodiscard]] double distance_in(const Chord& chord, const PathPoint& a, const PathPoint& b) const;
@@ -168,6 +176,7 @@ class Continuation {
   PathMetric metric_;
   double load_scale_ = 1.0;
   double load_bound_ = 1.0;
+  double arc_weight_ = 1.0;  ///< of the load in arc lengths
   Corner corner_;
   double easy_size_ = 0.0;  ///< of the last step that was accepted at its first size
   Workspace work_;

@@ -61,10 +61,10 @@ class Tracer {
 void Tracer::measure_arc(const PathPoint& from, std::vector<CriticalEvent>& events, PathPoint& to) const {
   const PathPoint* last = &from;
   for (CriticalEvent& event : events) {
-    event.point.arc_length = last->arc_length + continuation_.distance(*last, event.point);
+    event.point.arc_length = last->arc_length + continuation_.arc(*last, event.point);
     last = &event.point;
   }
-  to.arc_length = last->arc_length + continuation_.distance(*last, to);
+  to.arc_length = last->arc_length + continuation_.arc(*last, to);
 }
 
 bool Tracer::turns_sharply(const PathPoint& from, const PathPoint& to) const {
@@ -219,6 +219,7 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
                                         rules_.tolerance);
     if (accept(from, to, located.events, bound)) break;
     std::swap(from, to);
+    continuation_.weigh_load(from, size);
   }
   return std::move(out_);
 }

@@ -255,7 +255,8 @@ CriticalCurvePoint Follower::trace_at(double value) {
         event.multiplicity == 1) {
       Expansion guess;
       guess.t = place_of(value);
-      guess.reach = kReach * std::min(event.point.arc_length, kLongestPath);
+      const double so_far = member->continuation.metric().norm(event.point.y, event.point.lambda);
+      guess.reach = kReach * std::min({event.point.arc_length, so_far, kLongestPath});
       const VectorXd zero = VectorXd::Zero(event.point.y.size());
       const VectorXd along =
           event.point.tangent / member->continuation.metric().norm(event.point.tangent, 0.0);
