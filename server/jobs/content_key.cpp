@@ -1,9 +1,11 @@
 #include "server/jobs/content_key.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "server/digest.h"
 
@@ -26,12 +28,25 @@ void append_number(const json& value, std::string& text) {
   text.append(digits.data(), end);
 }
 
+bool is_plain(char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; }
+
+/// As json(string).dump(), which costs more than all else here where nothing is escaped.
+void append_string(const std::string& string, std::string& text) {
+  if (!std::all_of(string.begin(), string.end(), is_plain)) {
+    text += json(string).dump();
+    return;
+  }
+  text += '"';
+  text += string;
+  text += '"';
+}
+
 /// The nesting is bounded by whoever parsed the document.
 void append(const json& value, std::string& text) {
   if (value.is_object()) {
     text += '{';
-    for (const auto& [key, member] : value.items()) {
-      text += json(key).dump();
+    for (const auto& [key, member] : value.get_ref<const json::object_t&>()) {
+      append_string(key, text);
       text += ':';
       append(member, text);
       text += ',';
@@ -46,6 +61,8 @@ void append(const json& value, std::string& text) {
     text += ']';
   } else if (value.is_number()) {
     append_number(value, text);
+  } else if (value.is_string()) {
+    append_string(value.get_ref<const std::string&>(), text);
   } else {
     text += value.dump();
   }

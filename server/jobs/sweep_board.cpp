@@ -9,7 +9,7 @@ namespace {
 /// How long a worker computes before it stores rows and looks for jobs.
 constexpr double kChunkSeconds = 0.1;
 constexpr std::size_t kFirstChunk = 2;
-constexpr std::size_t kLargestChunk = 512;
+constexpr std::size_t kLargestChunk = 2048;
 
 }  // namespace
 

@@ -260,9 +260,11 @@ bool WorkerPool::take_chunk_and_work(const std::stop_token& stop) {
 void WorkerPool::run(const std::stop_token& stop) {
   std::uint64_t seen = 0;
   while (!stop.stop_requested()) {
-    // In turn: neither jobs nor sweeps wait for the end of the other.
-    const bool worked = claim_and_work(stop);
-    if (take_chunk_and_work(stop) || worked) {
+    // In turn: neither jobs nor sweeps wait for the end of the other. While sweeps go on the store is not
+    // asked for jobs that nobody submitted.
+    const bool waited = desk_.waiting() > 0;
+    const bool worked = waited && claim_and_work(stop);
+    if (take_chunk_and_work(stop) || worked || (!waited && claim_and_work(stop))) {
       continue;
     }
     // Jobs that are given directly come before those that wait: nobody is idle while some wait.

@@ -37,6 +37,7 @@ struct Expansion {
   double reach = 0.0;
   /// The path as a power series of the distance from the critical point, along its direction there.
   std::array<Place, 4> series;
+  bool bifurcation = false;
   int negative_before = 0;
   int negative_after = 0;
 
@@ -144,10 +145,12 @@ void Follower::remember(std::optional<Expansion> node) {
   if (nodes_.size() > kHistory) nodes_.pop_front();
 }
 
-/// The path's direction at the critical point, of norm one.
-VectorXd direction_of(const Expansion& node, const Continuation& continuation) {
-  const VectorXd& first = node.series[1].y;
-  return first / continuation.metric().norm(first, 0.0);
+/// The path's direction at the critical point, of norm one; that of the movement alone at a limit point.
+Chord direction_of(const Expansion& node, const Continuation& continuation) {
+  const Place& first = node.series[1];
+  const double load = node.bifurcation ? first.lambda : 0.0;
+  const double norm = continuation.metric().norm(first.y, load);
+  return {first.y / norm, load / norm, false};
 }
 
 /// The equilibrium in the plane normal to the chord at a distance from the guessed critical point.
@@ -156,35 +159,73 @@ std::optional<PathPoint> equilibrium(Continuation& continuation, const Expansion
   const Place place = guess.at(distance);
   PathPoint lo;
   lo.y = place.y - guess.reach * chord.y;
-  lo.lambda = place.lambda;
+  lo.lambda = place.lambda - guess.reach * chord.lambda;
   lo.tangent = chord.y;
+  lo.tangent_lambda = chord.lambda;
   PathPoint hi = lo;
   hi.y = place.y + guess.reach * chord.y;
+  hi.lambda = place.lambda + guess.reach * chord.lambda;
   return continuation.between(chord, lo, hi, 0.5);
 }
 
-/// The limit point that a guess is near to; empty when it can't be told with certainty.
+/// A critical point's distance from the first of two neighbours, and how far off a lower order would be in
+/// the load.
+struct Found {
+  double distance = -1.0;  ///< negative: none
+  double change = 0.0;
+};
+
+Found limit_point(const Cubic& path, const PathPoint& before) {
+  const double s = path.stationary();
+  if (s < 0.0) return {};
+  const double load = path.series(s)[0].lambda;
+  // What linear rates alone would have given differs by the next order: times the distance over the path's
+  // length it bounds the cubic's own error.
+  const double linear = path.length() * path.load_rate_a() / (path.load_rate_a() - path.load_rate_b());
+  return {s, std::abs(before.lambda + 0.5 * path.load_rate_a() * linear - load)};
+}
+
+/// Where the determinant is zero: by the parabola through three points, held against the line through two.
+Found bifurcation(const Continuation& continuation, const Chord& chord, const Cubic& path,
+                  const PathPoint& before, const PathPoint& middle, const PathPoint& after) {
+  const auto det = [&middle](const PathPoint& at) {
+    return (at.negative % 2 == 0 ? 1.0 : -1.0) * std::exp(at.log_abs_det - middle.log_abs_det);
+  };
+  const double x1 = continuation.distance_along(chord, before, middle);
+  const double x2 = path.length();
+  const double d0 = det(before);
+  const double slope = (det(after) - d0) / x2;
+  const double bend = ((det(middle) - d0) / x1 - slope) / (x1 - x2);
+  const double line = -d0 / slope;
+  double s = line;
+  for (int i = 0; i < 4; ++i) s = (-d0 - bend * s * (s - x2)) / slope;
+  if (!(line > 0.0 && line < x2 && s > 0.0 && s < x2)) return {};
+  return {s, kReach * std::abs(path.series(s)[0].lambda - path.series(line)[0].lambda)};
+}
+
+/// The critical point that a guess is near to; empty when it can't be told with certainty.
 std::optional<Expansion> corrected(Continuation& continuation, const Expansion& guess, int attempts = 3) {
-  const Chord chord{direction_of(guess, continuation), 0.0, false};
+  const Chord chord = direction_of(guess, continuation);
   const auto before = equilibrium(continuation, guess, chord, -guess.reach);
   if (!before || before->negative != guess.negative_before) return std::nullopt;
   const auto after = equilibrium(continuation, guess, chord, guess.reach);
   if (!after || after->negative != guess.negative_after) return std::nullopt;
   const Cubic path(continuation, chord, *before, *after);
   if (!(path.length() > 0.0)) return std::nullopt;
-  const double s = path.stationary();
-  if (s < 0.0) return std::nullopt;
+  Found found;
+  if (guess.bifurcation) {
+    const auto middle = equilibrium(continuation, guess, chord, 0.0);
+    if (middle) found = bifurcation(continuation, chord, path, *before, *middle, *after);
+  } else {
+    found = limit_point(path, *before);
+  }
+  if (found.distance < 0.0) return std::nullopt;
   Expansion node = guess;
-  node.series = path.series(s);
-  const double load = node.series[0].lambda;
-  // What linear rates alone would have given differs by the next order: times the distance over the path's
-  // length it bounds the cubic's own error.
-  const double linear = path.length() * path.load_rate_a() / (path.load_rate_a() - path.load_rate_b());
-  const double change = std::abs(before->lambda + 0.5 * path.load_rate_a() * linear - load);
+  node.series = path.series(found.distance);
   // The neighbours come nearer, or go farther, so that the error stays well below what is accepted.
-  const double wanted = 0.1 * kInterpolation * std::abs(load) / kReach;
-  node.reach = guess.reach * std::clamp(std::cbrt(wanted / std::max(change, 1e-3 * wanted)), 0.3, 1.2);
-  if (change <= 10.0 * wanted) return node;
+  const double wanted = 0.1 * kInterpolation * std::abs(node.series[0].lambda) / kReach;
+  node.reach = guess.reach * std::clamp(std::cbrt(wanted / std::max(found.change, 1e-3 * wanted)), 0.3, 1.2);
+  if (found.change <= 10.0 * wanted) return node;
   return attempts > 1 ? corrected(continuation, node, attempts - 1) : std::nullopt;
 }
 
@@ -251,16 +292,19 @@ CriticalCurvePoint Follower::trace_at(double value) {
     const CriticalEvent& event = outcome.critical.back();
     point.load_factor = event.point.lambda / member->structure.scales.load;
     point.type = event.type;
-    if (event.type != CriticalType::bifurcation && event.cause == CriticalCause::smooth &&
-        event.multiplicity == 1) {
+    if (event.cause == CriticalCause::smooth && event.multiplicity == 1) {
       Expansion guess;
       guess.t = place_of(value);
       const double so_far = member->continuation.metric().norm(event.point.y, event.point.lambda);
       guess.reach = kReach * std::min({event.point.arc_length, so_far, kLongestPath});
       const VectorXd zero = VectorXd::Zero(event.point.y.size());
-      const VectorXd along =
-          event.point.tangent / member->continuation.metric().norm(event.point.tangent, 0.0);
-      guess.series = {Place{event.point.y, event.point.lambda}, {along, 0.0}, {zero, 0.0}, {zero, 0.0}};
+      guess.bifurcation = event.type == CriticalType::bifurcation;
+      guess.series = {Place{event.point.y, event.point.lambda},
+                      {event.point.tangent, event.point.tangent_lambda},
+                      {zero, 0.0},
+                      {zero, 0.0}};
+      const Chord along = direction_of(guess, member->continuation);
+      guess.series[1] = {along.y, along.lambda};
       guess.negative_before = event.negative_before;
       guess.negative_after = event.negative_after;
       remember(corrected(member->continuation, guess));

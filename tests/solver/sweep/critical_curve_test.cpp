@@ -96,6 +96,57 @@ TEST(CriticalCurve, IsThatOfThePathsAndCostsFewFactorisations) {
   EXPECT_LT(3 * curve.factorizations, factorizations);
 }
 
+/// The same arch, pinned and loaded at its crown: it bifurcates sideways before its limit load.
+Model crown_arch(double k) {
+  Model model = one_arch(k);
+  for (Support& support : model.supports) support.rotation = false;
+  std::get<PointLoad>(model.loads[0]).at.fraction = 0.5;
+  return model;
+}
+
+TEST(CriticalCurve, FollowsABifurcation) {
+  const CriticalCurveRequest request = request_for(crown_arch, 1e-4, 0.03, 40);
+  const CriticalCurve curve = follow_critical_point(request);
+  EXPECT_EQ(curve.points.front().type, CriticalType::bifurcation);
+  expect_as_traced(request, curve);
+  EXPECT_GE(curve.followed, 36);
+  EXPECT_EQ(curve.disagreed, 0);
+}
+
+/// A pinned column of length 10 on a Winkler base, whose critical shape has one
+/// half wave until k L^4 / EI = 4 pi^4, k = 0.03896, and two beyond.
+Model column_on_base(double k) {
+  Model model;
+  model.sections = {{"s", 1e6, 1.0, {}}};
+  model.nodes = {{"foot", 0.0, 0.0}, {"head", 0.0, 10.0}};
+  model.members.push_back({"column", "foot", "head", "s", LineCurve{}, false, false});
+  for (const char* end : {"foot", "head"}) {
+    Support support;
+    support.node = end;
+    support.x = true;
+    support.y = support.node == "foot";
+    model.supports.push_back(support);
+  }
+  PointLoad load;
+  load.at = Location{};
+  load.at.node = "head";
+  load.force = {0.0, -1.0};
+  model.loads.push_back(load);
+  Foundation base;
+  base.id = "base";
+  base.member = "column";
+  base.stiffness = k;
+  model.foundations.push_back(base);
+  return model;
+}
+
+TEST(CriticalCurve, FollowsTheBucklingOfAColumnOverAChangeOfMode) {
+  const CriticalCurveRequest request = request_for(column_on_base, 2e-3, 0.2, 30);
+  const CriticalCurve curve = follow_critical_point(request);
+  expect_as_traced(request, curve);
+  EXPECT_GE(curve.followed, 20);
+}
+
 TEST(CriticalCurve, NoticesThatAnotherPointComesFirst) {
   // Down: the first arch goes first until the base of the other is as soft as its own, 0.02.
   const CriticalCurveRequest request = request_for(two_arches, 0.2, 2e-3, 21);
