@@ -57,17 +57,26 @@ void report_errors(const Analysis& analysis, const BucklingLoads& loads, Result&
 }  // namespace
 
 void scale_to_largest(BucklingMode& mode) {
+  constexpr double kNothing = 1e-12;  // of what the rotations would move over a member's length
   double largest = 0.0;
   double sign = 1.0;
+  double turned = 0.0;
+  double length = 0.0;
   for (const MemberState& member : mode.members) {
+    length = std::max(length, member.s.back());
     for (std::size_t i = 0; i < member.s.size(); ++i) {
+      if (std::abs(member.rotation[i]) > std::abs(turned) * (1.0 + 1e-6)) turned = member.rotation[i];
       const double size = std::hypot(member.x[i], member.y[i]);
       if (size <= largest * (1.0 + 1e-6)) continue;
       largest = size;
       sign = std::abs(member.x[i]) > std::abs(member.y[i]) ? member.x[i] : member.y[i];
     }
   }
-  const double scale = largest == 0.0 ? 1.0 : (sign < 0.0 ? -1.0 : 1.0) / largest;
+  double scale = 1.0;
+  if (largest > kNothing * std::abs(turned) * length)
+    scale = (sign < 0.0 ? -1.0 : 1.0) / largest;
+  else if (turned != 0.0)
+    scale = 1.0 / turned;
   for (MemberState& member : mode.members)
     for (auto* values : {&member.x, &member.y, &member.rotation})
       for (double& value : *values) value *= scale;

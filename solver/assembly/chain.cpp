@@ -180,9 +180,9 @@ Chain::Pivot Chain::pivot_of(const Run& first, const Run& second) {
   pivot.det = matrix.determinant();
   if (pivot.det == 0.0) pivot.det = std::numeric_limits<double>::min();
   pivot.inverse = matrix.inverse();
-  // of the inverse alone: what is stiff beside what is soft makes the pivot large, but loses nothing
   const double size = pivot.inverse.cwiseAbs().maxCoeff();
-  pivot.quality = std::isfinite(size) ? 1.0 / size : 0.0;
+  pivot.gain = std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
+  pivot.quality = 1.0 / (pivot.gain * matrix.cwiseAbs().maxCoeff());
   return pivot;
 }
 
@@ -205,24 +205,30 @@ void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
   first.last = second.last;
 }
 
-/// Joins the next element, or the next few at once where that pivot is much better.
+/// Joins the next element, or the next few at once where that pivot is much better: above all one that does
+/// not make errors grow, then one whose sign is sure.
 void Chain::join_next(Run& all, std::span<const CondensedElement> elements) {
-  constexpr double kPoorPivot = 1e-2;
+  constexpr double kLargeGain = 1e3;
+  constexpr double kPoorQuality = 1e-3;
+  constexpr double kMuchBetter = 10.0;
   constexpr int kMostAhead = 4;
   const auto run_of = [&elements](int i) { return Run{elements[i].K, elements[i].X, elements[i].F, i, i}; };
   const int next = all.last + 1;
   const Pivot pivot = pivot_of(all, run_of(next));
-  if (pivot.quality < kPoorPivot) {
+  const bool grows = pivot.gain > kLargeGain;
+  if (grows || pivot.quality < kPoorQuality) {
     const auto saved = ends_;
     const std::size_t joins = joins_.size();
     Run ahead = run_of(next);
-    const int last = std::min(next + kMostAhead, static_cast<int>(elements.size())) - 1;
+    const int last = std::min(next + (grows ? kMostAhead : 2), static_cast<int>(elements.size())) - 1;
     while (ahead.last < last) {
       const Run after = run_of(ahead.last + 1);
       join(ahead, after, pivot_of(ahead, after));
-      const Pivot better = pivot_of(all, ahead);
-      if (better.quality < 10.0 * pivot.quality) continue;
-      join(all, ahead, better);
+      const Pivot other = pivot_of(all, ahead);
+      const bool better = grows ? other.gain * kMuchBetter < pivot.gain
+                                : other.quality > kMuchBetter * pivot.quality && other.gain <= pivot.gain;
+      if (!better) continue;
+      join(all, ahead, other);
       return;
     }
     joins_.resize(joins);

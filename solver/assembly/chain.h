@@ -61,7 +61,8 @@ class Chain {
   struct Pivot {
     Eigen::Matrix3d inverse;
     double det = 0.0;
-    double quality = 0.0;  ///< over the inverse's largest entry: 1 is perfect, 0 singular
+    double gain = 0.0;     ///< largest entry of the inverse: what errors of the runs are multiplied by
+    double quality = 0.0;  ///< reciprocal condition: 1 is perfect, 0 singular
   };
   [[nodiscard]] static Pivot pivot_of(const Run& first, const Run& second);
   void join(Run& first, const Run& second, const Pivot& pivot);

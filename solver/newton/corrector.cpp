@@ -32,8 +32,10 @@ constexpr double kNearResidual = 10.0;
 /// Relative residual that nothing can be taken from.
 constexpr double kExact = 1e-15;
 
-/// Corrections before a residual that no longer falls counts as rounding's.
+/// Corrections before a residual that no longer falls counts as rounding's, and what is left of one that
+/// does not.
 constexpr int kStagnantIterations = 4;
+constexpr double kStagnantShare = 0.5;
 
 /// A correction (displacement gradient) that is rounding's, of sums of direction cosines, and its share of
 /// the step; and how many come first. Very stiff supports make a large residual of it.
@@ -110,10 +112,11 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
   if (exact || problem.one_sided()) {
     problem.residual(work.trial, lambda + dlambda, work.residual);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
-    if (size > std::max(out.relative_residual, options.residual_floor))
+    if (problem.one_sided() && size > std::max(out.relative_residual, options.residual_floor))
       return out.relative_residual <= options.stagnant_residual;
-    // one that leaves more was not the last
-    if (exact && size > options.residual_floor &&
+    // one that leaves more was not the last, but where residuals are smooth and no longer fall
+    const bool falls = problem.one_sided() || size <= kStagnantShare * out.relative_residual;
+    if (exact && falls && size > options.residual_floor &&
         size > problem.residual_rounding(work.trial, lambda + dlambda))
       return false;
   }
@@ -159,7 +162,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     const bool small =
         expected <= options.tolerance * scale && out.relative_residual <= options.largest_residual;
     const bool stagnant = it >= kStagnantIterations && out.relative_residual <= options.stagnant_residual &&
-                          out.relative_residual > 0.5 * last_residual;
+                          out.relative_residual > kStagnantShare * last_residual;
     const bool last = it > 0 && (small || stagnant || out.relative_residual <= options.residual_floor);
     last_residual = out.relative_residual;
     const double dlambda = find_correction(problem, side, y, lambda, work);
