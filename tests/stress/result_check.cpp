@@ -255,7 +255,12 @@ void Check::branch(const Branch& branch, std::size_t first) {
       return;
     }
     const std::optional<RodState> previous = before_;
-    state(index, branch.negative_eigenvalues[i]);
+    // a path may end on a critical point, where an eigenvalue is zero to the accuracy it was located with
+    const bool singular = std::any_of(result_.critical_points.begin(), result_.critical_points.end(),
+                                      [&](const CriticalPoint& c) {
+                                        return c.branch == branch.id && c.arc_length == branch.arc_length[i];
+                                      });
+    state(index, singular ? std::nullopt : std::optional(branch.negative_eigenvalues[i]));
     if (!previous || !before_ || i == 0) continue;
     const double step = branch.arc_length[i] - branch.arc_length[i - 1];
     out_.stretch = std::max(out_.stretch, (distance(*previous, *before_) - 1e-12) / step);
