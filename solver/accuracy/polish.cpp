@@ -77,7 +77,7 @@ double FineMesh::test_value(const CriticalEvent& known, const Chord& chord, cons
                             double log_abs_det) const {
   const double rate = continuation_.load_rate(chord, at);
   if (known.type != CriticalType::bifurcation) return rate;
-  return (at.negative % 2 == 0 ? 1.0 : -1.0) * std::exp(at.log_abs_det - log_abs_det) / rate;
+  return at.determinant(log_abs_det) / rate;
 }
 
 /// A simple critical point from three samples or a few more: the known point's place, points on both sides,
@@ -173,12 +173,10 @@ std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const Pat
 
 std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEvent& known,
                                          const Structure& base, const PathPoint& before) {
-  constexpr double kReach = 0.02;       // of the path so far
-  constexpr double kLongestPath = 0.3;  // a displacement gradient
+  constexpr double kReach = 0.02;  // of the path so far
   constexpr double kWidening = 6.0;
   const PathPoint at = transferred(from, known.point);
-  const double path =
-      std::min({known.point.arc_length, continuation_.metric().norm(at.y, at.lambda), kLongestPath});
+  const double path = continuation_.way_to(at);
   if (!(path > 0.0)) return std::nullopt;
   if (auto found = interpolated(known, at, kReach * path)) return found;
   for (const double reach : {kReach * path, kReach * kWidening * path})

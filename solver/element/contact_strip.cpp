@@ -66,45 +66,51 @@ ContactStrip ContactStrip::with_gap(double gap) const {
   return other;
 }
 
-std::array<double, 2> ContactStrip::direction_at(double xi) const {
-  if (!direction_.axis) return direction_.fixed;
-  const double angle = direction_.axis->at(direction_.s0 + xi * direction_.ds).angle;
+std::array<double, 2> ContactStrip::along(double angle) const {
   return {-direction_.sign * std::sin(angle), direction_.sign * std::cos(angle)};
 }
+
+std::array<double, 2> ContactStrip::direction_at(double xi) const {
+  if (!direction_.axis) return direction_.fixed;
+  return along(direction_.axis->at(direction_.s0 + xi * direction_.ds).angle);
+}
+
+namespace {
+
+/// a + sum_r weights_r (dx_r, dy_r).
+std::array<double, 2> combined(std::array<double, 2> a, std::span<const double> weights,
+                               std::span<const double> dx, std::span<const double> dy) {
+  for (std::size_t r = 0; r < dx.size(); ++r) {
+    a[0] += weights[r] * dx[r];
+    a[1] += weights[r] * dy[r];
+  }
+  return a;
+}
+
+}  // namespace
 
 double ContactStrip::penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                  std::span<const double> dy) const {
   std::array<double, kMaxOrder> a{};
   rule_->integrals_at(xi, std::span(a).first(dx.size()));
-  double ux = ua[0];
-  double uy = ua[1];
-  for (std::size_t r = 0; r < dx.size(); ++r) {
-    ux += a[r] * dx[r];
-    uy += a[r] * dy[r];
-  }
+  const auto u = combined(ua, a, dx, dy);
   const auto d = direction_at(xi);
-  return ux * d[0] + uy * d[1] - gap_;
+  return u[0] * d[0] + u[1] * d[1] - gap_;
 }
 
 double ContactStrip::penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                        std::span<const double> dy) const {
-  std::array<double, kMaxOrder> a{};
   std::array<double, kMaxOrder> l{};
-  rule_->integrals_at(xi, std::span(a).first(dx.size()));
   rule_->values_at(xi, std::span(l).first(dx.size()));
-  std::array<double, 2> u = ua;
-  std::array<double, 2> du{};
-  for (std::size_t r = 0; r < dx.size(); ++r) {
-    u[0] += a[r] * dx[r];
-    u[1] += a[r] * dy[r];
-    du[0] += l[r] * dx[r];
-    du[1] += l[r] * dy[r];
-  }
-  const auto d = direction_at(xi);
-  const double slope = du[0] * d[0] + du[1] * d[1];
-  if (!direction_.axis) return slope;
-  const double turn = direction_.ds * direction_.axis->at(direction_.s0 + xi * direction_.ds).curvature;
-  return slope + turn * (u[1] * d[0] - u[0] * d[1]);
+  const auto du = combined({0.0, 0.0}, l, dx, dy);
+  if (!direction_.axis) return du[0] * direction_.fixed[0] + du[1] * direction_.fixed[1];
+  std::array<double, kMaxOrder> a{};
+  rule_->integrals_at(xi, std::span(a).first(dx.size()));
+  const auto u = combined(ua, a, dx, dy);
+  const AxisPoint axis = direction_.axis->at(direction_.s0 + xi * direction_.ds);
+  const auto d = along(axis.angle);
+  const double turn = direction_.ds * axis.curvature;
+  return du[0] * d[0] + du[1] * d[1] + turn * (u[1] * d[0] - u[0] * d[1]);
 }
 
 namespace {

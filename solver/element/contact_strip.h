@@ -69,6 +69,8 @@ class ContactStrip {
   void penetrations(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                     double gap, Values& g) const;
   [[nodiscard]] bool resolved() const;
+  /// The direction where the axis has an angle.
+  [[nodiscard]] std::array<double, 2> along(double angle) const;
   template <class Gap>
   void search(const Gap& gap, const Values& g, std::vector<Interval>& out) const;
 

@@ -126,20 +126,19 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
                             options_.largest_first_load});
   double last = std::numeric_limits<double>::infinity();
   VectorXd guess;
-  VectorXd rest;  // the state at the load before, at which the structure is better held than at this one
-  double rest_lambda = 0.0;
+  PathPoint rest;  // at the load before, which holds the structure better than this one
   for (int i = 0; i < kMostLoads; ++i) {
     const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations,
                                           guess.size() > 0 ? &guess : nullptr);
     const double size = state ? metric_.norm(state->y, 0.0) : 0.0;
     if (state && size <= 10.0 * kSmallStart)
       return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
-    if (state && size > 0.5 * last) return start_at_rest(rest, rest_lambda, direction);
+    if (state && size > 0.5 * last) return start_at_rest(std::move(rest), direction);
     const double fall = state ? std::max(kSmallStart / size, kLargestFall) : 0.01;
     if (state) {
       last = size;
-      rest = state->y;
-      rest_lambda = lambda;
+      rest.y = state->y;
+      rest.lambda = lambda;
       guess = fall * state->y;
     }
     lambda *= fall;
@@ -148,15 +147,21 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
 }
 
 /// From a state that the structure moved to under a very small load, corrected to the last digit.
-std::optional<PathPoint> Continuation::start_at_rest(VectorXd y, double lambda, double direction) {
-  const auto outcome = correct(problem_, metric_, {}, metric_.norm(y, 0.0), downhill(options_.corrector, 25),
-                               y, lambda, work_);
-  count(outcome);
+std::optional<PathPoint> Continuation::start_at_rest(PathPoint rest, double direction) {
+  const auto outcome = correct_downhill(metric_.norm(rest.y, 0.0), 25, rest);
   VectorXd response;
   TangentReport report;
-  if (outcome.status != CorrectorStatus::converged || !unit_response(y, lambda, false, response, report))
+  if (outcome.status != CorrectorStatus::converged ||
+      !unit_response(rest.y, rest.lambda, false, response, report))
     return std::nullopt;
-  return first_point(y, lambda, response, direction, report);
+  return first_point(rest.y, rest.lambda, response, direction, report);
+}
+
+CorrectorOutcome Continuation::correct_downhill(double scale, int iterations, PathPoint& at) {
+  const CorrectorOptions options = downhill(options_.corrector, iterations);
+  const auto outcome = correct(problem_, metric_, {}, scale, options, at.y, at.lambda, work_);
+  count(outcome);
+  return outcome;
 }
 
 void Continuation::set_load_scale(const VectorXd& response) {
@@ -324,19 +329,17 @@ bool Continuation::settle_beyond(const PathPoint& from, double size, PathPoint& 
   constexpr double kProportional = 0.1;  // of the movement: what the end's tangent may miss it by
   const double dlambda = size * from.tangent_lambda;
   if (from.negative > 0 || dlambda == 0.0) return false;
-  const CorrectorOptions options = downhill(options_.corrector, 60);
+  constexpr int kIterations = 60;
   to.y = from.y + size * from.tangent;
   to.lambda = from.lambda + dlambda;
-  auto outcome = correct(problem_, metric_, {}, size, options, to.y, to.lambda, work_);
-  count(outcome);
+  auto outcome = correct_downhill(size, kIterations, to);
   if (outcome.status != CorrectorStatus::converged && from.arc_length == 0.0) {
     // where constant actions leave parts unloaded that lie on stiff supports: as at the start of a path
     const auto state =
         find_contact_state(problem_, metric_, to.lambda, work_, statistics_.factorizations, &from.y);
     if (!state) return false;
     to.y = state->y;
-    outcome = correct(problem_, metric_, {}, size, options, to.y, to.lambda, work_);
-    count(outcome);
+    outcome = correct_downhill(size, kIterations, to);
   }
   if (outcome.status != CorrectorStatus::converged || outcome.tangent.negative > 0) return false;
   const VectorXd movement = to.y - from.y;
@@ -435,6 +438,10 @@ void Continuation::reject(StepSize& step) {
 
 double Continuation::arc(const PathPoint& a, const PathPoint& b) const {
   return PathMetric{metric_.weights, arc_weight_}.norm(b.y - a.y, b.lambda - a.lambda);
+}
+
+double Continuation::way_to(const PathPoint& at) const {
+  return std::min({at.arc_length, metric_.norm(at.y, at.lambda), kLargeGradient});
 }
 
 double Continuation::distance(const PathPoint& a, const PathPoint& b) const {

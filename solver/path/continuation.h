@@ -16,7 +16,6 @@ namespace snapthrough {
 
 /// Constants of the step control. Dimensionless: the metric is scaled by the model's own length and load.
 struct ContinuationOptions {
-  double initial_step = 0.05;
   double min_step = 1e-13;
   double max_step = 1e12;           ///< a path that no longer turns soon meets the bound on its load
   double target_correction = 0.08;  ///< wanted ratio of the first correction to the step
@@ -119,6 +118,9 @@ class Continuation {
                    PathPoint& at) const;
   /// Distance of two points in the norm that the path began with: of their arc lengths.
   [[nodiscard]] double arc(const PathPoint& a, const PathPoint& b) const;
+  /// The way from the path's beginning to a point, as a measure of places next to it: no longer than the
+  /// straight one, nor than gradients at which a structure has changed its shape for good.
+  [[nodiscard]] double way_to(const PathPoint& at) const;
   /// Distance of two points in the path's norm, in a chord's, and along a chord.
   [[nodiscard]] double distance(const PathPoint& a, const PathPoint& b) const;
   [[nodiscard]] double distance_in(const Chord& chord, const PathPoint& a, const PathPoint& b) const;
@@ -140,7 +142,7 @@ class Continuation {
   [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, double lambda, bool bonded,
                                    Eigen::VectorXd& response, TangentReport& report);
   [[nodiscard]] std::optional<PathPoint> one_sided_start(double direction);
-  [[nodiscard]] std::optional<PathPoint> start_at_rest(Eigen::VectorXd y, double lambda, double direction);
+  [[nodiscard]] std::optional<PathPoint> start_at_rest(PathPoint rest, double direction);
   [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, double lambda,
                                       const Eigen::VectorXd& response, double direction,
                                       const TangentReport& report);
@@ -168,6 +170,8 @@ class Continuation {
   [[nodiscard]] bool turn(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] bool settle_beyond(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] Trial try_step(const PathPoint& from, double step, PathPoint& to);
+  /// Corrects y downhill in the energy at its load.
+  [[nodiscard]] CorrectorOutcome correct_downhill(double scale, int iterations, PathPoint& at);
   void count(const CorrectorOutcome& outcome);
 
   EquilibriumProblem& problem_;

@@ -3,6 +3,7 @@
 /// A point of an equilibrium path with its tangent and stability.
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace snapthrough {
 
@@ -14,6 +15,11 @@ struct PathPoint {
   double tangent_lambda = 0.0;  ///< dlambda/ds: zero at a limit point
   int negative = 0;             ///< negative eigenvalues of the constrained tangent stiffness
   double log_abs_det = 0.0;
+
+  /// The determinant with its sign, over e^log_scale.
+  [[nodiscard]] double determinant(double log_scale) const {
+    return (negative % 2 == 0 ? 1.0 : -1.0) * std::exp(log_abs_det - log_scale);
+  }
 };
 
 }  // namespace snapthrough

@@ -41,9 +41,7 @@ bool apart(const Continuation& continuation, const Chord& chord, const PathPoint
 
 /// det(J) / (dlambda/dtau), scaled by its size at the start of the search.
 double bifurcation_function(const Search& search, const PathPoint& at) {
-  const double parity = at.negative % 2 == 0 ? 1.0 : -1.0;
-  const double rate = search.continuation.load_rate(search.chord, at);
-  return parity * std::exp(at.log_abs_det - search.log_abs_det) / rate;
+  return at.determinant(search.log_abs_det) / search.continuation.load_rate(search.chord, at);
 }
 
 /// Value at a closed bracket, over that at the first one's ends, which only a jump of the tangent leaves.

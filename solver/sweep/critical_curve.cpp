@@ -18,8 +18,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kReach = 0.01;       // of the path so far, from the critical point to its two neighbours
-constexpr double kLongestPath = 0.3;  // a displacement gradient
+constexpr double kReach = 0.01;  // of the path so far, from the critical point to its two neighbours
 constexpr double kInterpolation = 1e-8;
 constexpr double kSameLoad = 1e-6;
 constexpr int kMostHalvings = 7;
@@ -188,17 +187,15 @@ Found limit_point(const Cubic& path, const PathPoint& before) {
 /// Where the determinant is zero: by the parabola through three points, held against the line through two.
 Found bifurcation(const Continuation& continuation, const Chord& chord, const Cubic& path,
                   const PathPoint& before, const PathPoint& middle, const PathPoint& after) {
-  const auto det = [&middle](const PathPoint& at) {
-    return (at.negative % 2 == 0 ? 1.0 : -1.0) * std::exp(at.log_abs_det - middle.log_abs_det);
-  };
+  const auto det = [&middle](const PathPoint& at) { return at.determinant(middle.log_abs_det); };
   const double x1 = continuation.distance_along(chord, before, middle);
   const double x2 = path.length();
   const double d0 = det(before);
   const double slope = (det(after) - d0) / x2;
   const double bend = ((det(middle) - d0) / x1 - slope) / (x1 - x2);
   const double line = -d0 / slope;
-  double s = line;
-  for (int i = 0; i < 4; ++i) s = (-d0 - bend * s * (s - x2)) / slope;
+  const double rate = slope - bend * x2;  // of d0 + rate s + bend s^2 at the first point
+  const double s = -2.0 * d0 / (rate + std::copysign(std::sqrt(rate * rate - 4.0 * bend * d0), rate));
   if (!(line > 0.0 && line < x2 && s > 0.0 && s < x2)) return {};
   return {s, kReach * std::abs(path.series(s)[0].lambda - path.series(line)[0].lambda)};
 }
@@ -295,8 +292,7 @@ CriticalCurvePoint Follower::trace_at(double value) {
     if (event.cause == CriticalCause::smooth && event.multiplicity == 1) {
       Expansion guess;
       guess.t = place_of(value);
-      const double so_far = member->continuation.metric().norm(event.point.y, event.point.lambda);
-      guess.reach = kReach * std::min({event.point.arc_length, so_far, kLongestPath});
+      guess.reach = kReach * member->continuation.way_to(event.point);
       const VectorXd zero = VectorXd::Zero(event.point.y.size());
       guess.bifurcation = event.type == CriticalType::bifurcation;
       guess.series = {Place{event.point.y, event.point.lambda},

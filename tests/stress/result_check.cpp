@@ -65,8 +65,13 @@ class Check {
   void finite();
   void branch(const Branch& branch, std::size_t first);
   void changes(const Branch& branch);
-  void state(std::size_t index, std::optional<int> negative);
-  void inertia(std::size_t index, const RodState& at, int negative);
+  /// Negative eigenvalues that a state may have.
+  struct CountRange {
+    int least = 0;
+    int most = 0;
+  };
+  void state(std::size_t index, std::optional<CountRange> negative);
+  void inertia(std::size_t index, const RodState& at, CountRange negative);
   void contact(const State& state, const RodState& at);
   void springs(const State& state, const RodState& at);
   void finite_series(std::span<const double> values, const std::string& what);
@@ -153,7 +158,7 @@ void Check::changes(const Branch& branch) {
   }
 }
 
-void Check::inertia(std::size_t index, const RodState& at, int negative) {
+void Check::inertia(std::size_t index, const RodState& at, CountRange negative) {
   const ConstrainedTangent t = tangent_of(rod_, at, result_.states[index].load_factor);
   const Eigen::Index free = t.matrix.rows() - t.constraints;
   // backward error of the factorisation, and the contact edges' and section forces' own rounding
@@ -169,9 +174,9 @@ void Check::inertia(std::size_t index, const RodState& at, int negative) {
   if (low != high) ++out_.undecided;
   // this count is of the symmetric part; where a pressed line ends free the index follows the determinant
   const int slack = has_free_pressed_end(model_) ? 1 : 0;
-  if (negative < low - slack || negative > high + slack)
+  if (negative.most < low - slack || negative.least > high + slack)
     fail("inertia: state " + std::to_string(index) + " at load factor " +
-         text(result_.states[index].load_factor) + " says " + std::to_string(negative) + ", counted " +
+         text(result_.states[index].load_factor) + " says " + std::to_string(negative.least) + ", counted " +
          std::to_string(low) + (low == high ? "" : " to " + std::to_string(high)));
 }
 
@@ -219,7 +224,7 @@ void Check::contact(const State& state, const RodState& at) {
   }
 }
 
-void Check::state(std::size_t index, std::optional<int> negative) {
+void Check::state(std::size_t index, std::optional<CountRange> negative) {
   const State& s = result_.states[index];
   if (s.refinements > 0 || rod_.points == 0 || has_mode_imperfection(model_) ||
       static_cast<int>(s.members.front().s.size()) != rod_.points) {
@@ -255,12 +260,14 @@ void Check::branch(const Branch& branch, std::size_t first) {
       return;
     }
     const std::optional<RodState> previous = before_;
-    // a path may end on a critical point, where an eigenvalue is zero to the accuracy it was located with
-    const bool singular = std::any_of(result_.critical_points.begin(), result_.critical_points.end(),
-                                      [&](const CriticalPoint& c) {
-                                        return c.branch == branch.id && c.arc_length == branch.arc_length[i];
-                                      });
-    state(index, singular ? std::nullopt : std::optional(branch.negative_eigenvalues[i]));
+    // a path may end on a critical point, where the count is that of either side
+    CountRange counts{branch.negative_eigenvalues[i], branch.negative_eigenvalues[i]};
+    for (const CriticalPoint& c : result_.critical_points) {
+      if (c.branch != branch.id || c.arc_length != branch.arc_length[i]) continue;
+      counts.least = std::min({counts.least, c.negative_before, c.negative_after});
+      counts.most = std::max({counts.most, c.negative_before, c.negative_after});
+    }
+    state(index, counts);
     if (!previous || !before_ || i == 0) continue;
     const double step = branch.arc_length[i] - branch.arc_length[i - 1];
     out_.stretch = std::max(out_.stretch, (distance(*previous, *before_) - 1e-12) / step);
@@ -283,7 +290,7 @@ ResultCheck Check::run() {
     const std::vector<int> states = states_of_points(result_);
     for (std::size_t i = 0; i < states.size(); ++i) {
       const bool stable = i + 1 < states.size() && result_.summary.termination != "unstable_at_start";
-      state(static_cast<std::size_t>(states[i]), stable ? std::optional<int>(0) : std::nullopt);
+      state(static_cast<std::size_t>(states[i]), stable ? std::optional(CountRange{}) : std::nullopt);
     }
   }
   if (!result_.branches.empty() && !result_.failure && first != states_of_points(result_).size())
