@@ -30,6 +30,13 @@ StructuralProblem::StructuralProblem(const Structure& structure)
     if (spring.row[2] != 0.0) free_rotation_[spring.joint] = 0;
   const Index n = 3 * structure.joints + structure.releases + 3 * static_cast<Index>(members_);
   for (Index i = 0; i < n; ++i) (is_fixed(i) ? fixed_ : free_).push_back(i);
+  const VectorXd& load = structure.proportional_load;
+  largest_load_ = load.head(3 * structure.joints + structure.releases).lpNorm<Eigen::Infinity>();
+  for (const ElementDofs& dofs : structure.dofs) {
+    largest_load_ =
+        std::max(largest_load_, load.segment(dofs.v, 3 * structure.mesh.order).lpNorm<Eigen::Infinity>());
+    for (const int a : dofs.a) largest_load_ = std::max(largest_load_, std::abs(load[a]));
+  }
   joint_matrix_.resize(n, n);
   free_matrix_.resize(static_cast<Index>(free_.size()), static_cast<Index>(free_.size()));
 }
@@ -306,7 +313,7 @@ double StructuralProblem::largest_critical_load_scale(const VectorXd& unit_respo
 }
 
 double StructuralProblem::largest_force(const VectorXd& y, double lambda) const {
-  double force = std::abs(lambda) * structure_.proportional_load.lpNorm<Eigen::Infinity>();
+  double force = std::abs(lambda) * largest_load_;
   for (const ElementDofs& dofs : structure_.dofs)
     force = std::max(force, y.segment<3>(dofs.m).lpNorm<Eigen::Infinity>());
   return force;

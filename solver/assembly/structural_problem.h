@@ -100,6 +100,7 @@ class StructuralProblem final : public EquilibriumProblem {
   std::vector<char> spring_active_;
   Stage stage_ = Stage::proportional;
   bool bonded_ = false;
+  double largest_load_ = 0.0;  ///< of the forces and moments of the unit load: imposed strains are none
   double grip_ = 0.0;
   double softness_ = 1.0;
   bool frozen_ = false;  ///< spring_active_ and the elements' contact stay as they are

@@ -36,6 +36,13 @@ constexpr double kExact = 1e-15;
 /// does not.
 constexpr int kStagnantIterations = 4;
 constexpr double kStagnantShare = 0.5;
+/// Corrections (displacement gradients; share of the step) beyond which a residual is not rounding's, however
+/// small it is beside large forces, but that of contact which cycles; and a residual that always is.
+constexpr double kLargestRounding = 1e-6;
+constexpr double kLargestRoundingShare = 1e-4;
+constexpr double kRoundingResidual = 1e-14;
+/// The same for a correction that is not taken.
+constexpr double kLargestLeft = 1e-8;
 
 /// A correction (displacement gradient) that is rounding's, of sums of direction cosines, and its share of
 /// the step; and how many come first. Very stiff supports make a large residual of it.
@@ -107,13 +114,14 @@ double least_energy(EquilibriumProblem& problem, const Eigen::VectorXd& y, doubl
 /// @param exact whether another may follow that leaves less than this one
 /// @return false when neither is
 bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, bool exact, Eigen::VectorXd& y,
-               double& lambda, double dlambda, const CorrectorOutcome& out, Workspace& work) {
+               double& lambda, double dlambda, double correction, const CorrectorOutcome& out,
+               Workspace& work) {
   work.trial = y + work.correction;
   if (exact || problem.one_sided()) {
     problem.residual(work.trial, lambda + dlambda, work.residual);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
     if (problem.one_sided() && size > std::max(out.relative_residual, options.residual_floor))
-      return out.relative_residual <= options.stagnant_residual;
+      return correction <= kLargestLeft && out.relative_residual <= options.stagnant_residual;
     // one that leaves more was not the last, but where residuals are smooth and no longer fall
     const bool falls = problem.one_sided() || size <= kStagnantShare * out.relative_residual;
     if (exact && falls && size > options.residual_floor &&
@@ -159,15 +167,22 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     ++out.factorisations;
     out.relative_residual = problem.relative_residual(work.residual, y, lambda);
     if (!std::isfinite(out.relative_residual)) return out;
-    const bool small =
-        expected <= options.tolerance * scale && out.relative_residual <= options.largest_residual;
-    const bool stagnant = it >= kStagnantIterations && out.relative_residual <= options.stagnant_residual &&
-                          out.relative_residual > kStagnantShare * last_residual;
-    const bool last = it > 0 && (small || stagnant || out.relative_residual <= options.residual_floor);
-    last_residual = out.relative_residual;
     const double dlambda = find_correction(problem, side, y, lambda, work);
     const double size = metric.norm(work.correction, dlambda);
     if (!std::isfinite(size)) return out;
+    // quadratic convergence, as the correction before let it expect and as this one does
+    const double ratio = std::min(1.0, size / previous);
+    const bool small = std::max(expected, size * ratio * ratio) <= options.tolerance * scale &&
+                       out.relative_residual <= options.largest_residual;
+    // damped corrections fall towards where the residual is least, although it may not vanish there
+    const bool rounding =
+        !options.damped && (out.relative_residual <= kRoundingResidual ||
+                            size <= std::min(kLargestRounding, kLargestRoundingShare * scale));
+    const bool stagnant = it >= kStagnantIterations && out.relative_residual <= options.stagnant_residual &&
+                          out.relative_residual > kStagnantShare * last_residual;
+    const bool least_left = stagnant || out.relative_residual <= options.residual_floor;
+    const bool last = it > 0 && (small || (rounding && least_left));
+    last_residual = out.relative_residual;
     if (it == 0) {
       out.first_correction = size;
       out.first_residual = out.relative_residual;
@@ -182,7 +197,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     const bool near = size <= options.tangent_tolerance * scale &&
                       out.relative_residual <= kNearResidual * options.tangent_tolerance;
     const bool exact = options.tangent_tolerance == 0.0 && !stagnant;
-    if ((last || near) && take_last(problem, options, exact, y, lambda, dlambda, out, work)) {
+    if ((last || near) && take_last(problem, options, exact, y, lambda, dlambda, size, out, work)) {
       out.status = CorrectorStatus::converged;
       return out;
     }
@@ -196,9 +211,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     if (size > 0.5 * least && out.relative_residual > options.stagnant_residual) ++stalled;
     least = std::min(least, size);
     if (stalled > options.most_stalled && !options.damped) break;
-    // quadratic convergence: the next ratio of corrections is about this one squared
-    const double ratio = share < 1.0 ? 1.0 : std::min(1.0, size / previous);
-    expected = size * ratio * ratio;
+    expected = share < 1.0 ? size : size * ratio * ratio;
     previous = size;
   }
   out.status = settled_to_rounding(problem, y, lambda, out, work) ? CorrectorStatus::converged

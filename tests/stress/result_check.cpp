@@ -243,7 +243,8 @@ void Check::state(std::size_t index, std::optional<CountRange> negative) {
          " times its tolerance: " + at.worst);
   if (at.reported_force > 1.0)
     fail("section_force: state " + std::to_string(index) + " at load factor " + text(s.load_factor) +
-         ", off by " + text(at.reported_force) + " tolerances; the shape itself is in equilibrium");
+         ", off by " + text(at.reported_force) + " tolerances (" + at.worst +
+         "); the shape itself is in equilibrium");
   contact(s, at);
   constexpr int kMostUnknowns = 500;
   if (negative && tangent_size(rod_) <= kMostUnknowns) inertia(index, at, *negative);

@@ -33,6 +33,7 @@ class Evaluation {
   void collect_strip(const RodElement& element, const RodStrip& strip, ElementState& out) const;
   [[nodiscard]] double penetration(const RodElement& element, const RodStrip& strip, double xi,
                                    const ElementState& at) const;
+  [[nodiscard]] double rounding_of(const RodElement& element, const Functional& row) const;
   [[nodiscard]] Functional actions(const RodElement& element, const ElementState& at) const;
   void reported_force(int m);
   void member(int m);
@@ -210,6 +211,17 @@ Functional Evaluation::actions(const RodElement& element, const ElementState& at
   return r;
 }
 
+/// What the rounding of the samples leaves of a displacement that is read from the fitted polynomials.
+double Evaluation::rounding_of(const RodElement& element, const Functional& row) const {
+  double rounding = 0.0;
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    Eigen::RowVectorXd share = row.a[c] * element.fit.row(0);
+    share += row.v.row(c) * element.fit.bottomRows(row.v.cols());
+    rounding += (c < 2 ? noise_ : turn_noise_) * share.lpNorm<1>();
+  }
+  return rounding;
+}
+
 /// Section forces at the Gauss points from the force m through the end; m becomes that at the start.
 void Evaluation::forces(const RodElement& element, ElementState& at, Vector3d& m) {
   const Functional r = actions(element, at);
@@ -233,7 +245,7 @@ void Evaluation::forces(const RodElement& element, ElementState& at, Vector3d& m
   }
   for (Eigen::Index q = 0; q < p; ++q) at.M[q] -= r.v(2, q) / (element.h * rule.weights[q]);
   double noise = 0.0;
-  for (const RodSpring& spring : at.acting) noise += spring.stiffness * noise_;
+  for (const RodSpring& spring : at.acting) noise += spring.stiffness * rounding_of(element, spring.row);
   at.force_noise += noise + kConvergedForce * (m.head<2>().norm() + r.a.head<2>().norm());
   at.moment_noise += at.force_noise * element.h + kConvergedForce * std::abs(m[2]) +
                      m.head<2>().norm() * (noise_ + element.h * at.gradient_noise.maxCoeff());
@@ -406,8 +418,12 @@ RodState Evaluation::run() {
   pass();
   if (out_.residual > 1.0) {
     const double reported = out_.residual;
+    const std::string worst = out_.worst;
     for (int round = 0; round < 2; ++round) fit_end_forces();  // tolerances move with the forces
-    if (!rod_.concentrated && out_.residual <= 1.0) out_.reported_force = reported;
+    if (!rod_.concentrated && out_.residual <= 1.0) {
+      out_.reported_force = reported;
+      out_.worst = worst;
+    }
   }
   return std::move(out_);
 }
