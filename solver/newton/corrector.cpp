@@ -141,6 +141,55 @@ bool is_rounding(int iteration, double size, double scale, const CorrectorOption
          residual <= options.largest_residual;
 }
 
+/// What the corrections so far tell of the next.
+class Progress {
+ public:
+  Progress(const CorrectorOptions& options, double scale)
+      : options_(options), scale_(scale), previous_(scale) {}
+
+  /// Whether the correction of this size, before which the residual is `residual`, is the last.
+  [[nodiscard]] bool is_last(int iteration, double size, double residual) {
+    // quadratic convergence, as the correction before let it expect and as this one does
+    const bool small = std::max(expected_, size * ratio(size) * ratio(size)) <= options_.tolerance * scale_ &&
+                       residual <= options_.largest_residual;
+    // damped corrections fall towards where the residual is least, although it may not vanish there
+    const bool rounding =
+        !options_.damped &&
+        (residual <= kRoundingResidual || size <= std::min(kLargestRounding, kLargestRoundingShare * scale_));
+    stagnant_ = iteration >= kStagnantIterations && residual <= options_.stagnant_residual &&
+                residual > kStagnantShare * last_residual_;
+    last_residual_ = residual;
+    return iteration > 0 && (small || (rounding && (stagnant_ || residual <= options_.residual_floor)));
+  }
+  /// Whether the residual no longer falls, as is_last() found.
+  [[nodiscard]] bool stagnant() const { return stagnant_; }
+  /// Whether the first correction or its growth shows that the predictor said nothing.
+  [[nodiscard]] bool runs_away(int iteration, double size) const {
+    return size > (iteration == 0 ? options_.largest_first * scale_ : options_.largest_growth * previous_);
+  }
+  /// Takes in a correction of which `share` was taken; false when too many did not shrink.
+  [[nodiscard]] bool goes_on(double size, double share, double residual) {
+    // damped corrections may grow while the residual falls, and near rounding nothing falls
+    if (size > 0.5 * least_ && residual > options_.stagnant_residual) ++stalled_;
+    least_ = std::min(least_, size);
+    expected_ = share < 1.0 ? size : size * ratio(size) * ratio(size);
+    previous_ = size;
+    return stalled_ <= options_.most_stalled || options_.damped;
+  }
+
+ private:
+  [[nodiscard]] double ratio(double size) const { return std::min(1.0, size / previous_); }
+
+  const CorrectorOptions& options_;
+  double scale_;
+  double previous_;
+  double expected_ = std::numeric_limits<double>::infinity();  ///< size of the next correction
+  double last_residual_ = std::numeric_limits<double>::infinity();
+  double least_ = std::numeric_limits<double>::infinity();
+  int stalled_ = 0;
+  bool stagnant_ = false;
+};
+
 /// Whether what the corrections left is what the supports' rounding leaves anyway.
 bool settled_to_rounding(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lambda,
                          CorrectorOutcome& out, Workspace& work) {
@@ -157,62 +206,40 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
                          double scale, const CorrectorOptions& options, Eigen::VectorXd& y, double& lambda,
                          Workspace& work) {
   CorrectorOutcome out;
-  double previous = scale;
-  double expected = std::numeric_limits<double>::infinity();
-  double last_residual = std::numeric_limits<double>::infinity();
-  double least = std::numeric_limits<double>::infinity();
-  int stalled = 0;
+  Progress progress(options, scale);
   for (int it = 0; it < options.max_iterations; ++it) {
     out.tangent = problem.linearise(y, lambda, work.residual);
     ++out.factorisations;
-    out.relative_residual = problem.relative_residual(work.residual, y, lambda);
-    if (!std::isfinite(out.relative_residual)) return out;
+    const double residual = problem.relative_residual(work.residual, y, lambda);
+    out.relative_residual = residual;
+    if (!std::isfinite(residual)) return out;
     const double dlambda = find_correction(problem, side, y, lambda, work);
     const double size = metric.norm(work.correction, dlambda);
     if (!std::isfinite(size)) return out;
-    // quadratic convergence, as the correction before let it expect and as this one does
-    const double ratio = std::min(1.0, size / previous);
-    const bool small = std::max(expected, size * ratio * ratio) <= options.tolerance * scale &&
-                       out.relative_residual <= options.largest_residual;
-    // damped corrections fall towards where the residual is least, although it may not vanish there
-    const bool rounding =
-        !options.damped && (out.relative_residual <= kRoundingResidual ||
-                            size <= std::min(kLargestRounding, kLargestRoundingShare * scale));
-    const bool stagnant = it >= kStagnantIterations && out.relative_residual <= options.stagnant_residual &&
-                          out.relative_residual > kStagnantShare * last_residual;
-    const bool least_left = stagnant || out.relative_residual <= options.residual_floor;
-    const bool last = it > 0 && (small || (rounding && least_left));
-    last_residual = out.relative_residual;
+    const bool last = progress.is_last(it, size, residual);
     if (it == 0) {
       out.first_correction = size;
-      out.first_residual = out.relative_residual;
+      out.first_residual = residual;
     }
-    if (is_rounding(it, size, scale, options, out.relative_residual)) {
+    if (is_rounding(it, size, scale, options, residual)) {
       out.status = CorrectorStatus::converged;
       return out;
     }
-    if (size > (it == 0 ? options.largest_first * scale : options.largest_growth * previous) &&
-        out.relative_residual > options.stagnant_residual)
-      return out;
-    const bool near = size <= options.tangent_tolerance * scale &&
-                      out.relative_residual <= kNearResidual * options.tangent_tolerance;
-    const bool exact = options.tangent_tolerance == 0.0 && !stagnant;
+    if (progress.runs_away(it, size) && residual > options.stagnant_residual) return out;
+    const bool near =
+        size <= options.tangent_tolerance * scale && residual <= kNearResidual * options.tangent_tolerance;
+    const bool exact = options.tangent_tolerance == 0.0 && !progress.stagnant();
     if ((last || near) && take_last(problem, options, exact, y, lambda, dlambda, size, out, work)) {
       out.status = CorrectorStatus::converged;
       return out;
     }
     const double share = options.least_energy ? least_energy(problem, y, lambda, work)
-                         : options.damped ? damping(problem, y, lambda, dlambda, out.relative_residual, work)
-                                          : 1.0;
+                         : options.damped     ? damping(problem, y, lambda, dlambda, residual, work)
+                                              : 1.0;
     y += share * work.correction;
     lambda += share * dlambda;
     if (size > options.largest_correction * scale) return out;
-    // damped corrections may grow while the residual falls, and near rounding nothing falls
-    if (size > 0.5 * least && out.relative_residual > options.stagnant_residual) ++stalled;
-    least = std::min(least, size);
-    if (stalled > options.most_stalled && !options.damped) break;
-    expected = share < 1.0 ? size : size * ratio * ratio;
-    previous = size;
+    if (!progress.goes_on(size, share, residual)) break;
   }
   out.status = settled_to_rounding(problem, y, lambda, out, work) ? CorrectorStatus::converged
                                                                   : CorrectorStatus::too_many_iterations;
