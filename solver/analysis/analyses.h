@@ -58,8 +58,8 @@ void fail(Result& result, const char* code, const std::string& detail);
 ///
 /// Constant actions are put on by a path of their own, from nothing to their full size.
 /// @return empty, with the failure in `result`, when there is no such state or it is not stable
-[[nodiscard]] std::optional<PathPoint> start_of_path(const Structure& structure, StructuralProblem& problem,
-                                                     Continuation& continuation, double direction,
-                                                     const Hooks& hooks, Result& result);
+[[nodiscard]] std::optional<PathPoint> start_of_path(const Model& model, const Structure& structure,
+                                                     StructuralProblem& problem, Continuation& continuation,
+                                                     double direction, const Hooks& hooks, Result& result);
 
 }  // namespace snapthrough

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 #include "solver/analysis/analyses.h"
 #include "solver/path/trace.h"
@@ -39,14 +40,34 @@ void fail(Result& result, const char* code, const std::string& detail) {
   result.summary.message = detail;
 }
 
-std::optional<PathPoint> start_of_path(const Structure& structure, StructuralProblem& problem,
-                                       Continuation& continuation, double direction, const Hooks& hooks,
-                                       Result& result) {
-  const char* nothing =
-      "no equilibrium was found for the first small load: contact alone may not hold the structure";
+namespace {
+
+/// Why there is no equilibrium under the first small load.
+std::string nothing_found(const Model& model, const Structure& structure, const Continuation& continuation) {
+  const Eigen::VectorXd& motion = continuation.loose_motion();
+  if (motion.size() == 0)
+    return "no equilibrium was found for the first small load: contact alone may not hold the structure";
+  std::size_t node = 0;
+  double largest = 0.0;
+  for (int j = 0; j < structure.joints; ++j) {
+    const double size = motion.segment<2>(3 * j).lpNorm<Eigen::Infinity>();
+    if (size <= largest) continue;
+    largest = size;
+    node = static_cast<std::size_t>(j);
+  }
+  return "under the first small load a part of the structure can move freely: nothing presses it onto its "
+         "one-sided supports, and nothing else holds it (the motion is largest near node \"" +
+         model.nodes[node].id + "\")";
+}
+
+}  // namespace
+
+std::optional<PathPoint> start_of_path(const Model& model, const Structure& structure,
+                                       StructuralProblem& problem, Continuation& continuation,
+                                       double direction, const Hooks& hooks, Result& result) {
   if (!structure.has_constant) {
     auto start = continuation.start(direction);
-    if (!start) fail(result, "no_start", nothing);
+    if (!start) fail(result, "no_start", nothing_found(model, structure, continuation));
     return start;
   }
   problem.set_stage(StructuralProblem::Stage::constant);
@@ -72,6 +93,11 @@ std::optional<PathPoint> start_of_path(const Structure& structure, StructuralPro
              " at " + number(outcome.last.lambda) + " of them");
     return std::nullopt;
   }
+  if (outcome.end == TraceEnd::no_start) {
+    fail(result, "constant_actions",
+         "the constant actions can't be put on: " + nothing_found(model, structure, loading));
+    return std::nullopt;
+  }
   if (outcome.end != TraceEnd::load_factor) {
     fail(result, "constant_actions",
          "the constant actions can't be put on: equilibrium was followed to " + number(outcome.last.lambda) +
@@ -79,7 +105,7 @@ std::optional<PathPoint> start_of_path(const Structure& structure, StructuralPro
     return std::nullopt;
   }
   auto start = continuation.start_at(outcome.last.y, direction);
-  if (!start) fail(result, "no_start", nothing);
+  if (!start) fail(result, "no_start", nothing_found(model, structure, continuation));
   return start;
 }
 

@@ -210,7 +210,7 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
   StructuralProblem problem(structure);
   Continuation continuation(problem, options_of(analysis));
   Recorder recorder(model, analysis, structure, continuation, result);
-  const auto start = start_of_path(structure, problem, continuation, 1.0, hooks, result);
+  const auto start = start_of_path(model, structure, problem, continuation, 1.0, hooks, result);
   if (start) {
     CriticalLoads loads(model, analysis, structure, continuation, result);
     const TraceSink sink = loads.watch(recorder.sink(hooks));

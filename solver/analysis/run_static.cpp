@@ -58,14 +58,14 @@ bool solve_linear(const Structure& structure, StructuralProblem& problem, double
 
 /// Follows the path towards the factors of one sign and keeps the states it passes; false when it ends before
 /// the last.
-bool follow(const Analysis& analysis, const Structure& structure, double direction, const Hooks& hooks,
-            StaticStates& states, Result& result) {
+bool follow(const Model& model, const Analysis& analysis, const Structure& structure, double direction,
+            const Hooks& hooks, StaticStates& states, Result& result) {
   double last = 0.0;
   for (const double factor : analysis.load_factors)
     if (factor * direction > 0.0 || factor == 0.0) last = std::max(last, factor * direction);
   StructuralProblem problem(structure);
   Continuation continuation(problem, {});
-  const auto start = start_of_path(structure, problem, continuation, direction, hooks, result);
+  const auto start = start_of_path(model, structure, problem, continuation, direction, hooks, result);
   if (!start) return false;
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
     if (analysis.load_factors[i] == 0.0) states.set(i, start->y);
@@ -130,8 +130,8 @@ void run_static(const Model& model, const Analysis& analysis, const Structure& s
                                      [](double factor) { return factor < 0.0; });
     const bool growing = std::any_of(analysis.load_factors.begin(), analysis.load_factors.end(),
                                      [](double factor) { return factor >= 0.0; });
-    if (growing) static_cast<void>(follow(analysis, structure, 1.0, hooks, states, result));
-    if (falling) static_cast<void>(follow(analysis, structure, -1.0, hooks, states, result));
+    if (growing) static_cast<void>(follow(model, analysis, structure, 1.0, hooks, states, result));
+    if (falling) static_cast<void>(follow(model, analysis, structure, -1.0, hooks, states, result));
   }
   for (std::size_t i = 0; i < analysis.load_factors.size() && !result.failure; ++i)
     if (!states.has(i))

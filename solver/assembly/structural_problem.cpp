@@ -204,6 +204,7 @@ void StructuralProblem::add_follower_ends(double lambda, TangentReport& report) 
       follower_ends_.prepare(proportional, constant, size(), [this](VectorXd& x) { solve_symmetric(x); });
   report.log_abs_det += std::log(std::max(std::abs(det), std::numeric_limits<double>::min()));
   if (det < 0.0) report.negative += report.negative > 0 ? -1 : 1;
+  report.parity_only = true;
 }
 
 void StructuralProblem::solve(VectorXd& x) {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "solver/linalg/pseudo_random.h"
+
 namespace snapthrough {
 
 using Eigen::VectorXd;
@@ -58,6 +60,8 @@ constexpr double kSmallStart = 1e-7;
 /// Largest share of the critical load's scale for that step.
 constexpr double kSmallLoad = 1e-4;
 
+/// Displacement gradient that the load is never weighed below.
+constexpr double kLeastMovement = 1e-8;
 /// Share of the load in the path's norm, over that of the displacement, at which the load is weighed anew.
 constexpr double kLoadDominates = 3.0;
 
@@ -82,6 +86,15 @@ bool keeps_orientation(const PathPoint& from, const PathPoint& to) {
   return (from.negative % 2 == to.negative % 2) == ((from.tangent_lambda > 0.0) == (to.tangent_lambda > 0.0));
 }
 
+/// Negative eigenvalues next to a point that has `before` of them. Where the tangent is not symmetric, real
+/// eigenvalues pass zero where the determinant does; its symmetric part may lose its sign elsewhere, and only
+/// tells which way a change goes.
+int count_next_to(int before, const TangentReport& report) {
+  if (!report.parity_only || report.negative == 0) return report.negative;
+  if (report.negative % 2 == before % 2) return before;
+  return report.negative > before ? before + 1 : before - 1;
+}
+
 }  // namespace
 
 Continuation::Continuation(EquilibriumProblem& problem, ContinuationOptions options)
@@ -104,6 +117,25 @@ bool Continuation::unit_response(const VectorXd& at, double lambda, bool bonded,
   problem_.load(at, lambda, response);
   problem_.solve(response);
   return response.allFinite() && metric_.norm(response, 0.0) < kSingularResponse;
+}
+
+/// Whether the tangent whose factors are at hand, of a state on one-sided supports, lets some part move that
+/// the supports would hold if they were glued to it: nothing loads it, or it would lean on them. All states
+/// that differ by this motion are equilibria, and signs of determinants are rounding's.
+bool Continuation::is_loose() {
+  VectorXd motion = metric_.weights->cwiseProduct(pseudo_random(problem_.size(), 1U));
+  VectorXd held = motion;
+  problem_.solve(motion);
+  const double size = metric_.norm(motion, 0.0);
+  if (size < kSingularResponse) return false;
+  problem_.set_bonded(true);
+  problem_.linearise(VectorXd::Zero(problem_.size()), 0.0, work_.residual);
+  problem_.set_bonded(false);
+  ++statistics_.factorizations;
+  problem_.solve(held);
+  if (size < kSingularResponse * metric_.norm(held, 0.0)) return false;
+  loose_motion_ = std::move(motion);
+  return true;
 }
 
 /// The start of a path on which supports may act on one side only: what they do under a very small load.
@@ -131,8 +163,10 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
     const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations,
                                           guess.size() > 0 ? &guess : nullptr);
     const double size = state ? metric_.norm(state->y, 0.0) : 0.0;
-    if (state && size <= 10.0 * kSmallStart)
+    if (state && size <= 10.0 * kSmallStart) {
+      if (is_loose()) return std::nullopt;
       return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
+    }
     if (state && size > 0.5 * last) return start_at_rest(std::move(rest), direction);
     const double fall = state ? std::max(kSmallStart / size, kLargestFall) : 0.01;
     if (state) {
@@ -204,13 +238,13 @@ std::optional<PathPoint> Continuation::start_at(const VectorXd& y, double direct
   return first_point(y, 0.0, response, direction, report);
 }
 
-void Continuation::set_tangent(PathPoint& point, const CorrectorOutcome& outcome, const VectorXd& direction,
-                               double direction_lambda) {
+void Continuation::set_tangent(PathPoint& point, int before, const CorrectorOutcome& outcome,
+                               const VectorXd& direction, double direction_lambda) {
   const double norm = metric_.norm(work_.load_response, 1.0);
   const double sign = metric_.inner(work_.load_response, 1.0, direction, direction_lambda) < 0.0 ? -1.0 : 1.0;
   point.tangent = (sign / norm) * work_.load_response;
   point.tangent_lambda = sign / norm;
-  point.negative = outcome.tangent.negative;
+  point.negative = count_next_to(before, outcome.tangent);
   point.log_abs_det = outcome.tangent.log_abs_det;
 }
 
@@ -245,7 +279,7 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   const auto outcome = correct_step(from, step, movement, to);
   Trial trial;
   if (outcome.status != CorrectorStatus::converged) return trial;
-  set_tangent(to, outcome, from.tangent, from.tangent_lambda);
+  set_tangent(to, from.negative, outcome, from.tangent, from.tangent_lambda);
   const double cosine =
       std::clamp(metric_.inner(to.tangent, to.tangent_lambda, from.tangent, from.tangent_lambda), -1.0, 1.0);
   trial.converged = true;
@@ -273,7 +307,7 @@ bool Continuation::step_by_movement(const PathPoint& from, double size, PathPoin
   if (movement == 0.0) return false;
   const auto outcome = correct_step(from, size, movement, to);
   if (outcome.status != CorrectorStatus::converged) return false;
-  set_tangent(to, outcome, from.tangent, 0.0);
+  set_tangent(to, from.negative, outcome, from.tangent, 0.0);
   const double along = metric_.inner(to.tangent, 0.0, from.tangent, 0.0);
   const double norms = metric_.norm(to.tangent, 0.0) * metric_.norm(from.tangent, 0.0);
   to.arc_length = from.arc_length + arc(from, to);
@@ -308,7 +342,7 @@ bool Continuation::turn(const PathPoint& from, double size, PathPoint& to) {
   const double norm = metric_.norm(response, 1.0);
   corner.tangent = response / norm;
   corner.tangent_lambda = 1.0 / norm;
-  corner.negative = report.negative;
+  corner.negative = count_next_to(from.negative, report);
   if (!keeps_orientation(from, corner)) {
     corner.tangent = -corner.tangent;
     corner.tangent_lambda = -corner.tangent_lambda;
@@ -343,7 +377,7 @@ bool Continuation::settle_beyond(const PathPoint& from, double size, PathPoint& 
   }
   if (outcome.status != CorrectorStatus::converged || outcome.tangent.negative > 0) return false;
   const VectorXd movement = to.y - from.y;
-  set_tangent(to, outcome, movement, dlambda);
+  set_tangent(to, from.negative, outcome, movement, dlambda);
   to.arc_length = from.arc_length + arc(from, to);
   const VectorXd missed = movement - (dlambda / to.tangent_lambda) * to.tangent;
   return metric_.norm(missed, 0.0) <= kProportional * metric_.norm(movement, dlambda) &&
@@ -411,13 +445,15 @@ void Continuation::settle(const PathPoint& from, PathPoint& point) {
   const auto outcome = correct(problem_, metric_, side_, scale, options, settled.y, settled.lambda, work_);
   count(outcome);
   if (outcome.status != CorrectorStatus::converged) return;
-  set_tangent(settled, outcome, point.tangent, point.tangent_lambda);
+  set_tangent(settled, from.negative, outcome, point.tangent, point.tangent_lambda);
   point = std::move(settled);
 }
 
-void Continuation::weigh_load(PathPoint& at, StepSize& step) {
+void Continuation::weigh_load(bool to_limit, PathPoint& at, StepSize& step) {
+  const bool stuck = step.wanted < kTurnShrink * easy_size_;
+  if (!to_limit && !stuck) return;
   const double loaded = std::sqrt(metric_.load_weight) * std::abs(at.lambda);
-  const double moved = std::max(metric_.norm(at.y, 0.0), kSmallGradient);
+  const double moved = std::max(metric_.norm(at.y, 0.0), stuck ? kLeastMovement : kSmallGradient);
   if (loaded <= kLoadDominates * moved) return;
   metric_.load_weight *= (moved / loaded) * (moved / loaded);
   const double length = metric_.norm(at.tangent, at.tangent_lambda);
@@ -505,7 +541,8 @@ std::optional<PathPoint> Continuation::between(const Chord& chord, const PathPoi
     count(outcome);
   }
   if (outcome.status != CorrectorStatus::converged) return std::nullopt;
-  set_tangent(point, outcome, chord.y, chord.lambda);
+  const bool at_start = outcome.tangent.negative % 2 == lo.negative % 2;
+  set_tangent(point, at_start ? lo.negative : hi.negative, outcome, chord.y, chord.lambda);
   point.arc_length = (1.0 - share) * lo.arc_length + share * hi.arc_length;
   return point;
 }

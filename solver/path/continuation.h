@@ -95,7 +95,7 @@ class Continuation {
   /// carries far more than its members' scale says would meet its limit load as a corner. Arc lengths stay in
   /// the norm that the path began with.
   /// @param at the point to go on from; its tangent is normalised again
-  void weigh_load(PathPoint& at, StepSize& step);
+  void weigh_load(bool to_limit, PathPoint& at, StepSize& step);
   /// @brief Takes the last step back, because it jumped to another path: the next one will be shorter.
   void reject(StepSize& step);
   /// @brief Corrects a point as far as rounding allows where it was corrected for its tangent only, so that
@@ -131,6 +131,9 @@ class Continuation {
   [[nodiscard]] const ContinuationOptions& options() const { return options_; }
   [[nodiscard]] const ContinuationStatistics& statistics() const { return statistics_; }
   [[nodiscard]] const PathMetric& metric() const { return metric_; }
+  /// @brief Motion that nothing resists under the first small load, which start() found no path from: a part
+  /// of the structure that one-sided supports touch without pressure, or not at all. Empty: none.
+  [[nodiscard]] const Eigen::VectorXd& loose_motion() const { return loose_motion_; }
   /// Scale of the first critical load factor that the load is measured by.
   [[nodiscard]] double load_scale() const { return load_scale_; }
   /// Load beyond which nothing of interest can be: far above what buckles the weakest member, and above what
@@ -142,13 +145,15 @@ class Continuation {
   [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, double lambda, bool bonded,
                                    Eigen::VectorXd& response, TangentReport& report);
   [[nodiscard]] std::optional<PathPoint> one_sided_start(double direction);
+  [[nodiscard]] bool is_loose();
   [[nodiscard]] std::optional<PathPoint> start_at_rest(PathPoint rest, double direction);
   [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, double lambda,
                                       const Eigen::VectorXd& response, double direction,
                                       const TangentReport& report);
   void set_load_scale(const Eigen::VectorXd& response);
-  void set_tangent(PathPoint& point, const CorrectorOutcome& outcome, const Eigen::VectorXd& direction,
-                   double direction_lambda);
+  /// @param before negative eigenvalues of a point next to it
+  void set_tangent(PathPoint& point, int before, const CorrectorOutcome& outcome,
+                   const Eigen::VectorXd& direction, double direction_lambda);
   /// What came of one attempt at a step.
   struct Trial {
     bool converged = false;
@@ -182,6 +187,7 @@ class Continuation {
   double load_bound_ = 1.0;
   double arc_weight_ = 1.0;  ///< of the load in arc lengths
   Corner corner_;
+  Eigen::VectorXd loose_motion_;
   double easy_size_ = 0.0;  ///< of the last step that was accepted at its first size
   Workspace work_;
   SideCondition side_;

@@ -11,6 +11,8 @@ namespace snapthrough {
 struct TangentReport {
   int negative = 0;          ///< negative eigenvalues of the constrained tangent stiffness
   double log_abs_det = 0.0;  ///< of the tangent, up to a constant of the problem
+  /// The tangent is not symmetric: only whether `negative` is odd is certain, as the determinant's sign is.
+  bool parity_only = false;
 };
 
 /// @brief F(y, lambda) = 0 with a symmetric tangent J = dF/dy.

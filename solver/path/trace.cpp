@@ -219,8 +219,7 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
                                         rules_.tolerance);
     if (accept(from, to, located.events, bound)) break;
     std::swap(from, to);
-    // on the way to a limit; a path that is followed beyond for its own sake would go by smaller steps
-    if (rules_.first_loss_of_stability || rules_.limit_points) continuation_.weigh_load(from, size);
+    continuation_.weigh_load(rules_.first_loss_of_stability || rules_.limit_points.has_value(), from, size);
   }
   return std::move(out_);
 }

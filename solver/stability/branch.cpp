@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/linalg/pseudo_random.h"
+
 namespace snapthrough {
 namespace {
 
@@ -17,12 +19,7 @@ VectorXd null_vector(Continuation& continuation, const PathPoint& point) {
   const VectorXd& weights = problem.metric();
   VectorXd residual;
   problem.linearise(point.y, point.lambda, residual);
-  VectorXd x(problem.size());
-  unsigned state = 97u;
-  for (double& value : x) {
-    state = state * 1664525u + 1013904223u;
-    value = static_cast<double>(state >> 8) / static_cast<double>(1u << 24) - 0.5;
-  }
+  VectorXd x = pseudo_random(problem.size(), 1U);
   for (int it = 0; it < kInverseIterations; ++it) {
     x = weights.cwiseProduct(x).eval();
     problem.solve(x);

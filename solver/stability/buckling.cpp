@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "solver/linalg/pseudo_random.h"
 #include "solver/newton/corrector.h"
 #include "solver/stability/load_bracket.h"
 
@@ -130,16 +131,6 @@ void isolate(Pencil& pencil, const LoadBracket& bracket, int wanted, std::vector
   const int below = std::clamp(pencil.count(middle), bracket.below_lo, bracket.below_hi);
   isolate(pencil, {bracket.lo, middle, bracket.below_lo, below}, wanted, out);
   isolate(pencil, {middle, bracket.hi, below, bracket.below_hi}, wanted, out);
-}
-
-VectorXd pseudo_random(Index size, unsigned seed) {
-  VectorXd x(size);
-  unsigned state = seed * 2654435761u + 12345u;
-  for (double& value : x) {
-    state = state * 1664525u + 1013904223u;
-    value = static_cast<double>(state >> 8) / static_cast<double>(1u << 24) - 0.5;
-  }
-  return x;
 }
 
 struct EigenPair {

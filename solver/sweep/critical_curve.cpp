@@ -276,7 +276,8 @@ CriticalCurvePoint Follower::trace_at(double value) {
   CriticalCurvePoint point{value, std::nullopt, CriticalType::limit_max, false, ""};
   auto member = std::make_unique<Family>(request_, value);
   Result result;
-  const auto start = start_of_path(member->structure, member->problem, member->continuation, 1.0, {}, result);
+  const auto start =
+      start_of_path(member->model, member->structure, member->problem, member->continuation, 1.0, {}, result);
   if (!start) {
     point.failure = result.failure ? result.failure->code : "no_start";
     return point;

@@ -187,6 +187,15 @@ ConstrainedTangent tangent_of(const RodModel& rod, const RodState& at, double lo
     K.block(3L * spring.node, 3L * spring.node, 3, 3) +=
         spring.stiffness * spring.row * spring.row.transpose();
   }
+  out.rest = MatrixXd::Zero(K.rows(), K.cols());
+  for (std::size_t m = 0; m < rod.members.size(); ++m) {
+    const RodElement& element = rod.elements[rod.mesh.first[m]];
+    const double half = 0.5 * (load_factor * element.pressure[0] + element.pressure[1]);
+    for (const auto& [node, sign] : {std::pair{start[m], -1.0}, std::pair{end[m], 1.0}}) {
+      out.rest(node[0], node[1]) -= sign * half;
+      out.rest(node[1], node[0]) += sign * half;
+    }
+  }
   const MatrixXd upper = K.bottomLeftCorner(constraints, free).transpose();
   K.topRightCorner(free, constraints) = upper;
   return out;

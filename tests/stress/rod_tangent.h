@@ -13,6 +13,8 @@ namespace snapthrough::testing {
 struct ConstrainedTangent {
   MatrixXd matrix;
   int constraints = 0;
+  /// Antisymmetric rest of the tangent, which follower pressure leaves where pressed lines end.
+  MatrixXd rest;
 };
 
 /// Size of the matrix without building it.
