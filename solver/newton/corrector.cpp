@@ -145,17 +145,18 @@ bool is_rounding(int iteration, double size, double scale, const CorrectorOption
 class Progress {
  public:
   Progress(const CorrectorOptions& options, double scale)
-      : options_(options), scale_(scale), previous_(scale) {}
+      : options_(options), scale_(scale), movement_(std::min(scale, options.movement)), previous_(scale) {}
 
   /// Whether the correction of this size, before which the residual is `residual`, is the last.
   [[nodiscard]] bool is_last(int iteration, double size, double residual) {
     // quadratic convergence, as the correction before let it expect and as this one does
-    const bool small = std::max(expected_, size * ratio(size) * ratio(size)) <= options_.tolerance * scale_ &&
-                       residual <= options_.largest_residual;
+    const bool small =
+        std::max(expected_, size * ratio(size) * ratio(size)) <= options_.tolerance * movement_ &&
+        residual <= options_.largest_residual;
     // damped corrections fall towards where the residual is least, although it may not vanish there
     const bool rounding =
-        !options_.damped &&
-        (residual <= kRoundingResidual || size <= std::min(kLargestRounding, kLargestRoundingShare * scale_));
+        !options_.damped && (residual <= kRoundingResidual ||
+                             size <= std::min(kLargestRounding, kLargestRoundingShare * movement_));
     stagnant_ = iteration >= kStagnantIterations && residual <= options_.stagnant_residual &&
                 residual > kStagnantShare * last_residual_;
     last_residual_ = residual;
@@ -182,6 +183,7 @@ class Progress {
 
   const CorrectorOptions& options_;
   double scale_;
+  double movement_;
   double previous_;
   double expected_ = std::numeric_limits<double>::infinity();  ///< size of the next correction
   double last_residual_ = std::numeric_limits<double>::infinity();

@@ -39,6 +39,8 @@ struct CorrectorOptions {
   int max_iterations = 12;
   int most_stalled = 3;     ///< corrections that are not half the least so far: it does not converge
   double tolerance = 1e-9;  ///< on the predicted norm of the next correction, relative to the step
+  /// What the tolerance is relative to where it is less than the step: the displacement part of it.
+  double movement = std::numeric_limits<double>::infinity();
   /// A correction below this share of the step is the last: the tangent at hand is the path's to this share,
   /// the point to about its square. Zero: iterates to `tolerance`.
   double tangent_tolerance = 0.0;

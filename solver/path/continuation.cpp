@@ -253,6 +253,8 @@ void Continuation::set_tangent(PathPoint& point, int before, const CorrectorOutc
 CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, double movement,
                                             PathPoint& to) {
   CorrectorOptions options = options_.corrector;
+  // supports act on a structure that hardly moves under much load, too
+  if (problem_.one_sided()) options.movement = std::max(step * metric_.norm(from.tangent, 0.0), kLeastNoise);
   const bool patient = step < kPatientShare * easy_size_;
   if (!patient) {
     options.largest_first = kLargestCorrection;
@@ -436,7 +438,7 @@ void Continuation::limit_steps(const StepOptions& steps, double load_rate) {
 
 void Continuation::settle(const PathPoint& from, PathPoint& point) {
   CorrectorOptions options = options_.corrector;
-  if (options.tangent_tolerance == 0.0) return;
+  if (options.tangent_tolerance == 0.0 && !problem_.one_sided()) return;
   options.tangent_tolerance = 0.0;
   side_.normal = metric_.weights->cwiseProduct(point.tangent);
   side_.normal_lambda = metric_.load_weight * point.tangent_lambda;

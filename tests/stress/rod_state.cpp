@@ -24,7 +24,8 @@ constexpr double kUlps = 4.0;
 
 class Evaluation {
  public:
-  Evaluation(const RodModel& rod, const State& state) : rod_(rod), state_(state) {}
+  Evaluation(const RodModel& rod, const State& state, double closer)
+      : rod_(rod), state_(state), closer_(closer) {}
   RodState run();
 
  private:
@@ -46,6 +47,7 @@ class Evaluation {
 
   const RodModel& rod_;
   const State& state_;
+  double closer_;  ///< to one-sided supports, in roundings
   RodState out_;
   double noise_ = 0.0;  ///< of a displacement
   double turn_noise_ = 0.0;
@@ -106,8 +108,9 @@ void Evaluation::shape(const RodElement& element, ElementState& out) {
 
 double Evaluation::penetration(const RodElement& element, const RodStrip& strip, double xi,
                                const ElementState& at) const {
-  const Vector3d d = direction_of(rod_, element, strip, xi);
-  return value_of(functional_at(rod_, element, xi, d), at.u) - strip.gap;
+  const Functional row = functional_at(rod_, element, xi, direction_of(rod_, element, strip, xi));
+  const double depth = value_of(row, at.u) - strip.gap;
+  return closer_ == 0.0 ? depth : depth + closer_ * rounding_of(element, row);
 }
 
 /// Where f is extreme in [a, b] on the side of `toward` zero, by golden sections.
@@ -180,7 +183,9 @@ void Evaluation::collect_strip(const RodElement& element, const RodStrip& strip,
 
 void Evaluation::collect(const RodElement& element, ElementState& out) const {
   for (const RodSpring& spring : element.springs)
-    if (!spring.one_sided || value_of(spring.row, out.u) > spring.gap) out.acting.push_back(spring);
+    if (!spring.one_sided ||
+        value_of(spring.row, out.u) + closer_ * rounding_of(element, spring.row) > spring.gap)
+      out.acting.push_back(spring);
   for (const RodStrip& strip : element.strips) collect_strip(element, strip, out);
 }
 
@@ -430,6 +435,8 @@ RodState Evaluation::run() {
 
 }  // namespace
 
-RodState evaluate(const RodModel& rod, const State& state) { return Evaluation(rod, state).run(); }
+RodState evaluate(const RodModel& rod, const State& state, double closer) {
+  return Evaluation(rod, state, closer).run();
+}
 
 }  // namespace snapthrough::testing

@@ -33,7 +33,9 @@ struct RodState {
 };
 
 /// @brief Evaluates a state; `state` has rod.points samples a member.
-[[nodiscard]] RodState evaluate(const RodModel& rod, const State& state);
+/// @param closer brings one-sided supports closer, by this many roundings of the displacement there: what
+/// changes with it is not decided by the state's digits
+[[nodiscard]] RodState evaluate(const RodModel& rod, const State& state, double closer = 0.0);
 
 /// Factor of the proportional and of the constant actions.
 [[nodiscard]] inline double factor(int pattern, double load_factor) {
