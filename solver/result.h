@@ -117,7 +117,7 @@ struct Diagnostics {
 /// A numerical failure: what could not be done and where it stood. The rest of the result holds what was
 /// reached.
 struct Failure {
-  std::string code;  ///< "no_convergence", "step_underflow", "cancelled", "no_start", ...
+  std::string code;  ///< "no_convergence", "step_underflow", "cancelled", "no_start", "loose_part", ...
   std::string detail;
 };
 

@@ -60,6 +60,12 @@ std::string nothing_found(const Model& model, const Structure& structure, const 
          model.nodes[node].id + "\")";
 }
 
+void fail_to_start(const Model& model, const Structure& structure, const Continuation& continuation,
+                   Result& result) {
+  const bool loose = continuation.loose_motion().size() > 0;
+  fail(result, loose ? "loose_part" : "no_start", nothing_found(model, structure, continuation));
+}
+
 }  // namespace
 
 std::optional<PathPoint> start_of_path(const Model& model, const Structure& structure,
@@ -67,7 +73,7 @@ std::optional<PathPoint> start_of_path(const Model& model, const Structure& stru
                                        double direction, const Hooks& hooks, Result& result) {
   if (!structure.has_constant) {
     auto start = continuation.start(direction);
-    if (!start) fail(result, "no_start", nothing_found(model, structure, continuation));
+    if (!start) fail_to_start(model, structure, continuation, result);
     return start;
   }
   problem.set_stage(StructuralProblem::Stage::constant);
@@ -105,7 +111,7 @@ std::optional<PathPoint> start_of_path(const Model& model, const Structure& stru
     return std::nullopt;
   }
   auto start = continuation.start_at(outcome.last.y, direction);
-  if (!start) fail(result, "no_start", nothing_found(model, structure, continuation));
+  if (!start) fail_to_start(model, structure, continuation, result);
   return start;
 }
 

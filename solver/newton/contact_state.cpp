@@ -46,13 +46,21 @@ bool first_guess(Attempt& attempt, bool bonded, ContactState& state) {
 bool settle(Attempt& attempt, ContactState& state) {
   const SideCondition load_control;
   double lambda = attempt.lambda;
-  const double scale = std::max(attempt.metric.norm(state.y, 0.0), 1e-14);
-  const auto outcome = correct(attempt.problem, attempt.metric, load_control, scale, attempt.options, state.y,
-                               lambda, attempt.work);
-  attempt.factorisations += outcome.factorisations;
-  state.tangent = outcome.tangent;
-  state.relative_residual = outcome.relative_residual;
-  return outcome.status == CorrectorStatus::converged;
+  constexpr double kSmaller = 0.1;
+  constexpr double kLeastScale = 1e-14;
+  // from a guess that is far too large again: corrections that were small beside it need not be so beside
+  // this
+  for (double scale = std::max(attempt.metric.norm(state.y, 0.0), kLeastScale);;) {
+    const auto outcome = correct(attempt.problem, attempt.metric, load_control, scale, attempt.options,
+                                 state.y, lambda, attempt.work);
+    attempt.factorisations += outcome.factorisations;
+    state.tangent = outcome.tangent;
+    state.relative_residual = outcome.relative_residual;
+    if (outcome.status != CorrectorStatus::converged) return false;
+    const double size = std::max(attempt.metric.norm(state.y, 0.0), kLeastScale);
+    if (size > kSmaller * scale) return true;
+    scale = size;
+  }
 }
 
 /// Newton's method with a grip; `state` changes only when it settles.

@@ -135,7 +135,11 @@ bool Tracer::is_known(const PathPoint& point) const {
 /// Reports what was found on a step; true when that ends the path.
 bool Tracer::take_events(const std::vector<CriticalEvent>& events) {
   for (const CriticalEvent& event : events) {
-    if (is_known(event.point)) return finish(TraceEnd::rejoined, event.point);
+    if (is_known(event.point)) {
+      PathPoint last = event.point;
+      last.negative = event.negative_before;  // what changes there is told where it was found first
+      return finish(TraceEnd::rejoined, last);
+    }
     const bool lost = event.negative_before == 0 && event.negative_after > 0;
     if (event.type != CriticalType::bifurcation) ++limit_points_;
     out_.critical.push_back(event);

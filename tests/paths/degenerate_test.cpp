@@ -107,6 +107,48 @@ TEST(Degenerate, StructureThatMovesUntilAGapClosesStartsThere) {
   EXPECT_NEAR(-tip.back() - 0.05, 10.0 / 1e4, 1e-5);
 }
 
+/// Half a ring, clamped at one end and free at the other, under follower pressure: the tangent is not
+/// symmetric, and its symmetric part loses its sign twice at once (at 20.4) where no eigenvalue passes zero.
+/// That is no bifurcation.
+TEST(Degenerate, FreeEndUnderFollowerPressureHasNoFalseBifurcation) {
+  Model model;
+  model.nodes = {{"a", -1.0, 0.0}, {"b", 1.0, 0.0}};
+  model.sections = {{"s", 1e6, 1.0, {}}};
+  model.members = {{"m", "a", "b", "s", ArcCurve{180.0}, false, false}};
+  model.supports = {support("a", "xyr")};
+  model.loads = {PressureLoad{"m", 1.0, Side::left, Pattern::proportional}};
+  Analysis analysis = analysis_of(AnalysisType::path, {});
+  analysis.stop.load_factor = std::array{-1.0, 60.0};
+  const Result result = solve_soundly(model, analysis);
+  EXPECT_EQ(result.summary.termination, "load_factor");
+  EXPECT_TRUE(result.critical_points.empty()) << result.critical_points.front().load_factor;
+  for (const int count : result.branches[0].negative_eigenvalues) EXPECT_EQ(count, 0);
+}
+
+/// A bar on a hinge that nothing presses onto the spring beside it: any position is one of equilibrium.
+TEST(Degenerate, PartThatNothingHoldsIsNamed) {
+  Model model = straight(1.0, 1.0, 1e6, "xyr", "");
+  model.nodes.push_back({"c", 0.0, 1.0});
+  model.members.push_back({"loose", "a", "c", model.sections[0].id, LineCurve{}, true, false});
+  Spring stop;
+  stop.id = "stop";
+  stop.at = at_node("c");
+  stop.direction = std::array{1.0, 0.0};
+  stop.stiffness = 50.0;
+  stop.reaction = Reaction::compression_only;
+  model.springs = {stop};
+  model.loads = {force_at(at_node("b"), 0.0, -1.0)};
+  const Result result = solve(model, default_path(1));
+  ASSERT_TRUE(result.failure);
+  EXPECT_EQ(result.failure->code, "loose_part");
+  EXPECT_NE(result.failure->detail.find("\"c\""), std::string::npos) << result.failure->detail;
+  // pressed onto it, however lightly, it is held
+  model.loads.push_back(force_at(at_node("c"), 1e-6, 0.0));
+  Analysis analysis = analysis_of(AnalysisType::path, {});
+  analysis.stop.load_factor = std::array{-1.0, 1.0};
+  EXPECT_EQ(solve_soundly(model, analysis).summary.termination, "load_factor");
+}
+
 /// The stop of a bar's sideways movement by a spring: contact begins at the gap, and stability returns there.
 TEST(Degenerate, ContactThatBeginsIsAnEvent) {
   Model model = straight(1.0, 1.0, 1e6, "xyr", "");

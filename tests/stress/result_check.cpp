@@ -291,6 +291,7 @@ void Check::state(std::size_t index, std::optional<CountRange> negative) {
 }
 
 void Check::branch(const Branch& branch, std::size_t first) {
+  constexpr double kSameLoad = 1e-3;
   const std::vector<int> states = states_of_points(result_);
   before_.reset();
   for (std::size_t i = 0; i < branch.load_factor.size() && first + i < states.size(); ++i) {
@@ -302,8 +303,12 @@ void Check::branch(const Branch& branch, std::size_t first) {
     const std::optional<RodState> previous = before_;
     // a path may end on a critical point, where the count is that of either side
     CountRange counts{branch.negative_eigenvalues[i], branch.negative_eigenvalues[i]};
+    // or on one that another branch told of
+    const bool rejoins = i + 1 == branch.load_factor.size() && branch.termination == "rejoined";
     for (const CriticalPoint& c : result_.critical_points) {
-      if (c.branch != branch.id || c.arc_length != branch.arc_length[i]) continue;
+      const double apart = std::abs(c.load_factor - branch.load_factor[i]);
+      const bool here = c.branch == branch.id && c.arc_length == branch.arc_length[i];
+      if (!here && !(rejoins && apart <= kSameLoad * std::abs(c.load_factor))) continue;
       counts.least = std::min({counts.least, c.negative_before, c.negative_after});
       counts.most = std::max({counts.most, c.negative_before, c.negative_after});
     }
