@@ -47,7 +47,7 @@ constexpr double kLargestLeft = 1e-8;
 /// A correction (displacement gradient) that is rounding's, of sums of direction cosines, and its share of
 /// the step; and how many come first. Very stiff supports make a large residual of it.
 constexpr double kRoundingSize = 2e-15;
-constexpr double kRoundingShare = 1e-13;
+constexpr double kRoundingShare = 1e-10;
 constexpr int kLeastIterations = 3;
 
 /// Share of the correction to take so that the residual, `now` before it, falls.
@@ -133,14 +133,6 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
   return true;
 }
 
-/// Whether the correction at hand is rounding's: however large it is where the tangent is nearly singular, or
-/// however much residual very stiff supports make of it.
-bool is_rounding(int iteration, double size, double scale, const CorrectorOptions& options, double residual) {
-  if (iteration == 0) return residual <= kExact && size > options.tangent_tolerance * scale;
-  return iteration >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * scale) &&
-         residual <= options.largest_residual;
-}
-
 /// What the corrections so far tell of the next.
 class Progress {
  public:
@@ -161,6 +153,13 @@ class Progress {
                 residual > kStagnantShare * last_residual_;
     last_residual_ = residual;
     return iteration > 0 && (small || (rounding && (stagnant_ || residual <= options_.residual_floor)));
+  }
+  /// Whether the correction is rounding's: however large it is where the tangent is nearly singular, or
+  /// however much residual very stiff supports make of it.
+  [[nodiscard]] bool is_rounding(int iteration, double size, double residual) const {
+    if (iteration == 0) return residual <= kExact && size > options_.tangent_tolerance * scale_;
+    return iteration >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * movement_) &&
+           residual <= options_.largest_residual;
   }
   /// Whether the residual no longer falls, as is_last() found.
   [[nodiscard]] bool stagnant() const { return stagnant_; }
@@ -223,7 +222,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
       out.first_correction = size;
       out.first_residual = residual;
     }
-    if (is_rounding(it, size, scale, options, residual)) {
+    if (progress.is_rounding(it, size, residual)) {
       out.status = CorrectorStatus::converged;
       return out;
     }
