@@ -94,6 +94,9 @@ class Continuation {
   /// @brief Weighs the load anew in the path's norm where it dwarfs the displacement there: a structure that
   /// carries far more than its members' scale says would meet its limit load as a corner. Arc lengths stay in
   /// the norm that the path began with.
+  /// @param to_limit whether the path is on the way to a limit; one that is followed beyond for its own sake
+  /// would go by smaller steps, so there it is done only where steps have become far shorter than they were:
+  /// a thin member between immovable ends turns within gradients that the norm did not see
   /// @param at the point to go on from; its tangent is normalised again
   void weigh_load(bool to_limit, PathPoint& at, StepSize& step);
   /// @brief Takes the last step back, because it jumped to another path: the next one will be shorter.

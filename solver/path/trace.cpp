@@ -127,8 +127,11 @@ std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const Pa
 
 bool Tracer::is_known(const PathPoint& point) const {
   constexpr double kSamePlace = 1e-4;  // a displacement gradient; rounding leaves less at a bifurcation
+  constexpr double kSameLoad = 1e-3;   // its square there; the norm may hardly see the load
   return std::any_of(rules_.known.begin(), rules_.known.end(), [&](const PathPoint& other) {
-    return continuation_.metric().norm(point.y - other.y, point.lambda - other.lambda) < kSamePlace;
+    const double apart = std::abs(point.lambda - other.lambda);
+    return apart <= kSameLoad * std::max(std::abs(point.lambda), std::abs(other.lambda)) &&
+           continuation_.metric().norm(point.y - other.y, apart) < kSamePlace;
   });
 }
 

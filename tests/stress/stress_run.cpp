@@ -46,15 +46,25 @@ class Bound {
 /// interest, which always hold (a path to infinity meets no other; a search for a loss of stability that gets
 /// there has its answer).
 bool reached(const Analysis& analysis, const std::string& termination) {
-  // a structure that can't carry its constant actions has no path to follow: that is the answer
-  constexpr std::array<std::string_view, 3> kBounds{"load_bound", "displacement_bound",
-                                                    "constant_actions_limit"};
+  // a structure that can't carry its constant actions, or has a part that nothing holds, has no path to
+  // follow: that is the answer
+  constexpr std::array<std::string_view, 4> kBounds{"load_bound", "displacement_bound",
+                                                    "constant_actions_limit", "loose_part"};
   constexpr std::array<std::string_view, 5> kPath{"limit_points", "load_factor", "monitor", "monitor_turned",
                                                   "steps"};
   constexpr std::array<std::string_view, 2> kCritical{"critical_point", "unstable_at_start"};
   if (std::ranges::count(kBounds, termination) > 0) return true;
   if (analysis.type == AnalysisType::critical) return std::ranges::count(kCritical, termination) > 0;
   return std::ranges::count(kPath, termination) > 0;
+}
+
+/// Whether the structure is a mechanism without its one-sided supports, as it must be for a part to be loose.
+bool needs_one_sided_supports(RandomRequest request) {
+  std::erase_if(request.model.springs, [](const Spring& s) { return s.reaction != Reaction::bilateral; });
+  std::erase_if(request.model.foundations,
+                [](const Foundation& f) { return f.reaction != Reaction::bilateral; });
+  return std::ranges::any_of(check(request.model, request.analysis),
+                             [](const Finding& finding) { return finding.code == "mechanism"; });
 }
 
 /// What a reader of a failure wants to know first.
@@ -118,6 +128,8 @@ StressOutcome run_seed(Draw draw, std::uint64_t seed, double time_bound_s) {
   out.said_where = !out.termination.empty() && !out.detail.empty();
   out.check = check_result(request.model, request.analysis, result);
   if (out.termination == "cancelled") out.check.failures.push_back("time: over the bound");
+  if (out.termination == "loose_part" && !needs_one_sided_supports(request))
+    out.check.failures.push_back("loose: supports that act both ways hold every part");
   if (!out.said_where) out.check.failures.push_back("silent: no termination or message");
   return out;
 }
