@@ -303,12 +303,13 @@ void Check::branch(const Branch& branch, std::size_t first) {
     const std::optional<RodState> previous = before_;
     // a path may end on a critical point, where the count is that of either side
     CountRange counts{branch.negative_eigenvalues[i], branch.negative_eigenvalues[i]};
-    // or on one that another branch told of
+    // or begin or end on one that another branch told of
+    const bool begins = i == 0 && branch.parent.has_value();
     const bool rejoins = i + 1 == branch.load_factor.size() && branch.termination == "rejoined";
     for (const CriticalPoint& c : result_.critical_points) {
       const double apart = std::abs(c.load_factor - branch.load_factor[i]);
       const bool here = c.branch == branch.id && c.arc_length == branch.arc_length[i];
-      if (!here && !(rejoins && apart <= kSameLoad * std::abs(c.load_factor))) continue;
+      if (!here && !((begins || rejoins) && apart <= kSameLoad * std::abs(c.load_factor))) continue;
       counts.least = std::min({counts.least, c.negative_before, c.negative_after});
       counts.most = std::max({counts.most, c.negative_before, c.negative_after});
     }
