@@ -168,24 +168,28 @@ bool Tracer::ends_here(const PathPoint& at, int steps, const std::stop_token& st
 /// Takes the step from -> to into the path; true when it ends there (then `to` is the path's last point).
 bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events,
                     const std::optional<Bound>& bound) {
-  if (bound) to = bound->point;
+  if (bound) {
+    to = bound->point;
+    to.arc_length = std::max(to.arc_length, from.arc_length + continuation_.arc(from, to));
+  }
   // a turn within rounding's reach still is a step, and what is on it is not on the last one
   const auto beyond = [](double arc) { return std::nextafter(arc, std::numeric_limits<double>::infinity()); };
   std::vector<CriticalEvent> reached;
+  int count = from.negative;
   for (const CriticalEvent& event : events) {
-    if (bound && event.point.arc_length > to.arc_length) continue;
+    // at a corner both are at one place, where the count at the bound tells on which side it is
+    if (bound && event.point.arc_length > to.arc_length && count == to.negative) continue;
+    count = event.negative_after;
     reached.push_back(event);
     double& arc = reached.back().point.arc_length;
     arc = std::max(arc, beyond(from.arc_length));
   }
   travelled_ += continuation_.metric().norm(to.y - from.y, 0.0);
   bool ended = take_events(reached);
-  if (ended)
-    to = out_.last;
-  else if (bound)
-    ended = finish(bound->end, to);
+  if (ended) to = out_.last;
   const double least = ended || reached.empty() ? from.arc_length : reached.back().point.arc_length;
   to.arc_length = std::max(to.arc_length, beyond(least));
+  if (!ended && bound) ended = finish(bound->end, to);
   for (const ContactChange& change : changes_)
     if (sink_.on_contact && change.point.arc_length <= to.arc_length) sink_.on_contact(change);
   if (sink_.on_step) sink_.on_step(from, to);

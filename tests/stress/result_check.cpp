@@ -188,7 +188,9 @@ void Check::inertia(std::size_t index, const RodState& at, CountRange negative) 
   CountRange counted = count(t);
   if (counted.least != counted.most) ++out_.undecided;
   const auto agree = [&] { return negative.most >= counted.least && negative.least <= counted.most; };
-  for (const double closer : {-1.0, 1.0}) {  // contact that the digits of the state do not decide
+  // contact that the digits of the state do not decide, with room for the corrector's own error
+  constexpr double kRoundings = 16.0;
+  for (const double closer : {-kRoundings, kRoundings}) {
     if (agree()) return;
     const CountRange other = count(tangent_of(rod_, evaluate(rod_, s, closer), s.load_factor));
     counted = {std::min(counted.least, other.least), std::max(counted.most, other.most)};
