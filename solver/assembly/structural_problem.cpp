@@ -30,13 +30,7 @@ StructuralProblem::StructuralProblem(const Structure& structure)
     if (spring.row[2] != 0.0) free_rotation_[spring.joint] = 0;
   const Index n = 3 * structure.joints + structure.releases + 3 * static_cast<Index>(members_);
   for (Index i = 0; i < n; ++i) (is_fixed(i) ? fixed_ : free_).push_back(i);
-  const VectorXd& load = structure.proportional_load;
-  largest_load_ = load.head(3 * structure.joints + structure.releases).lpNorm<Eigen::Infinity>();
-  for (const ElementDofs& dofs : structure.dofs) {
-    largest_load_ =
-        std::max(largest_load_, load.segment(dofs.v, 3 * structure.mesh.order).lpNorm<Eigen::Infinity>());
-    for (const int a : dofs.a) largest_load_ = std::max(largest_load_, std::abs(load[a]));
-  }
+  largest_load_ = force_norm(structure.proportional_load);
   joint_matrix_.resize(n, n);
   free_matrix_.resize(static_cast<Index>(free_.size()), static_cast<Index>(free_.size()));
 }
@@ -313,6 +307,15 @@ double StructuralProblem::largest_critical_load_scale(const VectorXd& unit_respo
   return scale;
 }
 
+double StructuralProblem::force_norm(const VectorXd& f) const {
+  double forces = f.head(3 * structure_.joints + structure_.releases).lpNorm<Eigen::Infinity>();
+  for (const ElementDofs& dofs : structure_.dofs) {
+    forces = std::max(forces, f.segment(dofs.v, 3 * structure_.mesh.order).lpNorm<Eigen::Infinity>());
+    for (const int a : dofs.a) forces = std::max(forces, std::abs(f[a]));
+  }
+  return forces;
+}
+
 double StructuralProblem::largest_force(const VectorXd& y, double lambda) const {
   double force = std::abs(lambda) * largest_load_;
   for (const ElementDofs& dofs : structure_.dofs)
@@ -340,11 +343,9 @@ double StructuralProblem::relative_residual(const VectorXd& f, const VectorXd& y
   const int p = structure_.mesh.order;
   const double force = largest_force(y, lambda);
   double displacement = 1.0;
-  double forces = f.head(3 * structure_.joints + structure_.releases).lpNorm<Eigen::Infinity>();
+  const double forces = force_norm(f);
   double gaps = 0.0;
   for (const ElementDofs& dofs : structure_.dofs) {
-    forces = std::max(forces, f.segment(dofs.v, 3 * p).lpNorm<Eigen::Infinity>());
-    for (const int a : dofs.a) forces = std::max(forces, std::abs(f[a]));
     gaps = std::max(gaps, f.segment(dofs.s, 3 * p + 3).lpNorm<Eigen::Infinity>());
     for (const int a : dofs.a) displacement = std::max(displacement, std::abs(y[a]));
   }

@@ -73,6 +73,8 @@ class StructuralProblem final : public EquilibriumProblem {
   /// Stiffness of a joint spring in the tangent, as add_joint_springs() last found it.
   [[nodiscard]] double acting_stiffness(std::size_t spring) const;
   /// Of the loads and of the members' ends.
+  /// The largest of the rows that are forces or moments; the others are displacements and strains.
+  [[nodiscard]] double force_norm(const Eigen::VectorXd& f) const;
   [[nodiscard]] double largest_force(const Eigen::VectorXd& y, double lambda) const;
   void constrain_residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) const;
   void assemble_joints();

@@ -214,8 +214,11 @@ void Check::determinant(std::size_t index, const ConstrainedTangent& t, CountRan
     return (minus + t.constraints) % 2 == 1;
   };
   const bool odd = is_odd(rounding_of(t));
-  if (odd != is_odd(-rounding_of(t)) || negative.least != negative.most) return;
-  if ((negative.least % 2 == 1) != odd)
+  if (odd != is_odd(-rounding_of(t))) {
+    ++out_.undecided;
+    return;
+  }
+  if (negative.least == negative.most && (negative.least % 2 == 1) != odd)
     fail("determinant: state " + std::to_string(index) + " at load factor " +
          text(result_.states[index].load_factor) + " says " + std::to_string(negative.least) +
          " negative eigenvalues, the determinant's sign says an " + (odd ? "odd" : "even") + " number");
