@@ -25,6 +25,13 @@ struct NamedValue {
   double value = 0.0;
 };
 
+/// What one mesh said of a critical point.
+struct MeshAnswer {
+  int elements = -1;
+  int order = -1;
+  std::optional<double> load_factor;  ///< empty: the point was not found there
+};
+
 struct CriticalPoint {
   int branch = 0;
   CriticalType type = CriticalType::bifurcation;
@@ -37,6 +44,8 @@ struct CriticalPoint {
   int multiplicity = 1;      ///< how many eigenvalues vanish there
   std::optional<int> state;  ///< index into Result::states
   CriticalCause cause = CriticalCause::smooth;
+  bool confirmed = false;  ///< a second, finer mesh has the point within the accuracy that was asked for
+  std::vector<MeshAnswer> meshes;  ///< coarsest first
 };
 
 /// A contact zone of a foundation, or a one-sided spring, that begins or ends. Zones that divide or join

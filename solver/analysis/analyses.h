@@ -45,7 +45,7 @@ void scale_to_largest(BucklingMode& mode);
 /// @throws std::runtime_error when the structure has fewer modes than an imperfection names
 [[nodiscard]] ModeOffsets mode_offsets(const Model& model, const Analysis& analysis);
 
-/// A number in a message: six significant digits.
+/// A number in a message: the fewest digits that read back to the same value, as in the result document.
 [[nodiscard]] std::string number(double value);
 /// Copies the counts of a continuation into a result, adding to what is there.
 void add_statistics(const ContinuationStatistics& statistics, Result& result);

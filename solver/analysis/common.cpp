@@ -12,7 +12,7 @@ namespace snapthrough {
 
 std::string number(double value) {
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
+  const auto end = std::to_chars(text, text + sizeof text, value);
   return {text, end.ptr};
 }
 

@@ -103,7 +103,7 @@ struct Structure {
 [[nodiscard]] Structure make_structure(const Model& model, const Discretization& discretization,
                                        Geometry geometry, const ModeOffsets& modes = {},
                                        MeshUse use = MeshUse::final);
-/// @brief The structure of the same model, with the same imperfections, on another mesh.
+/// @brief The structure of the same model, with the same imperfections and scales, on another mesh.
 [[nodiscard]] Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh);
 
 /// @brief Bases and springs that are left out because their stiffness is zero, in words.
