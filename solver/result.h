@@ -48,6 +48,21 @@ struct CriticalPoint {
   std::vector<MeshAnswer> meshes;  ///< coarsest first
 };
 
+/// A displacement of a node.
+struct NodeMotion {
+  std::string node;
+  double u = 0.0, v = 0.0, rotation = 0.0;
+};
+
+/// A motion that nothing resists, held by the least norm while it is free.
+struct NeutralMotion {
+  int branch = 0;
+  double from = 0.0;              ///< load factor where it becomes free
+  std::optional<double> to;       ///< where something resists it again; empty: free to the end of the path
+  std::vector<NodeMotion> nodes;  ///< those that move; the largest displacement is 1, or the largest rotation
+                                  ///< where none is displaced
+};
+
 /// A contact zone of a foundation, or a one-sided spring, that begins or ends. Zones that divide or join
 /// count too: with `zones` before and after.
 struct ContactEvent {
@@ -133,6 +148,7 @@ struct Failure {
 struct Result {
   Summary summary;
   std::vector<CriticalPoint> critical_points;
+  std::vector<NeutralMotion> neutral_motion;
   std::vector<ContactEvent> contact_events;
   std::vector<Branch> branches;
   std::vector<State> states;

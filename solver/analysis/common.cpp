@@ -110,7 +110,7 @@ std::optional<PathPoint> start_of_path(const Model& model, const Structure& stru
              " of them");
     return std::nullopt;
   }
-  auto start = continuation.start_at(outcome.last.y, direction);
+  auto start = continuation.start_at(outcome.last.y, direction, outcome.last.holds);
   if (!start) fail_to_start(model, structure, continuation, result);
   return start;
 }

@@ -35,6 +35,7 @@ void Recorder::start_branch(std::optional<int> parent) {
 }
 
 void Recorder::add_point(const PathPoint& point) {
+  neutral_.note(point.holds, user_load(point));
   const OutputOptions& output = analysis_.output;
   if (output.states == StateOutput::all ||
       (output.states == StateOutput::every && points_ % output.every == 0))
@@ -117,6 +118,7 @@ void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
 
 TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> parent) {
   branch_ = branch;
+  neutral_.start(branch);
   TraceSink sink;
   if (analysis_.type == AnalysisType::path) start_branch(parent);
   const auto progress = hooks.on_progress;

@@ -7,6 +7,7 @@
 
 #include "solver/path/trace.h"
 #include "solver/post/contact.h"
+#include "solver/post/neutral_motion.h"
 #include "solver/solve.h"
 
 namespace snapthrough {
@@ -23,7 +24,8 @@ class Recorder {
         structure_(structure),
         continuation_(continuation),
         result_(result),
-        zones_(structure, model) {}
+        zones_(structure, model),
+        neutral_(structure, model, result.neutral_motion) {}
 
   /// What to give to trace() for a branch; its points are recorded under `branch` from then on.
   [[nodiscard]] TraceSink sink(const Hooks& hooks, int branch = 0, std::optional<int> parent = std::nullopt);
@@ -49,6 +51,7 @@ class Recorder {
   Continuation& continuation_;
   Result& result_;
   ContactZones zones_;
+  NeutralMotionLog neutral_;
   int points_ = 0;
   int branch_ = 0;
 };

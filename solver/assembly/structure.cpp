@@ -624,6 +624,7 @@ Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh) {
   out.stress_free = structure.stress_free;
   out.mesh = std::move(mesh);
   fill(model, structure.scales.load, out);
+  out.free_motions = structure.free_motions;
   return out;
 }
 

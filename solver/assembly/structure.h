@@ -96,6 +96,9 @@ struct Structure {
       base_loads;             ///< 2 sqrt(K EI) + G of the bases of each member: what they can add to that
   bool one_sided = false;     ///< some base or spring is not bilateral
   bool has_constant = false;  ///< some action has the constant pattern
+  /// Motions of the joints (x, y, rotation each, scaled) that supports of one side alone can resist, or
+  /// nothing; orthonormal columns.
+  Eigen::MatrixXd free_motions;
 };
 
 /// @brief Builds the structure.
