@@ -278,6 +278,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
     follower.add(outcome, 0);
     branches = follower.run();
   }
+  recorder.finish();
   add_statistics(continuation.statistics(), result);
   bool confirmed = true;
   if (!analysis.discretization.fixed_mesh && !ends_on_critical(outcome) && !text_of(outcome.end).failure)
