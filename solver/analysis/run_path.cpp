@@ -294,11 +294,18 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   return confirmed || result.failure;
 }
 
+/// Every element cut in four: a mesh whose points finer ones do not share is too coarse by far, and a path on
+/// few elements is cheap beside the last.
+std::optional<Mesh> much_finer(const Mesh& mesh) {
+  const auto halved = finer_mesh(mesh, true);
+  return halved ? finer_mesh(*halved, true) : std::nullopt;
+}
+
 }  // namespace
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
-  constexpr int kMostPaths = 6;
+  constexpr int kMostPaths = 4;
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
   std::vector<CriticalPoint> earlier;
@@ -308,10 +315,10 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, reached);
     result = std::move(reached);
     if (confirmed || analysis.discretization.fixed_mesh) return;
-    auto halved = finer_mesh(mesh->mesh, true);
-    if (paths == kMostPaths || !halved) break;
+    auto quartered = much_finer(mesh->mesh);
+    if (paths == kMostPaths || !quartered) break;
     earlier = result.critical_points;
-    finer = on_mesh(structure, model, *std::move(halved));
+    finer = on_mesh(structure, model, *std::move(quartered));
     mesh = &*finer;
   }
   fail_unconfirmed(result);
