@@ -62,9 +62,9 @@ bool has_place(const Json& document, const std::vector<std::string>& tokens) {
 }
 
 void read_pointer(const Value& value, SweepOutput& out) {
-  static constexpr std::array<std::string_view, 10> kParts{
-      "model",  "summary",        "critical_points", "contact_events", "branches",
-      "states", "discretization", "diagnostics",     "buckling",       "failure"};
+  static constexpr std::array<std::string_view, 14> kParts{
+      "model",    "summary",     "critical_points", "contact_events", "branches",    "states",   "static",
+      "extremes", "not_reached", "warnings",        "discretization", "diagnostics", "buckling", "failure"};
   read(value, out.pointer);
   if (!value.is_string()) {
     return;

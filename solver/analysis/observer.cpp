@@ -10,8 +10,7 @@
 namespace snapthrough {
 namespace {
 
-/// Strain up to which steel, concrete and soil-cement are far beyond linear anyway, and strain measures
-/// differ by a few hundredths of it.
+/// Beyond it strain measures differ by some hundredths, and few materials are still linear.
 constexpr double kSmallStrain = 0.05;
 
 }  // namespace
