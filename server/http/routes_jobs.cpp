@@ -58,12 +58,16 @@ Response Routes::create_job(const Request& request, const std::string& /*id*/) {
     return simple_problem(request, 415, "unsupported-media-type", "Unsupported media type",
                           "A request document has Content-Type: application/json.");
   }
+  return submit_job(request, request.body);
+}
+
+Response Routes::submit_job(const Request& request, std::string_view document) {
   const std::optional<std::string_view> key = request.header("Idempotency-Key");
   if (std::optional<Response> refusal = refused_key(request)) {
     return *std::move(refusal);
   }
   StatusOr<Submission> outcome = desk_.submit(
-      {request.body, request.id, request.owner, key, wait_of(request).count() > 0, !wants_fresh(request)});
+      {document, request.id, request.owner, key, wait_of(request).count() > 0, !wants_fresh(request)});
   if (!outcome.ok()) {
     return store_trouble(request, outcome.status());
   }

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "api/api.h"
+#include "api/openapi/document.h"
 #include "server/http/embedded.h"
 #include "server/http/routes.h"
 #include "solver/solve.h"
@@ -23,7 +24,7 @@ namespace {
 using nlohmann::json;
 
 const json& description() {
-  static const json document = json::parse(http::openapi_document());
+  static const json document = json::parse(api::openapi_document());
   return document;
 }
 
@@ -52,7 +53,7 @@ TEST(Contract, EveryRouteIsPublishedAndNothingElse) {
 }
 
 TEST(Contract, EveryReferenceLeadsSomewhere) {
-  const std::string text(http::openapi_document());
+  const std::string text(api::openapi_document());
   const std::regex reference(R"re("\$ref": ?"#([^"]*)")re");
   for (auto it = std::sregex_iterator(text.begin(), text.end(), reference); it != std::sregex_iterator();
        ++it) {
