@@ -48,7 +48,7 @@ void expand(const Json& schema, Alternatives& out) {
 struct Step {
   Alternatives next;
   bool open = false;                    ///< anything may stand here: the schema does not say
-  bool named_by_model = false;          ///< the token is a name out of the model
+  std::string list;                     ///< of the model, whose ids the token is one of; empty: none
   bool is_array = false;                ///< an index is wanted
   std::vector<std::string_view> known;  ///< fields that there are
 };
@@ -66,8 +66,8 @@ void step_into_object(const Json& schema, const std::string& token, Step& step) 
   }
   const auto others = schema.find("additionalProperties");
   if (others != schema.end() && others->is_object()) {
-    step.named_by_model = step.named_by_model || step.next.empty();
     if (step.next.empty()) {
+      step.list = schema.value("x-ids", "");
       expand(*others, step.next);
     }
   } else if (!described && !has_choice(schema) && (others == schema.end() || *others == true)) {
@@ -120,13 +120,13 @@ std::string pointer_to(std::span<const std::string> tokens) {
 
 /// "; did you mean ...?" with the nearest name in place of the token, or the names that there are.
 std::string suggestion(std::span<const std::string> tokens, std::size_t at,
-                       const std::vector<std::string_view>& names, const NamesIn& names_in) {
+                       const std::vector<std::string_view>& names, const IdsIn& ids_in) {
   const std::string_view nearest = nearest_name(tokens[at], names);
   if (!nearest.empty()) {
     std::vector<std::string> meant(tokens.begin(), tokens.end());
     meant[at] = nearest;
     // What follows is kept where it fits the other name, too.
-    if (const auto next = find_no_such_place(meant, names_in)) {
+    if (const auto next = find_no_such_place(meant, ids_in)) {
       meant.resize(next->token);
     }
     return "; did you mean " + pointer_to(meant) + "?";
@@ -139,12 +139,12 @@ std::string suggestion(std::span<const std::string> tokens, std::size_t at,
 }
 
 NoSuchPlace nowhere(std::span<const std::string> tokens, std::size_t at, const Step& step,
-                    const NamesIn& names_in) {
+                    const IdsIn& ids_in) {
   const std::string above = pointer_to(tokens.first(at));
   if (!step.known.empty()) {
     return {
         at, false,
-        "a result has no " + pointer_to(tokens.first(at + 1)) + suggestion(tokens, at, step.known, names_in)};
+        "a result has no " + pointer_to(tokens.first(at + 1)) + suggestion(tokens, at, step.known, ids_in)};
   }
   if (step.is_array) {
     return {at, false, above + " is a list: " + tokens[at] + " is no index that it can have"};
@@ -154,7 +154,7 @@ NoSuchPlace nowhere(std::span<const std::string> tokens, std::size_t at, const S
 
 }  // namespace
 
-std::optional<NoSuchPlace> find_no_such_place(std::span<const std::string> tokens, const NamesIn& names_in) {
+std::optional<NoSuchPlace> find_no_such_place(std::span<const std::string> tokens, const IdsIn& ids_in) {
   Alternatives here;
   expand(published().at(Json::json_pointer("/components/schemas/Result")), here);
   for (std::size_t at = 0; at < tokens.size(); ++at) {
@@ -163,14 +163,14 @@ std::optional<NoSuchPlace> find_no_such_place(std::span<const std::string> token
       return std::nullopt;
     }
     if (step.next.empty()) {
-      return nowhere(tokens, at, step, names_in);
+      return nowhere(tokens, at, step, ids_in);
     }
-    const auto names = step.named_by_model && at > 0 ? names_in(tokens[at - 1]) : std::nullopt;
+    const auto names = step.list.empty() ? std::nullopt : ids_in(step.list);
     if (names && std::find(names->begin(), names->end(), tokens[at]) == names->end()) {
       return NoSuchPlace{at, true,
                          "the model has nothing named " + tokens[at] + " for " +
                              pointer_to(tokens.first(at)) +
-                             suggestion(tokens, at, {names->begin(), names->end()}, names_in)};
+                             suggestion(tokens, at, {names->begin(), names->end()}, ids_in)};
     }
     here = std::move(step.next);
   }

@@ -11,9 +11,9 @@
 
 namespace snapthrough::api {
 
-/// @brief The names that an object may have whose members are named by the model, such as `monitors`; nothing
-/// when any name will do.
-using NamesIn = std::function<std::optional<std::vector<std::string>>(std::string_view object)>;
+/// @brief The ids of a list of the model, such as `monitors` (for `supports` those of their nodes), which
+/// name members of some objects of a result (x-ids in the schema); nothing when any name will do.
+using IdsIn = std::function<std::optional<std::vector<std::string>>(std::string_view list)>;
 
 /// A place that results do not have.
 struct NoSuchPlace {
@@ -27,6 +27,6 @@ struct NoSuchPlace {
 /// @param tokens of a JSON Pointer, unescaped, at least one
 /// @return why no result has this place; nothing when one may
 [[nodiscard]] std::optional<NoSuchPlace> find_no_such_place(std::span<const std::string> tokens,
-                                                            const NamesIn& names_in);
+                                                            const IdsIn& ids_in);
 
 }  // namespace snapthrough::api

@@ -14,20 +14,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// An object of results whose members are named by a list of the model.
-struct NamedObject {
-  std::string_view object;
-  const char* list;
-  const char* id;
-};
-constexpr std::array<NamedObject, 7> kNamedObjects{{{"members", "members", "id"},
-                                                    {"supports", "supports", "node"},
-                                                    {"springs", "springs", "id"},
-                                                    {"foundations", "foundations", "id"},
-                                                    {"contact_fraction", "foundations", "id"},
-                                                    {"monitors", "monitors", "id"},
-                                                    {"nodes", "nodes", "id"}}};
-
 /// Parts of a result that only some analyses fill.
 struct PartOfAnalysis {
   std::string_view part;
@@ -61,8 +47,9 @@ const Json* find_at(const Json& document, const std::string& pointer) {
 }
 
 /// The ids of a list of the model; nothing when they depend on the point, or cannot be read.
-std::optional<std::vector<std::string>> ids_of(const SweepData& data, const NamedObject& named) {
-  const std::string place = std::string("/model/") + named.list;
+std::optional<std::vector<std::string>> ids_of(const SweepData& data, std::string_view name) {
+  const std::string place = "/model/" + std::string(name);
+  const std::string key = name == "supports" ? "/node" : "/id";
   const Json* list = find_at(data.base, place);
   if (is_written(data, place)) {
     return std::nullopt;
@@ -70,8 +57,8 @@ std::optional<std::vector<std::string>> ids_of(const SweepData& data, const Name
   std::vector<std::string> ids;
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     const std::string entry = place + "/" + std::to_string(i);
-    const Json* id = list->is_array() ? find_at(data.base, entry + "/" + named.id) : nullptr;
-    if (id == nullptr || !id->is_string() || is_written(data, entry + "/" + named.id)) {
+    const Json* id = list->is_array() ? find_at(data.base, entry + key) : nullptr;
+    if (id == nullptr || !id->is_string() || is_written(data, entry + key)) {
       return std::nullopt;
     }
     ids.push_back(id->get<std::string>());
@@ -112,18 +99,14 @@ std::string part_refusal(const SweepData& data, const std::string& part) {
 }  // namespace
 
 void check_outputs(const SweepData& data, Report& report) {
-  const NamesIn names_in = [&](std::string_view object) -> std::optional<std::vector<std::string>> {
-    const auto named = std::find_if(kNamedObjects.begin(), kNamedObjects.end(),
-                                    [&](const NamedObject& one) { return one.object == object; });
-    return named == kNamedObjects.end() ? std::nullopt : ids_of(data, *named);
-  };
+  const IdsIn ids_in = [&](std::string_view list) { return ids_of(data, list); };
   for (std::size_t i = 0; i < data.outputs.size(); ++i) {
     const std::vector<std::string>& tokens = data.outputs[i].tokens;
     const std::string at = "/outputs/" + std::to_string(i);
     if (tokens.empty()) {
       continue;  // reported already
     }
-    if (const auto nowhere = find_no_such_place(tokens, names_in)) {
+    if (const auto nowhere = find_no_such_place(tokens, ids_in)) {
       report.add(at, nowhere->unknown_id ? "unknown_reference" : "unknown_field", nowhere->detail);
     } else if (std::string why = part_refusal(data, tokens.front()); !why.empty()) {
       report.add(at, "wrong_analysis", std::move(why));

@@ -44,7 +44,7 @@ std::optional<TableForm> table_form_from(std::string_view name) {
 
 TableWriter::TableWriter(const Sweep& sweep, TableForm form, std::optional<PointLinks> links)
     : sweep_(sweep), form_(form), links_(std::move(links)), columns_(sweep.columns()) {
-  if (form_ != TableForm::csv || links_) {
+  if (form_ == TableForm::ndjson || (form_ == TableForm::csv && links_)) {
     columns_.emplace_back("point");
   }
   if (form_ == TableForm::csv && links_) {
@@ -76,13 +76,16 @@ std::string TableWriter::head() const {
   return text;
 }
 
-std::string TableWriter::tail() const { return form_ == TableForm::json ? "\n ]}\n" : ""; }
+std::string TableWriter::tail() const {
+  return form_ == TableForm::json ? "\n ],\n \"points\": " + Json(points_).dump() + "}\n" : "";
+}
 
 void TableWriter::append_row(std::uint64_t point, const PointOutcome& outcome, std::string& text) {
   switch (form_) {
     case TableForm::json:
-      text += first_ ? "\n  " : ",\n  ";
+      text += points_.empty() ? "\n  " : ",\n  ";
       append_json(point, outcome, text);
+      points_.push_back(point);
       break;
     case TableForm::csv:
       append_csv(point, outcome, text);
@@ -91,7 +94,6 @@ void TableWriter::append_row(std::uint64_t point, const PointOutcome& outcome, s
       append_ndjson(point, outcome, text);
       break;
   }
-  first_ = false;
 }
 
 void TableWriter::append_json(std::uint64_t point, const PointOutcome& outcome, std::string& text) const {
@@ -108,7 +110,7 @@ void TableWriter::append_json(std::uint64_t point, const PointOutcome& outcome, 
     text.append(outcome.outputs, 1, outcome.outputs.size() - 2);  // without its brackets
     text += ",null";
   }
-  text += "," + std::to_string(point) + "]";
+  text += ']';
 }
 
 void TableWriter::append_csv(std::uint64_t point, const PointOutcome& outcome, std::string& text) const {

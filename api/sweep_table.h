@@ -13,7 +13,7 @@
 namespace snapthrough::api {
 
 enum class TableForm {
-  json,   ///< `{"columns": [...], "rows": [[...], ...]}`
+  json,   ///< `{"columns": [...], "rows": [[...], ...], "points": [...]}`
   csv,    ///< header and rows (RFC 4180 quoting, lines end with a line feed); null is empty
   ndjson  ///< one object a line, members named like the columns
 };
@@ -52,8 +52,8 @@ class TableWriter {
   TableForm form_;
   std::optional<PointLinks> links_;
   std::vector<std::string> columns_;
-  std::vector<std::string> keys_;  ///< of NDJSON, quoted
-  bool first_ = true;
+  std::vector<std::string> keys_;      ///< of NDJSON, quoted
+  std::vector<std::uint64_t> points_;  ///< of the rows, for the end of a JSON document
 };
 
 }  // namespace snapthrough::api

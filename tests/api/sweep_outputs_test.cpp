@@ -70,6 +70,42 @@ TEST(SweepOutputs, PlacesThatResultsMayHaveAreTaken) {
   EXPECT_THAT(findings_of_output("/buckling/load_factors/0", "buckling"), IsEmpty());
 }
 
+TEST(SweepOutputs, NamesInsideAreThoseOfTheModel) {
+  EXPECT_EQ(refusal("/critical_points/0/monitors/midd"),
+            "/outputs/0 unknown_reference the model has nothing named midd for /critical_points/0/monitors; "
+            "did you "
+            "mean /critical_points/0/monitors/mid?");
+  EXPECT_THAT(refusal("/states/0/members/ab/bending_momen"),
+              EndsWith("did you mean /states/0/members/ab/bending_moment?"));
+  EXPECT_THAT(refusal("/states/0/supports/c/fx"), HasSubstr("unknown_reference"));
+  EXPECT_THAT(refusal("/states/0/supports/a/fz"), HasSubstr("unknown_field"));
+  EXPECT_THAT(refusal("/branches/0/contact_fraction/s1/0"), HasSubstr("known here: soil"));
+  EXPECT_THAT(refusal("/states/0/foundations/soil/contact/0/2"), HasSubstr("is a list"));
+  for (const char* output : {"/critical_points/0/monitors/mid", "/states/2/members/ab/bending_moment/50",
+                             "/states/0/supports/b/fy", "/states/0/springs/s1/force",
+                             "/states/0/foundations/soil/contact/0/1", "/branches/0/monitors/mid/7",
+                             "/branches/0/contact_fraction/soil", "/critical_points/0/mode/members/ab/u"}) {
+    EXPECT_THAT(findings_of_output(output, "path"), IsEmpty()) << output;
+  }
+}
+
+/// A list that a parameter replaces has other ids at each point.
+TEST(SweepOutputs, NamesThatAreSweptAreNotJudged) {
+  json document = sound_sweep();
+  document["analysis"] = {{"type", "path"}};
+  const json monitor = {{{"id", "other"}, {"at", {{"node", "b"}}}, {"component", "x"}}};
+  document["parameters"].push_back(parameter("m", "/model/monitors", {monitor}));
+  document["outputs"] = {"/critical_points/0/monitors/other"};
+  EXPECT_THAT(findings(document), IsEmpty());
+}
+
+TEST(SweepOutputs, ExtremesAreAskedForBeforeTheyAreLookedInto) {
+  EXPECT_THAT(refusal("/extremes/members/ab/bending_moment/max/value"),
+              HasSubstr("wrong_analysis extremes are"));
+  EXPECT_THAT(refusal("/extremes/members/ab/bending_moment/largest"), HasSubstr("unknown_field"));
+  EXPECT_THAT(refusal("/failure/code"), HasSubstr("column error"));
+}
+
 TEST(SweepOutputs, WhatBelongsToAnotherAnalysisIsRefused) {
   EXPECT_THAT(refusal("/buckling/load_factors/0"),
               HasSubstr("wrong_analysis only an analysis of type buckling"));
@@ -146,8 +182,11 @@ TEST(SweepOutputs, LabelsNameValuesInTables) {
   TableWriter(*outcome.sweep, TableForm::csv).append_row(1, good, csv);
   EXPECT_EQ(csv, "3,\"clamped, left\",2.5,\n");
   std::string row;
+  TableWriter(*outcome.sweep, TableForm::ndjson).append_row(2, good, row);
+  EXPECT_EQ(json::parse(row).at("ends"), "pinned");
+  row.clear();
   TableWriter(*outcome.sweep, TableForm::json).append_row(2, good, row);
-  EXPECT_EQ(json::parse(row), json::parse(R"([5, "pinned", 2.5, null, 2])"));
+  EXPECT_EQ(json::parse(row), json::parse(R"([5, "pinned", 2.5, null])"));
   EXPECT_EQ(outcome.sweep->document_at(1)->at("/model/supports/0/fixed/2"_json_pointer), "rotation");
 }
 
@@ -181,8 +220,7 @@ TEST(SweepOutputs, TablesOfAServiceSayWhereThePointsAre) {
   const json table = json::parse(text + writer.tail());
   EXPECT_EQ(table.at("links").at("request"), links.request);
   EXPECT_EQ(table.at("rows")[0].size(), table.at("columns").size());
-  EXPECT_EQ(table.at("columns").back(), "point");
-  EXPECT_EQ(table.at("rows")[0].back(), 1);
+  EXPECT_EQ(table.at("points"), json({1}));
   TableWriter csv(sweep, TableForm::csv, links);
   text = csv.head();
   csv.append_row(1, {"[2.5]", "", ""}, text);

@@ -199,9 +199,10 @@ TEST(Sweep, TablesHoldValuesOutputsAndErrorInEveryForm) {
   writer.append_row(3, good, text);
   writer.append_row(0, bad, text);
   EXPECT_EQ(json::parse(text + writer.tail()), json::parse(R"({
-    "columns": ["k", "a", "/summary/critical_load_factor", "/critical_points/0/type", "error", "point"],
-    "rows": [[5, 1e-4, 2.5, "limit, \"max\"", null, 3],
-             [3, 1e-4, null, null, {"code": "no_convergence", "detail": "step 3"}, 0]]})"));
+    "columns": ["k", "a", "/summary/critical_load_factor", "/critical_points/0/type", "error"],
+    "rows": [[5, 1e-4, 2.5, "limit, \"max\"", null],
+             [3, 1e-4, null, null, {"code": "no_convergence", "detail": "step 3"}]],
+    "points": [3, 0]})"));
   EXPECT_EQ(TableWriter(sweep, TableForm::csv).head(),
             "k,a,/summary/critical_load_factor,/critical_points/0/type,error\n");
   EXPECT_EQ(one_row(sweep, TableForm::csv, 3, good), "5,0.0001,2.5,\"limit, \"\"max\"\"\",\n");
