@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/result_table.h"
 #include "server/http/documents.h"
 #include "server/http/message.h"
 #include "server/jobs/desk.h"
@@ -63,7 +64,7 @@ class Routes {
                           bool post);
   Response outcome_of(const Request& request, const std::string& id, bool post, bool want_result);
   Response result_of(const Request& request, const Job& job);
-  Response path_table(const Request& request, const Job& job);
+  Response table_of_result(const Request& request, const Job& job, api::ResultTable table);
 
   // routes_sweeps.cpp
   Response create_sweep(const Request& request, const std::string& id);

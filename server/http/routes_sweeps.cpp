@@ -267,8 +267,10 @@ Response Routes::create_point_job(const Request& request, const std::string& id,
 }
 
 Response Routes::sweep_events(const Request& request, const std::string& id) {
-  return with_sweep(request, id, [&](const SweepRecord&) {
-    return event_stream(request, [this, id](std::uint64_t last, Stream::Push push) {
+  return with_sweep(request, id, [&](const SweepRecord& sweep) {
+    const std::optional<std::uint64_t> end =
+        is_final(sweep.state) ? std::optional(kEndOfSweep) : std::nullopt;
+    return event_stream(request, end, [this, id](std::uint64_t last, Stream::Push push) {
       return follow_sweep(desk_, id, last, std::move(push));
     });
   });
