@@ -143,10 +143,11 @@ TEST(Sweep, DocumentsWrittenOverOneAnotherAreThoseOfTheirPoints) {
 TEST(Sweep, SparesPlacesThatNoOutputLooksAt) {
   json document = sound_sweep();
   const auto places_for = [&](const char* output, const char* type) {
-    document["analysis"] = {{"type", type}};
+    document["analysis"] = {{"type", type}, {"output", {{"extremes", true}}}};
     document["outputs"] = {output};
     const SweepOutcome outcome = read(document);
     Analysis analysis;
+    analysis.output.extremes = true;
     outcome.sweep->spare_unused(analysis);
     EXPECT_EQ(outcome.sweep->parts(), std::vector<std::string_view>{outcome.sweep->parts()[0]});
     return analysis.output.points_per_member;
@@ -156,6 +157,26 @@ TEST(Sweep, SparesPlacesThatNoOutputLooksAt) {
   EXPECT_EQ(places_for("/buckling/modes/0", "buckling"), 101);
   EXPECT_EQ(places_for("/buckling", "buckling"), 101);
   EXPECT_EQ(places_for("/states/0/load_factor", "static"), 101);
+  EXPECT_EQ(places_for("/critical_points/0/type", "path"), 2);
+  EXPECT_EQ(places_for("/critical_points/0/mode/members", "path"), 101);
+  EXPECT_EQ(places_for("/extremes/members", "path"), 101);
+}
+
+TEST(Sweep, SparesModesAndExtremesThatNoOutputLooksAt) {
+  json document = sound_sweep();
+  document["analysis"]["output"]["extremes"] = true;
+  const auto spared = [&](const char* output) {
+    document["outputs"] = {output};
+    Analysis analysis;
+    analysis.output.extremes = true;
+    read(document).sweep->spare_unused(analysis);
+    return std::pair{analysis.output.modes, analysis.output.extremes};
+  };
+  EXPECT_EQ(spared("/summary/critical_load_factor"), std::pair(false, false));
+  EXPECT_EQ(spared("/critical_points/0/load_factor"), std::pair(false, false));
+  EXPECT_EQ(spared("/critical_points/0/mode/members"), std::pair(true, false));
+  EXPECT_EQ(spared("/critical_points/0"), std::pair(true, false));
+  EXPECT_EQ(spared("/extremes/members"), std::pair(false, true));
 }
 
 TEST(Sweep, DropsOnlyWhatNoOutputLooksInto) {
@@ -164,7 +185,7 @@ TEST(Sweep, DropsOnlyWhatNoOutputLooksInto) {
   full.contact_events.resize(1);
   full.branches.resize(1);
   full.states.resize(1);
-  full.buckling = BucklingResult{{1.0, 2.0}, std::vector<BucklingMode>(2)};
+  full.buckling = BucklingResult{{1.0, 2.0}, {1e-6, {}}, std::vector<Mode>(2)};
   Result result = full;
   (*read(sound_sweep()).sweep).drop_unused(result);
   EXPECT_EQ(result.critical_points.size(), 2U) << "/critical_points/0/type";
