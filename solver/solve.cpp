@@ -29,6 +29,13 @@ MeshUse mesh_use(const Analysis& analysis) {
   return one_mode ? MeshUse::first : MeshUse::final;
 }
 
+/// An analysis that was asked to stop while finer meshes were to check its loads has not ended.
+void report_stop(const Hooks& hooks, Result& result) {
+  const bool unchecked = !result.failure || result.failure->code == "not_confirmed";
+  if (hooks.stop.stop_requested() && unchecked)
+    result.failure = Failure{"cancelled", "cancelled before the critical loads were checked on finer meshes"};
+}
+
 /// Load factors at which states or rows were asked for.
 std::vector<double> asked_load_factors(const Analysis& analysis) {
   if (analysis.type == AnalysisType::static_) return analysis.load_factors;
@@ -67,6 +74,7 @@ Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& 
     case AnalysisType::critical:
     case AnalysisType::path:
       run_path(model, analysis, structure, hooks, result);
+      report_stop(hooks, result);
       break;
     case AnalysisType::static_:
       run_static(model, analysis, structure, hooks, result);

@@ -36,8 +36,9 @@ constexpr std::chrono::milliseconds kSweep{100};
 constexpr std::chrono::milliseconds kLinger{500};
 constexpr std::string_view kTooMany =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 5\r\nContent-Type: application/problem+json\r\n"
-    "Content-Length: 99\r\nConnection: close\r\n\r\n"
-    R"({"type":"urn:snapthrough:problem:too-many-connections","title":"Too many connections","status":503})";
+    "Content-Length: 153\r\nConnection: close\r\n\r\n"
+    R"({"type":"urn:snapthrough:problem:too-many-connections","title":"Too many connections","status":503,)"
+    R"("detail":"As many connections are open as are taken."})";
 
 /// Something happened to a connection; a deferred response that was meant may be gone meanwhile.
 struct Wake {

@@ -112,14 +112,20 @@ bool require_count(const Place& place, std::size_t count, std::size_t max) {
   return count <= max;
 }
 
+/// Code points of a UTF-8 text.
+static std::size_t characters(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
 void Ids::add(const Place& place, std::string_view id) {
   const auto [first, is_new] = first_.emplace(id, added_++);
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   if (id.empty()) {
     place.report("bad_id", "the id of a " + kind_ + " must not be empty");
-  } else if (id.size() > kMaxIdLength || std::any_of(id.begin(), id.end(), is_control)) {
-    place.report("bad_id",
-                 "an id has at most " + std::to_string(kMaxIdLength) + " bytes and no control characters");
+  } else if (characters(id) > kMaxIdLength || std::any_of(id.begin(), id.end(), is_control)) {
+    place.report("bad_id", "an id has at most " + std::to_string(kMaxIdLength) +
+                               " characters, and no control characters");
   } else if (!is_new) {
     place.report("duplicate_id", kind_ + " " + in_quotes(id) + " is there already, at position " +
                                      std::to_string(first->second));

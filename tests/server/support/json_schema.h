@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace snapthrough::server::test {
 
@@ -23,55 +26,128 @@ class Schemas {
     return {{"$ref", "#/components/schemas/" + name}};
   }
 
-  [[nodiscard]] bool valid(const json& schema, const json& value) const {
-    bool good = true;
-    for (const auto& [keyword, rule] : schema.items()) {
-      good = good && holds(schema, keyword, rule, value);
-    }
-    return good;
+  /// The part of the document that a reference means, or what is no reference itself.
+  [[nodiscard]] const json& dereferenced(const json& part) const {
+    return part.contains("$ref") ? resolve(part["$ref"]) : part;
   }
 
-  /// A random instance; small, so that most stay readable.
+  [[nodiscard]] bool valid(const json& schema, const json& value) const {
+    if (schema.is_boolean()) {
+      return schema.get<bool>();
+    }
+    return std::all_of(schema.items().begin(), schema.items().end(),
+                       [&](const auto& rule) { return holds(schema, rule.key(), rule.value(), value); });
+  }
+
+  /// A random instance: small, but with the ends of ranges now and then.
   [[nodiscard]] json make(const json& schema, std::mt19937& random) const {
-    const auto pick = [&](std::size_t count) { return random() % count; };
+    constexpr int kTries = 100;
+    for (int i = 0; i < kTries; ++i) {
+      json value = candidate(schema, random);
+      if (valid(schema, value)) {
+        return value;
+      }
+    }
+    throw std::logic_error("no instance was found of " + schema.dump());
+  }
+
+ private:
+  /// An instance, but for the keywords that only valid() knows (not, contains, pattern, ...).
+  [[nodiscard]] json candidate(const json& schema, std::mt19937& random) const {
     if (schema.contains("$ref")) {
       return make(resolve(schema["$ref"]), random);
     }
     if (schema.contains("const")) {
       return schema["const"];
     }
-    for (const char* choice : {"enum", "oneOf", "anyOf"}) {
+    if (schema.contains("enum")) {
+      return schema["enum"][random() % schema["enum"].size()];
+    }
+    for (const char* choice : {"oneOf", "anyOf"}) {
       if (schema.contains(choice)) {
-        const json& one = schema[choice][pick(schema[choice].size())];
-        return std::string(choice) == "enum" ? one : make(one, random);
+        return make(schema[choice][random() % schema[choice].size()], random);
       }
     }
-    const std::string type = schema["type"];
+    const json& types = schema.at("type");
+    const std::string type = types.is_array() ? types[random() % types.size()] : types;
     if (type == "object") {
       return make_object(schema, random);
     }
     if (type == "array") {
-      json list = json::array();
-      const std::size_t least = schema.value("minItems", 0U);
-      const std::size_t count = schema.contains("maxItems") ? least : least + pick(3);
-      for (std::size_t i = 0; i < count; ++i) {
-        json item = make(schema["items"], random);
-        if (!schema.contains("uniqueItems") || std::find(list.begin(), list.end(), item) == list.end()) {
-          list.push_back(std::move(item));
-        }
+      return make_array(schema, random);
+    }
+    if (type == "string") {
+      return make_string(schema, random);
+    }
+    if (type == "boolean") {
+      return random() % 2 == 0;
+    }
+    return type == "null" ? json() : make_number(schema, type == "integer", random);
+  }
+
+  [[nodiscard]] const json& resolve(const std::string& reference) const {
+    return document_.at(json::json_pointer(reference.substr(1)));
+  }
+
+  [[nodiscard]] json make_array(const json& schema, std::mt19937& random) const {
+    json list = json::array();
+    if (schema.contains("prefixItems")) {
+      for (const json& item : schema["prefixItems"]) {
+        list.push_back(make(item, random));
       }
       return list;
     }
-    if (type == "string") {
-      return std::string(1, static_cast<char>('a' + pick(6)));
+    const std::size_t least = schema.value("minItems", 0U);
+    const std::size_t most = std::min<std::size_t>(schema.value("maxItems", least + 2), least + 2);
+    const std::size_t count = least + random() % (most - least + 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      json item = make(schema["items"], random);
+      if (!schema.contains("uniqueItems") || std::find(list.begin(), list.end(), item) == list.end()) {
+        list.push_back(std::move(item));
+      }
     }
-    return type == "integer" ? json(static_cast<int>(pick(20)))
-                             : json(static_cast<double>(pick(2000)) / 7.0 - 50.0);
+    return list;
   }
 
- private:
-  [[nodiscard]] const json& resolve(const std::string& reference) const {
-    return document_.at(json::json_pointer(reference.substr(1)));
+  static json make_string(const json& schema, std::mt19937& random) {
+    static const std::vector<std::string> kLetters{"a", "b",      "c",      "/",         "~",
+                                                   " ", "\u00e4", "\u6881", "\U0001F309"};
+    const bool longest = schema.contains("maxLength") && random() % 50 == 0;
+    const std::size_t length = longest ? schema["maxLength"].get<std::size_t>() : 1;
+    std::string text;
+    for (std::size_t i = 0; i < length; ++i) {
+      text += kLetters[random() % (random() % 20 == 0 ? kLetters.size() : 3)];
+    }
+    return text;
+  }
+
+  /// One of the ends of the range, or a number near its middle or near 0.
+  static json make_number(const json& schema, bool whole, std::mt19937& random) {
+    const auto bound = [&](const char* key, const char* exclusive, double none, double outwards) {
+      if (schema.contains(exclusive)) {
+        const double end = schema[exclusive];
+        return whole ? end - std::copysign(1.0, outwards) : std::nextafter(end, -outwards);
+      }
+      return schema.contains(key) ? schema[key].get<double>() : none;
+    };
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double lo = bound("minimum", "exclusiveMinimum", whole ? -20.0 : -50.0, -infinity);
+    const double hi = bound("maximum", "exclusiveMaximum", whole ? 20.0 : 50.0, infinity);
+    double value = 0.0;
+    switch (random() % 20) {
+      case 0:
+        value = lo;
+        break;
+      case 1:
+        value = hi;
+        break;
+      default: {
+        const double from = std::max(lo, -50.0);
+        const double to = std::min(hi, from + 100.0);
+        value = from + (to - from) * static_cast<double>(random() % 2001) / 2000.0;
+      }
+    }
+    return whole ? json(static_cast<std::int64_t>(std::floor(value))) : json(value);
   }
 
   [[nodiscard]] json make_object(const json& schema, std::mt19937& random) const {
@@ -97,7 +173,10 @@ class Schemas {
     return object;
   }
 
-  static bool has_type(const std::string& type, const json& value) {
+  static bool has_type(const json& type, const json& value) {
+    if (type.is_array()) {
+      return std::any_of(type.begin(), type.end(), [&](const json& one) { return has_type(one, value); });
+    }
     if (type == "integer") {
       return value.is_number() && std::floor(value.get<double>()) == value.get<double>();
     }
@@ -111,7 +190,31 @@ class Schemas {
 
   [[nodiscard]] bool holds(const json& schema, const std::string& keyword, const json& rule,
                            const json& value) const {
-    static const std::set<std::string> kNotes{"description", "format", "default"};
+    static const std::set<std::string> kNotes{"description",   "format",    "default",
+                                              "x-unit",        "x-ids",     "contentMediaType",
+                                              "contentSchema", "x-analysis"};
+    static const std::set<std::string> kOfNumbers{"minimum", "maximum", "exclusiveMinimum",
+                                                  "exclusiveMaximum"};
+    static const std::set<std::string> kOfStrings{"minLength", "maxLength", "pattern"};
+    static const std::set<std::string> kOfArrays{"items",    "prefixItems", "minItems",
+                                                 "maxItems", "uniqueItems", "contains"};
+    if (kNotes.contains(keyword)) {
+      return true;
+    }
+    if (kOfNumbers.contains(keyword)) {
+      return !value.is_number() || number_holds(keyword, rule, value);
+    }
+    if (kOfStrings.contains(keyword)) {
+      return !value.is_string() || string_holds(keyword, rule, value.get<std::string>());
+    }
+    if (kOfArrays.contains(keyword)) {
+      return !value.is_array() || array_holds(schema, keyword, rule, value);
+    }
+    return any_holds(schema, keyword, rule, value);
+  }
+
+  [[nodiscard]] bool any_holds(const json& schema, const std::string& keyword, const json& rule,
+                               const json& value) const {
     if (keyword == "$ref") {
       return valid(resolve(rule), value);
     }
@@ -130,21 +233,43 @@ class Schemas {
     if (keyword == "anyOf") {
       return count_valid(rule, value) > 0;
     }
-    if (keyword == "minimum") {
-      return !value.is_number() || value >= rule;
-    }
-    if (keyword == "maximum") {
-      return !value.is_number() || value <= rule;
-    }
-    if (kNotes.contains(keyword)) {
-      return true;
-    }
-    return value.is_array() ? array_holds(keyword, rule, value) : object_holds(schema, keyword, rule, value);
+    return keyword == "not" ? !valid(rule, value) : object_holds(schema, keyword, rule, value);
   }
 
-  [[nodiscard]] bool array_holds(const std::string& keyword, const json& rule, const json& value) const {
+  static bool number_holds(const std::string& keyword, const json& rule, const json& value) {
+    if (keyword == "minimum") {
+      return value >= rule;
+    }
+    if (keyword == "maximum") {
+      return value <= rule;
+    }
+    return keyword == "exclusiveMinimum" ? value > rule : value < rule;
+  }
+
+  static bool string_holds(const std::string& keyword, const json& rule, const std::string& value) {
+    if (keyword == "pattern") {
+      return std::regex_search(value, std::regex(rule.get<std::string>()));
+    }
+    const auto characters = static_cast<std::size_t>(std::count_if(
+        value.begin(), value.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+    return keyword == "minLength" ? characters >= rule : characters <= rule;
+  }
+
+  [[nodiscard]] bool array_holds(const json& schema, const std::string& keyword, const json& rule,
+                                 const json& value) const {
+    const std::size_t leading = schema.value("prefixItems", json::array()).size();
     if (keyword == "items") {
-      return std::all_of(value.begin(), value.end(), [&](const json& item) { return valid(rule, item); });
+      return value.size() <= leading ||
+             std::all_of(value.begin() + static_cast<std::ptrdiff_t>(leading), value.end(),
+                         [&](const json& item) { return valid(rule, item); });
+    }
+    if (keyword == "prefixItems") {
+      std::size_t i = 0;
+      return std::all_of(rule.begin(), rule.end(), [&](const json& one) {
+        const bool good = i >= value.size() || valid(one, value[i]);
+        ++i;
+        return good;
+      });
     }
     if (keyword == "minItems") {
       return value.size() >= rule;
@@ -152,56 +277,49 @@ class Schemas {
     if (keyword == "maxItems") {
       return value.size() <= rule;
     }
-    if (keyword == "uniqueItems") {
-      return std::set<json>(value.begin(), value.end()).size() == value.size();
+    if (keyword == "contains") {
+      return std::any_of(value.begin(), value.end(), [&](const json& item) { return valid(rule, item); });
     }
-    return is_object_keyword(keyword);
-  }
-
-  static bool is_object_keyword(const std::string& keyword) {
-    static const std::set<std::string> kKnown{"properties",        "required",      "additionalProperties",
-                                              "dependentRequired", "items",         "minItems",
-                                              "maxItems",          "minProperties", "uniqueItems"};
-    if (!kKnown.contains(keyword)) {
-      throw std::logic_error("this checker does not know the keyword " + keyword);
-    }
-    return true;
+    return !rule.get<bool>() || std::set<json>(value.begin(), value.end()).size() == value.size();
   }
 
   [[nodiscard]] bool object_holds(const json& schema, const std::string& keyword, const json& rule,
                                   const json& value) const {
-    is_object_keyword(keyword);
+    static const std::set<std::string> kKnown{"required",     "minProperties",        "maxProperties",
+                                              "properties",   "additionalProperties", "dependentRequired",
+                                              "propertyNames"};
+    if (!kKnown.contains(keyword)) {
+      throw std::logic_error("this checker does not know the keyword " + keyword);
+    }
     if (!value.is_object()) {
       return true;
     }
     if (keyword == "required") {
-      return std::all_of(rule.begin(), rule.end(),
-                         [&](const json& name) { return value.contains(name.get<std::string>()); });
+      return has_all(value, rule);
     }
     if (keyword == "minProperties") {
       return value.size() >= rule;
     }
-    if (keyword == "properties") {
-      return std::all_of(rule.items().begin(), rule.items().end(), [&](const auto& part) {
-        return !value.contains(part.key()) || valid(part.value(), value[part.key()]);
-      });
+    if (keyword == "maxProperties") {
+      return value.size() <= rule;
     }
-    if (keyword == "additionalProperties") {
-      const json known = schema.value("properties", json::object());
-      return std::all_of(value.items().begin(), value.items().end(), [&](const auto& member) {
-        return known.contains(member.key()) ||
-               (rule.is_boolean() ? rule.template get<bool>() : valid(rule, member.value()));
-      });
-    }
-    if (keyword == "dependentRequired") {
-      return std::all_of(rule.items().begin(), rule.items().end(), [&](const auto& part) {
-        return !value.contains(part.key()) ||
-               std::all_of(part.value().begin(), part.value().end(), [&](const json& name) {
-                 return value.contains(name.template get<std::string>());
-               });
-      });
-    }
-    return true;
+    const json known = schema.value("properties", json::object());
+    return std::all_of(value.items().begin(), value.items().end(), [&](const auto& member) {
+      if (keyword == "additionalProperties") {
+        return known.contains(member.key()) || valid(rule, member.value());
+      }
+      if (keyword == "propertyNames") {
+        return valid(rule, member.key());
+      }
+      return !rule.contains(member.key()) ||
+             (keyword == "properties" ? valid(rule[member.key()], member.value())
+                                      : has_all(value, rule[member.key()]));
+    });
+  }
+
+  static bool has_all(const json& object, const json& names) {
+    return std::all_of(names.begin(), names.end(),
+                       [&](const json& name) { return object.contains(name.get<std::string>()); });
   }
 
   const json document_;
