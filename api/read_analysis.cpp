@@ -140,6 +140,8 @@ static void read(const Value& value, OutputOptions& out) {
     read_states(*states, out);
   }
   in.optional("points_per_member", out.points_per_member);
+  in.optional("path_points", out.path_points);
+  in.optional("extremes", out.extremes);
   in.finish();
 }
 

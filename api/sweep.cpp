@@ -141,8 +141,13 @@ std::vector<std::string_view> Sweep::parts() const {
 }
 
 void Sweep::spare_unused(Analysis& analysis) const {
-  if (!looks_into("states") && !looks_into("buckling", "modes")) {
-    analysis.output.points_per_member = std::min(analysis.output.points_per_member, 2);
+  OutputOptions& output = analysis.output;
+  output.modes = std::any_of(data_->outputs.begin(), data_->outputs.end(), [](const SweepOutput& one) {
+    return one.tokens[0] == "critical_points" && (one.tokens.size() < 3 || one.tokens[2] == "mode");
+  });
+  output.extremes = output.extremes && looks_into("extremes");
+  if (!looks_into("states") && !looks_into("buckling", "modes") && !output.extremes && !output.modes) {
+    output.points_per_member = std::min(output.points_per_member, 2);
   }
 }
 

@@ -144,6 +144,14 @@ void read(const Value& value, double& out) {
   }
 }
 
+void read(const Value& value, bool& out) {
+  if (value.json().is_boolean()) {
+    out = value.json().get<bool>();
+  } else {
+    value.report_type("true or false");
+  }
+}
+
 void read(const Value& value, int& out) {
   if (!value.is_number()) {
     value.report_type("an integer");

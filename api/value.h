@@ -83,6 +83,7 @@ void read(const Value& value, std::string& out);
 void read(const Value& value, double& out);
 /// Integers of any JSON spelling (1, 1.0) that an int can hold.
 void read(const Value& value, int& out);
+void read(const Value& value, bool& out);
 void read(const Value& value, std::array<double, 2>& out);
 
 /// What a field holds until it has been read: a number that is not there is NaN.

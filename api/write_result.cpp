@@ -61,6 +61,14 @@ Json write(const std::vector<NamedSeries>& series) {
   return object;
 }
 
+Json write(const Mode& mode) {
+  Json members = Json::object();
+  for (const MemberMode& member : mode.members) {
+    members[member.id] = {{"s", member.s}, {"u", member.u}, {"v", member.v}, {"rotation", member.rotation}};
+  }
+  return {{"members", std::move(members)}};
+}
+
 Json write(const CriticalPoint& point) {
   return {{"branch", point.branch},
           {"type", to_name(point.type)},
@@ -72,7 +80,8 @@ Json write(const CriticalPoint& point) {
           {"negative_before", count_or_null(point.negative_before)},
           {"negative_after", count_or_null(point.negative_after)},
           {"multiplicity", point.multiplicity},
-          {"state", or_null(point.state)}};
+          {"state", or_null(point.state)},
+          {"mode", point.mode ? write(*point.mode) : Json(nullptr)}};
 }
 
 Json write(const ContactEvent& event) {
@@ -96,37 +105,104 @@ Json write(const Branch& branch) {
           {"termination", branch.termination}};
 }
 
-Json write_shape(const MemberState& member) {
-  return {{"s", member.s}, {"x", member.x}, {"y", member.y}, {"rotation", member.rotation}};
+Json write(const Resultant& resultant) {
+  return {{"fx", resultant.fx}, {"fy", resultant.fy}, {"moment", resultant.moment}};
+}
+
+Json write(const MemberState& member) {
+  return {{"s", member.s},
+          {"x0", member.x0},
+          {"y0", member.y0},
+          {"x", member.x},
+          {"y", member.y},
+          {"u", member.u},
+          {"v", member.v},
+          {"rotation", member.rotation},
+          {"axial_force", member.axial_force},
+          {"shear_force", member.shear_force},
+          {"bending_moment", member.bending_moment}};
+}
+
+Json write(const FoundationState& foundation) {
+  return {{"s", foundation.s},
+          {"reaction", foundation.reaction},
+          {"displacement", foundation.displacement},
+          {"contact", foundation.contact},
+          {"resultant", write(foundation.resultant)}};
+}
+
+Json write(const SpringState& spring) {
+  return {{"force", spring.force},
+          {"displacement", spring.displacement},
+          {"closed", spring.closed},
+          {"resultant", write(spring.resultant)}};
 }
 
 Json write(const State& state) {
   Json members = Json::object();
   for (const MemberState& member : state.members) {
-    Json& entry = members[member.id] = write_shape(member);
-    entry["axial_force"] = member.axial_force;
-    entry["shear_force"] = member.shear_force;
-    entry["bending_moment"] = member.bending_moment;
+    members[member.id] = write(member);
+  }
+  Json supports = Json::object();
+  for (const SupportState& support : state.supports) {
+    supports[support.node] = {{"fx", support.fx}, {"fy", support.fy}, {"moment", support.moment}};
+  }
+  Json springs = Json::object();
+  for (const SpringState& spring : state.springs) {
+    springs[spring.id] = write(spring);
   }
   Json foundations = Json::object();
   for (const FoundationState& foundation : state.foundations) {
-    foundations[foundation.id] = {
-        {"s", foundation.s}, {"reaction", foundation.reaction}, {"contact", foundation.contact}};
+    foundations[foundation.id] = write(foundation);
   }
   return {{"branch", state.branch},
           {"load_factor", state.load_factor},
           {"refinements", state.refinements},
           {"members", std::move(members)},
-          {"foundations", std::move(foundations)}};
+          {"supports", std::move(supports)},
+          {"springs", std::move(springs)},
+          {"foundations", std::move(foundations)},
+          {"loads", write(state.loads)}};
 }
 
-Json write(const BucklingMode& mode) {
+template <class T>
+Json write(const std::vector<std::optional<T>>& values) {
+  Json array = Json::array();
+  for (const std::optional<T>& value : values) {
+    array.push_back(or_null(value));
+  }
+  return array;
+}
+
+Json write(const StaticTable& table) {
+  return {{"load_factor", table.load_factor},
+          {"monitors", write(table.monitors)},
+          {"negative_eigenvalues", write(table.negative_eigenvalues)},
+          {"contact_fraction", write(table.contact_fraction)},
+          {"state", write(table.state)}};
+}
+
+Json write(const Extreme& extreme) {
+  return {{"value", extreme.value},
+          {"s", extreme.s},
+          {"branch", extreme.branch},
+          {"load_factor", extreme.load_factor}};
+}
+
+Json write(const ExtremeRange& range) { return {{"min", write(range.min)}, {"max", write(range.max)}}; }
+
+Json write(const std::vector<MemberExtremes>& extremes) {
   Json members = Json::object();
-  for (const MemberState& member : mode.members) {
-    members[member.id] = write_shape(member);
+  for (const MemberExtremes& member : extremes) {
+    members[member.id] = {{"axial_force", write(member.axial_force)},
+                          {"shear_force", write(member.shear_force)},
+                          {"bending_moment", write(member.bending_moment)},
+                          {"displacement", {{"max", write(member.displacement)}}}};
   }
   return {{"members", std::move(members)}};
 }
+
+Json write(const Warning& warning) { return {{"code", warning.code}, {"detail", warning.detail}}; }
 
 template <class T>
 Json write_all(const std::vector<T>& items) {
@@ -200,13 +276,22 @@ nlohmann::json write_result(const Request& request, const Result& result, double
   add("contact_events", [&] { return write_all(result.contact_events); });
   add("branches", [&] { return write_all(result.branches); });
   add("states", [&] { return write_all(result.states); });
+  add("not_reached", [&] { return Json(result.not_reached); });
+  add("warnings", [&] { return write_all(result.warnings); });
   add("discretization", [&] { return write(result.discretization); });
   add("diagnostics", [&] { return write(result.diagnostics, wall_time_s); });
   if (result.buckling) {
     add("buckling", [&] {
       return Json{{"load_factors", result.buckling->load_factors},
+                  {"error_estimates", write(result.buckling->error_estimates)},
                   {"modes", write_all(result.buckling->modes)}};
     });
+  }
+  if (result.static_table) {
+    add("static", [&] { return write(*result.static_table); });
+  }
+  if (result.extremes) {
+    add("extremes", [&] { return write(*result.extremes); });
   }
   if (result.failure) {
     add("failure", [&] { return Json{{"code", result.failure->code}, {"detail", result.failure->detail}}; });

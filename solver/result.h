@@ -25,6 +25,17 @@ struct NamedValue {
   double value = 0.0;
 };
 
+/// Displacements of a member in a mode, over its arc length.
+struct MemberMode {
+  std::string id;
+  std::vector<double> s, u, v, rotation;
+};
+/// A buckling mode or a direction of a path: the largest displacement hypot(u, v) is 1, the first large
+/// component positive; rotations in the same scale.
+struct Mode {
+  std::vector<MemberMode> members;
+};
+
 struct CriticalPoint {
   int branch = 0;
   CriticalType type = CriticalType::bifurcation;
@@ -37,6 +48,9 @@ struct CriticalPoint {
   int multiplicity = 1;      ///< how many eigenvalues vanish there
   std::optional<int> state;  ///< index into Result::states
   CriticalCause cause = CriticalCause::smooth;
+  /// Null vector of the tangent stiffness; at a limit point that is the path's direction. With the state
+  /// only.
+  std::optional<Mode> mode = {};
 };
 
 /// A contact zone of a foundation, or a one-sided spring, that begins or ends. Zones that divide or join
@@ -62,29 +76,92 @@ struct Branch {
   std::string termination = {};               ///< code as in Summary
 };
 
+/// Force and moment about the origin of the model's axes, at the deformed positions; at the undeformed ones
+/// when the geometry is linear, as equilibrium is stated there.
+struct Resultant {
+  double fx = 0.0;
+  double fy = 0.0;
+  double moment = 0.0;
+};
+
+/// Values at equally spaced places of a member: x0, y0 undeformed positions (imperfections included), x, y
+/// deformed ones, u, v displacements in global axes.
 struct MemberState {
   std::string id;
-  std::vector<double> s, x, y, rotation, axial_force, shear_force, bending_moment;
+  std::vector<double> s, x0, y0, x, y, u, v, rotation, axial_force, shear_force, bending_moment;
+};
+/// Reaction of a support on the structure, in global axes, moment about its node.
+struct SupportState {
+  std::string node;
+  double fx = 0.0;
+  double fy = 0.0;
+  double moment = 0.0;
+};
+struct SpringState {
+  std::string id;
+  double force = 0.0;  ///< pressing on the structure against the spring's direction; a pull is negative
+  double displacement = 0.0;  ///< along its direction; the rotation for a rotational spring
+  bool closed = false;        ///< whether it acts
+  Resultant resultant;        ///< on the structure
 };
 struct FoundationState {
   std::string id;
   std::vector<double> s, reaction;
+  std::vector<double> displacement;            ///< into the medium
   std::vector<std::array<double, 2>> contact;  ///< intervals [s0, s1] in contact, in the member's s
+  Resultant resultant;                         ///< of the medium on the structure, shear layer included
 };
+/// A state in equilibrium: reactions of supports (with their nodes' positions), resultants of springs,
+/// foundations and loads add up to nothing.
 struct State {
   int branch = 0;
   double load_factor = 0.0;
   int refinements = 0;  ///< of the path's mesh, to the mesh that this state is in equilibrium on
   std::vector<MemberState> members;
+  std::vector<SupportState> supports;
+  std::vector<SpringState> springs;
   std::vector<FoundationState> foundations;
+  Resultant loads;  ///< of all loads that act in the state
 };
 
-struct BucklingMode {
-  std::vector<MemberState> members;  ///< s, x, y, rotation only: x, y hold displacements
+/// Equilibrium at load factors that were asked for, in that order; those that were reached.
+struct StaticTable {
+  std::vector<double> load_factor;
+  std::vector<NamedSeries> monitors;
+  std::vector<std::optional<int>> negative_eigenvalues;
+  std::vector<NamedSeries> contact_fraction;  ///< foundation id, fraction of its range in contact
+  std::vector<std::optional<int>> state;      ///< index into Result::states
 };
+
+/// An extreme value and where it is.
+struct Extreme {
+  double value = 0.0;
+  double s = 0.0;
+  int branch = 0;
+  double load_factor = 0.0;
+};
+struct ExtremeRange {
+  Extreme min;
+  Extreme max;
+};
+struct MemberExtremes {
+  std::string id;
+  ExtremeRange axial_force;
+  ExtremeRange shear_force;
+  ExtremeRange bending_moment;
+  Extreme displacement;  ///< largest hypot(u, v)
+};
+
+/// Something that the reader of a result has to know. Codes: "large_strain", "path_points".
+struct Warning {
+  std::string code;
+  std::string detail;
+};
+
 struct BucklingResult {
   std::vector<double> load_factors;
-  std::vector<BucklingMode> modes;
+  std::vector<std::optional<double>> error_estimates;  ///< relative, one a load factor
+  std::vector<Mode> modes;
 };
 
 struct Summary {
@@ -127,7 +204,11 @@ struct Result {
   std::vector<ContactEvent> contact_events;
   std::vector<Branch> branches;
   std::vector<State> states;
+  std::optional<StaticTable> static_table;
+  std::vector<double> not_reached;  ///< load factors that were asked for
   std::optional<BucklingResult> buckling;
+  std::optional<std::vector<MemberExtremes>> extremes;  ///< when asked for; empty: no state was reached
+  std::vector<Warning> warnings;
   MeshReport discretization;
   Diagnostics diagnostics;
   std::optional<Failure> failure;

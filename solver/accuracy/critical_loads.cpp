@@ -78,6 +78,9 @@ void CriticalLoads::report(const Target& target, const Answer& answer) {
       state = make_state(structure, model_, at.y, at.lambda, analysis_.output.points_per_member);
       state.branch = branch;
       state.refinements = answer.level;
+      if (point.mode)
+        point.mode =
+            mode_at(structure, model_, levels_[answer.level - 1]->problem(), answer.found.event, analysis_);
     }
   }
   if (is_first) {

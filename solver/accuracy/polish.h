@@ -25,6 +25,7 @@ class FineMesh {
   FineMesh(Structure structure, const Continuation& measure, double tolerance);
 
   [[nodiscard]] const Structure& structure() const { return structure_; }
+  [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
   [[nodiscard]] const ContinuationStatistics& statistics() const { return continuation_.statistics(); }
 
   /// @brief The critical point of this mesh that belongs to one of a coarser mesh: of the same type, with the

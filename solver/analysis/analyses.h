@@ -11,6 +11,7 @@
 #include "solver/path/continuation.h"
 #include "solver/path/path_point.h"
 #include "solver/solve.h"
+#include "solver/stability/locate.h"
 
 namespace snapthrough {
 
@@ -30,20 +31,22 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
 /// Buckling loads as results report them.
 struct FoundLoads {
   std::vector<double> loads;  ///< load factors of the model, ascending
-  std::vector<BucklingMode> modes;
+  std::vector<Mode> modes;
   std::vector<std::optional<double>> errors;  ///< relative, one a load
   int negative_at_start = 0;
 };
 /// Fills the summary and the list of modes.
 void report_buckling(const Analysis& analysis, FoundLoads found, Result& result);
-/// Scales a mode so that its largest displacement at the sampled places is one, its first large component
-/// positive.
-void scale_to_largest(BucklingMode& mode);
 
 /// @brief Offsets of the model's mode imperfections, from the linearised buckling of the same model without
 /// imperfections; empty when it has none.
 /// @throws std::runtime_error when the structure has fewer modes than an imperfection names
 [[nodiscard]] ModeOffsets mode_offsets(const Model& model, const Analysis& analysis);
+
+/// @brief The mode of a critical point as results report it, at the analysis' points of each member.
+/// @param problem of `structure`; factorised anew
+[[nodiscard]] Mode mode_at(const Structure& structure, const Model& model, EquilibriumProblem& problem,
+                           const CriticalEvent& event, const Analysis& analysis);
 
 /// A number in a message: six significant digits.
 [[nodiscard]] std::string number(double value);

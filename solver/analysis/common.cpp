@@ -7,6 +7,8 @@
 
 #include "solver/analysis/analyses.h"
 #include "solver/path/trace.h"
+#include "solver/post/mode.h"
+#include "solver/stability/critical_mode.h"
 
 namespace snapthrough {
 
@@ -38,6 +40,14 @@ void fail(Result& result, const char* code, const std::string& detail) {
   result.failure = Failure{code, detail};
   result.summary.termination = code;
   result.summary.message = detail;
+}
+
+Mode mode_at(const Structure& structure, const Model& model, EquilibriumProblem& problem,
+             const CriticalEvent& event, const Analysis& analysis) {
+  Mode mode =
+      mode_displacements(structure, model, mode_of(problem, event), analysis.output.points_per_member);
+  scale_to_largest(mode);
+  return mode;
 }
 
 namespace {

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <utility>
 
+#include "solver/analysis/analyses.h"
 #include "solver/assembly/structure.h"
 #include "solver/post/state.h"
 
@@ -20,7 +22,6 @@ double Recorder::user_load(const PathPoint& point) const { return point.lambda /
 int Recorder::add_state(const PathPoint& point) {
   State state = make_state(structure_, model_, point.y, point.lambda, analysis_.output.points_per_member);
   state.branch = branch_;
-  state.load_factor = user_load(point);
   result_.states.push_back(std::move(state));
   return static_cast<int>(result_.states.size()) - 1;
 }
@@ -40,7 +41,17 @@ void Recorder::add_point(const PathPoint& point) {
       (output.states == StateOutput::every && points_ % output.every == 0))
     add_state(point);
   ++points_;
+  observer_.note_strain(point.y, point.lambda, branch_);
+  if (branch_ == 0 && !result_.summary.critical_load_factor)
+    observer_.add_to_extremes(point.y, point.lambda, branch_);
   if (analysis_.type != AnalysisType::path) return;
+  if (output.path_points)
+    kept_.add(point);
+  else
+    add_row(point);
+}
+
+void Recorder::add_row(const PathPoint& point) {
   Branch& branch = result_.branches.back();
   branch.load_factor.push_back(user_load(point));
   branch.arc_length.push_back(point.arc_length);
@@ -49,6 +60,22 @@ void Recorder::add_point(const PathPoint& point) {
     branch.monitors[i].values.push_back(structure_.monitors[i].row.dot(point.y));
   const auto contact = contact_fractions(structure_, model_, point.y);
   for (std::size_t i = 0; i < contact.size(); ++i) branch.contact_fraction[i].values.push_back(contact[i]);
+}
+
+/// Rows of the points that were kept and of those between them.
+void Recorder::spread_points() {
+  const int asked = *analysis_.output.path_points;
+  int missing = 0;
+  const std::vector<PathPoint> points = kept_.spread(continuation_, asked, stop_, missing);
+  for (const PathPoint& point : points) add_row(point);
+  kept_ = {};
+  const auto count = static_cast<int>(points.size());
+  if (missing == 0 && count >= asked) return;
+  result_.warnings.push_back(
+      {"path_points", "branch " + std::to_string(branch_) + " has " + std::to_string(count) + " points for " +
+                          std::to_string(asked) + " asked for: " +
+                          (missing > 0 ? std::to_string(missing) + " between them could not be corrected"
+                                       : "it has no length")});
 }
 
 void Recorder::add_critical(const CriticalEvent& event) {
@@ -64,9 +91,13 @@ void Recorder::add_critical(const CriticalEvent& event) {
   point.multiplicity = event.multiplicity;
   if (analysis_.output.states != StateOutput::none && analysis_.output.states != StateOutput::at_load_factors)
     point.state = add_state(event.point);
+  if (point.state && analysis_.output.modes)
+    point.mode = mode_at(structure_, model_, continuation_.problem(), event, analysis_);
+  if (analysis_.output.path_points && analysis_.type == AnalysisType::path) kept_.add_critical(event);
   const bool loses_stability =
       branch_ == 0 && event.negative_before == 0 && event.negative_after > 0 && point.load_factor > 0.0;
   if (loses_stability && !result_.summary.critical_load_factor) {
+    if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
     result_.summary.critical_load_factor = point.load_factor;
     result_.summary.critical_type = point.type;
   }
@@ -94,16 +125,31 @@ ZoneCounter Recorder::zone_counter() const {
 }
 
 void Recorder::end_branch(const char* code) {
-  if (!result_.branches.empty()) result_.branches.back().termination = code;
+  if (result_.branches.empty()) return;
+  if (analysis_.output.path_points) spread_points();
+  result_.branches.back().termination = code;
+}
+
+void Recorder::finish() {
+  for (std::size_t i = 0; i < reached_.size(); ++i)
+    if (!reached_[i]) result_.not_reached.push_back(analysis_.output.at_load_factors[i]);
+  if (!result_.not_reached.empty())
+    result_.summary.message += "; " + std::to_string(result_.not_reached.size()) + " of " +
+                               std::to_string(reached_.size()) + " load factors were not reached";
+  observer_.finish(result_);
 }
 
 void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
-  for (const double factor : analysis_.output.at_load_factors) {
-    const double target = factor * structure_.scales.load;
+  for (std::size_t i = 0; i < reached_.size(); ++i) {
+    const double target = analysis_.output.at_load_factors[i] * structure_.scales.load;
     const double va = from.lambda - target;
     const double vb = to.lambda - target;
-    if (std::abs(vb) <= 1e-11 * std::abs(target)) {
-      add_state(to);
+    const double rounding = 1e-11 * std::abs(target);
+    if (std::abs(va) <= rounding || std::abs(vb) <= rounding) {
+      reached_[i] = 1;
+      // the end of a step is the start of the next, where it counts no more
+      if (std::abs(vb) <= rounding) add_state(to);
+      if (std::abs(va) <= rounding && at_branch_start_) add_state(from);
       continue;
     }
     if ((va > 0.0) == (vb > 0.0)) continue;
@@ -112,11 +158,15 @@ void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
       return std::abs(v) <= 1e-12 * std::abs(vb - va);
     };
     add_state(find_root(continuation_, continuation_.chord(from, to), from, va, to, vb, value, done).root);
+    reached_[i] = 1;
   }
+  at_branch_start_ = false;
 }
 
 TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> parent) {
   branch_ = branch;
+  stop_ = hooks.stop;
+  at_branch_start_ = true;
   TraceSink sink;
   if (analysis_.type == AnalysisType::path) start_branch(parent);
   const auto progress = hooks.on_progress;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "solver/analysis/observer.h"
+#include "solver/analysis/path_points.h"
 #include "solver/path/trace.h"
 #include "solver/post/contact.h"
 #include "solver/solve.h"
@@ -23,19 +25,25 @@ class Recorder {
         structure_(structure),
         continuation_(continuation),
         result_(result),
-        zones_(structure, model) {}
+        zones_(structure, model),
+        observer_(model, analysis, structure),
+        reached_(analysis.output.at_load_factors.size(), 0) {}
 
   /// What to give to trace() for a branch; its points are recorded under `branch` from then on.
   [[nodiscard]] TraceSink sink(const Hooks& hooks, int branch = 0, std::optional<int> parent = std::nullopt);
   /// Counts what add_contact() reports; empty when no support is one-sided.
   [[nodiscard]] ZoneCounter zone_counter() const;
-  /// Sets how the branch that was recorded last ended.
+  /// Completes the branch that was recorded last and sets how it ended.
   void end_branch(const char* code);
   /// Records a point that the path follower does not report itself.
   void add_point(const PathPoint& point);
+  /// Reports what was gathered over all branches, once their states are final.
+  void finish();
 
  private:
   void start_branch(std::optional<int> parent);
+  void add_row(const PathPoint& point);
+  void spread_points();
   void add_critical(const CriticalEvent& event);
   void add_contact(const ContactChange& change);
   void add_states_at_loads(const PathPoint& from, const PathPoint& to);
@@ -49,8 +57,13 @@ class Recorder {
   Continuation& continuation_;
   Result& result_;
   ContactZones zones_;
+  Observer observer_;
+  std::vector<char> reached_;  ///< of the load factors whose states were asked for
+  PathPoints kept_;            ///< of the current branch, where points are asked for between them
+  std::stop_token stop_;
   int points_ = 0;
   int branch_ = 0;
+  bool at_branch_start_ = true;  ///< no step of the current branch was taken
 };
 
 }  // namespace snapthrough

@@ -9,7 +9,7 @@
 
 #include "solver/accuracy/buckling_loads.h"
 #include "solver/analysis/analyses.h"
-#include "solver/post/state.h"
+#include "solver/post/mode.h"
 #include "solver/stability/buckling.h"
 
 namespace snapthrough {
@@ -56,34 +56,8 @@ void report_errors(const Analysis& analysis, const BucklingLoads& loads, Result&
 
 }  // namespace
 
-void scale_to_largest(BucklingMode& mode) {
-  constexpr double kNothing = 1e-12;  // of what the rotations would move over a member's length
-  double largest = 0.0;
-  double sign = 1.0;
-  double turned = 0.0;
-  double length = 0.0;
-  for (const MemberState& member : mode.members) {
-    length = std::max(length, member.s.back());
-    for (std::size_t i = 0; i < member.s.size(); ++i) {
-      if (std::abs(member.rotation[i]) > std::abs(turned) * (1.0 + 1e-6)) turned = member.rotation[i];
-      const double size = std::hypot(member.x[i], member.y[i]);
-      if (size <= largest * (1.0 + 1e-6)) continue;
-      largest = size;
-      sign = std::abs(member.x[i]) > std::abs(member.y[i]) ? member.x[i] : member.y[i];
-    }
-  }
-  double scale = 1.0;
-  if (largest > kNothing * std::abs(turned) * length)
-    scale = (sign < 0.0 ? -1.0 : 1.0) / largest;
-  else if (turned != 0.0)
-    scale = 1.0 / turned;
-  for (MemberState& member : mode.members)
-    for (auto* values : {&member.x, &member.y, &member.rotation})
-      for (double& value : *values) value *= scale;
-}
-
 void report_buckling(const Analysis& analysis, FoundLoads found, Result& result) {
-  BucklingResult out{std::move(found.loads), std::move(found.modes)};
+  BucklingResult out{std::move(found.loads), std::move(found.errors), std::move(found.modes)};
   Summary& summary = result.summary;
   if (found.negative_at_start > 0) {
     summary.termination = "unstable_at_start";
@@ -95,7 +69,7 @@ void report_buckling(const Analysis& analysis, FoundLoads found, Result& result)
   } else {
     summary.critical_load_factor = out.load_factors.front();
     summary.critical_type = CriticalType::bifurcation;
-    summary.error_estimate = found.errors.front();
+    summary.error_estimate = out.error_estimates.front();
     summary.termination = "modes";
     summary.message = "linearised about the reference load";
   }
@@ -115,7 +89,7 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   for (std::size_t i = 0; i < buckling.loads.size(); ++i) {
     found.loads.push_back(buckling.loads[i] / structure.scales.load);
     found.modes.push_back(
-        {mode_displacements(structure, model, buckling.modes[i], analysis.output.points_per_member)});
+        mode_displacements(structure, model, buckling.modes[i], analysis.output.points_per_member));
     scale_to_largest(found.modes.back());
   }
   report_buckling(analysis, std::move(found), result);

@@ -6,25 +6,26 @@
 #include <vector>
 
 #include "solver/analysis/analyses.h"
+#include "solver/post/mode.h"
 #include "solver/stability/exact_column.h"
 
 namespace snapthrough {
 namespace {
 
 /// Displacements of a mode at equally spaced places of each member.
-BucklingMode sample(const ColumnLine& line, const ColumnMode& mode, const Model& model,
-                    const std::vector<double>& lengths, int points) {
-  BucklingMode out;
+Mode sample(const ColumnLine& line, const ColumnMode& mode, const Model& model,
+            const std::vector<double>& lengths, int points) {
+  Mode out;
   out.members.resize(model.members.size());
   for (std::size_t m = 0; m < out.members.size(); ++m) {
-    MemberState& member = out.members[m];
+    MemberMode& member = out.members[m];
     member.id = model.members[m].id;
-    for (auto* values : {&member.s, &member.x, &member.y, &member.rotation})
+    for (auto* values : {&member.s, &member.u, &member.v, &member.rotation})
       values->resize(static_cast<std::size_t>(points));
   }
   for (std::size_t i = 0; i < line.spans.size(); ++i) {
     const ColumnSpan& span = line.spans[i];
-    MemberState& member = out.members[span.member];
+    MemberMode& member = out.members[span.member];
     const double lo = std::min(span.fractions[0], span.fractions[1]);
     const double hi = std::max(span.fractions[0], span.fractions[1]);
     // a place between two spans belongs to the one that is written last: they agree there
@@ -35,8 +36,8 @@ BucklingMode sample(const ColumnLine& line, const ColumnMode& mode, const Model&
       const double share = (fraction - span.fractions[0]) / (span.fractions[1] - span.fractions[0]);
       const ColumnMode::Value value = mode.at(static_cast<int>(i), share * span.length);
       member.s[k] = fraction * lengths[span.member];
-      member.x[k] = value.w * line.normal[0] + 0.0;  // no negative zeros
-      member.y[k] = value.w * line.normal[1] + 0.0;
+      member.u[k] = line.length * value.w * line.normal[0] + 0.0;  // no negative zeros
+      member.v[k] = line.length * value.w * line.normal[1] + 0.0;
       member.rotation[k] = value.slope;
     }
   }

@@ -229,6 +229,7 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     result.summary.message += branches;
     loads.estimate(hooks.stop);
   }
+  recorder.finish();
 }
 
 }  // namespace snapthrough

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/observer.h"
 #include "solver/newton/contact_state.h"
 #include "solver/path/trace.h"
 #include "solver/post/state.h"
@@ -16,50 +18,105 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Keeps the states that were asked for, in the order they were asked for.
-class StaticStates {
+/// Keeps what was asked for at each load factor, in the order they were asked for.
+class StaticRows {
  public:
-  StaticStates(const Model& model, const Analysis& analysis, const Structure& structure)
-      : model_(model), analysis_(analysis), structure_(structure), found_(analysis.load_factors.size()) {}
+  StaticRows(const Model& model, const Analysis& analysis, const Structure& structure)
+      : model_(model),
+        analysis_(analysis),
+        structure_(structure),
+        observer_(model, analysis, structure),
+        rows_(analysis.load_factors.size()) {}
 
-  void set(std::size_t index, const VectorXd& y) {
-    State state = make_state(structure_, model_, y, analysis_.load_factors[index] * structure_.scales.load,
-                             analysis_.output.points_per_member);
-    state.load_factor = analysis_.load_factors[index];
-    found_[index] = std::move(state);
-  }
-  [[nodiscard]] bool has(std::size_t index) const { return found_[index].has_value(); }
-  void move_to(Result& result) {
-    for (auto& state : found_)
-      if (state) result.states.push_back(std::move(*state));
-  }
+  /// @param negative eigenvalues of the tangent there
+  void set(std::size_t index, const VectorXd& y, int negative);
+  [[nodiscard]] bool has(std::size_t index) const { return rows_[index].has_value(); }
+  /// Fills the table, the states and the list of load factors that have none.
+  void move_to(Result& result);
 
  private:
+  struct Row {
+    VectorXd monitors;
+    std::vector<double> contact;
+    int negative = 0;
+    std::optional<State> state;
+  };
+  [[nodiscard]] bool wants_state(std::size_t index) const;
+
   const Model& model_;
   const Analysis& analysis_;
   const Structure& structure_;
-  std::vector<std::optional<State>> found_;
+  Observer observer_;
+  std::vector<std::optional<Row>> rows_;
 };
 
+bool StaticRows::wants_state(std::size_t index) const {
+  const OutputOptions& output = analysis_.output;
+  if (output.states == StateOutput::none) return false;
+  if (output.states == StateOutput::every) return index % static_cast<std::size_t>(output.every) == 0;
+  if (output.states != StateOutput::at_load_factors) return true;
+  return std::find(output.at_load_factors.begin(), output.at_load_factors.end(),
+                   analysis_.load_factors[index]) != output.at_load_factors.end();
+}
+
+void StaticRows::set(std::size_t index, const VectorXd& y, int negative) {
+  const double lambda = analysis_.load_factors[index] * structure_.scales.load;
+  Row row{VectorXd(static_cast<Eigen::Index>(structure_.monitors.size())),
+          contact_fractions(structure_, model_, y), negative, std::nullopt};
+  for (std::size_t i = 0; i < structure_.monitors.size(); ++i)
+    row.monitors[static_cast<Eigen::Index>(i)] = structure_.monitors[i].row.dot(y);
+  observer_.note_strain(y, lambda, 0);
+  if (wants_state(index)) {
+    row.state = make_state(structure_, model_, y, lambda, analysis_.output.points_per_member);
+    row.state->load_factor = analysis_.load_factors[index];
+  } else {
+    observer_.add_to_extremes(y, lambda, 0);
+  }
+  rows_[index] = std::move(row);
+}
+
+void StaticRows::move_to(Result& result) {
+  StaticTable& table = result.static_table.emplace();
+  for (const MonitorRow& monitor : structure_.monitors) table.monitors.push_back({monitor.id, {}});
+  for (const Foundation& base : model_.foundations) table.contact_fraction.push_back({base.id, {}});
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!rows_[i]) {
+      result.not_reached.push_back(analysis_.load_factors[i]);
+      continue;
+    }
+    Row& row = *rows_[i];
+    table.load_factor.push_back(analysis_.load_factors[i]);
+    table.negative_eigenvalues.emplace_back(row.negative);
+    for (std::size_t m = 0; m < table.monitors.size(); ++m)
+      table.monitors[m].values.push_back(row.monitors[static_cast<Eigen::Index>(m)]);
+    for (std::size_t f = 0; f < table.contact_fraction.size(); ++f)
+      table.contact_fraction[f].values.push_back(row.contact[f]);
+    table.state.emplace_back();
+    if (!row.state) continue;
+    table.state.back() = static_cast<int>(result.states.size());
+    result.states.push_back(std::move(*row.state));
+  }
+  observer_.finish(result);
+}
+
 /// Equilibrium at one load factor from the unloaded state: small displacements, contact unilateral.
-bool solve_linear(const Structure& structure, StructuralProblem& problem, double factor, VectorXd& y,
-                  Result& result) {
+std::optional<ContactState> solve_linear(const Structure& structure, StructuralProblem& problem,
+                                         double factor, Result& result) {
   const PathMetric metric{&structure.metric, 0.0};
   Workspace work;
   const double lambda = factor * structure.scales.load;
   auto state = find_contact_state(problem, metric, lambda, work, result.diagnostics.factorizations);
-  if (!state) return false;
   result.diagnostics.iterations = result.diagnostics.factorizations;
-  result.diagnostics.max_relative_residual =
-      std::max(result.diagnostics.max_relative_residual, state->relative_residual);
-  y = std::move(state->y);
-  return true;
+  if (state)
+    result.diagnostics.max_relative_residual =
+        std::max(result.diagnostics.max_relative_residual, state->relative_residual);
+  return state;
 }
 
 /// Follows the path towards the factors of one sign and keeps the states it passes; false when it ends before
 /// the last.
 bool follow(const Model& model, const Analysis& analysis, const Structure& structure, double direction,
-            const Hooks& hooks, StaticStates& states, Result& result) {
+            const Hooks& hooks, StaticRows& states, Result& result) {
   double last = 0.0;
   for (const double factor : analysis.load_factors)
     if (factor * direction > 0.0 || factor == 0.0) last = std::max(last, factor * direction);
@@ -68,7 +125,7 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   const auto start = start_of_path(model, structure, problem, continuation, direction, hooks, result);
   if (!start) return false;
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
-    if (analysis.load_factors[i] == 0.0) states.set(i, start->y);
+    if (analysis.load_factors[i] == 0.0) states.set(i, start->y, start->negative);
   if (last == 0.0) return true;
   TraceRules rules;
   const double bound = last * structure.scales.load;
@@ -82,16 +139,17 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
       const bool reached = std::abs(to.lambda - target) <= 1e-11 * std::abs(target);
       if (states.has(i) || (!reached && (from.lambda - target) * (to.lambda - target) > 0.0)) continue;
       if (reached) {
-        states.set(i, to.y);
+        states.set(i, to.y, to.negative);
         continue;
       }
       const auto value = [target](const PathPoint& at) { return at.lambda - target; };
       const auto done = [size](const PathPoint&, const PathPoint&, double v) {
         return std::abs(v) <= 1e-12 * size;
       };
-      states.set(i, find_root(continuation, continuation.chord(from, to), from, value(from), to, value(to),
-                              value, done)
-                        .root.y);
+      const PathPoint root =
+          find_root(continuation, continuation.chord(from, to), from, value(from), to, value(to), value, done)
+              .root;
+      states.set(i, root.y, root.negative);
     }
   };
   const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);
@@ -112,15 +170,14 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
 
 void run_static(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
                 Result& result) {
-  StaticStates states(model, analysis, structure);
+  StaticRows states(model, analysis, structure);
   result.summary.termination = "load_factors";
   result.summary.message = "equilibrium at " + std::to_string(analysis.load_factors.size()) + " load factors";
   if (analysis.geometry == Geometry::linear) {
     StructuralProblem problem(structure);
     for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
-      VectorXd y;
-      if (solve_linear(structure, problem, analysis.load_factors[i], y, result))
-        states.set(i, y);
+      if (const auto state = solve_linear(structure, problem, analysis.load_factors[i], result))
+        states.set(i, state->y, state->tangent.negative);
       else
         fail(result, "no_convergence",
              "no contact state was found at load factor " + number(analysis.load_factors[i]));

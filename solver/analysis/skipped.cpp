@@ -14,13 +14,17 @@ void add_bilateral(const char* kind, const std::vector<Support>& supports, std::
 }  // namespace
 
 bool points_are_not_polished(const Analysis& analysis) {
-  return !analysis.discretization.fixed_mesh && analysis.output.states == StateOutput::none;
+  const OutputOptions& output = analysis.output;
+  return !analysis.discretization.fixed_mesh && output.states == StateOutput::none && !output.path_points &&
+         !output.extremes;
 }
 
 std::vector<std::string> skipped_work(const Model& model, const Analysis& analysis) {
   std::vector<std::string> out;
   add_bilateral("foundation", model.foundations, out);
   add_bilateral("spring", model.springs, out);
+  if (analysis.type == AnalysisType::buckling && analysis.output.extremes)
+    out.emplace_back("extremes: linearised buckling reaches no states");
   const bool critical = analysis.type == AnalysisType::critical;
   if (!critical && analysis.type != AnalysisType::path) return out;
   if (critical) out.emplace_back("path: points and contact changes, only the critical load was asked for");

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "solver/assembly/axis_offset.h"
+#include "solver/assembly/base_stations.h"
 
 namespace snapthrough {
 namespace {
@@ -31,19 +32,14 @@ class Builder {
  private:
   void add_element_supports(int element);
   void add_foundation(int element, int index);
-  void add_lumped(int element, const Foundation& base, double modulus, std::span<const double> range);
-  void add_bilateral(int element, const Foundation& base, double modulus, std::array<double, 2> range);
   [[nodiscard]] ContactStrip make_strip(int element, int index, double modulus,
                                         std::array<double, 2> range) const;
   void add_point_spring(int element, const Spring& spring);
-  [[nodiscard]] Station station_at(int element, double xi, Vec3 row) const;
-  [[nodiscard]] std::array<double, 2> base_direction(const Foundation& base, int element, double xi) const;
   void add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const;
   void add_distributed(const DistributedLoad& load);
   [[nodiscard]] Eigen::VectorXd& pattern(Pattern p) {
     return p == Pattern::proportional ? out_.proportional_load : out_.constant_load;
   }
-  void add_shear_layer(int element, const Foundation& base, std::array<double, 2> range);
   void add_pressure(const PressureLoad& load);
   void add_initial_strain(const InitialStrain& load);
   void scale_loads();
@@ -149,65 +145,12 @@ void Builder::number_unknowns() {
   out_.constant_load = Eigen::VectorXd::Zero(out_.size);
 }
 
-Station Builder::station_at(int element, double xi, Vec3 row) const {
-  const int p = out_.mesh.order;
-  std::array<double, kMaxOrder> a{};
-  CollocationRule::of(p).integrals_at(xi, std::span(a).first(p));
-  Station station;
-  station.element = element;
-  station.a = row;
-  const double h = element_length(element);
-  for (int q = 0; q < p; ++q) station.v.push_back({h * a[q] * row[0], h * a[q] * row[1], h * a[q] * row[2]});
-  return station;
-}
-
-std::array<double, 2> Builder::base_direction(const Foundation& base, int element, double xi) const {
-  if (base.direction) {
-    const double size = std::hypot((*base.direction)[0], (*base.direction)[1]);
-    const double sign = base.reaction == Reaction::tension_only ? -1.0 : 1.0;
-    return {sign * (*base.direction)[0] / size, sign * (*base.direction)[1] / size};
-  }
-  const MeshElement& e = out_.mesh.elements[element];
-  const AxisCurve& axis = *out_.axes[e.member];
-  const double angle = axis.at(axis.length() * (e.from + xi * (e.to - e.from))).angle;
-  const bool left = (base.side == Side::left) != (base.reaction == Reaction::tension_only);
-  return left ? std::array{-std::sin(angle), std::cos(angle)} : std::array{std::sin(angle), -std::cos(angle)};
-}
-
-void Builder::add_lumped(int element, const Foundation& base, double modulus, std::span<const double> range) {
-  const Quadrature lobatto = gauss_lobatto(out_.mesh.order + 1);
-  for (std::size_t i = 0; i < lobatto.points.size(); ++i) {
-    const double xi = lobatto.points[i];
-    if (xi < range[0] - 1e-9 || xi > range[1] + 1e-9) continue;
-    const auto d = base_direction(base, element, xi);
-    Station station = station_at(element, xi, {d[0], d[1], 0.0});
-    station.stiffness = modulus * element_length(element) * lobatto.weights[i];
-    station.gap = base.reaction == Reaction::bilateral ? 0.0 : base.gap / out_.scales.length;
-    station.one_sided = base.reaction != Reaction::bilateral;
-    out_.elements->add_station(station);
-  }
-}
-
-/// The whole of a bilateral base on one element, as springs at Gauss points.
-void Builder::add_bilateral(int element, const Foundation& base, double modulus,
-                            std::array<double, 2> range) {
-  const Quadrature gauss = gauss_legendre(out_.mesh.order + 1);
-  const double width = range[1] - range[0];
-  for (std::size_t i = 0; i < gauss.points.size(); ++i) {
-    const double xi = range[0] + width * gauss.points[i];
-    const auto d = base_direction(base, element, xi);
-    Station station = station_at(element, xi, {d[0], d[1], 0.0});
-    station.stiffness = modulus * element_length(element) * width * gauss.weights[i];
-    out_.elements->add_station(station);
-  }
-}
-
 ContactStrip Builder::make_strip(int element, int index, double modulus, std::array<double, 2> range) const {
   const Foundation& base = model_.foundations[index];
   const MeshElement& e = out_.mesh.elements[element];
   ContactStrip::Direction direction;
   if (base.direction) {
-    direction.fixed = base_direction(base, element, 0.0);
+    direction.fixed = base_direction(out_, base, element, 0.0);
   } else {
     direction.axis = out_.axes[e.member];
     direction.sign = (base.side == Side::left) != (base.reaction == Reaction::tension_only) ? 1.0 : -1.0;
@@ -218,48 +161,23 @@ ContactStrip Builder::make_strip(int element, int index, double modulus, std::ar
                       base.gap / out_.scales.length, index);
 }
 
-/// The shear layer's energy 1/2 G (dw/ds)^2 at Gauss points; w' = u'.n - kappa u.t along the initial normal
-/// n. It ends where the range ends, with a free edge: no force from ground beyond.
-void Builder::add_shear_layer(int element, const Foundation& base, std::array<double, 2> range) {
-  const int p = out_.mesh.order;
-  const MeshElement& e = out_.mesh.elements[element];
-  const AxisCurve& axis = *out_.axes[e.member];
-  const Quadrature gauss = gauss_legendre(p + 1);
-  const double width = range[1] - range[0];
-  for (std::size_t i = 0; i < gauss.points.size(); ++i) {
-    const double xi = range[0] + width * gauss.points[i];
-    const auto n = base_direction(base, element, xi);
-    const AxisPoint at = axis.at(axis.length() * (e.from + xi * (e.to - e.from)));
-    // dn/ds of the left normal is -kappa t; n may be its negative, a fixed direction does not turn
-    const double side = base.direction ? 0.0 : (base.side == Side::left ? 1.0 : -1.0);
-    const double turn = -side * at.curvature * out_.scales.length;
-    Station station = station_at(element, xi, {turn * std::cos(at.angle), turn * std::sin(at.angle), 0.0});
-    std::array<double, kMaxOrder> l{};
-    CollocationRule::of(p).values_at(xi, std::span(l).first(p));
-    for (int q = 0; q < p; ++q)
-      for (int c = 0; c < 2; ++c) station.v[q][c] += l[q] * n[c];
-    station.stiffness =
-        base.shear_stiffness / out_.scales.force * element_length(element) * width * gauss.weights[i];
-    out_.elements->add_station(station);
-  }
-}
-
 void Builder::add_foundation(int element, int index) {
   const Foundation& base = model_.foundations[index];
   const auto range = overlap(out_.mesh.elements[element], base.range);
   if (range[1] <= range[0]) return;
   out_.foundation_parts.push_back({index, element, range, std::nullopt});
-  if (base.shear_stiffness > 0.0) add_shear_layer(element, base, range);
+  if (base.shear_stiffness > 0.0)
+    for (const Station& station : shear_layer_stations(out_, base, element, range))
+      out_.elements->add_station(station);
   if (base.stiffness == 0.0) return;
   const double modulus = base.stiffness * out_.scales.length * out_.scales.length / out_.scales.force;
   const bool one_sided = base.reaction != Reaction::bilateral;
   if (one_sided) out_.foundation_parts.back().strip = make_strip(element, index, modulus, range);
-  if (out_.mesh.foundation == FoundationRule::lumped)
-    add_lumped(element, base, modulus, range);
-  else if (one_sided)
+  if (one_sided && out_.mesh.foundation == FoundationRule::consistent)
     out_.elements->add_strip(element, *out_.foundation_parts.back().strip);
   else
-    add_bilateral(element, base, modulus, range);
+    for (const Station& station : winkler_stations(out_, base, element, range))
+      out_.elements->add_station(station);
 }
 
 void Builder::add_point_spring(int element, const Spring& spring) {
@@ -278,7 +196,7 @@ void Builder::add_point_spring(int element, const Spring& spring) {
     travel = L;
   }
   for (double& r : row) r *= sign;
-  Station station = station_at(element, place.xi, row);
+  Station station = station_at(out_, element, place.xi, row);
   station.stiffness = spring.stiffness / unit;
   station.gap = spring.reaction == Reaction::bilateral ? 0.0 : spring.gap / travel;
   station.one_sided = spring.reaction != Reaction::bilateral;
@@ -339,7 +257,7 @@ void Builder::add_supports() {
 }
 
 void Builder::add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const {
-  const Station station = station_at(element, xi, action);
+  const Station station = station_at(out_, element, xi, action);
   const ElementDofs& dofs = out_.dofs[element];
   const int p = out_.mesh.order;
   for (int c = 0; c < 3; ++c) {

@@ -3,6 +3,7 @@
 /// The part of a one-sided base that lies on one element.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
@@ -40,6 +41,8 @@ class ContactStrip {
   ContactStrip(int order, Direction direction, std::array<double, 2> range, double modulus, double gap,
                int foundation);
 
+  /// Rule for integrals over a contact interval.
+  [[nodiscard]] static Quadrature quadrature(int order) { return gauss_legendre(std::max(order + 2, 5)); }
   /// The same strip with another gap.
   [[nodiscard]] ContactStrip with_gap(double gap) const;
   [[nodiscard]] double modulus() const { return modulus_; }

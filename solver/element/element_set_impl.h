@@ -193,7 +193,7 @@ class ElementSetOf final : public ElementSet {
 
 template <int P>
 ElementSetOf<P>::ElementSetOf()
-    : rule_(&CollocationRule::of(P)), strip_quadrature_(gauss_legendre(std::max(P + 2, 5))) {
+    : rule_(&CollocationRule::of(P)), strip_quadrature_(ContactStrip::quadrature(P)) {
   for (int q = 0; q < P; ++q) {
     b_[q] = rule_->weight(q);
     for (int r = 0; r < P; ++r) a_[q][r] = rule_->integral(q, r);

@@ -62,6 +62,10 @@ struct OutputOptions {
   int every = 1;
   std::vector<double> at_load_factors;
   int points_per_member = 101;  ///< >= 2
+  /// At least so many points on each branch of a path, evenly along its arc; empty: its own steps'.
+  std::optional<int> path_points;
+  bool extremes = false;  ///< extreme section forces and displacements of each member
+  bool modes = true;      ///< modes with the states of critical points
 };
 
 struct Analysis {

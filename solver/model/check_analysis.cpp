@@ -105,6 +105,9 @@ void check_output(const Place& place, const Model& model, const OutputOptions& o
   } else if (output.states == StateOutput::at_load_factors) {
     check_load_factors(place / "states" / "at_load_factors", output.at_load_factors);
   }
+  if (output.path_points) {
+    require_between(place / "path_points", *output.path_points, 2, kMaxPathPoints);
+  }
   const Place points = place / "points_per_member";
   const auto members = static_cast<long long>(model.members.size());
   if (require_between(points, output.points_per_member, 2, kMaxPointsPerMember) &&

@@ -26,6 +26,7 @@ inline constexpr int kMaxElementsPerMember = 100'000;
 inline constexpr long long kMaxElements = 1'000'000;  ///< of a fixed mesh, all members together
 inline constexpr int kMaxPointsPerMember = 100'001;
 inline constexpr long long kMaxStatePoints = 2'000'000;  ///< members times points_per_member
+inline constexpr int kMaxPathPoints = 100'000;
 inline constexpr int kMaxSteps =
     10'000'000;  ///< largest count that a stop rule, branch limit or `every` takes
 inline constexpr double kMaxAccuracy = 0.5;

@@ -1,10 +1,10 @@
 #include "solver/post/contact.h"
 
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
 #include "solver/post/element_reader.h"
+#include "solver/post/support_state.h"
 
 namespace snapthrough {
 namespace {
@@ -62,14 +62,8 @@ ContactZones::ContactZones(const Structure& structure, const Model& model)
   }
   for (const Spring& spring : model.springs) {
     if (spring.reaction == Reaction::bilateral || spring.stiffness == 0.0) continue;
-    std::array<double, 3> row{0.0, 0.0, 1.0};
-    double gap = spring.gap;
-    if (spring.direction) {
-      const double size = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
-      row = {(*spring.direction)[0] / size, (*spring.direction)[1] / size, 0.0};
-      gap /= structure.scales.length;
-    }
-    springs_.push_back({displacement_row(structure, model, spring.at, row), gap,
+    const double gap = spring.direction ? spring.gap / structure.scales.length : spring.gap;
+    springs_.push_back({displacement_row(structure, model, spring.at, spring_direction(spring)), gap,
                         spring.reaction == Reaction::compression_only ? 1.0 : -1.0});
     ids_.push_back(spring.id);
   }

@@ -11,6 +11,7 @@
 #include "solver/post/contact.h"
 #include "solver/post/element_reader.h"
 #include "solver/post/section_force.h"
+#include "solver/post/support_state.h"
 
 namespace snapthrough {
 namespace {
@@ -40,6 +41,10 @@ MemberState member_state(const Structure& structure, const Model& model, const E
     // small displacements: equilibrium is that of the undeformed shape
     const double angle = p.angle + (structure.geometry == Geometry::linear ? 0.0 : u[2]);
     out.s.push_back(fraction * length);
+    out.x0.push_back(structure.origin[0] + p.x);
+    out.y0.push_back(structure.origin[1] + p.y);
+    out.u.push_back(L * u[0]);
+    out.v.push_back(L * u[1]);
     out.x.push_back(structure.origin[0] + p.x + L * u[0]);
     out.y.push_back(structure.origin[1] + p.y + L * u[1]);
     out.rotation.push_back(u[2]);
@@ -76,6 +81,7 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     if (base.reaction == Reaction::tension_only) r = base.stiffness * std::min(w + base.gap, 0.0);
     out.s.push_back(fraction * axis.length());
     out.reaction.push_back(r);
+    out.displacement.push_back(w);
   }
   out.contact = contact_intervals(structure, model, y, index);
   return out;
@@ -83,13 +89,22 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
 
 }  // namespace
 
+std::vector<MemberState> member_states(const Structure& structure, const Model& model,
+                                       const Eigen::VectorXd& y, double lambda, int points) {
+  std::vector<MemberState> out;
+  for (std::size_t m = 0; m < model.members.size(); ++m)
+    out.push_back(member_state(structure, model, y, lambda, static_cast<int>(m), points));
+  return out;
+}
+
 State make_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda,
                  int points) {
   State state;
-  for (std::size_t m = 0; m < model.members.size(); ++m)
-    state.members.push_back(member_state(structure, model, y, lambda, static_cast<int>(m), points));
+  state.load_factor = lambda / structure.scales.load;
+  state.members = member_states(structure, model, y, lambda, points);
   for (std::size_t i = 0; i < model.foundations.size(); ++i)
     state.foundations.push_back(foundation_state(structure, model, y, static_cast<int>(i), points));
+  add_forces_on_structure(structure, model, y, lambda, state);
   return state;
 }
 
@@ -104,51 +119,6 @@ std::vector<double> contact_fractions(const Structure& structure, const Model& m
     for (const auto& interval : contact_intervals(structure, model, y, static_cast<int>(i)))
       contact += interval[1] - interval[0];
     out.push_back(std::clamp(contact / length, 0.0, 1.0));
-  }
-  return out;
-}
-
-std::vector<MemberState> mode_displacements(const Structure& structure, const Model& model,
-                                            const Eigen::VectorXd& mode, int points) {
-  std::vector<MemberState> out;
-  for (std::size_t m = 0; m < model.members.size(); ++m) {
-    MemberState member;
-    member.id = model.members[m].id;
-    for (int i = 0; i < points; ++i) {
-      const double fraction = static_cast<double>(i) / (points - 1);
-      const MeshPlace place = place_of(structure.mesh, static_cast<int>(m), fraction);
-      const auto u = ElementReader(structure, mode, place.element).displacement(place.xi);
-      member.s.push_back(fraction * structure.axes[m]->length());
-      member.x.push_back(u[0]);
-      member.y.push_back(u[1]);
-      member.rotation.push_back(u[2]);
-    }
-    out.push_back(std::move(member));
-  }
-  return out;
-}
-
-std::vector<CubicSpline> normal_offsets(const Structure& structure, const Model& model,
-                                        const Eigen::VectorXd& mode, double amplitude) {
-  constexpr int kPointsPerElement = 8;
-  std::vector<std::vector<double>> s(model.members.size());
-  std::vector<std::vector<double>> w(model.members.size());
-  double largest = 0.0;
-  for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const int points = kPointsPerElement * (structure.mesh.first[m + 1] - structure.mesh.first[m]) + 1;
-    const AxisCurve& axis = *structure.axes[m];
-    const auto member = mode_displacements(structure, model, mode, points)[m];
-    for (std::size_t i = 0; i < member.s.size(); ++i) {
-      const double angle = axis.at(member.s[i]).angle;
-      s[m].push_back(member.s[i]);
-      w[m].push_back(-std::sin(angle) * member.x[i] + std::cos(angle) * member.y[i]);
-      if (std::abs(w[m].back()) > std::abs(largest) * (1.0 + 1e-6)) largest = w[m].back();
-    }
-  }
-  std::vector<CubicSpline> out;
-  for (std::size_t m = 0; m < model.members.size(); ++m) {
-    for (double& value : w[m]) value *= largest == 0.0 ? 0.0 : amplitude / largest;
-    out.emplace_back(s[m], w[m]);
   }
   return out;
 }

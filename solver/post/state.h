@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a state of a structure looks like: deformed shape, section forces, base reactions, contact.
+/// What a state of a structure looks like: shape, section forces, reactions, contact.
 
 #include <Eigen/Core>
 #include <vector>
@@ -11,7 +11,13 @@
 
 namespace snapthrough {
 
-/// @brief Deformed shape, section forces and base reactions at `points` equally spaced places of each member.
+/// @brief Shapes and section forces at `points` equally spaced places of each member.
+/// @param y, lambda, points as for make_state()
+[[nodiscard]] std::vector<MemberState> member_states(const Structure& structure, const Model& model,
+                                                     const Eigen::VectorXd& y, double lambda, int points);
+
+/// @brief Everything a state says: members and bases sampled at `points` equally spaced places, and what
+/// supports, springs, bases and loads put on the structure. Its branch is 0, its refinements 0.
 /// @param y unknowns of the structure's problem (scaled units); the result is in the model's units
 /// @param lambda scaled load factor of that state
 /// @pre points >= 2
@@ -21,15 +27,5 @@ namespace snapthrough {
 /// @brief Share of each foundation's range that is in contact; 1 for a bilateral one.
 [[nodiscard]] std::vector<double> contact_fractions(const Structure& structure, const Model& model,
                                                     const Eigen::VectorXd& y);
-
-/// @brief Displacements of an eigenvector: s in the model's units; x, y (displacements) and rotation
-/// unscaled.
-[[nodiscard]] std::vector<MemberState> mode_displacements(const Structure& structure, const Model& model,
-                                                          const Eigen::VectorXd& mode, int points);
-
-/// @brief Offsets along the initial left normals, over the arc length in the model's units, of an eigenvector
-/// scaled so that the largest is `amplitude` (and positive with it); one spline a member.
-[[nodiscard]] std::vector<CubicSpline> normal_offsets(const Structure& structure, const Model& model,
-                                                      const Eigen::VectorXd& mode, double amplitude);
 
 }  // namespace snapthrough

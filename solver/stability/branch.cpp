@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "solver/linalg/pseudo_random.h"
+#include "solver/stability/critical_mode.h"
 
 namespace snapthrough {
 namespace {
@@ -11,22 +12,13 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kFirstStep = 0.01;  ///< displacement gradient
-constexpr int kInverseIterations = 4;
 
-/// The tangent's null vector in displacements, by inverse iteration; largest component positive.
-VectorXd null_vector(Continuation& continuation, const PathPoint& point) {
+/// The tangent's null vector in displacements, largest component positive.
+VectorXd oriented_null_vector(Continuation& continuation, const PathPoint& point) {
   EquilibriumProblem& problem = continuation.problem();
-  const VectorXd& weights = problem.metric();
-  VectorXd residual;
-  problem.linearise(point.y, point.lambda, residual);
-  VectorXd x = pseudo_random(problem.size(), 1U);
-  for (int it = 0; it < kInverseIterations; ++it) {
-    x = weights.cwiseProduct(x).eval();
-    problem.solve(x);
-    x /= continuation.metric().norm(x, 0.0);
-  }
+  const VectorXd x = null_vector(problem, point, pseudo_random(problem.size(), 1U));
   Index largest = 0;
-  weights.cwiseSqrt().cwiseProduct(x).cwiseAbs().maxCoeff(&largest);
+  problem.metric().cwiseSqrt().cwiseProduct(x).cwiseAbs().maxCoeff(&largest);
   return x[largest] < 0.0 ? VectorXd(-x) : x;
 }
 
@@ -54,7 +46,7 @@ Direction load_direction(Continuation& continuation, const PathPoint& point, con
 std::optional<PathPoint> first_point_of_branch(Continuation& continuation, const PathPoint& bifurcation,
                                                double sign) {
   const PathMetric& metric = continuation.metric();
-  const VectorXd null = null_vector(continuation, bifurcation);
+  const VectorXd null = oriented_null_vector(continuation, bifurcation);
   if (!null.allFinite()) return std::nullopt;
   const Direction load = load_direction(continuation, bifurcation, null);
   // both paths' tangents lie in the plane of these two: take the direction across the known one

@@ -176,6 +176,8 @@ TEST(ReadAnalysis, DefaultsAreThoseOfTheContract) {
   EXPECT_EQ(a.branches.follow, Follow::primary);
   EXPECT_EQ(a.output.states, StateOutput::critical);
   EXPECT_EQ(a.output.points_per_member, 101);
+  EXPECT_FALSE(a.output.path_points.has_value());
+  EXPECT_FALSE(a.output.extremes);
 }
 
 TEST(ReadAnalysis, EveryField) {
@@ -184,7 +186,7 @@ TEST(ReadAnalysis, EveryField) {
     "discretization": {"elements": 40, "order": 3, "foundation": "lumped"}, "control": {"displacement": "d0"},
     "step": {"initial": 0.1, "min": 0.01, "max": 0.5},
     "stop": {"limit_points": 2, "load_factor": [-1, 5], "monitor": {"id": "d0", "range": [-2, 3]}, "steps": 77},
-    "branches": {"follow": "all", "limit": 6}, "output": {"states": {"every": 5}, "points_per_member": 11}})");
+    "branches": {"follow": "all", "limit": 6}, "output": {"states": {"every": 5}, "points_per_member": 11, "path_points": 300, "extremes": true}})");
   EXPECT_EQ(a.type, AnalysisType::path);
   EXPECT_EQ(a.modes, 4);
   EXPECT_THAT(a.load_factors, ElementsAre(0.5, 2.0));
@@ -209,6 +211,8 @@ TEST(ReadAnalysis, EveryField) {
   EXPECT_EQ(a.output.states, StateOutput::every);
   EXPECT_EQ(a.output.every, 5);
   EXPECT_EQ(a.output.points_per_member, 11);
+  EXPECT_THAT(a.output.path_points, Optional(300));
+  EXPECT_TRUE(a.output.extremes);
 }
 
 TEST(ReadAnalysis, OtherFormsOfFields) {

@@ -155,6 +155,25 @@ TEST(Sweep, SparesPlacesThatNoOutputLooksAt) {
   EXPECT_EQ(places_for("/buckling/modes/0"), 101);
   EXPECT_EQ(places_for("/buckling"), 101);
   EXPECT_EQ(places_for("/states/0/load_factor"), 101);
+  EXPECT_EQ(places_for("/critical_points/0/type"), 2);
+  EXPECT_EQ(places_for("/critical_points/0/mode/members"), 101);
+  EXPECT_EQ(places_for("/extremes/members"), 101);
+}
+
+TEST(Sweep, SparesModesAndExtremesThatNoOutputLooksAt) {
+  json document = sound_sweep();
+  const auto spared = [&](const char* output) {
+    document["outputs"] = {output};
+    Analysis analysis;
+    analysis.output.extremes = true;
+    read(document).sweep->spare_unused(analysis);
+    return std::pair{analysis.output.modes, analysis.output.extremes};
+  };
+  EXPECT_EQ(spared("/summary/critical_load_factor"), std::pair(false, false));
+  EXPECT_EQ(spared("/critical_points/0/load_factor"), std::pair(false, false));
+  EXPECT_EQ(spared("/critical_points/0/mode/members"), std::pair(true, false));
+  EXPECT_EQ(spared("/critical_points/0"), std::pair(true, false));
+  EXPECT_EQ(spared("/extremes/members"), std::pair(false, true));
 }
 
 TEST(Sweep, DropsOnlyWhatNoOutputLooksInto) {
@@ -163,7 +182,7 @@ TEST(Sweep, DropsOnlyWhatNoOutputLooksInto) {
   full.contact_events.resize(1);
   full.branches.resize(1);
   full.states.resize(1);
-  full.buckling = BucklingResult{{1.0, 2.0}, std::vector<BucklingMode>(2)};
+  full.buckling = BucklingResult{{1.0, 2.0}, {1e-6, {}}, std::vector<Mode>(2)};
   Result result = full;
   (*read(sound_sweep()).sweep).drop_unused(result);
   EXPECT_EQ(result.critical_points.size(), 2U) << "/critical_points/0/type";

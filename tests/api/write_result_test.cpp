@@ -25,10 +25,20 @@ Request some_request() {
 Result full_result() {
   Result r;
   r.summary = {66.25, CriticalType::bifurcation, 1e-5, "limit_points", "one limit point"};
-  r.critical_points = {
-      {0, CriticalType::bifurcation, 66.25, 1e-5, 1.5, {{"crown", -0.5}}, 0, 1, 2, 0, CriticalCause::contact},
-      {0, CriticalType::limit_max, 76.5, {}, 2.5, {}, -1, -1, 1, {}},
-      {1, CriticalType::limit_min, 10.0, {}, 3.5, {}, 2, 1, 1, {}}};
+  r.critical_points = {{0,
+                        CriticalType::bifurcation,
+                        66.25,
+                        1e-5,
+                        1.5,
+                        {{"crown", -0.5}},
+                        0,
+                        1,
+                        2,
+                        0,
+                        CriticalCause::contact,
+                        Mode{{{"m", {0.0}, {1.0}, {0.5}, {3.0}}}}},
+                       {0, CriticalType::limit_max, 76.5, {}, 2.5, {}, -1, -1, 1, {}},
+                       {1, CriticalType::limit_min, 10.0, {}, 3.5, {}, 2, 1, 1, {}}};
   r.branches = {{0,
                  {},
                  {0.0, 1.0},
@@ -39,13 +49,24 @@ Result full_result() {
                  "limit_points"},
                 {1, 0, {}, {}, {}, {}, {}}};
   r.contact_events = {{1, "soil", true, 2.5, 0.5, 2, 1}};
-  r.states = {
-      {0,
-       66.25,
-       2,
-       {{"m", {0.0, 1.0}, {2.0, 3.0}, {4.0, 5.0}, {6.0, 7.0}, {8.0, 9.0}, {10.0, 11.0}, {12.0, 13.0}}},
-       {{"soil", {0.0, 1.0}, {0.25, 0.0}, {{0.0, 0.5}, {0.75, 1.0}}}}}};
-  r.buckling = BucklingResult{{1.5, 2.5}, {{{{"m", {0.0}, {1.0}, {2.0}, {3.0}, {}, {}, {}}}}}};
+  State state;
+  state.load_factor = 66.25;
+  state.refinements = 2;
+  state.members = {{"m", {0.0}, {1.0}, {2.0}, {3.0}, {4.0}, {5.0}, {6.0}, {7.0}, {8.0}, {9.0}, {10.0}}};
+  state.supports = {{"a", 1.0, 2.0, 3.0}};
+  state.springs = {{"k", -0.5, -0.25, true, {1.5, 2.5, 3.5}}};
+  state.foundations = {
+      {"soil", {0.0, 1.0}, {0.25, 0.0}, {0.5, -0.5}, {{0.0, 0.5}, {0.75, 1.0}}, {0.5, 1.5, 2.5}}};
+  state.loads = {4.5, 5.5, 6.5};
+  r.states = {state};
+  r.static_table =
+      StaticTable{{0.5, 1.0}, {{"crown", {0.0, -0.25}}}, {0, {}}, {{"soil", {1.0, 0.5}}}, {{}, 0}};
+  r.not_reached = {2.0};
+  const Extreme least{-1.0, 0.25, 0, 0.5};
+  const Extreme most{2.0, 0.75, 1, 1.5};
+  r.extremes = {{"m", {least, most}, {most, most}, {least, least}, most}};
+  r.warnings = {{"large_strain", "much"}};
+  r.buckling = BucklingResult{{1.5, 2.5}, {1e-6, {}}, {{{{"m", {0.0}, {1.0}, {2.0}, {3.0}}}}}};
   r.discretization = {16, 3, 142, 2, 1e-3, 1e-4};
   r.diagnostics = {20, 1, 60, 61, 1e-12, {"foundation soil: stiffness 0"}};
   return r;
@@ -68,11 +89,12 @@ TEST(WriteResult, EveryFieldOfTheContract) {
                 "termination": "limit_points", "message": "one limit point"},
     "critical_points": [
       {"branch": 0, "type": "bifurcation", "cause": "contact", "load_factor": 66.25, "error_estimate": 1e-5, "arc_length": 1.5,
-       "monitors": {"crown": -0.5}, "negative_before": 0, "negative_after": 1, "multiplicity": 2, "state": 0},
+       "monitors": {"crown": -0.5}, "negative_before": 0, "negative_after": 1, "multiplicity": 2, "state": 0,
+       "mode": {"members": {"m": {"s": [0.0], "u": [1.0], "v": [0.5], "rotation": [3.0]}}}},
       {"branch": 0, "type": "limit_max", "cause": "smooth", "load_factor": 76.5, "error_estimate": null, "arc_length": 2.5,
-       "monitors": {}, "negative_before": null, "negative_after": null, "multiplicity": 1, "state": null},
+       "monitors": {}, "negative_before": null, "negative_after": null, "multiplicity": 1, "state": null, "mode": null},
       {"branch": 1, "type": "limit_min", "cause": "smooth", "load_factor": 10.0, "error_estimate": null, "arc_length": 3.5,
-       "monitors": {}, "negative_before": 2, "negative_after": 1, "multiplicity": 1, "state": null}],
+       "monitors": {}, "negative_before": 2, "negative_after": 1, "multiplicity": 1, "state": null, "mode": null}],
     "branches": [
       {"id": 0, "parent": null, "load_factor": [0.0, 1.0], "arc_length": [0.0, 0.5],
        "monitors": {"crown": [0.0, -0.25]}, "negative_eigenvalues": [0, 1], "contact_fraction": {"soil": [1.0, 0.5]},
@@ -82,11 +104,28 @@ TEST(WriteResult, EveryFieldOfTheContract) {
     "contact_events": [{"branch": 1, "id": "soil", "type": "opened", "load_factor": 2.5, "arc_length": 0.5,
                         "zones_before": 2, "zones_after": 1}],
     "states": [{"branch": 0, "load_factor": 66.25, "refinements": 2,
-      "members": {"m": {"s": [0.0, 1.0], "x": [2.0, 3.0], "y": [4.0, 5.0], "rotation": [6.0, 7.0],
-        "axial_force": [8.0, 9.0], "shear_force": [10.0, 11.0], "bending_moment": [12.0, 13.0]}},
-      "foundations": {"soil": {"s": [0.0, 1.0], "reaction": [0.25, 0.0], "contact": [[0.0, 0.5], [0.75, 1.0]]}}}],
-    "buckling": {"load_factors": [1.5, 2.5],
-      "modes": [{"members": {"m": {"s": [0.0], "x": [1.0], "y": [2.0], "rotation": [3.0]}}}]},
+      "members": {"m": {"s": [0.0], "x0": [1.0], "y0": [2.0], "x": [3.0], "y": [4.0], "u": [5.0], "v": [6.0],
+        "rotation": [7.0], "axial_force": [8.0], "shear_force": [9.0], "bending_moment": [10.0]}},
+      "supports": {"a": {"fx": 1.0, "fy": 2.0, "moment": 3.0}},
+      "springs": {"k": {"force": -0.5, "displacement": -0.25, "closed": true,
+                        "resultant": {"fx": 1.5, "fy": 2.5, "moment": 3.5}}},
+      "foundations": {"soil": {"s": [0.0, 1.0], "reaction": [0.25, 0.0], "displacement": [0.5, -0.5],
+        "contact": [[0.0, 0.5], [0.75, 1.0]], "resultant": {"fx": 0.5, "fy": 1.5, "moment": 2.5}}},
+      "loads": {"fx": 4.5, "fy": 5.5, "moment": 6.5}}],
+    "static": {"load_factor": [0.5, 1.0], "monitors": {"crown": [0.0, -0.25]}, "negative_eigenvalues": [0, null],
+      "contact_fraction": {"soil": [1.0, 0.5]}, "state": [null, 0]},
+    "not_reached": [2.0],
+    "extremes": {"members": {"m": {
+      "axial_force": {"min": {"value": -1.0, "s": 0.25, "branch": 0, "load_factor": 0.5},
+                      "max": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}},
+      "shear_force": {"min": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5},
+                      "max": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}},
+      "bending_moment": {"min": {"value": -1.0, "s": 0.25, "branch": 0, "load_factor": 0.5},
+                         "max": {"value": -1.0, "s": 0.25, "branch": 0, "load_factor": 0.5}},
+      "displacement": {"max": {"value": 2.0, "s": 0.75, "branch": 1, "load_factor": 1.5}}}}},
+    "warnings": [{"code": "large_strain", "detail": "much"}],
+    "buckling": {"load_factors": [1.5, 2.5], "error_estimates": [1e-6, null],
+      "modes": [{"members": {"m": {"s": [0.0], "u": [1.0], "v": [2.0], "rotation": [3.0]}}}]},
     "discretization": {"elements": 16, "order": 3, "unknowns": 142, "refinements": 2,
       "accuracy": {"requested": 1e-3, "estimated": 1e-4}},
     "diagnostics": {"steps": 20, "rejected_steps": 1, "iterations": 60, "factorizations": 61,
@@ -105,7 +144,11 @@ TEST(WriteResult, NothingKnownIsNull) {
   EXPECT_EQ(written["discretization"]["accuracy"], json({{"requested", nullptr}, {"estimated", nullptr}}));
   EXPECT_EQ(written["diagnostics"]["max_relative_residual"], nullptr);
   EXPECT_EQ(written["branches"], json::array());
+  EXPECT_EQ(written["not_reached"], json::array());
+  EXPECT_EQ(written["warnings"], json::array());
   EXPECT_FALSE(written.contains("buckling"));
+  EXPECT_FALSE(written.contains("static"));
+  EXPECT_FALSE(written.contains("extremes"));
   EXPECT_FALSE(written.contains("failure"));
 }
 
@@ -130,12 +173,12 @@ TEST(WriteResult, NumberThatIsNotFiniteIsAnError) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Result result = full_result();
-    result.states[0].members[0].y[1] = bad;
+    result.states[0].members[0].y[0] = bad;
     try {
       (void)write_result(some_request(), result, 0.0);
       ADD_FAILURE() << "accepted " << bad;
     } catch (const std::runtime_error& error) {
-      EXPECT_THAT(error.what(), HasSubstr("/states/0/members/m/y/1"));
+      EXPECT_THAT(error.what(), HasSubstr("/states/0/members/m/y/0"));
     }
   }
 }

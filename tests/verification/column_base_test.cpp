@@ -58,7 +58,7 @@ TEST(PinnedColumnOnWinkler, BucklesInTheExpectedNumberOfHalfWaves) {
   for (const auto& c : cases) {
     const Result result = solve_soundly(pinned_on_winkler(c.k), buckling_on(fixed_mesh(16, 5)));
     ASSERT_TRUE(result.buckling);
-    const std::vector<double>& w = result.buckling->modes[0].members[0].y;
+    const std::vector<double>& w = result.buckling->modes[0].members[0].v;
     int changes = 0;
     for (std::size_t i = 2; i + 1 < w.size(); ++i) changes += (w[i] > 0.0) != (w[i - 1] > 0.0) ? 1 : 0;
     EXPECT_EQ(changes + 1, c.half_waves) << "k " << c.k;

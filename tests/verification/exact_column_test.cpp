@@ -49,11 +49,11 @@ double first_load(const Model& model) {
 }
 
 /// Displacements of a mode at all sampled places in one list.
-std::vector<double> shape_of(const BucklingMode& mode) {
+std::vector<double> shape_of(const Mode& mode) {
   std::vector<double> out;
-  for (const MemberState& member : mode.members) {
-    out.insert(out.end(), member.x.begin(), member.x.end());
-    out.insert(out.end(), member.y.begin(), member.y.end());
+  for (const MemberMode& member : mode.members) {
+    out.insert(out.end(), member.u.begin(), member.u.end());
+    out.insert(out.end(), member.v.begin(), member.v.end());
   }
   return out;
 }
@@ -65,7 +65,7 @@ double product(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 /// Sine of the angle between two shapes.
-double angle_between(const BucklingMode& a, const BucklingMode& b) {
+double angle_between(const Mode& a, const Mode& b) {
   const std::vector<double> u = shape_of(a);
   const std::vector<double> v = shape_of(b);
   const double cosine = product(u, v) / std::sqrt(product(u, u) * product(v, v));
@@ -167,14 +167,14 @@ TEST(ExactColumn, FindsTheDoubleLoadsOfPinnedColumnsOnWinklerBases) {
     for (const double load : result.buckling->load_factors)
       expect_relative(load, kPi * kPi * (n * n + k / (n * n)), kRounding, what);
     EXPECT_GT(angle_between(result.buckling->modes[0], result.buckling->modes[1]), 0.1) << what;
-    for (const BucklingMode& mode : result.buckling->modes) {
-      const MemberState& m = mode.members[0];
+    for (const Mode& mode : result.buckling->modes) {
+      const MemberMode& m = mode.members[0];
       // sines are orthogonal on equally spaced places
       std::array<double, 2> share{};
       for (std::size_t i = 0; i < m.s.size(); ++i)
-        for (int j = 0; j < 2; ++j) share[j] += 0.002 * m.y[i] * std::sin((n + j) * kPi * m.s[i]);
+        for (int j = 0; j < 2; ++j) share[j] += 0.002 * m.v[i] * std::sin((n + j) * kPi * m.s[i]);
       for (std::size_t i = 0; i < m.s.size(); ++i)
-        EXPECT_NEAR(m.y[i],
+        EXPECT_NEAR(m.v[i],
                     share[0] * std::sin(n * kPi * m.s[i]) + share[1] * std::sin((n + 1) * kPi * m.s[i]), 1e-9)
             << what;
     }

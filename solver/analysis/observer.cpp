@@ -1,0 +1,46 @@
+#include "solver/analysis/observer.h"
+
+#include <string>
+#include <utility>
+
+#include "solver/analysis/analyses.h"
+#include "solver/post/extremes.h"
+#include "solver/post/state.h"
+
+namespace snapthrough {
+namespace {
+
+/// Strain up to which steel, concrete and soil-cement are far beyond linear anyway, and strain measures
+/// differ by a few hundredths of it.
+constexpr double kSmallStrain = 0.05;
+
+}  // namespace
+
+void Observer::note_strain(const Eigen::VectorXd& y, double lambda, int branch) {
+  if (!gauge_.raise(y, largest_)) return;
+  strained_branch_ = branch;
+  strained_load_ = lambda / structure_.scales.load;
+}
+
+void Observer::add_to_extremes(const Eigen::VectorXd& y, double lambda, int branch) {
+  if (!analysis_.output.extremes) return;
+  widen_extremes(member_states(structure_, model_, y, lambda, analysis_.output.points_per_member), branch,
+                 lambda / structure_.scales.load, extremes_);
+}
+
+void Observer::finish(Result& result) {
+  if (analysis_.output.extremes) {
+    for (const State& state : result.states)
+      widen_extremes(state.members, state.branch, state.load_factor, extremes_);
+    result.extremes = std::move(extremes_);
+  }
+  if (largest_.strain <= kSmallStrain) return;
+  result.warnings.push_back(
+      {"large_strain", "the strain reaches " + number(largest_.strain) + " in member \"" +
+                           model_.members[largest_.member].id + "\" at s = " + number(largest_.s) +
+                           ", load factor " + number(strained_load_) + " on branch " +
+                           std::to_string(strained_branch_) + ": beyond " + number(kSmallStrain) +
+                           " the linear law of the sections does not hold"});
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,148 @@
+#include "solver/post/support_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "solver/assembly/base_stations.h"
+#include "solver/post/element_reader.h"
+#include "solver/post/resultant.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::VectorXd;
+
+/// A spring in a state, scaled.
+struct SpringForce {
+  SparseRow row;              ///< displacement along its direction
+  double displacement = 0.0;  ///< its value
+  double force = 0.0;         ///< on the structure against the direction
+  bool closed = false;
+};
+
+SpringForce force_of(const Structure& structure, const Model& model, const Spring& spring,
+                     const VectorXd& y) {
+  const double L = structure.scales.length;
+  const double F = structure.scales.force;
+  const double stiffness = spring.direction ? spring.stiffness * L / F : spring.stiffness / (F * L);
+  const double gap = spring.direction ? spring.gap / L : spring.gap;
+  SpringForce out;
+  out.row = displacement_row(structure, model, spring.at, spring_direction(spring));
+  out.displacement = out.row.dot(y);
+  double acting = out.displacement;
+  if (spring.reaction == Reaction::compression_only) acting = std::max(out.displacement - gap, 0.0);
+  if (spring.reaction == Reaction::tension_only) acting = std::min(out.displacement + gap, 0.0);
+  out.force = stiffness * acting;
+  out.closed = spring.stiffness > 0.0 && (spring.reaction == Reaction::bilateral || acting != 0.0);
+  return out;
+}
+
+/// Adds the springs to the state; returns what they put on the nodes, in the problem's rows.
+VectorXd add_springs(const Structure& structure, const Model& model, const VectorXd& y,
+                     const RigidMotions& rigid, State& state) {
+  VectorXd on_nodes = VectorXd::Zero(3 * structure.joints);
+  for (const Spring& spring : model.springs) {
+    const SpringForce at = force_of(structure, model, spring, y);
+    const double L = structure.scales.length;
+    const double F = structure.scales.force;
+    Wrench wrench = rigid.work(at.row);
+    for (double& component : wrench) component *= -at.force;
+    state.springs.push_back({spring.id, at.force * (spring.direction ? F : F * L),
+                             at.displacement * (spring.direction ? L : 1.0), at.closed,
+                             rigid.unscaled(wrench)});
+    if (spring.at.node.empty()) continue;
+    for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
+  }
+  return on_nodes;
+}
+
+/// Forces and moments on the nodes that nothing but supports can put there, in global axes.
+VectorXd held_forces(const Structure& structure, const VectorXd& y, double lambda, const VectorXd& springs) {
+  VectorXd f = -lambda * structure.proportional_load - structure.constant_load;
+  structure.elements->set_load_factors(lambda, 1.0);
+  structure.elements->add_residual(y, f);
+  return f.head(3 * structure.joints) - springs;
+}
+
+void add_supports(const Structure& structure, const Model& model, const VectorXd& held, State& state) {
+  const double F = structure.scales.force;
+  for (const Support& support : model.supports) {
+    const int node = index_of(model.nodes, support.node);
+    const JointSupport& joint = structure.supports[node];
+    const std::array<std::array<double, 2>, 2> axes{
+        {{std::cos(joint.angle), std::sin(joint.angle)}, {-std::sin(joint.angle), std::cos(joint.angle)}}};
+    SupportState out;
+    out.node = support.node;
+    for (int c = 0; c < 2; ++c) {
+      if (!joint.fixed[c]) continue;
+      const double along = held[3 * node] * axes[c][0] + held[3 * node + 1] * axes[c][1];
+      out.fx += F * along * axes[c][0];
+      out.fy += F * along * axes[c][1];
+    }
+    if (joint.fixed[2]) out.moment = F * structure.scales.length * held[3 * node + 2];
+    state.supports.push_back(std::move(out));
+  }
+}
+
+/// The springs of a base that act on one element.
+std::vector<Station> acting_stations(const Structure& structure, const Foundation& base,
+                                     const FoundationPart& part, const VectorXd& y) {
+  if (!part.strip || structure.mesh.foundation == FoundationRule::lumped)
+    return winkler_stations(structure, base, part.element, part.range);
+  const ElementReader reader(structure, y, part.element);
+  std::vector<ContactStrip::Interval> intervals;
+  part.strip->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
+                                reader.gradient(1), intervals);
+  std::vector<Station> out;
+  for (const auto& interval : intervals)
+    for (Station& station : contact_stations(structure, base, part.element, interval))
+      out.push_back(std::move(station));
+  return out;
+}
+
+void add_stations(const std::vector<Station>& stations, const VectorXd& y, const RigidMotions& rigid,
+                  Wrench& sum) {
+  for (const Station& station : stations) {
+    const double w = rigid.value(station, y) - station.gap;
+    if (station.one_sided && w <= 0.0) continue;
+    const Wrench unit = rigid.work(station);
+    for (int c = 0; c < 3; ++c) sum[c] -= station.stiffness * w * unit[c];
+  }
+}
+
+void add_foundations(const Structure& structure, const Model& model, const VectorXd& y,
+                     const RigidMotions& rigid, State& state) {
+  std::vector<Wrench> sums(model.foundations.size());
+  for (const FoundationPart& part : structure.foundation_parts) {
+    const Foundation& base = model.foundations[part.foundation];
+    Wrench& sum = sums[part.foundation];
+    if (base.shear_stiffness > 0.0)
+      add_stations(shear_layer_stations(structure, base, part.element, part.range), y, rigid, sum);
+    if (base.stiffness > 0.0) add_stations(acting_stations(structure, base, part, y), y, rigid, sum);
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) state.foundations[i].resultant = rigid.unscaled(sums[i]);
+}
+
+}  // namespace
+
+std::array<double, 3> spring_direction(const Spring& spring) {
+  if (!spring.direction) return {0.0, 0.0, 1.0};
+  const double size = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
+  return {(*spring.direction)[0] / size, (*spring.direction)[1] / size, 0.0};
+}
+
+void add_forces_on_structure(const Structure& structure, const Model& model, const VectorXd& y, double lambda,
+                             State& state) {
+  const RigidMotions rigid(structure, model, y);
+  const VectorXd springs = add_springs(structure, model, y, rigid, state);
+  add_supports(structure, model, held_forces(structure, y, lambda, springs), state);
+  add_foundations(structure, model, y, rigid, state);
+  VectorXd loads = lambda * structure.proportional_load + structure.constant_load;
+  structure.elements->add_pressure_load(y, lambda, 1.0, loads);
+  state.loads = rigid.unscaled(rigid.work(loads));
+}
+
+}  // namespace snapthrough
