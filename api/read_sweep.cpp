@@ -11,6 +11,7 @@
 #include "api/sweep.h"
 #include "api/sweep_data.h"
 #include "api/value.h"
+#include "solver/model/check_place.h"
 
 namespace snapthrough::api {
 
@@ -62,9 +63,6 @@ bool has_place(const Json& document, const std::vector<std::string>& tokens) {
 }
 
 void read_pointer(const Value& value, SweepOutput& out) {
-  static constexpr std::array<std::string_view, 10> kParts{
-      "model",  "summary",        "critical_points", "contact_events", "branches",
-      "states", "discretization", "diagnostics",     "buckling",       "failure"};
   read(value, out.pointer);
   if (!value.is_string()) {
     return;
@@ -74,11 +72,6 @@ void read_pointer(const Value& value, SweepOutput& out) {
     value.report("invalid_pointer", "expected a JSON Pointer into the result, such as /summary/message");
     return;
   }
-  if (std::find(kParts.begin(), kParts.end(), tokens->front()) == kParts.end()) {
-    const std::string_view meant = nearest_name(tokens->front(), kParts);
-    value.report("unknown_field", "a result has no /" + tokens->front() +
-                                      (meant.empty() ? "" : "; did you mean /" + std::string(meant) + "?"));
-  }
   out.tokens = *tokens;
 }
 
@@ -87,6 +80,7 @@ SweepTarget read_target(const Value& value, const Json& base) {
   Object in(value);
   in.required("pointer", target.pointer);
   in.optional("scale", target.scale);
+  in.optional("power", target.power);
   in.finish();
   const auto pointer = in.find("pointer");
   if (!pointer || !pointer->is_string()) {
@@ -129,15 +123,75 @@ SweepRange read_range(const Value& value, bool counted) {
   return range;
 }
 
-/// Values are numbers where a target scales them.
-void check_scalable(const SweepParameter& parameter, const Value& values) {
-  const auto scaled = [](const SweepTarget& target) { return target.scale.has_value(); };
-  if (std::none_of(parameter.targets.begin(), parameter.targets.end(), scaled)) {
+/// Why a target cannot get its number for a value; empty when it can.
+std::string number_refusal(const SweepTarget& target, double value) {
+  if (std::isfinite(target.number_for(value))) {
+    return "";
+  }
+  return checks::text(value) + (target.power ? " to the power " + checks::text(*target.power) : "") +
+         (target.scale ? " times " + checks::text(*target.scale) : "") + " is no finite number, at " +
+         target.pointer;
+}
+
+/// Values are numbers where a target computes with them, and so is what it gets.
+void check_computed(const SweepParameter& parameter, const Value& values) {
+  for (const SweepTarget& target : parameter.targets) {
+    for (std::size_t i = 0; target.computes() && i < parameter.values.size(); ++i) {
+      if (!parameter.values[i].is_number()) {
+        values.item(i).report_type("a number, because a target has a scale or a power");
+      } else if (const std::string why = number_refusal(target, parameter.values[i].get<double>());
+                 !why.empty()) {
+        values.item(i).report("out_of_range", why);
+      }
+    }
+  }
+}
+
+/// The same for all values from one end of a range to the other.
+void check_computed_range(const SweepParameter& parameter, const Value& value) {
+  const SweepRange& range = *parameter.range;
+  if (!std::isfinite(range.from) || !std::isfinite(range.to)) {
+    return;  // reported already
+  }
+  for (const SweepTarget& target : parameter.targets) {
+    if (!target.computes()) {
+      continue;
+    }
+    std::string why = number_refusal(target, range.from);
+    why = why.empty() ? number_refusal(target, range.to) : why;
+    if (why.empty() && target.power.value_or(1.0) < 0.0 && range.from * range.to < 0.0) {
+      why = "a range through 0 has no number there for a negative power, at " + target.pointer;
+    }
+    if (!why.empty()) {
+      value.report("out_of_range", why);
+    }
+  }
+}
+
+/// Texts in place of the values of a list, one for each.
+void read_labels(Object& in, SweepParameter& parameter) {
+  const auto label = in.find("label");
+  if (!label) {
     return;
   }
-  for (std::size_t i = 0; i < parameter.values.size(); ++i) {
-    if (!parameter.values[i].is_number()) {
-      values.item(i).report_type("a number, because a target has a scale");
+  if (parameter.range) {
+    label->report("excess_field", "only values have labels; those of a range are numbers");
+    return;
+  }
+  read(*label, parameter.labels);
+  if (label->is_array() && parameter.labels.size() != parameter.values.size()) {
+    label->report("unequal_counts",
+                  "label has one text for each value: " + std::to_string(parameter.labels.size()) +
+                      " here, " + std::to_string(parameter.values.size()) + " values");
+  }
+  std::set<std::string_view> seen;
+  for (std::size_t i = 0; i < parameter.labels.size(); ++i) {
+    if (const Value text = label->item(i); !text.is_string()) {
+      continue;  // reported already
+    } else if (parameter.labels[i].empty()) {
+      text.report("invalid_name", "a label is not empty");
+    } else if (!seen.insert(parameter.labels[i]).second) {
+      text.report("duplicate_name", "another value has this label");
     }
   }
 }
@@ -151,24 +205,29 @@ void read_values(Object& in, SweepParameter& parameter, bool counted) {
   }
   if (range) {
     parameter.range = read_range(*range, counted);
+    check_computed_range(parameter, *range);
   } else if (!values->is_array()) {
     values->report_type("an array");
   } else if (values->size() == 0) {
     values->report("out_of_range", "values must not be empty");
   } else {
     parameter.values = values->json().get<std::vector<Json>>();
-    check_scalable(parameter, *values);
+    check_computed(parameter, *values);
   }
 }
 
 SweepParameter read_parameter(const Value& value, const SweepData& data) {
+  static constexpr std::array<std::string_view, 3> kOwnColumns{"error", "point", "request"};
   SweepParameter parameter;
   Object in(value);
   in.required("name", parameter.name);
   if (const auto name = in.find("name");
       name && name->is_string() &&
-      (parameter.name.empty() || parameter.name == "error" || parameter.name[0] == '/')) {
-    name->report("invalid_name", "a name is not empty, not \"error\", and does not begin with /");
+      (parameter.name.empty() || parameter.name[0] == '/' ||
+       std::find(kOwnColumns.begin(), kOwnColumns.end(), parameter.name) != kOwnColumns.end())) {
+    name->report("invalid_name",
+                 "a name is not empty, does not begin with /, and is not that of another "
+                 "column: error, point, request");
   }
   const auto targets = in.find_required("targets");
   if (targets && !targets->is_array()) {
@@ -184,6 +243,7 @@ SweepParameter read_parameter(const Value& value, const SweepData& data) {
     }
   }
   read_values(in, parameter, data.design != SweepDesign::latin_hypercube);
+  read_labels(in, parameter);
   in.finish();
   return parameter;
 }
@@ -464,7 +524,11 @@ SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document, st
   } else {
     static_cast<void>(root.find("parameters"));  // known, although nothing can be said about it
   }
+  const bool targets_known = report.findings().empty();
   read_outputs(root, *data);
+  if (targets_known) {
+    check_outputs(*data, report);
+  }
   read_follow(root, *data);
   root.finish();
   if (report.findings().empty()) {

@@ -48,7 +48,8 @@ Found look_up(const Json& result, const std::vector<std::string>& tokens) {
 static void write_values(const SweepData& data, const std::vector<Json>& values, Json& document) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     for (const SweepTarget& target : data.parameters[i].targets) {
-      document[target.place] = target.scale ? Json(values[i].get<double>() * *target.scale) : values[i];
+      document[target.place] =
+          target.computes() ? Json(target.number_for(values[i].get<double>())) : values[i];
     }
   }
 }
@@ -91,9 +92,13 @@ std::string Sweep::title() const {
 
 Json Sweep::values(std::uint64_t point) const { return design_values(*data_, point); }
 
+Json Sweep::labels(std::uint64_t point) const { return design_labels(*data_, point); }
+
 std::shared_ptr<const Json> Sweep::document_at(std::uint64_t point) const {
   return std::make_shared<Json>(document_with(*data_, design_values(*data_, point)));
 }
+
+std::string Sweep::request_text(std::uint64_t point) const { return document_at(point)->dump(); }
 
 void Sweep::write_document(std::uint64_t point, std::shared_ptr<Json>& document) const {
   if (document == nullptr) {

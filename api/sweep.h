@@ -44,7 +44,7 @@ class Sweep {
   /// Number of points, 1 to kMaxSweepPoints.
   [[nodiscard]] std::uint64_t size() const;
 
-  /// Names of the parameters, pointers of the outputs, and "error": what a row holds, in this order.
+  /// Names of the parameters, pointers of the outputs, and "error": what a row begins with, in this order.
   [[nodiscard]] std::vector<std::string> columns() const;
   [[nodiscard]] std::size_t output_count() const;
   /// The pointers of the outputs as a JSON array.
@@ -56,9 +56,16 @@ class Sweep {
   /// @pre point < size(). Points of a grid are numbered with the last parameter varying fastest.
   [[nodiscard]] nlohmann::json values(std::uint64_t point) const;
 
+  /// @brief The same as a row shows them: labels in place of values that have one.
+  /// @pre point < size()
+  [[nodiscard]] nlohmann::json labels(std::uint64_t point) const;
+
   /// @brief The request document of a point: the sweep's model and analysis with the values written in.
   /// @pre point < size()
   [[nodiscard]] std::shared_ptr<const nlohmann::json> document_at(std::uint64_t point) const;
+
+  /// The same as a text. @pre point < size()
+  [[nodiscard]] std::string request_text(std::uint64_t point) const;
 
   /// Whether the critical point is followed along the last parameter.
   [[nodiscard]] bool follows() const;

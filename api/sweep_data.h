@@ -2,6 +2,7 @@
 /// @file
 /// What a sweep document says, as read_sweep() understood it. Internal to api/.
 
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -20,17 +21,27 @@ struct SweepRange {
   bool log = false;
 };
 
-/// A place in the request that a parameter is written to, times `scale` where there is one.
+/// A place in the request that a parameter is written to, to the `power` and times `scale` where there are
+/// such.
 struct SweepTarget {
   std::string pointer;
   std::optional<double> scale;
+  std::optional<double> power;
   nlohmann::json::json_pointer place;  ///< `pointer`, taken apart once
+
+  /// Whether what is written is computed from the value, which is a number then.
+  [[nodiscard]] bool computes() const { return scale || power; }
+  /// value^power scale
+  [[nodiscard]] double number_for(double value) const {
+    return (power ? std::pow(value, *power) : value) * scale.value_or(1.0);
+  }
 };
 
 struct SweepParameter {
   std::string name;
   std::vector<SweepTarget> targets;
   std::vector<nlohmann::json> values;  ///< when there is no range
+  std::vector<std::string> labels;     ///< of the values, in tables; empty: the values stand there themselves
   std::optional<SweepRange> range;
 
   [[nodiscard]] std::uint64_t count() const {
@@ -62,11 +73,20 @@ struct SweepData {
 /// The number that an array index is written as (no sign, no leading zero), or nothing.
 [[nodiscard]] std::optional<std::size_t> array_index(std::string_view token);
 
+class Report;
+
+/// @brief Reports outputs that no result of this analysis and this model has.
+/// @pre the parameters and outputs were read; an output that is no pointer has no tokens
+void check_outputs(const SweepData& data, Report& report);
+
 /// @brief The request document with these values of the parameters.
 [[nodiscard]] nlohmann::json document_with(const SweepData& data, const std::vector<nlohmann::json>& values);
 
 /// @brief The values of a point of the design, one for each parameter.
 /// @pre point < data.points
 [[nodiscard]] std::vector<nlohmann::json> design_values(const SweepData& data, std::uint64_t point);
+
+/// @brief The same as a table shows them: labels in place of values that have one.
+[[nodiscard]] std::vector<nlohmann::json> design_labels(const SweepData& data, std::uint64_t point);
 
 }  // namespace snapthrough::api

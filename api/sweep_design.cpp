@@ -58,19 +58,7 @@ Json in_range(const SweepRange& range, double t) {
                    : range.from + t * (range.to - range.from);
 }
 
-Json sampled_value(const SweepParameter& parameter, double t) {
-  if (parameter.range) {
-    return in_range(*parameter.range, t);
-  }
-  const auto count = static_cast<double>(parameter.values.size());
-  return parameter.values[static_cast<std::size_t>(t * count)];
-}
-
-Json listed_value(const SweepParameter& parameter, std::uint64_t i) {
-  if (!parameter.range) {
-    return parameter.values[i];
-  }
-  const SweepRange& range = *parameter.range;
+Json listed_value(const SweepRange& range, std::uint64_t i) {
   const auto last = static_cast<std::uint64_t>(range.count - 1);
   if (i == 0 || i == last) {
     return i == 0 ? range.from : range.to;  // the ends are exact
@@ -82,27 +70,62 @@ Json listed_value(const SweepParameter& parameter, std::uint64_t i) {
   return in_range(range, static_cast<double>(i) / static_cast<double>(last));
 }
 
-}  // namespace
+/// Where a point stands in one parameter: at an entry of its list or its counted range, or at a place of a
+/// range that is sampled.
+struct Coordinate {
+  std::uint64_t entry = 0;
+  double place = 0.0;  ///< in [0, 1); for a Latin hypercube
+};
 
-std::vector<Json> design_values(const SweepData& data, std::uint64_t point) {
-  std::vector<Json> values(data.parameters.size());
+std::vector<Coordinate> coordinates(const SweepData& data, std::uint64_t point) {
+  std::vector<Coordinate> all(data.parameters.size());
   std::uint64_t rest = point;
-  for (std::size_t i = values.size(); i-- > 0;) {
+  for (std::size_t i = all.size(); i-- > 0;) {
     const SweepParameter& parameter = data.parameters[i];
     switch (data.design) {
       case SweepDesign::grid:
-        values[i] = listed_value(parameter, rest % parameter.count());
+        all[i].entry = rest % parameter.count();
         rest /= parameter.count();
         break;
       case SweepDesign::zip:
-        values[i] = listed_value(parameter, point);
+        all[i].entry = point;
         break;
       case SweepDesign::latin_hypercube:
-        values[i] = sampled_value(parameter, hypercube_coordinate(data, i, point));
+        all[i].place = hypercube_coordinate(data, i, point);
+        all[i].entry =
+            static_cast<std::uint64_t>(all[i].place * static_cast<double>(parameter.values.size()));
         break;
     }
   }
+  return all;
+}
+
+Json value_at(const SweepData& data, std::size_t parameter, const Coordinate& at) {
+  const SweepParameter& of = data.parameters[parameter];
+  if (!of.range) {
+    return of.values[at.entry];
+  }
+  return data.design == SweepDesign::latin_hypercube ? in_range(*of.range, at.place)
+                                                     : listed_value(*of.range, at.entry);
+}
+
+}  // namespace
+
+std::vector<Json> design_values(const SweepData& data, std::uint64_t point) {
+  std::vector<Json> values;
+  for (const Coordinate& at : coordinates(data, point)) {
+    values.push_back(value_at(data, values.size(), at));
+  }
   return values;
+}
+
+std::vector<Json> design_labels(const SweepData& data, std::uint64_t point) {
+  std::vector<Json> shown;
+  for (const Coordinate& at : coordinates(data, point)) {
+    const std::vector<std::string>& labels = data.parameters[shown.size()].labels;
+    shown.push_back(labels.empty() ? value_at(data, shown.size(), at) : Json(labels[at.entry]));
+  }
+  return shown;
 }
 
 }  // namespace snapthrough::api

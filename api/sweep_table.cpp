@@ -1,6 +1,7 @@
 #include "api/sweep_table.h"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "api/csv_field.h"
 
@@ -19,6 +20,13 @@ void append_csv_value(const Json& value, std::string& text) {
 
 Json error_of(const PointOutcome& outcome) { return {{"code", outcome.code}, {"detail", outcome.detail}}; }
 
+/// A link with the number of the point in it.
+std::string for_point(std::string link, std::uint64_t point) {
+  constexpr std::string_view kPlace = "{point}";
+  const std::size_t at = link.find(kPlace);
+  return at == link.npos ? link : link.replace(at, kPlace.size(), std::to_string(point));
+}
+
 /// Texts of analyses are UTF-8, those of exceptions may be anything.
 std::string dumped(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -34,8 +42,15 @@ std::optional<TableForm> table_form_from(std::string_view name) {
   return name == "ndjson" ? std::optional(TableForm::ndjson) : std::nullopt;
 }
 
-TableWriter::TableWriter(const Sweep& sweep, TableForm form) : sweep_(sweep), form_(form) {
-  for (const std::string& column : sweep.columns()) {
+TableWriter::TableWriter(const Sweep& sweep, TableForm form, std::optional<PointLinks> links)
+    : sweep_(sweep), form_(form), links_(std::move(links)), columns_(sweep.columns()) {
+  if (form_ == TableForm::ndjson || (form_ == TableForm::csv && links_)) {
+    columns_.emplace_back("point");
+  }
+  if (form_ == TableForm::csv && links_) {
+    columns_.emplace_back("request");
+  }
+  for (const std::string& column : columns_) {
     keys_.push_back(Json(column).dump());
   }
 }
@@ -44,9 +59,13 @@ std::string TableWriter::head() const {
   std::string text;
   switch (form_) {
     case TableForm::json:
-      return "{\"columns\": " + Json(sweep_.columns()).dump() + ",\n \"rows\": [";
+      text = "{\"columns\": " + Json(columns_).dump() + ",\n";
+      if (links_) {
+        text += " \"links\": " + Json{{"request", links_->request}, {"job", links_->job}}.dump() + ",\n";
+      }
+      return text + " \"rows\": [";
     case TableForm::csv:
-      for (const std::string& column : sweep_.columns()) {
+      for (const std::string& column : columns_) {
         text += text.empty() ? "" : ",";
         append_csv_field(text, column);
       }
@@ -57,13 +76,16 @@ std::string TableWriter::head() const {
   return text;
 }
 
-std::string TableWriter::tail() const { return form_ == TableForm::json ? "\n ]}\n" : ""; }
+std::string TableWriter::tail() const {
+  return form_ == TableForm::json ? "\n ],\n \"points\": " + Json(points_).dump() + "}\n" : "";
+}
 
 void TableWriter::append_row(std::uint64_t point, const PointOutcome& outcome, std::string& text) {
   switch (form_) {
     case TableForm::json:
-      text += first_ ? "\n  " : ",\n  ";
+      text += points_.empty() ? "\n  " : ",\n  ";
       append_json(point, outcome, text);
+      points_.push_back(point);
       break;
     case TableForm::csv:
       append_csv(point, outcome, text);
@@ -72,27 +94,27 @@ void TableWriter::append_row(std::uint64_t point, const PointOutcome& outcome, s
       append_ndjson(point, outcome, text);
       break;
   }
-  first_ = false;
 }
 
 void TableWriter::append_json(std::uint64_t point, const PointOutcome& outcome, std::string& text) const {
   text += '[';
-  for (const Json& value : sweep_.values(point)) {
+  for (const Json& value : sweep_.labels(point)) {
     text += value.dump() + ",";
   }
   if (outcome.failed()) {
     for (std::size_t i = 0; i < sweep_.output_count(); ++i) {
       text += "null,";
     }
-    text += dumped(error_of(outcome)) + "]";
-    return;
+    text += dumped(error_of(outcome));
+  } else {
+    text.append(outcome.outputs, 1, outcome.outputs.size() - 2);  // without its brackets
+    text += ",null";
   }
-  text.append(outcome.outputs, 1, outcome.outputs.size() - 2);  // without its brackets
-  text += ",null]";
+  text += ']';
 }
 
 void TableWriter::append_csv(std::uint64_t point, const PointOutcome& outcome, std::string& text) const {
-  for (const Json& value : sweep_.values(point)) {
+  for (const Json& value : sweep_.labels(point)) {
     append_csv_value(value, text);
     text += ',';
   }
@@ -105,6 +127,10 @@ void TableWriter::append_csv(std::uint64_t point, const PointOutcome& outcome, s
       text += ',';
     }
   }
+  if (links_) {
+    text += ',' + std::to_string(point) + ',';
+    append_csv_field(text, for_point(links_->request, point));
+  }
   text += '\n';
 }
 
@@ -114,7 +140,7 @@ void TableWriter::append_ndjson(std::uint64_t point, const PointOutcome& outcome
     text += (column == 0 ? "{" : ",") + keys_[column] + ":" + value;
     ++column;
   };
-  for (const Json& value : sweep_.values(point)) {
+  for (const Json& value : sweep_.labels(point)) {
     member(value.dump());
   }
   if (outcome.failed()) {
@@ -128,6 +154,7 @@ void TableWriter::append_ndjson(std::uint64_t point, const PointOutcome& outcome
     }
     member("null");
   }
+  member(std::to_string(point));
   text += "}\n";
 }
 

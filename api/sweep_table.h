@@ -6,24 +6,34 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "api/sweep.h"
 
 namespace snapthrough::api {
 
 enum class TableForm {
-  json,   ///< `{"columns": [...], "rows": [[...], ...]}`
+  json,   ///< `{"columns": [...], "rows": [[...], ...], "points": [...]}`
   csv,    ///< header and rows (RFC 4180 quoting, lines end with a line feed); null is empty
   ndjson  ///< one object a line, members named like the columns
+};
+
+/// Where the points of a table are found, as texts in which `{point}` stands for the number of a point.
+struct PointLinks {
+  std::string request;  ///< GET: its request document
+  std::string job;      ///< POST: its request is handed in as a job
 };
 
 /// The form of that name ("json", "csv", "ndjson"), or nothing.
 [[nodiscard]] std::optional<TableForm> table_form_from(std::string_view name);
 
 /// @brief Writes the rows of one sweep. Not thread-safe.
+///
+/// The columns of JSON and NDJSON are Sweep::columns() and `point`, the number of the point. With links a
+/// JSON document has them as a member, and CSV has columns `point` and `request`.
 class TableWriter {
  public:
-  TableWriter(const Sweep& sweep, TableForm form);
+  TableWriter(const Sweep& sweep, TableForm form, std::optional<PointLinks> links = {});
 
   /// What comes before the rows.
   [[nodiscard]] std::string head() const;
@@ -40,8 +50,10 @@ class TableWriter {
 
   Sweep sweep_;
   TableForm form_;
-  std::vector<std::string> keys_;  ///< of NDJSON, quoted
-  bool first_ = true;
+  std::optional<PointLinks> links_;
+  std::vector<std::string> columns_;
+  std::vector<std::string> keys_;      ///< of NDJSON, quoted
+  std::vector<std::uint64_t> points_;  ///< of the rows, for the end of a JSON document
 };
 
 }  // namespace snapthrough::api

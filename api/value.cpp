@@ -53,6 +53,9 @@ std::string_view nearest_name(std::string_view written, std::span<const std::str
     return best;
   }
   for (const std::string_view name : names) {
+    if (name.size() > written.size() && name.starts_with(written) && name[written.size()] == '_') {
+      return name;  // its first words
+    }
     const std::size_t distance = edit_distance(written, name);
     if (distance < best_distance && distance < name.size()) {
       best = name;

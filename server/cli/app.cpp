@@ -21,6 +21,8 @@ struct Arguments {
   std::string request;
   bool csv = false;
   bool ndjson = false;
+  std::string table;
+  std::optional<std::uint64_t> point;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string config_file;
   std::map<std::string, std::string> settings;  ///< by name, as given
@@ -43,6 +45,16 @@ CLI::App* add_request_command(CLI::App& app, const char* name, const char* descr
   return command;
 }
 
+CLI::App* add_solve_command(CLI::App& app, Arguments& arguments) {
+  CLI::App* command =
+      add_request_command(app, "solve", "Solve a request, result on standard output", arguments);
+  command->add_flag("--csv", arguments.csv, "A table of the result instead of JSON");
+  command
+      ->add_option("--table", arguments.table, "Which table, as CSV; by default that of the type of analysis")
+      ->check(CLI::IsMember({"points", "critical_points", "static", "buckling", "states"}));
+  return command;
+}
+
 CLI::App* add_sweep_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("sweep", "Solve every point of a sweep, one row each");
   command->add_option("sweep", arguments.request, "Sweep document (JSON); - reads standard input")
@@ -53,6 +65,7 @@ CLI::App* add_sweep_command(CLI::App& app, Arguments& arguments) {
   command->add_option("--threads", arguments.threads, "Points at the same time; rows do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  command->add_option("--point", arguments.point, "Only write the request of this point, numbered from 0");
   return command;
 }
 
@@ -100,8 +113,7 @@ int run(int argc, const char* const* argv, const Streams& streams) {
   app.set_version_flag("--version", "snapthrough " SNAPTHROUGH_VERSION);
   app.require_subcommand(1);
   Arguments arguments;
-  const CLI::App* solve =
-      add_request_command(app, "solve", "Solve a request, result on standard output", arguments);
+  const CLI::App* solve = add_solve_command(app, arguments);
   const CLI::App* check = add_request_command(app, "check", "Validate a request", arguments);
   const CLI::App* sweep = add_sweep_command(app, arguments);
   add_serve_command(app, arguments);
@@ -114,7 +126,9 @@ int run(int argc, const char* const* argv, const Streams& streams) {
   }
   try {
     if (*solve) {
-      return solve_command(arguments.request, streams, ::isatty(STDERR_FILENO) == 1);
+      return solve_command(arguments.request, streams,
+                           {arguments.csv || !arguments.table.empty(),
+                            api::result_table_from(arguments.table), ::isatty(STDERR_FILENO) == 1});
     }
     if (*check) {
       return check_command(arguments.request, streams);
@@ -123,8 +137,9 @@ int run(int argc, const char* const* argv, const Streams& streams) {
       const api::TableForm form = arguments.csv      ? api::TableForm::csv
                                   : arguments.ndjson ? api::TableForm::ndjson
                                                      : api::TableForm::json;
-      return sweep_command(arguments.request, streams,
-                           {form, arguments.threads, ::isatty(STDERR_FILENO) == 1});
+      // On a terminal the rows themselves show how far it is.
+      const bool bar = ::isatty(STDERR_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 0;
+      return sweep_command(arguments.request, streams, {form, arguments.threads, bar, arguments.point});
     }
     if (app.got_subcommand("backup")) {
       return backup_command(arguments.store, arguments.target, streams);

@@ -2,28 +2,40 @@
 /// @file
 /// What each command does once its arguments are known. Each returns the exit status.
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
+#include "api/result_table.h"
 #include "api/sweep_table.h"
 #include "server/cli/app.h"
 #include "server/settings.h"
 
 namespace snapthrough::server::cli {
 
-/// Result document on `out`; progress on `err` when `show_progress`. "-" reads `in`.
-int solve_command(const std::string& path, const Streams& streams, bool show_progress);
+struct SolveOptions {
+  bool csv = false;                       ///< a table in place of the result document
+  std::optional<api::ResultTable> table;  ///< which one; none: that of the analysis' type
+  bool show_progress = false;             ///< on the error stream
+};
+
+/// Result document, or a table of it, on `out`. "-" reads `in`. SIGINT or SIGTERM ends the analysis at its
+/// next step: what was reached is written, and the status is 128 + signal.
+int solve_command(const std::string& path, const Streams& streams, const SolveOptions& options);
 
 /// Findings of a request or a sweep document on `err`, one line each; a line on `out` when there are none.
 int check_command(const std::string& path, const Streams& streams);
 
 struct SweepOptions {
   api::TableForm form = api::TableForm::json;
-  int threads = 1;             ///< points at the same time, >= 1; rows do not depend on it
-  bool show_progress = false;  ///< a bar on the error stream
+  int threads = 1;                     ///< points at the same time, >= 1; rows do not depend on it
+  bool show_progress = false;          ///< a bar on the error stream, which the rows must not share
+  std::optional<std::uint64_t> point;  ///< only the request document of this point is written
 };
 
 /// Rows of a sweep on `out` in design order, as they come. kNotCompleted when a point failed: its row says
-/// why, the others are there.
+/// why, the others are there. SIGINT or SIGTERM ends it after the rows that are whole: `err` says how many,
+/// and the status is 128 + signal.
 int sweep_command(const std::string& path, const Streams& streams, const SweepOptions& options);
 
 /// Runs the service until SIGTERM or SIGINT.

@@ -1,13 +1,16 @@
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <span>
 
 #include "api/api.h"
 #include "api/json_text.h"
 #include "api/sweep.h"
 #include "server/cli/commands.h"
 #include "server/cli/input.h"
+#include "server/cli/interruption.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server::cli {
@@ -29,8 +32,10 @@ Read read(const std::string& path, const Streams& streams) {
   return {std::move(outcome.request), outcome.findings.empty() ? kDone : kWrongRequest};
 }
 
-Result solve_watched(const api::Request& request, const Streams& streams, bool show_progress) {
+Result solve_watched(const api::Request& request, const Streams& streams, const Interruption& interruption,
+                     bool show_progress) {
   Hooks hooks;
+  hooks.stop = interruption.token();
   if (show_progress) {
     hooks.on_progress = [&](const Progress& progress) {
       streams.err << "\rbranch " << progress.branch << ", step " << progress.step << ", load factor "
@@ -44,30 +49,66 @@ Result solve_watched(const api::Request& request, const Streams& streams, bool s
   return result;
 }
 
+/// What a table of the result is to be made of: empty when its document is wanted, nothing when results of
+/// this analysis have no such table, which is said then.
+std::optional<std::optional<api::ResultTable>> chosen_table(const api::Request& request,
+                                                            const SolveOptions& options,
+                                                            const Streams& streams) {
+  if (!options.csv) {
+    return std::optional<api::ResultTable>();
+  }
+  const auto type = request.document->at("analysis").at("type").get<std::string>();
+  const std::span<const api::ResultTable> tables = api::tables_of(type);
+  const api::ResultTable table = options.table.value_or(tables.front());
+  if (std::find(tables.begin(), tables.end(), table) == tables.end()) {
+    streams.err << "snapthrough: an analysis of type " << type << " has no such table; it has "
+                << api::table_names(tables) << '\n';
+    return std::nullopt;
+  }
+  return table;
+}
+
+void write(const api::Request& request, const Result& result, double seconds,
+           const std::optional<api::ResultTable>& table, std::ostream& out) {
+  if (table == api::ResultTable::points) {
+    out << api::points_csv(result.branches);
+  } else if (const nlohmann::json document = api::write_result(request, result, seconds); table) {
+    out << api::result_csv(document, *table);
+  } else {
+    out << document.dump(2) << '\n';
+  }
+  out << std::flush;
+}
+
 }  // namespace
 
-int solve_command(const std::string& path, const Streams& streams, bool show_progress) {
+int solve_command(const std::string& path, const Streams& streams, const SolveOptions& options) {
   const Read read_request = read(path, streams);
   if (!read_request.request) {
     return read_request.exit_status;
   }
+  const auto table = chosen_table(*read_request.request, options, streams);
+  if (!table) {
+    return kOther;
+  }
+  const Interruption interruption;
   const auto start = std::chrono::steady_clock::now();
-  const Result result = solve_watched(*read_request.request, streams, show_progress);
+  const Result result = solve_watched(*read_request.request, streams, interruption, options.show_progress);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  // After a failure the document holds what was reached; the exit status and the error stream say that it
+  // After a failure the output holds what was reached; the exit status and the error stream say that it
   // failed.
-  streams.out << api::write_result(*read_request.request, result, elapsed.count()).dump(2) << '\n'
-              << std::flush;
+  write(*read_request.request, result, elapsed.count(), *table, streams.out);
   if (!streams.out) {
     streams.err << "snapthrough: cannot write the result\n";
     return kOther;
   }
-  if (result.failure) {
-    streams.err << "The analysis could not be completed: " << result.failure->detail << " ["
-                << result.failure->code << "]\n";
-    return kNotCompleted;
+  if (!result.failure) {
+    return kDone;
   }
-  return kDone;
+  streams.err << "The analysis could not be completed: " << result.failure->detail << " ["
+              << result.failure->code << "]\n";
+  return interruption.signal() != 0 && result.failure->code == "cancelled" ? interruption.exit_status()
+                                                                           : kNotCompleted;
 }
 
 int check_command(const std::string& path, const Streams& streams) {

@@ -7,11 +7,14 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <stop_token>
 #include <thread>
+#include <utility>
 
 #include "api/sweep_table.h"
 #include "server/cli/commands.h"
 #include "server/cli/input.h"
+#include "server/cli/interruption.h"
 #include "server/cli/progress_bar.h"
 #include "server/worker/point.h"
 #include "solver/solve.h"
@@ -26,12 +29,20 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kLongestLead = 4096;
 constexpr std::chrono::milliseconds kBetweenBars{100};
 
+/// Of the rows that were written.
+struct RowCounts {
+  std::uint64_t written = 0;
+  std::uint64_t failed = 0;
+};
+
 /// @brief Gives points out and puts their rows in design order. Thread-safe.
 class RowQueue {
  public:
-  RowQueue(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options)
+  /// @param stop no more points are given out then
+  RowQueue(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options, std::stop_token stop)
       : sweep_(sweep),
         streams_(streams),
+        stop_(std::move(stop)),
         show_progress_(options.show_progress),
         writer_(sweep, options.form) {
     streams_.out << writer_.head();
@@ -40,23 +51,28 @@ class RowQueue {
   /// The first point of a block to solve; nothing when there are no more.
   std::optional<std::uint64_t> next() {
     std::unique_lock lock(mutex_);
-    if (given_ == sweep_.size()) {
+    if (given_ == sweep_.size() || stop_.stop_requested()) {
       return std::nullopt;
     }
     const std::uint64_t point = given_;
     given_ += sweep_.block();
-    room_.wait(lock, [&] { return point < written_ + std::max(kLongestLead, 4 * sweep_.block()); });
-    return point;
+    const bool has_room = room_.wait(
+        lock, stop_, [&] { return point < written_ + std::max(kLongestLead, 4 * sweep_.block()); });
+    return has_room ? std::optional(point) : std::nullopt;
   }
 
+  /// A point that was stopped leaves no row, and none is written after it.
   void put(std::uint64_t point, api::PointOutcome outcome) {
+    if (stop_.stop_requested() && outcome.code == "cancelled") {
+      return;
+    }
     const std::lock_guard guard(mutex_);
-    failed_ += outcome.failed() ? 1 : 0;
     ++done_;
     waiting_.emplace(point, std::move(outcome));
     std::string text;
     for (auto first = waiting_.begin(); first != waiting_.end() && first->first == written_;
          first = waiting_.erase(first)) {
+      failed_ += first->second.failed() ? 1 : 0;
       writer_.append_row(written_++, first->second, text);
     }
     if (!text.empty()) {
@@ -66,12 +82,12 @@ class RowQueue {
     show_bar(false);
   }
 
-  /// To be called when all points were put. @return how many failed
-  std::uint64_t finish() {
+  /// To be called when all points were put that ever will be.
+  RowCounts finish() {
     const std::lock_guard guard(mutex_);
     streams_.out << writer_.tail() << std::flush;
     show_bar(true);
-    return failed_;
+    return {written_, failed_};
   }
 
  private:
@@ -88,9 +104,10 @@ class RowQueue {
 
   const api::Sweep& sweep_;
   const Streams& streams_;
+  const std::stop_token stop_;
   const bool show_progress_;
   std::mutex mutex_;
-  std::condition_variable room_;
+  std::condition_variable_any room_;
   api::TableWriter writer_;
   std::map<std::uint64_t, api::PointOutcome> waiting_;
   std::uint64_t given_ = 0;
@@ -102,8 +119,9 @@ class RowQueue {
 };
 
 /// Each point is computed alone, so that rows do not depend on how many threads share them.
-std::uint64_t solve_points(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options) {
-  RowQueue queue(sweep, streams, options);
+RowCounts solve_points(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options,
+                       const std::stop_token& stop) {
+  RowQueue queue(sweep, streams, options, stop);
   const SolveFunction solver = [](const Model& model, const Analysis& analysis, const Hooks& hooks) {
     return solve_checked(model, analysis, hooks);
   };
@@ -112,10 +130,10 @@ std::uint64_t solve_points(const api::Sweep& sweep, const Streams& streams, cons
     while (const std::optional<std::uint64_t> point = queue.next()) {
       if (!sweep.follows()) {
         sweep.write_document(*point, document);
-        queue.put(*point, solve_point(sweep, document, solver, {}));
+        queue.put(*point, solve_point(sweep, document, solver, {.stop = stop}));
         continue;
       }
-      std::vector<api::PointOutcome> outcomes = solve_curve(sweep, *point, {});
+      std::vector<api::PointOutcome> outcomes = solve_curve(sweep, *point, stop);
       for (std::size_t i = 0; i < outcomes.size(); ++i) {
         queue.put(*point + i, std::move(outcomes[i]));
       }
@@ -131,6 +149,17 @@ std::uint64_t solve_points(const api::Sweep& sweep, const Streams& streams, cons
   return queue.finish();
 }
 
+/// The request document of a point, to be solved alone.
+int write_point(const api::Sweep& sweep, std::uint64_t point, const Streams& streams) {
+  if (point >= sweep.size()) {
+    streams.err << "snapthrough: the points of this sweep are 0 to " << sweep.size() - 1 << ", not " << point
+                << '\n';
+    return kOther;
+  }
+  streams.out << sweep.document_at(point)->dump(2) << '\n' << std::flush;
+  return kDone;
+}
+
 }  // namespace
 
 int sweep_command(const std::string& path, const Streams& streams, const SweepOptions& options) {
@@ -143,13 +172,22 @@ int sweep_command(const std::string& path, const Streams& streams, const SweepOp
     print_findings(outcome.findings, streams);
     return kWrongRequest;
   }
-  const std::uint64_t failed = solve_points(*outcome.sweep, streams, options);
+  const std::uint64_t points = outcome.sweep->size();
+  if (options.point) {
+    return write_point(*outcome.sweep, *options.point, streams);
+  }
+  const Interruption interruption;
+  const RowCounts rows = solve_points(*outcome.sweep, streams, options, interruption.token());
   if (!streams.out) {
     streams.err << "snapthrough: cannot write the rows\n";
     return kOther;
   }
-  if (failed > 0) {
-    streams.err << failed << " of " << outcome.sweep->size()
+  if (rows.written < points) {
+    streams.err << "interrupted: " << rows.written << " of " << points << " rows were written\n";
+    return interruption.exit_status();
+  }
+  if (rows.failed > 0) {
+    streams.err << rows.failed << " of " << points
                 << " points could not be completed; the column error says why\n";
     return kNotCompleted;
   }

@@ -15,7 +15,4 @@ struct Example {
 
 [[nodiscard]] const std::vector<Example>& embedded_examples();
 
-/// The OpenAPI 3.1 document, api/openapi/openapi.json.
-[[nodiscard]] std::string_view openapi_document();
-
 }  // namespace snapthrough::server::http

@@ -16,6 +16,7 @@ using nlohmann::ordered_json;
 // Events of a running job are numbered attempt by attempt; those of its end come after all of them.
 constexpr std::uint64_t kAttempt = 1'000'000'000'000;
 constexpr std::uint64_t kEndings = 1'000'000 * kAttempt;
+static_assert(kEndings < kEndOfJob);
 
 const char* type_name(CriticalType type) {
   switch (type) {
@@ -93,7 +94,7 @@ class FollowingJob final : public Following {
         text += event_text(number, "critical_point", critical_data(point, true));
       }
     }
-    return text + event_text(2 * kEndings, "end", job_status_document(**job, std::nullopt));
+    return text + event_text(kEndOfJob, "end", job_status_document(**job, std::nullopt));
   }
 
   std::optional<ProgressBoard::Follower> follower_;

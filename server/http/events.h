@@ -11,6 +11,10 @@
 
 namespace snapthrough::server::http {
 
+/// Ids of the last events there are: `end` of a job, and of a sweep. Who has seen it need not come back.
+inline constexpr std::uint64_t kEndOfJob = 2'000'000'000'000'000'000;
+inline constexpr std::uint64_t kEndOfSweep = 1'000'000'000'000;
+
 /// @brief Sends `status` at once; while the analysis runs `progress` (at most 20 a second) and each
 /// `critical_point` as it is found, those that were found before among them; when the job has ended its
 /// `critical_point` events as the result has them (`final`: true) and `end`, which is the last.

@@ -97,13 +97,17 @@ Response wrong_parameter(const Request& request, const std::string& expected, co
       "The query parameters are " + expected + "; this is none of them: " + name + "=" + value);
 }
 
-Response event_stream(const Request& request,
+Response event_stream(const Request& request, std::optional<std::uint64_t> end,
                       std::function<std::shared_ptr<StreamSource>(std::uint64_t, Stream::Push)> follow) {
   Response response;
-  response.content_type = "text/event-stream";
   response.headers.emplace_back("Cache-Control", "no-store");
   const std::uint64_t last =
       whole_number<std::uint64_t>(request.header("Last-Event-ID").value_or("")).value_or(0);
+  if (end && last >= *end) {
+    response.status = 204;
+    return response;
+  }
+  response.content_type = "text/event-stream";
   response.stream =
       Stream{[follow = std::move(follow), last](Stream::Push push) { return follow(last, std::move(push)); }};
   return response;

@@ -49,10 +49,13 @@ struct ListQuery {
 [[nodiscard]] Response wrong_parameter(const Request& request, const std::string& expected,
                                        const std::string& name, const std::string& value);
 
-/// A stream of events from the one after Last-Event-ID on.
-/// @param follow called with that id and the push function
+/// @brief A stream of events from the one after Last-Event-ID on; 204 when that was the last one there is,
+/// which tells an EventSource not to come back.
+/// @param end id of the last event, if what is followed has ended
+/// @param follow called with the id of the last event that was seen and the push function
 [[nodiscard]] Response event_stream(
-    const Request& request, std::function<std::shared_ptr<StreamSource>(std::uint64_t, Stream::Push)> follow);
+    const Request& request, std::optional<std::uint64_t> end,
+    std::function<std::shared_ptr<StreamSource>(std::uint64_t, Stream::Push)> follow);
 
 /// Whether If-None-Match names the tag, or the one of the same bytes compressed.
 [[nodiscard]] bool matches_etag(const Request& request, const std::string& etag);

@@ -5,14 +5,21 @@
 namespace snapthrough::server::http {
 namespace {
 
-/// Whether a path has the form of a route's pattern; "{id}" takes one segment, which is returned.
-bool matches(std::string_view pattern, std::string_view path, std::string& id) {
+/// What the segments of a path are that a pattern leaves open.
+struct Segments {
+  std::string id;
+  std::string point;
+};
+
+/// Whether a path has the form of a route's pattern; "{id}" and "{n}" take one segment each.
+bool matches(std::string_view pattern, std::string_view path, Segments& found) {
   while (!pattern.empty() && !path.empty()) {
     const std::size_t pattern_end = std::min(pattern.find('/', 1), pattern.size());
     const std::size_t path_end = std::min(path.find('/', 1), path.size());
-    if (pattern.substr(0, pattern_end) == "/{id}") {
-      id = path.substr(1, path_end - 1);
-    } else if (pattern.substr(0, pattern_end) != path.substr(0, path_end)) {
+    const std::string_view segment = pattern.substr(0, pattern_end);
+    if (segment == "/{id}" || segment == "/{n}") {
+      (segment == "/{id}" ? found.id : found.point) = path.substr(1, path_end - 1);
+    } else if (segment != path.substr(0, path_end)) {
       return false;
     }
     pattern.remove_prefix(pattern_end);
@@ -61,7 +68,10 @@ Response job_missing(const Request& request, const std::string& id) {
 struct Routes::Route {
   const char* method;
   const char* pattern;
+  /// Given the request and the segment {id}.
   Response (Routes::*handler)(const Request&, const std::string&);
+  /// In its place where there is a segment {n}, which it is given too.
+  Response (Routes::*point_handler)(const Request&, const std::string&, const std::string&) = nullptr;
 };
 
 const std::vector<Routes::Route>& Routes::table() {
@@ -80,6 +90,8 @@ const std::vector<Routes::Route>& Routes::table() {
       {"GET", "/v1/sweeps/{id}/request", &Routes::sweep_request},
       {"GET", "/v1/sweeps/{id}/table", &Routes::sweep_table},
       {"GET", "/v1/sweeps/{id}/events", &Routes::sweep_events},
+      {"GET", "/v1/sweeps/{id}/points/{n}/request", nullptr, &Routes::point_request},
+      {"POST", "/v1/sweeps/{id}/points/{n}/job", nullptr, &Routes::create_point_job},
       {"POST", "/v1/sweeps/{id}/dismiss", &Routes::dismiss_sweep},
       {"POST", "/v1/sweeps/{id}/retry", &Routes::retry_sweep},
       {"DELETE", "/v1/sweeps/{id}", &Routes::delete_sweep},
@@ -98,12 +110,14 @@ Response Routes::respond(const Request& request) {
   const std::string_view method = request.method == "HEAD" ? "GET" : std::string_view(request.method);
   std::string allowed;
   for (const Route& route : table()) {
-    std::string id;
-    if (!matches(route.pattern, request.path, id)) {
+    Segments found;
+    if (!matches(route.pattern, request.path, found)) {
       continue;
     }
     if (method == route.method) {
-      Response response = (this->*route.handler)(request, id);
+      Response response = route.handler != nullptr
+                              ? (this->*route.handler)(request, found.id)
+                              : (this->*route.point_handler)(request, found.id, found.point);
       response.route = route.pattern;
       return response;
     }

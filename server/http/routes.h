@@ -6,9 +6,11 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "api/result_table.h"
 #include "server/http/documents.h"
 #include "server/http/message.h"
 #include "server/jobs/desk.h"
@@ -43,11 +45,12 @@ class Routes {
 
  private:
   struct Route;
-  struct Target;
   static const std::vector<Route>& table();
 
   // routes_jobs.cpp
   Response create_job(const Request& request, const std::string& id);
+  /// Hands a document in as a job, as the request's headers want it, and answers with what comes of it.
+  Response submit_job(const Request& request, std::string_view document);
   Response list_jobs(const Request& request, const std::string& id);
   Response job_status(const Request& request, const std::string& id);
   Response job_result(const Request& request, const std::string& id);
@@ -61,7 +64,7 @@ class Routes {
                           bool post);
   Response outcome_of(const Request& request, const std::string& id, bool post, bool want_result);
   Response result_of(const Request& request, const Job& job);
-  Response path_table(const Request& request, const Job& job);
+  Response table_of_result(const Request& request, const Job& job, api::ResultTable table);
 
   // routes_sweeps.cpp
   Response create_sweep(const Request& request, const std::string& id);
@@ -70,12 +73,17 @@ class Routes {
   Response sweep_request(const Request& request, const std::string& id);
   Response sweep_table(const Request& request, const std::string& id);
   Response sweep_events(const Request& request, const std::string& id);
+  Response point_request(const Request& request, const std::string& id, const std::string& point);
+  Response create_point_job(const Request& request, const std::string& id, const std::string& point);
   Response dismiss_sweep(const Request& request, const std::string& id);
   Response retry_sweep(const Request& request, const std::string& id);
   Response delete_sweep(const Request& request, const std::string& id);
   /// Calls `answer` with the sweep if there is one and it is the owner's, else answers itself.
   Response with_sweep(const Request& request, const std::string& id,
                       const std::function<Response(const SweepRecord&)>& answer);
+  /// Calls `answer` with the request document of a point of it, as with_sweep() does.
+  Response with_point(const Request& request, const std::string& id, const std::string& point,
+                      const std::function<Response(std::string)>& answer);
   Response status_of_sweep(const Request& request, const std::string& id, int status);
 
   // routes_service.cpp

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <utility>
 
-#include "server/http/csv.h"
+#include "api/result_table.h"
 #include "server/http/events.h"
 #include "server/http/negotiation.h"
 #include "server/http/prefer.h"
@@ -20,16 +21,26 @@ Problem failure_problem(const JobFailure& failure) {
 }
 
 /// A result never changes, so its job's id is a strong validator.
-std::string result_etag(const std::string& id, const char* form) { return "\"" + id + "." + form + "\""; }
+std::string result_etag(const std::string& id, const std::string& form) {
+  return "\"" + id + "." + form + "\"";
+}
 
 enum class Form { json, csv, none };
 
-/// The form of a result that the client takes: by ?format= before Accept; JSON when both will do.
+std::optional<std::string> query_value(const Request& request, std::string_view name) {
+  const auto found = std::find_if(request.query.begin(), request.query.end(),
+                                  [&](const auto& one) { return one.first == name; });
+  return found == request.query.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// The form of a result that the client takes: by ?format= before Accept; CSV when only a table is named,
+/// else JSON when both will do.
 Form wanted_form(const Request& request) {
-  for (const auto& [name, value] : request.query) {
-    if (name == "format") {
-      return value == "csv" ? Form::csv : value == "json" ? Form::json : Form::none;
-    }
+  if (const auto value = query_value(request, "format")) {
+    return *value == "csv" ? Form::csv : *value == "json" ? Form::json : Form::none;
+  }
+  if (query_value(request, "table")) {
+    return Form::csv;
   }
   const std::optional<std::string_view> accept = request.header("Accept");
   if (!accept || trimmed(*accept).empty()) {
@@ -51,6 +62,17 @@ Form wanted_form(const Request& request) {
   return form;
 }
 
+/// The table of that name, or the one to give by default, if results of such an analysis have it.
+std::optional<api::ResultTable> wanted_table(const std::optional<std::string>& name,
+                                             const std::string& analysis_type) {
+  const std::span<const api::ResultTable> tables = api::tables_of(analysis_type);
+  if (!name) {
+    return tables.empty() ? std::nullopt : std::optional(tables.front());
+  }
+  const std::optional<api::ResultTable> table = api::result_table_from(*name);
+  return table && std::find(tables.begin(), tables.end(), *table) != tables.end() ? table : std::nullopt;
+}
+
 }  // namespace
 
 Response Routes::create_job(const Request& request, const std::string& /*id*/) {
@@ -58,12 +80,16 @@ Response Routes::create_job(const Request& request, const std::string& /*id*/) {
     return simple_problem(request, 415, "unsupported-media-type", "Unsupported media type",
                           "A request document has Content-Type: application/json.");
   }
+  return submit_job(request, request.body);
+}
+
+Response Routes::submit_job(const Request& request, std::string_view document) {
   const std::optional<std::string_view> key = request.header("Idempotency-Key");
   if (std::optional<Response> refusal = refused_key(request)) {
     return *std::move(refusal);
   }
   StatusOr<Submission> outcome = desk_.submit(
-      {request.body, request.id, request.owner, key, wait_of(request).count() > 0, !wants_fresh(request)});
+      {document, request.id, request.owner, key, wait_of(request).count() > 0, !wants_fresh(request)});
   if (!outcome.ok()) {
     return store_trouble(request, outcome.status());
   }
@@ -186,12 +212,20 @@ Response Routes::result_of(const Request& request, const Job& job) {
     return simple_problem(request, 406, "not-acceptable", "Not acceptable",
                           "A result is application/json, or text/csv (its paths).");
   }
-  const std::string etag = result_etag(job.id, form == Form::csv ? "csv" : "json");
+  const std::optional<std::string> name = query_value(request, "table");
+  const std::optional<api::ResultTable> table =
+      form == Form::csv ? wanted_table(name, job.analysis_type) : std::nullopt;
+  if (!table && (name || form == Form::csv)) {
+    return wrong_parameter(request,
+                           "table (CSV: " + api::table_names(api::tables_of(job.analysis_type)) + ")",
+                           "table", name.value_or(""));
+  }
+  const std::string etag = result_etag(job.id, form == Form::csv ? "csv." + name.value_or("") : "json");
   Response response;
   if (request.method != "POST" && matches_etag(request, etag)) {
     response.status = 304;
-  } else if (form == Form::csv) {
-    response = path_table(request, job);
+  } else if (table) {
+    response = table_of_result(request, job, *table);
   } else {
     StatusOr<std::optional<std::string>> document = desk_.store().result(job.id);
     if (!document.ok()) {
@@ -210,14 +244,22 @@ Response Routes::result_of(const Request& request, const Job& job) {
   return response;
 }
 
-Response Routes::path_table(const Request& request, const Job& job) {
-  const StatusOr<StoredPath> path = desk_.store().path(job.id);
-  if (!path.ok()) {
-    return store_trouble(request, path.status());
-  }
+Response Routes::table_of_result(const Request& request, const Job& job, api::ResultTable table) {
   Response response;
   response.content_type = "text/csv; charset=utf-8; header=present";
-  response.body = path_csv(*path);
+  if (table == api::ResultTable::points) {
+    const StatusOr<StoredPath> path = desk_.store().path(job.id);
+    if (!path.ok()) {
+      return store_trouble(request, path.status());
+    }
+    response.body = api::points_csv(path->branches);
+    return response;
+  }
+  const StatusOr<std::optional<std::string>> document = desk_.store().result(job.id);
+  if (!document.ok() || !document->has_value()) {
+    return document.ok() ? job_missing(request, job.id) : store_trouble(request, document.status());
+  }
+  response.body = api::result_csv(nlohmann::json::parse(**document), table);
   return response;
 }
 
@@ -241,7 +283,8 @@ Response Routes::job_events(const Request& request, const std::string& id) {
   if (!job.ok() || !job->has_value()) {
     return job.ok() ? job_missing(request, id) : store_trouble(request, job.status());
   }
-  return event_stream(request, [this, id](std::uint64_t last, Stream::Push push) {
+  const std::optional<std::uint64_t> end = is_final((*job)->state) ? std::optional(kEndOfJob) : std::nullopt;
+  return event_stream(request, end, [this, id](std::uint64_t last, Stream::Push push) {
     return follow_job(desk_, id, last, std::move(push));
   });
 }

@@ -4,6 +4,7 @@
 
 #include "api/api.h"
 #include "api/json_text.h"
+#include "api/openapi/document.h"
 #include "api/sweep.h"
 #include "server/http/embedded.h"
 #include "server/http/routes.h"
@@ -101,7 +102,7 @@ Response Routes::limits(const Request& /*request*/, const std::string& /*id*/) {
 }
 
 Response Routes::openapi(const Request& /*request*/, const std::string& /*id*/) {
-  return json_response(200, std::string(openapi_document()));
+  return json_response(200, std::string(api::openapi_document()));
 }
 
 Response Routes::examples(const Request& /*request*/, const std::string& /*id*/) {

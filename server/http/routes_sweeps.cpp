@@ -15,7 +15,14 @@ Response sweep_missing(const Request& request, const std::string& id) {
                         "There is no sweep with the id " + id + ".");
 }
 
-bool read_table_parameter(const std::string& name, const std::string& value, PointQuery& query) {
+/// What of a table is asked for.
+struct TableQuery {
+  PointQuery points;
+  bool links = false;  ///< CSV: with the columns point and request
+};
+
+bool read_table_parameter(const std::string& name, const std::string& value, TableQuery& table) {
+  PointQuery& query = table.points;
   if (name == "first" || name == "count") {
     const std::optional<std::uint64_t> number = whole_number<std::uint64_t>(value);
     (name == "first" ? query.first : query.count) = number.value_or(0);
@@ -24,6 +31,10 @@ bool read_table_parameter(const std::string& name, const std::string& value, Poi
   if (name == "status") {
     query.failed = value == "failed";
     return value == "failed" || value == "successful";
+  }
+  if (name == "links") {
+    table.links = value == "true";
+    return value == "true" || value == "false";
   }
   return name == "format";  // judged elsewhere
 }
@@ -41,10 +52,12 @@ const char* content_type(api::TableForm form) {
 }
 
 /// Of a table that is complete: rows change only when points are tried again, and then its end does.
-std::string table_etag(const SweepRecord& sweep, api::TableForm form, const PointQuery& query) {
+std::string table_etag(const SweepRecord& sweep, api::TableForm form, const TableQuery& table) {
+  const PointQuery& query = table.points;
   std::string tag = "\"" + sweep.id + "." + std::to_string(static_cast<int>(form)) + "." +
                     std::to_string(sweep.finished->time_since_epoch().count()) + "." +
                     std::to_string(query.first) + "." + std::to_string(query.count);
+  tag += table.links ? ".l" : "";
   tag += query.failed ? (*query.failed ? ".f" : ".s") : "";
   return tag + "\"";
 }
@@ -55,23 +68,45 @@ std::uint64_t most_rows(const SweepRecord& sweep, const PointQuery& query) {
   return std::min(query.count, static_cast<std::uint64_t>(rows));
 }
 
-Response rows_of(const Request& request, SweepStore& store, const SweepRecord& sweep, api::TableForm form,
-                 const PointQuery& query) {
-  const StatusOr<std::optional<std::string>> document = store.document(sweep.id);
+/// The sweep as it was handed in, or the response that says why not.
+struct ReadSweep {
+  std::optional<api::Sweep> sweep;
+  Response trouble;
+};
+
+ReadSweep read_stored(const Request& request, SweepStore& store, const std::string& id) {
+  const StatusOr<std::optional<std::string>> document = store.document(id);
   if (!document.ok()) {
-    return store_trouble(request, document.status());
+    return {std::nullopt, store_trouble(request, document.status())};
   }
-  const api::SweepOutcome read = api::read_sweep(document->value_or(""));
+  if (!document->has_value()) {
+    return {std::nullopt, sweep_missing(request, id)};
+  }
+  api::SweepOutcome read = api::read_sweep(**document);
   if (!read.sweep) {
-    return simple_problem(request, 500, "internal-error", "Internal error",
-                          "This version does not accept the stored document any more.");
+    return {std::nullopt, simple_problem(request, 500, "internal-error", "Internal error",
+                                         "This version does not accept the stored document any more.")};
   }
-  api::TableWriter writer(*read.sweep, form);
+  return {std::move(read.sweep), {}};
+}
+
+Response rows_of(const Request& request, SweepStore& store, const SweepRecord& record, api::TableForm form,
+                 const TableQuery& query) {
+  ReadSweep read = read_stored(request, store, record.id);
+  if (!read.sweep) {
+    return std::move(read.trouble);
+  }
+  std::optional<api::PointLinks> links;
+  if (form != api::TableForm::csv || query.links) {
+    const std::string points = sweep_path(record.id) + "/points/{point}";
+    links = {points + "/request", points + "/job"};
+  }
+  api::TableWriter writer(*read.sweep, form, std::move(links));
   Response response;
   response.content_type = content_type(form);
   response.body = writer.head();
   const Status status =
-      store.each_row(sweep.id, query, [&](std::uint64_t point, const api::PointOutcome& outcome) {
+      store.each_row(record.id, query.points, [&](std::uint64_t point, const api::PointOutcome& outcome) {
         writer.append_row(point, outcome, response.body);
       });
   if (!status.ok()) {
@@ -167,11 +202,13 @@ Response Routes::sweep_request(const Request& request, const std::string& id) {
 }
 
 Response Routes::sweep_table(const Request& request, const std::string& id) {
-  PointQuery query;
+  TableQuery query;
   for (const auto& [name, value] : request.query) {
     if (!read_table_parameter(name, value, query)) {
-      return wrong_parameter(
-          request, "format (json, csv, ndjson), status (successful, failed), first and count", name, value);
+      return wrong_parameter(request,
+                             "format (json, csv, ndjson), status (successful, failed), links (true, false), "
+                             "first and count",
+                             name, value);
     }
   }
   const std::optional<api::TableForm> form = wanted_table_form(request);
@@ -181,7 +218,7 @@ Response Routes::sweep_table(const Request& request, const std::string& id) {
   }
   return with_sweep(request, id, [&](const SweepRecord& sweep) {
     const auto limit = static_cast<std::uint64_t>(desk_.limits().table_rows);
-    if (most_rows(sweep, query) > limit) {
+    if (most_rows(sweep, query.points) > limit) {
       return simple_problem(request, 400, "table-too-large", "Table too large",
                             "This table has more than " + std::to_string(limit) +
                                 " rows: ask for it in parts, with first and count (points).");
@@ -205,9 +242,35 @@ Response Routes::sweep_table(const Request& request, const std::string& id) {
   });
 }
 
+Response Routes::with_point(const Request& request, const std::string& id, const std::string& point,
+                            const std::function<Response(std::string)>& answer) {
+  return with_sweep(request, id, [&](const SweepRecord& record) {
+    const std::optional<std::uint64_t> number = whole_number<std::uint64_t>(point);
+    if (!number || std::to_string(*number) != point || *number >= static_cast<std::uint64_t>(record.points)) {
+      return simple_problem(
+          request, 404, "no-such-point", "No such point",
+          "The points of this sweep are 0 to " + std::to_string(record.points - 1) + ", not " + point + ".");
+    }
+    ReadSweep read = read_stored(request, desk_.sweeps().store(), id);
+    return read.sweep ? answer(read.sweep->request_text(*number)) : std::move(read.trouble);
+  });
+}
+
+Response Routes::point_request(const Request& request, const std::string& id, const std::string& point) {
+  return with_point(request, id, point,
+                    [](std::string document) { return json_response(200, std::move(document)); });
+}
+
+Response Routes::create_point_job(const Request& request, const std::string& id, const std::string& point) {
+  return with_point(request, id, point,
+                    [&](const std::string& document) { return submit_job(request, document); });
+}
+
 Response Routes::sweep_events(const Request& request, const std::string& id) {
-  return with_sweep(request, id, [&](const SweepRecord&) {
-    return event_stream(request, [this, id](std::uint64_t last, Stream::Push push) {
+  return with_sweep(request, id, [&](const SweepRecord& sweep) {
+    const std::optional<std::uint64_t> end =
+        is_final(sweep.state) ? std::optional(kEndOfSweep) : std::nullopt;
+    return event_stream(request, end, [this, id](std::uint64_t last, Stream::Push push) {
       return follow_sweep(desk_, id, last, std::move(push));
     });
   });

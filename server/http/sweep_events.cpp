@@ -10,7 +10,7 @@ namespace snapthrough::server::http {
 namespace {
 
 // Events of progress are numbered by the points that are done; that of the end comes after all of them.
-constexpr std::uint64_t kEnd = 1'000'000'000'000;
+static_assert(api::kMaxSweepPoints < kEndOfSweep);
 
 std::string progress_data(const SweepRecord& sweep) {
   return nlohmann::ordered_json{{"points", sweep.points},
@@ -25,7 +25,7 @@ std::string progress_data(const SweepRecord& sweep) {
 class FollowingSweep final : public Following {
  public:
   FollowingSweep(JobDesk& desk, std::string id, std::uint64_t last_id, Stream::Push push)
-      : Following(desk, std::move(id), last_id < kEnd ? last_id : 0, std::move(push)) {}
+      : Following(desk, std::move(id), last_id < kEndOfSweep ? last_id : 0, std::move(push)) {}
 
   void begin() {
     const StatusOr<std::optional<SweepRecord>> sweep = desk_.sweeps().store().get(id_);
@@ -47,7 +47,7 @@ class FollowingSweep final : public Following {
   [[nodiscard]] std::string ending() override {
     const StatusOr<std::optional<SweepRecord>> sweep = desk_.sweeps().store().get(id_);
     const bool ended = sweep.ok() && sweep->has_value() && is_final((*sweep)->state);
-    return ended ? event_text(kEnd, "end", sweep_status_document(**sweep)) : "";
+    return ended ? event_text(kEndOfSweep, "end", sweep_status_document(**sweep)) : "";
   }
 
   std::optional<NewsBoard<SweepRecord>::Follower> follower_;

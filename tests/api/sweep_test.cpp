@@ -142,26 +142,29 @@ TEST(Sweep, DocumentsWrittenOverOneAnotherAreThoseOfTheirPoints) {
 
 TEST(Sweep, SparesPlacesThatNoOutputLooksAt) {
   json document = sound_sweep();
-  const auto places_for = [&](const char* output) {
+  const auto places_for = [&](const char* output, const char* type) {
+    document["analysis"] = {{"type", type}, {"output", {{"extremes", true}}}};
     document["outputs"] = {output};
     const SweepOutcome outcome = read(document);
     Analysis analysis;
+    analysis.output.extremes = true;
     outcome.sweep->spare_unused(analysis);
     EXPECT_EQ(outcome.sweep->parts(), std::vector<std::string_view>{outcome.sweep->parts()[0]});
     return analysis.output.points_per_member;
   };
-  EXPECT_EQ(places_for("/summary/critical_load_factor"), 2);
-  EXPECT_EQ(places_for("/buckling/load_factors/0"), 2);
-  EXPECT_EQ(places_for("/buckling/modes/0"), 101);
-  EXPECT_EQ(places_for("/buckling"), 101);
-  EXPECT_EQ(places_for("/states/0/load_factor"), 101);
-  EXPECT_EQ(places_for("/critical_points/0/type"), 2);
-  EXPECT_EQ(places_for("/critical_points/0/mode/members"), 101);
-  EXPECT_EQ(places_for("/extremes/members"), 101);
+  EXPECT_EQ(places_for("/summary/critical_load_factor", "path"), 2);
+  EXPECT_EQ(places_for("/buckling/load_factors/0", "buckling"), 2);
+  EXPECT_EQ(places_for("/buckling/modes/0", "buckling"), 101);
+  EXPECT_EQ(places_for("/buckling", "buckling"), 101);
+  EXPECT_EQ(places_for("/states/0/load_factor", "static"), 101);
+  EXPECT_EQ(places_for("/critical_points/0/type", "path"), 2);
+  EXPECT_EQ(places_for("/critical_points/0/mode/members", "path"), 101);
+  EXPECT_EQ(places_for("/extremes/members", "path"), 101);
 }
 
 TEST(Sweep, SparesModesAndExtremesThatNoOutputLooksAt) {
   json document = sound_sweep();
+  document["analysis"]["output"]["extremes"] = true;
   const auto spared = [&](const char* output) {
     document["outputs"] = {output};
     Analysis analysis;
@@ -190,12 +193,17 @@ TEST(Sweep, DropsOnlyWhatNoOutputLooksInto) {
   EXPECT_TRUE(result.buckling->modes.empty());
   EXPECT_EQ(result.buckling->load_factors.size(), 2U);
   json document = sound_sweep();
-  document["outputs"] = {"/buckling/modes/0/members", "/states", "/branches/0/load_factor",
-                         "/contact_events/0"};
+  document["analysis"] = {{"type", "path"}};
+  document["outputs"] = {"/states", "/branches/0/load_factor", "/contact_events/0"};
   result = full;
   (*read(document).sweep).drop_unused(result);
   EXPECT_TRUE(result.critical_points.empty());
   EXPECT_EQ(result.contact_events.size() + result.branches.size() + result.states.size(), 3U);
+  EXPECT_TRUE(result.buckling->modes.empty());
+  document["analysis"] = {{"type", "buckling"}};
+  document["outputs"] = {"/buckling/modes/0/members"};
+  result = full;
+  (*read(document).sweep).drop_unused(result);
   EXPECT_EQ(result.buckling->modes.size(), 2U);
   document["outputs"] = {"/buckling"};
   result = full;
@@ -214,7 +222,8 @@ TEST(Sweep, TablesHoldValuesOutputsAndErrorInEveryForm) {
   EXPECT_EQ(json::parse(text + writer.tail()), json::parse(R"({
     "columns": ["k", "a", "/summary/critical_load_factor", "/critical_points/0/type", "error"],
     "rows": [[5, 1e-4, 2.5, "limit, \"max\"", null],
-             [3, 1e-4, null, null, {"code": "no_convergence", "detail": "step 3"}]]})"));
+             [3, 1e-4, null, null, {"code": "no_convergence", "detail": "step 3"}]],
+    "points": [3, 0]})"));
   EXPECT_EQ(TableWriter(sweep, TableForm::csv).head(),
             "k,a,/summary/critical_load_factor,/critical_points/0/type,error\n");
   EXPECT_EQ(one_row(sweep, TableForm::csv, 3, good), "5,0.0001,2.5,\"limit, \"\"max\"\"\",\n");
@@ -224,6 +233,7 @@ TEST(Sweep, TablesHoldValuesOutputsAndErrorInEveryForm) {
   EXPECT_EQ(line["k"], 3);
   EXPECT_TRUE(line["/critical_points/0/type"].is_null());
   EXPECT_EQ(line["error"]["code"], "no_convergence");
+  EXPECT_EQ(line["point"], 0);
   EXPECT_EQ(json::parse(one_row(sweep, TableForm::ndjson, 3, good))["/summary/critical_load_factor"], 2.5);
 }
 

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "api/api.h"
+#include "api/openapi/document.h"
 #include "server/http/embedded.h"
 #include "server/http/routes.h"
 #include "solver/solve.h"
@@ -23,7 +24,7 @@ namespace {
 using nlohmann::json;
 
 const json& description() {
-  static const json document = json::parse(http::openapi_document());
+  static const json document = json::parse(api::openapi_document());
   return document;
 }
 
@@ -52,7 +53,7 @@ TEST(Contract, EveryRouteIsPublishedAndNothingElse) {
 }
 
 TEST(Contract, EveryReferenceLeadsSomewhere) {
-  const std::string text(http::openapi_document());
+  const std::string text(api::openapi_document());
   const std::regex reference(R"re("\$ref": ?"#([^"]*)")re");
   for (auto it = std::sregex_iterator(text.begin(), text.end(), reference); it != std::sregex_iterator();
        ++it) {
@@ -228,7 +229,15 @@ class ContractOverHttp : public ServiceTest {
       use("GET", "/v1/sweeps/{id}/table", at + "/table?format=xml");
       use("GET", "/v1/sweeps/{id}/table", at + "/table?rows=1");
       use("GET", "/v1/sweeps/{id}/table", at + "/table", "", {"If-None-Match: *"});
+      use("GET", "/v1/sweeps/{id}/points/{n}/request", at + "/points/0/request");
+      use("GET", "/v1/sweeps/{id}/points/{n}/request", at + "/points/9/request");
+      use("POST", "/v1/sweeps/{id}/points/{n}/job", at + "/points/0/job", "", {});  // not a stiffness
+      use("POST", "/v1/sweeps/{id}/points/{n}/job", at + "/points/2/job", "", {});
+      use("POST", "/v1/sweeps/{id}/points/{n}/job", at + "/points/1/job", "", {"Prefer: respond-async"});
+      use("GET", "/v1/sweeps/{id}/table", at + "/table?format=csv&links=true");
+      use("GET", "/v1/sweeps/{id}/table", at + "/table?format=csv&links=yes");
       use("GET", "/v1/sweeps/{id}/events", at + "/events");
+      use("GET", "/v1/sweeps/{id}/events", at + "/events", "", {"Last-Event-ID: 1000000000000"});
       use("POST", "/v1/sweeps/{id}/dismiss", at + "/dismiss");
       use("POST", "/v1/sweeps/{id}/retry", at + "/retry?status=failed");
       use("POST", "/v1/sweeps/{id}/retry", at + "/retry?status=all");
@@ -251,6 +260,8 @@ TEST_F(ContractOverHttp, EveryResponseIsAsPublished) {
     use("GET", "/v1/jobs/{id}", at);
     use("GET", "/v1/jobs/{id}/result", at + "/result");
     use("GET", "/v1/jobs/{id}/result", at + "/result?format=csv");
+    use("GET", "/v1/jobs/{id}/result", at + "/result?table=states");
+    use("GET", "/v1/jobs/{id}/result", at + "/result?table=static");  // of a path
     use("GET", "/v1/jobs/{id}/result", at + "/result", "", {"Accept: image/png"});
     use("GET", "/v1/jobs/{id}/result", at + "/result", "", {"If-None-Match: *"});
     use("GET", "/v1/jobs/{id}/request", at + "/request");

@@ -61,6 +61,7 @@ TEST(SweepCommand, GivesARowForEachPoint) {
     EXPECT_EQ(table["rows"][k][0], k);
     EXPECT_NEAR(table["rows"][k][1].get<double>(), 1.0 + k, 1e-6);
     EXPECT_TRUE(table["rows"][k][2].is_null());
+    EXPECT_EQ(table["points"][k], k);
   }
 }
 

@@ -136,6 +136,7 @@ TEST_F(SweepService, AFailedPointIsARowAndIsTriedAgain) {
   EXPECT_EQ(status["counts"]["failed"], 1);
   const json failed = table(sweep, "?status=failed")["rows"];
   ASSERT_EQ(failed.size(), 1U);
+  EXPECT_EQ(table(sweep, "?status=failed")["points"], json({6})) << "its number in the design";
   EXPECT_EQ(failed[0][0], 7.0);
   EXPECT_EQ(failed[0][3]["code"], "no_convergence");
   EXPECT_EQ(table(sweep)["rows"].size(), 20U);
@@ -234,6 +235,26 @@ TEST_F(SweepService, EventsTellHowFarItIs) {
   EXPECT_THAT(text, HasSubstr("\"status\":\"successful\""));
 }
 
+/// EventSource comes back after the end of a stream, unless it is told not to.
+TEST_F(SweepService, WhoHasSeenTheEndIsToldNotToComeBack) {
+  start_counting();
+  const std::string sweep = submit_sweep(column_sweep(3));
+  ended(sweep);
+  const std::string job = post(port(), "/v1/jobs", column_request()).header("Location");
+  for (const std::string& path : {sweep, job}) {
+    Socket stream(port());
+    follow(stream, path, "1");
+    const std::string text = stream.rest();
+    const std::size_t end = text.find("event: end");
+    ASSERT_NE(end, std::string::npos) << text;
+    const std::size_t id = text.rfind("id: ", end) + 4;
+    const std::string last = text.substr(id, text.find('\n', id) - id);
+    const Reply again = get(port(), path + "/events", {"Last-Event-ID: " + last});
+    EXPECT_EQ(again.status, 204) << path;
+    EXPECT_EQ(again.body, "");
+  }
+}
+
 TEST_F(SweepService, JobsAreAnsweredWhileASweepRuns) {
   workers_ = 1;
   start([](const Model&, const Analysis&, const Hooks&) {
@@ -292,6 +313,63 @@ TEST_F(SweepService, WrongSweepsAreRefusedAtOnceWithPointers) {
   EXPECT_EQ(calls(), 0);
 }
 
+/// What a row's link leads to: the request of that point, and its whole result.
+TEST_F(SweepService, EveryRowOpensAsARequestAndAsAJob) {
+  start_counting();
+  const std::string sweep = submit_sweep(column_sweep(5));
+  ended(sweep);
+  const json links = table(sweep)["links"];
+  EXPECT_EQ(links["request"], sweep + "/points/{point}/request");
+  EXPECT_EQ(links["job"], sweep + "/points/{point}/job");
+  const Reply csv = get(port(), sweep + "/table?format=csv&links=true&first=3&count=1");
+  EXPECT_EQ(
+      csv.body,
+      "EI,/summary/critical_load_factor,/summary/termination,error,point,request\n4.0,4.0,limit_points,,3," +
+          sweep + "/points/3/request\n");
+  const Reply request = get(port(), sweep + "/points/3/request");
+  EXPECT_EQ(request.status, 200);
+  const json document = json::parse(request.body);
+  EXPECT_EQ(document["model"]["sections"][0]["EI"], 4.0);
+  EXPECT_FALSE(document.contains("parameters"));
+  const Reply job = post(port(), sweep + "/points/3/job", "", {"Prefer: wait=20"});
+  EXPECT_EQ(job.status, 200) << job.body;
+  EXPECT_EQ(json::parse(job.body)["summary"]["critical_load_factor"], 4.0);
+  const std::string location = job.header("Location");
+  EXPECT_EQ(json::parse(get(port(), location + "/request").body), document);
+  const Reply async =
+      post(port(), sweep + "/points/2/job", "", {"Prefer: respond-async", "Idempotency-Key: one"});
+  EXPECT_EQ(async.status, 201) << async.body;
+  const Reply again =
+      post(port(), sweep + "/points/2/job", "", {"Prefer: respond-async", "Idempotency-Key: one"});
+  EXPECT_EQ(again.header("Location"), async.header("Location"));
+  EXPECT_EQ(post(port(), sweep + "/points/1/job", "", {"Idempotency-Key: one"}).status, 422);
+}
+
+TEST_F(SweepService, APointThatADesignDoesNotHaveIsNotThere) {
+  start_counting();
+  const std::string sweep = submit_sweep(column_sweep(5));
+  for (const char* point : {"5", "-1", "one", "18446744073709551616", "01", ""}) {
+    const Reply reply = get(port(), sweep + "/points/" + point + "/request");
+    EXPECT_EQ(reply.status, 404) << point;
+    EXPECT_EQ(post(port(), sweep + "/points/" + point + "/job", "").status, 404) << point;
+  }
+  EXPECT_THAT(get(port(), sweep + "/points/5/request").body, HasSubstr("no-such-point"));
+  EXPECT_EQ(get(port(), "/v1/sweeps/none/points/0/request").status, 404);
+  EXPECT_EQ(call(port(), "DELETE", sweep + "/points/0/request", "", {}).status, 405);
+}
+
+TEST_F(SweepService, APointWhoseModelIsInvalidIsRefusedAsAJob) {
+  start_counting();
+  json document = json::parse(column_sweep(3));
+  document["parameters"][0].erase("range");
+  document["parameters"][0]["values"] = {1, -5, 2};
+  const std::string sweep = submit_sweep(document.dump());
+  EXPECT_EQ(get(port(), sweep + "/points/1/request").status, 200);
+  const Reply reply = post(port(), sweep + "/points/1/job", "");
+  EXPECT_EQ(reply.status, 422);
+  EXPECT_EQ(json::parse(reply.body)["errors"][0]["pointer"], "/model/sections/0/EI");
+}
+
 TEST_F(SweepService, LargeTablesAreAskedForInParts) {
   ServiceConfig small = config();
   small.jobs.table_rows = 10;
@@ -314,9 +392,11 @@ TEST_F(SweepService, AStrangersSweepIsNotThere) {
   service_ = std::make_unique<Service>(keyed, Environment::system(), counting(), log_);
   ASSERT_TRUE(service_->start().ok());
   const std::string sweep = submit_sweep(column_sweep(5), {"Authorization: Bearer alice"});
-  for (const std::string& target : {sweep, sweep + "/table", sweep + "/request", sweep + "/events"}) {
+  for (const std::string& target :
+       {sweep, sweep + "/table", sweep + "/request", sweep + "/events", sweep + "/points/0/request"}) {
     EXPECT_EQ(get(port(), target, {"Authorization: Bearer bob"}).status, 404) << target;
   }
+  EXPECT_EQ(post(port(), sweep + "/points/0/job", "", {"Authorization: Bearer bob"}).status, 404);
   EXPECT_EQ(call(port(), "DELETE", sweep, "", {"Authorization: Bearer bob"}).status, 404);
   EXPECT_EQ(call(port(), "POST", sweep + "/dismiss", "", {"Authorization: Bearer bob"}).status, 404);
   get(port(), sweep, {"Prefer: wait=30", "Authorization: Bearer alice"});

@@ -499,13 +499,21 @@ StatusOr<std::unique_ptr<Store>> open_store(const std::string& path, Time now,
   }
 }
 
-Status back_up(const std::string& path, const std::string& target) {
-  const std::string unfinished = target + ".part";
-  std::error_code ignored;
-  std::filesystem::remove(unfinished, ignored);
+namespace {
+
+/// A copy that is not finished, and what SQLite keeps beside it.
+void remove_unfinished(const std::string& path) {
+  for (const char* ending : {"", "-journal", "-wal", "-shm"}) {
+    std::error_code ignored;
+    std::filesystem::remove(path + ending, ignored);
+  }
+}
+
+Status copy_and_check(const std::string& path, const std::string& copy_path, const std::string& target) {
   try {
-    Connection(path, Access::read_only).copy_to(unfinished);
-    const Connection copy(unfinished, Access::read_only);
+    Connection(path, Access::read_only).copy_to(copy_path);
+    // One that may write removes its -wal and -shm when it is closed.
+    const Connection copy(copy_path, Access::read_write);
     Statement check = copy.prepare("PRAGMA integrity_check");
     if (!check.step() || check.text(0) != "ok") {
       return {StatusCode::io_error, target + ": the copy is damaged"};
@@ -514,7 +522,22 @@ Status back_up(const std::string& path, const std::string& target) {
     const Status status = to_status(error);
     return {status.code(), path + ": " + status.message()};
   }
-  return publish_file(unfinished, target);
+  return {};
+}
+
+}  // namespace
+
+Status back_up(const std::string& path, const std::string& target) {
+  const std::string unfinished = target + ".part";
+  remove_unfinished(unfinished);
+  Status status = copy_and_check(path, unfinished, target);
+  if (status.ok()) {
+    status = publish_file(unfinished, target);
+  }
+  if (!status.ok()) {
+    remove_unfinished(unfinished);
+  }
+  return status;
 }
 
 }  // namespace snapthrough::server::sqlite

@@ -1,0 +1,180 @@
+#include "api/result_schema.h"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "api/openapi/document.h"
+#include "api/sweep_data.h"
+#include "api/value.h"
+#include "solver/model/pointer.h"
+
+namespace snapthrough::api {
+
+namespace {
+
+using Json = nlohmann::json;
+/// Schemas of which a value fulfils at least one.
+using Alternatives = std::vector<const Json*>;
+
+const Json& published() {
+  static const Json document = Json::parse(openapi_document());
+  return document;
+}
+
+constexpr std::array kChoices{"anyOf", "oneOf", "allOf"};
+
+bool has_choice(const Json& schema) {
+  return std::any_of(kChoices.begin(), kChoices.end(), [&](const char* one) { return schema.contains(one); });
+}
+
+/// Adds a schema and those that it refers to or chooses from.
+void expand(const Json& schema, Alternatives& out) {
+  if (const auto reference = schema.find("$ref"); reference != schema.end()) {
+    const std::string pointer = reference->get<std::string>().substr(1);  // without the #
+    expand(published().at(Json::json_pointer(pointer)), out);
+  }
+  for (const char* choice : kChoices) {
+    if (const auto list = schema.find(choice); list != schema.end()) {
+      for (const Json& one : *list) {
+        expand(one, out);
+      }
+    }
+  }
+  out.push_back(&schema);
+}
+
+/// Where one token leads.
+struct Step {
+  Alternatives next;
+  bool open = false;                    ///< anything may stand here: the schema does not say
+  std::string list;                     ///< of the model, whose ids the token is one of; empty: none
+  bool is_array = false;                ///< an index is wanted
+  std::vector<std::string_view> known;  ///< fields that there are
+};
+
+void step_into_object(const Json& schema, const std::string& token, Step& step) {
+  const auto properties = schema.find("properties");
+  const bool described = properties != schema.end();
+  if (described) {
+    for (const auto& [name, part] : properties->items()) {
+      step.known.push_back(properties->find(name).key());
+      if (name == token) {
+        expand(part, step.next);
+      }
+    }
+  }
+  const auto others = schema.find("additionalProperties");
+  if (others != schema.end() && others->is_object()) {
+    if (step.next.empty()) {
+      step.list = schema.value("x-ids", "");
+      expand(*others, step.next);
+    }
+  } else if (!described && !has_choice(schema) && (others == schema.end() || *others == true)) {
+    step.open = true;
+  }
+}
+
+void step_into_array(const Json& schema, const std::string& token, Step& step) {
+  step.is_array = true;
+  const std::optional<std::size_t> index = array_index(token);
+  if (!index || *index >= schema.value("maxItems", SIZE_MAX)) {
+    return;
+  }
+  const auto first = schema.find("prefixItems");
+  if (first != schema.end() && *index < first->size()) {
+    expand((*first)[*index], step.next);
+  } else if (const auto items = schema.find("items"); items == schema.end()) {
+    step.open = true;
+  } else if (items->is_object()) {
+    expand(*items, step.next);
+  }
+}
+
+bool has_type(const Json& schema, const char* type) {
+  const auto types = schema.find("type");
+  return types != schema.end() &&
+         (*types == type ||
+          (types->is_array() && std::find(types->begin(), types->end(), type) != types->end()));
+}
+
+Step step_from(const Alternatives& schemas, const std::string& token) {
+  Step step;
+  for (const Json* schema : schemas) {
+    if (has_type(*schema, "object") || schema->contains("properties")) {
+      step_into_object(*schema, token, step);
+    } else if (has_type(*schema, "array")) {
+      step_into_array(*schema, token, step);
+    }
+  }
+  return step;
+}
+
+std::string pointer_to(std::span<const std::string> tokens) {
+  std::string pointer;
+  for (const std::string& token : tokens) {
+    pointer += "/" + escape_pointer_token(token);
+  }
+  return pointer;
+}
+
+/// "; did you mean ...?" with the nearest name in place of the token, or the names that there are.
+std::string suggestion(std::span<const std::string> tokens, std::size_t at,
+                       const std::vector<std::string_view>& names, const IdsIn& ids_in) {
+  const std::string_view nearest = nearest_name(tokens[at], names);
+  if (!nearest.empty()) {
+    std::vector<std::string> meant(tokens.begin(), tokens.end());
+    meant[at] = nearest;
+    // What follows is kept where it fits the other name, too.
+    if (const auto next = find_no_such_place(meant, ids_in)) {
+      meant.resize(next->token);
+    }
+    return "; did you mean " + pointer_to(meant) + "?";
+  }
+  std::string all;
+  for (const std::string_view name : names) {
+    all += (all.empty() ? "; known here: " : ", ") + std::string(name);
+  }
+  return all;
+}
+
+NoSuchPlace nowhere(std::span<const std::string> tokens, std::size_t at, const Step& step,
+                    const IdsIn& ids_in) {
+  const std::string above = pointer_to(tokens.first(at));
+  if (!step.known.empty()) {
+    return {
+        at, false,
+        "a result has no " + pointer_to(tokens.first(at + 1)) + suggestion(tokens, at, step.known, ids_in)};
+  }
+  if (step.is_array) {
+    return {at, false, above + " is a list: " + tokens[at] + " is no index that it can have"};
+  }
+  return {at, false, "there is nothing inside " + above};
+}
+
+}  // namespace
+
+std::optional<NoSuchPlace> find_no_such_place(std::span<const std::string> tokens, const IdsIn& ids_in) {
+  Alternatives here;
+  expand(published().at(Json::json_pointer("/components/schemas/Result")), here);
+  for (std::size_t at = 0; at < tokens.size(); ++at) {
+    Step step = step_from(here, tokens[at]);
+    if (step.open) {
+      return std::nullopt;
+    }
+    if (step.next.empty()) {
+      return nowhere(tokens, at, step, ids_in);
+    }
+    const auto names = step.list.empty() ? std::nullopt : ids_in(step.list);
+    if (names && std::find(names->begin(), names->end(), tokens[at]) == names->end()) {
+      return NoSuchPlace{at, true,
+                         "the model has nothing named " + tokens[at] + " for " +
+                             pointer_to(tokens.first(at)) +
+                             suggestion(tokens, at, {names->begin(), names->end()}, ids_in)};
+    }
+    here = std::move(step.next);
+  }
+  return std::nullopt;
+}
+
+}  // namespace snapthrough::api

@@ -1,0 +1,270 @@
+#include "api/result_table.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "api/csv_field.h"
+
+namespace snapthrough::api {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kLineEnd = "\r\n";
+constexpr std::array kNames{
+    std::pair{ResultTable::points, "points"}, std::pair{ResultTable::critical_points, "critical_points"},
+    std::pair{ResultTable::static_rows, "static"}, std::pair{ResultTable::buckling, "buckling"},
+    std::pair{ResultTable::states, "states"}};
+
+void append(std::string& text, double value) {
+  std::array<char, 40> digits{};
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  text.append(digits.data(), end);
+}
+
+void append(std::string& text, const Json& value) {
+  if (value.is_number_float()) {
+    append(text, value.get<double>());
+  } else if (value.is_string()) {
+    append_csv_field(text, value.get<std::string>());
+  } else if (!value.is_null()) {
+    append_csv_field(text, value.dump());
+  }
+}
+
+/// The member, or null.
+const Json& member(const Json& object, const std::string& key) {
+  static const Json none;
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return object.is_object() && found != object.end() ? *found : none;
+}
+
+/// The element, or null where the list has ended.
+const Json& element(const Json& list, std::size_t i) {
+  static const Json none;
+  return list.is_array() && i < list.size() ? list[i] : none;
+}
+
+/// The ids of all branches, each once, in the order they come.
+std::vector<std::string> ids_of(const std::vector<Branch>& branches,
+                                std::vector<NamedSeries> Branch::*series) {
+  std::vector<std::string> ids;
+  for (const Branch& branch : branches) {
+    for (const NamedSeries& one : branch.*series) {
+      if (std::find(ids.begin(), ids.end(), one.id) == ids.end()) {
+        ids.push_back(one.id);
+      }
+    }
+  }
+  return ids;
+}
+
+void append_value(std::string& text, const std::vector<NamedSeries>& series, const std::string& id,
+                  std::size_t point) {
+  text += ',';
+  const auto found =
+      std::find_if(series.begin(), series.end(), [&](const NamedSeries& one) { return one.id == id; });
+  if (found != series.end() && point < found->values.size()) {
+    append(text, found->values[point]);
+  }
+}
+
+/// A header line and rows, each as many fields.
+class Rows {
+ public:
+  explicit Rows(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+
+  /// More columns, named by the keys of an object.
+  void add_columns(const Json& object, const std::string& prefix = "") {
+    for (const auto& item : object.items()) {
+      columns_.push_back(prefix + item.key());
+    }
+  }
+  void begin() {
+    for (const std::string& column : columns_) {
+      text_ += text_.empty() ? "" : ",";
+      append_csv_field(text_, column);
+    }
+    text_ += kLineEnd;
+  }
+  Rows& field(const Json& value) {
+    text_ += filled_++ == 0 ? "" : ",";
+    append(text_, value);
+    return *this;
+  }
+  void end_row() {
+    text_ += kLineEnd;
+    filled_ = 0;
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::vector<std::string> columns_;
+  std::string text_;
+  std::size_t filled_ = 0;
+};
+
+std::string critical_points_csv(const Json& result) {
+  const std::vector<std::string> fields{"branch",         "type",         "cause",      "load_factor",
+                                        "error_estimate", "confirmed",    "arc_length", "negative_before",
+                                        "negative_after", "multiplicity", "state"};
+  const Json& points = member(result, "critical_points");
+  Rows rows(fields);
+  const Json monitors = points.empty() ? Json() : member(points.front(), "monitors");
+  rows.add_columns(monitors);
+  rows.begin();
+  for (const Json& point : points) {
+    for (const std::string& field : fields) {
+      rows.field(member(point, field));
+    }
+    for (const auto& monitor : monitors.items()) {
+      rows.field(member(member(point, "monitors"), monitor.key()));
+    }
+    rows.end_row();
+  }
+  return rows.take();
+}
+
+std::string static_csv(const Json& result) {
+  const std::vector<std::string> fields{"load_factor", "negative_eigenvalues", "state"};
+  const Json& table = member(result, "static");
+  const Json& monitors = member(table, "monitors");
+  const Json& contact = member(table, "contact_fraction");
+  Rows rows(fields);
+  rows.add_columns(monitors);
+  rows.add_columns(contact, "contact_fraction:");
+  rows.begin();
+  for (std::size_t i = 0; i < member(table, "load_factor").size(); ++i) {
+    for (const std::string& field : fields) {
+      rows.field(element(member(table, field), i));
+    }
+    for (const Json* series : {&monitors, &contact}) {
+      for (const Json& one : *series) {
+        rows.field(element(one, i));
+      }
+    }
+    rows.end_row();
+  }
+  return rows.take();
+}
+
+std::string buckling_csv(const Json& result) {
+  const Json& buckling = member(result, "buckling");
+  Rows rows({"mode", "load_factor", "error_estimate"});
+  rows.begin();
+  const Json& loads = member(buckling, "load_factors");
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    rows.field(i + 1).field(loads[i]).field(element(member(buckling, "error_estimates"), i)).end_row();
+  }
+  return rows.take();
+}
+
+std::string states_csv(const Json& result) {
+  const std::vector<std::string> series{
+      "s", "x0", "y0", "x", "y", "u", "v", "rotation", "axial_force", "shear_force", "bending_moment"};
+  std::vector<std::string> columns{"state", "branch", "load_factor", "member"};
+  columns.insert(columns.end(), series.begin(), series.end());
+  Rows rows(std::move(columns));
+  rows.begin();
+  const Json& states = member(result, "states");
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    for (const auto& [id, along] : member(states[i], "members").items()) {
+      for (std::size_t place = 0; place < member(along, "s").size(); ++place) {
+        rows.field(i).field(member(states[i], "branch")).field(member(states[i], "load_factor")).field(id);
+        for (const std::string& name : series) {
+          rows.field(element(member(along, name), place));
+        }
+        rows.end_row();
+      }
+    }
+  }
+  return rows.take();
+}
+
+}  // namespace
+
+std::optional<ResultTable> result_table_from(std::string_view name) {
+  const auto found =
+      std::find_if(kNames.begin(), kNames.end(), [&](const auto& one) { return one.second == name; });
+  return found == kNames.end() ? std::nullopt : std::optional(found->first);
+}
+
+std::span<const ResultTable> tables_of(std::string_view analysis_type) {
+  static constexpr std::array kPath{ResultTable::points, ResultTable::critical_points, ResultTable::states};
+  static constexpr std::array kCritical{ResultTable::critical_points, ResultTable::states};
+  static constexpr std::array kStatic{ResultTable::static_rows, ResultTable::states};
+  static constexpr std::array kBuckling{ResultTable::buckling};
+  if (analysis_type == "path") {
+    return kPath;
+  }
+  if (analysis_type == "critical") {
+    return kCritical;
+  }
+  if (analysis_type == "static") {
+    return kStatic;
+  }
+  return analysis_type == "buckling" ? std::span<const ResultTable>(kBuckling)
+                                     : std::span<const ResultTable>();
+}
+
+std::string table_names(std::span<const ResultTable> tables) {
+  std::string names;
+  for (const auto& [table, name] : kNames) {
+    if (std::find(tables.begin(), tables.end(), table) != tables.end()) {
+      names += (names.empty() ? "" : ", ") + std::string(name);
+    }
+  }
+  return names;
+}
+
+std::string points_csv(const std::vector<Branch>& branches) {
+  const std::vector<std::string> monitors = ids_of(branches, &Branch::monitors);
+  const std::vector<std::string> bases = ids_of(branches, &Branch::contact_fraction);
+  std::string text = "branch,point,load_factor,arc_length,negative_eigenvalues";
+  for (const std::string& id : monitors) {
+    append_csv_field(text += ',', id);
+  }
+  for (const std::string& id : bases) {
+    append_csv_field(text += ',', "contact_fraction:" + id);
+  }
+  text += kLineEnd;
+  for (const Branch& branch : branches) {
+    for (std::size_t point = 0; point < branch.load_factor.size(); ++point) {
+      text += std::to_string(branch.id) + "," + std::to_string(point) + ",";
+      append(text, branch.load_factor[point]);
+      append(text += ',', branch.arc_length[point]);
+      text += "," + std::to_string(branch.negative_eigenvalues[point]);
+      for (const std::string& id : monitors) {
+        append_value(text, branch.monitors, id, point);
+      }
+      for (const std::string& id : bases) {
+        append_value(text, branch.contact_fraction, id, point);
+      }
+      text += kLineEnd;
+    }
+  }
+  return text;
+}
+
+std::string result_csv(const Json& result, ResultTable table) {
+  switch (table) {
+    case ResultTable::critical_points:
+      return critical_points_csv(result);
+    case ResultTable::static_rows:
+      return static_csv(result);
+    case ResultTable::buckling:
+      return buckling_csv(result);
+    case ResultTable::states:
+      return states_csv(result);
+    case ResultTable::points:
+      break;
+  }
+  throw std::invalid_argument("the points of paths are points_csv()'s");
+}
+
+}  // namespace snapthrough::api

@@ -1,0 +1,52 @@
+#pragma once
+/// @file
+/// Tables of one result as CSV (RFC 4180): the same whoever asks, the command line or the service.
+///
+/// Numbers have the digits that read back to the same value; what a result does not have is empty. Lines end
+/// with CR LF.
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solver/result.h"
+
+namespace snapthrough::api {
+
+enum class ResultTable {
+  points,           ///< of all paths
+  critical_points,  ///< of all paths
+  static_rows,      ///< the load factors of a static analysis
+  buckling,         ///< its load factors
+  states            ///< places along the members, state by state
+};
+
+/// The table of that name ("points", "critical_points", "static", "buckling", "states"), or nothing.
+[[nodiscard]] std::optional<ResultTable> result_table_from(std::string_view name);
+
+/// @brief The tables that results of an analysis of this type have, the one to give by default first.
+/// @param analysis_type as in a request, such as "path"; another text has none
+[[nodiscard]] std::span<const ResultTable> tables_of(std::string_view analysis_type);
+
+/// The names of these tables, separated by commas.
+[[nodiscard]] std::string table_names(std::span<const ResultTable> tables);
+
+/// @brief The points of all paths, one a row, under a header line.
+///
+/// Columns: branch, point, load_factor, arc_length, negative_eigenvalues, one for each monitor (its id) and
+/// one for each base (contact_fraction:<id>).
+[[nodiscard]] std::string points_csv(const std::vector<Branch>& branches);
+
+/// @brief A table of a result document.
+///
+/// critical_points: branch, type, cause, load_factor, error_estimate, confirmed, arc_length, negative_before,
+/// negative_after, multiplicity, state, monitors. static: load_factor, negative_eigenvalues, state, monitors,
+/// contact_fraction:<id>. buckling: mode (from 1), load_factor, error_estimate. states: state, branch,
+/// load_factor, member, s, x0, y0, x, y, u, v, rotation, axial_force, shear_force, bending_moment.
+/// @pre table is not points (see points_csv())
+[[nodiscard]] std::string result_csv(const nlohmann::json& result, ResultTable table);
+
+}  // namespace snapthrough::api

@@ -1,0 +1,71 @@
+/// Tables of results: columns, rows, and which analysis has which.
+
+#include "api/result_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace snapthrough::api {
+namespace {
+
+using nlohmann::json;
+
+TEST(ResultTable, EachTypeOfAnalysisHasItsTables) {
+  EXPECT_EQ(table_names(tables_of("path")), "points, critical_points, states");
+  EXPECT_EQ(table_names(tables_of("critical")), "critical_points, states");
+  EXPECT_EQ(table_names(tables_of("static")), "static, states");
+  EXPECT_EQ(table_names(tables_of("buckling")), "buckling");
+  EXPECT_TRUE(tables_of("").empty());
+  EXPECT_EQ(tables_of("static").front(), ResultTable::static_rows);
+  EXPECT_EQ(result_table_from("static"), ResultTable::static_rows);
+  EXPECT_FALSE(result_table_from("statics"));
+}
+
+TEST(ResultTable, StaticRowsHaveMonitorsAndContact) {
+  const json result = json::parse(R"({"static": {
+    "load_factor": [0.5, 1], "monitors": {"tip": [-0.25, -0.5], "a,b": [1e-300, 3]},
+    "negative_eigenvalues": [0, null], "contact_fraction": {"soil": [1, 0.75]}, "state": [0, null]}})");
+  EXPECT_EQ(result_csv(result, ResultTable::static_rows),
+            "load_factor,negative_eigenvalues,state,\"a,b\",tip,contact_fraction:soil\r\n"
+            "0.5,0,0,1e-300,-0.25,1\r\n"
+            "1,,,3,-0.5,0.75\r\n");
+}
+
+TEST(ResultTable, BucklingLoadsAreNumberedFromOne) {
+  const json result =
+      json::parse(R"({"buckling": {"load_factors": [9.5, 21.25], "error_estimates": [1e-7, null]}})");
+  EXPECT_EQ(result_csv(result, ResultTable::buckling),
+            "mode,load_factor,error_estimate\r\n1,9.5,1e-07\r\n2,21.25,\r\n");
+}
+
+TEST(ResultTable, CriticalPointsHaveTheirMonitors) {
+  const json result = json::parse(R"({"critical_points": [
+    {"branch": 0, "type": "limit_max", "cause": "smooth", "load_factor": 2.5, "error_estimate": null,
+     "confirmed": true, "arc_length": 1.5, "negative_before": 0, "negative_after": 1, "multiplicity": 1,
+     "state": 0, "monitors": {"crown": -0.3}}]})");
+  EXPECT_EQ(
+      result_csv(result, ResultTable::critical_points),
+      "branch,type,cause,load_factor,error_estimate,confirmed,arc_length,negative_before,negative_after,"
+      "multiplicity,state,crown\r\n0,limit_max,smooth,2.5,,true,1.5,0,1,1,0,-0.3\r\n");
+  EXPECT_EQ(result_csv(json::object(), ResultTable::critical_points).find('\n'),
+            result_csv(json::object(), ResultTable::critical_points).size() - 1)
+      << "a header alone";
+}
+
+TEST(ResultTable, StatesAreRowsAlongTheMembers) {
+  const json result = json::parse(R"({"states": [{"branch": 0, "load_factor": 2, "members": {
+    "m": {"s": [0, 1], "x": [0, 0.5], "y": [0, 0.25], "rotation": [0, -1], "axial_force": [1, 2],
+          "shear_force": [3, 4], "bending_moment": [5, 6], "x0": [0, 1], "y0": [0, 0], "u": [0, -0.5], "v": [0, 0.25]},
+    "n": {"s": [0]}}}]})");
+  EXPECT_EQ(
+      result_csv(result, ResultTable::states),
+      "state,branch,load_factor,member,s,x0,y0,x,y,u,v,rotation,axial_force,shear_force,bending_moment\r\n"
+      "0,0,2,m,0,0,0,0,0,0,0,0,1,3,5\r\n"
+      "0,0,2,m,1,1,0,0.5,0.25,-0.5,0.25,-1,2,4,6\r\n"
+      "0,0,2,n,0,,,,,,,,,,\r\n");
+}
+
+}  // namespace
+}  // namespace snapthrough::api
