@@ -40,8 +40,9 @@ class Drawing:
         if label:
             self.text(x + at * dx, y + at * dy + 5, label, stroke, "middle")
 
-    def turn(self, x, y, radius, start, end, label, stroke=MOMENT):
-        """An arrow on a circle from one angle to another (degrees, counter-clockwise as drawn)."""
+    def turn(self, x, y, radius, angles, label, stroke=MOMENT):
+        """An arrow on a circle from one angle to another (degrees, counter-clockwise as drawn), labelled at its start."""
+        start, end = angles
         at = lambda a, r=radius: (x + r * math.cos(math.radians(a)), y - r * math.sin(math.radians(a)))
         steps = [start + (end - start) * i / 24 for i in range(25)]
         self.path([at(a) for a in steps], stroke, 2)
@@ -49,7 +50,7 @@ class Drawing:
         (tipx, tipy) = at(end + sign * 14)
         corners = [(tipx, tipy), at(end, radius + 5), at(end, radius - 5)]
         self.add('<polygon points="' + " ".join(f"{a:.1f},{b:.1f}" for a, b in corners) + f'" fill="{stroke}"/>')
-        self.text(*at((start + end) / 2, radius + 14), label, stroke, "middle")
+        self.text(at(start, radius + 14)[0], at(start, radius + 14)[1] + 8, label, stroke, "middle")
 
     def svg(self):
         head = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="DejaVu Sans, Arial, sans-serif">\n'
@@ -70,7 +71,7 @@ def draw_state(drawing, state):
     (name, member), = state["members"].items()
     xs, ys = member["x0"], member["y0"]
     scale = 620 / (max(xs) - min(xs))
-    place = lambda x, y: (120 + (x - min(xs)) * scale, 250 - (y - min(ys)) * scale)
+    place = lambda x, y: (120 + (x - min(xs)) * scale, 230 - (y - min(ys)) * scale)
     deformed = [place(x, y) for x, y in zip(member["x"], member["y"])]
     drawing.path([place(x, y) for x, y in zip(xs, ys)], PALE, 1.5, 'stroke-dasharray="6 5"')
     largest = max(map(abs, member["bending_moment"]))
@@ -84,7 +85,8 @@ def draw_state(drawing, state):
     drawing.path(deformed, INK, 3)
     i = len(deformed) // 5
     (x, y), a = deformed[i], angle[i]
-    drawing.arrow(x, y, 60 * math.cos(a), 60 * math.sin(a), "t", INK)
+    drawing.arrow(x, y, 60 * math.cos(a), 60 * math.sin(a), "", INK)
+    drawing.text(x + 56, y - 10, "t", INK)
     drawing.arrow(x, y, 60 * math.sin(a), -60 * math.cos(a), "n", INK)
     drawing.text(x + 6, y + 22, "s", INK)
     return place, deformed, name
@@ -111,11 +113,11 @@ def draw_element(drawing):
     drawing.arrow(x0 - 6, y, -60, 0, "N")
     drawing.arrow(x1 + 6, y, 0, -52, "Q")
     drawing.arrow(x0 - 6, y, 0, 52, "Q")
-    drawing.turn(x1 + 2, y, 38, -60, 45, "M")
-    drawing.turn(x0 - 2, y, 38, 240, 135, "M")
+    drawing.turn(x1 + 2, y, 38, (-60, 45), "M")
+    drawing.turn(x0 - 2, y, 38, (240, 135), "M")
     drawing.text((x0 + x1) / 2, y + 5, "positive N, Q, M", INK, "middle", 13)
-    drawing.text(x0, y + 62, "section at s", INK, "middle", 12)
-    drawing.text(x1, y + 62, "section beyond", INK, "middle", 12)
+    drawing.text(x0, y + 84, "section at s", INK, "middle", 12)
+    drawing.text(x1, y + 84, "section beyond", INK, "middle", 12)
     drawing.arrow((x0 + x1) / 2 - 35, y - 40, 60, 0, "t", INK)
     drawing.arrow((x0 + x1) / 2 - 35, y - 40, 0, -40, "n", INK)
 
@@ -124,7 +126,7 @@ def draw_axes(drawing):
     x, y = 120, 490
     drawing.arrow(x, y, 70, 0, "x", INK)
     drawing.arrow(x, y, 0, -70, "y", INK)
-    drawing.turn(x, y, 34, 15, 70, "", INK)
+    drawing.turn(x, y, 34, (15, 70), "", INK)
     drawing.text(x + 36, y - 32, "rotation, moment", INK, "start", 12)
 
 
@@ -138,8 +140,8 @@ def main():
     _, deformed, name = draw_state(drawing, state)
     draw_reactions(drawing, state, deformed)
     x, y = deformed[len(deformed) // 2]
-    drawing.arrow(x, y - 62, 0, 56, "", FORCE)
-    drawing.text(x + 10, y - 50, f'load; loads.fy = {state["loads"]["fy"]:.4g}', FORCE, "start", 12)
+    drawing.arrow(x, y - 92, 0, 86, "", FORCE)
+    drawing.text(x + 10, y - 84, f'load; loads.fy = {state["loads"]["fy"]:.4g}', FORCE, "start", 12)
     drawing.text(x, y + 26, f'members["{name}"]', INK, "middle", 12)
     draw_element(drawing)
     draw_axes(drawing)
