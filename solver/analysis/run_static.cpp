@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,7 @@ class StaticRows {
         analysis_(analysis),
         structure_(structure),
         observer_(model, analysis, structure),
+        state_loads_(analysis.output.at_load_factors.begin(), analysis.output.at_load_factors.end()),
         rows_(analysis.load_factors.size()) {}
 
   /// @param negative eigenvalues of the tangent there
@@ -47,6 +49,7 @@ class StaticRows {
   const Analysis& analysis_;
   const Structure& structure_;
   Observer observer_;
+  std::set<double> state_loads_;  ///< where states are asked for by load factor
   std::vector<std::optional<Row>> rows_;
 };
 
@@ -55,8 +58,7 @@ bool StaticRows::wants_state(std::size_t index) const {
   if (output.states == StateOutput::none) return false;
   if (output.states == StateOutput::every) return index % static_cast<std::size_t>(output.every) == 0;
   if (output.states != StateOutput::at_load_factors) return true;
-  return std::find(output.at_load_factors.begin(), output.at_load_factors.end(),
-                   analysis_.load_factors[index]) != output.at_load_factors.end();
+  return state_loads_.contains(analysis_.load_factors[index]);
 }
 
 void StaticRows::set(std::size_t index, const VectorXd& y, int negative) {

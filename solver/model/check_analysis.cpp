@@ -1,6 +1,7 @@
 /// The analysis: what is to be computed, on which mesh, how far.
 
 #include <cmath>
+#include <set>
 
 #include "solver/model/check_parts.h"
 #include "solver/model/limits.h"
@@ -99,6 +100,18 @@ void check_load_factors(const Place& place, const std::vector<double>& factors) 
   }
 }
 
+/// A static analysis has states at its own load factors only.
+void check_static_states(const Place& place, const Analysis& analysis) {
+  const std::vector<double>& asked = analysis.output.at_load_factors;
+  const std::set<double> known(analysis.load_factors.begin(), analysis.load_factors.end());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (!known.contains(asked[i])) {
+      (place / i).report("unknown_reference", "a static analysis has states at its load_factors, and " +
+                                                  text(asked[i]) + " is none of them");
+    }
+  }
+}
+
 void check_output(const Place& place, const Model& model, const OutputOptions& output) {
   if (output.states == StateOutput::every) {
     require_between(place / "states" / "every", output.every, 1, kMaxSteps);
@@ -133,6 +146,9 @@ void check_analysis(const Place& root, const Model& model, const Analysis& analy
     require_between(place / "branches" / "limit", *analysis.branches.limit, 1, kMaxSteps);
   }
   check_output(place / "output", model, analysis.output);
+  if (analysis.type == AnalysisType::static_ && analysis.output.states == StateOutput::at_load_factors) {
+    check_static_states(place / "output" / "states" / "at_load_factors", analysis);
+  }
 }
 
 }  // namespace snapthrough::checks

@@ -31,9 +31,10 @@ Mode mode_displacements(const Structure& structure, const Model& model, const Ei
 }
 
 void scale_to_largest(Mode& mode) {
-  constexpr double kNothing = 1e-12;  // of what the rotations would move over a member's length
-  constexpr double kLarger = 1.0 + 1e-6;
+  constexpr double kNothing = 1e-12;      // of what the rotations would move over a member's length
+  constexpr double kLarger = 1.0 + 1e-6;  // equal ones differ by rounding: the first gives the sign
   double largest = 0.0;
+  double first_large = 0.0;
   double sign = 1.0;
   double turned = 0.0;
   double length = 0.0;
@@ -42,8 +43,9 @@ void scale_to_largest(Mode& mode) {
     for (std::size_t i = 0; i < member.s.size(); ++i) {
       if (std::abs(member.rotation[i]) > std::abs(turned) * kLarger) turned = member.rotation[i];
       const double size = std::hypot(member.u[i], member.v[i]);
-      if (size <= largest * kLarger) continue;
-      largest = size;
+      largest = std::max(largest, size);
+      if (size <= first_large * kLarger) continue;
+      first_large = size;
       sign = std::abs(member.u[i]) > std::abs(member.v[i]) ? member.u[i] : member.v[i];
     }
   }

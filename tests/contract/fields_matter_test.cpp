@@ -159,6 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Field{"/analysis/stop/monitor", R"({"id": "w", "range": [-0.05, 0.05]})"},
                       Field{"/analysis/stop/steps", "2"}, Field{"/analysis/output/states", R"("all")"},
                       Field{"/analysis/output/states", R"({"every": 2})"},
+                      Field{"/analysis/output/path_points", "50"}, Field{"/analysis/output/extremes", "true"},
                       Field{"/analysis/output/states", R"({"at_load_factors": [0.5]})"}));
 
 TEST(ResultFields, BucklingAnswersWithItsModes) {
@@ -175,7 +176,8 @@ TEST(ResultFields, StaticAnswersDependOnGeometryAndFactors) {
   const json reference = answer(base);
   for (const Field& field :
        {Field{"/analysis/geometry", R"("linear")"}, Field{"/analysis/load_factors", "[0.7, 0.8]"},
-        Field{"/analysis/output/points_per_member", "7"}})
+        Field{"/analysis/output/points_per_member", "7"}, Field{"/analysis/output/states", R"("none")"},
+        Field{"/analysis/output/extremes", "true"}})
     EXPECT_NE(answer(changed(base, field)), reference) << field.pointer;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <variant>
 
+#include "tests/reaction_sum.h"
 #include "tests/stress/inertia.h"
 #include "tests/stress/rod_state.h"
 #include "tests/stress/rod_tangent.h"
@@ -79,6 +80,7 @@ class Check {
   [[nodiscard]] static CountRange count(const ConstrainedTangent& t);
   void determinant(std::size_t index, const ConstrainedTangent& t, CountRange negative);
   void contact(const State& state, const RodState& at);
+  void reactions();
   void springs(const State& state, const RodState& at);
   void finite_series(std::span<const double> values, const std::string& what);
   [[nodiscard]] double distance(const RodState& a, const RodState& b) const;
@@ -226,6 +228,18 @@ void Check::determinant(std::size_t index, const ConstrainedTangent& t, CountRan
 
 /// A one-sided base's reported reaction is that of its penetration, of one sign, and zero outside the
 /// contact.
+/// What acts on the structure adds up to nothing, on whatever mesh a state is.
+void Check::reactions() {
+  constexpr double kBalance = 1e-9;
+  for (const State& state : result_.states) {
+    const double imbalance = reaction_sum(model_, state, analysis_.geometry).imbalance();
+    out_.imbalance = std::max(out_.imbalance, imbalance);
+    if (!(imbalance <= kBalance))
+      fail("reactions: at load factor " + text(state.load_factor) + " they add up to " + text(imbalance) +
+           " of the largest");
+  }
+}
+
 void Check::contact(const State& state, const RodState& at) {
   for (std::size_t f = 0; f < state.foundations.size(); ++f) {
     const Foundation& base = model_.foundations[f];
@@ -329,6 +343,7 @@ void Check::branch(const Branch& branch, std::size_t first) {
 ResultCheck Check::run() {
   finite();
   if (!out_.failures.empty()) return out_;
+  reactions();
   std::size_t first = 0;
   for (const Branch& b : result_.branches) {
     branch(b, first);

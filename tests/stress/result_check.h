@@ -13,12 +13,13 @@ namespace snapthrough::testing {
 
 /// What the checks of one result came to.
 struct ResultCheck {
-  int points = 0;         ///< states whose equations were evaluated
-  int uncovered = 0;      ///< states whose shape could not be rebuilt (mode imperfections, tiny elements)
-  double residual = 0.0;  ///< worst equation over its tolerance
-  int inertia = 0;        ///< states whose inertia was counted
-  int undecided = 0;      ///< of these, with an eigenvalue lost in rounding
-  double stretch = 0.0;   ///< largest distance of two neighbours over the arc length between them
+  int points = 0;          ///< states whose equations were evaluated
+  int uncovered = 0;       ///< states whose shape could not be rebuilt (mode imperfections, tiny elements)
+  double residual = 0.0;   ///< worst equation over its tolerance
+  int inertia = 0;         ///< states whose inertia was counted
+  int undecided = 0;       ///< of these, with an eigenvalue lost in rounding
+  double imbalance = 0.0;  ///< worst sum of reactions, springs, bases and loads, of the largest
+  double stretch = 0.0;    ///< largest distance of two neighbours over the arc length between them
   std::vector<std::string> failures;
 };
 

@@ -10,6 +10,7 @@
 
 #include "solver/element/gauss_rule.h"
 #include "solver/model/axis_curve.h"
+#include "tests/reaction_sum.h"
 
 namespace snapthrough::testing {
 namespace {
@@ -264,9 +265,12 @@ void add_node_actions(const Model& model, double lambda, std::vector<NodeSum>& n
   }
 }
 
-/// Takes support reactions out of the nodes' sums and adds them up.
-void take_reactions(const Model& model, Geometry geometry, std::vector<NodeSum>& nodes, Wrench& reactions) {
+/// Takes support reactions out of the nodes' sums and adds them up; `each` gets those of every support, about
+/// its node.
+void take_reactions(const Model& model, Geometry geometry, std::vector<NodeSum>& nodes, Wrench& reactions,
+                    std::vector<Wrench>& each) {
   for (const Support& support : model.supports) {
+    Wrench& reaction = each.emplace_back();
     NodeSum& node = nodes[static_cast<std::size_t>(&node_of(model, support.node) - model.nodes.data())];
     const double angle = support.angle_degrees * std::numbers::pi / 180.0;
     const Vec2& place = geometry == Geometry::linear ? node.X : node.x;
@@ -278,9 +282,11 @@ void take_reactions(const Model& model, Geometry geometry, std::vector<NodeSum>&
       node.sum.x -= along * axes[c][0];
       node.sum.y -= along * axes[c][1];
       reactions.add(place, {-along * axes[c][0], -along * axes[c][1]});
+      reaction.add({0.0, 0.0}, {-along * axes[c][0], -along * axes[c][1]});
     }
     if (support.rotation) {
       reactions.moment -= node.sum.moment;
+      reaction.moment -= node.sum.moment;
       node.sum.moment = 0.0;
     }
   }
@@ -334,9 +340,87 @@ Wrench member_sum(const Model& model, const State& state, std::size_t m, const B
 
 }  // namespace
 
+namespace {
+
+double difference(const Wrench& rebuilt, const Resultant& given, const Scales& scales) {
+  return std::max(std::hypot(rebuilt.x - given.fx, rebuilt.y - given.fy) / scales.force,
+                  std::abs(rebuilt.moment - given.moment) / scales.moment);
+}
+
+/// Where a node is in equilibrium, its displacement and its rotation.
+struct NodePlace {
+  Vec2 x, u;
+  double rotation;
+};
+
+NodePlace place_of_node(const NodeSum& node, Geometry geometry) {
+  return {geometry == Geometry::linear ? node.X : node.x,
+          {node.x[0] - node.X[0], node.x[1] - node.X[1]},
+          node.rotation};
+}
+
+/// Loads on the nodes themselves.
+void add_node_loads(const Model& model, double lambda, Geometry geometry, const std::vector<NodeSum>& nodes,
+                    Wrench& sum) {
+  for (const Load& load : model.loads) {
+    const auto* point = std::get_if<PointLoad>(&load);
+    if (!point || point->at.node.empty()) continue;
+    const auto index = static_cast<std::size_t>(&node_of(model, point->at.node) - model.nodes.data());
+    const double f = point->pattern == Pattern::constant ? 1.0 : lambda;
+    sum.add(place_of_node(nodes[index], geometry).x, {f * point->force[0], f * point->force[1]},
+            f * point->moment);
+  }
+}
+
+/// Resultants of springs, bases and loads rebuilt on one member, beside those of the state.
+struct Rebuilt {
+  std::vector<Wrench> springs;
+  std::vector<Wrench> foundations;
+  Wrench loads;
+};
+
+void rebuild_on_member(const Model& model, const State& state, std::size_t m, const Body& body,
+                       Rebuilt& out) {
+  const Member& member = model.members[m];
+  for (const Load& load : model.loads) add_load(load, member, body, state.load_factor, out.loads);
+  for (std::size_t f = 0; f < model.foundations.size(); ++f)
+    if (model.foundations[f].member == member.id)
+      add_base(model.foundations[f], state.foundations[f], body, out.foundations[f]);
+  for (std::size_t k = 0; k < model.springs.size(); ++k) {
+    const Spring& spring = model.springs[k];
+    if (spring.at.member != member.id) continue;
+    const Body::Place at = body.at(spring.at.fraction * body.length());
+    const auto i = static_cast<std::size_t>(
+        std::lround(spring.at.fraction * static_cast<double>(body.state().s.size() - 1)));
+    add_spring(spring, at.x, at.u, body.state().rotation[i], out.springs[k]);
+  }
+}
+
+void compare(const Model& model, const State& state, Geometry geometry, const std::vector<NodeSum>& nodes,
+             Rebuilt& rebuilt, const Scales& scales, Imbalance& out) {
+  add_node_loads(model, state.load_factor, geometry, nodes, rebuilt.loads);
+  out.loads = difference(rebuilt.loads, state.loads, scales);
+  for (std::size_t f = 0; f < state.foundations.size(); ++f)
+    out.foundations =
+        std::max(out.foundations, difference(rebuilt.foundations[f], state.foundations[f].resultant, scales));
+  for (std::size_t k = 0; k < state.springs.size(); ++k) {
+    const Spring& spring = model.springs[k];
+    if (!spring.at.node.empty()) {
+      const auto index = static_cast<std::size_t>(&node_of(model, spring.at.node) - model.nodes.data());
+      const NodePlace at = place_of_node(nodes[index], geometry);
+      add_spring(spring, at.x, at.u, at.rotation, rebuilt.springs[k]);
+    }
+    out.springs = std::max(out.springs, difference(rebuilt.springs[k], state.springs[k].resultant, scales));
+  }
+}
+
+}  // namespace
+
 Imbalance imbalance_of(const Model& model, const Discretization& mesh, const State& state,
                        Geometry geometry) {
   Imbalance out;
+  Rebuilt rebuilt{
+      std::vector<Wrench>(model.springs.size()), std::vector<Wrench>(model.foundations.size()), {}};
   const Scales scales = scales_of(state);
   std::vector<NodeSum> nodes(model.nodes.size());
   for (std::size_t m = 0; m < model.members.size(); ++m) {
@@ -345,10 +429,18 @@ Imbalance imbalance_of(const Model& model, const Discretization& mesh, const Sta
     out.member_force = std::max(out.member_force, std::hypot(sum.x, sum.y) / scales.force);
     out.member_moment = std::max(out.member_moment, std::abs(sum.moment) / scales.moment);
     add_member_ends(model, m, body, nodes);
+    rebuild_on_member(model, state, m, body, rebuilt);
   }
   add_node_actions(model, state.load_factor, nodes);
+  compare(model, state, geometry, nodes, rebuilt, scales, out);
   Wrench reactions;
-  take_reactions(model, geometry, nodes, reactions);
+  std::vector<Wrench> each;
+  take_reactions(model, geometry, nodes, reactions, each);
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    const SupportState& given = state.supports[i];
+    out.supports = std::max(out.supports, difference(each[i], {given.fx, given.fy, given.moment}, scales));
+  }
+  out.sum = reaction_sum(model, state, geometry).imbalance();
   for (const NodeSum& node : nodes) {
     if (!node.seen) continue;
     out.node_force = std::max(out.node_force, std::hypot(node.sum.x, node.sum.y) / scales.force);
@@ -372,6 +464,11 @@ void expect_balance(const Model& model, const Discretization& mesh, const State&
   EXPECT_LT(left.member_moment, tolerance) << "moments on a member, load factor " << state.load_factor;
   EXPECT_LT(left.node_force, tolerance) << "forces on a node, load factor " << state.load_factor;
   EXPECT_LT(left.node_moment, tolerance) << "moments on a node, load factor " << state.load_factor;
+  EXPECT_LT(left.supports, tolerance) << "reactions, load factor " << state.load_factor;
+  EXPECT_LT(left.springs, tolerance) << "springs, load factor " << state.load_factor;
+  EXPECT_LT(left.foundations, tolerance) << "resultants of bases, load factor " << state.load_factor;
+  EXPECT_LT(left.loads, tolerance) << "resultant of loads, load factor " << state.load_factor;
+  EXPECT_LT(left.sum, 1e-9) << "sum of all, load factor " << state.load_factor;
 }
 
 }  // namespace snapthrough::testing

@@ -31,6 +31,13 @@ struct Imbalance {
   double node_moment = 0.0;
   double reactions[3] = {0.0, 0.0,
                          0.0};  ///< sum of all support reactions: force x, y, moment about the origin
+  /// Of the reactions and resultants that the state gives, to those rebuilt from positions and section
+  /// forces.
+  double supports = 0.0;
+  double springs = 0.0;
+  double foundations = 0.0;
+  double loads = 0.0;
+  double sum = 0.0;  ///< of everything that the state says acts on the structure
 };
 
 /// @pre members are free of imperfections; a fixed mesh with equal elements on each member; the state has

@@ -6,6 +6,7 @@
 /// int lambda d(delta), equals the energy of members (N^2 / 2EA + Q^2 / 2GA + M^2 / 2EI) and bases (r^2 /
 /// 2K), by Simpson's rule over samples: its error limits the tolerance.
 #include "tests/verification/balance.h"
+#include "tests/reaction_sum.h"
 #include "tests/verification/cases.h"
 #include "tests/verification/turning_points.h"
 
@@ -75,6 +76,46 @@ INSTANTIATE_TEST_SUITE_P(BasesAndPressure, CrowdedFrame,
                          ::testing::Combine(::testing::Bool(), ::testing::Bool(),
                                             ::testing::Values(Geometry::nonlinear, Geometry::linear)));
 
+/// A support that is moved, inclined, and shares its node with two members, a spring and a load.
+TEST(Balance, HoldsAtADisplacedInclinedSupport) {
+  for (const Geometry geometry : {Geometry::nonlinear, Geometry::linear}) {
+    Model model = crowded_frame(true);
+    model.nodes.push_back({"e", 12.0, 4.0});
+    model.members.push_back({"far", "c", "e", "s", LineCurve{}, false, true});
+    model.supports[1].displacement = PrescribedDisplacement{0.0, -0.05, 0.0, Pattern::proportional};
+    model.supports.push_back(support("e", "xy", -30.0));
+    model.supports.back().displacement = PrescribedDisplacement{0.02, 0.01, 0.0, Pattern::constant};
+    model.springs.push_back({"t", at_node("c"), std::array{0.3, 1.0}, 8.0, Reaction::tension_only, 0.001});
+    model.loads.push_back(force_at(at_node("c"), 0.4, -0.6, 0.2));
+    model.loads.push_back(InitialStrain{"far", 1e-3, 2e-2, Pattern::proportional});
+    const Discretization mesh = fixed_mesh(16, 6);
+    Analysis analysis = static_on(mesh, geometry, {0.5, 1.0});
+    analysis.output.points_per_member = output_points(mesh);
+    const Result result = solve_soundly(model, analysis);
+    ASSERT_EQ(result.states.size(), 2u);
+    for (const State& state : result.states) expect_balance(model, mesh, state, 1e-9, geometry);
+  }
+}
+
+/// What is summed is zero to rounding on any mesh, also where springs act inside elements, axes are not
+/// resolved and the base is lumped.
+TEST(Balance, OfReactionsIsExactOnCoarseMeshes) {
+  for (const Geometry geometry : {Geometry::nonlinear, Geometry::linear}) {
+    for (const FoundationRule rule : {FoundationRule::consistent, FoundationRule::lumped}) {
+      Discretization mesh = fixed_mesh(2, 1);
+      mesh.foundation = rule;
+      const Model model = crowded_frame(true);
+      const Result result = solve_soundly(model, static_on(mesh, geometry, {0.4, 0.7}));
+      ASSERT_EQ(result.states.size(), 2u);
+      for (const State& state : result.states) {
+        const ReactionSum sum = reaction_sum(model, state, geometry);
+        EXPECT_LT(sum.imbalance(), 1e-12);
+        EXPECT_GT(sum.largest_force, 0.1);
+      }
+    }
+  }
+}
+
 /// The checker sees what is wrong: a state of another load, or one with a force changed by 1e-6.
 TEST(Balance, IsBrokenByAWrongState) {
   const Model model = crowded_frame(false, false);
@@ -90,6 +131,16 @@ TEST(Balance, IsBrokenByAWrongState) {
   state.load_factor = 1.0;
   state.members[2].bending_moment.back() += 1e-5;
   EXPECT_GT(imbalance_of(model, mesh, state).node_moment, 1e-8);
+  state.members[2].bending_moment.back() -= 1e-5;
+  state.supports[2].fx *= 1.0 + 1e-6;
+  EXPECT_GT(imbalance_of(model, mesh, state).supports, 1e-8);
+  EXPECT_GT(imbalance_of(model, mesh, state).sum, 1e-8);
+  state.foundations[0].resultant.moment += 1e-4;
+  EXPECT_GT(imbalance_of(model, mesh, state).foundations, 1e-8);
+  state.springs[2].resultant.fy += 1e-5;
+  EXPECT_GT(imbalance_of(model, mesh, state).springs, 1e-8);
+  state.loads.fy += 1e-5;
+  EXPECT_GT(imbalance_of(model, mesh, state).loads, 1e-8);
 }
 
 /// Simpson's rule over equally spaced samples, an odd number of them.

@@ -78,6 +78,7 @@ inline Analysis buckling_on(Discretization mesh, int modes = 1) {
 inline Analysis static_on(Discretization mesh, Geometry geometry, std::vector<double> factors = {1.0}) {
   Analysis analysis = analysis_of(AnalysisType::static_, std::move(mesh));
   analysis.geometry = geometry;
+  analysis.output.states = StateOutput::all;
   analysis.load_factors = std::move(factors);
   return analysis;
 }

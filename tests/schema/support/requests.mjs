@@ -26,7 +26,7 @@ const beam = () => ({
   members: [{id: 'first', start: 'a', end: 'b', section: 's'},
             {id: 'second', start: 'b', end: 'c', section: 's', release: {start: ['rotation']}}],
   supports: [{node: 'a', fixed: ['x', 'y', 'rotation']}, {node: 'c', fixed: ['y'], angle_degrees: 10}],
-  springs: [{id: 'prop', at: {node: 'b'}, direction: [0, -1], stiffness: 500, reaction: 'compression_only', gap: 1e-4},
+  springs: [{id: 'prop', at: {node: 'b'}, direction: [0, -1], stiffness: 500, reaction: 'compression_only', gap: 2e-3},
             {id: 'turn', at: {member: 'second', fraction: 0.5}, direction: 'rotation', stiffness: 20}],
   foundations: [{id: 'soil', member: 'first', stiffness: 1e4, reaction: 'compression_only', side: 'right'}],
   loads: [{type: 'point', at: {node: 'b'}, force: [0, -10], moment: 1},
@@ -45,8 +45,22 @@ const column = () => ({
   loads: [{type: 'point', at: {node: 'head'}, force: [0, -1]}],
 });
 
+/** A ring under outer pressure in one-sided soil, which it leaves: nothing holds it against rising. */
+const ring = () => ({
+  nodes: [{id: 'invert', x: 0, y: -1}, {id: 'crown', x: 0, y: 1}],
+  sections: [{id: 'wall', EA: 1e5, EI: 1}],
+  members: ['right', 'left'].map((id, i) => ({id, start: i ? 'crown' : 'invert', end: i ? 'invert' : 'crown', section: 'wall',
+                                              curve: {type: 'arc', sweep_degrees: 180}})),
+  supports: [{node: 'invert', fixed: ['x']}, {node: 'crown', fixed: ['x']}],
+  foundations: ['right', 'left'].map((member) => ({id: member, member, stiffness: 180, reaction: 'compression_only', side: 'right'})),
+  loads: ['right', 'left'].map((member) => ({type: 'pressure', member, value: 1, side: 'right'})),
+});
+
 const fixed = {elements: 12, order: 3};
 const rule = {limit_points: 2};
+
+/** A request whose structure may move without stiffness beside the path: answered with that motion, or with a failure. */
+export const loose = () => ({model: ring(), analysis: {type: 'critical'}});
 
 /** Requests that an analysis answers, by what they are for. */
 export function answerable() {
@@ -75,6 +89,8 @@ export function answerable() {
     add(`buckling, ${modes} modes`, column(), {type: 'buckling', modes});
     add(`buckling, ${modes} modes, fixed mesh`, column(), {type: 'buckling', modes, discretization: fixed});
   }
+  add('strains too large for the theory', {...column(), sections: [{id: 'shaft', EA: 10, EI: 100}]},
+      {type: 'path', stop: {load_factor: [-1, 2]}});
   add('buckling, arch', arch(), {type: 'buckling', modes: 2});
   add('no buckling', {...column(), loads: [{type: 'point', at: {node: 'head'}, force: [0, 1]}]}, {type: 'buckling'});
   add('imperfect', {...column(), imperfections: [{type: 'mode', number: 1, amplitude: 1e-3}]}, {type: 'path', stop: {steps: 10}});

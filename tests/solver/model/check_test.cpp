@@ -282,6 +282,13 @@ const Case kAnalysisCases[] = {
      "/analysis/output/states/every", "out_of_range"},
     {"OutputFactorsEmpty", SPOIL(a.output.states = StateOutput::at_load_factors),
      "/analysis/output/states/at_load_factors", "empty"},
+    {"OutputFactorsNotThoseOfTheAnalysis",
+     SPOIL(a.type = AnalysisType::static_; a.load_factors = {0.5, 1.0};
+           a.output.states = StateOutput::at_load_factors; a.output.at_load_factors = {1.0, 0.75}),
+     "/analysis/output/states/at_load_factors/1", "unknown_reference"},
+    {"OutputPathPointsOne", SPOIL(a.output.path_points = 1), "/analysis/output/path_points", "out_of_range"},
+    {"OutputPathPointsTooMany", SPOIL(a.output.path_points = kMaxPathPoints + 1),
+     "/analysis/output/path_points", "out_of_range"},
     {"OutputPointsOne", SPOIL(a.output.points_per_member = 1), "/analysis/output/points_per_member",
      "out_of_range"},
     {"OutputPointsTooMany", SPOIL(a.output.points_per_member = kMaxPointsPerMember + 1),
