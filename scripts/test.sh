@@ -11,11 +11,13 @@ jobs="${JOBS:-$(nproc)}"
 
 install_packages "${BUILD_PACKAGES[@]}" "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 
-echo "== shape, includes, format"
+echo "== shape, includes, links, format"
 python3 scripts/check_shape.py --self-test
 python3 scripts/check_shape.py
 python3 scripts/check_includes.py --self-test
 python3 scripts/check_includes.py
+python3 scripts/check_links.py --self-test
+python3 scripts/check_links.py
 bash scripts/format.sh --check
 
 echo "== build ($preset)"

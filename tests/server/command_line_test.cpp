@@ -233,6 +233,33 @@ TEST_F(CommandLine, TheShellScriptOfTheDocumentEndsWhateverTheServiceSays) {
   EXPECT_EQ(run_script(work, "sweep.json none.csv", port), 1);
 }
 
+/// The blocks of the README, as they stand there: every command of the first, and the service and what asks it.
+TEST_F(CommandLine, TheCommandsOfTheReadmeRun) {
+  const std::string program = "build/release/snapthrough ";
+  const auto runs = [&](std::string line) {
+    line.replace(line.find(program), program.size(), std::string(SNAPTHROUGH_EXECUTABLE) + " ");
+    const std::string command = "cd " SNAPTHROUGH_SOURCE_DIR " && timeout 60 " + line.substr(0, line.find('#')) + " > " +
+                                folder_.file("out");
+    EXPECT_EQ(std::system(command.c_str()), 0) << line;
+  };
+  std::istringstream lines(block_of("README.md", program + "check"));
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    runs(line);
+  }
+  EXPECT_GE(count, 3);
+  EXPECT_THAT(block_of("README.md", program + "serve"), Not(HasSubstr("curl"))) << "it does not come back";
+  Process service(folder_, {"serve", "--listen", "127.0.0.1:0", "--store", folder_.file("jobs.db")});
+  std::string ask = block_of("README.md", "curl -H");
+  const std::string address = "127.0.0.1:8080";
+  ASSERT_NE(ask.find(address), std::string::npos);
+  ask.replace(ask.find(address), address.size(), "127.0.0.1:" + std::to_string(listening_port(service)));
+  ask.pop_back();
+  const std::string command = "cd " SNAPTHROUGH_SOURCE_DIR " && " + ask + " -sf > " + folder_.file("answer");
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_TRUE(json::parse(read_file(folder_.file("answer"))).contains("summary"));
+}
+
 TEST_F(CommandLine, ThePythonScriptOfTheDocumentPrintsTheTable) {
   Process service(folder_, {"serve", "--listen", "127.0.0.1:0", "--store", folder_.file("jobs.db")});
   const int port = listening_port(service);
