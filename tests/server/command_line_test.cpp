@@ -233,13 +233,14 @@ TEST_F(CommandLine, TheShellScriptOfTheDocumentEndsWhateverTheServiceSays) {
   EXPECT_EQ(run_script(work, "sweep.json none.csv", port), 1);
 }
 
-/// The blocks of the README, as they stand there: every command of the first, and the service and what asks it.
+/// The blocks of the README, as they stand there: every command of the first, and the service and what asks
+/// it.
 TEST_F(CommandLine, TheCommandsOfTheReadmeRun) {
   const std::string program = "build/release/snapthrough ";
   const auto runs = [&](std::string line) {
     line.replace(line.find(program), program.size(), std::string(SNAPTHROUGH_EXECUTABLE) + " ");
-    const std::string command = "cd " SNAPTHROUGH_SOURCE_DIR " && timeout 60 " + line.substr(0, line.find('#')) + " > " +
-                                folder_.file("out");
+    const std::string command = "cd " SNAPTHROUGH_SOURCE_DIR " && timeout 60 " +
+                                line.substr(0, line.find('#')) + " > " + folder_.file("out");
     EXPECT_EQ(std::system(command.c_str()), 0) << line;
   };
   std::istringstream lines(block_of("README.md", program + "check"));
