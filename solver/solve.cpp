@@ -28,6 +28,13 @@ MeshUse mesh_use(const Analysis& analysis) {
   return one_mode ? MeshUse::first : MeshUse::final;
 }
 
+/// Load factors at which states or rows were asked for.
+std::vector<double> asked_load_factors(const Analysis& analysis) {
+  if (analysis.type == AnalysisType::static_) return analysis.load_factors;
+  if (analysis.type == AnalysisType::buckling) return {};
+  return analysis.output.at_load_factors;
+}
+
 }  // namespace
 
 Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
@@ -44,6 +51,7 @@ Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& 
     modes = mode_offsets(model, analysis);
   } catch (const std::runtime_error& error) {
     fail(result, "no_buckling_mode", error.what());
+    result.not_reached = asked_load_factors(analysis);
     return result;
   }
   if (analysis.type == AnalysisType::buckling && run_exact_column(model, analysis, result)) {

@@ -25,6 +25,8 @@ std::vector<std::string> skipped_work(const Model& model, const Analysis& analys
   add_bilateral("spring", model.springs, out);
   if (analysis.type == AnalysisType::buckling && analysis.output.extremes)
     out.emplace_back("extremes: linearised buckling reaches no states");
+  if (analysis.type != AnalysisType::path && analysis.output.path_points)
+    out.emplace_back("path_points: only the branches of a path have points");
   const bool critical = analysis.type == AnalysisType::critical;
   if (!critical && analysis.type != AnalysisType::path) return out;
   if (critical) out.emplace_back("path: points and contact changes, only the critical load was asked for");

@@ -1,5 +1,6 @@
 #include "solver/post/resultant.h"
 
+#include <cmath>
 #include <cstddef>
 
 namespace snapthrough {
@@ -47,18 +48,19 @@ Wrench RigidMotions::work(const SparseRow& row) const {
 }
 
 Wrench RigidMotions::work(const Station& station) const {
-  return {value(station, x_), value(station, y_), value(station, rotation_)};
+  return {value(station, x_).value, value(station, y_).value, value(station, rotation_).value};
 }
 
-double RigidMotions::value(const Station& station, const Eigen::VectorXd& y) const {
+RigidMotions::Reading RigidMotions::value(const Station& station, const Eigen::VectorXd& y) const {
   const ElementDofs& dofs = structure_.dofs[station.element];
-  double sum = 0.0;
+  const int p = structure_.mesh.order;
+  Reading out;
   for (int c = 0; c < 3; ++c) {
-    sum += station.a[c] * y[dofs.a[c]];
-    for (int q = 0; q < structure_.mesh.order; ++q)
-      sum += station.v[q][c] * y[dofs.v + c * structure_.mesh.order + q];
+    out.value += station.a[c] * y[dofs.a[c]];
+    out.size += std::abs(station.a[c] * y[dofs.a[c]]);
+    for (int q = 0; q < p; ++q) out.value += station.v[q][c] * y[dofs.v + c * p + q];
   }
-  return sum;
+  return out;
 }
 
 Resultant RigidMotions::unscaled(const Wrench& scaled) const {

@@ -33,8 +33,12 @@ class RigidMotions {
   [[nodiscard]] Wrench work(const SparseRow& row) const;
   /// @param station its spring is not looked at
   [[nodiscard]] Wrench work(const Station& station) const;
-  /// The penetration that a station reads from unknowns of the structure.
-  [[nodiscard]] double value(const Station& station, const Eigen::VectorXd& y) const;
+  /// What a station reads from unknowns, and the size of the displacement that it starts from.
+  struct Reading {
+    double value = 0.0;
+    double size = 0.0;
+  };
+  [[nodiscard]] Reading value(const Station& station, const Eigen::VectorXd& y) const;
 
   /// The model's units, moment about the origin of the model's axes.
   [[nodiscard]] Resultant unscaled(const Wrench& scaled) const;

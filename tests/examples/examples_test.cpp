@@ -16,6 +16,7 @@
 #include "api/api.h"
 #include "solver/solve.h"
 #include "tests/findings.h"
+#include "tests/reaction_sum.h"
 
 namespace snapthrough::api {
 namespace {
@@ -41,6 +42,10 @@ json run(const std::string& request_text) {
   }
   const Result result = solve(outcome.request->model, outcome.request->analysis);
   EXPECT_FALSE(result.failure.has_value()) << result.failure->code << ": " << result.failure->detail;
+  for (const State& state : result.states) {
+    const Geometry geometry = outcome.request->analysis.geometry;
+    EXPECT_LT(testing::reaction_sum(outcome.request->model, state, geometry).imbalance(), 1e-9);
+  }
   return write_result(*outcome.request, result, 0.0);
 }
 

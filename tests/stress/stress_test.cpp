@@ -51,6 +51,16 @@ TEST(Stress, ModelsThatFailedOnce) {
   }
 }
 
+/// Bases so stiff that penetration times stiffness is known to 1e-9 of the largest force only: their
+/// resultants are what equilibrium leaves.
+TEST(Stress, ReactionsOfStiffBasesAddUp) {
+  for (const std::uint64_t seed : {200082, 200117, 200147}) {
+    const StressOutcome out = run_seed(Draw::broad, seed, 60.0);
+    EXPECT_GT(out.check.points, 0) << "seed " << seed;
+    EXPECT_LT(out.check.imbalance, 1e-9) << "seed " << seed;
+  }
+}
+
 TEST(Stress, SliceOfRandomModels) {
   constexpr int kFirst = 28;
   constexpr int kSeeds = 12;

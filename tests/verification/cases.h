@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "solver/solve.h"
+#include "tests/reaction_sum.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough::testing {
@@ -89,12 +90,14 @@ inline Analysis path_on(Discretization mesh, int limit_points) {
   return analysis;
 }
 
-/// Solves and expects that nothing failed.
+/// Solves and expects that nothing failed, and that what acts on the structure adds up to nothing.
 inline Result solve_soundly(const Model& model, const Analysis& analysis) {
   for (const Finding& finding : check(model, analysis))
     ADD_FAILURE() << finding.pointer << ": " << finding.detail;
   Result result = solve(model, analysis);
   if (result.failure) ADD_FAILURE() << result.failure->code << ": " << result.failure->detail;
+  for (const State& state : result.states)
+    EXPECT_LT(reaction_sum(model, state, analysis.geometry).imbalance(), 1e-9) << state.load_factor;
   return result;
 }
 

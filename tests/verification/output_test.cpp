@@ -166,6 +166,17 @@ TEST(NotReached, ListsStatesThatThePathDidNotMeet) {
       << result.summary.message;
 }
 
+/// An imperfection names a mode that does not exist: nothing was reached.
+TEST(NotReached, ListsAllWhereTheAnalysisCannotBegin) {
+  Model model = straight(2.0, 5.0, 1e4, "xyr", "");
+  model.loads = {force_at(at_node("b"), 1.0, 0.0)};
+  model.imperfections = {ModeImperfection{1, 0.01}};
+  const Result result = solve(model, static_on(fixed_mesh(2, 3), Geometry::nonlinear, {0.5, 1.0}));
+  ASSERT_TRUE(result.failure);
+  EXPECT_EQ(result.failure->code, "no_buckling_mode");
+  EXPECT_EQ(result.not_reached, (std::vector<double>{0.5, 1.0}));
+}
+
 /// A cantilever under a tip force: N, Q and M of every state are known, and so are their extremes.
 TEST(Extremes, AreThoseOfACantilever) {
   Model model = straight(2.0, 5.0, 1e4, "xyr", "");

@@ -52,6 +52,17 @@ TEST(Skipped, ContactSearchWhereBothSidesHold) {
               Not(Contains(HasSubstr("contact search"))));
 }
 
+TEST(Skipped, OutputsThatAnAnalysisDoesNotHave) {
+  Analysis analysis = analysis_of(AnalysisType::buckling, StateOutput::critical);
+  analysis.output.extremes = true;
+  analysis.output.path_points = 10;
+  const Result result = solve(testing::arch(20.0, 420.0, 1.4), analysis);
+  EXPECT_THAT(result.diagnostics.skipped,
+              ElementsAre("extremes: linearised buckling reaches no states",
+                          "path_points: only the branches of a path have points"));
+  EXPECT_FALSE(result.extremes.has_value());
+}
+
 TEST(Skipped, BasesWithoutStiffness) {
   Model model = testing::arch(20.0, 420.0, 1.4);
   testing::add_soil(model, 0.0);
