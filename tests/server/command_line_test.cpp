@@ -119,7 +119,7 @@ TEST_F(CommandLine, SolveGivesTheTableOfTheAnalysis) {
   EXPECT_EQ(run({"solve", "--table", "states", "-"}, request.dump()), 0) << err_;
   EXPECT_THAT(out_, HasSubstr("\r\n0,0,1,m,0,"));
   EXPECT_EQ(run({"solve", "--csv", "-"}, request.dump()), 0) << err_;
-  EXPECT_THAT(out_, StartsWith("load_factor,negative_eigenvalues,state"));
+  EXPECT_THAT(out_, StartsWith("load_factor,negative_eigenvalues,state,tip\r\n1,0,0,"));
 }
 
 TEST_F(CommandLine, ATableThatAnAnalysisDoesNotHaveIsRefused) {
@@ -161,6 +161,18 @@ TEST_F(CommandLine, APointOfASweepIsARequest) {
   EXPECT_EQ(run({"solve", "-"}, request), 0) << err_;
   EXPECT_EQ(run({"sweep", sweep, "--point", "3"}), 1);
   EXPECT_THAT(err_, HasSubstr("0 to 2"));
+}
+
+TEST_F(CommandLine, TheSweepsOfTheExamplesAreValid) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(SNAPTHROUGH_SOURCE_DIR "/examples/sweeps")) {
+    EXPECT_EQ(run({"check", entry.path()}), 0) << err_;
+    ++count;
+  }
+  EXPECT_GE(count, 4);
+  ASSERT_EQ(run({"sweep", "--csv", SNAPTHROUGH_SOURCE_DIR "/examples/sweeps/lining_thickness.json"}), 0)
+      << err_;
+  EXPECT_THAT(out_, HasSubstr("\n0.1,clamped,2851.3"));  // as docs/sweeps.md shows it
 }
 
 TEST_F(CommandLine, BarAndRowsNeverShareATerminal) {
