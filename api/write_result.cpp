@@ -61,6 +61,15 @@ Json write(const std::vector<NamedSeries>& series) {
   return object;
 }
 
+Json write(const std::vector<MeshAnswer>& meshes) {
+  Json array = Json::array();
+  for (const MeshAnswer& mesh : meshes) {
+    array.push_back(
+        {{"elements", mesh.elements}, {"order", mesh.order}, {"load_factor", or_null(mesh.load_factor)}});
+  }
+  return array;
+}
+
 Json write(const Mode& mode) {
   Json members = Json::object();
   for (const MemberMode& member : mode.members) {
@@ -75,6 +84,8 @@ Json write(const CriticalPoint& point) {
           {"cause", point.cause == CriticalCause::smooth ? "smooth" : "contact"},
           {"load_factor", point.load_factor},
           {"error_estimate", or_null(point.error_estimate)},
+          {"confirmed", point.confirmed},
+          {"meshes", write(point.meshes)},
           {"arc_length", point.arc_length},
           {"monitors", write(point.monitors)},
           {"negative_before", count_or_null(point.negative_before)},
@@ -82,6 +93,17 @@ Json write(const CriticalPoint& point) {
           {"multiplicity", point.multiplicity},
           {"state", or_null(point.state)},
           {"mode", point.mode ? write(*point.mode) : Json(nullptr)}};
+}
+
+Json write(const NeutralMotion& motion) {
+  Json nodes = Json::object();
+  for (const NodeMotion& node : motion.nodes) {
+    nodes[node.node] = {{"u", node.u}, {"v", node.v}, {"rotation", node.rotation}};
+  }
+  return {{"branch", motion.branch},
+          {"from", motion.from},
+          {"to", or_null(motion.to)},
+          {"nodes", std::move(nodes)}};
 }
 
 Json write(const ContactEvent& event) {
@@ -273,6 +295,7 @@ nlohmann::json write_result(const Request& request, const Result& result, double
   add("model", [&] { return write(request.model); });
   add("summary", [&] { return write(result.summary); });
   add("critical_points", [&] { return write_all(result.critical_points); });
+  add("neutral_motion", [&] { return write_all(result.neutral_motion); });
   add("contact_events", [&] { return write_all(result.contact_events); });
   add("branches", [&] { return write_all(result.branches); });
   add("states", [&] { return write_all(result.states); });

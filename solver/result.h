@@ -25,6 +25,13 @@ struct NamedValue {
   double value = 0.0;
 };
 
+/// What one mesh said of a critical point.
+struct MeshAnswer {
+  int elements = -1;
+  int order = -1;
+  std::optional<double> load_factor;  ///< empty: the point was not found there
+};
+
 /// Displacements of a member in a mode, over its arc length.
 struct MemberMode {
   std::string id;
@@ -51,6 +58,23 @@ struct CriticalPoint {
   /// Null vector of the tangent stiffness; at a limit point that is the path's direction. With the state
   /// only.
   std::optional<Mode> mode = {};
+  bool confirmed = false;  ///< a second, finer mesh has the point within the accuracy that was asked for
+  std::vector<MeshAnswer> meshes = {};  ///< coarsest first
+};
+
+/// A displacement of a node.
+struct NodeMotion {
+  std::string node;
+  double u = 0.0, v = 0.0, rotation = 0.0;
+};
+
+/// A motion that nothing resists, held by the least norm while it is free.
+struct NeutralMotion {
+  int branch = 0;
+  double from = 0.0;              ///< load factor where it becomes free
+  std::optional<double> to;       ///< where something resists it again; empty: free to the end of the path
+  std::vector<NodeMotion> nodes;  ///< those that move; the largest displacement is 1, or the largest rotation
+                                  ///< where none is displaced
 };
 
 /// A contact zone of a foundation, or a one-sided spring, that begins or ends. Zones that divide or join
@@ -201,6 +225,7 @@ struct Failure {
 struct Result {
   Summary summary;
   std::vector<CriticalPoint> critical_points;
+  std::vector<NeutralMotion> neutral_motion;
   std::vector<ContactEvent> contact_events;
   std::vector<Branch> branches;
   std::vector<State> states;

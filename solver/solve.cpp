@@ -7,6 +7,7 @@
 
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/skipped.h"
+#include "solver/assembly/mechanism.h"
 
 namespace snapthrough {
 namespace {
@@ -59,8 +60,9 @@ Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& 
     result.diagnostics.skipped.insert(result.diagnostics.skipped.begin(), absent.begin(), absent.end());
     return result;
   }
-  const Structure structure =
+  Structure structure =
       make_structure(model, analysis.discretization, analysis.geometry, modes, mesh_use(analysis));
+  structure.free_motions = free_motions(model);
   switch (analysis.type) {
     case AnalysisType::critical:
     case AnalysisType::path:

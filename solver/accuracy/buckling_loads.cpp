@@ -37,7 +37,7 @@ BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const
   for (int level = 0;; ++level) {
     out = {now.structure, now.buckling, {}, level, factorizations};
     out.errors.resize(now.buckling.loads.size());
-    if (level >= kMostLevels) break;
+    if (level >= kMostLevels || now.buckling.is_mechanism) break;
     auto mesh = finer_mesh(now.structure->mesh, structure.one_sided);
     if (!mesh) break;
     Level next = solve_on(std::make_shared<const Structure>(on_mesh(structure, model, *std::move(mesh))),

@@ -10,6 +10,15 @@
 #include "solver/post/state.h"
 
 namespace snapthrough {
+namespace {
+
+MeshAnswer said_by(const Structure& structure, const FoundPoint* found) {
+  MeshAnswer answer{static_cast<int>(structure.mesh.elements.size()), structure.mesh.order, std::nullopt};
+  if (found != nullptr) answer.load_factor = found->event.point.lambda / structure.scales.load;
+  return answer;
+}
+
+}  // namespace
 
 TraceSink CriticalLoads::watch(TraceSink sink) {
   TraceSink out = sink;
@@ -41,28 +50,51 @@ FineMesh* CriticalLoads::level(int number) {
   return levels_[number - 1].get();
 }
 
+/// The error by the path on the coarser mesh, which has the point, too.
+std::optional<double> CriticalLoads::error_to_earlier(const Target& target) const {
+  const CriticalPoint& point = result_.critical_points[target.index];
+  std::optional<double> least;
+  for (const CriticalPoint& other : earlier_) {
+    const bool same = other.branch == point.branch && other.type == point.type &&
+                      other.negative_before == point.negative_before &&
+                      other.negative_after == point.negative_after;
+    if (!same) continue;
+    const double error = Differences().add(other.load_factor, point.load_factor);
+    least = std::min(error, least.value_or(error));
+  }
+  return least;
+}
+
 CriticalLoads::Answer CriticalLoads::answer_for(const Target& target) {
   const bool fixed = analysis_.discretization.fixed_mesh;
   const double accuracy = analysis_.discretization.accuracy;
-  Answer answer{{target.event, target.event.point}, 0, std::nullopt};
+  Answer answer{{target.event, target.event.point}, 0, std::nullopt, {}};
   FoundPoint at = answer.found;
   Differences differences;
+  std::vector<MeshAnswer> meshes{said_by(structure_, &at)};
   for (int number = 1; number <= (fixed ? 1 : kMostLevels); ++number) {
     FineMesh* mesh = level(number);
     if (mesh == nullptr) break;
     const auto next = mesh->find(structure_of(number - 1), at.event, structure_, target.before);
+    meshes.push_back(said_by(mesh->structure(), next ? &*next : nullptr));
     if (!next) break;
     const double error = differences.add(at.event.point.lambda, next->event.point.lambda);
-    answer = {at, number - 1, error};
+    answer = {at, number - 1, error, {}};
     if (error <= accuracy) break;
     at = *next;
   }
+  answer.meshes = std::move(meshes);
+  if (const auto error = error_to_earlier(target); !fixed && error && *error < answer.error.value_or(1.0))
+    answer.error = error;
   return answer;
 }
 
 void CriticalLoads::report(const Target& target, const Answer& answer) {
   CriticalPoint& point = result_.critical_points[target.index];
   point.error_estimate = answer.error;
+  point.meshes = answer.meshes;
+  const Discretization& asked = analysis_.discretization;
+  point.confirmed = answer.error && (asked.fixed_mesh || *answer.error <= asked.accuracy);
   Summary& summary = result_.summary;
   const bool is_first = summary.critical_load_factor && !summary.error_estimate && point.branch == 0 &&
                         *summary.critical_load_factor == point.load_factor;
@@ -89,36 +121,43 @@ void CriticalLoads::report(const Target& target, const Answer& answer) {
   }
 }
 
-void CriticalLoads::report_meshes(int finest, double largest, int without) {
+void CriticalLoads::report_meshes(int finest, double largest, int without, std::string& text) {
   report_mesh(structure_of(finest), finest, result_);
-  std::string& message = result_.summary.message;
   if (without > 0)
-    message += "; no error estimate for " + std::to_string(without) +
-               " critical points, which were not found again on a finer mesh";
+    text += "; no error estimate for " + std::to_string(without) +
+            " critical points, which were not found again on a finer mesh";
   if (analysis_.discretization.fixed_mesh) return;
   if (targets_.empty()) {
-    message += "; no critical point was met, so the error of the path's mesh was not estimated";
+    text += "; no critical point was met, and a finer mesh agrees at the path's end";
     return;
   }
   if (without == 0) result_.discretization.estimated_accuracy = largest;
   if (largest > analysis_.discretization.accuracy)
-    message += "; the accuracy asked for was not reached: estimated " + number(largest);
+    text += "; the accuracy asked for was not reached: estimated " + number(largest);
 }
 
-void CriticalLoads::estimate(const std::stop_token& stop) {
+bool CriticalLoads::confirm_end(const PathPoint& end) {
+  FineMesh* finer = level(1);
+  return finer == nullptr || finer->has(structure_, end);
+}
+
+bool CriticalLoads::confirm(const std::stop_token& stop, std::string& text) {
+  bool all = true;
   int finest = 0;
   int without = 0;
   double largest = 0.0;
   for (const Target& target : targets_) {
-    Answer answer{{target.event, target.event.point}, 0, std::nullopt};
-    if (!stop.stop_requested()) answer = answer_for(target);
+    if (stop.stop_requested()) return false;
+    const Answer answer = answer_for(target);
     report(target, answer);
+    all = all && result_.critical_points[target.index].confirmed;
     finest = std::max(finest, answer.level);
     largest = std::max(largest, answer.error.value_or(0.0));
     without += answer.error ? 0 : 1;
   }
-  report_meshes(finest, largest, without);
+  report_meshes(finest, largest, without, text);
   for (const auto& mesh : levels_) add_statistics(mesh->statistics(), result_);
+  return all;
 }
 
 }  // namespace snapthrough

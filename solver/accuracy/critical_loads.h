@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "solver/accuracy/polish.h"
@@ -13,29 +14,41 @@
 
 namespace snapthrough {
 
-/// @brief Finds the critical points of a path again on ever finer meshes until their loads agree.
+/// @brief Finds the critical points of a path again on ever finer meshes until their loads agree: only then
+/// they are confirmed.
 ///
 /// A load's error on one mesh is estimated by its difference to the next finer mesh's, which is nearer to the
 /// truth by a factor: one order more on the same elements where the solution is smooth, elements halved where
 /// contact ends inside them (Carstensen's saturation assumption; checked wherever three meshes were used:
 /// differences must fall). The value reported is that of the coarser of the two: the finer one's error is
 /// not known. With a fixed mesh the values stay and only the estimate is made.
+///
+/// A point that finer meshes do not have belongs to a mesh that is too coarse for the path as a whole: then
+/// the path is to be followed again on a finer one. What both paths have within the accuracy is confirmed,
+/// too.
 class CriticalLoads {
  public:
-  /// @param continuation the follower of the path; it has to be alive and started when estimate() is called
+  /// @param earlier critical points of the path on a coarser mesh; kept by reference
+  /// @param continuation the follower of the path; it has to be alive and started when confirm() is called
   CriticalLoads(const Model& model, const Analysis& analysis, const Structure& structure,
-                const Continuation& continuation, Result& result)
+                const Continuation& continuation, const std::vector<CriticalPoint>& earlier, Result& result)
       : model_(model),
         analysis_(analysis),
         structure_(structure),
         continuation_(continuation),
+        earlier_(earlier),
         result_(result) {}
 
   /// @brief The same sink, which also remembers the critical points as they are added to the result.
   [[nodiscard]] TraceSink watch(TraceSink sink);
   /// @brief Sets the error estimates of all critical points seen, refines where they exceed the accuracy, and
   /// reports the meshes.
-  void estimate(const std::stop_token& stop);
+  /// @param text what is to be said of it is added
+  /// @return whether every point is confirmed
+  [[nodiscard]] bool confirm(const std::stop_token& stop, std::string& text);
+  /// @brief Whether the finer mesh is in equilibrium near the end of a path, with the same inertia there: so
+  /// it has lost stability as often as the path has.
+  [[nodiscard]] bool confirm_end(const PathPoint& end);
 
  private:
   /// A critical point of the coarse path.
@@ -49,18 +62,21 @@ class CriticalLoads {
     FoundPoint found;
     int level = 0;  ///< 0: the path's own mesh
     std::optional<double> error;
+    std::vector<MeshAnswer> meshes;
   };
 
   [[nodiscard]] FineMesh* level(int number);
   [[nodiscard]] const Structure& structure_of(int number) const;
   [[nodiscard]] Answer answer_for(const Target& target);
+  [[nodiscard]] std::optional<double> error_to_earlier(const Target& target) const;
   void report(const Target& target, const Answer& answer);
-  void report_meshes(int finest, double largest, int without);
+  void report_meshes(int finest, double largest, int without, std::string& text);
 
   const Model& model_;
   const Analysis& analysis_;
   const Structure& structure_;
   const Continuation& continuation_;
+  const std::vector<CriticalPoint>& earlier_;
   Result& result_;
   PathPoint last_;
   std::vector<Target> targets_;

@@ -10,6 +10,9 @@
 namespace snapthrough {
 namespace {
 
+/// What is near a point: a share of the path so far.
+constexpr double kReach = 0.02;
+
 /// The one of the found points that is the known one; nearest by load where several are alike.
 std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<CriticalEvent>& found) {
   const CriticalEvent* best = nullptr;
@@ -171,9 +174,16 @@ std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const Pat
   return std::nullopt;
 }
 
+bool FineMesh::has(const Structure& from, const PathPoint& point) {
+  const PathPoint at = transferred(from, point);
+  const double reach = kReach * continuation_.metric().norm(at.y, 0.0);
+  if (!(reach > 0.0)) return true;  // nothing has moved
+  const auto found = corrected(at, 0.0, reach);
+  return found && found->negative == point.negative && continuation_.distance(*found, at) <= reach;
+}
+
 std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEvent& known,
                                          const Structure& base, const PathPoint& before) {
-  constexpr double kReach = 0.02;  // of the path so far
   constexpr double kWidening = 6.0;
   const PathPoint at = transferred(from, known.point);
   const double path = continuation_.way_to(at);

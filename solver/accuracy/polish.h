@@ -38,6 +38,8 @@ class FineMesh {
   /// @return empty when there is no such point nearby
   [[nodiscard]] std::optional<FoundPoint> find(const Structure& from, const CriticalEvent& known,
                                                const Structure& base, const PathPoint& before);
+  /// @brief Whether this mesh has an equilibrium near a point of a coarser one, with the same inertia.
+  [[nodiscard]] bool has(const Structure& from, const PathPoint& point);
 
  private:
   [[nodiscard]] PathPoint transferred(const Structure& from, const PathPoint& point) const;

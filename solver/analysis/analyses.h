@@ -48,7 +48,7 @@ void report_buckling(const Analysis& analysis, FoundLoads found, Result& result)
 [[nodiscard]] Mode mode_at(const Structure& structure, const Model& model, EquilibriumProblem& problem,
                            const CriticalEvent& event, const Analysis& analysis);
 
-/// A number in a message: six significant digits.
+/// A number in a message: the fewest digits that read back to the same value, as in the result document.
 [[nodiscard]] std::string number(double value);
 /// Copies the counts of a continuation into a result, adding to what is there.
 void add_statistics(const ContinuationStatistics& statistics, Result& result);

@@ -14,7 +14,7 @@ namespace snapthrough {
 
 std::string number(double value) {
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
+  const auto end = std::to_chars(text, text + sizeof text, value);
   return {text, end.ptr};
 }
 
@@ -120,7 +120,7 @@ std::optional<PathPoint> start_of_path(const Model& model, const Structure& stru
              " of them");
     return std::nullopt;
   }
-  auto start = continuation.start_at(outcome.last.y, direction);
+  auto start = continuation.start_at(outcome.last.y, direction, outcome.last.holds);
   if (!start) fail_to_start(model, structure, continuation, result);
   return start;
 }

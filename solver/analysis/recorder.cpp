@@ -36,6 +36,7 @@ void Recorder::start_branch(std::optional<int> parent) {
 }
 
 void Recorder::add_point(const PathPoint& point) {
+  neutral_.note(point.holds, user_load(point));
   const OutputOptions& output = analysis_.output;
   if (output.states == StateOutput::all ||
       (output.states == StateOutput::every && points_ % output.every == 0))
@@ -165,6 +166,7 @@ void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
 
 TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> parent) {
   branch_ = branch;
+  neutral_.start(branch);
   stop_ = hooks.stop;
   at_branch_start_ = true;
   TraceSink sink;

@@ -9,6 +9,7 @@
 #include "solver/analysis/path_points.h"
 #include "solver/path/trace.h"
 #include "solver/post/contact.h"
+#include "solver/post/neutral_motion.h"
 #include "solver/solve.h"
 
 namespace snapthrough {
@@ -26,6 +27,7 @@ class Recorder {
         continuation_(continuation),
         result_(result),
         zones_(structure, model),
+        neutral_(structure, model, result.neutral_motion),
         observer_(model, analysis, structure),
         reached_(analysis.output.at_load_factors.size(), 0) {}
 
@@ -57,6 +59,7 @@ class Recorder {
   Continuation& continuation_;
   Result& result_;
   ContactZones zones_;
+  NeutralMotionLog neutral_;
   Observer observer_;
   std::vector<char> reached_;  ///< of the load factors whose states were asked for
   PathPoints kept_;            ///< of the current branch, where points are asked for between them

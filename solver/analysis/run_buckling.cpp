@@ -10,6 +10,7 @@
 #include "solver/accuracy/buckling_loads.h"
 #include "solver/analysis/analyses.h"
 #include "solver/post/mode.h"
+#include "solver/post/neutral_motion.h"
 #include "solver/stability/buckling.h"
 
 namespace snapthrough {
@@ -85,6 +86,14 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   const Structure& structure = *loads.structure;
   const LinearBuckling& buckling = loads.buckling;
   result.diagnostics.factorizations += loads.factorizations;
+  if (buckling.is_mechanism) {
+    fail(result, "mechanism",
+         "a motion that no support resists is driven by the loads, or has no stiffness but theirs: there is "
+         "no state to "
+         "linearise about");
+    return;
+  }
+  NeutralMotionLog(structure, model, result.neutral_motion).note(buckling.holds, 0.0);
   FoundLoads found{{}, {}, loads.errors, buckling.negative_at_start};
   for (std::size_t i = 0; i < buckling.loads.size(); ++i) {
     found.loads.push_back(buckling.loads[i] / structure.scales.load);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -106,20 +107,67 @@ const EndText& text_of(TraceEnd end) {
   return *std::find_if(std::begin(kEnds), std::end(kEnds), [end](const EndText& e) { return e.end == end; });
 }
 
-void describe_end(const Analysis& analysis, const TraceOutcome& outcome, const Structure& structure,
-                  Result& result) {
+/// Whether the path ends on a critical point, the last one that it found.
+bool ends_on_critical(const TraceOutcome& outcome) {
+  return outcome.end == TraceEnd::critical_point || outcome.end == TraceEnd::limit_points;
+}
+
+/// @param at load factor of the path's end
+void describe_end(const Analysis& analysis, const TraceOutcome& outcome, double at, Result& result) {
   const EndText* end = &text_of(outcome.end);
   std::string message = end->text;
   if (outcome.end == TraceEnd::critical_point)
     message += std::string(": ") + name_of(outcome.critical.back().type);
   if (outcome.end == TraceEnd::limit_points && analysis.control.type == ControlType::load)
     message = "under load control the path ends at its first limit point";
-  message += " at load factor " + number(outcome.last.lambda / structure.scales.load) + " after " +
-             std::to_string(result.diagnostics.steps) + " steps, " + std::to_string(outcome.last.negative) +
-             " negative eigenvalues there";
+  message += " at load factor " + number(at) + " after " + std::to_string(result.diagnostics.steps) +
+             " steps, " + std::to_string(outcome.last.negative) + " negative eigenvalues there";
   result.summary.termination = end->code;
   result.summary.message = message;
   if (end->failure) fail(result, end->code, message);
+}
+
+/// What the meshes said of the points that they do not agree on, at most a few.
+std::string disagreements(const Result& result) {
+  constexpr int kMost = 3;
+  std::string text;
+  int left = 0;
+  for (const CriticalPoint& point : result.critical_points) {
+    if (point.confirmed) continue;
+    if (++left > kMost) continue;
+    text += "; " + std::string(name_of(point.type)) + " at " + number(point.load_factor) + ":";
+    for (const MeshAnswer& mesh : point.meshes)
+      text += " " + std::to_string(mesh.elements) + " elements of order " + std::to_string(mesh.order) + " " +
+              (mesh.load_factor ? number(*mesh.load_factor) : std::string("nothing")) + ",";
+    text.pop_back();
+  }
+  if (left > kMost) text += "; and " + std::to_string(left - kMost) + " more";
+  return text;
+}
+
+/// The result of an analysis whose last path finer meshes do not confirm.
+void fail_unconfirmed(Result& result) {
+  const bool some = std::any_of(result.critical_points.begin(), result.critical_points.end(),
+                                [](const CriticalPoint& point) { return !point.confirmed; });
+  const bool loss_found = result.summary.critical_load_factor.has_value();
+  const std::string reached = result.summary.message;
+  fail(result, "not_confirmed",
+       (some ? "finer meshes do not confirm all critical points within the accuracy asked for" +
+                   disagreements(result)
+             : "no loss of stability was found, but a finer mesh has another number of negative eigenvalues "
+               "at the "
+               "path's end") +
+           " (" + reached + ")");
+  // the first loss of stability is the first of the primary path's points that leads from a stable state
+  for (const CriticalPoint& point : result.critical_points) {
+    const bool is_it =
+        loss_found && point.branch == 0 && point.load_factor == *result.summary.critical_load_factor;
+    if (!is_it || point.confirmed) continue;
+    result.summary.critical_load_factor.reset();
+    result.summary.critical_type.reset();
+    result.summary.error_estimate.reset();
+    return;
+  }
 }
 
 /// A bifurcation and a way through it that is still to be followed.
@@ -205,31 +253,68 @@ std::string BranchFollower::run() {
 
 }  // namespace
 
-void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
-              Result& result) {
+namespace {
+
+/// Follows the path on one mesh.
+/// @param earlier critical points of the path on a coarser mesh
+/// @return whether finer meshes confirm what was found, or nothing is left to confirm
+bool follow_on(const Model& model, const Analysis& analysis, const Structure& structure,
+               const std::vector<CriticalPoint>& earlier, const Hooks& hooks, Result& result) {
   StructuralProblem problem(structure);
   Continuation continuation(problem, options_of(analysis));
   Recorder recorder(model, analysis, structure, continuation, result);
   const auto start = start_of_path(model, structure, problem, continuation, 1.0, hooks, result);
-  if (start) {
-    CriticalLoads loads(model, analysis, structure, continuation, result);
-    const TraceSink sink = loads.watch(recorder.sink(hooks));
-    TraceRules rules = rules_of(analysis, structure);
-    if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
-    const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);
-    recorder.end_branch(text_of(outcome.end).code);
-    std::string branches;
-    if (analysis.type == AnalysisType::path && analysis.branches.follow != Follow::primary) {
-      BranchFollower follower(analysis, structure, continuation, recorder, loads, hooks);
-      follower.add(outcome, 0);
-      branches = follower.run();
-    }
-    add_statistics(continuation.statistics(), result);
-    describe_end(analysis, outcome, structure, result);
-    result.summary.message += branches;
-    loads.estimate(hooks.stop);
+  if (!start) return true;
+  CriticalLoads loads(model, analysis, structure, continuation, earlier, result);
+  const TraceSink sink = loads.watch(recorder.sink(hooks));
+  TraceRules rules = rules_of(analysis, structure);
+  if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
+  const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);
+  recorder.end_branch(text_of(outcome.end).code);
+  const std::size_t primary = result.critical_points.size();
+  std::string branches;
+  if (analysis.type == AnalysisType::path && analysis.branches.follow != Follow::primary) {
+    BranchFollower follower(analysis, structure, continuation, recorder, loads, hooks);
+    follower.add(outcome, 0);
+    branches = follower.run();
   }
   recorder.finish();
+  add_statistics(continuation.statistics(), result);
+  bool confirmed = true;
+  if (!analysis.discretization.fixed_mesh && !ends_on_critical(outcome) && !text_of(outcome.end).failure)
+    confirmed = loads.confirm_end(outcome.last);
+  std::string meshes;
+  confirmed = loads.confirm(hooks.stop, meshes) && confirmed;
+  const double at = ends_on_critical(outcome) ? result.critical_points[primary - 1].load_factor
+                                              : outcome.last.lambda / structure.scales.load;
+  describe_end(analysis, outcome, at, result);
+  result.summary.message += branches + meshes;
+  if (hooks.stop.stop_requested() && !result.failure)
+    fail(result, "cancelled", "cancelled while critical loads were confirmed: " + result.summary.message);
+  return confirmed || result.failure;
+}
+
+}  // namespace
+
+void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
+              Result& result) {
+  constexpr int kMostPaths = 6;
+  const Structure* mesh = &structure;
+  std::optional<Structure> finer;
+  std::vector<CriticalPoint> earlier;
+  for (int paths = 1;; ++paths) {
+    Result reached;
+    reached.diagnostics = result.diagnostics;
+    const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, reached);
+    result = std::move(reached);
+    if (confirmed || analysis.discretization.fixed_mesh) return;
+    auto halved = finer_mesh(mesh->mesh, true);
+    if (paths == kMostPaths || !halved) break;
+    earlier = result.critical_points;
+    finer = on_mesh(structure, model, *std::move(halved));
+    mesh = &*finer;
+  }
+  fail_unconfirmed(result);
 }
 
 }  // namespace snapthrough

@@ -11,6 +11,7 @@
 #include "solver/analysis/observer.h"
 #include "solver/newton/contact_state.h"
 #include "solver/path/trace.h"
+#include "solver/post/neutral_motion.h"
 #include "solver/post/state.h"
 #include "solver/stability/locate.h"
 
@@ -102,12 +103,20 @@ void StaticRows::move_to(Result& result) {
 }
 
 /// Equilibrium at one load factor from the unloaded state: small displacements, contact unilateral.
+/// @param holds of motions that nothing resists there; set
 std::optional<ContactState> solve_linear(const Structure& structure, StructuralProblem& problem,
-                                         double factor, Result& result) {
+                                         double factor, SharedHolds& holds, Result& result) {
   const PathMetric metric{&structure.metric, 0.0};
   Workspace work;
   const double lambda = factor * structure.scales.load;
+  const SharedHolds soft = held_softly(problem);
+  problem.set_holds(soft);
   auto state = find_contact_state(problem, metric, lambda, work, result.diagnostics.factorizations);
+  if (soft) {
+    holds = state ? neutral_part(problem, soft, state->y, lambda) : nullptr;
+    problem.set_holds(holds);
+    state = find_contact_state(problem, metric, lambda, work, result.diagnostics.factorizations);
+  }
   result.diagnostics.iterations = result.diagnostics.factorizations;
   if (state)
     result.diagnostics.max_relative_residual =
@@ -134,6 +143,10 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   rules.load = {{-bound, bound}};
   rules.limit_points = 1;
   TraceSink sink;
+  NeutralMotionLog neutral(structure, model, result.neutral_motion);
+  sink.on_point = [&](const PathPoint& point) {
+    neutral.note(point.holds, point.lambda / structure.scales.load);
+  };
   sink.on_step = [&](const PathPoint& from, const PathPoint& to) {
     for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
       const double target = analysis.load_factors[i] * structure.scales.load;
@@ -177,12 +190,16 @@ void run_static(const Model& model, const Analysis& analysis, const Structure& s
   result.summary.message = "equilibrium at " + std::to_string(analysis.load_factors.size()) + " load factors";
   if (analysis.geometry == Geometry::linear) {
     StructuralProblem problem(structure);
+    NeutralMotionLog neutral(structure, model, result.neutral_motion);
     for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
-      if (const auto state = solve_linear(structure, problem, analysis.load_factors[i], result))
+      SharedHolds holds;
+      if (const auto state = solve_linear(structure, problem, analysis.load_factors[i], holds, result)) {
         states.set(i, state->y, state->tangent.negative);
-      else
+        neutral.note(holds, analysis.load_factors[i]);
+      } else {
         fail(result, "no_convergence",
              "no contact state was found at load factor " + number(analysis.load_factors[i]));
+      }
     }
   } else {
     const bool falling = std::any_of(analysis.load_factors.begin(), analysis.load_factors.end(),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -17,9 +18,46 @@
 namespace snapthrough {
 namespace {
 
-/// Displacement (over the structure's length) under forces of the size EI / length^2 that only a mechanism
-/// gives.
-constexpr double kMechanismDisplacement = 1e11;
+/// Displacement (over the structure's length) under forces of order one, where all stiffnesses are of order
+/// one, that only a mechanism gives.
+constexpr double kMechanismDisplacement = 1e9;
+
+/// The same structure with all stiffnesses of one size: what can move without strain depends on the geometry
+/// alone, and how far stiffnesses are apart says nothing of it.
+/// @param one_sided whether supports that act on one side only are there (they count as glued)
+Model of_equal_stiffness(const Model& model, bool one_sided) {
+  Model out = model;
+  out.monitors.clear();
+  out.imperfections.clear();
+  const Axes axes = make_axes(model);
+  double length = 0.0;
+  for (const auto& axis : axes) length = std::max(length, axis->length());
+  const auto is_absent = [one_sided](const auto& support) {
+    return support.stiffness == 0.0 || (!one_sided && support.reaction != Reaction::bilateral);
+  };
+  std::erase_if(out.springs, is_absent);
+  std::erase_if(out.foundations, is_absent);
+  constexpr double kAxial = 100.0;
+  for (Section& section : out.sections) {
+    section.EI = length * length;
+    section.EA = kAxial;
+    section.GA.reset();
+  }
+  for (Spring& spring : out.springs) spring.stiffness = spring.direction ? 1.0 / length : length;
+  for (Foundation& base : out.foundations) {
+    base.stiffness = 1.0 / (length * length);
+    if (base.shear_stiffness > 0.0) base.shear_stiffness = 1.0;
+  }
+  return out;
+}
+
+Discretization coarse_mesh() {
+  Discretization coarse;
+  coarse.fixed_mesh = true;
+  coarse.elements = 2;
+  coarse.order = 2;
+  return coarse;
+}
 
 /// Forces without pattern on all displacement unknowns: some part of them works on any motion.
 Eigen::VectorXd scattered_forces(const Structure& structure) {
@@ -108,38 +146,103 @@ bool is_plainly_held(const Model& model) {
          firmness(model, length) >= kFirm;
 }
 
-std::vector<Finding> find_mechanism(const Model& model) {
-  Model bare = model;
-  bare.loads.clear();
-  bare.monitors.clear();
-  Discretization coarse;
-  coarse.fixed_mesh = true;
-  coarse.elements = 2;
-  coarse.order = 2;
-  const Structure structure = make_structure(bare, coarse, Geometry::nonlinear);
-  StructuralProblem problem(structure);
-  problem.set_bonded(true);
-  Eigen::VectorXd residual;
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(structure.size);
-  problem.linearise(zero, 0.0, residual);
-  Eigen::VectorXd x = scattered_forces(structure);
-  problem.solve(x);
-  double largest = 0.0;
-  Eigen::Index worst = 0;
-  for (int j = 0; j < structure.joints; ++j) {
-    const double size = x.segment<3>(3 * j).lpNorm<Eigen::Infinity>();
-    if (size > largest || !std::isfinite(size)) {
-      largest = size;
-      worst = j;
+namespace {
+
+/// A structure of equal stiffnesses and the motions that it does not resist.
+class Mechanism {
+ public:
+  Mechanism(const Model& model, bool one_sided)
+      : structure_(make_structure(of_equal_stiffness(model, one_sided), coarse_mesh(), Geometry::nonlinear)),
+        problem_(structure_) {
+    problem_.set_bonded(true);
+    while (add_motion()) {
     }
   }
-  for (const ElementDofs& dofs : structure.dofs)
-    for (const int a : dofs.a) largest = std::isfinite(x[a]) ? std::max(largest, std::abs(x[a])) : x[a];
-  if (largest < kMechanismDisplacement) return {};
-  return {{"/model/supports", "mechanism",
-           "the structure can move without strain (supports and bases do not hold it; the motion is largest "
-           "near node \"" +
-               model.nodes[static_cast<std::size_t>(worst)].id + "\")"}};
+
+  /// One vector of all unknowns a motion.
+  [[nodiscard]] const std::vector<Eigen::VectorXd>& motions() const { return motions_; }
+  /// Over the joints' displacements, orthonormal columns.
+  [[nodiscard]] const Eigen::MatrixXd& of_joints() const { return joints_; }
+  /// The node that moves most.
+  [[nodiscard]] std::size_t node_of(const Eigen::VectorXd& motion) const;
+  /// Whether the actions of a kind do work on a motion of the unloaded structure.
+  [[nodiscard]] bool drives(StructuralProblem::Stage stage, const Eigen::VectorXd& motion);
+
+ private:
+  [[nodiscard]] bool add_motion();
+
+  Structure structure_;
+  StructuralProblem problem_;
+  std::vector<Eigen::VectorXd> motions_;
+  Eigen::MatrixXd joints_;
+};
+
+/// Holds the structure against the motions found so far and looks for another; false when there is none.
+bool Mechanism::add_motion() {
+  const Eigen::Index rows = 3 * structure_.joints;
+  if (joints_.cols() > 0)
+    problem_.set_holds(std::make_shared<Holds>(Holds{joints_, Eigen::VectorXd::Zero(joints_.cols()), 1.0}));
+  Eigen::VectorXd residual;
+  problem_.linearise(Eigen::VectorXd::Zero(structure_.size), 0.0, residual);
+  Eigen::VectorXd x = scattered_forces(structure_);
+  problem_.solve(x);
+  double largest = x.head(rows).lpNorm<Eigen::Infinity>();
+  for (const ElementDofs& dofs : structure_.dofs)
+    for (const int a : dofs.a) largest = std::max(largest, std::abs(x[a]));
+  if (!(largest >= kMechanismDisplacement) || joints_.cols() == rows) return false;
+  // once more: what else the forces did is as much smaller as the motion was larger
+  Eigen::VectorXd again;
+  problem_.force_along(x.head(rows).normalized(), again);
+  problem_.solve(again);
+  Eigen::VectorXd moved = again.head(rows);
+  for (int pass = 0; pass < 2 && joints_.cols() > 0; ++pass) moved -= joints_ * (joints_.transpose() * moved);
+  const double size = moved.norm();
+  motions_.push_back(again / size);
+  joints_.conservativeResize(rows, joints_.cols() + 1);
+  joints_.rightCols(1) = moved / size;
+  return true;
+}
+
+std::size_t Mechanism::node_of(const Eigen::VectorXd& motion) const {
+  int node = 0;
+  for (int j = 1; j < structure_.joints; ++j)
+    if (motion.segment<3>(3 * j).lpNorm<Eigen::Infinity>() >
+        motion.segment<3>(3 * node).lpNorm<Eigen::Infinity>())
+      node = j;
+  return static_cast<std::size_t>(node);
+}
+
+bool Mechanism::drives(StructuralProblem::Stage stage, const Eigen::VectorXd& motion) {
+  constexpr double kRounding = 1e-9;
+  Eigen::VectorXd load;
+  problem_.set_stage(stage);
+  problem_.load(Eigen::VectorXd::Zero(structure_.size), 0.0, load);
+  const Eigen::ArrayXd work = load.array() * motion.array();
+  return std::abs(work.sum()) > kRounding * work.abs().sum();
+}
+
+}  // namespace
+
+bool can_move(const Model& model) { return !Mechanism(model, true).motions().empty(); }
+
+Eigen::MatrixXd free_motions(const Model& model) {
+  return is_plainly_held(model) ? Eigen::MatrixXd() : Mechanism(model, false).of_joints();
+}
+
+std::vector<Finding> find_mechanism(const Model& model) {
+  if (is_plainly_held(model)) return {};
+  Mechanism mechanism(model, true);
+  for (const Eigen::VectorXd& motion : mechanism.motions()) {
+    if (!mechanism.drives(StructuralProblem::Stage::proportional, motion) &&
+        !mechanism.drives(StructuralProblem::Stage::constant, motion))
+      continue;
+    return {
+        {"/model/supports", "mechanism",
+         "the loads can move the structure without strain (supports and bases do not hold it; the motion is "
+         "largest near node \"" +
+             model.nodes[mechanism.node_of(motion)].id + "\")"}};
+  }
+  return {};
 }
 
 }  // namespace snapthrough

@@ -73,6 +73,33 @@ void StructuralProblem::add_joint_springs(const VectorXd& y, VectorXd& f) {
   }
 }
 
+void StructuralProblem::force_along(const VectorXd& motion, VectorXd& out) const {
+  out.setZero(size());
+  out.head(motion.size()) = motion;
+  turn_to_supports(out);
+}
+
+void StructuralProblem::set_holds(const SharedHolds& holds) {
+  if (holds == holds_) return;
+  holds_ = holds;
+  if (!holds_) return;
+  const Index rows = holds_->motions.rows();
+  Eigen::MatrixXd turned(rows, holds_->motions.cols());
+  VectorXd column;
+  for (Index i = 0; i < turned.cols(); ++i) {
+    force_along(holds_->motions.col(i), column);
+    turned.col(i) = column.head(rows);
+  }
+  hold_matrix_ = holds_->stiffness * turned * turned.transpose();
+}
+
+void StructuralProblem::add_holds(const VectorXd& y, VectorXd& f) const {
+  if (!holds_) return;
+  const Index rows = holds_->motions.rows();
+  const VectorXd moved = holds_->motions.transpose() * y.head(rows) - holds_->at;
+  f.head(rows) += holds_->stiffness * (holds_->motions * moved);
+}
+
 double StructuralProblem::acting_stiffness(std::size_t spring) const {
   const JointSpring& s = structure_.joint_springs[spring];
   if (!s.one_sided) return s.stiffness;
@@ -115,6 +142,7 @@ void StructuralProblem::residual(const VectorXd& y, double lambda, VectorXd& f) 
   start_residual(lambda, f);
   structure_.elements->add_residual(y, f);
   add_joint_springs(y, f);
+  add_holds(y, f);
   constrain_residual(y, lambda, f);
 }
 
@@ -164,6 +192,7 @@ void StructuralProblem::assemble_joints() {
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) joint_matrix_(dofs[r], dofs[c]) += stiffness * row[r] * row[c];
   }
+  if (holds_) joint_matrix_.topLeftCorner(hold_matrix_.rows(), hold_matrix_.cols()) += hold_matrix_;
   const auto n = static_cast<Index>(free_.size());
   for (Index j = 0; j < n; ++j)
     for (Index i = j; i < n; ++i) free_matrix_(i, j) = joint_matrix_(free_[i], free_[j]);
@@ -173,6 +202,7 @@ TangentReport StructuralProblem::linearise(const VectorXd& y, double lambda, Vec
   start_residual(lambda, f);
   structure_.elements->linearise(y, f, condensed_);
   add_joint_springs(y, f);
+  add_holds(y, f);
   TangentReport report;
   for (std::size_t m = 0; m < members_; ++m) {
     const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
@@ -368,6 +398,10 @@ VectorXd StructuralProblem::tangent_product(const VectorXd& y, double lambda, co
     double w = 0.0;
     for (int c = 0; c < 3; ++c) w += spring.row[c] * direction[3 * spring.joint + c];
     for (int c = 0; c < 3; ++c) out[3 * spring.joint + c] += stiffness * w * spring.row[c];
+  }
+  if (holds_) {
+    const Eigen::MatrixXd& H = holds_->motions;
+    out.head(H.rows()) += holds_->stiffness * (H * (H.transpose() * direction.head(H.rows())));
   }
   turn_to_supports(out);
   for (int j = 0; j < structure_.joints; ++j) {

@@ -41,6 +41,9 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] double residual_rounding(const Eigen::VectorXd& y, double lambda) const override;
 
   [[nodiscard]] bool one_sided() const override { return structure_.one_sided; }
+  [[nodiscard]] const Eigen::MatrixXd& free_motions() const override { return structure_.free_motions; }
+  void set_holds(const SharedHolds& holds) override;
+  void force_along(const Eigen::VectorXd& motion, Eigen::VectorXd& out) const override;
   void set_bonded(bool bonded) override;
   void set_grip(double share) override;
   void set_softness(double share) override;
@@ -70,6 +73,7 @@ class StructuralProblem final : public EquilibriumProblem {
   void start_residual(double lambda, Eigen::VectorXd& f) const;
   void turn_to_supports(Eigen::VectorXd& f) const;
   void add_joint_springs(const Eigen::VectorXd& y, Eigen::VectorXd& f);
+  void add_holds(const Eigen::VectorXd& y, Eigen::VectorXd& f) const;
   /// Stiffness of a joint spring in the tangent, as add_joint_springs() last found it.
   [[nodiscard]] double acting_stiffness(std::size_t spring) const;
   /// Of the loads and of the members' ends.
@@ -100,6 +104,8 @@ class StructuralProblem final : public EquilibriumProblem {
   Eigen::VectorXd joint_rhs_, free_rhs_;  ///< scratch of solve
   FollowerEnds follower_ends_;
   std::vector<char> spring_active_;
+  SharedHolds holds_;
+  Eigen::MatrixXd hold_matrix_;  ///< of the holds, in the axes of the supports
   Stage stage_ = Stage::proportional;
   bool bonded_ = false;
   double largest_load_ = 0.0;  ///< of the forces and moments of the unit load: imposed strains are none

@@ -25,7 +25,8 @@ class Builder {
   void number_unknowns();
   void add_elements(Geometry geometry);
   void add_supports();
-  void add_loads();
+  /// @param load_scale of another mesh of the model; empty: from the loads themselves
+  void add_loads(std::optional<double> load_scale);
   void set_metric();
   void add_monitors();
 
@@ -42,7 +43,7 @@ class Builder {
   }
   void add_pressure(const PressureLoad& load);
   void add_initial_strain(const InitialStrain& load);
-  void scale_loads();
+  void scale_loads(std::optional<double> load_scale);
   void find_follower_ends(double load_scale);
   [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
 
@@ -287,7 +288,7 @@ void Builder::add_distributed(const DistributedLoad& load) {
   }
 }
 
-void Builder::add_loads() {
+void Builder::add_loads(std::optional<double> load_scale) {
   const double F = out_.scales.force;
   for (const Load& load : model_.loads) {
     if (const auto* point = std::get_if<PointLoad>(&load)) {
@@ -308,7 +309,7 @@ void Builder::add_loads() {
       add_initial_strain(std::get<InitialStrain>(load));
     }
   }
-  scale_loads();
+  scale_loads(load_scale);
 }
 
 void Builder::add_pressure(const PressureLoad& load) {
@@ -341,7 +342,7 @@ void Builder::add_initial_strain(const InitialStrain& load) {
 }
 
 /// Scales the load factor so that the actions by unit scaled factor add up to the order of one.
-void Builder::scale_loads() {
+void Builder::scale_loads(std::optional<double> load_scale) {
   double total = strain_size_;
   for (int j = 0; j < 3 * out_.joints + out_.releases; ++j) total += std::abs(out_.proportional_load[j]);
   for (const ElementDofs& dofs : out_.dofs)
@@ -351,6 +352,7 @@ void Builder::scale_loads() {
     for (const double value : support.proportional) total += std::abs(value);
   for (const ElementPressure& p : pressures_) total += std::abs(p.proportional) * element_length(p.element);
   if (total == 0.0) total = 1.0;
+  if (load_scale) total = *load_scale;
   out_.scales.load = total;
   out_.proportional_load /= total;
   for (JointSupport& support : out_.supports)
@@ -475,13 +477,13 @@ SparseRow displacement_row(const Structure& structure, const Model& model, const
 namespace {
 
 /// Everything that follows from the model, the axes, the geometry and the mesh, which are set.
-void fill(const Model& model, Structure& out) {
+void fill(const Model& model, std::optional<double> load_scale, Structure& out) {
   Builder builder(model, out);
   builder.set_scales();
   builder.number_unknowns();
   builder.add_elements(out.geometry);
   builder.add_supports();
-  builder.add_loads();
+  builder.add_loads(load_scale);
   builder.set_metric();
   builder.add_monitors();
   for (const Foundation& base : model.foundations)
@@ -528,7 +530,7 @@ Structure make_structure(const Model& model, const Discretization& discretizatio
     out.stress_free.push_back(std::make_shared<const StressFreeAxis>(
         model, static_cast<int>(m), out.axes[m], modes.empty() ? std::vector<CubicSpline>{} : modes[m]));
   out.mesh = make_mesh(model, discretization, out.axes, use);
-  fill(model, out);
+  fill(model, std::nullopt, out);
   return out;
 }
 
@@ -539,7 +541,8 @@ Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh) {
   out.origin = structure.origin;
   out.stress_free = structure.stress_free;
   out.mesh = std::move(mesh);
-  fill(model, out);
+  fill(model, structure.scales.load, out);
+  out.free_motions = structure.free_motions;
   return out;
 }
 

@@ -96,6 +96,9 @@ struct Structure {
       base_loads;             ///< 2 sqrt(K EI) + G of the bases of each member: what they can add to that
   bool one_sided = false;     ///< some base or spring is not bilateral
   bool has_constant = false;  ///< some action has the constant pattern
+  /// Motions of the joints (x, y, rotation each, scaled) that supports of one side alone can resist, or
+  /// nothing; orthonormal columns.
+  Eigen::MatrixXd free_motions;
 };
 
 /// @brief Builds the structure.
@@ -103,7 +106,7 @@ struct Structure {
 [[nodiscard]] Structure make_structure(const Model& model, const Discretization& discretization,
                                        Geometry geometry, const ModeOffsets& modes = {},
                                        MeshUse use = MeshUse::final);
-/// @brief The structure of the same model, with the same imperfections, on another mesh.
+/// @brief The structure of the same model, with the same imperfections and scales, on another mesh.
 [[nodiscard]] Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh);
 
 /// @brief Bases and springs that are left out because their stiffness is zero, in words.

@@ -22,7 +22,7 @@ std::vector<Finding> check(const Model& model, const Analysis& analysis) {
   checks::check_monitors(place, model, names);
   checks::check_analysis(root, model, analysis, names);
   checks::check_supported(root, model, analysis);
-  return findings.empty() && !is_plainly_held(model) ? find_mechanism(model) : findings;
+  return findings.empty() ? find_mechanism(model) : findings;
 }
 
 }  // namespace snapthrough

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "solver/linalg/pseudo_random.h"
 
@@ -225,17 +227,106 @@ PathPoint Continuation::first_point(const VectorXd& y, double lambda, const Vect
 }
 
 std::optional<PathPoint> Continuation::start(double direction) {
-  if (!problem_.one_sided()) return start_at(VectorXd::Zero(problem_.size()), direction);
+  const SharedHolds holds = holds_at_start(direction);
+  if (!problem_.one_sided()) return start_at(VectorXd::Zero(problem_.size()), direction, holds);
+  problem_.set_holds(holds);
   metric_.load_weight = 0.0;
-  return one_sided_start(direction);
+  auto start = one_sided_start(direction);
+  if (start) start->holds = holds;
+  return start;
 }
 
-std::optional<PathPoint> Continuation::start_at(const VectorXd& y, double direction) {
+/// Motions that nothing resists under the first small load. Whether supports of one side resist them is found
+/// with all of them held softly: then there is a state whatever they do, and the holds show what they carry.
+SharedHolds Continuation::holds_at_start(double direction) {
+  const SharedHolds soft = held_softly(problem_);
+  if (!soft) return nullptr;
+  if (!problem_.one_sided()) return std::make_shared<const Holds>(Holds{soft->motions, soft->at, 1.0});
+  problem_.set_holds(soft);
+  metric_.load_weight = 0.0;
+  SharedHolds neutral;
+  if (const auto start = one_sided_start(direction)) {
+    const double moved = metric_.norm(start->tangent, 0.0);
+    double size = kSmallLoad * load_scale_ / std::abs(start->tangent_lambda);
+    if (moved > 0.0) size = std::min(size, kSmallStart / moved);
+    neutral = neutral_part(problem_, soft, start->y + size * start->tangent,
+                           start->lambda + size * start->tangent_lambda);
+    ++statistics_.factorizations;
+  }
+  problem_.set_holds(nullptr);
+  loose_motion_.resize(0);
+  return neutral;
+}
+
+/// Stiffness (and force by unit load) below which nothing resists a motion.
+double Continuation::neutral_bound(const PathPoint& at) const {
+  constexpr double kNeutral = 1e-6;
+  return kNeutral * std::max(1.0, std::abs(at.lambda));
+}
+
+bool Continuation::may_be_neutral(const PathPoint& from, const PathPoint& to) const {
+  constexpr double kFall =
+      20.0;  // of the determinant's logarithm; smooth steps end this near to no critical point
+  return problem_.free_motions().cols() > 0 && to.log_abs_det < from.log_abs_det - kFall;
+}
+
+bool Continuation::hold_neutral(PathPoint& at) {
+  const Eigen::MatrixXd& motions = problem_.free_motions();
+  if (motions.cols() == 0) return false;
+  const auto all =
+      std::make_shared<const Holds>(Holds{motions, motions.transpose() * at.y.head(motions.rows()), 1.0});
+  const double bound = neutral_bound(at);
+  SharedHolds neutral = neutral_part(problem_, all, at.y, at.lambda, bound, bound);
+  ++statistics_.factorizations;
+  const Eigen::Index held = at.holds ? at.holds->motions.cols() : 0;
+  if (!neutral || neutral->motions.cols() <= held) return false;
+  VectorXd response;
+  TangentReport report;
+  problem_.set_holds(neutral);
+  if (!unit_response(at.y, at.lambda, false, response, report)) return false;
+  const double norm = metric_.norm(response, 1.0);
+  const double sign = metric_.inner(response, 1.0, at.tangent, at.tangent_lambda) < 0.0 ? -1.0 : 1.0;
+  at.tangent = (sign / norm) * response;
+  at.tangent_lambda = sign / norm;
+  at.negative = report.negative;
+  at.log_abs_det = report.log_abs_det;
+  at.holds = std::move(neutral);
+  return true;
+}
+
+bool Continuation::release(PathPoint& from, const PathPoint& to) {
+  if (!from.holds) return false;
+  const double bound = neutral_bound(to);
+  ++statistics_.factorizations;
+  const MotionStiffness held = motion_stiffness(problem_, from.holds, to.y, to.lambda);
+  std::vector<Eigen::Index> idle;
+  for (Eigen::Index i = 0; i < held.stiffness.size(); ++i) {
+    if (std::abs(held.stiffness[i]) <= bound && std::abs(held.force[i]) <= bound)
+      idle.push_back(i);
+    else if (from.arc_length == 0.0 && held.stiffness[i] < 0.0)
+      ++from.negative;  // under the smallest load already
+  }
+  if (static_cast<Eigen::Index>(idle.size()) == held.stiffness.size()) return false;
+  SharedHolds rest;
+  if (!idle.empty()) {
+    const Eigen::MatrixXd motions = held.motions(Eigen::all, idle);
+    rest =
+        std::make_shared<const Holds>(Holds{motions, motions.transpose() * from.y.head(motions.rows()), 1.0});
+  }
+  from.holds = rest;
+  return true;
+}
+
+std::optional<PathPoint> Continuation::start_at(const VectorXd& y, double direction,
+                                                const SharedHolds& holds) {
+  problem_.set_holds(holds);
   metric_.load_weight = 0.0;
   VectorXd response;
   TangentReport report;
   if (!unit_response(y, 0.0, false, response, report)) return std::nullopt;
-  return first_point(y, 0.0, response, direction, report);
+  PathPoint start = first_point(y, 0.0, response, direction, report);
+  start.holds = holds;
+  return start;
 }
 
 void Continuation::set_tangent(PathPoint& point, int before, const CorrectorOutcome& outcome,
@@ -387,6 +478,8 @@ bool Continuation::settle_beyond(const PathPoint& from, double size, PathPoint& 
 }
 
 StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint& to) {
+  problem_.set_holds(from.holds);
+  to.holds = from.holds;
   double size = std::min(step.wanted, options_.max_step);
   const double first_size = size;
   if (easy_size_ == 0.0) easy_size_ = size;
@@ -421,8 +514,10 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
 PathPoint Continuation::last_before_corner(const PathPoint& from, double size) {
   constexpr int kHalvings = 30;
   constexpr double kSmooth = 1e-3;  // a turn of the tangent, rad, that is no corner
+  problem_.set_holds(from.holds);
   PathPoint last = from;
   PathPoint probe;
+  probe.holds = from.holds;
   for (int i = 0; i < kHalvings; ++i) {
     size *= 0.5;
     const Trial trial = try_step(last, size, probe);
@@ -439,6 +534,7 @@ void Continuation::limit_steps(const StepOptions& steps, double load_rate) {
 void Continuation::settle(const PathPoint& from, PathPoint& point) {
   CorrectorOptions options = options_.corrector;
   if (options.tangent_tolerance == 0.0 && !problem_.one_sided()) return;
+  problem_.set_holds(point.holds);
   options.tangent_tolerance = 0.0;
   side_.normal = metric_.weights->cwiseProduct(point.tangent);
   side_.normal_lambda = metric_.load_weight * point.tangent_lambda;
@@ -529,6 +625,8 @@ void Continuation::interpolate(const Chord& chord, const PathPoint& lo, const Pa
 std::optional<PathPoint> Continuation::between(const Chord& chord, const PathPoint& lo, const PathPoint& hi,
                                                double share) {
   PathPoint point;
+  problem_.set_holds(lo.holds);
+  point.holds = lo.holds;
   interpolate(chord, lo, hi, share, point);
   side_.normal = metric_.weights->cwiseProduct(chord.y);
   side_.normal_lambda = metric_.load_weight * chord.lambda;

@@ -73,7 +73,20 @@ class Continuation {
   [[nodiscard]] std::optional<PathPoint> start(double direction = 1.0);
   /// @brief First point of a path that starts from a known equilibrium y at lambda = 0 (under constant
   /// actions).
-  [[nodiscard]] std::optional<PathPoint> start_at(const Eigen::VectorXd& y, double direction = 1.0);
+  /// @param holds of that state
+  [[nodiscard]] std::optional<PathPoint> start_at(const Eigen::VectorXd& y, double direction = 1.0,
+                                                  const SharedHolds& holds = {});
+
+  /// @brief Holds the structure against the motions that nothing resists at a point, besides those that are
+  /// held there; sets the point's tangent and inertia anew.
+  /// @return whether there are such motions
+  [[nodiscard]] bool hold_neutral(PathPoint& at);
+  /// @brief Whether `to` lies so near to a singular tangent, seen from `from`, that hold_neutral() is worth
+  /// asking.
+  [[nodiscard]] bool may_be_neutral(const PathPoint& from, const PathPoint& to) const;
+  /// @brief Lets go of what is held at `from` and has a stiffness or carries a force at `to`.
+  /// @return false when `from` keeps all its holds: they are idle
+  [[nodiscard]] bool release(PathPoint& from, const PathPoint& to);
 
   /// @brief One accepted step from `from`: `step.wanted` is tried first, then smaller ones; sets both fields.
   [[nodiscard]] StepOutcome step(const PathPoint& from, StepSize& step, PathPoint& to);
@@ -148,6 +161,8 @@ class Continuation {
   [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, double lambda, bool bonded,
                                    Eigen::VectorXd& response, TangentReport& report);
   [[nodiscard]] std::optional<PathPoint> one_sided_start(double direction);
+  [[nodiscard]] SharedHolds holds_at_start(double direction);
+  [[nodiscard]] double neutral_bound(const PathPoint& at) const;
   [[nodiscard]] bool is_loose();
   [[nodiscard]] std::optional<PathPoint> start_at_rest(PathPoint rest, double direction);
   [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, double lambda,

@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <limits>
 
+#include "solver/path/holds.h"
+
 namespace snapthrough {
 
 /// What a factorisation of the tangent says.
@@ -48,6 +50,16 @@ class EquilibriumProblem {
   virtual void set_grip(double) {}
   /// One-sided supports have this share of their stiffness only, in (0, 1].
   virtual void set_softness(double) {}
+  /// @brief Motions that nothing but one-sided supports can resist: orthonormal columns over the first
+  /// unknowns; without columns where there are none.
+  [[nodiscard]] virtual const Eigen::MatrixXd& free_motions() const;
+  /// @brief From now on these springs are part of F and J; empty: none.
+  virtual void set_holds(const SharedHolds&) {}
+  /// @brief Right-hand side of solve() for unit forces along a motion over the first unknowns; overwritten.
+  virtual void force_along(const Eigen::VectorXd& motion, Eigen::VectorXd& out) const {
+    out.setZero(size());
+    out.head(motion.size()) = motion;
+  }
   /// @brief Rough size of the first critical load factor from the response to a unit load; infinity when it
   /// gives none.
   [[nodiscard]] virtual double critical_load_scale(const Eigen::VectorXd& unit_response) const;
@@ -61,6 +73,11 @@ class EquilibriumProblem {
   /// linearise() was called last; corrections that gain no more need not get below.
   [[nodiscard]] virtual double residual_rounding(const Eigen::VectorXd&, double) const { return 0.0; }
 };
+
+inline const Eigen::MatrixXd& EquilibriumProblem::free_motions() const {
+  static const Eigen::MatrixXd kNone;
+  return kNone;
+}
 
 inline double EquilibriumProblem::critical_load_scale(const Eigen::VectorXd&) const {
   return std::numeric_limits<double>::infinity();

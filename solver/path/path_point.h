@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "solver/path/holds.h"
+
 namespace snapthrough {
 
 struct PathPoint {
@@ -15,6 +17,7 @@ struct PathPoint {
   double tangent_lambda = 0.0;  ///< dlambda/ds: zero at a limit point
   int negative = 0;             ///< negative eigenvalues of the constrained tangent stiffness
   double log_abs_det = 0.0;
+  SharedHolds holds;  ///< part of the equations there
 
   /// The determinant with its sign, over e^log_scale.
   [[nodiscard]] double determinant(double log_scale) const {

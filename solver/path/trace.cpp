@@ -213,7 +213,16 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
       finish(TraceEnd::step_underflow, from);
       break;
     }
-    if (outcome == StepOutcome::advanced && to.negative != from.negative) continuation_.settle(from, to);
+    if (continuation_.release(from, to)) {
+      if (rules_.first_loss_of_stability && from.negative > 0) {
+        finish(TraceEnd::unstable_at_start, from);
+        break;
+      }
+      continue;
+    }
+    const bool freed = continuation_.may_be_neutral(from, to) && continuation_.hold_neutral(to);
+    if (!freed && outcome == StepOutcome::advanced && to.negative != from.negative)
+      continuation_.settle(from, to);
     LocatedEvents located = outcome == StepOutcome::turned
                                 ? locate_at_turn(continuation_, from, to, size.taken, rules_.tolerance)
                                 : locate_critical_points(continuation_, from, to, rules_.tolerance);

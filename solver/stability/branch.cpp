@@ -46,6 +46,7 @@ Direction load_direction(Continuation& continuation, const PathPoint& point, con
 std::optional<PathPoint> first_point_of_branch(Continuation& continuation, const PathPoint& bifurcation,
                                                double sign) {
   const PathMetric& metric = continuation.metric();
+  continuation.problem().set_holds(bifurcation.holds);
   const VectorXd null = oriented_null_vector(continuation, bifurcation);
   if (!null.allFinite()) return std::nullopt;
   const Direction load = load_direction(continuation, bifurcation, null);

@@ -33,6 +33,9 @@ class Pencil {
   }
   [[nodiscard]] double scale() const { return problem_.critical_load_scale(proportional_); }
   [[nodiscard]] int factorizations() const { return factorizations_; }
+  /// Whether what is held carries nothing at a load factor.
+  [[nodiscard]] bool holds_are_idle(double lambda);
+  [[nodiscard]] const SharedHolds& holds() const { return holds_; }
 
  private:
   [[nodiscard]] VectorXd linear_response(StructuralProblem::Stage stage, double lambda);
@@ -42,6 +45,7 @@ class Pencil {
   StructuralProblem& problem_;
   VectorXd constant_;
   VectorXd proportional_;
+  SharedHolds holds_;  ///< motions that nothing resists
   int factorizations_ = 0;
 };
 
@@ -60,8 +64,21 @@ VectorXd Pencil::linear_response(StructuralProblem::Stage stage, double lambda) 
   return response;
 }
 
+bool Pencil::holds_are_idle(double lambda) {
+  if (!holds_) return true;
+  constexpr double kIdle = 1e-6;
+  ++factorizations_;
+  const double bound = kIdle * std::max(1.0, std::abs(lambda));
+  const MotionStiffness held = motion_stiffness(problem_, holds_, stress(lambda), lambda);
+  const VectorXd moved =
+      holds_->motions.transpose() * (constant_ + lambda * proportional_).head(holds_->motions.rows());
+  return held.stiffness.lpNorm<Eigen::Infinity>() <= bound && moved.lpNorm<Eigen::Infinity>() <= bound;
+}
+
 void Pencil::set_prestress(double reference) {
   structure_.elements->set_linear_geometry(true);
+  const SharedHolds soft = held_softly(problem_);
+  problem_.set_holds(soft);
   if (structure_.one_sided) {
     // equilibrium under both kinds of actions with unilateral contact, from the glued one
     problem_.set_bonded(true);
@@ -80,6 +97,11 @@ void Pencil::set_prestress(double reference) {
     }
     constexpr double kTouching = 1e-9;
     problem_.freeze_contact(y, kTouching * y.head(3 * structure_.joints).lpNorm<Eigen::Infinity>() + 1e-14);
+  }
+  if (soft) {
+    holds_ = neutral_part(problem_, soft, VectorXd::Zero(problem_.size()), 0.0);
+    ++factorizations_;
+    problem_.set_holds(holds_);
   }
   constant_ = linear_response(StructuralProblem::Stage::constant, 1.0);
   proportional_ = linear_response(StructuralProblem::Stage::proportional, 1.0);
@@ -287,6 +309,9 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
   LinearBuckling out;
   Pencil pencil(structure, problem);
   pencil.set_prestress(reference);
+  out.holds = pencil.holds();
+  out.is_mechanism = !pencil.holds_are_idle(reference);
+  if (out.is_mechanism) return out;
   out.negative_at_start = pencil.count(0.0);
   const LoadBracket all = enclose(pencil, count, out.negative_at_start);
   std::vector<LoadBracket> brackets;

@@ -15,6 +15,10 @@ struct LinearBuckling {
   std::vector<double> loads;           ///< scaled load factors; fewer than asked when there are no more
   std::vector<Eigen::VectorXd> modes;  ///< unknowns of the structural problem, largest displacement one
   int negative_at_start = 0;           ///< negative eigenvalues under the constant actions alone
+  SharedHolds holds;                   ///< of motions that nothing resists
+  /// A motion that no support resists is driven by the actions, or resisted by their stresses alone: there is
+  /// no reference state to linearise about. No loads then.
+  bool is_mechanism = false;
   int factorizations = 0;
 };
 

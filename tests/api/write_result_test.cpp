@@ -36,7 +36,9 @@ Result full_result() {
                         2,
                         0,
                         CriticalCause::contact,
-                        Mode{{{"m", {0.0}, {1.0}, {0.5}, {3.0}}}}},
+                        Mode{{{"m", {0.0}, {1.0}, {0.5}, {3.0}}}},
+                        true,
+                        {{4, 5, 66.5}, {8, 5, {}}}},
                        {0, CriticalType::limit_max, 76.5, {}, 2.5, {}, -1, -1, 1, {}},
                        {1, CriticalType::limit_min, 10.0, {}, 3.5, {}, 2, 1, 1, {}}};
   r.branches = {{0,
@@ -48,6 +50,7 @@ Result full_result() {
                  {{"soil", {1.0, 0.5}}},
                  "limit_points"},
                 {1, 0, {}, {}, {}, {}, {}}};
+  r.neutral_motion = {{0, 0.5, {}, {{"n", 0.0, 1.0, 0.25}}}};
   r.contact_events = {{1, "soil", true, 2.5, 0.5, 2, 1}};
   State state;
   state.load_factor = 66.25;
@@ -90,17 +93,22 @@ TEST(WriteResult, EveryFieldOfTheContract) {
     "critical_points": [
       {"branch": 0, "type": "bifurcation", "cause": "contact", "load_factor": 66.25, "error_estimate": 1e-5, "arc_length": 1.5,
        "monitors": {"crown": -0.5}, "negative_before": 0, "negative_after": 1, "multiplicity": 2, "state": 0,
-       "mode": {"members": {"m": {"s": [0.0], "u": [1.0], "v": [0.5], "rotation": [3.0]}}}},
+       "mode": {"members": {"m": {"s": [0.0], "u": [1.0], "v": [0.5], "rotation": [3.0]}}},
+       "confirmed": true, "meshes": [{"elements": 4, "order": 5, "load_factor": 66.5},
+                                     {"elements": 8, "order": 5, "load_factor": null}]},
       {"branch": 0, "type": "limit_max", "cause": "smooth", "load_factor": 76.5, "error_estimate": null, "arc_length": 2.5,
-       "monitors": {}, "negative_before": null, "negative_after": null, "multiplicity": 1, "state": null, "mode": null},
+       "monitors": {}, "negative_before": null, "negative_after": null, "multiplicity": 1, "state": null, "mode": null,
+       "confirmed": false, "meshes": []},
       {"branch": 1, "type": "limit_min", "cause": "smooth", "load_factor": 10.0, "error_estimate": null, "arc_length": 3.5,
-       "monitors": {}, "negative_before": 2, "negative_after": 1, "multiplicity": 1, "state": null, "mode": null}],
+       "monitors": {}, "negative_before": 2, "negative_after": 1, "multiplicity": 1, "state": null, "mode": null,
+       "confirmed": false, "meshes": []}],
     "branches": [
       {"id": 0, "parent": null, "load_factor": [0.0, 1.0], "arc_length": [0.0, 0.5],
        "monitors": {"crown": [0.0, -0.25]}, "negative_eigenvalues": [0, 1], "contact_fraction": {"soil": [1.0, 0.5]},
        "termination": "limit_points"},
       {"id": 1, "parent": 0, "load_factor": [], "arc_length": [], "monitors": {}, "negative_eigenvalues": [],
        "contact_fraction": {}, "termination": ""}],
+    "neutral_motion": [{"branch": 0, "from": 0.5, "to": null, "nodes": {"n": {"u": 0.0, "v": 1.0, "rotation": 0.25}}}],
     "contact_events": [{"branch": 1, "id": "soil", "type": "opened", "load_factor": 2.5, "arc_length": 0.5,
                         "zones_before": 2, "zones_after": 1}],
     "states": [{"branch": 0, "load_factor": 66.25, "refinements": 2,
