@@ -105,8 +105,8 @@ static void read(const Value& value, Node& out) {
 /// A field that must be there and positive; NaN when it is not.
 static void read_positive(Object& in, std::string_view key, double& out) {
   in.required(key, out);
-  if (!(out > 0.0) && out == out) {
-    in.find(key)->report("out_of_range", std::string(key) + " must be positive");
+  if (!(out > 0.0 && out <= kMaxMagnitude) && out == out) {
+    in.find(key)->report("out_of_range", std::string(key) + " must be positive and finite");
     set_unread(out);
   }
 }

@@ -33,6 +33,9 @@ cmake --build "build/$preset" --parallel "$jobs"
 echo "== tests"
 ctest --test-dir "build/$preset" --parallel "$jobs" --output-on-failure --no-tests=error
 
+echo "== schema, generated client, responses"
+bash scripts/schema.sh "build/$preset/snapthrough"
+
 echo "== thesis examples"
 python3 scripts/report.py --self-test
 python3 scripts/report.py "build/$preset/snapthrough" --check

@@ -9,6 +9,8 @@ BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-de
 RUN_PACKAGES=(curl jq)
 # What scripts/test.sh needs besides.
 TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev valgrind clang-format python3)
+# What scripts/schema.sh needs; not installed where another installation of node and npm is there.
+SCHEMA_PACKAGES=(nodejs npm)
 # What scripts/report.sh and scripts/bench.sh need besides, to draw plots (fonts for what their labels measure).
 REPORT_PACKAGES=(python3 gnuplot-nox fonts-dejavu-core)
 

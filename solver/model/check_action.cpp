@@ -78,10 +78,10 @@ void check_imperfection(const Place& place, const PointsImperfection& imperfecti
   double previous = -1.0;
   for (std::size_t i = 0; i < imperfection.offsets.size(); ++i) {
     const double fraction = imperfection.offsets[i][0];
-    if (require_between(offsets / i / 0, fraction, 0.0, 1.0) && !(fraction > previous)) {
+    if (require_between(offsets / i / 0, fraction, 0.0, 1.0) && !(fraction - previous > kMinRelativeChord)) {
       (offsets / i / 0)
-          .report("not_increasing",
-                  "fractions must increase, got " + text(fraction) + " after " + text(previous));
+          .report("not_increasing", "fractions must increase by more than " + text(kMinRelativeChord) +
+                                        ", got " + text(fraction) + " after " + text(previous));
     }
     require_finite(offsets / i / 1, imperfection.offsets[i][1]);
     previous = fraction;

@@ -18,22 +18,26 @@ Point position(const Node& node) { return {node.x, node.y}; }
 double distance(const Point& a, const Point& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
 
 /// Whether geometry can be computed with it; when not, that is another finding.
-bool is_bounded(const Node& node) {
-  return std::abs(node.x) <= kMaxMagnitude && std::abs(node.y) <= kMaxMagnitude;
-}
+bool is_bounded(const Point& p) { return std::abs(p[0]) <= kMaxMagnitude && std::abs(p[1]) <= kMaxMagnitude; }
+bool is_bounded(const Node& node) { return is_bounded(position(node)); }
 
-/// Distances up to this are zero for this model: a part of its extent, and no less than the roundoff of
-/// coordinates.
+/// Distances up to this are zero for this model: a part of its extent (of nodes and of points of splines),
+/// and no less than the roundoff of coordinates.
 double zero_distance(const Model& model) {
   Point lo{kMaxMagnitude, kMaxMagnitude};
   Point hi{-kMaxMagnitude, -kMaxMagnitude};
   double largest = 0.0;
-  for (const Node& node : model.nodes) {
-    const Point p = position(node);
-    for (std::size_t i = 0; is_bounded(node) && i < 2; ++i) {
+  const auto include = [&](const Point& p) {
+    for (std::size_t i = 0; is_bounded(p) && i < 2; ++i) {
       lo[i] = std::min(lo[i], p[i]);
       hi[i] = std::max(hi[i], p[i]);
       largest = std::max(largest, std::abs(p[i]));
+    }
+  };
+  for (const Node& node : model.nodes) include(position(node));
+  for (const Member& member : model.members) {
+    if (const auto* spline = std::get_if<PointsCurve>(&member.curve)) {
+      std::for_each(spline->points.begin(), spline->points.end(), include);
     }
   }
   return std::max(kMinRelativeChord * distance(lo, hi),

@@ -4,6 +4,7 @@
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 #include <utility>
 
 namespace snapthrough {
@@ -35,6 +36,9 @@ std::vector<double> not_a_knot(const std::vector<double>& t, const std::vector<d
   Eigen::SparseMatrix<double> a(n, n);
   a.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(a);
+  if (lu.info() != Eigen::Success) {
+    throw std::invalid_argument("the points of a spline are too near to each other");
+  }
   const Eigen::VectorXd m = lu.solve(rhs);
   return {m.data(), m.data() + n};
 }

@@ -13,6 +13,7 @@ class CubicSpline {
  public:
   CubicSpline() = default;
   /// @pre t strictly increasing, at least two points, sizes equal
+  /// @throws std::invalid_argument where neighbours can't be told apart: steps of t below its roundoff
   CubicSpline(std::vector<double> t, std::vector<double> f);
 
   /// @return value, first and second derivative at t (extrapolated beyond the ends).

@@ -31,7 +31,8 @@ inline constexpr int kMaxSteps =
     10'000'000;  ///< largest count that a stop rule, branch limit or `every` takes
 inline constexpr double kMaxAccuracy = 0.5;
 inline constexpr double kMaxMagnitude = 1e150;  ///< of any quantity, so that its square is finite
-/// Chords shorter than this fraction of the model's extent are taken as zero.
+/// Chords shorter than this fraction of the model's extent, and steps of fractions along a member that are
+/// shorter than this, are taken as zero.
 inline constexpr double kMinRelativeChord = 1e-9;
 
 }  // namespace snapthrough

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -95,6 +96,51 @@ TEST(Examples, FirstRequestOfTheGuideIsReadWithoutFindings) {
   const std::size_t end = guide.find("```", begin);
   ASSERT_LT(begin, end);
   EXPECT_THAT(read_request(guide.substr(begin, end - begin)).findings, IsEmpty());
+}
+
+// The guide quotes whole examples; a quotation is the file, byte for byte.
+TEST(Examples, GuideQuotesThemAsTheyAre) {
+  const std::string guide = read_text(std::filesystem::path(SNAPTHROUGH_SOURCE_DIR) / "docs" / "requests.md");
+  for (const char* name : {"frame_portal.json", "pile_in_soil.json", "pipe_under_pressure.json"}) {
+    const std::string text = read_text(examples_folder() / name);
+    EXPECT_NE(guide.find("```json\n" + text + "```"), std::string::npos) << name;
+  }
+}
+
+// Sway of a portal with clamped columns and a beam of the same section and length h, members that do not
+// change their length: k h / tan(k h) = -6, P = k^2 EI. The difference is of the size of the columns' strain
+// P / EA.
+TEST(Examples, PortalFrameSwaysAtItsBucklingLoad) {
+  const json result = run_example("frame_portal.json");
+  constexpr double kAngle = 2.716459747686127;
+  constexpr double EA = 2.1e8 * 5.38e-3;
+  constexpr double kLoad = kAngle * kAngle * 2.1e8 * 3.69e-5 / 16.0;
+  expect_relative(critical_load_factor(result), kLoad, kLoad / EA);
+  EXPECT_EQ(result.at("buckling").at("modes").size(), 2U);
+}
+
+// Crookedness in the buckling shape grows by a P / (P_c - P), P_c = pi^2 EI/L^2 (m^2 + K L^4/(m^2 pi^4 EI))
+// with m = 2 (Hetenyi, Beams on Elastic Foundation, 1946). Left out there: slopes of 2 a pi / L, and the
+// strain P / EA.
+TEST(Examples, PileGrowsCrooked) {
+  const json result = run_example("pile_in_soil.json");
+  constexpr double kPi2 = std::numbers::pi * std::numbers::pi;
+  constexpr double kCritical = kPi2 * 2000.0 / 100.0 * (4.0 + 500.0 * 1e4 / (4.0 * kPi2 * kPi2 * 2000.0));
+  for (const json& state : result.at("states")) {
+    const double load = 1000.0 * state.at("load_factor").get<double>();
+    const auto u = state.at("members").at("shaft").at("u").get<std::vector<double>>();
+    const double expected = 0.005 * load / (kCritical - load);
+    const double strain = load / 6e6 * kCritical / (kCritical - load);
+    expect_relative(std::abs(u[u.size() / 4]), expected, 2.0 * strain + 1e-4);
+  }
+  EXPECT_EQ(result.at("states").size(), 2U);
+}
+
+// A ring on a radial base under a pressure that follows it: p = (n^2 - 1) EI/R^3 + K R/(n^2 - 1), here the
+// least with n = 3, 14.25. The wall's strain p R / EA is 1.4e-5; asked for are 1e-4.
+TEST(Examples, PipeBucklesInThreeWaves) {
+  expect_relative(critical_load_factor(run_example("pipe_under_pressure.json")), 8.0 + 50.0 / 8.0,
+                  1e-4 + 2e-5);
 }
 
 // Camelo Santos, master thesis, UFOP, 2016, section 4.4.1; the numbers are converged ones (geometrically

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <regex>
@@ -152,8 +153,9 @@ class Schemas {
 
   [[nodiscard]] json make_object(const json& schema, std::mt19937& random) const {
     json object = json::object();
-    const json required = schema.value("required", json::array());
-    const json properties = schema.value("properties", json::object());
+    static const json kNone = json::object();
+    const json& properties = schema.contains("properties") ? schema["properties"] : kNone;
+    const json& required = schema.contains("required") ? schema["required"] : kNone;
     for (const auto& [name, part] : properties.items()) {
       if (random() % 2 == 0 || std::find(required.begin(), required.end(), name) != required.end()) {
         object[name] = make(part, random);
@@ -162,7 +164,7 @@ class Schemas {
     if (schema.contains("additionalProperties") && schema["additionalProperties"].is_object()) {
       object["m"] = make(schema["additionalProperties"], random);
     }
-    const json dependent = schema.value("dependentRequired", json::object());
+    const json& dependent = schema.contains("dependentRequired") ? schema["dependentRequired"] : kNone;
     for (const auto& [name, needed] : dependent.items()) {
       if (object.contains(name)) {
         for (const auto& other : needed) {
@@ -248,7 +250,9 @@ class Schemas {
 
   static bool string_holds(const std::string& keyword, const json& rule, const std::string& value) {
     if (keyword == "pattern") {
-      return std::regex_search(value, std::regex(rule.get<std::string>()));
+      static std::map<std::string, std::regex> compiled;
+      const auto& pattern = rule.get_ref<const std::string&>();
+      return std::regex_search(value, compiled.try_emplace(pattern, pattern).first->second);
     }
     const auto characters = static_cast<std::size_t>(std::count_if(
         value.begin(), value.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
@@ -257,7 +261,7 @@ class Schemas {
 
   [[nodiscard]] bool array_holds(const json& schema, const std::string& keyword, const json& rule,
                                  const json& value) const {
-    const std::size_t leading = schema.value("prefixItems", json::array()).size();
+    const std::size_t leading = schema.contains("prefixItems") ? schema["prefixItems"].size() : 0;
     if (keyword == "items") {
       return value.size() <= leading ||
              std::all_of(value.begin() + static_cast<std::ptrdiff_t>(leading), value.end(),
@@ -303,10 +307,10 @@ class Schemas {
     if (keyword == "maxProperties") {
       return value.size() <= rule;
     }
-    const json known = schema.value("properties", json::object());
     return std::all_of(value.items().begin(), value.items().end(), [&](const auto& member) {
       if (keyword == "additionalProperties") {
-        return known.contains(member.key()) || valid(rule, member.value());
+        const auto known = schema.find("properties");
+        return (known != schema.end() && known->contains(member.key())) || valid(rule, member.value());
       }
       if (keyword == "propertyNames") {
         return valid(rule, member.key());

@@ -224,6 +224,9 @@ const Case kActionCases[] = {
      "/model/imperfections/0/offsets", "empty"},
     {"OffsetsNotIncreasing", SPOIL(m.imperfections[0] = PointsImperfection{"ab", {{0.5, 0.0}, {0.5, 0.1}}}),
      "/model/imperfections/0/offsets/1/0", "not_increasing"},
+    {"OffsetsTooNear",
+     SPOIL(m.imperfections[0] = PointsImperfection{"ab", {{0.0, 0.0}, {1e-12, 0.1}, {0.5, 0.0}, {1.0, 0.1}}}),
+     "/model/imperfections/0/offsets/1/0", "not_increasing"},
     {"OffsetsOutside", SPOIL(m.imperfections[0] = PointsImperfection{"ab", {{0.5, 0.0}, {1.5, 0.1}}}),
      "/model/imperfections/0/offsets/1/0", "out_of_range"},
     {"OffsetsNan", SPOIL(m.imperfections[0] = PointsImperfection{"ab", {{0.5, kNan}, {1.0, 0.1}}}),
@@ -371,6 +374,15 @@ TEST(Check, TotalElementsAreBounded) {
   analysis.discretization.elements = kMaxElementsPerMember;
   EXPECT_THAT(check_rules(model, analysis),
               ElementsAre(is_finding("/analysis/discretization/elements", "too_many")));
+}
+
+// The points near the origin are one place for a spline that reaches 1e150: its equations were singular, and
+// the check crashed.
+TEST(Check, PointsOfSplinesBelongToTheExtent) {
+  auto [model, analysis] = testing::sound_request();
+  use_curve(model, PointsCurve{{{-1e150, 22.0}, {8.4, -47.6}, {-2.7, 10.9}, {36.8, 0.5}}});
+  const std::vector<Finding> findings = check_rules(model, analysis);
+  EXPECT_THAT(findings, ::testing::Contains(is_finding("/model/members/0", "zero_length")));
 }
 
 TEST(Check, StatePointsAreBounded) {

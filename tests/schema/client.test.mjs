@@ -1,0 +1,54 @@
+// Types that openapi-typescript makes of the document, and a program that uses every field against them.
+import assert from 'node:assert/strict';
+import {spawnSync} from 'node:child_process';
+import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
+import {test} from 'node:test';
+import {fileURLToPath} from 'node:url';
+
+import {documentPath, fieldsOf} from './support/document.mjs';
+
+const here = (path) => fileURLToPath(new URL(path, import.meta.url));
+const program = here('client/every_field.ts');
+
+function run(tool, ...options) {
+  const done = spawnSync(process.execPath, [here(`node_modules/${tool}`), ...options], {encoding: 'utf8'});
+  return {status: done.status, text: done.stdout + done.stderr};
+}
+
+function makeTypes() {
+  mkdirSync(here('client/generated'), {recursive: true});
+  const made = run('openapi-typescript/bin/cli.js', documentPath, '--default-non-nullable', 'false', '-o',
+                   here('client/generated/snapthrough.d.ts'));
+  assert.equal(made.status, 0, made.text);
+}
+
+const compile = (project) => run('typescript/bin/tsc', '-p', here(project));
+
+test('a client of the generated types compiles', () => {
+  makeTypes();
+  const {status, text} = compile('client');
+  assert.equal(status, 0, text);
+});
+
+test('the client uses every field of request, sweep and result', () => {
+  const text = readFileSync(program, 'utf8').replace(/\/\/.*/g, '');
+  const names = new Set(['Request', 'SweepDocument', 'Result'].flatMap((schema) => fieldsOf(schema).map(
+      ({path}) => path.split('.').at(-1))));
+  const unused = [...names].filter((name) => !new RegExp(`\\b${name}\\b`).test(text));
+  assert.deepEqual(unused, []);
+  assert.ok(names.size > 120, `${names.size} names`);
+});
+
+test('a client that uses a field wrongly does not compile', () => {
+  makeTypes();
+  const bodies = ['result.critical_points[0]!.load_facto', 'result.summary.critical_load_factor.toFixed()',
+                  'result.states[0]!.members["beam"].x0', 'result.buckling.modes', 'result.critical_points[0]!.load_factor'];
+  const files = bodies.map((body, i) => `program_${i}.ts`);
+  const project = here('client/generated/tsconfig.json');
+  writeFileSync(project, JSON.stringify({extends: '../tsconfig.json', files}));
+  bodies.forEach((body, i) => writeFileSync(here(`client/generated/${files[i]}`),
+      `import type {components} from './snapthrough.js';
+export const read = (result: components['schemas']['Result']) => ${body};\n`));
+  const {text} = compile('client/generated/tsconfig.json');
+  assert.deepEqual(files.filter((file) => text.includes(`${file}(`)), files.slice(0, -1), text);
+});

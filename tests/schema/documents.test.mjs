@@ -1,0 +1,100 @@
+// The documents in docs/ against the published document and the sources.
+import assert from 'node:assert/strict';
+import {readFileSync, readdirSync} from 'node:fs';
+import {test} from 'node:test';
+
+import {pages} from './field_tables.mjs';
+import {root, schemas} from './support/document.mjs';
+
+const read = (name) => readFileSync(new URL(name, root), 'utf8');
+
+/** Text of every source in a folder, deep. */
+function sources(folder) {
+  return readdirSync(new URL(`${folder}/`, root), {withFileTypes: true}).map((entry) => {
+    if (entry.isDirectory()) return sources(`${folder}/${entry.name}`);
+    return /\.(cpp|h)$/.test(entry.name) ? read(`${folder}/${entry.name}`) : '';
+  }).join('\n');
+}
+
+const all = (text, pattern) => new Set([...text.matchAll(pattern)].map((match) => match[1]));
+const solver = sources('solver');
+const api = sources('api');
+const server = sources('server');
+
+const kFailures = [/\bfail\(\s*\w+,\s*(?:\w+ \? )?"([a-z_]+)"/g, /\bfail\(\s*\w+,\s*\w+ \? "[a-z_]+" : "([a-z_]+)"/g,
+                   /TraceEnd::\w+,\s*"([a-z_]+)"[^}]*?,\s*true\}/g];
+const kEnds = [/TraceEnd::\w+,\s*"([a-z_]+)"/g, /termination = "([a-z_]+)"/g];
+const kFindings = [/\breport\(\s*"([a-z_]+)"/g, /\breport\.add\([^"]*"([a-z_]+)"/g, /\.report\(\s*(?:\w+ \? )?"([a-z_]+)"/g];
+
+const union = (text, patterns) => new Set(patterns.flatMap((pattern) => [...all(text, pattern)]));
+const failures = union(solver, kFailures);
+const ends = union(solver, kEnds);
+const findings = union(solver + api, kFindings);
+const problems = all(server, /\b[45]\d\d,\s*"([a-z-]+)",/g);
+
+const missing = (codes, text) => [...codes].filter((code) => !text.includes(`\`${code}\``)).sort();
+const unlisted = (codes, list) => [...codes].filter((code) => !list.includes(code)).sort();
+
+test('tables of fields are those of the document', () => {
+  assert.deepEqual(pages().filter(({text, wanted}) => text !== wanted).map(({name}) => name), [],
+                   'node field_tables.mjs --write brings them up to date');
+});
+
+test('codes were found in the sources', () => {
+  for (const [codes, some] of [[failures, ['beyond_limit_point', 'no_buckling_mode', 'step_underflow', 'loose_part', 'no_start']],
+                               [ends, ['critical_point', 'modes', 'load_bound']], [findings, ['bad_id', 'wrong_type', 'ambiguous']],
+                               [problems, ['no-such-job', 'queue-full']]]) {
+    for (const code of some) assert.ok(codes.has(code), `${code} of ${[...codes]}`);
+  }
+});
+
+test('every code of a failure is in docs/requests.md and in the schema', () => {
+  assert.deepEqual(missing(failures, read('docs/requests.md')), []);
+  assert.deepEqual(missing(schemas.Failure.properties.code.enum, read('docs/requests.md')), []);
+  assert.deepEqual(unlisted(failures, schemas.Failure.properties.code.enum), []);
+});
+
+test('every code of an end is in docs/requests.md and in the schema', () => {
+  assert.deepEqual(missing(ends, read('docs/requests.md')), []);
+  assert.deepEqual(missing(schemas.Summary.properties.termination.enum, read('docs/requests.md')), []);
+  assert.deepEqual(unlisted(ends, schemas.Summary.properties.termination.enum), []);
+});
+
+test('every code of a finding is documented and in the schema', () => {
+  const text = read('docs/requests.md') + read('docs/sweeps.md');
+  assert.deepEqual(missing(findings, text), []);
+  assert.deepEqual(missing(schemas.Finding.properties.code.enum, text), []);
+  assert.deepEqual(unlisted(findings, schemas.Finding.properties.code.enum), []);
+});
+
+test('every problem is in docs/service.md and in the schema', () => {
+  const kinds = schemas.Problem.properties.type.enum.map((type) => type.replace('urn:snapthrough:problem:', ''));
+  assert.deepEqual(unlisted(problems, kinds), []);
+  assert.deepEqual(missing(kinds, read('docs/service.md')), []);
+});
+
+test('every key that is written is a field of the schema', () => {
+  const written = all(read('api/write_result.cpp'), /(?:\{|add\()"([a-z_0-9]+)"/g);
+  assert.ok(written.size > 60, `${written.size} keys`);
+  const known = new Set();
+  const collect = (part) => {
+    if (part === null || typeof part !== 'object') return;
+    for (const key of Object.keys(part.properties ?? {})) known.add(key);
+    Object.values(part).forEach(collect);
+  };
+  collect(schemas);
+  const values = ['smooth', 'contact', 'opened', 'closed', 'pointer', 'code', 'detail'];
+  assert.deepEqual([...written].filter((key) => !known.has(key) && !values.includes(key)), []);
+});
+
+test('requests that are quoted in docs/ are of the schema', async () => {
+  const {faults, validatorNamed} = await import('./support/validator.mjs');
+  let quoted = 0;
+  for (const [, text] of read('docs/requests.md').matchAll(/```json\n([^]*?)```/g)) {
+    const document = JSON.parse(text);
+    if (!document.model) continue;
+    quoted += 1;
+    assert.deepEqual(faults(validatorNamed('Request'), document), []);
+  }
+  assert.ok(quoted >= 4, `${quoted} requests`);
+});

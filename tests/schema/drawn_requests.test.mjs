@@ -1,0 +1,87 @@
+// Random documents of the request's schema are given to the service's check: what it refuses must be of a rule that needs more than
+// one field. And what the schema refuses is refused.
+import assert from 'node:assert/strict';
+import {after, before, test} from 'node:test';
+
+import {Drawer} from './support/draw.mjs';
+import {startService} from './support/service.mjs';
+import {validatorNamed} from './support/validator.mjs';
+
+const seed = Number(process.env.SEED ?? Math.floor(Math.random() * 2 ** 32));
+let service;
+before(async () => { service = await startService(); });
+after(async () => service.stop());
+
+/** Codes of rules between several fields, and why the schema can't say them. */
+const kBetweenFields = {
+  unknown_reference: 'an id of another list',
+  duplicate_id: 'ids of the same list',
+  unreached_node: 'nodes and members',
+  zero_length: 'positions of two nodes',
+  coincident_points: 'positions of nodes and points',
+  needs_one_sided: 'gap and reaction',
+  needs_member: 'component and location of a monitor',
+  not_fixed: 'fixed and displacement of a support',
+  no_load: 'loads, displacements of supports and type of analysis',
+  mechanism: 'the whole model',
+  unsupported: 'geometry and type of analysis; reaction and shear_stiffness',
+  not_increasing: 'a fraction and the one before it',
+  too_many_findings: 'the number of findings',
+  memory_limit: 'members, elements and order, against a setting of the service',
+};
+/** The same for codes that other rules have too: by pointer or text. */
+const kBetweenFieldsAt = [
+  ['out_of_range', /\/(range|load_factor)$/, 'lower and upper end'],
+  ['out_of_range', /^\/analysis\/step$/, 'min, initial and max'],
+  ['out_of_range', /^\/model\/sections\/\d+$/, 'products E A, E I, G shear_area'],
+  ['empty', /^\/model\/supports$/, 'supports, springs and foundations'],
+  ['too_many', /\/points_per_member$/, 'times members'],
+  ['too_many', /\/elements$/, 'of all members'],
+  ['missing_field', /\/elements$/, 'one for each member'],
+];
+
+const isBetweenFields = ({code, pointer}) =>
+    code in kBetweenFields || kBetweenFieldsAt.some(([one, at]) => one === code && at.test(pointer));
+
+async function check(document) {
+  const response = await fetch(`${service.address}/v1/check`,
+                               {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(document)});
+  assert.equal(response.status, 200);
+  return response.json();
+}
+
+test('2000 requests of the schema are refused for rules between fields only', async (t) => {
+  t.diagnostic(`seed ${seed}`);
+  const drawer = new Drawer(seed);
+  const isRequest = validatorNamed('Request');
+  const codes = {};
+  let accepted = 0;
+  for (let i = 0; i < 2000; ++i) {
+    const request = i % 4 === 0 ? drawer.request() : drawer.repair(drawer.request());
+    assert.ok(isRequest(request), `seed ${seed}, document ${i}: ${JSON.stringify(isRequest.errors)} ${JSON.stringify(request)}`);
+    const {valid, errors} = await check(request);
+    accepted += valid ? 1 : 0;
+    for (const finding of errors) {
+      codes[finding.code] = (codes[finding.code] ?? 0) + 1;
+      assert.ok(isBetweenFields(finding), `seed ${seed}, document ${i}: ${JSON.stringify(finding)}\n${JSON.stringify(request)}`);
+    }
+  }
+  t.diagnostic(`${accepted} accepted; findings ${JSON.stringify(codes)}`);
+  assert.ok(accepted > 400, `${accepted} accepted`);
+});
+
+test('2000 spoilt requests are refused where the schema refuses them', async (t) => {
+  const drawer = new Drawer(seed + 1);
+  const isRequest = validatorNamed('Request');
+  let refused = 0;
+  for (let i = 0; i < 2000; ++i) {
+    const request = drawer.spoil(drawer.repair(drawer.request()));
+    if (isRequest(request)) continue;
+    refused += 1;
+    const {valid} = await check(request);
+    assert.ok(!valid, `seed ${seed}, document ${i} is none of the schema and is accepted: ${
+        JSON.stringify(isRequest.errors)}\n${JSON.stringify(request)}`);
+  }
+  t.diagnostic(`${refused} refused`);
+  assert.ok(refused > 1000, `${refused} refused`);
+});

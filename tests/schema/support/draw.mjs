@@ -1,0 +1,174 @@
+// Random instances of the document's schemas.
+import {dereferenced} from './document.mjs';
+import {validatorOf} from './validator.mjs';
+
+/** Numbers from 0 to 1, the same for the same seed (mulberry32). */
+export function randomNumbers(seed) {
+  let state = seed >>> 0;
+  return () => {
+    state = (state + 0x6d2b79f5) >>> 0;
+    let t = Math.imul(state ^ (state >>> 15), state | 1);
+    t ^= t + Math.imul(t ^ (t >>> 7), t | 61);
+    return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
+  };
+}
+
+const kLetters = ['a', 'b', 'c', 'd', '/', '~', ' ', '"', 'ä', '梁', '🌉', '\u0080'];
+
+export class Drawer {
+  constructor(seed) { this.random = randomNumbers(seed); }
+
+  below(count) { return Math.floor(this.random() * count); }
+  pick(list) { return list[this.below(list.length)]; }
+
+  /** An instance: small, with the ends of ranges now and then. */
+  draw(schema) {
+    const {not, contains} = dereferenced(schema);
+    if (not === undefined && contains === undefined) return this.candidate(schema);
+    const validate = validatorOf(schema);
+    let value;
+    do value = this.candidate(schema); while (!validate(value));
+    return value;
+  }
+
+  candidate(schema) {
+    const at = dereferenced(schema);
+    if ('const' in at) return at.const;
+    if (at.enum) return this.pick(at.enum);
+    const forms = at.oneOf ?? at.anyOf;
+    if (forms) return this.draw(this.pick(forms));
+    const type = Array.isArray(at.type) ? this.pick(at.type) : at.type;
+    if (type === 'object') return this.object(at);
+    if (type === 'array') return this.list(at);
+    if (type === 'string') return this.text(at);
+    if (type === 'boolean') return this.random() < 0.5;
+    return type === 'null' ? null : this.number(at, type === 'integer');
+  }
+
+  object(at) {
+    const value = {};
+    for (const [name, one] of Object.entries(at.properties ?? {})) {
+      if (at.required?.includes(name) || this.random() < 0.4) value[name] = this.draw(one);
+    }
+    for (const [name, others] of Object.entries(at.dependentRequired ?? {})) {
+      if (name in value) for (const other of others) value[other] ??= this.draw(at.properties[other]);
+    }
+    if (at.additionalProperties) {
+      const count = (at.minProperties ?? 0) + this.below(2);
+      for (let i = 0; i < count; ++i) value[this.text(dereferenced(at.propertyNames ?? {}))] = this.draw(at.additionalProperties);
+    }
+    return value;
+  }
+
+  list(at) {
+    if (at.prefixItems) return at.prefixItems.map((one) => this.draw(one));
+    const least = at.minItems ?? 0;
+    const count = least + this.below(Math.min(at.maxItems ?? Infinity, least + 3) - least + 1);
+    const items = [];
+    while (items.length < count) {
+      const item = this.draw(at.items);
+      if (!at.uniqueItems || !items.includes(item)) items.push(item);
+    }
+    return items;
+  }
+
+  text(at) {
+    const long = at.maxLength && this.random() < 0.02;
+    const length = long ? at.maxLength : 1 + this.below(3);
+    return Array.from({length}, () => this.pick(this.random() < 0.1 ? kLetters : kLetters.slice(0, 4))).join('');
+  }
+
+  number(at, whole) {
+    const inside = (end, sign) => end + sign * (whole ? 1 : Math.max(Math.abs(end) * 2 ** -52, Number.MIN_VALUE));
+    const lo = at.exclusiveMinimum !== undefined ? inside(at.exclusiveMinimum, 1) : at.minimum ?? -50;
+    const hi = at.exclusiveMaximum !== undefined ? inside(at.exclusiveMaximum, -1) : at.maximum ?? 50;
+    const chance = this.random();
+    if (chance < 0.03) return lo;
+    if (chance < 0.06) return hi;
+    const from = Math.max(lo, -50);
+    const value = from + (Math.min(hi, from + 100) - from) * this.random();
+    return whole ? Math.floor(value) : chance < 0.3 ? Math.min(hi, Math.max(lo, Math.round(value))) : value;
+  }
+
+  request() { return this.draw({$ref: '#/components/schemas/Request'}); }
+
+  /**
+   * Makes a drawn request's references and geometry agree, so that only single fields are left to be judged. Each repair is left
+   * out once in 30 times.
+   */
+  repair(request) {
+    const {model, analysis} = request;
+    const often = (change) => { if (this.random() < 29 / 30) change(); };
+    const size = () => (this.random() - 0.5) * 20;
+    for (const list of ['nodes', 'sections', 'members', 'springs', 'foundations', 'monitors']) {
+      often(() => (model[list] ?? []).forEach((one, i) => { one.id = `${[...one.id].slice(0, 190).join('')}#${i}`; }));
+    }
+    while (model.nodes.length < 2) model.nodes.push({id: `n${model.nodes.length}`, x: 0, y: 0});
+    often(() => model.nodes.forEach((node, i) => Object.assign(node, {x: 3 * i + size() / 20, y: size()})));
+    while (model.members.length < model.nodes.length - 1) model.members.push({...model.members[0], id: `m${model.members.length}`});
+    model.members = model.members.slice(0, model.nodes.length - 1);
+    often(() => model.members.forEach((one, i) => Object.assign(one, {
+      start: model.nodes[i].id, end: model.nodes[i + 1].id, section: this.pick(model.sections).id})));
+    const node = () => this.pick(model.nodes).id;
+    const member = () => this.pick(model.members).id;
+    const locate = (at) => { if ('node' in at) at.node = node(); else at.member = member(); };
+    often(() => { (model.supports ??= []).forEach((one, i) => { one.node = model.nodes[i % model.nodes.length].id; }); });
+    often(() => this.hold(model));
+    often(() => [...(model.springs ?? []), ...(model.monitors ?? []), ...(model.loads ?? [])].forEach((one) => one.at && locate(one.at)));
+    for (const list of ['foundations', 'loads', 'imperfections']) {
+      often(() => (model[list] ?? []).forEach((one) => { if ('member' in one) one.member = member(); }));
+    }
+    often(() => this.agree(model, analysis));
+    return request;
+  }
+
+  /** Holds the first node fully. */
+  hold(model) {
+    const [first] = model.nodes;
+    model.supports = (model.supports ?? []).filter((one, i) => one.node !== first.id && i < model.nodes.length);
+    model.supports.push({node: first.id, fixed: ['x', 'y', 'rotation']});
+    for (const one of model.supports) delete one.displacement, delete one.pattern;
+    for (const one of model.members) delete one.release;
+  }
+
+  /** What goes with what between fields. */
+  agree(model, analysis) {
+    const order = (pair) => { if (pair) pair.sort((a, b) => a - b); if (pair && pair[0] === pair[1]) pair[0] -= 0.5; };
+    for (const one of [...(model.springs ?? []), ...(model.foundations ?? [])]) {
+      if (one.reaction !== 'compression_only' && one.reaction !== 'tension_only') delete one.gap;
+      else delete one.shear_stiffness;
+    }
+    for (const one of [...(model.foundations ?? []), ...(model.loads ?? [])]) if (one.range) order(one.range);
+    for (const one of model.monitors ?? []) if ('node' in one.at && one.component === 'normal') one.component = 'x';
+    (model.loads ??= []).push({type: 'point', at: {node: model.nodes.at(-1).id}, force: [0, -1]});
+    for (const one of model.imperfections ?? []) {
+      if (one.offsets) one.offsets = one.offsets.map(([, offset], i) => [i / one.offsets.length, offset]);
+    }
+    if (analysis.geometry === 'linear') analysis.type = 'static';
+    delete analysis.step;
+    const monitor = this.pick(model.monitors?.map((one) => one.id) ?? []);
+    if (typeof analysis.control === 'object') analysis.control = monitor ? {displacement: monitor} : 'load';
+    const {stop} = analysis;
+    order(stop?.load_factor);
+    if (stop?.monitor) {
+      order(stop.monitor.range);
+      if (monitor) stop.monitor.id = monitor; else delete stop.monitor;
+    }
+    const mesh = analysis.discretization;
+    if (typeof mesh?.elements === 'object') mesh.elements = Object.fromEntries(model.members.map((one) => [one.id, 1 + this.below(100)]));
+  }
+
+  /** Changes one place of a document, so that it is probably none of the schema any more. */
+  spoil(value) {
+    const others = [1, 2.5, -1, 0, 1e200, 'a', '', null, true, [], {}, 'normal', [0, 0]];
+    const keys = value !== null && typeof value === 'object' ? Object.keys(value) : [];
+    if (keys.length === 0) return this.pick(others);
+    const key = this.pick(keys);
+    const chance = this.random();
+    if (chance < 0.7) value[key] = this.spoil(value[key]);
+    else if (chance < 0.8 && !Array.isArray(value)) delete value[key];
+    else if (chance < 0.9 && !Array.isArray(value)) value[this.pick(['id', 'range', 'extra', 'E', 'side'])] = this.pick(others);
+    else value[key] = this.pick(others);
+    return value;
+  }
+}
