@@ -289,8 +289,6 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
                                               : outcome.last.lambda / structure.scales.load;
   describe_end(analysis, outcome, at, result);
   result.summary.message += branches + meshes;
-  if (hooks.stop.stop_requested() && !result.failure)
-    fail(result, "cancelled", "cancelled while critical loads were confirmed: " + result.summary.message);
   return confirmed || result.failure;
 }
 
@@ -314,7 +312,7 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     reached.diagnostics = result.diagnostics;
     const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, reached);
     result = std::move(reached);
-    if (confirmed || analysis.discretization.fixed_mesh) return;
+    if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
     auto quartered = much_finer(mesh->mesh);
     if (paths == kMostPaths || !quartered) break;
     earlier = result.critical_points;
