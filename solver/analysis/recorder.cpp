@@ -177,6 +177,7 @@ TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> pare
     if (progress) progress({branch_, step, user_load(point), point.negative});
     ++step;
   };
+  sink.on_holds = [this](const PathPoint& point) { neutral_.note(point.holds, user_load(point)); };
   sink.on_contact = [this](const ContactChange& change) { add_contact(change); };
   sink.on_critical = [this, found = hooks.on_critical](const CriticalEvent& event) {
     add_critical(event);

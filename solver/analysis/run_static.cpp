@@ -147,6 +147,7 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   sink.on_point = [&](const PathPoint& point) {
     neutral.note(point.holds, point.lambda / structure.scales.load);
   };
+  sink.on_holds = sink.on_point;
   sink.on_step = [&](const PathPoint& from, const PathPoint& to) {
     for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
       const double target = analysis.load_factors[i] * structure.scales.load;

@@ -217,8 +217,7 @@ bool Mechanism::drives(StructuralProblem::Stage stage, const Eigen::VectorXd& mo
   Eigen::VectorXd load;
   problem_.set_stage(stage);
   problem_.load(Eigen::VectorXd::Zero(structure_.size), 0.0, load);
-  const Eigen::ArrayXd work = load.array() * motion.array();
-  return std::abs(work.sum()) > kRounding * work.abs().sum();
+  return std::abs(load.dot(motion)) > kRounding * load.lpNorm<1>() * motion.lpNorm<Eigen::Infinity>();
 }
 
 }  // namespace

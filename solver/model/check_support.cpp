@@ -50,9 +50,6 @@ void check_location(const Place& place, const Location& location, const Names& n
 void check_supports(const Place& model, const Model& data, const Names& names) {
   const Place supports = model / "supports";
   require_count(supports, data.supports.size(), kMaxSupports);
-  if (data.supports.empty() && data.springs.empty() && data.foundations.empty()) {
-    supports.report("empty", "a model needs supports, springs or foundations to hold it");
-  }
   Ids supported("support of node");
   for (std::size_t i = 0; i < data.supports.size(); ++i) {
     const Place place = supports / i;

@@ -270,27 +270,36 @@ bool Continuation::may_be_neutral(const PathPoint& from, const PathPoint& to) co
   return problem_.free_motions().cols() > 0 && to.log_abs_det < from.log_abs_det - kFall;
 }
 
-bool Continuation::hold_neutral(PathPoint& at) {
+bool Continuation::hold_neutral(const PathPoint& from, PathPoint& at) {
   const Eigen::MatrixXd& motions = problem_.free_motions();
-  if (motions.cols() == 0) return false;
-  const auto all =
-      std::make_shared<const Holds>(Holds{motions, motions.transpose() * at.y.head(motions.rows()), 1.0});
   const double bound = neutral_bound(at);
-  SharedHolds neutral = neutral_part(problem_, all, at.y, at.lambda, bound, bound);
+  const double scale = std::max(distance(from, at), kLeastNoise);
+  const auto settle_with = [&](const SharedHolds& holds, PathPoint& point) {
+    problem_.set_holds(holds);
+    const auto outcome =
+        correct(problem_, metric_, {}, scale, options_.corrector, point.y, point.lambda, work_);
+    count(outcome);
+    return outcome.status == CorrectorStatus::converged;
+  };
+  // where the structure is free, supports that it leaves may still touch it on one side, pressed by rounding
+  const auto all =
+      std::make_shared<const Holds>(Holds{motions, motions.transpose() * from.y.head(motions.rows()), 1.0});
+  PathPoint held = at;
+  if (!settle_with(all, held)) return false;
+  held.holds = neutral_part(problem_, all, held.y, held.lambda, bound, bound);
   ++statistics_.factorizations;
-  const Eigen::Index held = at.holds ? at.holds->motions.cols() : 0;
-  if (!neutral || neutral->motions.cols() <= held) return false;
+  const Eigen::Index before = from.holds ? from.holds->motions.cols() : 0;
+  if (!held.holds || held.holds->motions.cols() <= before || !settle_with(held.holds, held)) return false;
   VectorXd response;
   TangentReport report;
-  problem_.set_holds(neutral);
-  if (!unit_response(at.y, at.lambda, false, response, report)) return false;
+  if (!unit_response(held.y, held.lambda, false, response, report)) return false;
   const double norm = metric_.norm(response, 1.0);
   const double sign = metric_.inner(response, 1.0, at.tangent, at.tangent_lambda) < 0.0 ? -1.0 : 1.0;
-  at.tangent = (sign / norm) * response;
-  at.tangent_lambda = sign / norm;
-  at.negative = report.negative;
-  at.log_abs_det = report.log_abs_det;
-  at.holds = std::move(neutral);
+  held.tangent = (sign / norm) * response;
+  held.tangent_lambda = sign / norm;
+  held.negative = report.negative;
+  held.log_abs_det = report.log_abs_det;
+  at = std::move(held);
   return true;
 }
 

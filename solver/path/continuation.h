@@ -77,10 +77,10 @@ class Continuation {
   [[nodiscard]] std::optional<PathPoint> start_at(const Eigen::VectorXd& y, double direction = 1.0,
                                                   const SharedHolds& holds = {});
 
-  /// @brief Holds the structure against the motions that nothing resists at a point, besides those that are
-  /// held there; sets the point's tangent and inertia anew.
-  /// @return whether there are such motions
-  [[nodiscard]] bool hold_neutral(PathPoint& at);
+  /// @brief Holds the structure against the motions that nothing resists at a point, more than are held
+  /// there, where they were at `from`; corrects the point at its load.
+  /// @return whether there are such motions; else the point stays as it is
+  [[nodiscard]] bool hold_neutral(const PathPoint& from, PathPoint& at);
   /// @brief Whether `to` lies so near to a singular tangent, seen from `from`, that hold_neutral() is worth
   /// asking.
   [[nodiscard]] bool may_be_neutral(const PathPoint& from, const PathPoint& to) const;

@@ -214,13 +214,14 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
       break;
     }
     if (continuation_.release(from, to)) {
+      if (sink_.on_holds) sink_.on_holds(from);
       if (rules_.first_loss_of_stability && from.negative > 0) {
         finish(TraceEnd::unstable_at_start, from);
         break;
       }
       continue;
     }
-    const bool freed = continuation_.may_be_neutral(from, to) && continuation_.hold_neutral(to);
+    const bool freed = continuation_.may_be_neutral(from, to) && continuation_.hold_neutral(from, to);
     if (!freed && outcome == StepOutcome::advanced && to.negative != from.negative)
       continuation_.settle(from, to);
     LocatedEvents located = outcome == StepOutcome::turned

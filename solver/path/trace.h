@@ -57,6 +57,8 @@ struct TraceSink {
   std::function<void(const PathPoint&)> on_point;  ///< start, every accepted step, and the end
   std::function<void(const CriticalEvent&)> on_critical;
   std::function<void(const ContactChange&)> on_contact;
+  std::function<void(const PathPoint&)>
+      on_holds;  ///< the last point once more, less of whose motions are held
   /// All points between and including a step's ends are reachable here through continuation.between.
   std::function<void(const PathPoint&, const PathPoint&)> on_step;
 };

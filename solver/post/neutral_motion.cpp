@@ -13,6 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double kNothing = 1e-9;  // of a motion's largest component
+constexpr double kLarge = 1e-3;    // the same for one that tells the sense
 
 /// Gauss-Jordan elimination of the columns, in the order of the components.
 MatrixXd reduced(MatrixXd motions) {
@@ -22,7 +23,7 @@ MatrixXd reduced(MatrixXd motions) {
     for (Index c = done; c < motions.cols(); ++c)
       if (std::abs(motions(row, c)) > std::abs(motions(row, pivot))) pivot = c;
     // a small pivot would mix rounding into the other motions
-    if (std::abs(motions(row, pivot)) < 1e-3 * motions.cwiseAbs().maxCoeff()) continue;
+    if (std::abs(motions(row, pivot)) < kLarge * motions.cwiseAbs().maxCoeff()) continue;
     motions.col(done).swap(motions.col(pivot));
     for (Index c = 0; c < motions.cols(); ++c)
       if (c != done) motions.col(c) -= motions(row, c) / motions(row, done) * motions.col(done);
@@ -37,7 +38,11 @@ NeutralMotion told(const Structure& structure, const Model& model, const Eigen::
     displaced = std::max(displaced, std::hypot(motion[3 * j], motion[3 * j + 1]));
   const double turned = motion.lpNorm<Eigen::Infinity>();
   const bool turns_only = displaced <= kNothing * turned;
-  const double unit = turns_only ? turned : displaced;
+  // the first component that counts is positive
+  double sign = 1.0;
+  for (Index i = motion.size(); i-- > 0;)
+    if (std::abs(motion[i]) > kLarge * turned) sign = motion[i] < 0.0 ? -1.0 : 1.0;
+  const double unit = sign * (turns_only ? turned : displaced);
   const double length = structure.scales.length;
   NeutralMotion out;
   for (int j = 0; j < structure.joints; ++j) {
@@ -64,6 +69,10 @@ std::vector<NeutralMotion> neutral_motions(const Structure& structure, const Mod
 void NeutralMotionLog::note(const SharedHolds& holds, double load_factor) {
   if (holds == holds_) return;
   holds_ = holds;
+  // what is let go where it was found has not been free
+  std::erase_if(out_, [&](const NeutralMotion& motion) {
+    return motion.branch == branch_ && !motion.to && motion.from == load_factor;
+  });
   for (NeutralMotion& motion : out_)
     if (motion.branch == branch_ && !motion.to) motion.to = load_factor;
   for (NeutralMotion& motion : neutral_motions(structure_, model_, holds_)) {
