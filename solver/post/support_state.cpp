@@ -156,17 +156,22 @@ double largest_force(const Structure& structure, const VectorXd& y, const Vector
 /// Gives what is left of the sum of all to the bearings, in proportion to the rounding of their penetrations:
 /// a state is found when its displacements are, so the force that is left then is that of stiff bearings, and
 /// equilibrium knows their reactions better than stiffness times penetration does.
-/// @param largest force; more than the share of it that correctors let stand is no rounding and stays
+/// @param largest of the other forces; more than the share of it that correctors let stand, and than rounding
+/// of penetrations, stays
 void balance(const Wrench& others, double largest, std::vector<Bearing>& bearings) {
   constexpr double kResidual = 1e-8;  // CorrectorOptions::largest_residual
+  constexpr double kRoundings = 8.0;  // of a displacement that is summed over an element
   Wrench left = others;
   double rounding = 0.0;
   for (const Bearing& bearing : bearings) {
-    for (int c = 0; c < 3; ++c) left[c] += bearing.wrench[c];
+    for (int c = 0; c < 3; ++c) {
+      left[c] += bearing.wrench[c];
+      largest = std::max(largest, std::abs(bearing.wrench[c]));
+    }
     rounding += bearing.rounding;
   }
   const double size = std::max({std::abs(left[0]), std::abs(left[1]), std::abs(left[2])});
-  if (rounding == 0.0 || size > kResidual * largest) return;
+  if (rounding == 0.0 || size > std::max(kResidual * largest, kRoundings * rounding)) return;
   for (Bearing& bearing : bearings)
     for (int c = 0; c < 3; ++c) bearing.wrench[c] -= bearing.rounding / rounding * left[c];
 }
