@@ -37,7 +37,7 @@ BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const
   for (int level = 0;; ++level) {
     out = {now.structure, now.buckling, {}, level, factorizations};
     out.errors.resize(now.buckling.loads.size());
-    if (level >= kMostLevels || now.buckling.is_mechanism) break;
+    if (now.buckling.is_mechanism) break;
     auto mesh = finer_mesh(now.structure->mesh, structure.one_sided);
     if (!mesh) break;
     Level next = solve_on(std::make_shared<const Structure>(on_mesh(structure, model, *std::move(mesh))),
@@ -47,7 +47,8 @@ BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const
     const bool same_count = next.buckling.loads.size() == now.buckling.loads.size();
     for (std::size_t i = 0; same_count && i < out.errors.size(); ++i)
       out.errors[i] = differences[i].add(now.buckling.loads[i], next.buckling.loads[i]);
-    if (fixed || (same_count && within(out.errors, analysis.discretization.accuracy))) break;
+    const bool enough = same_count && within(out.errors, analysis.discretization.accuracy);
+    if (fixed || enough || level + 1 == kMostLevels) break;
     now = std::move(next);
   }
   return out;

@@ -133,7 +133,7 @@ void CriticalLoads::report_meshes(int finest, double largest, int without, std::
   }
   if (without == 0) result_.discretization.estimated_accuracy = largest;
   if (largest > analysis_.discretization.accuracy)
-    text += "; the accuracy asked for was not reached: estimated " + number(largest);
+    text += "; the accuracy asked for was not reached: estimated " + rounded(largest);
 }
 
 bool CriticalLoads::confirm_end(const PathPoint& end) {

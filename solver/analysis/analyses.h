@@ -50,6 +50,8 @@ void report_buckling(const Analysis& analysis, FoundLoads found, Result& result)
 
 /// A number in a message: the fewest digits that read back to the same value, as in the result document.
 [[nodiscard]] std::string number(double value);
+/// A size in a message that no field of the document repeats: three significant digits.
+[[nodiscard]] std::string rounded(double value);
 /// Copies the counts of a continuation into a result, adding to what is there.
 void add_statistics(const ContinuationStatistics& statistics, Result& result);
 /// Reports the mesh that the reported loads are from, and how often it was refined.

@@ -18,6 +18,13 @@ std::string number(double value) {
   return {text, end.ptr};
 }
 
+std::string rounded(double value) {
+  constexpr int kDigits = 3;
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, kDigits);
+  return {text, end.ptr};
+}
+
 void add_statistics(const ContinuationStatistics& statistics, Result& result) {
   Diagnostics& d = result.diagnostics;
   d.steps += statistics.steps;
@@ -106,7 +113,7 @@ std::optional<PathPoint> start_of_path(const Model& model, const Structure& stru
          "the structure can't carry the constant actions: " +
              std::string(outcome.end == TraceEnd::limit_points ? "their limit point is"
                                                                : "the path, unstable by then, was left") +
-             " at " + number(outcome.last.lambda) + " of them");
+             " at " + rounded(outcome.last.lambda) + " of them");
     return std::nullopt;
   }
   if (outcome.end == TraceEnd::no_start) {
@@ -116,7 +123,7 @@ std::optional<PathPoint> start_of_path(const Model& model, const Structure& stru
   }
   if (outcome.end != TraceEnd::load_factor) {
     fail(result, "constant_actions",
-         "the constant actions can't be put on: equilibrium was followed to " + number(outcome.last.lambda) +
+         "the constant actions can't be put on: equilibrium was followed to " + rounded(outcome.last.lambda) +
              " of them");
     return std::nullopt;
   }

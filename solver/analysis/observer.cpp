@@ -35,10 +35,10 @@ void Observer::finish(Result& result) {
   }
   if (largest_.strain <= kSmallStrain) return;
   result.warnings.push_back(
-      {"large_strain", "the strain reaches " + number(largest_.strain) + " in member \"" +
-                           model_.members[largest_.member].id + "\" at s = " + number(largest_.s) +
+      {"large_strain", "the strain reaches " + rounded(largest_.strain) + " in member \"" +
+                           model_.members[largest_.member].id + "\" at s = " + rounded(largest_.s) +
                            ", load factor " + number(strained_load_) + " on branch " +
-                           std::to_string(strained_branch_) + ": beyond " + number(kSmallStrain) +
+                           std::to_string(strained_branch_) + ": beyond " + rounded(kSmallStrain) +
                            " the linear law of the sections does not hold"});
 }
 

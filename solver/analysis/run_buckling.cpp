@@ -32,27 +32,38 @@ std::string contact_text(const Structure& structure, const Model& model) {
       all += length * (part.range[1] - part.range[0]);
       glued += length * structure.elements->frozen_share(part.element, part.foundation);
     }
-    text += "; one-sided foundation " + base.id + " counted as glued on " + number(100.0 * glued / all) +
+    text += "; one-sided foundation " + base.id + " counted as glued on " + rounded(100.0 * glued / all) +
             " % of its range";
   }
   return text;
 }
 
-/// Reports the mesh of the loads and the largest error of them.
+/// Reports the mesh of the loads and the largest error of them; loads that finer meshes do not confirm within
+/// the accuracy are a failure.
 void report_errors(const Analysis& analysis, const BucklingLoads& loads, Result& result) {
   report_mesh(*loads.structure, loads.level, result);
   if (analysis.discretization.fixed_mesh || loads.errors.empty()) return;
+  const double accuracy = analysis.discretization.accuracy;
+  const auto is_confirmed = [accuracy](const std::optional<double>& error) {
+    return error && *error <= accuracy;
+  };
   double largest = 0.0;
-  for (const auto& error : loads.errors) {
-    if (!error) {
-      result.summary.message += "; no error estimate, because finer meshes have another number of modes";
-      return;
-    }
-    largest = std::max(largest, *error);
+  std::string unconfirmed;
+  for (std::size_t i = 0; i < loads.errors.size(); ++i) {
+    largest = std::max(largest, loads.errors[i].value_or(0.0));
+    if (is_confirmed(loads.errors[i])) continue;
+    unconfirmed += "; " + number(result.buckling->load_factors[i]) +
+                   (loads.errors[i] ? ": estimated error " + rounded(*loads.errors[i])
+                                    : std::string(": finer meshes have another number of modes"));
   }
   result.discretization.estimated_accuracy = largest;
-  if (largest > analysis.discretization.accuracy)
-    result.summary.message += "; the accuracy asked for was not reached: estimated " + number(largest);
+  if (unconfirmed.empty() || result.failure) return;
+  fail(result, "not_confirmed",
+       "finer meshes do not confirm all buckling loads within the accuracy asked for" + unconfirmed);
+  if (is_confirmed(loads.errors.front())) return;
+  result.summary.critical_load_factor.reset();
+  result.summary.critical_type.reset();
+  result.summary.error_estimate.reset();
 }
 
 }  // namespace
@@ -89,8 +100,8 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   if (buckling.is_mechanism) {
     fail(result, "mechanism",
          "a motion that no support resists is driven by the loads, or has no stiffness but theirs: there is "
-         "no state to "
-         "linearise about");
+         "no "
+         "state to linearise about");
     return;
   }
   NeutralMotionLog(structure, model, result.neutral_motion).note(buckling.holds, 0.0);

@@ -278,7 +278,6 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
     follower.add(outcome, 0);
     branches = follower.run();
   }
-  recorder.finish();
   add_statistics(continuation.statistics(), result);
   bool confirmed = true;
   if (!analysis.discretization.fixed_mesh && !ends_on_critical(outcome) && !text_of(outcome.end).failure)
@@ -289,6 +288,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
                                               : outcome.last.lambda / structure.scales.load;
   describe_end(analysis, outcome, at, result);
   result.summary.message += branches + meshes;
+  recorder.finish();
   return confirmed || result.failure;
 }
 

@@ -18,6 +18,8 @@
 namespace snapthrough {
 namespace {
 
+/// Motions that are looked for, a factorisation each: eight bodies that nothing holds.
+constexpr std::size_t kMostMotions = 24;
 /// Displacement (over the structure's length) under forces of order one, where all stiffnesses are of order
 /// one, that only a mechanism gives.
 constexpr double kMechanismDisplacement = 1e9;
@@ -155,7 +157,7 @@ class Mechanism {
       : structure_(make_structure(of_equal_stiffness(model, one_sided), coarse_mesh(), Geometry::nonlinear)),
         problem_(structure_) {
     problem_.set_bonded(true);
-    while (add_motion()) {
+    while (motions_.size() < kMostMotions && add_motion()) {
     }
   }
 
@@ -189,7 +191,7 @@ bool Mechanism::add_motion() {
   double largest = x.head(rows).lpNorm<Eigen::Infinity>();
   for (const ElementDofs& dofs : structure_.dofs)
     for (const int a : dofs.a) largest = std::max(largest, std::abs(x[a]));
-  if (!(largest >= kMechanismDisplacement) || joints_.cols() == rows) return false;
+  if (!(largest >= kMechanismDisplacement)) return false;
   // once more: what else the forces did is as much smaller as the motion was larger
   Eigen::VectorXd again;
   problem_.force_along(x.head(rows).normalized(), again);
@@ -231,6 +233,10 @@ Eigen::MatrixXd free_motions(const Model& model) {
 std::vector<Finding> find_mechanism(const Model& model) {
   if (is_plainly_held(model)) return {};
   Mechanism mechanism(model, true);
+  if (mechanism.motions().size() == kMostMotions)
+    return {{"/model/supports", "mechanism",
+             "supports and bases leave at least " + std::to_string(kMostMotions) +
+                 " motions without strain: more than an analysis can hold"}};
   for (const Eigen::VectorXd& motion : mechanism.motions()) {
     if (!mechanism.drives(StructuralProblem::Stage::proportional, motion) &&
         !mechanism.drives(StructuralProblem::Stage::constant, motion))

@@ -77,7 +77,7 @@ TEST_F(RefusedRequests, NegativeBendingStiffness) {
 
 TEST_F(RefusedRequests, Mechanism) {
   json wrong = document();
-  wrong["model"]["supports"][0]["fixed"] = {"x"};
+  wrong["model"]["supports"][0]["fixed"] = {"y", "rotation"};  // the load drives it along its axis
   EXPECT_FALSE(pointers(wrong).empty());
 }
 

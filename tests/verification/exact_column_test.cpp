@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/accuracy/buckling_loads.h"
+#include "solver/assembly/mechanism.h"
 #include "tests/verification/cases.h"
 #include "tests/verification/random_column.h"
 #include "tests/verification/reference_table.h"
@@ -79,7 +80,7 @@ TEST(ExactColumn, HasTheLoadsOfElementsOnRandomColumns) {
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     const Model model = random_column(seed);
     const Analysis analysis = buckling(1 + static_cast<int>(seed % 4), 1e-9);
-    if (!check(model, analysis).empty()) continue;
+    if (!check(model, analysis).empty() || can_move(model)) continue;
     const Result result = solve(model, analysis);
     ASSERT_TRUE(is_exact(result)) << "seed " << seed;
     const std::vector<double>& loads = result.buckling->load_factors;
@@ -108,7 +109,7 @@ TEST(ExactColumn, HasTheModesOfElementsOnRandomColumns) {
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Model model = random_column(seed);
-    if (!check(model, buckling()).empty()) continue;
+    if (!check(model, buckling()).empty() || can_move(model)) continue;
     const Result result = solve(model, buckling(3));
     const int elements = 12 * static_cast<int>(model.members.size());
     const Result general = solve(model, buckling_on(fixed_mesh(elements, 6), 3));

@@ -149,7 +149,7 @@ const Case kSupportCases[] = {
     {"PrescribedNan", SPOIL(m.supports[1].displacement = {0.0, kNan, 0.0, Pattern::constant}),
      "/model/supports/1/displacement/y", "out_of_range"},
     {"NothingHolds", SPOIL(m.supports.clear(); m.springs.clear(); m.foundations.clear()), "/model/supports",
-     "empty"},
+     "mechanism"},
     {"SpringIdTwice", SPOIL(m.springs.push_back(m.springs[0])), "/model/springs/1/id", "duplicate_id"},
     {"SpringMemberUnknown", SPOIL(m.springs[0].at.member = "z"), "/model/springs/0/at/member",
      "unknown_reference"},
@@ -304,8 +304,7 @@ TEST(Check, SoundRequestHasNoFindings) {
 TEST(Check, EmptyModelNamesWhatIsMissing) {
   EXPECT_THAT(check_rules({}, {}),
               ElementsAre(is_finding("/model/nodes", "empty"), is_finding("/model/sections", "empty"),
-                          is_finding("/model/members", "empty"), is_finding("/model/supports", "empty"),
-                          is_finding("/model/loads", "no_load")));
+                          is_finding("/model/members", "empty"), is_finding("/model/loads", "no_load")));
 }
 
 TEST(Check, TwoMistakesGiveTwoFindingsInDocumentOrder) {
