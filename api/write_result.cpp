@@ -241,6 +241,7 @@ Json write(const MeshReport& mesh) {
       {"order", count_or_null(mesh.order)},
       {"unknowns", count_or_null(mesh.unknowns)},
       {"refinements", count_or_null(mesh.refinements)},
+      {"paths", mesh.paths},
       {"accuracy",
        {{"requested", or_null(mesh.requested_accuracy)}, {"estimated", or_null(mesh.estimated_accuracy)}}}};
 }

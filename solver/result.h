@@ -203,6 +203,9 @@ struct MeshReport {
   int refinements = -1;
   std::optional<double> requested_accuracy;
   std::optional<double> estimated_accuracy;
+  /// Paths followed, the last of them reported; each but the first on the mesh before with every element cut in
+  /// four, because finer meshes did not confirm what was found.
+  int paths = 1;
 };
 
 struct Diagnostics {

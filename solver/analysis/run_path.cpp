@@ -312,6 +312,7 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     reached.diagnostics = result.diagnostics;
     const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, reached);
     result = std::move(reached);
+    result.discretization.paths = paths;
     if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
     auto quartered = much_finer(mesh->mesh);
     if (paths == kMostPaths || !quartered) break;

@@ -70,7 +70,7 @@ Result full_result() {
   r.extremes = {{"m", {least, most}, {most, most}, {least, least}, most}};
   r.warnings = {{"large_strain", "much"}};
   r.buckling = BucklingResult{{1.5, 2.5}, {1e-6, {}}, {{{{"m", {0.0}, {1.0}, {2.0}, {3.0}}}}}};
-  r.discretization = {16, 3, 142, 2, 1e-3, 1e-4};
+  r.discretization = {16, 3, 142, 2, 1e-3, 1e-4, 3};
   r.diagnostics = {20, 1, 60, 61, 1e-12, {"foundation soil: stiffness 0"}};
   return r;
 }
@@ -134,7 +134,7 @@ TEST(WriteResult, EveryFieldOfTheContract) {
     "warnings": [{"code": "large_strain", "detail": "much"}],
     "buckling": {"load_factors": [1.5, 2.5], "error_estimates": [1e-6, null],
       "modes": [{"members": {"m": {"s": [0.0], "u": [1.0], "v": [2.0], "rotation": [3.0]}}}]},
-    "discretization": {"elements": 16, "order": 3, "unknowns": 142, "refinements": 2,
+    "discretization": {"elements": 16, "order": 3, "unknowns": 142, "refinements": 2, "paths": 3,
       "accuracy": {"requested": 1e-3, "estimated": 1e-4}},
     "diagnostics": {"steps": 20, "rejected_steps": 1, "iterations": 60, "factorizations": 61,
       "max_relative_residual": 1e-12, "wall_time_s": 0.125, "skipped": ["foundation soil: stiffness 0"]}

@@ -146,8 +146,8 @@ function readExtremes(extremes: Schemas['Extremes'], sum: Sum) {
 }
 
 function readNumbers({discretization, diagnostics}: Schemas['Result'], sum: Sum) {
-  const {elements, order, unknowns, refinements, accuracy} = discretization;
-  sum.number(elements, order, unknowns, refinements, accuracy.requested, accuracy.estimated);
+  const {elements, order, unknowns, refinements, paths, accuracy} = discretization;
+  sum.number(elements, order, unknowns, refinements, paths, accuracy.requested, accuracy.estimated);
   const {steps, rejected_steps, iterations, factorizations, max_relative_residual, wall_time_s, skipped} = diagnostics;
   sum.number(steps, rejected_steps, iterations, factorizations, max_relative_residual, wall_time_s);
   sum.text(...skipped);

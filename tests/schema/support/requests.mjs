@@ -117,9 +117,9 @@ export function wrong() {
   const spoilt = (change) => { const one = structuredClone(good); change(one); return one; };
   return [
     {}, [], {model: {}, analysis: {}}, spoilt((r) => { r.model.sections[0].EI = -1; }), spoilt((r) => { r.model.nodes[0].z = 1; }),
-    spoilt((r) => { r.model.supports = []; r.model.foundations = []; }), spoilt((r) => { r.analysis.type = 'bukling'; }),
+    spoilt((r) => { r.model.supports = []; r.model.foundations = []; r.model.loads = [{type: 'point', at: {node: r.model.nodes[0].id}, force: [1, 1]}]; }), spoilt((r) => { r.analysis.type = 'bukling'; }),
     spoilt((r) => { r.model.members[0].end = 'top'; }), spoilt((r) => { r.model.loads = []; }),
-    spoilt((r) => { r.model.supports.pop(); r.model.foundations = []; }),
+    spoilt((r) => { r.model.supports = [{node: r.model.nodes[0].id, fixed: ['x']}]; r.model.foundations = []; r.model.loads = [{type: 'point', at: {node: r.model.nodes[1].id}, force: [1, 1]}]; }),
     spoilt((r) => { r.analysis.discretization = {elements: 100000, order: 8}; }),
   ];
 }
