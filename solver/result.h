@@ -203,8 +203,8 @@ struct MeshReport {
   int refinements = -1;
   std::optional<double> requested_accuracy;
   std::optional<double> estimated_accuracy;
-  /// Paths followed, the last of them reported; each but the first on the mesh before with every element cut in
-  /// four, because finer meshes did not confirm what was found.
+  /// Paths followed, the last of them reported; each but the first on the mesh before with every element cut
+  /// in four, because finer meshes did not confirm what was found.
   int paths = 1;
 };
 

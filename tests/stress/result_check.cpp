@@ -63,7 +63,10 @@ std::vector<int> states_of_points(const Result& result) {
 class Check {
  public:
   Check(const Model& model, const Analysis& analysis, const Result& result)
-      : model_(model), analysis_(analysis), result_(result), rod_(make_rod_model(model, analysis)) {}
+      : model_(model),
+        analysis_(analysis),
+        result_(result),
+        rod_(make_rod_model(model, analysis, result.discretization.paths)) {}
   ResultCheck run();
 
  private:
@@ -376,8 +379,8 @@ ResultCheck Check::run() {
 
 }  // namespace
 
-int points_needed(const Model& model, const Analysis& analysis) {
-  return make_rod_model(model, analysis).points;
+int points_needed(const Model& model, const Analysis& analysis, int paths) {
+  return make_rod_model(model, analysis, paths).points;
 }
 
 ResultCheck check_result(const Model& model, const Analysis& analysis, const Result& result) {

@@ -24,7 +24,8 @@ struct ResultCheck {
 };
 
 /// Points per member that the checks need of `analysis.output` (with `states: all`); 0: not coverable.
-[[nodiscard]] int points_needed(const Model& model, const Analysis& analysis);
+/// @param paths that are followed, of which the last is reported
+[[nodiscard]] int points_needed(const Model& model, const Analysis& analysis, int paths = 1);
 
 [[nodiscard]] ResultCheck check_result(const Model& model, const Analysis& analysis, const Result& result);
 

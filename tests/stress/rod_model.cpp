@@ -328,12 +328,27 @@ Eigen::Vector3d direction_of(const RodModel& rod, const RodElement& element, con
   return {-strip.sign * std::sin(angle), strip.sign * std::cos(angle), 0.0};
 }
 
-RodModel make_rod_model(const Model& model, const Analysis& analysis) {
+namespace {
+
+void cut_in_four(Mesh& mesh) {
+  std::vector<MeshElement> pieces;
+  for (const MeshElement& e : mesh.elements)
+    for (int i = 0; i < 4; ++i)
+      pieces.push_back(
+          {e.member, e.from + (e.to - e.from) * i / 4.0, e.from + (e.to - e.from) * (i + 1) / 4.0});
+  mesh.elements = std::move(pieces);
+  for (int& first : mesh.first) first *= 4;
+}
+
+}  // namespace
+
+RodModel make_rod_model(const Model& model, const Analysis& analysis, int paths) {
   RodModel rod;
   Maker maker(model, rod);
   maker.scales();
   const MeshUse use = analysis.type == AnalysisType::critical ? MeshUse::first : MeshUse::path;
   rod.mesh = make_mesh(model, analysis.discretization, rod.axes, use);
+  for (int path = 1; path < paths; ++path) cut_in_four(rod.mesh);
   rod.lagrange = Lagrange(rod.mesh.order);
   rod.concentrated =
       rod.mesh.foundation == FoundationRule::lumped ||

@@ -91,7 +91,8 @@ struct RodModel {
 
 /// @brief The discrete structure of a request without mode imperfections, geometry nonlinear, on the mesh of
 /// its path.
-[[nodiscard]] RodModel make_rod_model(const Model& model, const Analysis& analysis);
+/// @param paths that were followed (MeshReport::paths), each on a mesh four times finer
+[[nodiscard]] RodModel make_rod_model(const Model& model, const Analysis& analysis, int paths);
 
 /// @brief Functional of the displacement at xi, times the components of `row`.
 [[nodiscard]] Functional functional_at(const RodModel& rod, const RodElement& element, double xi,

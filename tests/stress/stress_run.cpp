@@ -122,6 +122,15 @@ StressOutcome run_seed(Draw draw, std::uint64_t seed, double time_bound_s) {
     result = solve(request.model, request.analysis, {bound.token(), {}});
   }
   out.seconds = processor_time() - start;
+  // a path that was followed anew has more elements than could be known: once more, sampled finely enough for
+  // them
+  constexpr int kMostPoints = 5000;
+  const int paths = result.discretization.paths;
+  const int points = paths > 1 ? points_needed(request.model, request.analysis, paths) : 0;
+  if (points > 0 && points <= kMostPoints) {
+    request.analysis.output.points_per_member = points;
+    result = solve(request.model, request.analysis);
+  }
   out.termination = result.summary.termination;
   out.reached = reached(request.analysis, out.termination);
   out.detail = result.summary.message;
