@@ -113,7 +113,7 @@ std::optional<ContactState> solve_linear(const Structure& structure, StructuralP
   problem.set_holds(soft);
   auto state = find_contact_state(problem, metric, lambda, work, result.diagnostics.factorizations);
   if (soft) {
-    holds = state ? neutral_part(problem, soft, state->y, lambda) : nullptr;
+    holds = state ? softly_held(problem, soft, state->y, lambda).neutral : nullptr;
     problem.set_holds(holds);
     state = find_contact_state(problem, metric, lambda, work, result.diagnostics.factorizations);
   }

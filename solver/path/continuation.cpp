@@ -227,35 +227,41 @@ PathPoint Continuation::first_point(const VectorXd& y, double lambda, const Vect
 }
 
 std::optional<PathPoint> Continuation::start(double direction) {
-  const SharedHolds holds = holds_at_start(direction);
-  if (!problem_.one_sided()) return start_at(VectorXd::Zero(problem_.size()), direction, holds);
-  problem_.set_holds(holds);
+  const SharedHolds soft = held_softly(problem_);
+  if (!problem_.one_sided()) {
+    const SharedHolds all =
+        soft ? std::make_shared<const Holds>(Holds{soft->motions, soft->at, 1.0}) : nullptr;
+    return start_at(VectorXd::Zero(problem_.size()), direction, all);
+  }
   metric_.load_weight = 0.0;
+  SoftlyHeld held;
+  if (soft) {
+    auto start = softly_held_start(soft, direction, held);
+    if (held.resisted) return start;
+  }
+  problem_.set_holds(held.neutral);
   auto start = one_sided_start(direction);
-  if (start) start->holds = holds;
+  if (start) start->holds = held.neutral;
   return start;
 }
 
-/// Motions that nothing resists under the first small load. Whether supports of one side resist them is found
-/// with all of them held softly: then there is a state whatever they do, and the holds show what they carry.
-SharedHolds Continuation::holds_at_start(double direction) {
-  const SharedHolds soft = held_softly(problem_);
-  if (!soft) return nullptr;
-  if (!problem_.one_sided()) return std::make_shared<const Holds>(Holds{soft->motions, soft->at, 1.0});
+/// The start with all free motions held softly: then there is one whatever supports of one side do, and it
+/// shows which of the motions they resist.
+std::optional<PathPoint> Continuation::softly_held_start(const SharedHolds& soft, double direction,
+                                                         SoftlyHeld& held) {
   problem_.set_holds(soft);
-  metric_.load_weight = 0.0;
-  SharedHolds neutral;
-  if (const auto start = one_sided_start(direction)) {
+  auto start = one_sided_start(direction);
+  if (start) {
     const double moved = metric_.norm(start->tangent, 0.0);
     double size = kSmallLoad * load_scale_ / std::abs(start->tangent_lambda);
     if (moved > 0.0) size = std::min(size, kSmallStart / moved);
-    neutral = neutral_part(problem_, soft, start->y + size * start->tangent,
-                           start->lambda + size * start->tangent_lambda);
+    held = softly_held(problem_, soft, start->y + size * start->tangent,
+                       start->lambda + size * start->tangent_lambda);
     ++statistics_.factorizations;
   }
   problem_.set_holds(nullptr);
   loose_motion_.resize(0);
-  return neutral;
+  return start;
 }
 
 /// Stiffness (and force by unit load) below which nothing resists a motion.

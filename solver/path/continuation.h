@@ -161,7 +161,8 @@ class Continuation {
   [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, double lambda, bool bonded,
                                    Eigen::VectorXd& response, TangentReport& report);
   [[nodiscard]] std::optional<PathPoint> one_sided_start(double direction);
-  [[nodiscard]] SharedHolds holds_at_start(double direction);
+  [[nodiscard]] std::optional<PathPoint> softly_held_start(const SharedHolds& soft, double direction,
+                                                           SoftlyHeld& held);
   [[nodiscard]] double neutral_bound(const PathPoint& at) const;
   [[nodiscard]] bool is_loose();
   [[nodiscard]] std::optional<PathPoint> start_at_rest(PathPoint rest, double direction);

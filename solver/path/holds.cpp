@@ -40,7 +40,19 @@ namespace {
 
 constexpr double kSoft = 1e-6;         // stiffness of soft holds
 constexpr double kShareOfSoft = 1e-3;  // stiffness beside it that counts as none
+constexpr double kFirm = 1e5;          // stiffness beside it that leaves 1e-5 of what soft springs change
 constexpr double kShareOfLoad = 1e-6;  // force beside the load that counts as none
+
+SharedHolds neutral_of(const MotionStiffness& all, const VectorXd& y, double stiffness, double force) {
+  std::vector<Index> neutral;
+  for (Index i = 0; i < all.stiffness.size(); ++i)
+    if (std::abs(all.stiffness[i]) <= stiffness && std::abs(all.force[i]) <= force) neutral.push_back(i);
+  if (neutral.empty()) return nullptr;
+  auto out = std::make_shared<Holds>();
+  out->motions = all.motions(Eigen::all, neutral);
+  out->at = out->motions.transpose() * y.head(all.motions.rows());
+  return out;
+}
 
 }  // namespace
 
@@ -50,23 +62,16 @@ SharedHolds held_softly(const EquilibriumProblem& problem) {
   return std::make_shared<const Holds>(Holds{motions, VectorXd::Zero(motions.cols()), kSoft});
 }
 
-SharedHolds neutral_part(EquilibriumProblem& problem, const SharedHolds& soft, const VectorXd& y,
-                         double lambda) {
-  return neutral_part(problem, soft, y, lambda, kShareOfSoft * soft->stiffness,
-                      kShareOfLoad * std::abs(lambda));
+SoftlyHeld softly_held(EquilibriumProblem& problem, const SharedHolds& soft, const VectorXd& y,
+                       double lambda) {
+  const MotionStiffness met = motion_stiffness(problem, soft, y, lambda);
+  return {neutral_of(met, y, kShareOfSoft * soft->stiffness, kShareOfLoad * std::abs(lambda)),
+          met.stiffness.minCoeff() >= kFirm * soft->stiffness};
 }
 
 SharedHolds neutral_part(EquilibriumProblem& problem, const SharedHolds& holds, const VectorXd& y,
                          double lambda, double stiffness, double force) {
-  const MotionStiffness all = motion_stiffness(problem, holds, y, lambda);
-  std::vector<Index> neutral;
-  for (Index i = 0; i < all.stiffness.size(); ++i)
-    if (std::abs(all.stiffness[i]) <= stiffness && std::abs(all.force[i]) <= force) neutral.push_back(i);
-  if (neutral.empty()) return nullptr;
-  auto out = std::make_shared<Holds>();
-  out->motions = all.motions(Eigen::all, neutral);
-  out->at = out->motions.transpose() * y.head(all.motions.rows());
-  return out;
+  return neutral_of(motion_stiffness(problem, holds, y, lambda), y, stiffness, force);
 }
 
 }  // namespace snapthrough

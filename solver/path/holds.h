@@ -40,12 +40,16 @@ struct MotionStiffness {
 /// @brief All free motions of the problem held so softly that what resists them decides where they go; null
 /// when it has none.
 [[nodiscard]] SharedHolds held_softly(const EquilibriumProblem& problem);
-/// @brief The motions of held_softly() that nothing resists at (y, lambda), an equilibrium with them.
-[[nodiscard]] SharedHolds neutral_part(EquilibriumProblem& problem, const SharedHolds& soft,
-                                       const Eigen::VectorXd& y, double lambda);
+/// What became of motions that were held softly.
+struct SoftlyHeld {
+  SharedHolds neutral;    ///< those that nothing resists, held where they are; empty: none
+  bool resisted = false;  ///< all are, so firmly that their springs changed nothing that counts
+};
+/// @brief What the motions of held_softly() met at (y, lambda), an equilibrium with them.
+[[nodiscard]] SoftlyHeld softly_held(EquilibriumProblem& problem, const SharedHolds& soft,
+                                     const Eigen::VectorXd& y, double lambda);
 
-/// @brief The motions of `holds` that nothing resists at (y, lambda): neither stiffness nor a force on them
-/// beyond a small share of the load.
+/// @brief The motions of `holds` that nothing resists at (y, lambda): neither stiffness nor a force on them.
 /// @param stiffness largest that counts as none
 /// @param force largest that counts as none
 /// @return held where they are, with the stiffness 1; empty: there are none

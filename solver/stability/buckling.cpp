@@ -99,7 +99,7 @@ void Pencil::set_prestress(double reference) {
     problem_.freeze_contact(y, kTouching * y.head(3 * structure_.joints).lpNorm<Eigen::Infinity>() + 1e-14);
   }
   if (soft) {
-    holds_ = neutral_part(problem_, soft, VectorXd::Zero(problem_.size()), 0.0);
+    holds_ = softly_held(problem_, soft, VectorXd::Zero(problem_.size()), 0.0).neutral;
     ++factorizations_;
     problem_.set_holds(holds_);
   }
