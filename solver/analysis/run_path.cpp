@@ -304,6 +304,7 @@ std::optional<Mesh> much_finer(const Mesh& mesh) {
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
   constexpr int kMostPaths = 4;
+  constexpr double kMostWork = 4e6;  // elements factorised on the next path: some seconds
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
   std::vector<CriticalPoint> earlier;
@@ -311,11 +312,14 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     Result reached;
     reached.diagnostics = result.diagnostics;
     const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, reached);
+    const int factorizations = reached.diagnostics.factorizations - result.diagnostics.factorizations;
     result = std::move(reached);
     result.discretization.paths = paths;
     if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
     auto quartered = much_finer(mesh->mesh);
     if (paths == kMostPaths || !quartered) break;
+    if (static_cast<double>(factorizations) * static_cast<double>(quartered->elements.size()) > kMostWork)
+      break;
     earlier = result.critical_points;
     finer = on_mesh(structure, model, *std::move(quartered));
     mesh = &*finer;

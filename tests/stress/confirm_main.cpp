@@ -1,11 +1,12 @@
 /// Holds critical loads of random models against a mesh that is much finer, for docs/verification.md:
 ///   confirm_run frame|broad FIRST COUNT STRIDE ACCURACY
 /// `frame`: small frames against 100 elements of order 5 a member, and where they differ against 400 of
-/// order 6. `broad`: models of the stress test whose mesh is left to the solver, against four times the
-/// elements of the result's mesh, one order higher. A line a seed: "seed outcome load reference difference
-/// estimate factorizations seconds". The outcome is `good`, `off` (success, off by more than the accuracy),
-/// `unconfirmed` (success without confirmation), `missed` (none was reported where the fine mesh has one),
-/// `none` (neither has one), `unreferenced` (the fine mesh alone has none) or a code of failure.
+/// order 6. `broad`: models of the stress test whose mesh is left to the solver, those with a critical load
+/// against four times the elements of the result's mesh, one order higher. A line a seed: "seed outcome load
+/// reference difference estimate factorizations seconds". The outcome is `good`, `off` (success, off by more
+/// than the accuracy), `unconfirmed` (success without confirmation), `missed` (none was reported where the
+/// fine mesh has one), `none` (neither has one), `unreferenced` (the fine mesh alone has none) or a code of
+/// failure.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -61,7 +62,12 @@ RandomRequest drawn(bool frame, unsigned long seed, double accuracy) {
 Result reference_of(bool frame, const RandomRequest& request, const Result& result, double accuracy) {
   constexpr int kRefine = 4;
   const int order = std::min(result.discretization.order + 1, snapthrough::kMaxOrder);
-  if (!frame) return on_mesh(request, kRefine * std::max(1, result.discretization.elements), order);
+  if (!frame) {
+    if (!result.summary.critical_load_factor) return {};
+    const int members = static_cast<int>(request.model.members.size());
+    const int elements = (result.discretization.elements + members - 1) / members;
+    return on_mesh(request, kRefine * elements, order);
+  }
   Result fine = on_mesh(request, 100, 5);
   const std::string outcome = judge(result, fine, accuracy);
   if (outcome == "good" || outcome == "none") return fine;
