@@ -127,10 +127,7 @@ void CriticalLoads::report_meshes(int finest, double largest, int without, std::
     text += "; no error estimate for " + std::to_string(without) +
             " critical points, which were not found again on a finer mesh";
   if (analysis_.discretization.fixed_mesh) return;
-  if (targets_.empty()) {
-    text += "; no critical point was met, and a finer mesh agrees at the path's end";
-    return;
-  }
+  if (targets_.empty()) return;
   if (without == 0) result_.discretization.estimated_accuracy = largest;
   if (largest > analysis_.discretization.accuracy)
     text += "; the accuracy asked for was not reached: estimated " + rounded(largest);

@@ -280,9 +280,12 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   }
   add_statistics(continuation.statistics(), result);
   bool confirmed = true;
-  if (!analysis.discretization.fixed_mesh && !ends_on_critical(outcome) && !text_of(outcome.end).failure)
-    confirmed = loads.confirm_end(outcome.last);
   std::string meshes;
+  if (!analysis.discretization.fixed_mesh && !ends_on_critical(outcome) && !text_of(outcome.end).failure) {
+    confirmed = loads.confirm_end(outcome.last);
+    if (confirmed && result.critical_points.empty())
+      meshes = "; no critical point was met, and a finer mesh agrees at the path's end";
+  }
   confirmed = loads.confirm(hooks.stop, meshes) && confirmed;
   const double at = ends_on_critical(outcome) ? result.critical_points[primary - 1].load_factor
                                               : outcome.last.lambda / structure.scales.load;
