@@ -307,7 +307,7 @@ std::optional<Mesh> much_finer(const Mesh& mesh) {
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
   constexpr int kMostPaths = 4;
-  constexpr double kMostWork = 4e6;  // elements factorised on the next path: some seconds
+  constexpr double kMostWork = 1e7;  // elements factorised on the next path: some ten seconds
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
   std::vector<CriticalPoint> earlier;
