@@ -56,6 +56,8 @@ void report_buckling(const Analysis& analysis, FoundLoads found, Result& result)
 void add_statistics(const ContinuationStatistics& statistics, Result& result);
 /// Reports the mesh that the reported loads are from, and how often it was refined.
 void report_mesh(const Structure& structure, int refinements, Result& result);
+/// A critical load that finer meshes do not confirm is none.
+void withdraw_critical_load(Result& result);
 /// Makes a result that of a failed analysis.
 void fail(Result& result, const char* code, const std::string& detail);
 

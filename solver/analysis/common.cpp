@@ -43,6 +43,12 @@ void report_mesh(const Structure& structure, int refinements, Result& result) {
   report.refinements = refinements;
 }
 
+void withdraw_critical_load(Result& result) {
+  result.summary.critical_load_factor.reset();
+  result.summary.critical_type.reset();
+  result.summary.error_estimate.reset();
+}
+
 void fail(Result& result, const char* code, const std::string& detail) {
   result.failure = Failure{code, detail};
   result.summary.termination = code;

@@ -9,6 +9,7 @@
 
 #include "solver/accuracy/buckling_loads.h"
 #include "solver/analysis/analyses.h"
+#include "solver/assembly/mechanism.h"
 #include "solver/post/mode.h"
 #include "solver/post/neutral_motion.h"
 #include "solver/stability/buckling.h"
@@ -61,9 +62,7 @@ void report_errors(const Analysis& analysis, const BucklingLoads& loads, Result&
   fail(result, "not_confirmed",
        "finer meshes do not confirm all buckling loads within the accuracy asked for" + unconfirmed);
   if (is_confirmed(loads.errors.front())) return;
-  result.summary.critical_load_factor.reset();
-  result.summary.critical_type.reset();
-  result.summary.error_estimate.reset();
+  withdraw_critical_load(result);
 }
 
 }  // namespace
@@ -99,9 +98,8 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   result.diagnostics.factorizations += loads.factorizations;
   if (buckling.is_mechanism) {
     fail(result, "mechanism",
-         "a motion that no support resists is driven by the loads, or has no stiffness but theirs: there is "
-         "no "
-         "state to linearise about");
+         "a motion that no support resists is driven by the loads, or has no stiffness but theirs: "
+         "there is no state to linearise about");
     return;
   }
   NeutralMotionLog(structure, model, result.neutral_motion).note(buckling.holds, 0.0);
@@ -125,7 +123,8 @@ ModeOffsets mode_offsets(const Model& model, const Analysis& analysis) {
   if (highest == 0) return {};
   Model perfect = model;
   perfect.imperfections.clear();
-  const Structure structure = make_structure(perfect, analysis.discretization, Geometry::nonlinear);
+  Structure structure = make_structure(perfect, analysis.discretization, Geometry::nonlinear);
+  structure.free_motions = free_motions(perfect);
   StructuralProblem problem(structure);
   const LinearBuckling buckling = linear_buckling(structure, problem, highest, structure.scales.load);
   if (static_cast<int>(buckling.loads.size()) < highest)

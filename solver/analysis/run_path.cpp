@@ -154,18 +154,15 @@ void fail_unconfirmed(Result& result) {
   fail(result, "not_confirmed",
        (some ? "finer meshes do not confirm all critical points within the accuracy asked for" +
                    disagreements(result)
-             : "no loss of stability was found, but a finer mesh has another number of negative eigenvalues "
-               "at the "
-               "path's end") +
+             : std::string(
+                   "a finer mesh has no equilibrium with as many negative eigenvalues near the path's end")) +
            " (" + reached + ")");
   // the first loss of stability is the first of the primary path's points that leads from a stable state
   for (const CriticalPoint& point : result.critical_points) {
     const bool is_it =
         loss_found && point.branch == 0 && point.load_factor == *result.summary.critical_load_factor;
     if (!is_it || point.confirmed) continue;
-    result.summary.critical_load_factor.reset();
-    result.summary.critical_type.reset();
-    result.summary.error_estimate.reset();
+    withdraw_critical_load(result);
     return;
   }
 }

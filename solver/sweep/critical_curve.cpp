@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "solver/analysis/analyses.h"
+#include "solver/assembly/mechanism.h"
 #include "solver/path/trace.h"
 
 namespace snapthrough {
@@ -58,7 +59,9 @@ struct Family {
         structure(make_structure(model, request.analysis.discretization, request.analysis.geometry,
                                  mode_offsets(model, request.analysis), MeshUse::first)),
         problem(structure),
-        continuation(problem, {}) {}
+        continuation(problem, {}) {
+    structure.free_motions = free_motions(model);
+  }
 
   Model model;
   Structure structure;
@@ -290,7 +293,8 @@ CriticalCurvePoint Follower::trace_at(double value) {
     const CriticalEvent& event = outcome.critical.back();
     point.load_factor = event.point.lambda / member->structure.scales.load;
     point.type = event.type;
-    if (event.cause == CriticalCause::smooth && event.multiplicity == 1) {
+    // what is held where nothing resists it belongs to the one path
+    if (event.cause == CriticalCause::smooth && event.multiplicity == 1 && !event.point.holds) {
       Expansion guess;
       guess.t = place_of(value);
       guess.reach = kReach * member->continuation.way_to(event.point);

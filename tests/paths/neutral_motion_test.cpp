@@ -163,6 +163,19 @@ TEST(NeutralMotion, ColumnBetweenRollersBucklesAtEulersLoad) {
   EXPECT_EQ(linearised.neutral_motion.size(), 1u);
 }
 
+/// The same with an offset in the shape of its buckling mode: the mode is found although the column may
+/// slide.
+TEST(NeutralMotion, ModeOfAColumnThatMaySlideIsAnImperfection) {
+  Model model = straight(1.0, 1.0, 1e6, "y", "y");
+  model.loads = {force_at(at_node("a"), 1.0, 0.0), force_at(at_node("b"), -1.0, 0.0)};
+  model.imperfections = {ModeImperfection{1, 1e-3}};
+  model.monitors = {{"w", at_member("m", 0.5), Component::y}};
+  const Result result = solve_soundly(model, static_on({}, Geometry::nonlinear, {0.5 * kPi * kPi}));
+  ASSERT_TRUE(result.static_table);
+  // w grows to w_0 / (1 - P / P_E), less w_0, to the first order of w_0
+  expect_relative(std::abs(result.static_table->monitors[0].values[0]), 1e-3, 1e-3, "offset");
+}
+
 /// A free rod between two dead forces that press on it turns over at once; one that they pull is held by
 /// them, and may only be shifted.
 TEST(NeutralMotion, FreeRodIsTurnedOverByDeadCompressionAndHeldByTension) {
