@@ -176,7 +176,8 @@ struct MemberExtremes {
   Extreme displacement;  ///< largest hypot(u, v)
 };
 
-/// Something that the reader of a result has to know. Codes: "large_strain", "path_points".
+/// Something that the reader of a result has to know. Codes: "large_strain", "path_points",
+/// "touching_supports".
 struct Warning {
   std::string code;
   std::string detail;

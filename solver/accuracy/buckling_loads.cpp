@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solver/accuracy/differences.h"
+#include "solver/accuracy/transfer.h"
 
 namespace snapthrough {
 namespace {
@@ -15,9 +16,13 @@ struct Level {
   LinearBuckling buckling;
 };
 
-Level solve_on(std::shared_ptr<const Structure> structure, int count) {
+/// @param coarser the mesh before; null: this is the first one
+Level solve_on(std::shared_ptr<const Structure> structure, int count, const Level* coarser) {
   StructuralProblem problem(*structure);
-  LinearBuckling buckling = linear_buckling(*structure, problem, count, structure->scales.load);
+  Eigen::VectorXd near;
+  if (coarser != nullptr && coarser->buckling.piece.motion.size() > 0)
+    near = transfer(*coarser->structure, coarser->buckling.piece.motion, *structure);
+  LinearBuckling buckling = linear_buckling(*structure, problem, count, structure->scales.load, near);
   return {std::move(structure), std::move(buckling)};
 }
 
@@ -31,7 +36,7 @@ bool within(const std::vector<std::optional<double>>& errors, double accuracy) {
 BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const Structure& structure) {
   const bool fixed = analysis.discretization.fixed_mesh;
   BucklingLoads out;
-  Level now = solve_on({std::shared_ptr<const Structure>(), &structure}, analysis.modes);
+  Level now = solve_on({std::shared_ptr<const Structure>(), &structure}, analysis.modes, nullptr);
   int factorizations = now.buckling.factorizations;
   std::vector<Differences> differences(static_cast<std::size_t>(analysis.modes));
   for (int level = 0;; ++level) {
@@ -41,7 +46,7 @@ BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const
     auto mesh = finer_mesh(now.structure->mesh, structure.one_sided);
     if (!mesh) break;
     Level next = solve_on(std::make_shared<const Structure>(on_mesh(structure, model, *std::move(mesh))),
-                          analysis.modes);
+                          analysis.modes, &now);
     factorizations += next.buckling.factorizations;
     out.factorizations = factorizations;
     const bool same_count = next.buckling.loads.size() == now.buckling.loads.size();

@@ -7,6 +7,7 @@
 
 #include "solver/accuracy/differences.h"
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/touching.h"
 #include "solver/post/state.h"
 
 namespace snapthrough {
@@ -40,12 +41,13 @@ const Structure& CriticalLoads::structure_of(int number) const {
 /// The finer mesh of a number from 1 on, built when first asked for; null when there is none.
 FineMesh* CriticalLoads::level(int number) {
   while (static_cast<int>(levels_.size()) < number) {
-    const auto mesh = finer_mesh(structure_of(static_cast<int>(levels_.size())).mesh, structure_.one_sided);
+    const Structure& coarse = structure_of(static_cast<int>(levels_.size()));
+    const auto mesh = finer_mesh(coarse.mesh, structure_.one_sided);
     if (!mesh) return nullptr;
     const Discretization& asked = analysis_.discretization;
     const double tolerance = asked.fixed_mesh ? 1e-9 : std::min(1e-7, 1e-3 * asked.accuracy);
     levels_.push_back(
-        std::make_unique<FineMesh>(on_mesh(structure_, model_, *mesh), continuation_, tolerance));
+        std::make_unique<FineMesh>(with_finer_piece(model_, coarse, *mesh), continuation_, tolerance));
   }
   return levels_[number - 1].get();
 }

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -9,6 +11,8 @@
 
 #include "solver/accuracy/buckling_loads.h"
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/touching.h"
+#include "solver/assembly/joined_supports.h"
 #include "solver/assembly/mechanism.h"
 #include "solver/post/mode.h"
 #include "solver/post/neutral_motion.h"
@@ -21,21 +25,27 @@ using Eigen::VectorXd;
 
 /// Which one-sided bases count as glued, in words.
 std::string contact_text(const Structure& structure, const Model& model) {
-  std::string text;
-  for (std::size_t i = 0; i < model.foundations.size(); ++i) {
-    const Foundation& base = model.foundations[i];
-    if (base.reaction == Reaction::bilateral || base.stiffness == 0.0) continue;
+  const std::optional<Model> joined = with_joined_supports(model);
+  const Model& laws = joined ? *joined : model;
+  struct Share {
     double glued = 0.0;
     double all = 0.0;
-    for (const FoundationPart& part : structure.foundation_parts) {
-      if (part.foundation != static_cast<int>(i)) continue;
-      const double length = length_of_element(structure, part.element);
-      all += length * (part.range[1] - part.range[0]);
-      glued += length * structure.elements->frozen_share(part.element, part.foundation);
-    }
-    text += "; one-sided foundation " + base.id + " counted as glued on " + rounded(100.0 * glued / all) +
-            " % of its range";
+  };
+  std::map<std::string, Share> shares;  // of bases that were cut into parts, too
+  for (std::size_t i = 0; i < laws.foundations.size(); ++i) {
+    const Foundation& base = laws.foundations[i];
+    if (base.reaction == Reaction::bilateral || base.stiffness == 0.0) continue;
+    const int member = index_of(laws.members, base.member);
+    Share& share = shares[base.id];
+    share.all += (base.range[1] - base.range[0]) * structure.axes[member]->length() / structure.scales.length;
+    for (int e = structure.mesh.first[member]; e < structure.mesh.first[member + 1]; ++e)
+      share.glued +=
+          length_of_element(structure, e) * structure.elements->frozen_share(e, static_cast<int>(i));
   }
+  std::string text = joined ? "; one-sided supports that oppose one another act as bilateral ones" : "";
+  for (const auto& [id, share] : shares)
+    text += "; one-sided foundation " + id + " counted as glued on " +
+            rounded(100.0 * share.glued / share.all) + " % of its range";
   return text;
 }
 
@@ -111,6 +121,7 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
     scale_to_largest(found.modes.back());
   }
   report_buckling(analysis, std::move(found), result);
+  warn_of_touching(structure, buckling.piece, result);
   result.summary.message += contact_text(structure, model);
   report_errors(analysis, loads, result);
 }

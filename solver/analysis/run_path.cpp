@@ -11,6 +11,7 @@
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/recorder.h"
 #include "solver/analysis/skipped.h"
+#include "solver/analysis/touching.h"
 #include "solver/path/trace.h"
 #include "solver/stability/branch.h"
 
@@ -259,9 +260,13 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
                const std::vector<CriticalPoint>& earlier, const Hooks& hooks, Result& result) {
   StructuralProblem problem(structure);
   Continuation continuation(problem, options_of(analysis));
-  Recorder recorder(model, analysis, structure, continuation, result);
   const auto start = start_of_path(model, structure, problem, continuation, 1.0, hooks, result);
+  if (const auto touching = with_least_piece(model, structure, problem, continuation, start, result)) {
+    result.failure.reset();
+    return follow_on(model, analysis, *touching, earlier, hooks, result);
+  }
   if (!start) return true;
+  Recorder recorder(model, analysis, structure, continuation, result);
   CriticalLoads loads(model, analysis, structure, continuation, earlier, result);
   const TraceSink sink = loads.watch(recorder.sink(hooks));
   TraceRules rules = rules_of(analysis, structure);

@@ -9,6 +9,7 @@
 
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/observer.h"
+#include "solver/analysis/touching.h"
 #include "solver/newton/contact_state.h"
 #include "solver/path/trace.h"
 #include "solver/post/neutral_motion.h"
@@ -134,6 +135,10 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   StructuralProblem problem(structure);
   Continuation continuation(problem, {});
   const auto start = start_of_path(model, structure, problem, continuation, direction, hooks, result);
+  if (const auto touching = with_least_piece(model, structure, problem, continuation, start, result)) {
+    result.failure.reset();
+    return follow(model, analysis, *touching, direction, hooks, states, result);
+  }
   if (!start) return false;
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
     if (analysis.load_factors[i] == 0.0) states.set(i, start->y, start->negative);

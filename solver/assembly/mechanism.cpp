@@ -13,6 +13,7 @@
 #include <string>
 #include <variant>
 
+#include "solver/assembly/joined_supports.h"
 #include "solver/assembly/structural_problem.h"
 
 namespace snapthrough {
@@ -28,7 +29,7 @@ constexpr double kMechanismDisplacement = 1e9;
 /// alone, and how far stiffnesses are apart says nothing of it.
 /// @param one_sided whether supports that act on one side only are there (they count as glued)
 Model of_equal_stiffness(const Model& model, bool one_sided) {
-  Model out = model;
+  Model out = with_joined_supports(model).value_or(model);
   out.monitors.clear();
   out.imperfections.clear();
   const Axes axes = make_axes(model);

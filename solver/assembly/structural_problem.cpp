@@ -59,13 +59,21 @@ Matrix3d StructuralProblem::axes_of(const std::array<int, 3>& dofs) const {
   return axes;
 }
 
+double StructuralProblem::penetration(const JointSpring& spring, const VectorXd& y, double gap) const {
+  double w = -gap;
+  for (int c = 0; c < 3; ++c) w += spring.row[c] * y[3 * spring.joint + c];
+  return w;
+}
+
 void StructuralProblem::add_joint_springs(const VectorXd& y, VectorXd& f) {
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
     const JointSpring& spring = structure_.joint_springs[i];
     double w = 0.0;
     for (int c = 0; c < 3; ++c) w += spring.row[c] * y[3 * spring.joint + c];
     const double gap = bonded_ ? 0.0 : spring.gap;
-    if (!frozen_) spring_active_[i] = bonded_ || !spring.one_sided || w > gap;
+    const bool known = spring.touch != Touch::none && std::abs(w - gap) <= kTouchBand;
+    const bool acts = known ? spring.touch == Touch::acts : w > gap;
+    if (!frozen_) spring_active_[i] = bonded_ || !spring.one_sided || acts;
     double force = spring_active_[i] ? spring.stiffness * (w - gap) : 0.0;
     if (spring.one_sided) force *= softness_;
     if (spring.one_sided) force += grip_ * spring.stiffness * w;
@@ -299,11 +307,63 @@ void StructuralProblem::freeze_contact(const VectorXd& y, double tolerance) {
   structure_.elements->freeze_contact(y, tolerance);
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
     const JointSpring& spring = structure_.joint_springs[i];
-    double w = -spring.gap;
-    for (int c = 0; c < 3; ++c) w += spring.row[c] * y[3 * spring.joint + c];
-    spring_active_[i] = !spring.one_sided || w > -tolerance;
+    spring_active_[i] = !spring.one_sided || penetration(spring, y, spring.gap) > -tolerance;
   }
   frozen_ = true;
+  mark_touching(y, tolerance);
+}
+
+void StructuralProblem::mark_touching(const VectorXd& y, double tolerance) {
+  structure_.elements->mark_touching(y, tolerance);
+  spring_touches_.clear();
+  for (const JointSpring& spring : structure_.joint_springs)
+    spring_touches_.push_back(spring.one_sided && std::abs(penetration(spring, y, spring.gap)) <= tolerance);
+}
+
+std::size_t StructuralProblem::touching_springs() const {
+  return static_cast<std::size_t>(std::count(spring_touches_.begin(), spring_touches_.end(), 1)) +
+         structure_.elements->touching_stations().size();
+}
+
+void StructuralProblem::touching_movements(const VectorXd& mode, std::vector<double>& out) const {
+  out.clear();
+  for (std::size_t i = 0; i < spring_touches_.size(); ++i)
+    if (spring_touches_[i] != 0) out.push_back(penetration(structure_.joint_springs[i], mode, 0.0));
+  structure_.elements->touching_movements(mode, out);
+}
+
+void StructuralProblem::set_touching(const VectorXd& mode, std::span<const char> springs) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < spring_touches_.size(); ++i)
+    if (spring_touches_[i] != 0) spring_active_[i] = springs[next++];
+  structure_.elements->set_touching(mode, springs.subspan(next));
+}
+
+TouchingSupports StructuralProblem::touching() const {
+  constexpr double kNoPart = 1e-9;  // of an element
+  const auto touch = [](bool acts) { return acts ? Touch::acts : Touch::absent; };
+  TouchingSupports out;
+  for (std::size_t i = 0; i < spring_touches_.size(); ++i)
+    if (spring_touches_[i] != 0)
+      out.springs.push_back({structure_.joint_springs[i].spring, touch(spring_active_[i] != 0)});
+  for (const TouchingStation& station : structure_.elements->touching_stations())
+    if (station.spring >= 0) out.springs.push_back({station.spring, touch(station.acts)});
+  for (const TouchingStrip& strip : structure_.elements->touching_strips()) {
+    const MeshElement& cell = structure_.mesh.elements[strip.element];
+    const auto add = [&](double from, double to, bool acts) {
+      const double width = cell.to - cell.from;
+      if (to - from > kNoPart)
+        out.bases.push_back({strip.base, {cell.from + from * width, cell.from + to * width}, touch(acts)});
+    };
+    double from = strip.range[0];
+    for (const ContactStrip::Interval& interval : strip.acting) {
+      add(from, interval.from, false);
+      add(interval.from, interval.to, true);
+      from = interval.to;
+    }
+    add(from, strip.range[1], false);
+  }
+  return out;
 }
 
 double StructuralProblem::largest_axial_force(std::size_t member, const VectorXd& response) const {

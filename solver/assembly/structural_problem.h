@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "solver/assembly/chain.h"
@@ -60,6 +62,20 @@ class StructuralProblem final : public EquilibriumProblem {
                                                 const Eigen::VectorXd& direction);
   /// @brief From now on one-sided supports are glued where they touch at y, and absent elsewhere.
   void freeze_contact(const Eigen::VectorXd& y, double tolerance);
+  /// @brief Finds the one-sided supports that touch without pressure at y: no further from touching than
+  /// `tolerance`, bases on all of their part of an element. freeze_contact() does so, too.
+  void mark_touching(const Eigen::VectorXd& y, double tolerance);
+  [[nodiscard]] bool bases_touch() const { return structure_.elements->strips_touch(); }
+  [[nodiscard]] std::size_t touching_springs() const;
+  /// @brief Movement of each touching spring into its medium.
+  void touching_movements(const Eigen::VectorXd& mode, std::vector<double>& out) const;
+  /// @brief Where the contact is frozen: of the supports that touch these springs act, and bases where `mode`
+  /// moves into them.
+  /// @param mode empty: bases act wherever they touch
+  /// @param springs one a touching spring
+  void set_touching(const Eigen::VectorXd& mode, std::span<const char> springs);
+  /// As set_touching() left them.
+  [[nodiscard]] TouchingSupports touching() const;
 
  private:
   [[nodiscard]] double largest_axial_force(std::size_t member, const Eigen::VectorXd& response) const;
@@ -72,6 +88,7 @@ class StructuralProblem final : public EquilibriumProblem {
   }
   void start_residual(double lambda, Eigen::VectorXd& f) const;
   void turn_to_supports(Eigen::VectorXd& f) const;
+  [[nodiscard]] double penetration(const JointSpring& spring, const Eigen::VectorXd& y, double gap) const;
   void add_joint_springs(const Eigen::VectorXd& y, Eigen::VectorXd& f);
   void add_holds(const Eigen::VectorXd& y, Eigen::VectorXd& f) const;
   /// Stiffness of a joint spring in the tangent, as add_joint_springs() last found it.
@@ -104,6 +121,7 @@ class StructuralProblem final : public EquilibriumProblem {
   Eigen::VectorXd joint_rhs_, free_rhs_;  ///< scratch of solve
   FollowerEnds follower_ends_;
   std::vector<char> spring_active_;
+  std::vector<char> spring_touches_;  ///< as mark_touching() found them
   SharedHolds holds_;
   Eigen::MatrixXd hold_matrix_;  ///< of the holds, in the axes of the supports
   Stage stage_ = Stage::proportional;

@@ -10,6 +10,7 @@
 
 #include "solver/assembly/axis_offset.h"
 #include "solver/assembly/base_stations.h"
+#include "solver/assembly/joined_supports.h"
 
 namespace snapthrough {
 namespace {
@@ -19,7 +20,8 @@ using Vec3 = std::array<double, 3>;
 /// Builds a Structure stage by stage; one object a call of make_structure.
 class Builder {
  public:
-  Builder(const Model& model, Structure& out) : model_(model), out_(out) {}
+  /// @param laws the model with the supports that the equations have
+  Builder(const Model& model, const Model& laws, Structure& out) : model_(model), laws_(laws), out_(out) {}
 
   void set_scales();
   void number_unknowns();
@@ -33,9 +35,12 @@ class Builder {
  private:
   void add_element_supports(int element);
   void add_foundation(int element, int index);
-  [[nodiscard]] ContactStrip make_strip(int element, int index, double modulus,
+  void add_base(int element, int index);
+  void add_strips(int element, int index);
+  [[nodiscard]] Touch touch_of_spring(std::size_t index) const;
+  [[nodiscard]] ContactStrip make_strip(int element, const Foundation& base, int index,
                                         std::array<double, 2> range) const;
-  void add_point_spring(int element, const Spring& spring);
+  void add_point_spring(int element, std::size_t index);
   void add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const;
   void add_distributed(const DistributedLoad& load);
   [[nodiscard]] Eigen::VectorXd& pattern(Pattern p) {
@@ -56,6 +61,7 @@ class Builder {
   };
 
   const Model& model_;
+  const Model& laws_;
   Structure& out_;
   std::vector<ElementPressure> pressures_;
   double strain_size_ = 0.0;  ///< forces that the proportional initial strains would need
@@ -146,9 +152,10 @@ void Builder::number_unknowns() {
   out_.constant_load = Eigen::VectorXd::Zero(out_.size);
 }
 
-ContactStrip Builder::make_strip(int element, int index, double modulus, std::array<double, 2> range) const {
-  const Foundation& base = model_.foundations[index];
+ContactStrip Builder::make_strip(int element, const Foundation& base, int index,
+                                 std::array<double, 2> range) const {
   const MeshElement& e = out_.mesh.elements[element];
+  const double modulus = base.stiffness * out_.scales.length * out_.scales.length / out_.scales.force;
   ContactStrip::Direction direction;
   if (base.direction) {
     direction.fixed = base_direction(out_, base, element, 0.0);
@@ -162,26 +169,58 @@ ContactStrip Builder::make_strip(int element, int index, double modulus, std::ar
                       base.gap / out_.scales.length, index);
 }
 
+/// A foundation of the model: where it lies, as results are read from it.
 void Builder::add_foundation(int element, int index) {
   const Foundation& base = model_.foundations[index];
   const auto range = overlap(out_.mesh.elements[element], base.range);
   if (range[1] <= range[0]) return;
   out_.foundation_parts.push_back({index, element, range, std::nullopt});
+  if (base.stiffness > 0.0 && base.reaction != Reaction::bilateral)
+    out_.foundation_parts.back().strip = make_strip(element, base, index, range);
+}
+
+/// A base as it acts in the equations.
+void Builder::add_base(int element, int index) {
+  const Foundation& base = laws_.foundations[index];
+  const auto range = overlap(out_.mesh.elements[element], base.range);
+  if (range[1] <= range[0]) return;
   if (base.shear_stiffness > 0.0)
     for (const Station& station : shear_layer_stations(out_, base, element, range))
       out_.elements->add_station(station);
   if (base.stiffness == 0.0) return;
-  const double modulus = base.stiffness * out_.scales.length * out_.scales.length / out_.scales.force;
-  const bool one_sided = base.reaction != Reaction::bilateral;
-  if (one_sided) out_.foundation_parts.back().strip = make_strip(element, index, modulus, range);
-  if (one_sided && out_.mesh.foundation == FoundationRule::consistent)
-    out_.elements->add_strip(element, *out_.foundation_parts.back().strip);
+  if (base.reaction != Reaction::bilateral && out_.mesh.foundation == FoundationRule::consistent)
+    add_strips(element, index);
   else
     for (const Station& station : winkler_stations(out_, base, element, range))
       out_.elements->add_station(station);
 }
 
-void Builder::add_point_spring(int element, const Spring& spring) {
+/// A one-sided base on an element: the parts that touch without pressure apart from the rest.
+void Builder::add_strips(int element, int index) {
+  const Foundation& base = laws_.foundations[index];
+  const auto add = [&](std::array<double, 2> fractions, Touch touch) {
+    const auto range = overlap(out_.mesh.elements[element], fractions);
+    if (range[1] > range[0])
+      out_.elements->add_strip(element, make_strip(element, base, index, range), touch);
+  };
+  double from = base.range[0];
+  for (const TouchingSupports::BasePart& part : out_.touching.bases) {
+    if (part.base != index) continue;
+    add({from, part.range[0]}, Touch::none);
+    add(part.range, part.touch);
+    from = part.range[1];
+  }
+  add({from, base.range[1]}, Touch::none);
+}
+
+Touch Builder::touch_of_spring(std::size_t index) const {
+  for (const TouchingSupports::Spring& spring : out_.touching.springs)
+    if (spring.spring == static_cast<int>(index)) return spring.touch;
+  return Touch::none;
+}
+
+void Builder::add_point_spring(int element, std::size_t index) {
+  const Spring& spring = laws_.springs[index];
   const MeshPlace place = place_of(out_.mesh, out_.mesh.elements[element].member, spring.at.fraction);
   if (place.element != element || spring.stiffness == 0.0) return;
   const double L = out_.scales.length;
@@ -201,6 +240,8 @@ void Builder::add_point_spring(int element, const Spring& spring) {
   station.stiffness = spring.stiffness / unit;
   station.gap = spring.reaction == Reaction::bilateral ? 0.0 : spring.gap / travel;
   station.one_sided = spring.reaction != Reaction::bilateral;
+  station.touch = touch_of_spring(index);
+  station.spring = static_cast<int>(index);
   out_.elements->add_station(station);
 }
 
@@ -208,8 +249,10 @@ void Builder::add_element_supports(int element) {
   const std::string& member = model_.members[out_.mesh.elements[element].member].id;
   for (std::size_t i = 0; i < model_.foundations.size(); ++i)
     if (model_.foundations[i].member == member) add_foundation(element, static_cast<int>(i));
-  for (const Spring& spring : model_.springs)
-    if (spring.at.member == member) add_point_spring(element, spring);
+  for (std::size_t i = 0; i < laws_.foundations.size(); ++i)
+    if (laws_.foundations[i].member == member) add_base(element, static_cast<int>(i));
+  for (std::size_t i = 0; i < laws_.springs.size(); ++i)
+    if (laws_.springs[i].at.member == member) add_point_spring(element, i);
 }
 
 void Builder::add_elements(Geometry geometry) {
@@ -237,7 +280,8 @@ void Builder::add_supports() {
     const Vec3 value{d.x / out_.scales.length, d.y / out_.scales.length, d.rotation};
     (d.pattern == Pattern::proportional ? joint.proportional : joint.constant) = value;
   }
-  for (const Spring& spring : model_.springs) {
+  for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
+    const Spring& spring = laws_.springs[i];
     if (spring.at.node.empty() || spring.stiffness == 0.0) continue;
     JointSpring js;
     js.joint = index_of(model_.nodes, spring.at.node);
@@ -253,6 +297,8 @@ void Builder::add_supports() {
     }
     js.one_sided = spring.reaction != Reaction::bilateral;
     if (!js.one_sided) js.gap = 0.0;
+    js.touch = touch_of_spring(i);
+    js.spring = static_cast<int>(i);
     out_.joint_springs.push_back(js);
   }
 }
@@ -478,7 +524,9 @@ namespace {
 
 /// Everything that follows from the model, the axes, the geometry and the mesh, which are set.
 void fill(const Model& model, std::optional<double> load_scale, Structure& out) {
-  Builder builder(model, out);
+  const std::optional<Model> joined = with_joined_supports(model);
+  const Model& laws = joined ? *joined : model;
+  Builder builder(model, laws, out);
   builder.set_scales();
   builder.number_unknowns();
   builder.add_elements(out.geometry);
@@ -486,9 +534,9 @@ void fill(const Model& model, std::optional<double> load_scale, Structure& out) 
   builder.add_loads(load_scale);
   builder.set_metric();
   builder.add_monitors();
-  for (const Foundation& base : model.foundations)
+  for (const Foundation& base : laws.foundations)
     out.one_sided = out.one_sided || (base.reaction != Reaction::bilateral && base.stiffness > 0.0);
-  for (const Spring& spring : model.springs)
+  for (const Spring& spring : laws.springs)
     out.one_sided = out.one_sided || (spring.reaction != Reaction::bilateral && spring.stiffness > 0.0);
   for (const Load& load : model.loads)
     out.has_constant =
@@ -534,16 +582,29 @@ Structure make_structure(const Model& model, const Discretization& discretizatio
   return out;
 }
 
-Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh) {
+namespace {
+
+Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, TouchingSupports touching) {
   Structure out;
   out.geometry = structure.geometry;
   out.axes = structure.axes;
   out.origin = structure.origin;
   out.stress_free = structure.stress_free;
   out.mesh = std::move(mesh);
+  out.touching = std::move(touching);
   fill(model, structure.scales.load, out);
   out.free_motions = structure.free_motions;
   return out;
+}
+
+}  // namespace
+
+Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh) {
+  return built_anew(structure, model, std::move(mesh), structure.touching);
+}
+
+Structure with_touching(const Structure& structure, const Model& model, TouchingSupports touching) {
+  return built_anew(structure, model, structure.mesh, std::move(touching));
 }
 
 }  // namespace snapthrough

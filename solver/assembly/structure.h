@@ -42,6 +42,27 @@ struct JointSpring {
   double stiffness = 0.0;
   double gap = 0.0;
   bool one_sided = false;
+  Touch touch = Touch::none;
+  int spring = -1;  ///< its number among the springs
+};
+
+/// @brief One-sided supports that touch without pressure, and which of them the motion of least load meets.
+///
+/// Numbers are those of with_joined_supports(), or of the model where nothing is joined.
+struct TouchingSupports {
+  struct BasePart {
+    int base = 0;
+    std::array<double, 2> range{};  ///< fractions of the member
+    Touch touch = Touch::none;
+  };
+  struct Spring {
+    int spring = 0;
+    Touch touch = Touch::none;
+  };
+  std::vector<BasePart> bases;  ///< of each base ascending, none twice
+  std::vector<Spring> springs;
+  Eigen::VectorXd motion;  ///< of least load: unknowns of the mesh where it was found
+  double reference = 0.0;  ///< load factor under which they touch
 };
 
 /// Linear functional of the unknowns.
@@ -94,6 +115,7 @@ struct Structure {
   std::vector<double> euler_loads;  ///< pi^2 EI / l^2 of each member
   std::vector<double>
       base_loads;             ///< 2 sqrt(K EI) + G of the bases of each member: what they can add to that
+  TouchingSupports touching;  ///< empty unless they were looked for
   bool one_sided = false;     ///< some base or spring is not bilateral
   bool has_constant = false;  ///< some action has the constant pattern
   /// Motions of the joints (x, y, rotation each, scaled) that supports of one side alone can resist, or
@@ -108,6 +130,9 @@ struct Structure {
                                        MeshUse use = MeshUse::final);
 /// @brief The structure of the same model, with the same imperfections and scales, on another mesh.
 [[nodiscard]] Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh);
+/// @brief The same structure, in which it is known what supports do that touch without pressure.
+[[nodiscard]] Structure with_touching(const Structure& structure, const Model& model,
+                                      TouchingSupports touching);
 
 /// @brief Bases and springs that are left out because their stiffness is zero, in words.
 [[nodiscard]] std::vector<std::string> without_stiffness(const Model& model);

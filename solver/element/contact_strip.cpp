@@ -299,6 +299,13 @@ void ContactStrip::penetrations(std::array<double, 2> ua, std::span<const double
   }
 }
 
+bool ContactStrip::is_near(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                           double distance) const {
+  Values g;
+  penetrations(ua, dx, dy, gap_, g);
+  return std::all_of(g.begin(), g.begin() + count_, [distance](double w) { return std::abs(w) <= distance; });
+}
+
 /// The intervals in contact from the penetration, less a depth, and its values g at the samples.
 template <class Gap>
 void ContactStrip::search(const Gap& gap, const Values& g, std::vector<Interval>& out) const {

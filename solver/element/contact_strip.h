@@ -58,6 +58,9 @@ class ContactStrip {
   /// @brief d penetration / d xi.
   [[nodiscard]] double penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                          std::span<const double> dy) const;
+  /// @brief Whether it is nowhere on the range further from touching than `distance`.
+  [[nodiscard]] bool is_near(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                             double distance) const;
   /// @brief Intervals of [0, 1] in contact (g > depth), ascending; `out` is overwritten.
   void contact_intervals(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                          std::vector<Interval>& out, double depth = 0.0) const;

@@ -53,6 +53,12 @@ struct ElementShape {
   std::vector<double> bending_compliance;  ///< k per M
 };
 
+/// What a one-sided support does that touches without pressure, as long as it is this near to touching: known
+/// from the motion that it meets first, which rounding does not tell. `none`: the support is no such one.
+enum class Touch : char { none, absent, acts };
+/// Distance from touching, over the structure's length, that rounding leaves next to a critical point.
+inline constexpr double kTouchBand = 1e-7;
+
 /// A linear functional of one element's displacements, w = a.u_a + sum_q v_q.(u'_q, b'_q), with a spring on
 /// it.
 struct Station {
@@ -60,8 +66,24 @@ struct Station {
   double stiffness = 0.0;
   double gap = 0.0;
   bool one_sided = false;  ///< reacts with stiffness * max(w - gap, 0) instead of stiffness * w
+  Touch touch = Touch::none;
+  int spring = -1;  ///< its number among the springs; none: part of a base
   std::array<double, 3> a{};
   std::vector<std::array<double, 3>> v;
+};
+
+/// A station that touches without pressure.
+struct TouchingStation {
+  int spring = -1;  ///< as in Station
+  bool acts = false;
+};
+
+/// Where a strip that touches without pressure acts.
+struct TouchingStrip {
+  int element = 0;
+  int base = 0;
+  std::array<double, 2> range{};  ///< of the element
+  std::vector<ContactStrip::Interval> acting;
 };
 
 /// What remains of an element once its interior is eliminated; with rows for (u_a, m):
@@ -92,7 +114,7 @@ class ElementSet {
   /// @brief Adds an element; elements are numbered in the order of adding.
   virtual void add(const ElementShape& shape, const ElementDofs& dofs) = 0;
   virtual void add_station(const Station& station) = 0;
-  virtual void add_strip(int element, ContactStrip strip) = 0;
+  virtual void add_strip(int element, ContactStrip strip, Touch touch) = 0;
   /// Uses small displacements: strains linearised about the stress-free axis.
   virtual void set_linear_geometry(bool linear) = 0;
   /// Treats one-sided supports as glued and without gap, as long as it is set.
@@ -104,6 +126,19 @@ class ElementSet {
   /// @brief From now on one-sided supports are glued where they touch at y (penetration above `-tolerance`)
   /// and absent elsewhere, whatever the displacements.
   virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance) = 0;
+  /// @brief Finds the one-sided supports that touch without pressure at y: those no further from touching
+  /// than `tolerance`, strips on all of their range. freeze_contact() does so, too.
+  virtual void mark_touching(const Eigen::VectorXd& y, double tolerance) = 0;
+  [[nodiscard]] virtual bool strips_touch() const = 0;
+  /// In the order of the two functions below.
+  [[nodiscard]] virtual std::vector<TouchingStation> touching_stations() const = 0;
+  /// Appends the movement of each touching station into its medium.
+  virtual void touching_movements(const Eigen::VectorXd& mode, std::vector<double>& out) const = 0;
+  /// @brief Where the contact is frozen: of the supports that touch these stations act, and strips where
+  /// `mode` moves into their medium; with an empty mode they act on all of their range.
+  virtual void set_touching(const Eigen::VectorXd& mode, std::span<const char> stations) = 0;
+  /// As set_touching() left them.
+  [[nodiscard]] virtual std::vector<TouchingStrip> touching_strips() const = 0;
   /// Share of an element on which a foundation's frozen contact acts.
   [[nodiscard]] virtual double frozen_share(int element, int foundation) const = 0;
   /// @brief Follower pressure of an element: force per deformed length, along its deformed right normal (so a

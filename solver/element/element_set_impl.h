@@ -44,13 +44,19 @@ class ElementSetOf final : public ElementSet {
   }
   void add(const ElementShape& shape, const ElementDofs& dofs) override;
   void add_station(const Station& station) override;
-  void add_strip(int element, ContactStrip strip) override;
+  void add_strip(int element, ContactStrip strip, Touch touch) override;
   void set_linear_geometry(bool linear) override { linear_ = linear; }
   void set_bonded(bool bonded) override { bonded_ = bonded; }
   void set_grip(double share) override { grip_ = share; }
   void set_softness(double share) override { softness_ = share; }
   [[nodiscard]] double support_rounding() const override { return support_rounding_; }
   void freeze_contact(const Eigen::VectorXd& y, double tolerance) override;
+  void mark_touching(const Eigen::VectorXd& y, double tolerance) override;
+  [[nodiscard]] bool strips_touch() const override;
+  [[nodiscard]] std::vector<TouchingStation> touching_stations() const override;
+  void touching_movements(const Eigen::VectorXd& mode, std::vector<double>& out) const override;
+  void set_touching(const Eigen::VectorXd& mode, std::span<const char> stations) override;
+  [[nodiscard]] std::vector<TouchingStrip> touching_strips() const override;
   [[nodiscard]] double frozen_share(int element, int foundation) const override;
   void set_pressure(int element, double proportional, double constant) override;
   void set_load_factors(double proportional, double constant) override {
@@ -89,6 +95,8 @@ class ElementSetOf final : public ElementSet {
     double stiffness = 0.0;
     double gap = 0.0;
     bool one_sided = false;
+    Touch touch = Touch::none;
+    int spring = -1;
     std::array<double, 3> a{};
     std::array<Gauss, 3> v{};
   };
@@ -159,6 +167,13 @@ class ElementSetOf final : public ElementSet {
     return N == kStrains || i < P ? i : i + P;
   }
 
+  /// Displacement at an element's start and h times u'_x, u'_y at the Gauss points, as strips read them.
+  struct StripMovement {
+    std::array<double, 2> start;
+    Gauss dx, dy;
+  };
+  [[nodiscard]] StripMovement movement_of(const Shape& shape, const ElementDofs& dofs, const double* y) const;
+
   const CollocationRule* rule_;
   Gauss b_{};
   std::array<Gauss, P> a_{};  ///< A_qr
@@ -172,6 +187,8 @@ class ElementSetOf final : public ElementSet {
   bool frozen_ = false;  ///< contact is as in frozen_intervals_ and frozen_stations_
   std::vector<std::vector<ContactStrip::Interval>> frozen_intervals_;
   std::vector<char> frozen_stations_;
+  std::vector<char> touching_strips_;  ///< as mark_touching() found them
+  std::vector<char> touching_stations_;
   /// On contact intervals: exact for straight axes, and near enough for turning normals that the energy's
   /// edge terms vanish as they must (the tangent then is the derivative of the residual).
   Quadrature strip_quadrature_;
@@ -183,6 +200,7 @@ class ElementSetOf final : public ElementSet {
   std::vector<Interior<3 * P>> shearable_;
   std::vector<Functional> stations_;
   std::vector<ContactStrip> strips_;
+  std::vector<Touch> strip_touch_;
   std::vector<std::vector<Functional>> whole_strips_;  ///< Gauss points of each strip's whole range
   // scratch
   std::vector<Functional> acting_;  ///< supports of the current element that act
@@ -237,6 +255,8 @@ void ElementSetOf<P>::add_station(const Station& station) {
   f.stiffness = station.stiffness;
   f.gap = station.gap;
   f.one_sided = station.one_sided;
+  f.touch = station.touch;
+  f.spring = station.spring;
   f.a = station.a;
   for (int q = 0; q < P; ++q)
     for (int c = 0; c < 3; ++c) f.v[c][q] = station.v[q][c];
@@ -245,7 +265,8 @@ void ElementSetOf<P>::add_station(const Station& station) {
 }
 
 template <int P>
-void ElementSetOf<P>::add_strip(int element, ContactStrip strip) {
+void ElementSetOf<P>::add_strip(int element, ContactStrip strip, Touch touch) {
+  strip_touch_.push_back(touch);
   std::vector<Functional>& whole = whole_strips_.emplace_back();
   const auto [from, to] = strip.range();
   for (const double point : strip_quadrature_.points)

@@ -5,22 +5,32 @@
 
 namespace snapthrough {
 
+template <int P>
+auto ElementSetOf<P>::movement_of(const Shape& shape, const ElementDofs& dofs, const double* y) const
+    -> StripMovement {
+  StripMovement u{{y[dofs.a[0]], y[dofs.a[1]]}, {}, {}};
+  for (int q = 0; q < P; ++q) {
+    u.dx[q] = shape.h * y[dofs.v + q];
+    u.dy[q] = shape.h * y[dofs.v + P + q];
+  }
+  return u;
+}
+
 /// Appends the Gauss points of the strip's contact intervals to acting_.
 template <int P>
 void ElementSetOf<P>::collect_strip(std::size_t index, const double* y, const ElementDofs& dofs,
                                     const Shape& shape) {
   const ContactStrip& strip = strips_[index];
-  Gauss dx, dy;
-  for (int q = 0; q < P; ++q) {
-    dx[q] = shape.h * y[dofs.v + q];
-    dy[q] = shape.h * y[dofs.v + P + q];
-  }
+  const StripMovement u = movement_of(shape, dofs, y);
+  const Touch touch = strip_touch_[index];
   if (frozen_)
     intervals_ = frozen_intervals_[index];
   else if (bonded_)
     intervals_.assign(1, {strip.range()[0], strip.range()[1]});
+  else if (touch != Touch::none && strip.is_near(u.start, u.dx, u.dy, kTouchBand))
+    intervals_.assign(touch == Touch::acts ? 1 : 0, {strip.range()[0], strip.range()[1]});
   else
-    strip.contact_intervals({y[dofs.a[0]], y[dofs.a[1]]}, dx, dy, intervals_);
+    strip.contact_intervals(u.start, u.dx, u.dy, intervals_);
   for (const auto& interval : intervals_)
     add_interval(index, shape, interval, softness_ * strip.modulus(), bonded_ ? 0.0 : strip.gap());
   if (grip_ > 0.0)
@@ -65,7 +75,9 @@ template <int P>
 bool ElementSetOf<P>::acts(const Functional& f, std::size_t station, const ElementDofs& dofs,
                            const double* y) const {
   if (!f.one_sided || bonded_) return true;
-  return frozen_ ? frozen_stations_[station] != 0 : value(f, dofs, y) > f.gap;
+  if (frozen_) return frozen_stations_[station] != 0;
+  const double w = value(f, dofs, y) - f.gap;
+  return f.touch != Touch::none && std::abs(w) <= kTouchBand ? f.touch == Touch::acts : w > 0.0;
 }
 
 template <int P>
@@ -117,19 +129,76 @@ void ElementSetOf<P>::freeze_contact(const Eigen::VectorXd& y, double tolerance)
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
     const ElementDofs& dofs = dofs_[e];
-    Gauss dx, dy;
-    for (int q = 0; q < P; ++q) {
-      dx[q] = shape.h * y[dofs.v + q];
-      dy[q] = shape.h * y[dofs.v + P + q];
-    }
+    const StripMovement u = movement_of(shape, dofs, y.data());
     for (int i = shape.first_strip; i < shape.first_strip + shape.strip_count; ++i)
-      strips_[i]
-          .with_gap(strips_[i].gap() - tolerance)
-          .contact_intervals({y[dofs.a[0]], y[dofs.a[1]]}, dx, dy, frozen_intervals_[i]);
+      strips_[i].contact_intervals(u.start, u.dx, u.dy, frozen_intervals_[i], -tolerance);
     for (int i = shape.first_station; i < shape.first_station + shape.station_count; ++i)
       frozen_stations_[i] = value(stations_[i], dofs, y.data()) > stations_[i].gap - tolerance;
   }
   frozen_ = true;
+  mark_touching(y, tolerance);
+}
+
+template <int P>
+void ElementSetOf<P>::mark_touching(const Eigen::VectorXd& y, double tolerance) {
+  touching_strips_.assign(strips_.size(), 0);
+  touching_stations_.assign(stations_.size(), 0);
+  for (int e = 0; e < size(); ++e) {
+    const Shape& shape = shapes_[e];
+    const StripMovement u = movement_of(shape, dofs_[e], y.data());
+    for (int i = shape.first_strip; i < shape.first_strip + shape.strip_count; ++i)
+      touching_strips_[i] = strips_[i].is_near(u.start, u.dx, u.dy, tolerance);
+    for (int i = shape.first_station; i < shape.first_station + shape.station_count; ++i)
+      touching_stations_[i] = stations_[i].one_sided && std::abs(value(stations_[i], dofs_[e], y.data()) -
+                                                                 stations_[i].gap) <= tolerance;
+  }
+}
+
+template <int P>
+bool ElementSetOf<P>::strips_touch() const {
+  return std::find(touching_strips_.begin(), touching_strips_.end(), 1) != touching_strips_.end();
+}
+
+template <int P>
+std::vector<TouchingStation> ElementSetOf<P>::touching_stations() const {
+  std::vector<TouchingStation> out;
+  for (std::size_t i = 0; i < touching_stations_.size(); ++i)
+    if (touching_stations_[i] != 0) out.push_back({stations_[i].spring, frozen_ && frozen_stations_[i] != 0});
+  return out;
+}
+
+template <int P>
+void ElementSetOf<P>::touching_movements(const Eigen::VectorXd& mode, std::vector<double>& out) const {
+  for (int e = 0; e < size(); ++e)
+    for (int i = shapes_[e].first_station; i < shapes_[e].first_station + shapes_[e].station_count; ++i)
+      if (touching_stations_[i] != 0) out.push_back(value(stations_[i], dofs_[e], mode.data()));
+}
+
+template <int P>
+void ElementSetOf<P>::set_touching(const Eigen::VectorXd& mode, std::span<const char> stations) {
+  auto next = stations.begin();
+  for (std::size_t i = 0; i < stations_.size(); ++i)
+    if (touching_stations_[i] != 0) frozen_stations_[i] = *next++;
+  for (int e = 0; e < size(); ++e) {
+    for (int i = shapes_[e].first_strip; i < shapes_[e].first_strip + shapes_[e].strip_count; ++i) {
+      if (touching_strips_[i] == 0) continue;
+      frozen_intervals_[i].assign(1, {strips_[i].range()[0], strips_[i].range()[1]});
+      if (mode.size() == 0) continue;
+      const StripMovement u = movement_of(shapes_[e], dofs_[e], mode.data());
+      strips_[i].contact_intervals(u.start, u.dx, u.dy, frozen_intervals_[i], -strips_[i].gap());
+    }
+  }
+}
+
+template <int P>
+std::vector<TouchingStrip> ElementSetOf<P>::touching_strips() const {
+  std::vector<TouchingStrip> out;
+  for (int e = 0; e < size(); ++e)
+    for (int i = shapes_[e].first_strip; i < shapes_[e].first_strip + shapes_[e].strip_count; ++i)
+      if (touching_strips_[i] != 0)
+        out.push_back({e, strips_[i].foundation(), strips_[i].range(),
+                       frozen_ ? frozen_intervals_[i] : std::vector<ContactStrip::Interval>{}});
+  return out;
 }
 
 template <int P>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "solver/linalg/pseudo_random.h"
@@ -302,22 +303,16 @@ LoadBracket enclose(Pencil& pencil, int count, int at_start) {
   return bracket;
 }
 
-}  // namespace
-
-LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem, int count,
-                               double reference) {
-  LinearBuckling out;
-  Pencil pencil(structure, problem);
-  pencil.set_prestress(reference);
-  out.holds = pencil.holds();
-  out.is_mechanism = !pencil.holds_are_idle(reference);
-  if (out.is_mechanism) return out;
+/// The lowest loads of the pencil as its contact is.
+void find_loads(Pencil& pencil, Index size, int count, LinearBuckling& out) {
+  out.loads.clear();
+  out.modes.clear();
   out.negative_at_start = pencil.count(0.0);
   const LoadBracket all = enclose(pencil, count, out.negative_at_start);
   std::vector<LoadBracket> brackets;
   isolate(pencil, all, out.negative_at_start + count, brackets);
   for (LoadBracket& bracket : brackets) {
-    auto pairs = refine(pencil, bracket, problem.size());
+    auto pairs = refine(pencil, bracket, size);
     confirm(pencil, bracket, pairs);
     for (EigenPair& pair : pairs) {
       if (static_cast<int>(out.loads.size()) == count) break;
@@ -326,6 +321,37 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
       out.modes.push_back(std::move(pair.mode));
     }
   }
+}
+
+PieceSolver solver_of(Pencil& pencil, Index size) {
+  PieceSolver solver;
+  solver.lowest = [&pencil, size]() -> std::optional<Piece> {
+    LinearBuckling found;
+    find_loads(pencil, size, 1, found);
+    if (found.loads.empty() || found.negative_at_start > 0) return std::nullopt;
+    return Piece{found.loads.front(), std::move(found.modes.front())};
+  };
+  solver.quotient = [&pencil](const VectorXd& motion) {
+    return -motion.dot(pencil.product(0.0, motion)) / motion.dot(pencil.geometric(motion));
+  };
+  return solver;
+}
+
+}  // namespace
+
+LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem, int count,
+                               double reference, const VectorXd& near) {
+  LinearBuckling out;
+  Pencil pencil(structure, problem);
+  pencil.set_prestress(reference);
+  out.holds = pencil.holds();
+  out.is_mechanism = !pencil.holds_are_idle(reference);
+  if (out.is_mechanism) return out;
+  const bool held_without = structure.free_motions.cols() == 0;
+  out.touches =
+      structure.one_sided && held_without && (problem.bases_touch() || problem.touching_springs() > 0);
+  if (out.touches) out.piece = set_least_piece(problem, solver_of(pencil, problem.size()), near);
+  find_loads(pencil, problem.size(), count, out);
   out.factorizations = pencil.factorizations();
   return out;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/assembly/structural_problem.h"
+#include "solver/stability/least_piece.h"
 
 namespace snapthrough {
 
@@ -20,17 +21,22 @@ struct LinearBuckling {
   /// no reference state to linearise about. No loads then.
   bool is_mechanism = false;
   int factorizations = 0;
+  bool touches = false;  ///< some one-sided supports touch without pressure under the reference load
+  LeastPiece piece;      ///< what was found for them
 };
 
 /// @brief The lowest `count` buckling loads of a structure.
 ///
 /// Inertia counts isolate each eigenvalue or cluster (nothing is missed, repeated ones are counted), inverse
 /// iteration on a block of the cluster's size with Rayleigh-Ritz gives its values and modes. One-sided
-/// supports are glued where they touch at the linear equilibrium under the load factor `reference` and absent
-/// elsewhere; touching without force, as at rest, counts as contact.
+/// supports are glued where they are pressed at the linear equilibrium under the load factor `reference` and
+/// absent where they are left. Those that touch without pressure act in the piece that becomes unstable first
+/// (set_least_piece()): the first load is the critical one, the others are those of the same piece. Where
+/// nothing else holds the structure they are glued.
 /// @param structure not linear in its geometry; its contact state is frozen on return
 /// @param reference scaled load factor of the reference load
+/// @param near the first mode on a coarser mesh, where supports touch without pressure; empty: not known
 [[nodiscard]] LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem,
-                                             int count, double reference);
+                                             int count, double reference, const Eigen::VectorXd& near = {});
 
 }  // namespace snapthrough

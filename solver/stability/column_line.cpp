@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "solver/assembly/joined_supports.h"
 #include "solver/mesh/mesh.h"
 
 namespace snapthrough {
@@ -406,7 +407,8 @@ bool LineReader::read() {
 }  // namespace
 
 std::optional<ColumnLine> column_line(const Model& model) {
-  LineReader reader(model);
+  const std::optional<Model> joined = with_joined_supports(model);
+  LineReader reader(joined ? *joined : model);
   if (!reader.read()) return std::nullopt;
   return reader.take();
 }

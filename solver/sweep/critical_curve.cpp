@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/touching.h"
 #include "solver/assembly/mechanism.h"
 #include "solver/path/trace.h"
 
@@ -61,6 +62,15 @@ struct Family {
         problem(structure),
         continuation(problem, {}) {
     structure.free_motions = free_motions(model);
+  }
+  Family(Model model_of_value, Structure known)
+      : model(std::move(model_of_value)),
+        structure(std::move(known)),
+        problem(structure),
+        continuation(problem, {}) {}
+
+  [[nodiscard]] std::optional<PathPoint> start(Result& result) {
+    return start_of_path(model, structure, problem, continuation, 1.0, {}, result);
   }
 
   Model model;
@@ -279,8 +289,13 @@ CriticalCurvePoint Follower::trace_at(double value) {
   CriticalCurvePoint point{value, std::nullopt, CriticalType::limit_max, false, ""};
   auto member = std::make_unique<Family>(request_, value);
   Result result;
-  const auto start =
-      start_of_path(member->model, member->structure, member->problem, member->continuation, 1.0, {}, result);
+  auto start = member->start(result);
+  auto touching = with_least_piece(member->model, member->structure, member->problem, member->continuation,
+                                   start, result);
+  if (touching) {
+    member = std::make_unique<Family>(Model(member->model), std::move(*touching));
+    start = member->start(result);
+  }
   if (!start) {
     point.failure = result.failure ? result.failure->code : "no_start";
     return point;
@@ -293,8 +308,8 @@ CriticalCurvePoint Follower::trace_at(double value) {
     const CriticalEvent& event = outcome.critical.back();
     point.load_factor = event.point.lambda / member->structure.scales.load;
     point.type = event.type;
-    // what is held where nothing resists it belongs to the one path
-    if (event.cause == CriticalCause::smooth && event.multiplicity == 1 && !event.point.holds) {
+    // what is held where nothing resists it, or acts where supports touch, belongs to the one path
+    if (!touching && event.cause == CriticalCause::smooth && event.multiplicity == 1 && !event.point.holds) {
       Expansion guess;
       guess.t = place_of(value);
       guess.reach = kReach * member->continuation.way_to(event.point);

@@ -119,6 +119,15 @@ TEST(Examples, PortalFrameSwaysAtItsBucklingLoad) {
   EXPECT_EQ(result.at("buckling").at("modes").size(), 2U);
 }
 
+// One-sided bases on both sides are one that is bilateral (P = pi^2 + K / pi^2, Hetenyi 1946), springs on
+// both sides of the middle make two half waves of one (4 pi^2). Axial strain takes P / EA; the default
+// accuracy is 1e-3.
+TEST(Examples, SupportsOnBothSidesAreBilateral) {
+  constexpr double kPi2 = std::numbers::pi * std::numbers::pi;
+  expect_relative(critical_load_factor(run_example("column_between_bases.json")), kPi2 + 100.0 / kPi2, 1e-3);
+  expect_relative(critical_load_factor(run_example("column_between_springs.json")), 4.0 * kPi2, 1e-3);
+}
+
 // Crookedness in the buckling shape grows by a P / (P_c - P), P_c = pi^2 EI/L^2 (m^2 + K L^4/(m^2 pi^4 EI))
 // with m = 2 (Hetenyi, Beams on Elastic Foundation, 1946). Left out there: slopes of 2 a pi / L, and the
 // strain P / EA.
