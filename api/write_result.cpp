@@ -23,6 +23,8 @@ const char* to_name(CriticalType type) {
       return "limit_max";
     case CriticalType::limit_min:
       return "limit_min";
+    case CriticalType::broken_bifurcation:
+      return "broken_bifurcation";
   }
   throw std::invalid_argument("critical type out of range");
 }
@@ -91,6 +93,7 @@ Json write(const CriticalPoint& point) {
           {"negative_before", count_or_null(point.negative_before)},
           {"negative_after", count_or_null(point.negative_after)},
           {"multiplicity", point.multiplicity},
+          {"imperfection", or_null(point.imperfection)},
           {"state", or_null(point.state)},
           {"mode", point.mode ? write(*point.mode) : Json(nullptr)}};
 }

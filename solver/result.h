@@ -10,7 +10,12 @@
 
 namespace snapthrough {
 
-enum class CriticalType { bifurcation, limit_max, limit_min };
+/// broken_bifurcation: a bifurcation beside the path, which passes it by because of an imperfection.
+enum class CriticalType { bifurcation, limit_max, limit_min, broken_bifurcation };
+
+[[nodiscard]] constexpr bool is_limit(CriticalType type) {
+  return type == CriticalType::limit_max || type == CriticalType::limit_min;
+}
 /// Why stability changes at a point: an eigenvalue passes zero, or a support that begins or ceases to act
 /// changes the stiffness at once.
 enum class CriticalCause { smooth, contact };
@@ -60,6 +65,9 @@ struct CriticalPoint {
   std::optional<Mode> mode = {};
   bool confirmed = false;  ///< a second, finer mesh has the point within the accuracy that was asked for
   std::vector<MeshAnswer> meshes = {};  ///< coarsest first
+  /// Of a bifurcation: the size of what breaks it, about the root mean square slope of the imperfection's
+  /// shape; empty: not measured.
+  std::optional<double> imperfection = {};
 };
 
 /// A displacement of a node.

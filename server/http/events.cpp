@@ -26,6 +26,8 @@ const char* type_name(CriticalType type) {
       return "limit_max";
     case CriticalType::limit_min:
       return "limit_min";
+    case CriticalType::broken_bifurcation:
+      return "broken_bifurcation";
   }
   return "";
 }

@@ -135,6 +135,14 @@ void CriticalLoads::report_meshes(int finest, double largest, int without, std::
     text += "; the accuracy asked for was not reached: estimated " + rounded(largest);
 }
 
+std::optional<double> CriticalLoads::finer_imperfection(const CriticalEvent& bifurcation) {
+  FineMesh* finer = level(1);
+  if (finer == nullptr) return bifurcation.imperfection;
+  const auto found = finer->bifurcation(structure_, bifurcation);
+  if (!found) return std::nullopt;
+  return found->imperfection;
+}
+
 bool CriticalLoads::confirm_end(const PathPoint& end) {
   FineMesh* finer = level(1);
   return finer == nullptr || finer->has(structure_, end);

@@ -50,6 +50,9 @@ class CriticalLoads {
   /// it has lost stability as often as the path has.
   [[nodiscard]] bool confirm_end(const PathPoint& end);
 
+  /// @brief The imperfection of the same bifurcation on the finer mesh; empty where that does not have it.
+  [[nodiscard]] std::optional<double> finer_imperfection(const CriticalEvent& bifurcation);
+
  private:
   /// A critical point of the coarse path.
   struct Target {

@@ -6,12 +6,15 @@
 #include <vector>
 
 #include "solver/accuracy/transfer.h"
+#include "solver/stability/newton_event.h"
 
 namespace snapthrough {
 namespace {
 
 /// What is near a point: a share of the path so far.
 constexpr double kReach = 0.02;
+/// The same where there is nothing nearer.
+constexpr double kWidening = 6.0;
 
 /// The one of the found points that is the known one; nearest by load where several are alike.
 std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<CriticalEvent>& found) {
@@ -146,7 +149,7 @@ std::optional<FoundPoint> FineMesh::near(const CriticalEvent& known, const PathP
   if (!before) return std::nullopt;
   const auto after = corrected(at, 1.0, reach);
   if (!after) return std::nullopt;
-  const LocatedEvents located = locate_critical_points(continuation_, *before, *after, tolerance_);
+  const LocatedEvents located = locate_critical_points(continuation_, *before, *after, {tolerance_});
   if (!located.same_path) return std::nullopt;
   return same_as(known, located.events);
 }
@@ -162,8 +165,8 @@ std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const Pat
     const StepOutcome outcome = continuation_.step(*from, size, to);
     if (outcome == StepOutcome::step_underflow) return std::nullopt;
     const LocatedEvents located = outcome == StepOutcome::turned
-                                      ? locate_at_turn(continuation_, *from, to, size.taken, tolerance_)
-                                      : locate_critical_points(continuation_, *from, to, tolerance_);
+                                      ? locate_at_turn(continuation_, *from, to, size.taken, {tolerance_})
+                                      : locate_critical_points(continuation_, *from, to, {tolerance_});
     if (!located.same_path) {
       continuation_.reject(size);
       continue;
@@ -182,12 +185,26 @@ bool FineMesh::has(const Structure& from, const PathPoint& point) {
   return found && found->negative == point.negative && continuation_.distance(*found, at) <= reach;
 }
 
+std::optional<CriticalEvent> FineMesh::by_newton(const Structure& from, const CriticalEvent& known,
+                                                 const PathPoint& at) {
+  Eigen::MatrixXd null(structure_.size, known.null.cols());
+  for (Eigen::Index i = 0; i < null.cols(); ++i) null.col(i) = transfer(from, known.null.col(i), structure_);
+  const double reach = kReach * kWidening * continuation_.way_to(at);
+  return critical_point_near(continuation_, known, at, std::move(null), reach, tolerance_);
+}
+
+std::optional<CriticalEvent> FineMesh::bifurcation(const Structure& from, const CriticalEvent& known) {
+  return by_newton(from, known, transferred(from, known.point));
+}
+
 std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEvent& known,
                                          const Structure& base, const PathPoint& before) {
-  constexpr double kWidening = 6.0;
   const PathPoint at = transferred(from, known.point);
   const double path = continuation_.way_to(at);
   if (!(path > 0.0)) return std::nullopt;
+  if (known.null.size() > 0)
+    if (const auto event = by_newton(from, known, at)) return FoundPoint{*event, event->point};
+  if (known.type == CriticalType::broken_bifurcation) return std::nullopt;
   if (auto found = interpolated(known, at, kReach * path)) return found;
   for (const double reach : {kReach * path, kReach * kWidening * path})
     if (auto found = near(known, at, reach)) return found;

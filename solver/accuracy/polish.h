@@ -38,6 +38,9 @@ class FineMesh {
   /// @return empty when there is no such point nearby
   [[nodiscard]] std::optional<FoundPoint> find(const Structure& from, const CriticalEvent& known,
                                                const Structure& base, const PathPoint& before);
+  /// @brief The same bifurcation of this mesh, by Newton's method alone.
+  /// @pre known.null
+  [[nodiscard]] std::optional<CriticalEvent> bifurcation(const Structure& from, const CriticalEvent& known);
   /// @brief Whether this mesh has an equilibrium near a point of a coarser one, with the same inertia.
   [[nodiscard]] bool has(const Structure& from, const PathPoint& point);
 
@@ -47,6 +50,8 @@ class FineMesh {
   [[nodiscard]] double test_value(const CriticalEvent& known, const Chord& chord, const PathPoint& at,
                                   double log_abs_det) const;
   [[nodiscard]] double metric_rate(const Chord& chord, const PathPoint& at) const;
+  [[nodiscard]] std::optional<CriticalEvent> by_newton(const Structure& from, const CriticalEvent& known,
+                                                       const PathPoint& at);
   [[nodiscard]] std::optional<FoundPoint> interpolated(const CriticalEvent& known, const PathPoint& at,
                                                        double reach);
   [[nodiscard]] std::optional<FoundPoint> near(const CriticalEvent& known, const PathPoint& at, double reach);

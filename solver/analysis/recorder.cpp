@@ -90,13 +90,19 @@ void Recorder::add_critical(const CriticalEvent& event) {
   point.negative_before = event.negative_before;
   point.negative_after = event.negative_after;
   point.multiplicity = event.multiplicity;
-  if (analysis_.output.states != StateOutput::none && analysis_.output.states != StateOutput::at_load_factors)
+  if (event.null.size() > 0 && !is_limit(event.type)) point.imperfection = event.imperfection;
+  // what the path passes by is no equilibrium of the structure as it is
+  const bool passed_by = event.type == CriticalType::broken_bifurcation;
+  if (passed_by) point.negative_after = point.negative_before;
+  if (!passed_by && analysis_.output.states != StateOutput::none &&
+      analysis_.output.states != StateOutput::at_load_factors)
     point.state = add_state(event.point);
   if (point.state && analysis_.output.modes)
     point.mode = mode_at(structure_, model_, continuation_.problem(), event, analysis_);
-  if (analysis_.output.path_points && analysis_.type == AnalysisType::path) kept_.add_critical(event);
+  if (!passed_by && analysis_.output.path_points && analysis_.type == AnalysisType::path)
+    kept_.add_critical(event);
   const bool loses_stability =
-      branch_ == 0 && event.negative_before == 0 && event.negative_after > 0 && point.load_factor > 0.0;
+      branch_ == 0 && point.negative_before == 0 && point.negative_after > 0 && point.load_factor > 0.0;
   if (loses_stability && !result_.summary.critical_load_factor) {
     if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
     result_.summary.critical_load_factor = point.load_factor;
@@ -176,6 +182,13 @@ TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> pare
     add_point(point);
     if (progress) progress({branch_, step, user_load(point), point.negative});
     ++step;
+  };
+  sink.on_touching = [this](const PathPoint& point) {
+    result_.warnings.push_back(
+        {"touching_eigenvalue", "a stiffness falls to zero within rounding at load factor " +
+                                    number(user_load(point)) +
+                                    " and rises again: whether two critical points lie "
+                                    "there cannot be told"});
   };
   sink.on_holds = [this](const PathPoint& point) { neutral_.note(point.holds, user_load(point)); };
   sink.on_contact = [this](const ContactChange& change) { add_contact(change); };

@@ -28,11 +28,19 @@ const SparseRow* row_of(const Structure& structure, const std::string& monitor) 
   return &found->row;
 }
 
-TraceRules rules_of(const Analysis& analysis, const Structure& structure) {
+TraceRules rules_of(const Model& model, const Analysis& analysis, const Structure& structure) {
+  constexpr double kRounding = 1e-13;  // imperfection that rounding of the nodes' coordinates makes at most
   TraceRules rules;
+  // one that was asked for is meant, however small
+  if (!model.imperfections.empty()) rules.locate.perfect = kRounding;
   // a fixed mesh is read to the last digit, a chosen one to a small part of the accuracy that was asked for
-  rules.tolerance =
-      analysis.discretization.fixed_mesh ? 1e-9 : std::min(1e-7, 1e-3 * analysis.discretization.accuracy);
+  if (!analysis.discretization.fixed_mesh) {
+    rules.locate.tolerance = std::min(1e-7, 1e-3 * analysis.discretization.accuracy);
+    // a broken bifurcation has its limit point, if any, lower by about 10 e^(2/3)
+    if (model.imperfections.empty())
+      rules.locate.perfect =
+          std::max(rules.locate.perfect, std::pow(0.1 * analysis.discretization.accuracy, 1.5));
+  }
   if (analysis.type == AnalysisType::critical) {
     rules.first_loss_of_stability = true;
     rules.steps = kMostStepsOfSearch;
@@ -75,6 +83,8 @@ const char* name_of(CriticalType type) {
       return "limit point (maximum)";
     case CriticalType::limit_min:
       return "limit point (minimum)";
+    case CriticalType::broken_bifurcation:
+      return "broken bifurcation";
   }
   return "";
 }
@@ -170,7 +180,7 @@ void fail_unconfirmed(Result& result) {
 
 /// A bifurcation and a way through it that is still to be followed.
 struct Pending {
-  PathPoint at;
+  CriticalEvent at;
   int parent = 0;
   double sign = 1.0;
 };
@@ -178,10 +188,10 @@ struct Pending {
 /// Follows the branches that cross the primary path, and those that cross them, as far as was asked.
 class BranchFollower {
  public:
-  BranchFollower(const Analysis& analysis, const Structure& structure, Continuation& continuation,
-                 Recorder& recorder, CriticalLoads& loads, const Hooks& hooks)
+  BranchFollower(const Model& model, const Analysis& analysis, const Structure& structure,
+                 Continuation& continuation, Recorder& recorder, CriticalLoads& loads, const Hooks& hooks)
       : analysis_(analysis),
-        rules_(rules_of(analysis, structure)),
+        rules_(rules_of(model, analysis, structure)),
         continuation_(continuation),
         recorder_(recorder),
         loads_(loads),
@@ -214,7 +224,7 @@ void BranchFollower::add(const TraceOutcome& outcome, int branch) {
   for (const CriticalEvent& event : outcome.critical) {
     if (event.type != CriticalType::bifurcation) continue;
     if (analysis_.branches.follow == Follow::first && !pending_.empty()) return;
-    for (const double sign : {1.0, -1.0}) pending_.push_back({event.point, branch, sign});
+    for (const double sign : {1.0, -1.0}) pending_.push_back({event, branch, sign});
     rules_.known.push_back(event.point);
   }
 }
@@ -224,11 +234,12 @@ bool BranchFollower::follow(const Pending& pending) {
   if (!first) return false;
   const int id = ++branches_;
   const TraceSink sink = loads_.watch(recorder_.sink(hooks_, id, pending.parent));
-  PathPoint origin = pending.at;
+  PathPoint origin = pending.at.point;
   origin.arc_length = 0.0;
   recorder_.add_point(origin);
   TraceRules rules = rules_;
   rules.first_step = 0.02;
+  rules.finer_imperfection = [this](const CriticalEvent& event) { return loads_.finer_imperfection(event); };
   rules.zones = recorder_.zone_counter();
   const TraceOutcome outcome = trace(continuation_, first, rules, analysis_.step, sink, hooks_.stop);
   recorder_.end_branch(text_of(outcome.end).code);
@@ -269,14 +280,15 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   Recorder recorder(model, analysis, structure, continuation, result);
   CriticalLoads loads(model, analysis, structure, continuation, earlier, result);
   const TraceSink sink = loads.watch(recorder.sink(hooks));
-  TraceRules rules = rules_of(analysis, structure);
+  TraceRules rules = rules_of(model, analysis, structure);
   if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
+  rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
   const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);
   recorder.end_branch(text_of(outcome.end).code);
   const std::size_t primary = result.critical_points.size();
   std::string branches;
   if (analysis.type == AnalysisType::path && analysis.branches.follow != Follow::primary) {
-    BranchFollower follower(analysis, structure, continuation, recorder, loads, hooks);
+    BranchFollower follower(model, analysis, structure, continuation, recorder, loads, hooks);
     follower.add(outcome, 0);
     branches = follower.run();
   }

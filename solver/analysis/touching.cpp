@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -67,17 +68,45 @@ TouchingSupports least_piece(const Model& model, const Structure& structure, dou
   return out;
 }
 
+/// Whether the load moves supports: the pieces are those of a structure under forces.
+bool is_moved(const Structure& structure) {
+  return std::any_of(structure.supports.begin(), structure.supports.end(), [](const JointSupport& support) {
+    return std::any_of(std::begin(support.proportional), std::end(support.proportional),
+                       [](double value) { return value != 0.0; });
+  });
+}
+
+/// Response beside that of the glued structure beyond which supports are left, or pressed by rounding alone.
+constexpr double kLoose = 1e3;
+
+/// Whether supports touch without pressure where the structure glued to them responds to its load.
+bool glued_touches(const Structure& structure, StructuralProblem& problem) {
+  if (structure.has_constant) return false;
+  const VectorXd zero = VectorXd::Zero(structure.size);
+  VectorXd residual;
+  VectorXd response;
+  problem.set_bonded(true);
+  problem.linearise(zero, 0.0, residual);
+  problem.set_bonded(false);
+  problem.load(zero, 0.0, response);
+  problem.solve(response);
+  return mark_touching(structure, problem, structure.scales.load * response);
+}
+
 }  // namespace
 
 std::optional<Structure> with_least_piece(const Model& model, const Structure& structure,
                                           StructuralProblem& problem, const Continuation& continuation,
                                           const std::optional<PathPoint>& start, Result& result) {
-  if (!structure.one_sided || is_known(structure.touching)) return std::nullopt;
+  if (!structure.one_sided || is_known(structure.touching) || is_moved(structure)) return std::nullopt;
   if (start ? start->tangent_lambda <= 0.0 : structure.has_constant) return std::nullopt;
-  const double ahead = start ? kOnTheWay * continuation.load_scale() : structure.scales.load;
+  const double ahead = start && continuation.loosening() <= kLoose ? kOnTheWay * continuation.load_scale()
+                                                                   : structure.scales.load;
   if (start) {
     const VectorXd linear = start->y + (ahead / start->tangent_lambda) * start->tangent;
-    if (!mark_touching(structure, problem, linear)) return std::nullopt;
+    if (!mark_touching(structure, problem, linear) &&
+        !(continuation.loosening() > kLoose && glued_touches(structure, problem)))
+      return std::nullopt;
   }
   LinearBuckling buckling;
   TouchingSupports touching = least_piece(model, structure, ahead, {}, buckling);

@@ -39,8 +39,8 @@ double FollowerEnds::prepare(double proportional, double constant, Index size,
 
 void FollowerEnds::correct(VectorXd& x) const { x -= W_ * (inverse_ * weighted(x)); }
 
-void FollowerEnds::add_product(double proportional, double constant, const VectorXd& direction,
-                               VectorXd& out) const {
+void FollowerEnds::add_product(double proportional, double constant,
+                               const Eigen::Ref<const VectorXd>& direction, Eigen::Ref<VectorXd> out) const {
   for (const FollowerEnd& end : ends_) {
     const double c = proportional * end.proportional + constant * end.constant;
     out[3 * end.joint] -= c * direction[3 * end.joint + 1];

@@ -35,8 +35,8 @@ class FollowerEnds {
   /// x := J^-1 r from x = S^-1 r.
   void correct(Eigen::VectorXd& x) const;
   /// Adds E A E^T direction to `out`, with the factors given.
-  void add_product(double proportional, double constant, const Eigen::VectorXd& direction,
-                   Eigen::VectorXd& out) const;
+  void add_product(double proportional, double constant, const Eigen::Ref<const Eigen::VectorXd>& direction,
+                   Eigen::Ref<Eigen::VectorXd> out) const;
 
  private:
   [[nodiscard]] Eigen::VectorXd weighted(const Eigen::VectorXd& x) const;

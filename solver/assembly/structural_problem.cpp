@@ -87,6 +87,25 @@ void StructuralProblem::force_along(const VectorXd& motion, VectorXd& out) const
   turn_to_supports(out);
 }
 
+void StructuralProblem::metric_forces(const VectorXd& x, VectorXd& out) const {
+  out = structure_.metric.cwiseProduct(x);
+  turn_to_supports(out);
+  for (const Index row : fixed_)
+    if (row < 3 * structure_.joints) out[row] = 0.0;
+}
+
+double StructuralProblem::work(const VectorXd& forces, const VectorXd& motion) const {
+  double out = forces.dot(motion);
+  for (int j = 0; j < structure_.joints; ++j) {
+    if (structure_.supports[j].angle == 0.0) continue;
+    const auto [c, s] = turn_of(3 * j);
+    const double ux = motion[3 * j];
+    const double uy = motion[3 * j + 1];
+    out += forces[3 * j] * ((c - 1.0) * ux + s * uy) + forces[3 * j + 1] * (-s * ux + (c - 1.0) * uy);
+  }
+  return out;
+}
+
 void StructuralProblem::set_holds(const SharedHolds& holds) {
   if (holds == holds_) return;
   holds_ = holds;
@@ -115,7 +134,7 @@ double StructuralProblem::acting_stiffness(std::size_t spring) const {
 }
 
 /// Turns the rows of nodes into the axes of their supports.
-void StructuralProblem::turn_to_supports(VectorXd& f) const {
+void StructuralProblem::turn_to_supports(Eigen::Ref<VectorXd> f) const {
   for (int j = 0; j < structure_.joints; ++j) {
     const auto [c, s] = turn_of(3 * j);
     const double fx = f[3 * j];
@@ -442,15 +461,23 @@ double StructuralProblem::relative_residual(const VectorXd& f, const VectorXd& y
   return std::max(force > 0.0 ? forces / force : forces, gaps / displacement);
 }
 
-VectorXd StructuralProblem::tangent_product(const VectorXd& y, double lambda, const VectorXd& direction) {
-  VectorXd out;
-  start_residual(lambda, out);  // tells the elements the factors on pressures
-  out.setZero();
-  structure_.elements->add_tangent_product(y, direction, out);
+Eigen::MatrixXd StructuralProblem::tangent_products(const VectorXd& y, double lambda,
+                                                    const Eigen::Ref<const Eigen::MatrixXd>& directions) {
+  VectorXd scratch;
+  start_residual(lambda, scratch);  // tells the elements the factors on pressures
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(y.size(), directions.cols());
+  structure_.elements->add_tangent_products(y, directions, products);
+  add_joint_springs(y, scratch);
+  for (Index i = 0; i < directions.cols(); ++i)
+    add_joint_products(lambda, directions.col(i), products.col(i));
+  return products;
+}
+
+/// What is not the elements' of the tangent times a direction, in the rows of linearise().
+void StructuralProblem::add_joint_products(double lambda, const Eigen::Ref<const VectorXd>& direction,
+                                           Eigen::Ref<VectorXd> out) const {
   const auto [proportional, constant] = factors(lambda);
   follower_ends_.add_product(proportional, constant, direction, out);
-  VectorXd scratch = VectorXd::Zero(y.size());
-  add_joint_springs(y, scratch);
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
     const double stiffness = acting_stiffness(i);
     if (stiffness == 0.0) continue;
@@ -471,7 +498,6 @@ VectorXd StructuralProblem::tangent_product(const VectorXd& y, double lambda, co
     for (int k = 0; k < 3; ++k)
       if (is_fixed(3 * j + k)) out[3 * j + k] = local[k];
   }
-  return out;
 }
 
 }  // namespace snapthrough

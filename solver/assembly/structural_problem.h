@@ -58,8 +58,10 @@ class StructuralProblem final : public EquilibriumProblem {
   enum class Stage { proportional, constant };
   void set_stage(Stage stage) { stage_ = stage; }
   /// J times a vector, with J's rows as linearise() uses them; independent of the factorisation.
-  [[nodiscard]] Eigen::VectorXd tangent_product(const Eigen::VectorXd& y, double lambda,
-                                                const Eigen::VectorXd& direction);
+  [[nodiscard]] Eigen::MatrixXd tangent_products(
+      const Eigen::VectorXd& y, double lambda, const Eigen::Ref<const Eigen::MatrixXd>& directions) override;
+  void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const override;
+  [[nodiscard]] double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const override;
   /// @brief From now on one-sided supports are glued where they touch at y, and absent elsewhere.
   void freeze_contact(const Eigen::VectorXd& y, double tolerance);
   /// @brief Finds the one-sided supports that touch without pressure at y: no further from touching than
@@ -87,7 +89,9 @@ class StructuralProblem final : public EquilibriumProblem {
     return stage_ == Stage::proportional ? std::array{lambda, 1.0} : std::array{0.0, lambda};
   }
   void start_residual(double lambda, Eigen::VectorXd& f) const;
-  void turn_to_supports(Eigen::VectorXd& f) const;
+  void turn_to_supports(Eigen::Ref<Eigen::VectorXd> f) const;
+  void add_joint_products(double lambda, const Eigen::Ref<const Eigen::VectorXd>& direction,
+                          Eigen::Ref<Eigen::VectorXd> out) const;
   [[nodiscard]] double penetration(const JointSpring& spring, const Eigen::VectorXd& y, double gap) const;
   void add_joint_springs(const Eigen::VectorXd& y, Eigen::VectorXd& f);
   void add_holds(const Eigen::VectorXd& y, Eigen::VectorXd& f) const;

@@ -165,9 +165,10 @@ class ElementSet {
   /// an element: stiffness times the rounding of the displacements that their penetrations are differences
   /// of.
   [[nodiscard]] virtual double support_rounding() const = 0;
-  /// Adds the second derivative of the energy times `direction` to `out` (test use and eigenvalue problems).
-  virtual void add_tangent_product(const Eigen::VectorXd& y, const Eigen::VectorXd& direction,
-                                   Eigen::VectorXd& out) = 0;
+  /// Adds the second derivative of the energy times `directions`, column by column, to `out`.
+  virtual void add_tangent_products(const Eigen::VectorXd& y,
+                                    const Eigen::Ref<const Eigen::MatrixXd>& directions,
+                                    Eigen::MatrixXd& out) = 0;
 };
 
 /// @brief An empty set for elements of an order in 1..kMaxOrder.

@@ -70,8 +70,8 @@ class ElementSetOf final : public ElementSet {
                  std::span<CondensedElement> condensed) override;
   void reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) override;
   void recover(Eigen::VectorXd& x) override;
-  void add_tangent_product(const Eigen::VectorXd& y, const Eigen::VectorXd& direction,
-                           Eigen::VectorXd& out) override;
+  void add_tangent_products(const Eigen::VectorXd& y, const Eigen::Ref<const Eigen::MatrixXd>& directions,
+                            Eigen::MatrixXd& out) override;
 
  private:
   static constexpr int kStrains = 3 * P;
@@ -148,6 +148,7 @@ class ElementSetOf final : public ElementSet {
   void add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, double pressure,
                     const double* y, double* load) const;
   void collect_pressure(const Shape& shape, double pressure);
+  void add_acting_product(const ElementDofs& dofs, const double* direction, double* out) const;
   void add_pressure_product(const Shape& shape, const ElementDofs& dofs, double pressure,
                             const double* direction, double* out) const;
   [[nodiscard]] bool acts(const Functional& f, std::size_t station, const ElementDofs& dofs,
@@ -721,22 +722,34 @@ void ElementSetOf<P>::add_strain_product(const Shape& shape, const ElementDofs& 
 /// The tangent as an operator, written from the second derivative of the mixed functional itself (not from
 /// the eliminated form), so that the two can be held against one another.
 template <int P>
-void ElementSetOf<P>::add_tangent_product(const Eigen::VectorXd& y, const Eigen::VectorXd& direction,
-                                          Eigen::VectorXd& out) {
+void ElementSetOf<P>::add_tangent_products(const Eigen::VectorXd& y,
+                                           const Eigen::Ref<const Eigen::MatrixXd>& directions,
+                                           Eigen::MatrixXd& out) {
   Eigen::VectorXd unused = Eigen::VectorXd::Zero(y.size());
   for (int e = 0; e < size(); ++e) {
     const ElementDofs& dofs = dofs_[e];
-    add_strain_product(shapes_[e], dofs, kinematics(shapes_[e], dofs, y.data()), y.data(), direction.data(),
-                       out.data());
-    if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0 && !linear_)
-      add_pressure_product(shapes_[e], dofs, pressure, direction.data(), out.data());
+    const Kinematics kin = kinematics(shapes_[e], dofs, y.data());
+    const double pressure = linear_ ? 0.0 : pressure_of(shapes_[e]);
     add_support_residual(e, y.data(), unused.data(), true);
-    for (const Functional& f : acting_) {
-      const double force = f.stiffness * value(f, dofs, direction.data());
-      for (int k = 0; k < 3; ++k) {
-        out[dofs.a[k]] += force * f.a[k];
-        for (int q = 0; q < P; ++q) out[dofs.v + k * P + q] += force * f.v[k][q];
-      }
+    for (Eigen::Index i = 0; i < directions.cols(); ++i) {
+      const double* direction = directions.col(i).data();
+      double* product = out.col(i).data();
+      add_strain_product(shapes_[e], dofs, kin, y.data(), direction, product);
+      if (pressure != 0.0) add_pressure_product(shapes_[e], dofs, pressure, direction, product);
+      add_acting_product(dofs, direction, product);
+    }
+  }
+}
+
+/// The acting supports' part, as add_support_residual() left them.
+template <int P>
+void ElementSetOf<P>::add_acting_product(const ElementDofs& dofs, const double* direction,
+                                         double* out) const {
+  for (const Functional& f : acting_) {
+    const double force = f.stiffness * value(f, dofs, direction);
+    for (int k = 0; k < 3; ++k) {
+      out[dofs.a[k]] += force * f.a[k];
+      for (int q = 0; q < P; ++q) out[dofs.v + k * P + q] += force * f.v[k][q];
     }
   }
 }

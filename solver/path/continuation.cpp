@@ -167,6 +167,7 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
     const double size = state ? metric_.norm(state->y, 0.0) : 0.0;
     if (state && size <= 10.0 * kSmallStart) {
       if (is_loose()) return std::nullopt;
+      loosening_ = size / std::abs(lambda * norm);
       return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
     }
     if (state && size > 0.5 * last) return start_at_rest(std::move(rest), direction);
@@ -223,6 +224,7 @@ PathPoint Continuation::first_point(const VectorXd& y, double lambda, const Vect
   point.tangent_lambda = 1.0 / norm;
   point.negative = report.negative;
   point.log_abs_det = report.log_abs_det;
+  symmetric_ = !report.parity_only;
   return point;
 }
 
@@ -352,6 +354,35 @@ void Continuation::set_tangent(PathPoint& point, int before, const CorrectorOutc
   point.tangent_lambda = sign / norm;
   point.negative = count_next_to(before, outcome.tangent);
   point.log_abs_det = outcome.tangent.log_abs_det;
+  symmetric_ = !outcome.tangent.parity_only;
+}
+
+void Continuation::extrapolate(const PathPoint& before, const PathPoint& from) {
+  bend_ = {};
+  // where contact changes the cubic says less than the tangent
+  if (problem_.one_sided() && !easy_) return;
+  constexpr double kSharply = 0.8;  // cosine between the tangents; smooth steps turn less
+  constexpr double kSameNorm = 1e-3;
+  const double chord = distance(before, from);
+  const double cosine =
+      metric_.inner(before.tangent, before.tangent_lambda, from.tangent, from.tangent_lambda);
+  const double norm = metric_.norm(before.tangent, before.tangent_lambda);
+  if (!(chord > 0.0) || cosine < kSharply || std::abs(norm - 1.0) > kSameNorm) return;
+  const double half = 0.5 * std::acos(std::min(cosine, 1.0));
+  const double d = half > 0.0 ? chord * half / std::sin(half) : chord;
+  const double along = (from.lambda - before.lambda) / d;
+  bend_.y2 = ((2.0 * before.tangent + 4.0 * from.tangent) - (6.0 / d) * (from.y - before.y)) / d;
+  bend_.y3 = (6.0 * (before.tangent + from.tangent) - (12.0 / d) * (from.y - before.y)) / (d * d);
+  bend_.lambda2 = (2.0 * before.tangent_lambda + 4.0 * from.tangent_lambda - 6.0 * along) / d;
+  bend_.lambda3 = (6.0 * (before.tangent_lambda + from.tangent_lambda) - 12.0 * along) / (d * d);
+}
+
+void Continuation::predict(const PathPoint& from, double step, PathPoint& to) const {
+  to.y = from.y + step * from.tangent;
+  to.lambda = from.lambda + step * from.tangent_lambda;
+  if (bend_.y2.size() == 0) return;
+  to.y += (0.5 * step * step) * bend_.y2 + (step * step * step / 6.0) * bend_.y3;
+  to.lambda += 0.5 * step * step * bend_.lambda2 + step * step * step / 6.0 * bend_.lambda3;
 }
 
 /// Corrects `to` from the predictor under the side condition at hand, damped where the contact makes it
@@ -368,8 +399,7 @@ CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, 
     options.most_stalled = std::min(options.most_stalled, kMostStalled);
   }
   for (;;) {
-    to.y = from.y + step * from.tangent;
-    to.lambda = from.lambda + step * from.tangent_lambda;
+    predict(from, step, to);
     const auto outcome = correct(problem_, metric_, side_, movement, options, to.y, to.lambda, work_);
     count(outcome);
     if (options.damped || !patient || !problem_.one_sided() ||
@@ -397,7 +427,14 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   if (outcome.first_residual > kRoundingResidual) trial.correction = outcome.first_correction / movement;
   const double room = std::min(options_.target_angle / std::max(trial.angle, 1e-12),
                                options_.target_correction / std::max(trial.correction, 1e-12));
-  const double fast = problem_.one_sided() ? std::min(kFastGrowth, kFarFromLimits * room) : 0.0;
+  double fast = 0.0;
+  if (problem_.one_sided()) {
+    // contact may end anywhere beyond: only where the tangent alone would have done
+    const double missed = metric_.norm(to.y - from.y - step * from.tangent,
+                                       to.lambda - from.lambda - step * from.tangent_lambda);
+    fast = std::min({kFastGrowth, kFarFromLimits * room,
+                     kFarFromLimits * options_.target_correction * movement / std::max(missed, 1e-300)});
+  }
   trial.growth = std::clamp(room, kLeastGrowth, std::max(options_.max_growth, fast));
   trial.length = metric_.norm(to.y - from.y, to.lambda - from.lambda);
   to.arc_length = from.arc_length + arc(from, to);
@@ -500,12 +537,14 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
   if (easy_size_ == 0.0) easy_size_ = size;
   while (size >= options_.min_step) {
     const Trial trial = try_step(from, size, to);
+    bend_ = {};
     const bool smooth = trial.angle <= options_.max_angle && trial.correction <= kLargestCorrection;
     if (trial.converged && (smooth || is_corner(trial, size))) {
       ++statistics_.steps;
       ++statistics_.corrections[std::min<std::size_t>(trial.corrections, statistics_.corrections.size() - 1)];
       // steps that close in on a corner are accepted, too, each much smaller than the last
-      if (size == first_size) easy_size_ = std::max(size, kForget * easy_size_);
+      easy_ = size == first_size;
+      if (easy_) easy_size_ = std::max(size, kForget * easy_size_);
       step.taken = size;
       const double growth = smooth ? trial.growth : options_.max_growth;
       step.wanted =
@@ -539,6 +578,37 @@ PathPoint Continuation::last_before_corner(const PathPoint& from, double size) {
     if (trial.converged && probe.negative == from.negative && trial.angle < kSmooth) std::swap(last, probe);
   }
   return last;
+}
+
+void Continuation::find_modes(PathPoint& at, const SharedModes& start) {
+  constexpr int kCount = 2;
+  constexpr int kFromAfar = 3;  // iterations from drawn motions
+  at.modes = nullptr;
+  if (!symmetric_) return;
+  const Eigen::MatrixXd none;
+  auto modes = std::make_shared<SoftModes>(start ? soft_modes(problem_, start->motions, kCount, 1)
+                                                 : soft_modes(problem_, none, kCount, kFromAfar));
+  if (modes->count() == 0) return;
+  const Eigen::MatrixXd change =
+      tangent_change(problem_, at.y, at.lambda, {at.tangent, at.tangent_lambda}, modes->motions);
+  modes->rate.resize(modes->count());
+  for (Eigen::Index i = 0; i < modes->count(); ++i)
+    modes->rate[i] = problem_.work(change.col(i), modes->motions.col(i));
+  at.modes = std::move(modes);
+}
+
+void Continuation::find_first_modes(PathPoint& start) {
+  problem_.set_holds(start.holds);
+  problem_.linearise(start.y + kSmallStart * start.tangent, start.lambda + kSmallStart * start.tangent_lambda,
+                     work_.residual);
+  ++statistics_.factorizations;
+  find_modes(start, nullptr);
+}
+
+int Continuation::negative_at(const PathPoint& at) {
+  problem_.set_holds(at.holds);
+  ++statistics_.factorizations;
+  return count_next_to(at.negative, problem_.linearise(at.y, at.lambda, work_.residual));
 }
 
 void Continuation::limit_steps(const StepOptions& steps, double load_rate) {
@@ -577,6 +647,7 @@ void Continuation::weigh_load(bool to_limit, PathPoint& at, StepSize& step) {
   options_.min_step *= length;
   options_.max_step *= length;
   corner_ = {};
+  bend_ = {};
 }
 
 void Continuation::reject(StepSize& step) {

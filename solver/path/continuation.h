@@ -90,6 +90,11 @@ class Continuation {
 
   /// @brief One accepted step from `from`: `step.wanted` is tried first, then smaller ones; sets both fields.
   [[nodiscard]] StepOutcome step(const PathPoint& from, StepSize& step, PathPoint& to);
+  /// @brief The next step from `to` is predicted, at its first size, by the cubic through both points and
+  /// tangents: where the path is smooth between them.
+  void extrapolate(const PathPoint& from, const PathPoint& to);
+  /// The next step is predicted by its tangent.
+  void extrapolate_nothing() { bend_ = {}; }
   /// @brief The last point before a corner that is within `size` of `from`, to rounding: found by halving
   /// steps which either meet the same contact or do not.
   [[nodiscard]] PathPoint last_before_corner(const PathPoint& from, double size);
@@ -118,6 +123,19 @@ class Continuation {
   /// its inertia is that of the path: on a plateau the point before the last correction may be across a
   /// singularity.
   void settle(const PathPoint& from, PathPoint& point);
+
+  /// @brief Finds the softest motions at a point and how fast they change along the path.
+  /// @pre the problem was factorised last at the point, or so near that it makes no difference
+  /// @param start modes of a neighbouring point; null: there are none
+  void find_modes(PathPoint& at, const SharedModes& start);
+  /// @brief The same at the beginning of a path, factorised just beyond it: at zero load supports of one side
+  /// touch nothing.
+  void find_first_modes(PathPoint& start);
+  /// @brief Negative eigenvalues at a point, factorised there.
+  [[nodiscard]] int negative_at(const PathPoint& at);
+  /// Whether the tangent is symmetric, so that stiffnesses of motions are real.
+  [[nodiscard]] bool symmetric() const { return symmetric_; }
+  void count_factorisations(int number) { statistics_.factorizations += number; }
 
   /// @brief The straight line from one point of the path to another: places between are told by their
   /// distance along it.
@@ -150,6 +168,9 @@ class Continuation {
   /// @brief Motion that nothing resists under the first small load, which start() found no path from: a part
   /// of the structure that one-sided supports touch without pressure, or not at all. Empty: none.
   [[nodiscard]] const Eigen::VectorXd& loose_motion() const { return loose_motion_; }
+  /// Size of the response to the first small load over that of the structure glued to its supports: what
+  /// rounding presses against stiff supports moves far more.
+  [[nodiscard]] double loosening() const { return loosening_; }
   /// Scale of the first critical load factor that the load is measured by.
   [[nodiscard]] double load_scale() const { return load_scale_; }
   /// Load beyond which nothing of interest can be: far above what buckles the weakest member, and above what
@@ -190,6 +211,7 @@ class Continuation {
   [[nodiscard]] bool is_corner(const Trial& trial, double size);
   [[nodiscard]] CorrectorOutcome correct_step(const PathPoint& from, double step, double movement,
                                               PathPoint& to);
+  void predict(const PathPoint& from, double step, PathPoint& to) const;
   [[nodiscard]] bool step_by_movement(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] bool turn(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] bool settle_beyond(const PathPoint& from, double size, PathPoint& to);
@@ -204,10 +226,20 @@ class Continuation {
   PathMetric metric_;
   double load_scale_ = 1.0;
   double load_bound_ = 1.0;
+  double loosening_ = 1.0;
   double arc_weight_ = 1.0;  ///< of the load in arc lengths
   Corner corner_;
   Eigen::VectorXd loose_motion_;
+  bool symmetric_ = true;
+  bool easy_ = false;       ///< the last step was accepted at its first size
   double easy_size_ = 0.0;  ///< of the last step that was accepted at its first size
+  /// Second and third derivative of the path at the point that is stepped from, by arc length; empty: not
+  /// used.
+  struct Bend {
+    Eigen::VectorXd y2, y3;
+    double lambda2 = 0.0, lambda3 = 0.0;
+  };
+  Bend bend_;
   Workspace work_;
   SideCondition side_;
 };

@@ -60,6 +60,21 @@ class EquilibriumProblem {
     out.setZero(size());
     out.head(motion.size()) = motion;
   }
+  /// @brief J(y, lambda) times motions, column by column, in the rows of linearise(); the factors stay.
+  [[nodiscard]] virtual Eigen::MatrixXd tangent_products(
+      const Eigen::VectorXd& y, double lambda, const Eigen::Ref<const Eigen::MatrixXd>& motions) = 0;
+  [[nodiscard]] Eigen::VectorXd tangent_product(const Eigen::VectorXd& y, double lambda,
+                                                const Eigen::VectorXd& motion) {
+    return tangent_products(y, lambda, motion);
+  }
+  /// @brief Right-hand side of solve() for the forces W x, W the metric: none on what is fixed; overwritten.
+  virtual void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
+    out = metric().cwiseProduct(x);
+  }
+  /// @brief Work of forces, in the rows of linearise(), on a motion that keeps what is fixed in place.
+  [[nodiscard]] virtual double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const {
+    return forces.dot(motion);
+  }
   /// @brief Rough size of the first critical load factor from the response to a unit load; infinity when it
   /// gives none.
   [[nodiscard]] virtual double critical_load_scale(const Eigen::VectorXd& unit_response) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/path/holds.h"
+#include "solver/path/soft_mode.h"
 
 namespace snapthrough {
 
@@ -18,6 +19,7 @@ struct PathPoint {
   int negative = 0;             ///< negative eigenvalues of the constrained tangent stiffness
   double log_abs_det = 0.0;
   SharedHolds holds;  ///< part of the equations there
+  SharedModes modes;  ///< the softest motions, where they were asked for
 
   /// The determinant with its sign, over e^log_scale.
   [[nodiscard]] double determinant(double log_scale) const {

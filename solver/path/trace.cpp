@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <utility>
+
+#include "solver/stability/newton_event.h"
 
 namespace snapthrough {
 namespace {
@@ -22,6 +25,9 @@ std::optional<Crossing> crossing_of(const std::function<double(const PathPoint&)
   const double bound = now < range[0] ? range[0] : range[1];
   return Crossing{end, [quantity, bound](const PathPoint& at) { return quantity(at) - bound; }};
 }
+
+/// Relative difference of the loads of points at one place; the norm may hardly see the load.
+constexpr double kSameLoad = 1e-3;
 
 /// The state that changes while a path is traced.
 class Tracer {
@@ -44,6 +50,17 @@ class Tracer {
   [[nodiscard]] bool accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events,
                             const std::optional<Bound>& bound);
   void measure_arc(const PathPoint& from, std::vector<CriticalEvent>& events, PathPoint& to) const;
+  [[nodiscard]] std::vector<CriticalEvent> beyond(const PathPoint& from, Eigen::Index first, double reach);
+  [[nodiscard]] std::vector<CriticalEvent> ahead(const PathPoint& from, double wanted);
+  [[nodiscard]] std::vector<CriticalEvent> left_behind(const PathPoint& from, const PathPoint& to);
+  [[nodiscard]] bool are_whole(const std::vector<CriticalEvent>& events);
+  void step_onto(const std::vector<CriticalEvent>& events, const PathPoint& from, StepSize& size,
+                 PathPoint& to);
+  void find_modes(const PathPoint& from, PathPoint& to);
+  void go_on(bool smooth, PathPoint& from, PathPoint& to);
+  [[nodiscard]] LocatedEvents arrive(const PathPoint& from, StepOutcome outcome, StepSize& size,
+                                     PathPoint& to);
+  void tell_beside(const PathPoint& from, StepOutcome outcome, const PathPoint& to, LocatedEvents& located);
   [[nodiscard]] bool turns_sharply(const PathPoint& from, const PathPoint& to) const;
   [[nodiscard]] bool is_known(const PathPoint& point) const;
   bool finish(TraceEnd end, const PathPoint& last);
@@ -53,8 +70,10 @@ class Tracer {
   const TraceSink& sink_;
   TraceOutcome out_;
   int limit_points_ = 0;
-  double travelled_ = 0.0;              ///< sum of the movements of all steps
-  std::vector<ContactChange> changes_;  ///< on the step that is being taken
+  double travelled_ = 0.0;                  ///< sum of the movements of all steps
+  std::vector<ContactChange> changes_;      ///< on the step that is being taken
+  std::optional<CriticalEvent> passed_by_;  ///< the last bifurcation that was found beside the path
+  std::vector<CriticalEvent> beside_;       ///< those that are still to be told
 };
 
 /// Round a corner a point's share of the step is not its share of the arc: along the polygon instead.
@@ -127,7 +146,6 @@ std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const Pa
 
 bool Tracer::is_known(const PathPoint& point) const {
   constexpr double kSamePlace = 1e-4;  // a displacement gradient; rounding leaves less at a bifurcation
-  constexpr double kSameLoad = 1e-3;   // its square there; the norm may hardly see the load
   return std::any_of(rules_.known.begin(), rules_.known.end(), [&](const PathPoint& other) {
     const double apart = std::abs(point.lambda - other.lambda);
     return apart <= kSameLoad * std::max(std::abs(point.lambda), std::abs(other.lambda)) &&
@@ -143,15 +161,113 @@ bool Tracer::take_events(const std::vector<CriticalEvent>& events) {
       last.negative = event.negative_before;  // what changes there is told where it was found first
       return finish(TraceEnd::rejoined, last);
     }
-    const bool lost = event.negative_before == 0 && event.negative_after > 0;
-    if (event.type != CriticalType::bifurcation) ++limit_points_;
+    const bool passed_by = event.type == CriticalType::broken_bifurcation;
+    const bool lost = !passed_by && event.negative_before == 0 && event.negative_after > 0;
+    if (is_limit(event.type)) ++limit_points_;
     out_.critical.push_back(event);
     if (sink_.on_critical) sink_.on_critical(event);
-    if (rules_.first_loss_of_stability && lost) return finish(TraceEnd::critical_point, event.point);
-    if (rules_.limit_points && limit_points_ >= *rules_.limit_points)
-      return finish(TraceEnd::limit_points, event.point);
+    const bool loss = rules_.first_loss_of_stability && lost;
+    if (!loss && !(rules_.limit_points && limit_points_ >= *rules_.limit_points)) continue;
+    PathPoint last = event.point;
+    // Newton's method ends on either side of a singular tangent
+    if (event.null.size() > 0) last.negative = continuation_.negative_at(last);
+    return finish(loss ? TraceEnd::critical_point : TraceEnd::limit_points, last);
   }
   return false;
+}
+
+/// The bifurcations beyond a point of the path where a motion loses (or regains) its stiffness, with all
+/// those that do so close by.
+std::vector<CriticalEvent> Tracer::beyond(const PathPoint& from, Eigen::Index first, double reach) {
+  constexpr double kClose = 1.5;  // times the distance
+  const SoftModes& modes = *from.modes;
+  const double distance = modes.distance_to_zero(first, 1.0);
+  std::vector<Eigen::Index> close;
+  for (Eigen::Index i = 0; i < modes.count(); ++i) {
+    const bool same_sign = (modes.stiffness[i] > 0.0) == (modes.stiffness[first] > 0.0);
+    if (same_sign && modes.distance_to_zero(i, 1.0) <= kClose * distance) close.push_back(i);
+  }
+  auto events = bifurcations_beyond(continuation_, from, close, distance, reach, rules_.locate.tolerance);
+  if (!events.empty() && events.front().imperfection > rules_.most_broken) events.clear();
+  return events;
+}
+
+/// The bifurcations that motions' stiffnesses let expect within the next step or the one after: found before
+/// a step is taken over them, which could end on a path that crosses there.
+std::vector<CriticalEvent> Tracer::ahead(const PathPoint& from, double wanted) {
+  constexpr double kSteps = 1.5;
+  constexpr double kMostAlong = 0.5;  // of the movement along the motion: at a limit point it is all
+  // what is held at the start may turn out to be resisted
+  if (!from.modes || (from.holds && from.arc_length == 0.0)) return {};
+  const SoftModes& modes = *from.modes;
+  Eigen::Index first = 0;
+  for (Eigen::Index i = 1; i < modes.count(); ++i)
+    if (modes.distance_to_zero(i, 1.0) < modes.distance_to_zero(first, 1.0)) first = i;
+  if (!(modes.distance_to_zero(first, 1.0) < kSteps * wanted)) return {};
+  const PathMetric& metric = continuation_.metric();
+  const double along = metric.inner(from.tangent, 0.0, modes.motions.col(first), 0.0);
+  if (std::abs(along) > kMostAlong * metric.norm(from.tangent, 0.0)) return {};
+  return beyond(from, first, 2.0 * wanted);
+}
+
+/// The bifurcations that a step left behind although its ends have the same inertia: a motion's stiffness
+/// fell before them and rises beyond, because the step ended on a path that crosses there, or passes them by.
+std::vector<CriticalEvent> Tracer::left_behind(const PathPoint& from, const PathPoint& to) {
+  const double length = continuation_.distance(from, to);
+  const auto dip = find_dip(from, to, length);
+  if (from.negative != to.negative || !dip) return {};
+  return beyond(from, dip->mode, length);
+}
+
+/// Whether bifurcations are such that only rounding or the mesh makes the path pass by. Others are told with
+/// the next step.
+bool Tracer::are_whole(const std::vector<CriticalEvent>& events) {
+  if (events.empty()) return false;
+  const CriticalEvent& first = events.front();
+  constexpr double kFall = 0.1;  // of an imperfection that is the mesh's, on a finer mesh
+  if (first.imperfection <= rules_.locate.perfect) return true;
+  const bool judged = passed_by_ && std::abs(first.point.lambda - passed_by_->point.lambda) <=
+                                        kSameLoad * std::abs(first.point.lambda);
+  if (judged) return false;
+  passed_by_ = first;
+  const auto finer = rules_.finer_imperfection ? rules_.finer_imperfection(first) : first.imperfection;
+  if (!finer) return false;
+  if (*finer <= kFall * first.imperfection) return true;
+  CriticalEvent event = first;
+  event.type = CriticalType::broken_bifurcation;
+  beside_.push_back(std::move(event));
+  return false;
+}
+
+/// Takes bifurcations as the next point of the path, which leaves them along its own tangent.
+void Tracer::step_onto(const std::vector<CriticalEvent>& events, const PathPoint& from, StepSize& size,
+                       PathPoint& to) {
+  const CriticalEvent& last = events.back();
+  to = last.point;
+  to.negative = last.negative_after;
+  size.taken = continuation_.distance(from, to);
+  continuation_.find_modes(to, from.modes);
+  if (!to.modes) return;
+  // their own motions are beyond zero from here on
+  SoftModes passed = *to.modes;
+  const Eigen::Index own = std::min(passed.count(), last.null.cols());
+  for (Eigen::Index i = 0; i < own; ++i)
+    passed.stiffness[i] = std::copysign(std::numeric_limits<double>::min(), passed.rate[i]);
+  to.modes = std::make_shared<const SoftModes>(std::move(passed));
+}
+
+void Tracer::find_modes(const PathPoint& from, PathPoint& to) {
+  continuation_.find_modes(to, from.holds == to.holds ? from.modes : nullptr);
+}
+
+/// The end of a step becomes the start of the next.
+void Tracer::go_on(bool smooth, PathPoint& from, PathPoint& to) {
+  if (smooth)
+    continuation_.extrapolate(from, to);
+  else
+    continuation_.extrapolate_nothing();
+  std::swap(from, to);
+  to.modes = nullptr;
 }
 
 /// What ends the path before the next step is tried; false when nothing does.
@@ -179,7 +295,7 @@ bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<Crit
   for (const CriticalEvent& event : events) {
     // at a corner both are at one place, where the count at the bound tells on which side it is
     if (bound && event.point.arc_length > to.arc_length && count == to.negative) continue;
-    count = event.negative_after;
+    if (event.type != CriticalType::broken_bifurcation) count = event.negative_after;
     reached.push_back(event);
     double& arc = reached.back().point.arc_length;
     arc = std::max(arc, beyond(from.arc_length));
@@ -193,8 +309,38 @@ bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<Crit
   for (const ContactChange& change : changes_)
     if (sink_.on_contact && change.point.arc_length <= to.arc_length) sink_.on_contact(change);
   if (sink_.on_step) sink_.on_step(from, to);
-  if (sink_.on_point) sink_.on_point(to);
+  // a bifurcation that the path steps onto is told as such, and has no count of its own
+  const bool onto = !ended && !reached.empty() && to.arc_length <= beyond(reached.back().point.arc_length);
+  if (sink_.on_point && !onto) sink_.on_point(to);
   return ended;
+}
+
+/// Completes the end of a step that was taken; what is found between it and the start. It may become a
+/// bifurcation that was left behind.
+LocatedEvents Tracer::arrive(const PathPoint& from, StepOutcome outcome, StepSize& size, PathPoint& to) {
+  const bool freed = continuation_.may_be_neutral(from, to) && continuation_.hold_neutral(from, to);
+  if (!freed && outcome == StepOutcome::advanced && to.negative != from.negative)
+    continuation_.settle(from, to);
+  find_modes(from, to);
+  if (outcome == StepOutcome::turned)
+    return locate_at_turn(continuation_, from, to, size.taken, rules_.locate);
+  auto left = left_behind(from, to);
+  if (!are_whole(left)) return locate_critical_points(continuation_, from, to, rules_.locate);
+  step_onto(left, from, size, to);
+  return {std::move(left), true, {}};
+}
+
+/// What is told with a step besides its critical points: contact, what cannot be decided, and bifurcations
+/// that the path passes by.
+void Tracer::tell_beside(const PathPoint& from, StepOutcome outcome, const PathPoint& to,
+                         LocatedEvents& located) {
+  if (rules_.zones)
+    changes_ = locate_contact_changes(continuation_, from, to, outcome == StepOutcome::turned, rules_.zones,
+                                      rules_.locate.tolerance);
+  for (const PathPoint& point : located.touching)
+    if (sink_.on_touching) sink_.on_touching(point);
+  located.events.insert(located.events.begin(), beside_.begin(), beside_.end());
+  beside_.clear();
 }
 
 TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const std::stop_token& stop) {
@@ -206,27 +352,27 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
   }
   StepSize size{0.0, rules_.first_step ? *rules_.first_step : first_step(steps, from)};
   if (!rules_.first_step) continuation_.limit_steps(steps, std::abs(from.tangent_lambda));
+  if (!continuation_.problem().one_sided()) continuation_.find_first_modes(from);
   PathPoint to;
   for (int n = 0; !ends_here(from, n, stop);) {
-    const StepOutcome outcome = continuation_.step(from, size, to);
-    if (outcome == StepOutcome::step_underflow) {
-      finish(TraceEnd::step_underflow, from);
-      break;
-    }
-    if (continuation_.release(from, to)) {
-      if (sink_.on_holds) sink_.on_holds(from);
-      if (rules_.first_loss_of_stability && from.negative > 0) {
+    StepOutcome outcome = StepOutcome::advanced;
+    LocatedEvents located{ahead(from, size.wanted), true, {}};
+    if (are_whole(located.events)) {
+      step_onto(located.events, from, size, to);
+    } else {
+      outcome = continuation_.step(from, size, to);
+      if (outcome == StepOutcome::step_underflow) {
+        finish(TraceEnd::step_underflow, from);
+        break;
+      }
+      if (continuation_.release(from, to)) {
+        if (sink_.on_holds) sink_.on_holds(from);
+        if (!(rules_.first_loss_of_stability && from.negative > 0)) continue;
         finish(TraceEnd::unstable_at_start, from);
         break;
       }
-      continue;
+      located = arrive(from, outcome, size, to);
     }
-    const bool freed = continuation_.may_be_neutral(from, to) && continuation_.hold_neutral(from, to);
-    if (!freed && outcome == StepOutcome::advanced && to.negative != from.negative)
-      continuation_.settle(from, to);
-    LocatedEvents located = outcome == StepOutcome::turned
-                                ? locate_at_turn(continuation_, from, to, size.taken, rules_.tolerance)
-                                : locate_critical_points(continuation_, from, to, rules_.tolerance);
     const bool corner = outcome == StepOutcome::turned || turns_sharply(from, to);
     if (corner) measure_arc(from, located.events, to);
     const auto bound = located.same_path ? bounded_end(from, to, corner) : std::nullopt;
@@ -235,11 +381,9 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
       continue;
     }
     ++n;
-    if (rules_.zones)
-      changes_ = locate_contact_changes(continuation_, from, to, outcome == StepOutcome::turned, rules_.zones,
-                                        rules_.tolerance);
+    tell_beside(from, outcome, to, located);
     if (accept(from, to, located.events, bound)) break;
-    std::swap(from, to);
+    go_on(!corner && from.holds == to.holds, from, to);
     continuation_.weigh_load(rules_.first_loss_of_stability || rules_.limit_points.has_value(), from, size);
   }
   return std::move(out_);
@@ -250,7 +394,10 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
 TraceOutcome trace(Continuation& continuation, const std::optional<PathPoint>& start, const TraceRules& rules,
                    const StepOptions& steps, const TraceSink& sink, const std::stop_token& stop) {
   if (!start) return {};
-  return Tracer(continuation, rules, sink).run(*start, steps, stop);
+  continuation.extrapolate_nothing();
+  TraceOutcome out = Tracer(continuation, rules, sink).run(*start, steps, stop);
+  continuation.extrapolate_nothing();
+  return out;
 }
 
 }  // namespace snapthrough

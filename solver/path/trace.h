@@ -32,7 +32,12 @@ struct TraceRules {
   std::optional<double> first_step;  ///< in the path's norm; empty: from the load's scale
   /// Critical points of other branches: the path ends where it meets one of them again.
   std::vector<PathPoint> known;
-  double tolerance = 1e-9;  ///< of located points, relative in the load factor
+  LocateOptions locate;
+  /// Imperfection of a bifurcation on a finer mesh, to tell the mesh's from a real one; none where that mesh
+  /// does not have it. Empty: there is no finer mesh.
+  std::function<std::optional<double>(const CriticalEvent&)> finer_imperfection;
+  /// Largest imperfection of a bifurcation that the path passes by and that is worth telling.
+  double most_broken = 1e-3;
 };
 
 /// Why a trace ended.
@@ -57,6 +62,7 @@ struct TraceSink {
   std::function<void(const PathPoint&)> on_point;  ///< start, every accepted step, and the end
   std::function<void(const CriticalEvent&)> on_critical;
   std::function<void(const ContactChange&)> on_contact;
+  std::function<void(const PathPoint&)> on_touching;  ///< see LocatedEvents::touching
   std::function<void(const PathPoint&)>
       on_holds;  ///< the last point once more, less of whose motions are held
   /// All points between and including a step's ends are reachable here through continuation.between.

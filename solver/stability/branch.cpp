@@ -13,13 +13,11 @@ using Eigen::VectorXd;
 
 constexpr double kFirstStep = 0.01;  ///< displacement gradient
 
-/// The tangent's null vector in displacements, largest component positive.
-VectorXd oriented_null_vector(Continuation& continuation, const PathPoint& point) {
-  EquilibriumProblem& problem = continuation.problem();
-  const VectorXd x = null_vector(problem, point, pseudo_random(problem.size(), 1U));
+/// The sense in which the largest displacement of a motion is positive.
+double sense_of(const Continuation& continuation, const VectorXd& motion) {
   Index largest = 0;
-  problem.metric().cwiseSqrt().cwiseProduct(x).cwiseAbs().maxCoeff(&largest);
-  return x[largest] < 0.0 ? VectorXd(-x) : x;
+  continuation.metric().weights->cwiseSqrt().cwiseProduct(motion).cwiseAbs().maxCoeff(&largest);
+  return motion[largest] < 0.0 ? -1.0 : 1.0;
 }
 
 /// A direction in (y, lambda).
@@ -41,23 +39,36 @@ Direction load_direction(Continuation& continuation, const PathPoint& point, con
   return out;
 }
 
+/// The direction across the known path in the plane of the null vector and the response to the load, in which
+/// both paths' tangents lie; along the null vector, its largest displacement positive.
+Direction direction_across(Continuation& continuation, const PathPoint& point) {
+  EquilibriumProblem& problem = continuation.problem();
+  VectorXd null = null_vector(problem, point, pseudo_random(problem.size(), 1U));
+  null *= sense_of(continuation, null);
+  const Direction load = load_direction(continuation, point, null);
+  const PathMetric& metric = continuation.metric();
+  const double along_null = metric.inner(null, 0.0, point.tangent, point.tangent_lambda);
+  const double along_load = metric.inner(load.y, load.lambda, point.tangent, point.tangent_lambda);
+  const double scale = (along_load < 0.0 ? -1.0 : 1.0) / std::hypot(along_null, along_load);
+  return {scale * (along_load * null - along_null * load.y), -scale * along_null * load.lambda};
+}
+
 }  // namespace
 
-std::optional<PathPoint> first_point_of_branch(Continuation& continuation, const PathPoint& bifurcation,
+std::optional<PathPoint> first_point_of_branch(Continuation& continuation, const CriticalEvent& bifurcation,
                                                double sign) {
-  const PathMetric& metric = continuation.metric();
-  continuation.problem().set_holds(bifurcation.holds);
-  const VectorXd null = oriented_null_vector(continuation, bifurcation);
-  if (!null.allFinite()) return std::nullopt;
-  const Direction load = load_direction(continuation, bifurcation, null);
-  // both paths' tangents lie in the plane of these two: take the direction across the known one
-  const double along_null = metric.inner(null, 0.0, bifurcation.tangent, bifurcation.tangent_lambda);
-  const double along_load =
-      metric.inner(load.y, load.lambda, bifurcation.tangent, bifurcation.tangent_lambda);
-  const double scale = (along_load < 0.0 ? -sign : sign) / std::hypot(along_null, along_load);
-  PathPoint from = bifurcation;
-  from.tangent = scale * (along_load * null - along_null * load.y);
-  from.tangent_lambda = -scale * along_null * load.lambda;
+  continuation.problem().set_holds(bifurcation.point.holds);
+  Direction direction{bifurcation.across, bifurcation.across_lambda};
+  if (direction.y.size() == 0) {
+    direction = direction_across(continuation, bifurcation.point);
+  } else {
+    const double along = continuation.metric().inner(direction.y, 0.0, bifurcation.null.col(0), 0.0);
+    sign *= sense_of(continuation, bifurcation.null.col(0)) * (along < 0.0 ? -1.0 : 1.0);
+  }
+  if (!direction.y.allFinite()) return std::nullopt;
+  PathPoint from = bifurcation.point;
+  from.tangent = sign * direction.y;
+  from.tangent_lambda = sign * direction.lambda;
   from.arc_length = 0.0;
   StepSize size{0.0, kFirstStep};
   PathPoint to;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "solver/path/continuation.h"
-#include "solver/path/path_point.h"
+#include "solver/stability/locate.h"
 
 namespace snapthrough {
 
@@ -19,6 +19,6 @@ namespace snapthrough {
 /// @param sign +1 or -1: which way along the null vector (its largest component positive)
 /// @return empty when no point was found nearby; otherwise its arc length counts from the bifurcation
 [[nodiscard]] std::optional<PathPoint> first_point_of_branch(Continuation& continuation,
-                                                             const PathPoint& bifurcation, double sign);
+                                                             const CriticalEvent& bifurcation, double sign);
 
 }  // namespace snapthrough

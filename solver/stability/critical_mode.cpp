@@ -36,6 +36,7 @@ VectorXd null_vector(EquilibriumProblem& problem, const PathPoint& point, Vector
 VectorXd mode_of(EquilibriumProblem& problem, const CriticalEvent& event) {
   const bool limit = event.type != CriticalType::bifurcation;
   if (limit && event.cause == CriticalCause::contact) return event.point.tangent;
+  if (event.null.size() > 0) return event.null.col(0);
   return null_vector(problem, event.point, limit ? event.point.tangent : pseudo_random(problem.size(), 1U));
 }
 

@@ -6,7 +6,12 @@
 #include <limits>
 #include <utility>
 
+#include "solver/stability/newton_event.h"
+
 namespace snapthrough {
+
+using Eigen::Index;
+
 namespace {
 
 constexpr int kMaxEvaluations = 100;
@@ -23,8 +28,9 @@ struct Search {
   Continuation& continuation;
   Chord chord;         ///< of the whole step: places are told by their distance along it
   double log_abs_det;  ///< at the start of the step
-  double tolerance;
+  const LocateOptions& options;
   LocatedEvents& out;
+  double stiffness = 0.0;  ///< of the softest motion at the ends of the step
 };
 
 bool loads_agree(double l0, double l1, double tolerance, double load_scale) {
@@ -107,7 +113,17 @@ bool changes_paths(const Search& search, const LocatedRoot& root, double first_r
   return left > kJump * first_rate && det < std::log(kSingular);
 }
 
+/// A simple point by Newton's method from the softest motions; false when it is not found so.
+bool locate_by_modes(Search& search, const PathPoint& a, const PathPoint& b, bool limit) {
+  if (search.chord.movement_only) return false;
+  auto event = crossing_between(search.continuation, search.chord, a, b, limit, search.options);
+  if (!event) return false;
+  search.out.events.push_back(*std::move(event));
+  return true;
+}
+
 void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
+  if (locate_by_modes(search, a, b, true)) return;
   const auto rate = [&search](const PathPoint& at) {
     return search.continuation.load_rate(search.chord, at);
   };
@@ -115,9 +131,9 @@ void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
   const auto done = [&](const PathPoint& lo, const PathPoint& hi, double value) {
     const double length = search.continuation.distance_along(search.chord, lo, hi);
     const double size = std::max(std::abs(lo.lambda), 1e-6 * scale);
-    return std::abs(value) * length <= 0.1 * search.tolerance * size &&
-           loads_agree(lo.lambda, hi.lambda, search.tolerance, scale) &&
-           length <= std::min(kSamePath, 10.0 * search.tolerance);
+    return std::abs(value) * length <= 0.1 * search.options.tolerance * size &&
+           loads_agree(lo.lambda, hi.lambda, search.options.tolerance, scale) &&
+           length <= std::min(kSamePath, 10.0 * search.options.tolerance);
   };
   LocatedRoot root = find_root(search.continuation, search.chord, a, rate(a), b, rate(b), rate, done);
   const double first_rate = std::max(std::abs(rate(a)), std::abs(rate(b)));
@@ -126,9 +142,10 @@ void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
 }
 
 void locate_bifurcation(Search& search, const PathPoint& a, const PathPoint& b) {
+  if (locate_by_modes(search, a, b, false)) return;
   const auto value = [&search](const PathPoint& at) { return bifurcation_function(search, at); };
   // a bifurcation broken by an imperfection e looks whole from further than e^(2/3) in the load
-  const double tolerance = std::min(search.tolerance, kBrokenBifurcation);
+  const double tolerance = std::min(search.options.tolerance, kBrokenBifurcation);
   const auto done = [&search, tolerance](const PathPoint& lo, const PathPoint& hi, double) {
     return loads_agree(lo.lambda, hi.lambda, tolerance, search.continuation.load_scale());
   };
@@ -150,10 +167,40 @@ void add_cluster(Search& search, const PathPoint& a, const PathPoint& b, bool tu
   if (between != b.negative) add_event(search, CriticalType::bifurcation, root, between, b.negative);
 }
 
+void search_between(Search& search, const PathPoint& a, const PathPoint& b, int depth);
+
+double softest(const PathPoint& at) { return at.modes ? std::abs(at.modes->stiffness[0]) : 0.0; }
+
+/// The point between two others, with its softest motions where those of the ends are known.
+std::optional<PathPoint> look(Search& search, const PathPoint& a, const PathPoint& b, double share) {
+  auto middle = search.continuation.between(search.chord, a, b, share);
+  const PathPoint& near = share < 0.5 ? a : b;
+  if (middle && near.modes) search.continuation.find_modes(*middle, near.modes);
+  return middle;
+}
+
+/// Looks into a dip of a motion's stiffness.
+void search_dip(Search& search, const PathPoint& a, const PathPoint& b, int depth) {
+  constexpr double kRounding = 1e-10;  // of a stiffness, beside that at the ends of the step
+  const auto dip = find_dip(a, b, search.continuation.distance_along(search.chord, a, b));
+  if (!dip || depth >= kMaxDepth) return;
+  const auto middle = look(search, a, b, dip->share);
+  if (!middle || !middle->modes) return;
+  if (softest(*middle) <= kRounding * search.stiffness) {
+    search.out.touching.push_back(*middle);
+    return;
+  }
+  search_between(search, a, *middle, depth + 1);
+  if (search.out.same_path) search_between(search, *middle, b, depth + 1);
+}
+
 void search_between(Search& search, const PathPoint& a, const PathPoint& b, int depth) {
   const int change = std::abs(b.negative - a.negative);
   const bool turns = (a.tangent_lambda > 0.0) != (b.tangent_lambda > 0.0);
-  if (change == 0 && !turns) return;
+  if (change == 0 && !turns) {
+    search_dip(search, a, b, depth);
+    return;
+  }
   if (change == 1) {
     if (turns)
       locate_limit(search, a, b);
@@ -166,10 +213,10 @@ void search_between(Search& search, const PathPoint& a, const PathPoint& b, int 
     return;
   }
   const double length = search.continuation.distance_along(search.chord, a, b);
-  const bool together = length <= kSamePath &&
-                        loads_agree(a.lambda, b.lambda, search.tolerance, search.continuation.load_scale());
+  const bool together = length <= kSamePath && loads_agree(a.lambda, b.lambda, search.options.tolerance,
+                                                           search.continuation.load_scale());
   std::optional<PathPoint> middle;
-  if (!together && depth < kMaxDepth) middle = search.continuation.between(search.chord, a, b, 0.5);
+  if (!together && depth < kMaxDepth) middle = look(search, a, b, 0.5);
   if (!middle) {
     add_cluster(search, a, b, turns, together);
     return;
@@ -282,14 +329,32 @@ void merge_events(Continuation& continuation, double tolerance, std::vector<Crit
 
 }  // namespace
 
+std::optional<Dip> find_dip(const PathPoint& a, const PathPoint& b, double length) {
+  if (!a.modes || !b.modes) return std::nullopt;
+  const SoftModes& from = *a.modes;
+  const SoftModes& to = *b.modes;
+  for (Index i = 0; i < from.count(); ++i) {
+    for (Index j = 0; j < to.count(); ++j) {
+      if ((from.stiffness[i] > 0.0) != (to.stiffness[j] > 0.0)) continue;
+      if (!(from.distance_to_zero(i, 1.0) + to.distance_to_zero(j, -1.0) < length)) continue;
+      const double meet =
+          (to.stiffness[j] - from.stiffness[i] - to.rate[j] * length) / (from.rate[i] - to.rate[j]);
+      return Dip{i, std::clamp(meet / length, 1e-3, 1.0 - 1e-3)};
+    }
+  }
+  return std::nullopt;
+}
+
 LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint& a, const PathPoint& b,
-                                     double tolerance) {
+                                     const LocateOptions& options) {
   LocatedEvents out;
-  Search search{continuation, continuation.chord(a, b), a.log_abs_det, tolerance, out};
+  Search search{continuation, continuation.chord(a, b),        a.log_abs_det, options,
+                out,          std::max(softest(a), softest(b))};
+  const double tolerance = options.tolerance;
   double share = 0.0;
   const bool turns = (a.tangent_lambda > 0.0) != (b.tangent_lambda > 0.0);
   if (!turns && may_hide_two_limits(continuation, search.chord, a, b, share)) {
-    if (const auto inside = continuation.between(search.chord, a, b, share)) {
+    if (const auto inside = look(search, a, b, share)) {
       search_between(search, a, *inside, 0);
       if (out.same_path) search_between(search, *inside, b, 0);
       merge_events(continuation, tolerance, out.events);
@@ -330,14 +395,14 @@ std::vector<CriticalEvent> events_before(const PathPoint& corner, const PathPoin
 }  // namespace
 
 LocatedEvents locate_at_turn(Continuation& continuation, const PathPoint& a, const PathPoint& b, double size,
-                             double tolerance) {
+                             const LocateOptions& options) {
   LocatedEvents out;
-  Search search{continuation, continuation.movement_chord(a, b), a.log_abs_det, tolerance, out};
+  Search search{continuation, continuation.movement_chord(a, b), a.log_abs_det, options, out};
   search_between(search, a, b, 0);
   if (out.same_path) return out;
   PathPoint corner = continuation.last_before_corner(a, size);
   corner.arc_length = std::nextafter(corner.arc_length, std::numeric_limits<double>::infinity());
-  return {events_before(corner, b)};
+  return {events_before(corner, b), true, {}};
 }
 
 }  // namespace snapthrough

@@ -3,6 +3,7 @@
 /// One locator for everything that happens between two points of a path.
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "solver/path/continuation.h"
@@ -18,7 +19,14 @@ struct CriticalEvent {
   PathPoint point;
   int negative_before = 0;
   int negative_after = 0;
-  int multiplicity = 1;          ///< eigenvalues that vanish there
+  int multiplicity = 1;  ///< eigenvalues that vanish there
+  /// The motion without stiffness, where it was found with the point, first; then those that lose it close
+  /// by.
+  Eigen::MatrixXd null;
+  double imperfection = 0.0;  ///< size of what breaks a bifurcation, see CriticalSolution
+  /// Direction of the path that crosses at a bifurcation, of norm one; empty: not known.
+  Eigen::VectorXd across;
+  double across_lambda = 0.0;
   double bracket_loads[2] = {};  ///< load factors at the ends of the final bracket
 };
 
@@ -48,7 +56,29 @@ struct LocatedRoot {
 struct LocatedEvents {
   std::vector<CriticalEvent> events;  ///< in the order they are met
   bool same_path = true;              ///< false: the step jumped, its ends are not on one continuous path
+  /// Places where a stiffness falls to zero within rounding and rises again: two critical points may lie
+  /// there, or none.
+  std::vector<PathPoint> touching;
 };
+
+/// How points are located.
+struct LocateOptions {
+  double tolerance = 1e-9;  ///< on the load factor, relative
+  /// Largest imperfection of a bifurcation that is one: beyond what rounding of the nodes' coordinates makes,
+  /// or a mesh, and below what can be built.
+  double perfect = 1e-8;
+};
+
+/// A fall and rise of a motion's stiffness between two points of a path.
+struct Dip {
+  Eigen::Index mode = 0;  ///< of those at the first point
+  double share = 0.5;     ///< of the way, where the tangents of the stiffness meet
+};
+
+/// @brief Whether a motion's stiffness falls towards zero from a and rises to b, so that its tangents meet
+/// beyond zero: then it may pass zero twice between them, and leave the inertia as it was.
+/// @param length of the way from a to b
+[[nodiscard]] std::optional<Dip> find_dip(const PathPoint& a, const PathPoint& b, double length);
 
 /// @brief All critical points between two neighbouring points of a path, in the order they are met.
 ///
@@ -56,15 +86,17 @@ struct LocatedEvents {
 /// its sign at no limit point; the inertia tells that something is there and how much of it, and separates
 /// what is close together by bisection. What stays together within the tolerance is one point of higher
 /// multiplicity.
-/// @param tolerance on the load factor, relative
+///
+/// Where the softest motions at both ends are known, a simple point is found by Newton's method, and two that
+/// leave the inertia as it was are seen by the motion's stiffness.
 [[nodiscard]] LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint& a,
-                                                   const PathPoint& b, double tolerance);
+                                                   const PathPoint& b, const LocateOptions& options);
 
 /// @brief As locate_critical_points(), for a step that led round a turn (StepOutcome::turned): places are
 /// told by the movement alone. What cannot be bracketed there is put at the last point before the corner,
 /// caused by contact.
 /// @param size of the step that was taken
 [[nodiscard]] LocatedEvents locate_at_turn(Continuation& continuation, const PathPoint& a, const PathPoint& b,
-                                           double size, double tolerance);
+                                           double size, const LocateOptions& options);
 
 }  // namespace snapthrough

@@ -41,6 +41,7 @@ Result full_result() {
                         {{4, 5, 66.5}, {8, 5, {}}}},
                        {0, CriticalType::limit_max, 76.5, {}, 2.5, {}, -1, -1, 1, {}},
                        {1, CriticalType::limit_min, 10.0, {}, 3.5, {}, 2, 1, 1, {}}};
+  r.critical_points[0].imperfection = 0.125;
   r.branches = {{0,
                  {},
                  {0.0, 1.0},
@@ -92,15 +93,15 @@ TEST(WriteResult, EveryFieldOfTheContract) {
                 "termination": "limit_points", "message": "one limit point"},
     "critical_points": [
       {"branch": 0, "type": "bifurcation", "cause": "contact", "load_factor": 66.25, "error_estimate": 1e-5, "arc_length": 1.5,
-       "monitors": {"crown": -0.5}, "negative_before": 0, "negative_after": 1, "multiplicity": 2, "state": 0,
+       "monitors": {"crown": -0.5}, "negative_before": 0, "negative_after": 1, "multiplicity": 2, "imperfection": 0.125, "state": 0,
        "mode": {"members": {"m": {"s": [0.0], "u": [1.0], "v": [0.5], "rotation": [3.0]}}},
        "confirmed": true, "meshes": [{"elements": 4, "order": 5, "load_factor": 66.5},
                                      {"elements": 8, "order": 5, "load_factor": null}]},
       {"branch": 0, "type": "limit_max", "cause": "smooth", "load_factor": 76.5, "error_estimate": null, "arc_length": 2.5,
-       "monitors": {}, "negative_before": null, "negative_after": null, "multiplicity": 1, "state": null, "mode": null,
+       "monitors": {}, "negative_before": null, "negative_after": null, "multiplicity": 1, "imperfection": null, "state": null, "mode": null,
        "confirmed": false, "meshes": []},
       {"branch": 1, "type": "limit_min", "cause": "smooth", "load_factor": 10.0, "error_estimate": null, "arc_length": 3.5,
-       "monitors": {}, "negative_before": 2, "negative_after": 1, "multiplicity": 1, "state": null, "mode": null,
+       "monitors": {}, "negative_before": 2, "negative_after": 1, "multiplicity": 1, "imperfection": null, "state": null, "mode": null,
        "confirmed": false, "meshes": []}],
     "branches": [
       {"id": 0, "parent": null, "load_factor": [0.0, 1.0], "arc_length": [0.0, 0.5],

@@ -105,7 +105,7 @@ inline Result solve_soundly(const Model& model, const Analysis& analysis) {
 inline std::vector<CriticalPoint> limits_of(const Result& result) {
   std::vector<CriticalPoint> out;
   for (const CriticalPoint& point : result.critical_points)
-    if (point.type != CriticalType::bifurcation) out.push_back(point);
+    if (is_limit(point.type)) out.push_back(point);
   return out;
 }
 

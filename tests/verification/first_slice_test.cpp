@@ -8,6 +8,7 @@
 /// = K L^4 / (pi^4 EI).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -165,9 +166,11 @@ TEST_P(ColumnPath, PassesTheDeflectionAtItsLoad) {
   for (const CriticalPoint& point : result.critical_points)
     EXPECT_NE(point.type, CriticalType::bifurcation) << "an imperfect column has none";
   // levels off: the maximum is Koiter's, below the closed form by no more than the offset explains
-  ASSERT_FALSE(result.critical_points.empty());
-  EXPECT_EQ(result.critical_points[0].type, CriticalType::limit_max);
-  EXPECT_LT(result.critical_points[0].load_factor, 64.808714);
+  const auto limit = std::find_if(result.critical_points.begin(), result.critical_points.end(),
+                                  [](const CriticalPoint& point) { return is_limit(point.type); });
+  ASSERT_NE(limit, result.critical_points.end());
+  EXPECT_EQ(limit->type, CriticalType::limit_max);
+  EXPECT_LT(limit->load_factor, 64.808714);
 }
 
 INSTANTIATE_TEST_SUITE_P(

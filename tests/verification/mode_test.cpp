@@ -39,14 +39,22 @@ std::vector<Measured> measure(const Model& model, const Discretization& mesh, in
   TraceRules rules;
   rules.limit_points = limit_points;
   TraceSink sink;
-  sink.on_critical = [&](const CriticalEvent& event) { out.push_back({event}); };
-  sink.on_step = [&](const PathPoint& from, const PathPoint& to) {
+  PathPoint last;
+  std::vector<PathPoint> starts;  // the path's points before the events
+  sink.on_point = [&](const PathPoint& point) { last = point; };
+  sink.on_critical = [&](const CriticalEvent& event) {
+    out.push_back({event});
+    starts.push_back(last);
+  };
+  sink.on_step = [&](const PathPoint&, const PathPoint& to) {
     for (; done < out.size(); ++done) {
       const PathPoint& at = out[done].event.point;
+      // a step may end on the point itself
+      if (!(to.arc_length > (1.0 + 1e-9) * at.arc_length)) return;
       const Eigen::VectorXd mode = mode_of(problem, out[done].event);
       out[done].residual = problem.tangent_product(at.y, at.lambda, mode).lpNorm<Eigen::Infinity>() /
                            force_in(structure, mode);
-      out[done].before = mode.dot(problem.tangent_product(from.y, from.lambda, mode));
+      out[done].before = mode.dot(problem.tangent_product(starts[done].y, starts[done].lambda, mode));
       out[done].after = mode.dot(problem.tangent_product(to.y, to.lambda, mode));
     }
   };

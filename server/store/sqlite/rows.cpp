@@ -6,9 +6,11 @@
 namespace snapthrough::server::sqlite {
 namespace {
 
-constexpr std::array kCriticalTypes{std::pair{CriticalType::bifurcation, std::string_view("bifurcation")},
-                                    std::pair{CriticalType::limit_max, std::string_view("limit_max")},
-                                    std::pair{CriticalType::limit_min, std::string_view("limit_min")}};
+constexpr std::array kCriticalTypes{
+    std::pair{CriticalType::bifurcation, std::string_view("bifurcation")},
+    std::pair{CriticalType::limit_max, std::string_view("limit_max")},
+    std::pair{CriticalType::limit_min, std::string_view("limit_min")},
+    std::pair{CriticalType::broken_bifurcation, std::string_view("broken_bifurcation")}};
 
 CriticalType critical_type(std::string_view name) {
   for (const auto& [type, text] : kCriticalTypes) {
@@ -62,7 +64,8 @@ void insert_critical_point(Connection& connection, std::int64_t job, int number,
   connection
       .prepare(
           "INSERT INTO critical_points (job, number, branch, type, load_factor, error_estimate, arc_length,"
-          " negative_before, negative_after, multiplicity) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+          " negative_before, negative_after, multiplicity, imperfection)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(job)
       .bind(number)
       .bind(point.branch)
@@ -73,6 +76,7 @@ void insert_critical_point(Connection& connection, std::int64_t job, int number,
       .bind(point.negative_before)
       .bind(point.negative_after)
       .bind(point.multiplicity)
+      .bind(point.imperfection)
       .run();
 }
 
@@ -180,7 +184,7 @@ std::vector<Branch> read_branches(const Connection& connection, std::int64_t job
 std::vector<CriticalPoint> read_critical_points(const Connection& connection, std::int64_t job) {
   Statement rows = connection.prepare(
       "SELECT branch, type, load_factor, error_estimate, arc_length, negative_before, negative_after, "
-      "multiplicity"
+      "multiplicity, imperfection"
       " FROM critical_points WHERE job = ? ORDER BY number");
   rows.bind(job);
   std::vector<CriticalPoint> points;
@@ -194,6 +198,7 @@ std::vector<CriticalPoint> read_critical_points(const Connection& connection, st
     point.negative_before = static_cast<int>(rows.integer(5));
     point.negative_after = static_cast<int>(rows.integer(6));
     point.multiplicity = static_cast<int>(rows.integer(7));
+    point.imperfection = rows.optional_real(8);
     points.push_back(std::move(point));
   }
   return points;

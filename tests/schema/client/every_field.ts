@@ -100,10 +100,10 @@ function readMode(mode: Schemas['Mode'], sum: Sum) {
 }
 
 function readCriticalPoint(point: Schemas['CriticalPoint'], sum: Sum) {
-  const type: 'bifurcation' | 'limit_max' | 'limit_min' = point.type;
+  const type: 'bifurcation' | 'limit_max' | 'limit_min' | 'broken_bifurcation' = point.type;
   sum.text(type, point.cause);
   sum.number(point.branch, point.load_factor, point.error_estimate, point.arc_length, point.negative_before,
-             point.negative_after, point.multiplicity, point.state, ...Object.values(point.monitors));
+             point.negative_after, point.multiplicity, point.imperfection, point.state, ...Object.values(point.monitors));
   sum.flag(point.confirmed);
   for (const {elements, order, load_factor} of point.meshes) sum.number(elements, order, load_factor);
   if (point.mode !== null) readMode(point.mode, sum);

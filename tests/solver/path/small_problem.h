@@ -35,6 +35,10 @@ class SmallProblem final : public EquilibriumProblem {
   }
   void load(const Eigen::VectorXd&, double, Eigen::VectorXd& out) override { out = load_; }
   void solve(Eigen::VectorXd& x) override { x = tangent_.fullPivLu().solve(x).eval(); }
+  [[nodiscard]] Eigen::MatrixXd tangent_products(const Eigen::VectorXd& y, double,
+                                                 const Eigen::Ref<const Eigen::MatrixXd>& motions) override {
+    return hessian_(y) * motions;
+  }
   [[nodiscard]] double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd&,
                                          double lambda) override {
     return f.norm() / std::max(std::abs(lambda) * load_.norm(), 1e-300);

@@ -37,7 +37,7 @@ TraceOutcome follow(SmallProblem& problem, const TraceRules& rules) {
 TraceRules until_limit_points(int n) {
   TraceRules rules;
   rules.limit_points = n;
-  rules.tolerance = 1e-10;
+  rules.locate.tolerance = 1e-10;
   return rules;
 }
 
@@ -73,10 +73,20 @@ TEST(Trace, SeparatesABifurcationJustBeforeALimitPoint) {
 TEST(Trace, DoesNotJumpAcrossABrokenBifurcation) {
   for (const double e : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10}) {
     SmallProblem problem = pitchfork(0.6, e);
-    const TraceOutcome outcome = follow(problem, until_limit_points(1));
-    ASSERT_EQ(outcome.critical.size(), 1u) << e;
-    EXPECT_EQ(outcome.critical[0].type, CriticalType::limit_max) << e;
-    const PathPoint& limit = outcome.critical[0].point;
+    TraceRules rules = until_limit_points(1);
+    rules.locate.perfect = 1e-12;
+    const TraceOutcome outcome = follow(problem, rules);
+    ASSERT_FALSE(outcome.critical.empty()) << e;
+    EXPECT_EQ(outcome.critical.back().type, CriticalType::limit_max) << e;
+    if (e < 1e-3) {
+      // beside the path: the bifurcation of the perfect problem, and the size of what breaks it, over
+      // lambda |d stiffness / d lambda| = 0.42 / 0.4
+      ASSERT_EQ(outcome.critical.size(), 2u) << e;
+      EXPECT_EQ(outcome.critical[0].type, CriticalType::broken_bifurcation) << e;
+      EXPECT_NEAR(outcome.critical[0].point.lambda, 0.42, e) << e;
+      EXPECT_NEAR(outcome.critical[0].imperfection, e / 1.05, 1e-2 * e) << e;
+    }
+    const PathPoint& limit = outcome.critical.back().point;
     const double a = limit.y[0];
     const double b = limit.y[1];
     EXPECT_GT(b, 0.0) << e;
@@ -84,6 +94,84 @@ TEST(Trace, DoesNotJumpAcrossABrokenBifurcation) {
     EXPECT_NEAR((1.0 - a) * (0.6 - a + 3.0 * b * b) - b * b, 0.0, 1e-6)
         << "singular tangent at the limit, e = " << e;
     EXPECT_LT(limit.lambda, 0.42);
+  }
+}
+
+/// An imperfection below what is called perfect leaves the bifurcation one: the path goes on beyond it, and
+/// the limit point is that of the straight path.
+TEST(Trace, GoesStraightThroughABifurcationThatRoundingBreaks) {
+  for (const double e : {0.0, 1e-16, 1e-14, 1e-12, 1e-10, -1e-10}) {
+    SmallProblem problem = pitchfork(0.6, e);
+    const TraceOutcome outcome = follow(problem, until_limit_points(1));
+    ASSERT_EQ(outcome.critical.size(), 2u) << e;
+    EXPECT_EQ(outcome.critical[0].type, CriticalType::bifurcation) << e;
+    EXPECT_NEAR(outcome.critical[0].point.lambda, 0.42, 1e-9) << e;
+    EXPECT_EQ(outcome.critical[0].negative_after, 1) << e;
+    EXPECT_EQ(outcome.critical[1].type, CriticalType::limit_max) << e;
+    EXPECT_NEAR(outcome.critical[1].point.lambda, 0.5, 1e-9) << e;
+  }
+}
+
+/// Energy a^2/2 + ((a - c)^2 - d^2) b^2/2 + b^4/4, load on a: on the primary path b = 0, lambda = a,
+/// bifurcations at a = c - d and c + d.
+SmallProblem two_bifurcations(double c, double d) {
+  return {[c, d](const Eigen::VectorXd& y) {
+            const double x = y[0] - c;
+            return Eigen::VectorXd(
+                Eigen::Vector2d(y[0] + x * y[1] * y[1], (x * x - d * d) * y[1] + y[1] * y[1] * y[1]));
+          },
+          [c, d](const Eigen::VectorXd& y) {
+            const double x = y[0] - c;
+            Eigen::Matrix2d h;
+            h << 1.0 + y[1] * y[1], 2.0 * x * y[1], 2.0 * x * y[1], x * x - d * d + 3.0 * y[1] * y[1];
+            return Eigen::MatrixXd(h);
+          },
+          Eigen::Vector2d(1.0, 0.0)};
+}
+
+/// F = (a - c)^3 / 3 - d^2 (a - c) - F(0), one unknown: limit points at a = c - d and c + d.
+SmallProblem two_folds(double c, double d) {
+  const auto f = [c, d](double a) { return (a - c) * (a - c) * (a - c) / 3.0 - d * d * (a - c); };
+  return {[f](const Eigen::VectorXd& y) {
+            return Eigen::VectorXd(Eigen::VectorXd::Constant(1, f(y[0]) - f(0.0)));
+          },
+          [c, d](const Eigen::VectorXd& y) {
+            return Eigen::MatrixXd(Eigen::MatrixXd::Constant(1, 1, (y[0] - c) * (y[0] - c) - d * d));
+          },
+          Eigen::VectorXd::Ones(1)};
+}
+
+/// Two critical points that leave the inertia as it was are found wherever they lie in a step, or the path
+/// says where it cannot tell; and where the stiffness does not reach zero nothing is found.
+TEST(Trace, FindsPairsInsideAStep) {
+  for (const bool folds : {false, true}) {
+    for (const double place : {0.0, 0.013, 0.11, 0.27, 0.41, 0.5, 0.66, 0.83, 0.97}) {
+      for (double d = 0.1; d > 0.9e-8; d *= 0.1) {
+        const double c = 1.3 + place;
+        SmallProblem problem = folds ? two_folds(c, d) : two_bifurcations(c, d);
+        Continuation continuation(problem, {});
+        TraceRules rules;
+        rules.monitor = [](const PathPoint& at) { return at.y[0]; };
+        rules.monitor_range = {{-1.0, 3.5}};
+        rules.locate.tolerance = 1e-10;
+        int told = 0;
+        TraceSink sink;
+        sink.on_touching = [&](const PathPoint& at) {
+          EXPECT_NEAR(at.y[0], c, 1e-3);
+          ++told;
+        };
+        const TraceOutcome outcome = trace(continuation, continuation.start(), rules, {}, sink, {});
+        EXPECT_EQ(outcome.end, TraceEnd::monitor) << folds << " " << c << " " << d;
+        if (outcome.critical.empty()) {
+          EXPECT_EQ(told, 1) << folds << " " << c << " " << d;
+          EXPECT_LT(d, 1e-3) << folds << " " << c;
+          continue;
+        }
+        ASSERT_EQ(outcome.critical.size(), 2u) << folds << " " << c << " " << d;
+        EXPECT_NEAR(outcome.critical[0].point.y[0], c - d, 1e-2 * d + 1e-8) << folds << " " << c << " " << d;
+        EXPECT_NEAR(outcome.critical[1].point.y[0], c + d, 1e-2 * d + 1e-8) << folds << " " << c << " " << d;
+      }
+    }
   }
 }
 
@@ -155,7 +243,7 @@ TEST(Branch, LeavesAPitchforkBothWays) {
     rules.first_loss_of_stability = true;
     const TraceOutcome primary = trace(continuation, continuation.start(), rules, {}, {}, {});
     ASSERT_EQ(primary.critical.size(), 1u);
-    const auto first = first_point_of_branch(continuation, primary.critical[0].point, sign);
+    const auto first = first_point_of_branch(continuation, primary.critical[0], sign);
     ASSERT_TRUE(first);
     EXPECT_GT(sign * first->y[1], 0.0);
     TraceRules until;

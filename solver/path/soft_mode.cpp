@@ -1,0 +1,144 @@
+#include "solver/path/soft_mode.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "solver/linalg/pseudo_random.h"
+
+namespace snapthrough {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double SoftModes::distance_to_zero(Index mode, double sense) const {
+  const double distance = -sense * stiffness[mode] / rate[mode];
+  return distance >= 0.0 ? distance : std::numeric_limits<double>::infinity();
+}
+
+namespace {
+
+/// Size of the difference that tangents are differentiated by: displacement gradients, as the metric has
+/// them. Where supports act on one side only it stays within what still touches.
+double difference(const EquilibriumProblem& problem) { return problem.one_sided() ? 1e-7 : 1e-4; }
+
+/// A block of motions z with the motions x that they come from, J z = W x.
+struct Block {
+  MatrixXd z;
+  MatrixXd x;
+};
+
+/// Makes the motions orthonormal in the metric; columns that depend on earlier ones are dropped.
+void orthonormalise(const VectorXd& weights, Block& block) {
+  constexpr double kDependent = 1e-12;
+  constexpr double kCancelled = 0.1;  // of a column: then what is left is made orthogonal once more
+  Index kept = 0;
+  for (Index i = 0; i < block.z.cols(); ++i) {
+    auto z = block.z.col(i);
+    auto x = block.x.col(i);
+    const auto norm = [&] { return std::sqrt((z.array().square() * weights.array()).sum()); };
+    const double size = norm();
+    double left = size;
+    for (double before = std::numeric_limits<double>::infinity(); left < kCancelled * before;) {
+      before = left;
+      for (Index j = 0; j < kept; ++j) {
+        const double along = (block.z.col(j).array() * weights.array() * z.array()).sum();
+        z -= along * block.z.col(j);
+        x -= along * block.x.col(j);
+      }
+      left = norm();
+      if (!(left > kDependent * size)) break;
+    }
+    if (!(left > kDependent * size)) continue;
+    block.z.col(kept) = z / left;
+    block.x.col(kept) = x / left;
+    ++kept;
+  }
+  block.z.conservativeResize(Eigen::NoChange, kept);
+  block.x.conservativeResize(Eigen::NoChange, kept);
+}
+
+MatrixXd first_block(const VectorXd& weights, const MatrixXd& start, Index count) {
+  // a problem has no more than unknowns with weight
+  const Index columns = std::min<Index>((weights.array() > 0.0).count(), count + 1);
+  const Index known = std::min(start.cols(), columns - 1);
+  MatrixXd x(weights.size(), columns);
+  x.leftCols(known) = start.leftCols(known);
+  for (Index i = known; i < columns; ++i)
+    x.col(i) = pseudo_random(weights.size(), static_cast<unsigned>(i + 1));
+  return x;
+}
+
+/// The eigenpairs by their distance from zero, the nearest first.
+struct Ritz {
+  VectorXd values;
+  MatrixXd vectors;  ///< columns, shares of the block's motions
+};
+
+Ritz ritz_pairs(const VectorXd& weights, const Block& block) {
+  // z.J z = z.W x
+  const Index k = block.z.cols();
+  MatrixXd projected(k, k);
+  for (Index i = 0; i < k; ++i)
+    for (Index j = 0; j < k; ++j)
+      projected(i, j) = (block.z.col(i).array() * weights.array() * block.x.col(j).array()).sum();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (projected + projected.transpose()));
+  std::vector<Index> order(static_cast<std::size_t>(k));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    return std::abs(solver.eigenvalues()[a]) < std::abs(solver.eigenvalues()[b]);
+  });
+  return {solver.eigenvalues()(order), solver.eigenvectors()(Eigen::all, order)};
+}
+
+}  // namespace
+
+SoftModes soft_modes(EquilibriumProblem& problem, const MatrixXd& start, Index count, int iterations) {
+  const VectorXd& weights = problem.metric();
+  Block block{MatrixXd(), first_block(weights, start, count)};
+  SoftModes out;
+  VectorXd z;
+  for (int it = 1; it <= iterations; ++it) {
+    block.z.resize(block.x.rows(), block.x.cols());
+    for (Index i = 0; i < block.x.cols(); ++i) {
+      problem.metric_forces(block.x.col(i), z);
+      problem.solve(z);
+      if (!z.allFinite()) return {};
+      block.z.col(i) = z;
+    }
+    orthonormalise(weights, block);
+    const Ritz pairs = ritz_pairs(weights, block);
+    const Index wanted = it < iterations ? pairs.values.size() : std::min(count, pairs.values.size());
+    out.stiffness = pairs.values.head(wanted);
+    block.x.resize(block.z.rows(), wanted);
+    block.x = block.z.lazyProduct(pairs.vectors.leftCols(wanted));
+  }
+  out.motions = std::move(block.x);
+  return out;
+}
+
+MatrixXd tangent_change(EquilibriumProblem& problem, const VectorXd& y, double lambda,
+                        const PathDirection& along, const Eigen::Ref<const MatrixXd>& b) {
+  const double e = difference(problem) / along.norm;
+  MatrixXd change = problem.tangent_products(y + e * along.y, lambda + e * along.lambda, b);
+  change -= problem.tangent_products(y - e * along.y, lambda - e * along.lambda, b);
+  change /= 2.0 * e;
+  return change;
+}
+
+VectorXd load_change(EquilibriumProblem& problem, const VectorXd& y, double lambda,
+                     const PathDirection& along) {
+  const double e = difference(problem) / along.norm;
+  VectorXd after;
+  VectorXd before;
+  problem.load(y + e * along.y, lambda + e * along.lambda, after);
+  problem.load(y - e * along.y, lambda - e * along.lambda, before);
+  return (after - before) / (2.0 * e);
+}
+
+}  // namespace snapthrough
