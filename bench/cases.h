@@ -26,7 +26,8 @@ struct Case {
 /// @pre one of cases() has the name, or it is "column_with_spring"
 [[nodiscard]] Case case_named(const std::string& name);
 
-/// Pinned shallow arch without base on a mesh of that many elements, four steps of its path.
+/// Pinned shallow arch without base on a mesh of that many elements, four steps of its path, far below its
+/// first critical load.
 [[nodiscard]] Case growing_arch(int elements, int order = 1);
 /// The shallow arch on a base outside of k = 1e6, cut into that many bases beside one another.
 [[nodiscard]] Case arch_on_pieces(int pieces);
