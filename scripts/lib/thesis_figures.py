@@ -218,7 +218,7 @@ def plot_sweeps(results):
                   for k, color in zip(stiffnesses, PALETTE)]
         plot(DOCS / f"figure_4_{number}.svg", Axes("Column with one spring: " + file.split("spring_")[1].replace("_", "-"),
                                                   "c_b = c/L from the top", "Γ = P_{cr}/P_e"), curves)
-    points = [(row["amplitude"], row["/critical_points/0/load_factor"]) for row in results["imperfection_sensitivity_arch"]]
+    points = [(row["amplitude"], row["/summary/critical_load_factor"]) for row in results["imperfection_sensitivity_arch"]]
     plot(DOCS / "sensitivity.svg", Axes("Shallow arch, k = 0: antisymmetric imperfection", "amplitude / R, per cent",
                                         "Λ = P R^2/EI at the first loss of stability"),
          [Curve("imperfect: limit", f"linespoints pt 7 ps 0.5 lc rgb '{PALETTE[0]}'", [points])])

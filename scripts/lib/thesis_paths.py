@@ -82,7 +82,9 @@ def check_paths(runs):
     for K in (10, 50, 75, 500, 1000):
         result = runs("column_one_sided_base", (STIFFNESS, K))
         loads = plateau_points(result)
-        wrong += [] if len(loads) > 1 and not result["critical_points"] else [f"column on one side, K = {K}: no plateau"]
+        # the straight column's bifurcation is beside the path
+        met = [p for p in result["critical_points"] if p["type"] != "broken_bifurcation"]
+        wrong += [] if len(loads) > 1 and not met else [f"column on one side, K = {K}: no plateau"]
         # how many points a path has there is the steps' business: the farthest stands for all
         farthest = max(loads, key=lambda load: abs(load / PLATEAU - 1), default=float("nan"))
         compare(f"column on one side, K = {K}", farthest, PLATEAU, 2e-5)  # Koiter: the load rises by (w pi/L)^2/8
@@ -131,7 +133,7 @@ def one_sided_table(runs):
     for K in (10, 50, 75, 500, 1000):
         result = runs("column_one_sided_base", (STIFFNESS, K))
         loads = plateau_points(result)
-        yield f"| {K} | {min(loads):.5f}, {max(loads):.5f} | {len(result['critical_points'])} |"
+        yield f"| {K} | {min(loads):.5f}, {max(loads):.5f} | {sum(p['type'] != 'broken_bifurcation' for p in result['critical_points'])} |"
 
 
 TABLES = {"{linear_beam}": linear_beam_table, "{beam}": beam_table, "{fixed_beam}": fixed_beam_table, "{columns}": column_table,
