@@ -1,8 +1,6 @@
 #include "solver/analysis/touching.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -68,14 +66,6 @@ TouchingSupports least_piece(const Model& model, const Structure& structure, dou
   return out;
 }
 
-/// Whether the load moves supports: the pieces are those of a structure under forces.
-bool is_moved(const Structure& structure) {
-  return std::any_of(structure.supports.begin(), structure.supports.end(), [](const JointSupport& support) {
-    return std::any_of(std::begin(support.proportional), std::end(support.proportional),
-                       [](double value) { return value != 0.0; });
-  });
-}
-
 /// Response beside that of the glued structure beyond which supports are left, or pressed by rounding alone.
 constexpr double kLoose = 1e3;
 
@@ -98,7 +88,7 @@ bool glued_touches(const Structure& structure, StructuralProblem& problem) {
 std::optional<Structure> with_least_piece(const Model& model, const Structure& structure,
                                           StructuralProblem& problem, const Continuation& continuation,
                                           const std::optional<PathPoint>& start, Result& result) {
-  if (!structure.one_sided || is_known(structure.touching) || is_moved(structure)) return std::nullopt;
+  if (!structure.one_sided || is_known(structure.touching)) return std::nullopt;
   if (start ? start->tangent_lambda <= 0.0 : structure.has_constant) return std::nullopt;
   const double ahead = start && continuation.loosening() <= kLoose ? kOnTheWay * continuation.load_scale()
                                                                    : structure.scales.load;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/linalg/pseudo_random.h"
+#include "solver/path/hermite.h"
 
 namespace snapthrough {
 
@@ -69,18 +70,6 @@ constexpr double kLoadDominates = 3.0;
 
 /// Relative residual of a predictor that is as good as exact.
 constexpr double kRoundingResidual = 1e-14;
-
-/// Cubic Hermite interpolation on [0, d] at tau with end values and slopes.
-struct Hermite {
-  double a, da, b, db;
-  Hermite(double tau, double d) {
-    const double t = tau / d;
-    a = (1.0 + 2.0 * t) * (1.0 - t) * (1.0 - t);
-    b = t * t * (3.0 - 2.0 * t);
-    da = d * t * (1.0 - t) * (1.0 - t);
-    db = d * t * t * (t - 1.0);
-  }
-};
 
 /// Sign of det [J, -load; tangent]: parity of the negative eigenvalues times the sense of the load. It is the
 /// same on both sides of a corner, because both sides' tangents agree in the plane that separates them.
@@ -361,13 +350,10 @@ void Continuation::extrapolate(const PathPoint& before, const PathPoint& from) {
   bend_ = {};
   // where contact changes the cubic says less than the tangent
   if (problem_.one_sided() && !easy_) return;
-  constexpr double kSharply = 0.8;  // cosine between the tangents; smooth steps turn less
-  constexpr double kSameNorm = 1e-3;
   const double chord = distance(before, from);
   const double cosine =
       metric_.inner(before.tangent, before.tangent_lambda, from.tangent, from.tangent_lambda);
-  const double norm = metric_.norm(before.tangent, before.tangent_lambda);
-  if (!(chord > 0.0) || cosine < kSharply || std::abs(norm - 1.0) > kSameNorm) return;
+  if (!(chord > 0.0)) return;
   const double half = 0.5 * std::acos(std::min(cosine, 1.0));
   const double d = half > 0.0 ? chord * half / std::sin(half) : chord;
   const double along = (from.lambda - before.lambda) / d;

@@ -91,7 +91,7 @@ class Continuation {
   /// @brief One accepted step from `from`: `step.wanted` is tried first, then smaller ones; sets both fields.
   [[nodiscard]] StepOutcome step(const PathPoint& from, StepSize& step, PathPoint& to);
   /// @brief The next step from `to` is predicted, at its first size, by the cubic through both points and
-  /// tangents: where the path is smooth between them.
+  /// tangents: where the path does not turn sharply between them.
   void extrapolate(const PathPoint& from, const PathPoint& to);
   /// The next step is predicted by its tangent.
   void extrapolate_nothing() { bend_ = {}; }
@@ -128,13 +128,10 @@ class Continuation {
   /// @pre the problem was factorised last at the point, or so near that it makes no difference
   /// @param start modes of a neighbouring point; null: there are none
   void find_modes(PathPoint& at, const SharedModes& start);
-  /// @brief The same at the beginning of a path, factorised just beyond it: at zero load supports of one side
-  /// touch nothing.
+  /// @brief The same at the beginning of a path, factorised just beyond it.
   void find_first_modes(PathPoint& start);
   /// @brief Negative eigenvalues at a point, factorised there.
   [[nodiscard]] int negative_at(const PathPoint& at);
-  /// Whether the tangent is symmetric, so that stiffnesses of motions are real.
-  [[nodiscard]] bool symmetric() const { return symmetric_; }
   void count_factorisations(int number) { statistics_.factorizations += number; }
 
   /// @brief The straight line from one point of the path to another: places between are told by their
@@ -230,7 +227,7 @@ class Continuation {
   double arc_weight_ = 1.0;  ///< of the load in arc lengths
   Corner corner_;
   Eigen::VectorXd loose_motion_;
-  bool symmetric_ = true;
+  bool symmetric_ = true;   ///< the tangent is, so that stiffnesses of motions are real
   bool easy_ = false;       ///< the last step was accepted at its first size
   double easy_size_ = 0.0;  ///< of the last step that was accepted at its first size
   /// Second and third derivative of the path at the point that is stepped from, by arc length; empty: not

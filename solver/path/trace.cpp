@@ -70,10 +70,11 @@ class Tracer {
   const TraceSink& sink_;
   TraceOutcome out_;
   int limit_points_ = 0;
-  double travelled_ = 0.0;                  ///< sum of the movements of all steps
-  std::vector<ContactChange> changes_;      ///< on the step that is being taken
-  std::optional<CriticalEvent> passed_by_;  ///< the last bifurcation that was found beside the path
-  std::vector<CriticalEvent> beside_;       ///< those that are still to be told
+  double travelled_ = 0.0;              ///< sum of the movements of all steps
+  std::vector<ContactChange> changes_;  ///< on the step that is being taken
+  std::optional<double> passed_by_;     ///< load of the last bifurcation that was found beside the path
+  bool onto_ = false;                   ///< the step that is being taken ends on a bifurcation
+  std::vector<CriticalEvent> beside_;   ///< those that are still to be told
 };
 
 /// Round a corner a point's share of the step is not its share of the arc: along the polygon instead.
@@ -226,10 +227,9 @@ bool Tracer::are_whole(const std::vector<CriticalEvent>& events) {
   const CriticalEvent& first = events.front();
   constexpr double kFall = 0.1;  // of an imperfection that is the mesh's, on a finer mesh
   if (first.imperfection <= rules_.locate.perfect) return true;
-  const bool judged = passed_by_ && std::abs(first.point.lambda - passed_by_->point.lambda) <=
-                                        kSameLoad * std::abs(first.point.lambda);
-  if (judged) return false;
-  passed_by_ = first;
+  const double load = first.point.lambda;
+  if (passed_by_ && std::abs(load - *passed_by_) <= kSameLoad * std::abs(load)) return false;
+  passed_by_ = load;
   const auto finer = rules_.finer_imperfection ? rules_.finer_imperfection(first) : first.imperfection;
   if (!finer) return false;
   if (*finer <= kFall * first.imperfection) return true;
@@ -243,6 +243,7 @@ bool Tracer::are_whole(const std::vector<CriticalEvent>& events) {
 void Tracer::step_onto(const std::vector<CriticalEvent>& events, const PathPoint& from, StepSize& size,
                        PathPoint& to) {
   const CriticalEvent& last = events.back();
+  onto_ = true;
   to = last.point;
   to.negative = last.negative_after;
   size.taken = continuation_.distance(from, to);
@@ -310,15 +311,17 @@ bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<Crit
     if (sink_.on_contact && change.point.arc_length <= to.arc_length) sink_.on_contact(change);
   if (sink_.on_step) sink_.on_step(from, to);
   // a bifurcation that the path steps onto is told as such, and has no count of its own
-  const bool onto = !ended && !reached.empty() && to.arc_length <= beyond(reached.back().point.arc_length);
-  if (sink_.on_point && !onto) sink_.on_point(to);
+  if (sink_.on_point && (ended || !onto_)) sink_.on_point(to);
   return ended;
 }
 
 /// Completes the end of a step that was taken; what is found between it and the start. It may become a
 /// bifurcation that was left behind.
 LocatedEvents Tracer::arrive(const PathPoint& from, StepOutcome outcome, StepSize& size, PathPoint& to) {
-  const bool freed = continuation_.may_be_neutral(from, to) && continuation_.hold_neutral(from, to);
+  const bool may_be_free = continuation_.may_be_neutral(from, to);
+  const bool freed = may_be_free && continuation_.hold_neutral(from, to);
+  // the question was asked with other factors
+  if (may_be_free && !freed) to.negative = continuation_.negative_at(to);
   if (!freed && outcome == StepOutcome::advanced && to.negative != from.negative)
     continuation_.settle(from, to);
   find_modes(from, to);
@@ -355,6 +358,7 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
   if (!continuation_.problem().one_sided()) continuation_.find_first_modes(from);
   PathPoint to;
   for (int n = 0; !ends_here(from, n, stop);) {
+    onto_ = false;
     StepOutcome outcome = StepOutcome::advanced;
     LocatedEvents located{ahead(from, size.wanted), true, {}};
     if (are_whole(located.events)) {

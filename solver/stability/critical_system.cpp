@@ -36,11 +36,11 @@ CriticalDirection direction(const CriticalSolution& at, const VectorXd& along_nu
 
 }  // namespace
 
-double CriticalSolution::imperfection(double least_stiffness) const {
+double CriticalSolution::imperfection() const {
   if (unfolding.size() == 0 || unfolding.isZero(0.0)) return 0.0;
   const double slowest =
       Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric(B)).eigenvalues().cwiseAbs().minCoeff();
-  return unfolding.norm() / std::max(std::abs(lambda) * slowest, least_stiffness);
+  return unfolding.norm() / (std::abs(lambda) * slowest);
 }
 
 std::optional<CriticalSolution::Spectrum> CriticalSolution::spectrum() const {
@@ -119,7 +119,7 @@ class CriticalNewton {
   VectorXd pi_, rho_;
   MatrixXd along_p_;   ///< n_i.F''[n_j, p]
   VectorXd along_zp_;  ///< n_i.F''[z, p]
-  VectorXd residual_, dy_;
+  VectorXd residual_;
   double dlambda_ = 0.0;
   double moved_ = 0.0;
   double previous_ = 0.0;  ///< movement
@@ -165,9 +165,8 @@ bool CriticalNewton::factorise() {
     problem_.metric_forces(at_.null.col(i), column);
     rows.col(i) = column;
   }
-  const MatrixXd forces = rows.leftCols(k);
   rows.col(k) = -residual_;
-  if (bifurcation_) rows.col(k) -= forces * at_.unfolding;
+  if (bifurcation_) rows.col(k) -= rows.leftCols(k) * at_.unfolding;
   problem_.load(at_.y, at_.lambda, column);
   rows.col(k + 1) = column;
   const MatrixXd border = problem_.metric().asDiagonal() * at_.null;
@@ -220,8 +219,8 @@ void CriticalNewton::differentiate() {
 
 /// S: the distance in the load of the target is -trace(S stiffness) / trace(S B).
 MatrixXd CriticalNewton::share_of_target() const {
-  const auto spectrum = guess_.target >= 0 ? at_.spectrum() : std::nullopt;
-  if (!spectrum) return at_.B.inverse();
+  const auto spectrum = at_.spectrum();
+  if (!spectrum) return at_.B.inverse();  // the mean of their distances
   const VectorXd w = spectrum->shares.col(guess_.target);
   return w * w.transpose() / w.dot(at_.B * w);
 }
@@ -251,10 +250,10 @@ bool CriticalNewton::step() {
   if (!change.allFinite()) return false;
   dlambda_ = change[0];
   const VectorXd amplitudes = change.tail(v_.cols());
-  dy_ = p_ + dlambda_ * q_ + v_ * amplitudes;
-  moved_ = metric_.norm(dy_, dlambda_);
+  const VectorXd dy = p_ + dlambda_ * q_ + v_ * amplitudes;
+  moved_ = metric_.norm(dy, dlambda_);
   if (!std::isfinite(moved_)) return false;
-  at_.y += dy_;
+  at_.y += dy;
   at_.lambda += dlambda_;
   if (bifurcation_) at_.unfolding += pi_ + dlambda_ * rho_ - at_.stiffness * amplitudes;
   at_.stiffness += dlambda_ * at_.B + along_p_;
@@ -291,8 +290,7 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
     if (!factorise()) return std::nullopt;
     differentiate();
     if (!step()) return std::nullopt;
-    const bool broken =
-        bifurcation_ && at_.imperfection(options_.least_stiffness) > options_.largest_imperfection;
+    const bool broken = bifurcation_ && at_.imperfection() > options_.largest_imperfection;
     if (broken && it >= kSettling) return std::nullopt;
     if (converged()) return std::move(at_);
   }

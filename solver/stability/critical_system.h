@@ -17,8 +17,8 @@ struct CriticalGuess {
   double lambda = 0.0;
   /// Motions that lose their stiffness there: one, or all those that do so close together.
   Eigen::MatrixXd null;
-  /// Of several: which of them loses its stiffness at the solution, in the order of the load; -1: their mean.
-  Eigen::Index target = -1;
+  /// Of several: which of them loses its stiffness at the solution, in the order of the load.
+  Eigen::Index target = 0;
 };
 
 /// A direction of (y, lambda), and how fast the stiffness of the first null motion changes along it.
@@ -47,9 +47,7 @@ struct CriticalSolution {
 
   /// @brief Size of what breaks the bifurcations: the unfolding forces over those by which the load changes
   /// the stiffness of n. About the root mean square slope of the imperfection's shape.
-  /// @param least_stiffness what the load changes counts as at least: where two critical points of one motion
-  /// meet, it changes nothing
-  [[nodiscard]] double imperfection(double least_stiffness) const;
+  [[nodiscard]] double imperfection() const;
   /// Where the stiffness vanishes, seen from here along the load.
   struct Spectrum {
     Eigen::VectorXd distances;  ///< in the load factor, ascending
@@ -67,7 +65,6 @@ struct CriticalOptions {
   double tolerance = 1e-9;             ///< of the load factor, relative
   double least_load = 0.0;             ///< load that the tolerance is relative to at least
   double reach = 0.1;                  ///< farthest from the guess, in the metric
-  double least_stiffness = 0.0;        ///< see CriticalSolution::imperfection()
   double largest_imperfection = 1e-2;  ///< of a bifurcation that is worth going on for
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/path/hermite.h"
 #include "solver/path/soft_mode.h"
 #include "solver/stability/critical_system.h"
 
@@ -57,27 +58,41 @@ CriticalEvent bifurcation_event(const CriticalSolution& found, const Tangents& t
   event.point.tangent_lambda = tangents.along.lambda;
   event.null = found.null;
   if (shares.size() > 1) event.null.col(0) = found.null * shares;
-  event.imperfection = found.imperfection(0.0);
+  event.imperfection = found.imperfection();
   event.across = tangents.across.y;
   event.across_lambda = tangents.across.lambda;
   event.bracket_loads[0] = event.bracket_loads[1] = event.point.lambda;
   return event;
 }
 
-/// The same bifurcation, found for itself: seen from the mean of several its place is right to the square of
+/// A solution of Moore's system with what a path needs of it.
+struct Solved {
+  CriticalSolution at;
+  Tangents tangents;
+  CriticalSolution::Spectrum spectrum;
+};
+
+std::optional<Solved> solve_on_path(Continuation& continuation, const CriticalGuess& guess,
+                                    const PathDirection& way, const CriticalOptions& options) {
+  int factorisations = 0;
+  auto found =
+      solve_bifurcation(continuation.problem(), continuation.metric(), guess, options, factorisations);
+  continuation.count_factorisations(factorisations);
+  if (!found) return std::nullopt;
+  auto tangents = tangents_along(continuation.metric(), *found, way);
+  auto spectrum = found->spectrum();
+  if (!tangents || !spectrum) return std::nullopt;
+  return Solved{*std::move(found), *std::move(tangents), *std::move(spectrum)};
+}
+
+/// The same bifurcation, found for itself: seen from another of several its place is right to the square of
 /// the distance only.
 CriticalEvent settled(Continuation& continuation, const CriticalEvent& event, Index target,
                       const PathDirection& way, const CriticalOptions& options) {
   const CriticalGuess guess{event.point.y, event.point.lambda, event.null, target};
-  int factorisations = 0;
-  const auto found =
-      solve_bifurcation(continuation.problem(), continuation.metric(), guess, options, factorisations);
-  continuation.count_factorisations(factorisations);
+  const auto found = solve_on_path(continuation, guess, way, options);
   if (!found) return event;
-  const auto tangents = tangents_along(continuation.metric(), *found, way);
-  const auto spectrum = found->spectrum();
-  if (!tangents || !spectrum) return event;
-  return bifurcation_event(*found, *tangents, 0.0, spectrum->shares.col(target));
+  return bifurcation_event(found->at, found->tangents, 0.0, found->spectrum.shares.col(target));
 }
 
 /// Whether the inertia changes as bifurcations say, just before the first and beyond the last. Where supports
@@ -106,25 +121,20 @@ std::vector<CriticalEvent> bifurcations_near(Continuation& continuation, const C
   constexpr double kExact = 1e-5;  // of the load: distances whose square does not count
   constexpr double kClose = 1e-2;
   constexpr double kBeside = 1e-2;  // of the reach
-  int factorisations = 0;
-  const auto found =
-      solve_bifurcation(continuation.problem(), continuation.metric(), guess, options, factorisations);
-  continuation.count_factorisations(factorisations);
-  if (!found) return {};
-  const auto tangents = tangents_along(continuation.metric(), *found, way);
-  const auto spectrum = found->spectrum();
-  if (!tangents || !spectrum) return {};
-  const auto count = static_cast<int>(found->null.cols());
-  const int change = tangents->along.stiffness_rate < 0.0 ? 1 : -1;
-  const int first = found->others + (change < 0 ? count : 0);
+  const auto solved = solve_on_path(continuation, guess, way, options);
+  if (!solved) return {};
+  const auto& [found, tangents, spectrum] = *solved;
+  const auto count = static_cast<int>(found.null.cols());
+  const int change = tangents.along.stiffness_rate < 0.0 ? 1 : -1;
+  const int first = found.others + (change < 0 ? count : 0);
   if (before >= 0 && before != first) return {};
-  const double size = std::max(std::abs(found->lambda), options.least_load);
+  const double size = std::max(std::abs(found.lambda), options.least_load);
   std::vector<CriticalEvent> events;
   for (int n = 0; n < count; ++n) {
-    const Index i = tangents->along.lambda < 0.0 ? count - 1 - n : n;
-    const double distance = count > 1 && i != guess.target ? spectrum->distances[i] : 0.0;
+    const Index i = tangents.along.lambda < 0.0 ? count - 1 - n : n;
+    const double distance = count > 1 && i != guess.target ? spectrum.distances[i] : 0.0;
     if (std::abs(distance) > kClose * size) break;
-    CriticalEvent event = bifurcation_event(*found, *tangents, distance, spectrum->shares.col(i));
+    CriticalEvent event = bifurcation_event(found, tangents, distance, spectrum.shares.col(i));
     if (std::abs(distance) > kExact * size) event = settled(continuation, event, i, way, options);
     event.negative_before = first + change * n;
     event.negative_after = event.negative_before + change;
@@ -197,9 +207,8 @@ double predicted_share(const PathMetric& metric, const SoftModes& a, Index i, co
   double hi = 1.0;
   for (int n = 0; n < kHalvings; ++n) {
     const double t = 0.5 * (lo + hi);
-    const double value = (1.0 + 2.0 * t) * (1.0 - t) * (1.0 - t) * a.stiffness[i] +
-                         t * t * (3.0 - 2.0 * t) * b.stiffness[j] +
-                         length * t * (1.0 - t) * ((1.0 - t) * a.rate[i] - t * b.rate[j]);
+    const Hermite h(t * length, length);
+    const double value = h.a * a.stiffness[i] + h.da * a.rate[i] + h.b * b.stiffness[j] + h.db * b.rate[j];
     ((value > 0.0) == (a.stiffness[i] > 0.0) ? lo : hi) = t;
   }
   return 0.5 * (lo + hi);
