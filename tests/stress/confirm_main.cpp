@@ -94,7 +94,6 @@ int main(int argc, char** argv) {
     const Result fine = reference_of(draw == "frame", request, result, accuracy);
     const double load = load_of(result);
     const double reference = load_of(fine);
-    if (std::getenv("MSG") != nullptr) std::printf("%s\n", result.summary.message.c_str());
     std::printf("%lu %s %.12g %.12g %.3g %.3g %d %.4f\n", seed, judge(result, fine, accuracy).c_str(), load,
                 reference, std::abs(load / reference - 1.0),
                 result.summary.error_estimate.value_or(std::nan("")), result.diagnostics.factorizations,
