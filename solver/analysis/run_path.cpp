@@ -39,7 +39,7 @@ TraceRules rules_of(const Model& model, const Analysis& analysis, const Structur
     // a broken bifurcation has its limit point, if any, lower by about 10 e^(2/3)
     if (model.imperfections.empty())
       rules.locate.perfect =
-          std::max(rules.locate.perfect, std::pow(0.1 * analysis.discretization.accuracy, 1.5));
+          std::max(rules.locate.perfect, imperfection_of(analysis.discretization.accuracy));
   }
   if (analysis.type == AnalysisType::critical) {
     rules.first_loss_of_stability = true;

@@ -32,6 +32,8 @@ constexpr double kNearResidual = 10.0;
 /// Relative residual that nothing can be taken from.
 constexpr double kExact = 1e-15;
 
+constexpr double kConvergingShare = 0.3;
+
 /// Corrections before a residual that no longer falls counts as rounding's, and what is left of one that
 /// does not.
 constexpr int kStagnantIterations = 4;
@@ -120,7 +122,8 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
   if (exact || problem.one_sided()) {
     problem.residual(work.trial, lambda + dlambda, work.residual);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
-    if (problem.one_sided() && size > std::max(out.relative_residual, options.residual_floor))
+    if (problem.one_sided() &&
+        size > std::max(kConvergingShare * out.relative_residual, options.residual_floor))
       return correction <= kLargestLeft && out.relative_residual <= options.stagnant_residual;
     // one that leaves more was not the last, but where residuals are smooth and no longer fall
     const bool falls = problem.one_sided() || size <= kStagnantShare * out.relative_residual;

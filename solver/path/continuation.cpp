@@ -1,6 +1,7 @@
 #include "solver/path/continuation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -75,6 +76,11 @@ constexpr double kRoundingResidual = 1e-14;
 /// same on both sides of a corner, because both sides' tangents agree in the plane that separates them.
 bool keeps_orientation(const PathPoint& from, const PathPoint& to) {
   return (from.negative % 2 == to.negative % 2) == ((from.tangent_lambda > 0.0) == (to.tangent_lambda > 0.0));
+}
+
+void reverse(PathPoint& point) {
+  point.tangent = -point.tangent;
+  point.tangent_lambda = -point.tangent_lambda;
 }
 
 /// Negative eigenvalues next to a point that has `before` of them. Where the tangent is not symmetric, real
@@ -404,11 +410,9 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   Trial trial;
   if (outcome.status != CorrectorStatus::converged) return trial;
   set_tangent(to, from.negative, outcome, from.tangent, from.tangent_lambda);
-  const double cosine =
-      std::clamp(metric_.inner(to.tangent, to.tangent_lambda, from.tangent, from.tangent_lambda), -1.0, 1.0);
   trial.converged = true;
   trial.corrections = outcome.factorisations;
-  trial.angle = std::acos(cosine);
+  trial.angle = angle_between(from, to);
   // what the residual does not show is rounding, which shorter steps would not lessen
   if (outcome.first_residual > kRoundingResidual) trial.correction = outcome.first_correction / movement;
   const double room = std::min(options_.target_angle / std::max(trial.angle, 1e-12),
@@ -458,45 +462,69 @@ bool Continuation::is_corner(const Trial& trial, double size) {
   return true;
 }
 
-/// Takes the path round a corner that is within `size` of `from`, where it goes back against its tangent or
-/// so nearly across it that no step along the tangent meets it again: the direction is that of the supports
-/// which act beyond, in the sense that keeps the orientation.
-bool Continuation::turn(const PathPoint& from, double size, PathPoint& to) {
-  constexpr double kBeyond = 10.0;     // the step over the distance to the corner
+/// A point beyond a corner that is less than `depth` from `from`, with the path's direction there: that of
+/// the supports which act beyond, in the sense that keeps the orientation.
+std::optional<PathPoint> Continuation::beyond_corner(const PathPoint& from, double depth) {
   constexpr double kLeastTurn = 1e-3;  // of the tangent, rad
+  PathPoint beyond = from;
+  beyond.y += depth * from.tangent;
+  beyond.lambda += depth * from.tangent_lambda;
   VectorXd response;
   TangentReport report;
-  if (!unit_response(from.y + size * from.tangent, from.lambda + size * from.tangent_lambda, false, response,
-                     report))
-    return false;
-  PathPoint corner = from;
+  if (!unit_response(beyond.y, beyond.lambda, false, response, report)) return std::nullopt;
+  beyond.negative = count_next_to(from.negative, report);
   const double norm = metric_.norm(response, 1.0);
-  corner.tangent = response / norm;
-  corner.tangent_lambda = 1.0 / norm;
-  corner.negative = count_next_to(from.negative, report);
-  if (!keeps_orientation(from, corner)) {
-    corner.tangent = -corner.tangent;
-    corner.tangent_lambda = -corner.tangent_lambda;
+  beyond.tangent = response / norm;
+  beyond.tangent_lambda = 1.0 / norm;
+  if (!keeps_orientation(from, beyond)) reverse(beyond);
+  if (angle_between(from, beyond) < kLeastTurn) return std::nullopt;
+  return beyond;
+}
+
+/// Takes the path round a corner that is within `size` of `from`, where it goes back against its tangent or
+/// so nearly across it that no step along the tangent meets it again. How far beyond it supports show what
+/// they do is not known: stiff ones that begin to act are as good as absent where they hardly touch.
+///
+/// Where the inertia changes, the load turns back if one support's change is the cause. Where several change
+/// at once, the cause may lie beside the path, as at a bifurcation; then the load goes on.
+bool Continuation::turn(const PathPoint& from, double size, PathPoint& to) {
+  constexpr std::array<double, 4> kDepths{1e3, 1e2, 1e1, 1e0};
+  constexpr double kBeyond = 10.0;  // the step over the distance to the corner
+  for (const double share : kDepths) {
+    auto beyond = beyond_corner(from, share * size);
+    if (!beyond) continue;
+    const double step = kBeyond * share * size;
+    if (step_from_beyond(from, *beyond, step, to)) return true;
+    if ((from.tangent_lambda > 0.0) == (beyond->tangent_lambda > 0.0)) continue;
+    reverse(*beyond);
+    if (step_from_beyond(from, *beyond, step, to)) return true;
   }
-  const double cosine =
-      metric_.inner(corner.tangent, corner.tangent_lambda, from.tangent, from.tangent_lambda);
-  if (cosine > std::cos(kLeastTurn)) return false;
-  const Trial trial = try_step(corner, kBeyond * size, to);
-  return trial.converged && trial.angle <= options_.max_angle && trial.correction <= kCornerLength &&
-         trial.length <= kCornerLength * kBeyond * size && keeps_orientation(from, to);
+  return false;
+}
+
+/// The point of the path one step from a point beyond a corner: by Newton's method or, where it is stable,
+/// downhill in the energy.
+bool Continuation::step_from_beyond(const PathPoint& from, const PathPoint& beyond, double step,
+                                    PathPoint& to) {
+  const Trial trial = try_step(beyond, step, to);
+  to.arc_length = from.arc_length + arc(from, to);
+  if (trial.converged && trial.angle <= options_.max_angle && trial.correction <= kCornerLength &&
+      distance(from, to) <= kCornerLength * step && to.negative == beyond.negative)
+    return true;
+  return beyond.negative == 0 && settle_beyond(from, beyond, step, to);
 }
 
 /// From a stable point on to the equilibrium at the load beyond, downhill in the energy: where supports touch
 /// without pressure, any increment of the load, however small, changes where they act, in proportion to
 /// itself. The last tangent says nothing there, and Newton's method cycles between contact patterns at every
 /// size.
-bool Continuation::settle_beyond(const PathPoint& from, double size, PathPoint& to) {
+/// @param beyond a point with the direction in which the load and the guess lie
+bool Continuation::settle_beyond(const PathPoint& from, const PathPoint& beyond, double size, PathPoint& to) {
   constexpr double kProportional = 0.1;  // of the movement: what the end's tangent may miss it by
-  const double dlambda = size * from.tangent_lambda;
-  if (from.negative > 0 || dlambda == 0.0) return false;
+  if (beyond.tangent_lambda == 0.0) return false;
   constexpr int kIterations = 60;
-  to.y = from.y + size * from.tangent;
-  to.lambda = from.lambda + dlambda;
+  to.y = beyond.y + size * beyond.tangent;
+  to.lambda = beyond.lambda + size * beyond.tangent_lambda;
   auto outcome = correct_downhill(size, kIterations, to);
   if (outcome.status != CorrectorStatus::converged && from.arc_length == 0.0) {
     // where constant actions leave parts unloaded that lie on stiff supports: as at the start of a path
@@ -508,11 +536,17 @@ bool Continuation::settle_beyond(const PathPoint& from, double size, PathPoint& 
   }
   if (outcome.status != CorrectorStatus::converged || outcome.tangent.negative > 0) return false;
   const VectorXd movement = to.y - from.y;
-  set_tangent(to, from.negative, outcome, movement, dlambda);
+  const double dlambda = to.lambda - from.lambda;
+  set_tangent(to, beyond.negative, outcome, movement, dlambda);
   to.arc_length = from.arc_length + arc(from, to);
   const VectorXd missed = movement - (dlambda / to.tangent_lambda) * to.tangent;
   return metric_.norm(missed, 0.0) <= kProportional * metric_.norm(movement, dlambda) &&
-         keeps_orientation(from, to);
+         (to.tangent_lambda > 0.0) == (dlambda > 0.0);
+}
+
+bool Continuation::pass_corner(const PathPoint& from, double size, PathPoint& to) {
+  return step_by_movement(from, size, to) || turn(from, size, to) ||
+         (from.negative == 0 && settle_beyond(from, from, size, to));
 }
 
 StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint& to) {
@@ -539,8 +573,7 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
     }
     ++statistics_.rejected_steps;
     size *= std::min(trial.growth, 0.5);
-    if (problem_.one_sided() && size < kTurnShrink * easy_size_ &&
-        (step_by_movement(from, size, to) || turn(from, size, to) || settle_beyond(from, size, to))) {
+    if (problem_.one_sided() && size < kTurnShrink * easy_size_ && pass_corner(from, size, to)) {
       ++statistics_.steps;
       step.taken = size;
       step.wanted = std::min(size * options_.max_growth, options_.max_step);
@@ -640,6 +673,11 @@ void Continuation::reject(StepSize& step) {
   --statistics_.steps;
   ++statistics_.rejected_steps;
   step.wanted = 0.3 * step.taken;
+}
+
+double Continuation::angle_between(const PathPoint& a, const PathPoint& b) const {
+  return std::acos(
+      std::clamp(metric_.inner(a.tangent, a.tangent_lambda, b.tangent, b.tangent_lambda), -1.0, 1.0));
 }
 
 double Continuation::arc(const PathPoint& a, const PathPoint& b) const {

@@ -211,7 +211,13 @@ class Continuation {
   void predict(const PathPoint& from, double step, PathPoint& to) const;
   [[nodiscard]] bool step_by_movement(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] bool turn(const PathPoint& from, double size, PathPoint& to);
-  [[nodiscard]] bool settle_beyond(const PathPoint& from, double size, PathPoint& to);
+  [[nodiscard]] std::optional<PathPoint> beyond_corner(const PathPoint& from, double depth);
+  bool step_from_beyond(const PathPoint& from, const PathPoint& beyond, double step, PathPoint& to);
+  /// Angle between the tangents, rad.
+  [[nodiscard]] double angle_between(const PathPoint& a, const PathPoint& b) const;
+  [[nodiscard]] bool pass_corner(const PathPoint& from, double size, PathPoint& to);
+  [[nodiscard]] bool settle_beyond(const PathPoint& from, const PathPoint& beyond, double size,
+                                   PathPoint& to);
   [[nodiscard]] Trial try_step(const PathPoint& from, double step, PathPoint& to);
   /// Corrects y downhill in the energy at its load.
   [[nodiscard]] CorrectorOutcome correct_downhill(double scale, int iterations, PathPoint& at);

@@ -54,6 +54,7 @@ class Tracer {
   [[nodiscard]] std::vector<CriticalEvent> ahead(const PathPoint& from, double wanted);
   [[nodiscard]] std::vector<CriticalEvent> left_behind(const PathPoint& from, const PathPoint& to);
   [[nodiscard]] bool are_whole(const std::vector<CriticalEvent>& events);
+  [[nodiscard]] double careful(const PathPoint& from, double wanted) const;
   void step_onto(const std::vector<CriticalEvent>& events, const PathPoint& from, StepSize& size,
                  PathPoint& to);
   void find_modes(const PathPoint& from, PathPoint& to);
@@ -70,11 +71,11 @@ class Tracer {
   const TraceSink& sink_;
   TraceOutcome out_;
   int limit_points_ = 0;
-  double travelled_ = 0.0;              ///< sum of the movements of all steps
-  std::vector<ContactChange> changes_;  ///< on the step that is being taken
-  std::optional<double> passed_by_;     ///< load of the last bifurcation that was found beside the path
-  bool onto_ = false;                   ///< the step that is being taken ends on a bifurcation
-  std::vector<CriticalEvent> beside_;   ///< those that are still to be told
+  double travelled_ = 0.0;                  ///< sum of the movements of all steps
+  std::vector<ContactChange> changes_;      ///< on the step that is being taken
+  std::optional<CriticalEvent> passed_by_;  ///< the last bifurcation that was found beside the path
+  bool onto_ = false;                       ///< the step that is being taken ends on a bifurcation
+  std::vector<CriticalEvent> beside_;       ///< those that are still to be told
 };
 
 /// Round a corner a point's share of the step is not its share of the arc: along the polygon instead.
@@ -228,15 +229,24 @@ bool Tracer::are_whole(const std::vector<CriticalEvent>& events) {
   constexpr double kFall = 0.1;  // of an imperfection that is the mesh's, on a finer mesh
   if (first.imperfection <= rules_.locate.perfect) return true;
   const double load = first.point.lambda;
-  if (passed_by_ && std::abs(load - *passed_by_) <= kSameLoad * std::abs(load)) return false;
-  passed_by_ = load;
+  if (passed_by_ && std::abs(load - passed_by_->point.lambda) <= kSameLoad * std::abs(load)) return false;
   const auto finer = rules_.finer_imperfection ? rules_.finer_imperfection(first) : first.imperfection;
+  if (finer && *finer <= kFall * first.imperfection) return true;
+  passed_by_ = first;
   if (!finer) return false;
-  if (*finer <= kFall * first.imperfection) return true;
   CriticalEvent event = first;
   event.type = CriticalType::broken_bifurcation;
   beside_.push_back(std::move(event));
   return false;
+}
+
+/// Size of the next step beside a bifurcation that is broken: the path turns away from it within what the
+/// imperfection changes of its load, and a longer step would cross to the path that goes on where it turns.
+double Tracer::careful(const PathPoint& from, double wanted) const {
+  if (!passed_by_) return wanted;
+  const double load = broken_share(passed_by_->imperfection) * std::abs(passed_by_->point.lambda);
+  const double reach = load / std::abs(passed_by_->point.tangent_lambda);
+  return std::min(wanted, std::max(0.5 * continuation_.distance(from, passed_by_->point), reach));
 }
 
 /// Takes bifurcations as the next point of the path, which leaves them along its own tangent.
@@ -328,7 +338,11 @@ LocatedEvents Tracer::arrive(const PathPoint& from, StepOutcome outcome, StepSiz
   if (outcome == StepOutcome::turned)
     return locate_at_turn(continuation_, from, to, size.taken, rules_.locate);
   auto left = left_behind(from, to);
-  if (!are_whole(left)) return locate_critical_points(continuation_, from, to, rules_.locate);
+  if (!are_whole(left)) {
+    // it may have crossed to the other path there
+    if (!left.empty() && careful(from, size.taken) < size.taken) return {{}, false, {}};
+    return locate_critical_points(continuation_, from, to, rules_.locate);
+  }
   step_onto(left, from, size, to);
   return {std::move(left), true, {}};
 }
@@ -364,6 +378,7 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
     if (are_whole(located.events)) {
       step_onto(located.events, from, size, to);
     } else {
+      size.wanted = careful(from, size.wanted);
       outcome = continuation_.step(from, size, to);
       if (outcome == StepOutcome::step_underflow) {
         finish(TraceEnd::step_underflow, from);

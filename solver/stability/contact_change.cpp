@@ -58,18 +58,19 @@ bool is_closed(const Continuation& continuation, const Bracket& bracket, double 
          continuation.distance(bracket.before, bracket.after) <= 1e-3;
 }
 
-/// Closes the bracket round its first change; what cannot be closed stays as wide as it is.
-void close(Continuation& continuation, const Chord& chord, const ZoneCounter& count,
+/// Closes the bracket round its first change; false when it stays as wide as it is.
+bool close(Continuation& continuation, const Chord& chord, const ZoneCounter& count,
            const std::vector<int>& old, double tolerance, Bracket& bracket) {
   std::vector<int> zones;
   for (int i = 0; i < kMostCorrections && !is_closed(continuation, bracket, tolerance); ++i) {
     const double share = next_share(predicted_share(continuation, chord, bracket, count, old));
     auto point = continuation.between(chord, bracket.before, bracket.after, share);
     if (!point) point = continuation.between(chord, bracket.before, bracket.after, 0.5);
-    if (!point) return;
+    if (!point) return false;
     count(point->y, zones);
     (zones == old ? bracket.before : bracket.after) = std::move(*point);
   }
+  return true;
 }
 
 }  // namespace
@@ -92,12 +93,13 @@ std::vector<ContactChange> locate_contact_changes(Continuation& continuation, co
   }
   while (old != last && out.size() < kMostChanges) {
     Bracket bracket{from, b};
-    close(continuation, chord, count, old, tolerance, bracket);
+    const bool closed = close(continuation, chord, count, old, tolerance, bracket);
     ContactChange change;
     change.before = old;
     count(bracket.after.y, old);
     change.after = old;
-    change.point = bracket.after;
+    // a path turns where its contact changes, which is next to the start
+    change.point = at_turn && !closed ? bracket.before : bracket.after;
     out.push_back(std::move(change));
     from = std::move(bracket.after);
   }

@@ -2,6 +2,7 @@
 /// @file
 /// One locator for everything that happens between two points of a path.
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -68,6 +69,14 @@ struct LocateOptions {
   /// or a mesh, and below what can be built.
   double perfect = 1e-8;
 };
+
+/// @brief Share of a bifurcation's load within which an imperfection of this size turns the path away from
+/// it: Koiter's two-thirds power, with a factor above those that were seen.
+[[nodiscard]] inline double broken_share(double imperfection) {
+  return 10.0 * std::pow(imperfection, 2.0 / 3.0);
+}
+/// @brief The imperfection with this share.
+[[nodiscard]] inline double imperfection_of(double share) { return std::pow(0.1 * share, 1.5); }
 
 /// A fall and rise of a motion's stiffness between two points of a path.
 struct Dip {
