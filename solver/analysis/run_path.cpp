@@ -156,11 +156,18 @@ std::string disagreements(const Result& result) {
   return text;
 }
 
+/// The first point of the primary path that leads from a stable state.
+const CriticalPoint* first_loss(const std::vector<CriticalPoint>& points) {
+  const auto found = std::find_if(points.begin(), points.end(), [](const CriticalPoint& point) {
+    return point.branch == 0 && point.negative_before == 0 && point.negative_after > 0;
+  });
+  return found == points.end() ? nullptr : &*found;
+}
+
 /// The result of an analysis whose last path finer meshes do not confirm.
 void fail_unconfirmed(Result& result) {
   const bool some = std::any_of(result.critical_points.begin(), result.critical_points.end(),
                                 [](const CriticalPoint& point) { return !point.confirmed; });
-  const bool loss_found = result.summary.critical_load_factor.has_value();
   const std::string reached = result.summary.message;
   fail(result, "not_confirmed",
        (some ? "finer meshes do not confirm all critical points within the accuracy asked for" +
@@ -168,14 +175,9 @@ void fail_unconfirmed(Result& result) {
              : std::string(
                    "a finer mesh has no equilibrium with as many negative eigenvalues near the path's end")) +
            " (" + reached + ")");
-  // the first loss of stability is the first of the primary path's points that leads from a stable state
-  for (const CriticalPoint& point : result.critical_points) {
-    const bool is_it =
-        loss_found && point.branch == 0 && point.load_factor == *result.summary.critical_load_factor;
-    if (!is_it || point.confirmed) continue;
+  const CriticalPoint* loss = first_loss(result.critical_points);
+  if (result.summary.critical_load_factor && loss != nullptr && !loss->confirmed)
     withdraw_critical_load(result);
-    return;
-  }
 }
 
 /// A bifurcation and a way through it that is still to be followed.
@@ -316,27 +318,49 @@ std::optional<Mesh> much_finer(const Mesh& mesh) {
   return halved ? finer_mesh(*halved, true) : std::nullopt;
 }
 
+/// Whether the path on a coarser mesh lost its stability where this one is told to be stable: its step may
+/// have led past it.
+bool passed_a_loss(const std::vector<CriticalPoint>& earlier, const std::vector<CriticalPoint>& now) {
+  const CriticalPoint* before = first_loss(earlier);
+  const CriticalPoint* after = first_loss(now);
+  if (before == nullptr) return false;
+  if (after == nullptr) return true;
+  return before->type != after->type && std::abs(before->load_factor) < std::abs(after->load_factor);
+}
+
 }  // namespace
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
   constexpr int kMostPaths = 4;
-  constexpr double kMostWork = 1e7;  // elements factorised on the next path: some ten seconds
+  constexpr double kMostWork = 1e7;     // elements factorised on the next path: some ten seconds
+  constexpr double kShortSteps = 0.05;  // of the load's scale
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
   std::vector<CriticalPoint> earlier;
+  Analysis followed = analysis;
   for (int paths = 1;; ++paths) {
     Result reached;
     reached.diagnostics = result.diagnostics;
-    const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, reached);
+    const bool confirmed = follow_on(model, followed, *mesh, earlier, hooks, reached);
     const int factorizations = reached.diagnostics.factorizations - result.diagnostics.factorizations;
     result = std::move(reached);
     result.discretization.paths = paths;
-    if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
+    if (analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
+    const bool shorter = followed.step.max && *followed.step.max <= kShortSteps;
+    const bool again =
+        confirmed && !result.failure && !shorter && passed_a_loss(earlier, result.critical_points);
+    if (confirmed && !again) return;
+    if (paths == kMostPaths) break;
+    if (again) {
+      followed.step.max = kShortSteps;
+      continue;
+    }
     auto quartered = much_finer(mesh->mesh);
-    if (paths == kMostPaths || !quartered) break;
+    if (!quartered) break;
     if (static_cast<double>(factorizations) * static_cast<double>(quartered->elements.size()) > kMostWork)
       break;
+    followed = analysis;
     earlier = result.critical_points;
     finer = on_mesh(structure, model, *std::move(quartered));
     mesh = &*finer;

@@ -653,7 +653,7 @@ void Continuation::settle(const PathPoint& from, PathPoint& point) {
 
 void Continuation::weigh_load(bool to_limit, PathPoint& at, StepSize& step) {
   const bool stuck = step.wanted < kTurnShrink * easy_size_;
-  if (!to_limit && !stuck) return;
+  if (!to_limit && !stuck && !problem_.one_sided()) return;
   const double loaded = std::sqrt(metric_.load_weight) * std::abs(at.lambda);
   const double moved = std::max(metric_.norm(at.y, 0.0), stuck ? kLeastMovement : kSmallGradient);
   if (loaded <= kLoadDominates * moved) return;

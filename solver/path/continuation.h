@@ -113,8 +113,9 @@ class Continuation {
   /// carries far more than its members' scale says would meet its limit load as a corner. Arc lengths stay in
   /// the norm that the path began with.
   /// @param to_limit whether the path is on the way to a limit; one that is followed beyond for its own sake
-  /// would go by smaller steps, so there it is done only where steps have become far shorter than they were:
-  /// a thin member between immovable ends turns within gradients that the norm did not see
+  /// would go by smaller steps, so there it is done only where steps have become far shorter than they were
+  /// (a thin member between immovable ends turns within gradients that the norm did not see), and where
+  /// contact changes with movements that the norm would not see
   /// @param at the point to go on from; its tangent is normalised again
   void weigh_load(bool to_limit, PathPoint& at, StepSize& step);
   /// @brief Takes the last step back, because it jumped to another path: the next one will be shorter.
