@@ -285,6 +285,8 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   TraceRules rules = rules_of(model, analysis, structure);
   if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
   rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
+  for (const CriticalPoint& point : earlier)
+    if (point.branch == 0) rules.expected.push_back(point.load_factor * structure.scales.load);
   const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);
   recorder.end_branch(text_of(outcome.end).code);
   const std::size_t primary = result.critical_points.size();
@@ -318,49 +320,27 @@ std::optional<Mesh> much_finer(const Mesh& mesh) {
   return halved ? finer_mesh(*halved, true) : std::nullopt;
 }
 
-/// Whether the path on a coarser mesh lost its stability where this one is told to be stable: its step may
-/// have led past it.
-bool passed_a_loss(const std::vector<CriticalPoint>& earlier, const std::vector<CriticalPoint>& now) {
-  const CriticalPoint* before = first_loss(earlier);
-  const CriticalPoint* after = first_loss(now);
-  if (before == nullptr) return false;
-  if (after == nullptr) return true;
-  return before->type != after->type && std::abs(before->load_factor) < std::abs(after->load_factor);
-}
-
 }  // namespace
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
   constexpr int kMostPaths = 4;
-  constexpr double kMostWork = 1e7;     // elements factorised on the next path: some ten seconds
-  constexpr double kShortSteps = 0.05;  // of the load's scale
+  constexpr double kMostWork = 1e7;  // elements factorised on the next path: some ten seconds
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
   std::vector<CriticalPoint> earlier;
-  Analysis followed = analysis;
   for (int paths = 1;; ++paths) {
     Result reached;
     reached.diagnostics = result.diagnostics;
-    const bool confirmed = follow_on(model, followed, *mesh, earlier, hooks, reached);
+    const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, reached);
     const int factorizations = reached.diagnostics.factorizations - result.diagnostics.factorizations;
     result = std::move(reached);
     result.discretization.paths = paths;
-    if (analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
-    const bool shorter = followed.step.max && *followed.step.max <= kShortSteps;
-    const bool again =
-        confirmed && !result.failure && !shorter && passed_a_loss(earlier, result.critical_points);
-    if (confirmed && !again) return;
-    if (paths == kMostPaths) break;
-    if (again) {
-      followed.step.max = kShortSteps;
-      continue;
-    }
+    if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
     auto quartered = much_finer(mesh->mesh);
-    if (!quartered) break;
+    if (paths == kMostPaths || !quartered) break;
     if (static_cast<double>(factorizations) * static_cast<double>(quartered->elements.size()) > kMostWork)
       break;
-    followed = analysis;
     earlier = result.critical_points;
     finer = on_mesh(structure, model, *std::move(quartered));
     mesh = &*finer;

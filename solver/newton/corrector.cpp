@@ -33,6 +33,8 @@ constexpr double kNearResidual = 10.0;
 constexpr double kExact = 1e-15;
 
 constexpr double kConvergingShare = 0.3;
+/// Share of the last correction above which corrections may cycle, with contact that changes.
+constexpr double kClosingShare = 0.1;
 
 /// Corrections before a residual that no longer falls counts as rounding's, and what is left of one that
 /// does not.
@@ -164,6 +166,8 @@ class Progress {
     return iteration >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * movement_) &&
            residual <= options_.largest_residual;
   }
+  /// Whether the correction is so much less than the last that the next will be less than the tolerance.
+  [[nodiscard]] bool closes_in(double size) const { return size <= kClosingShare * previous_; }
   /// Whether the residual no longer falls, as is_last() found.
   [[nodiscard]] bool stagnant() const { return stagnant_; }
   /// Whether the first correction or its growth shows that the predictor said nothing.
@@ -230,8 +234,8 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
       return out;
     }
     if (progress.runs_away(it, size) && residual > options.stagnant_residual) return out;
-    const bool near =
-        size <= options.tangent_tolerance * scale && residual <= kNearResidual * options.tangent_tolerance;
+    const bool near = size <= options.tangent_tolerance * scale && progress.closes_in(size) &&
+                      residual <= kNearResidual * options.tangent_tolerance;
     const bool exact = options.tangent_tolerance == 0.0 && !progress.stagnant();
     if ((last || near) && take_last(problem, options, exact, y, lambda, dlambda, size, out, work)) {
       out.status = CorrectorStatus::converged;

@@ -61,7 +61,9 @@ class Tracer {
   void go_on(bool smooth, PathPoint& from, PathPoint& to);
   [[nodiscard]] LocatedEvents arrive(const PathPoint& from, StepOutcome outcome, StepSize& size,
                                      PathPoint& to);
-  void tell_beside(const PathPoint& from, StepOutcome outcome, const PathPoint& to, LocatedEvents& located);
+  void tell_beside(const PathPoint& from, StepOutcome outcome, const PathPoint& to,
+                   const LocatedEvents& located);
+  void tell_passed(const PathPoint& to, bool may_end, std::vector<CriticalEvent>& events);
   [[nodiscard]] bool turns_sharply(const PathPoint& from, const PathPoint& to) const;
   [[nodiscard]] bool is_known(const PathPoint& point) const;
   bool finish(TraceEnd end, const PathPoint& last);
@@ -242,11 +244,20 @@ bool Tracer::are_whole(const std::vector<CriticalEvent>& events) {
 
 /// Size of the next step beside a bifurcation that is broken: the path turns away from it within what the
 /// imperfection changes of its load, and a longer step would cross to the path that goes on where it turns.
+/// The same where a path on another mesh had its critical points.
 double Tracer::careful(const PathPoint& from, double wanted) const {
-  if (!passed_by_) return wanted;
-  const double load = broken_share(passed_by_->imperfection) * std::abs(passed_by_->point.lambda);
-  const double reach = load / std::abs(passed_by_->point.tangent_lambda);
-  return std::min(wanted, std::max(0.5 * continuation_.distance(from, passed_by_->point), reach));
+  constexpr double kHalf = 0.5;   // of the distance
+  constexpr double kNear = 2e-3;  // of an expected load
+  if (passed_by_) {
+    const double load = broken_share(passed_by_->imperfection) * std::abs(passed_by_->point.lambda);
+    const double reach = load / std::abs(passed_by_->point.tangent_lambda);
+    wanted = std::min(wanted, std::max(kHalf * continuation_.distance(from, passed_by_->point), reach));
+  }
+  for (const double load : rules_.expected) {
+    const double room = std::max(kHalf * std::abs(load - from.lambda), kNear * std::abs(load));
+    wanted = std::min(wanted, room / std::abs(from.tangent_lambda));
+  }
+  return wanted;
 }
 
 /// Takes bifurcations as the next point of the path, which leaves them along its own tangent.
@@ -347,17 +358,37 @@ LocatedEvents Tracer::arrive(const PathPoint& from, StepOutcome outcome, StepSiz
   return {std::move(left), true, {}};
 }
 
-/// What is told with a step besides its critical points: contact, what cannot be decided, and bifurcations
-/// that the path passes by.
+/// What is told with a step besides its critical points: contact, and what cannot be decided.
 void Tracer::tell_beside(const PathPoint& from, StepOutcome outcome, const PathPoint& to,
-                         LocatedEvents& located) {
+                         const LocatedEvents& located) {
   if (rules_.zones)
     changes_ = locate_contact_changes(continuation_, from, to, outcome == StepOutcome::turned, rules_.zones,
                                       rules_.locate.tolerance);
   for (const PathPoint& point : located.touching)
     if (sink_.on_touching) sink_.on_touching(point);
-  located.events.insert(located.events.begin(), beside_.begin(), beside_.end());
-  beside_.clear();
+}
+
+/// Bifurcations that were found beside the path are told when it is past them, or before what may end it; not
+/// at all where it meets them after all.
+void Tracer::tell_passed(const PathPoint& to, bool may_end, std::vector<CriticalEvent>& events) {
+  const auto is_met = [&](const CriticalEvent& beside) {
+    return std::any_of(events.begin(), events.end(), [&](const CriticalEvent& event) {
+      return event.type == CriticalType::bifurcation &&
+             std::abs(event.point.lambda - beside.point.lambda) <= kSameLoad * std::abs(beside.point.lambda);
+    });
+  };
+  std::erase_if(beside_, is_met);
+  const auto is_ahead = [&](const CriticalEvent& beside) {
+    return continuation_.metric().inner(beside.point.y - to.y, beside.point.lambda - to.lambda, to.tangent,
+                                        to.tangent_lambda) > 0.0;
+  };
+  const auto waiting =
+      may_end || !events.empty()
+          ? beside_.end()
+          : std::stable_partition(beside_.begin(), beside_.end(),
+                                  [&](const CriticalEvent& event) { return !is_ahead(event); });
+  events.insert(events.begin(), beside_.begin(), waiting);
+  beside_.erase(beside_.begin(), waiting);
 }
 
 TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const std::stop_token& stop) {
@@ -401,9 +432,14 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
     }
     ++n;
     tell_beside(from, outcome, to, located);
+    tell_passed(to, bound.has_value(), located.events);
     if (accept(from, to, located.events, bound)) break;
     go_on(!corner && from.holds == to.holds, from, to);
     continuation_.weigh_load(rules_.first_loss_of_stability || rules_.limit_points.has_value(), from, size);
+  }
+  for (CriticalEvent& event : beside_) {
+    if (sink_.on_critical) sink_.on_critical(event);
+    out_.critical.push_back(std::move(event));
   }
   return std::move(out_);
 }
