@@ -124,6 +124,8 @@ std::optional<FoundPoint> FineMesh::interpolated(const CriticalEvent& known, con
     if (!(std::abs(root) < reach)) return std::nullopt;
     if (error <= 0.1 * tolerance_ * std::abs(point->lambda)) {
       CriticalEvent event = known;
+      event.null.resize(0, 0);  // those of the coarser mesh
+      event.across.resize(0);
       event.point = *point;
       event.point.y += move / metric_rate(chord, *point) * point->tangent;
       event.point.lambda += change;

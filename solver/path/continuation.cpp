@@ -600,13 +600,15 @@ PathPoint Continuation::last_before_corner(const PathPoint& from, double size) {
 }
 
 void Continuation::find_modes(PathPoint& at, const SharedModes& start) {
-  constexpr int kCount = 2;
+  constexpr int kAhead = 2;  // motions that may lose their stiffness next, behind those that have lost it
+  constexpr int kMost = 8;
   constexpr int kFromAfar = 3;  // iterations from drawn motions
+  const int count = std::min(kAhead + at.negative, kMost);
   at.modes = nullptr;
   if (!symmetric_) return;
   const Eigen::MatrixXd none;
-  auto modes = std::make_shared<SoftModes>(start ? soft_modes(problem_, start->motions, kCount, 1)
-                                                 : soft_modes(problem_, none, kCount, kFromAfar));
+  auto modes = std::make_shared<SoftModes>(start ? soft_modes(problem_, start->motions, count, 1)
+                                                 : soft_modes(problem_, none, count, kFromAfar));
   if (modes->count() == 0) return;
   const Eigen::MatrixXd change =
       tangent_change(problem_, at.y, at.lambda, {at.tangent, at.tangent_lambda}, modes->motions);

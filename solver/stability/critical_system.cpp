@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "solver/path/soft_mode.h"
@@ -19,6 +20,10 @@ using Eigen::VectorXd;
 namespace {
 
 MatrixXd symmetric(const MatrixXd& m) { return 0.5 * (m + m.transpose()); }
+
+VectorXd eigenvalues(const MatrixXd& m) {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric(m)).eigenvalues();
+}
 
 /// A direction along z and the null motions, of norm one.
 CriticalDirection direction(const CriticalSolution& at, const VectorXd& along_null, double along_load,
@@ -38,9 +43,7 @@ CriticalDirection direction(const CriticalSolution& at, const VectorXd& along_nu
 
 double CriticalSolution::imperfection() const {
   if (unfolding.size() == 0 || unfolding.isZero(0.0)) return 0.0;
-  const double slowest =
-      Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric(B)).eigenvalues().cwiseAbs().minCoeff();
-  return unfolding.norm() / (std::abs(lambda) * slowest);
+  return unfolding.norm() / (std::abs(lambda) * eigenvalues(B).cwiseAbs().minCoeff());
 }
 
 std::optional<CriticalSolution::Spectrum> CriticalSolution::spectrum() const {
@@ -100,8 +103,9 @@ class CriticalNewton {
 
  private:
   void solve(MatrixXd& x);
-  void refine(const MatrixXd& rows, const MatrixXd& border, MatrixXd& bordered, MatrixXd& multipliers);
+  void refine(const MatrixXd& rows, const MatrixXd& border);
   [[nodiscard]] bool factorise();
+  void take_quotients(const MatrixXd& right);
   void differentiate();
   [[nodiscard]] bool step();
   [[nodiscard]] bool converged();
@@ -123,7 +127,9 @@ class CriticalNewton {
   double dlambda_ = 0.0;
   double moved_ = 0.0;
   double previous_ = 0.0;  ///< movement
-  bool inexact_ = false;   ///< movements have ceased to fall: the solves lose digits
+  bool stalled_ = false;   ///< movements have ceased to fall
+  /// Relative difference of the stiffnesses by the factors and by quotients, when they agreed best.
+  double least_doubt_ = std::numeric_limits<double>::infinity();
 };
 
 /// x := J^-1 x, column by column.
@@ -136,27 +142,31 @@ void CriticalNewton::solve(MatrixXd& x) {
   }
 }
 
-/// Corrects the bordered solutions once by what they leave: parts of a member may be at a buckling load of
-/// their own, as the halves of a column at its, where elimination loses digits.
-void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border, MatrixXd& bordered,
-                            MatrixXd& multipliers) {
+/// Corrects the solutions once by what they leave: parts of a member may be at a buckling load of their own,
+/// as the halves of a column at its, where elimination loses digits; and so it does where the tangent is
+/// singular.
+void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
+  constexpr double kLargest = 0.1;
   const Index k = v_.cols();
   MatrixXd all(rows.rows(), k + 2);
-  all << v_, bordered;
-  MatrixXd left = -problem_.tangent_products(at_.y, at_.lambda, all);
-  left.leftCols(k) += rows.leftCols(k) * at_.stiffness;
-  left.rightCols(2) += rows.rightCols(2) - rows.leftCols(k) * multipliers;
+  all << v_, p_, q_;
+  MatrixXd multipliers(k, k + 2);
+  multipliers << -at_.stiffness, pi_, rho_;
+  MatrixXd left = -problem_.tangent_products(at_.y, at_.lambda, all) - rows.leftCols(k) * multipliers;
+  left.rightCols(2) += rows.rightCols(2);
   solve(left);
-  const MatrixXd along = border.transpose() * left;
-  left -= v_ * along;
+  left -= v_ * (border.transpose() * left);
+  // a pivot of zero corrects nothing
+  if (!(left.leftCols(k).norm() < kLargest * v_.norm())) return;
   v_ += left.leftCols(k);
-  at_.stiffness -= at_.stiffness * along.leftCols(k);
-  bordered += left.rightCols(2);
-  multipliers += at_.stiffness * along.rightCols(2);
+  p_ += left.col(k);
+  q_ += left.col(k + 1);
 }
 
 /// The solves with one factorisation; false when the tangent has no factors.
 bool CriticalNewton::factorise() {
+  constexpr double kSure = 0.1;
+  constexpr double kLargest = 1e6;  // square of what null motions of norm one may become
   const TangentReport report = problem_.linearise(at_.y, at_.lambda, residual_);
   const Index k = at_.null.cols();
   MatrixXd rows(at_.y.size(), k + 2);
@@ -176,17 +186,39 @@ bool CriticalNewton::factorise() {
   v_ = x.leftCols(k) * at_.stiffness;
   // [J, W n; n W, 0] [x; s] = [rows; 0] for the residual and the load
   const MatrixXd along = border.transpose() * x.rightCols(2);
-  MatrixXd bordered = x.rightCols(2) - v_ * along;
-  MatrixXd multipliers = at_.stiffness * along;
-  if (inexact_) refine(rows, border, bordered, multipliers);
-  p_ = bordered.col(0);
-  q_ = bordered.col(1);
-  pi_ = multipliers.col(0);
-  rho_ = multipliers.col(1);
+  p_ = x.col(k) - v_ * along.col(0);
+  q_ = x.col(k + 1) - v_ * along.col(1);
+  x.resize(0, 0);
+  const VectorXd factored = eigenvalues(at_.stiffness);
+  take_quotients(rows.rightCols(2));
+  const VectorXd exact = eigenvalues(at_.stiffness);
+  const double doubt = (factored - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().minCoeff();
+  if (!(doubt > least_doubt_)) {
+    // signs of pivots and of these eigenvalues come from the same factors
+    least_doubt_ = doubt;
+    at_.others = report.negative - static_cast<int>((factored.array() < 0.0).count());
+  }
+  if (!(doubt < kSure)) {
+    refine(rows, border);
+    take_quotients(rows.rightCols(2));
+  }
+  return (v_.transpose() * problem_.metric().asDiagonal() * v_).trace() < kLargest && p_.allFinite() &&
+         q_.allFinite();
+}
+
+/// Stiffness and multipliers as Rayleigh's quotients of the solutions: their errors are products of the
+/// solutions' own.
+void CriticalNewton::take_quotients(const MatrixXd& right) {
+  const Index k = v_.cols();
+  const MatrixXd forces = problem_.tangent_products(at_.y, at_.lambda, v_);
+  pi_.resize(k);
+  rho_.resize(k);
+  for (Index i = 0; i < k; ++i) {
+    for (Index j = 0; j < k; ++j) at_.stiffness(i, j) = problem_.work(forces.col(i), v_.col(j));
+    pi_[i] = problem_.work(right.col(0), v_.col(i)) - problem_.work(forces.col(i), p_);
+    rho_[i] = problem_.work(right.col(1), v_.col(i)) - problem_.work(forces.col(i), q_);
+  }
   at_.stiffness = symmetric(at_.stiffness);
-  const auto eigenvalues = Eigen::SelfAdjointEigenSolver<MatrixXd>(at_.stiffness).eigenvalues();
-  at_.others = report.negative - static_cast<int>((eigenvalues.array() < 0.0).count());
-  return v_.allFinite() && p_.allFinite() && q_.allFinite();
 }
 
 void CriticalNewton::differentiate() {
@@ -274,20 +306,26 @@ bool CriticalNewton::converged() {
   const bool falls = previous_ == 0.0 || moved_ < 0.5 * previous_;
   const double ratio = falls && previous_ > 0.0 ? moved_ / previous_ : 1.0;
   const double size = std::max(std::abs(at_.lambda), options_.least_load);
-  const bool stagnant = inexact_ && !falls && std::max(moved_, previous_) <= kRounding * options_.reach &&
+  const bool stagnant = stalled_ && !falls && std::max(moved_, previous_) <= kRounding * options_.reach &&
                         std::abs(dlambda_) <= kRounding * size;
   previous_ = moved_;
-  inexact_ = inexact_ || !falls;
+  stalled_ = stalled_ || !falls;
   return stagnant ||
          (moved_ <= kSmall * options_.reach && std::abs(dlambda_) * ratio <= options_.tolerance * size);
 }
 
 std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
   constexpr int kMostIterations = 8;
-  constexpr int kSettling = 3;  // iterations before the unfolding force says how large it will be
+  constexpr double kAside = 1e-8;  // of the reach
+  constexpr int kSettling = 3;     // iterations before the unfolding force says how large it will be
   for (int it = 1; it <= kMostIterations; ++it) {
     ++factorisations;
-    if (!factorise()) return std::nullopt;
+    if (!factorise()) {
+      // a tangent that is singular to the last bit has factors next to here
+      at_.y += kAside * options_.reach * at_.null.col(0);
+      ++factorisations;
+      if (!factorise()) return std::nullopt;
+    }
     differentiate();
     if (!step()) return std::nullopt;
     const bool broken = bifurcation_ && at_.imperfection() > options_.largest_imperfection;
