@@ -210,13 +210,17 @@ bool CriticalNewton::factorise() {
 /// solutions' own.
 void CriticalNewton::take_quotients(const MatrixXd& right) {
   const Index k = v_.cols();
-  const MatrixXd forces = problem_.tangent_products(at_.y, at_.lambda, v_);
+  MatrixXd all(v_.rows(), k + 2);
+  all << v_, p_, q_;
+  MatrixXd forces = problem_.tangent_products(at_.y, at_.lambda, all);
+  forces.rightCols(2) = right - forces.rightCols(2);
   pi_.resize(k);
   rho_.resize(k);
+  // only v keeps in place what the load moves
   for (Index i = 0; i < k; ++i) {
     for (Index j = 0; j < k; ++j) at_.stiffness(i, j) = problem_.work(forces.col(i), v_.col(j));
-    pi_[i] = problem_.work(right.col(0), v_.col(i)) - problem_.work(forces.col(i), p_);
-    rho_[i] = problem_.work(right.col(1), v_.col(i)) - problem_.work(forces.col(i), q_);
+    pi_[i] = problem_.work(forces.col(k), v_.col(i));
+    rho_[i] = problem_.work(forces.col(k + 1), v_.col(i));
   }
   at_.stiffness = symmetric(at_.stiffness);
 }
