@@ -106,6 +106,7 @@ class CriticalNewton {
   void refine(const MatrixXd& rows, const MatrixXd& border);
   [[nodiscard]] bool factorise();
   void take_quotients(const MatrixXd& right);
+  [[nodiscard]] MatrixXd quotients(const MatrixXd& v, const Eigen::Ref<const MatrixXd>& forces) const;
   void differentiate();
   [[nodiscard]] bool step();
   [[nodiscard]] bool converged();
@@ -190,7 +191,9 @@ bool CriticalNewton::factorise() {
   q_ = x.col(k + 1) - v_ * along.col(1);
   x.resize(0, 0);
   const VectorXd factored = eigenvalues(at_.stiffness);
-  take_quotients(rows.rightCols(2));
+  pi_ = at_.stiffness * along.col(0);
+  rho_ = at_.stiffness * along.col(1);
+  at_.stiffness = quotients(v_, problem_.tangent_products(at_.y, at_.lambda, v_));
   const VectorXd exact = eigenvalues(at_.stiffness);
   const double doubt = (factored - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().minCoeff();
   if (!(doubt > least_doubt_)) {
@@ -214,15 +217,22 @@ void CriticalNewton::take_quotients(const MatrixXd& right) {
   all << v_, p_, q_;
   MatrixXd forces = problem_.tangent_products(at_.y, at_.lambda, all);
   forces.rightCols(2) = right - forces.rightCols(2);
+  at_.stiffness = quotients(v_, forces.leftCols(k));
+  // only v keeps in place what the load moves
   pi_.resize(k);
   rho_.resize(k);
-  // only v keeps in place what the load moves
   for (Index i = 0; i < k; ++i) {
-    for (Index j = 0; j < k; ++j) at_.stiffness(i, j) = problem_.work(forces.col(i), v_.col(j));
     pi_[i] = problem_.work(forces.col(k), v_.col(i));
     rho_[i] = problem_.work(forces.col(k + 1), v_.col(i));
   }
-  at_.stiffness = symmetric(at_.stiffness);
+}
+
+/// Work of the forces J v on the motions v.
+MatrixXd CriticalNewton::quotients(const MatrixXd& v, const Eigen::Ref<const MatrixXd>& forces) const {
+  MatrixXd out(v.cols(), v.cols());
+  for (Index i = 0; i < v.cols(); ++i)
+    for (Index j = 0; j < v.cols(); ++j) out(i, j) = problem_.work(forces.col(i), v.col(j));
+  return symmetric(out);
 }
 
 void CriticalNewton::differentiate() {
