@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <unordered_set>
 
 #include "solver/model/check_parts.h"
 #include "solver/model/limits.h"
@@ -90,12 +92,45 @@ void check_imperfection(const Place& place, const PointsImperfection& imperfecti
 
 }  // namespace
 
+namespace {
+
+/// Nodes of members whose rotation nothing resists.
+std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
+  std::unordered_set<std::string> nodes;
+  for (const Member& member : model.members) nodes.insert({member.start, member.end});
+  for (const Member& member : model.members) {
+    if (!member.release_start_rotation) nodes.erase(member.start);
+    if (!member.release_end_rotation) nodes.erase(member.end);
+  }
+  for (const Support& support : model.supports)
+    if (support.rotation) nodes.erase(support.node);
+  for (const Spring& spring : model.springs)
+    if (!spring.direction) nodes.erase(spring.at.node);
+  return nodes;
+}
+
+/// A moment on a node whose members are all released there would turn the node and nothing else.
+void check_moments(const Place& loads, const Model& data) {
+  const auto free = nodes_free_to_turn(data);
+  for (std::size_t i = 0; i < data.loads.size(); ++i) {
+    const auto* load = std::get_if<PointLoad>(&data.loads[i]);
+    if (load == nullptr || load->moment == 0.0 || !free.contains(load->at.node)) continue;
+    (loads / i / "moment")
+        .report("mechanism", "the moment turns node \"" + load->at.node +
+                                 "\" without deforming anything: all members are released there, and no "
+                                 "support or rotational spring holds its rotation");
+  }
+}
+
+}  // namespace
+
 void check_loads(const Place& model, const Model& data, const Names& names) {
   const Place loads = model / "loads";
   require_count(loads, data.loads.size(), kMaxLoads);
   for (std::size_t i = 0; i < data.loads.size(); ++i) {
     std::visit([&, place = loads / i](const auto& load) { check_load(place, load, names); }, data.loads[i]);
   }
+  check_moments(loads, data);
 }
 
 void check_something_proportional(const Place& model, const Model& data, const Analysis& analysis) {
