@@ -156,10 +156,11 @@ std::string disagreements(const Result& result) {
   return text;
 }
 
-/// The first point of the primary path that leads from a stable state.
+/// The first point of the primary path that leads from a stable state, as the summary tells it.
 const CriticalPoint* first_loss(const std::vector<CriticalPoint>& points) {
   const auto found = std::find_if(points.begin(), points.end(), [](const CriticalPoint& point) {
-    return point.branch == 0 && point.negative_before == 0 && point.negative_after > 0;
+    return point.branch == 0 && point.negative_before == 0 && point.negative_after > 0 &&
+           point.load_factor > 0.0;
   });
   return found == points.end() ? nullptr : &*found;
 }
