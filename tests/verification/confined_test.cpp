@@ -114,8 +114,8 @@ Model confined_column(double K, double gap) {
   return model;
 }
 
-/// Slopes of 3e-3 change loads by 1e-5, an offset that is 1e-6 of the gap by 6e-5 (measured with a tenth of
-/// it).
+/// Slopes of 3e-3 change loads by 1e-5, an offset that is 1e-6 of the gap by 6e-5 (in proportion: ten times
+/// the offset, ten times that).
 TEST(ConfinedColumn, LosesStabilityAsOnAnElasticPatch) {
   for (const double K : {1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12}) {
     Discretization mesh;
