@@ -185,7 +185,7 @@ struct MemberExtremes {
 };
 
 /// Something that the reader of a result has to know. Codes: "large_strain", "path_points",
-/// "touching_supports".
+/// "touching_supports", "touching_eigenvalue".
 struct Warning {
   std::string code;
   std::string detail;

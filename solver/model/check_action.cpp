@@ -90,10 +90,6 @@ void check_imperfection(const Place& place, const PointsImperfection& imperfecti
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Nodes of members whose rotation nothing resists.
 std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
   std::unordered_set<std::string> nodes;

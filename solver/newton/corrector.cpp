@@ -32,8 +32,9 @@ constexpr double kNearResidual = 10.0;
 /// Relative residual that nothing can be taken from.
 constexpr double kExact = 1e-15;
 
+/// With contact that changes corrections may cycle: the last leaves at most this share of the residual, and
+/// is at most that share of the one before where it is taken for the tangent's sake.
 constexpr double kConvergingShare = 0.3;
-/// Share of the last correction above which corrections may cycle, with contact that changes.
 constexpr double kClosingShare = 0.1;
 
 /// Corrections before a residual that no longer falls counts as rounding's, and what is left of one that
@@ -166,7 +167,7 @@ class Progress {
     return iteration >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * movement_) &&
            residual <= options_.largest_residual;
   }
-  /// Whether the correction is so much less than the last that the next will be less than the tolerance.
+  /// Whether corrections converge, and do not merely happen to be small.
   [[nodiscard]] bool closes_in(double size) const { return size <= kClosingShare * previous_; }
   /// Whether the residual no longer falls, as is_last() found.
   [[nodiscard]] bool stagnant() const { return stagnant_; }

@@ -357,10 +357,8 @@ void Continuation::extrapolate(const PathPoint& before, const PathPoint& from) {
   // where contact changes the cubic says less than the tangent
   if (problem_.one_sided() && !easy_) return;
   const double chord = distance(before, from);
-  const double cosine =
-      metric_.inner(before.tangent, before.tangent_lambda, from.tangent, from.tangent_lambda);
   if (!(chord > 0.0)) return;
-  const double half = 0.5 * std::acos(std::min(cosine, 1.0));
+  const double half = 0.5 * angle_between(before, from);
   const double d = half > 0.0 ? chord * half / std::sin(half) : chord;
   const double along = (from.lambda - before.lambda) / d;
   bend_.y2 = ((2.0 * before.tangent + 4.0 * from.tangent) - (6.0 / d) * (from.y - before.y)) / d;

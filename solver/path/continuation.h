@@ -213,7 +213,8 @@ class Continuation {
   [[nodiscard]] bool step_by_movement(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] bool turn(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] std::optional<PathPoint> beyond_corner(const PathPoint& from, double depth);
-  bool step_from_beyond(const PathPoint& from, const PathPoint& beyond, double step, PathPoint& to);
+  [[nodiscard]] bool step_from_beyond(const PathPoint& from, const PathPoint& beyond, double step,
+                                      PathPoint& to);
   /// Angle between the tangents, rad.
   [[nodiscard]] double angle_between(const PathPoint& a, const PathPoint& b) const;
   [[nodiscard]] bool pass_corner(const PathPoint& from, double size, PathPoint& to);

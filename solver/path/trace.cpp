@@ -29,6 +29,8 @@ std::optional<Crossing> crossing_of(const std::function<double(const PathPoint&)
 /// Relative difference of the loads of points at one place; the norm may hardly see the load.
 constexpr double kSameLoad = 1e-3;
 
+bool is_near(double load, double other) { return std::abs(load - other) <= kSameLoad * std::abs(load); }
+
 /// The state that changes while a path is traced.
 class Tracer {
  public:
@@ -45,6 +47,7 @@ class Tracer {
     TraceEnd end = TraceEnd::load_factor;
   };
   [[nodiscard]] std::optional<Bound> bounded_end(const PathPoint& from, const PathPoint& to, bool corner);
+  void tell(const CriticalEvent& event);
   [[nodiscard]] bool take_events(const std::vector<CriticalEvent>& events);
   [[nodiscard]] bool ends_here(const PathPoint& at, int steps, const std::stop_token& stop);
   [[nodiscard]] bool accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events,
@@ -61,8 +64,8 @@ class Tracer {
   void go_on(bool smooth, PathPoint& from, PathPoint& to);
   [[nodiscard]] LocatedEvents arrive(const PathPoint& from, StepOutcome outcome, StepSize& size,
                                      PathPoint& to);
-  void tell_beside(const PathPoint& from, StepOutcome outcome, const PathPoint& to,
-                   const LocatedEvents& located);
+  void tell_contact(const PathPoint& from, StepOutcome outcome, const PathPoint& to,
+                    const LocatedEvents& located);
   void tell_passed(const PathPoint& to, bool may_end, std::vector<CriticalEvent>& events);
   [[nodiscard]] bool turns_sharply(const PathPoint& from, const PathPoint& to) const;
   [[nodiscard]] bool is_known(const PathPoint& point) const;
@@ -157,6 +160,11 @@ bool Tracer::is_known(const PathPoint& point) const {
   });
 }
 
+void Tracer::tell(const CriticalEvent& event) {
+  out_.critical.push_back(event);
+  if (sink_.on_critical) sink_.on_critical(event);
+}
+
 /// Reports what was found on a step; true when that ends the path.
 bool Tracer::take_events(const std::vector<CriticalEvent>& events) {
   for (const CriticalEvent& event : events) {
@@ -168,8 +176,7 @@ bool Tracer::take_events(const std::vector<CriticalEvent>& events) {
     const bool passed_by = event.type == CriticalType::broken_bifurcation;
     const bool lost = !passed_by && event.negative_before == 0 && event.negative_after > 0;
     if (is_limit(event.type)) ++limit_points_;
-    out_.critical.push_back(event);
-    if (sink_.on_critical) sink_.on_critical(event);
+    tell(event);
     const bool loss = rules_.first_loss_of_stability && lost;
     if (!loss && !(rules_.limit_points && limit_points_ >= *rules_.limit_points)) continue;
     PathPoint last = event.point;
@@ -230,8 +237,7 @@ bool Tracer::are_whole(const std::vector<CriticalEvent>& events) {
   const CriticalEvent& first = events.front();
   constexpr double kFall = 0.1;  // of an imperfection that is the mesh's, on a finer mesh
   if (first.imperfection <= rules_.locate.perfect) return true;
-  const double load = first.point.lambda;
-  if (passed_by_ && std::abs(load - passed_by_->point.lambda) <= kSameLoad * std::abs(load)) return false;
+  if (passed_by_ && is_near(first.point.lambda, passed_by_->point.lambda)) return false;
   const auto finer = rules_.finer_imperfection ? rules_.finer_imperfection(first) : first.imperfection;
   if (finer && *finer <= kFall * first.imperfection) return true;
   passed_by_ = first;
@@ -358,9 +364,9 @@ LocatedEvents Tracer::arrive(const PathPoint& from, StepOutcome outcome, StepSiz
   return {std::move(left), true, {}};
 }
 
-/// What is told with a step besides its critical points: contact, and what cannot be decided.
-void Tracer::tell_beside(const PathPoint& from, StepOutcome outcome, const PathPoint& to,
-                         const LocatedEvents& located) {
+/// Contact that begins or ends on a step, and places where stability cannot be decided.
+void Tracer::tell_contact(const PathPoint& from, StepOutcome outcome, const PathPoint& to,
+                          const LocatedEvents& located) {
   if (rules_.zones)
     changes_ = locate_contact_changes(continuation_, from, to, outcome == StepOutcome::turned, rules_.zones,
                                       rules_.locate.tolerance);
@@ -373,8 +379,7 @@ void Tracer::tell_beside(const PathPoint& from, StepOutcome outcome, const PathP
 void Tracer::tell_passed(const PathPoint& to, bool may_end, std::vector<CriticalEvent>& events) {
   const auto is_met = [&](const CriticalEvent& beside) {
     return std::any_of(events.begin(), events.end(), [&](const CriticalEvent& event) {
-      return event.type == CriticalType::bifurcation &&
-             std::abs(event.point.lambda - beside.point.lambda) <= kSameLoad * std::abs(beside.point.lambda);
+      return event.type == CriticalType::bifurcation && is_near(beside.point.lambda, event.point.lambda);
     });
   };
   std::erase_if(beside_, is_met);
@@ -431,16 +436,13 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
       continue;
     }
     ++n;
-    tell_beside(from, outcome, to, located);
+    tell_contact(from, outcome, to, located);
     tell_passed(to, bound.has_value(), located.events);
     if (accept(from, to, located.events, bound)) break;
     go_on(!corner && from.holds == to.holds, from, to);
     continuation_.weigh_load(rules_.first_loss_of_stability || rules_.limit_points.has_value(), from, size);
   }
-  for (CriticalEvent& event : beside_) {
-    if (sink_.on_critical) sink_.on_critical(event);
-    out_.critical.push_back(std::move(event));
-  }
+  for (const CriticalEvent& event : beside_) tell(event);
   return std::move(out_);
 }
 

@@ -32,8 +32,8 @@ struct TraceRules {
   std::optional<double> first_step;  ///< in the path's norm; empty: from the load's scale
   /// Critical points of other branches: the path ends where it meets one of them again.
   std::vector<PathPoint> known;
-  std::vector<double>
-      expected;  ///< load factors of critical points on another mesh: approached by short steps
+  /// Load factors of critical points on another mesh: approached by short steps.
+  std::vector<double> expected;
   LocateOptions locate;
   /// Imperfection of a bifurcation on a finer mesh, to tell the mesh's from a real one; none where that mesh
   /// does not have it. Empty: there is no finer mesh.

@@ -50,8 +50,7 @@ std::optional<CriticalSolution::Spectrum> CriticalSolution::spectrum() const {
   // (stiffness + d B) w = 0
   const double sign = B(0, 0) < 0.0 ? -1.0 : 1.0;
   const MatrixXd definite = symmetric(-sign * B);
-  if ((Eigen::SelfAdjointEigenSolver<MatrixXd>(definite).eigenvalues().array() >= 0.0).any())
-    return std::nullopt;
+  if ((eigenvalues(definite).array() >= 0.0).any()) return std::nullopt;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> pairs(symmetric(stiffness), -definite);
   const Index k = stiffness.cols();
   Spectrum out{-sign * pairs.eigenvalues(), pairs.eigenvectors()};
@@ -106,7 +105,7 @@ class CriticalNewton {
   void refine(const MatrixXd& rows, const MatrixXd& border);
   [[nodiscard]] bool factorise();
   void take_quotients(const MatrixXd& right);
-  [[nodiscard]] MatrixXd quotients(const MatrixXd& v, const Eigen::Ref<const MatrixXd>& forces) const;
+  [[nodiscard]] MatrixXd quotients(const Eigen::Ref<const MatrixXd>& forces) const;
   void differentiate();
   [[nodiscard]] bool step();
   [[nodiscard]] bool converged();
@@ -193,7 +192,7 @@ bool CriticalNewton::factorise() {
   const VectorXd factored = eigenvalues(at_.stiffness);
   pi_ = at_.stiffness * along.col(0);
   rho_ = at_.stiffness * along.col(1);
-  at_.stiffness = quotients(v_, problem_.tangent_products(at_.y, at_.lambda, v_));
+  at_.stiffness = quotients(problem_.tangent_products(at_.y, at_.lambda, v_));
   const VectorXd exact = eigenvalues(at_.stiffness);
   const double doubt = (factored - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().minCoeff();
   if (!(doubt > least_doubt_)) {
@@ -217,7 +216,7 @@ void CriticalNewton::take_quotients(const MatrixXd& right) {
   all << v_, p_, q_;
   MatrixXd forces = problem_.tangent_products(at_.y, at_.lambda, all);
   forces.rightCols(2) = right - forces.rightCols(2);
-  at_.stiffness = quotients(v_, forces.leftCols(k));
+  at_.stiffness = quotients(forces.leftCols(k));
   // only v keeps in place what the load moves
   pi_.resize(k);
   rho_.resize(k);
@@ -228,10 +227,10 @@ void CriticalNewton::take_quotients(const MatrixXd& right) {
 }
 
 /// Work of the forces J v on the motions v.
-MatrixXd CriticalNewton::quotients(const MatrixXd& v, const Eigen::Ref<const MatrixXd>& forces) const {
-  MatrixXd out(v.cols(), v.cols());
-  for (Index i = 0; i < v.cols(); ++i)
-    for (Index j = 0; j < v.cols(); ++j) out(i, j) = problem_.work(forces.col(i), v.col(j));
+MatrixXd CriticalNewton::quotients(const Eigen::Ref<const MatrixXd>& forces) const {
+  MatrixXd out(v_.cols(), v_.cols());
+  for (Index i = 0; i < v_.cols(); ++i)
+    for (Index j = 0; j < v_.cols(); ++j) out(i, j) = problem_.work(forces.col(i), v_.col(j));
   return symmetric(out);
 }
 
