@@ -32,6 +32,8 @@ class Pencil {
   [[nodiscard]] VectorXd product(double lambda, const VectorXd& x) {
     return problem_.tangent_product(stress(lambda), lambda, x);
   }
+  /// Rayleigh's quotient of a motion, from the tangent itself and not its factors.
+  [[nodiscard]] double quotient(const VectorXd& x) { return -x.dot(product(0.0, x)) / x.dot(geometric(x)); }
   [[nodiscard]] double scale() const { return problem_.critical_load_scale(proportional_); }
   [[nodiscard]] int factorizations() const { return factorizations_; }
   /// Whether what is held carries nothing at a load factor.
@@ -273,9 +275,10 @@ double bisect(Pencil& pencil, double lo, double hi, int below) {
   return 0.5 * (lo + hi);
 }
 
-/// Holds each value of a bracket against the counts just beside it; where elimination was poor at the shift
-/// (a single element held at one end buckles near it) the value is taken from the counts instead, which need
-/// signs only.
+/// Holds each value of a bracket against the counts just beside it. Where they disagree, the counts have lost
+/// their digits next to a double load, if the mode's quotient is the same value; or elimination was poor at
+/// the shift (a single element held at one end buckles near it), and the value is taken from the counts,
+/// which need signs only.
 void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>& pairs) {
   constexpr double kBeside = 1e-9;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -283,7 +286,8 @@ void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>&
     const double load = pairs[i].load;
     const bool right = load > 0.0 && pencil.count(load * (1.0 - kBeside)) <= below &&
                        pencil.count(load * (1.0 + kBeside)) > below;
-    if (!right) pairs[i].load = bisect(pencil, bracket.lo, bracket.hi, below);
+    if (right || std::abs(pencil.quotient(pairs[i].mode) - load) <= kBeside * load) continue;
+    pairs[i].load = bisect(pencil, bracket.lo, bracket.hi, below);
   }
 }
 
@@ -331,9 +335,7 @@ PieceSolver solver_of(Pencil& pencil, Index size) {
     if (found.loads.empty() || found.negative_at_start > 0) return std::nullopt;
     return Piece{found.loads.front(), std::move(found.modes.front())};
   };
-  solver.quotient = [&pencil](const VectorXd& motion) {
-    return -motion.dot(pencil.product(0.0, motion)) / motion.dot(pencil.geometric(motion));
-  };
+  solver.quotient = [&pencil](const VectorXd& motion) { return pencil.quotient(motion); };
   return solver;
 }
 
