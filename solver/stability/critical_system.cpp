@@ -105,7 +105,9 @@ class CriticalNewton {
   void refine(const MatrixXd& rows, const MatrixXd& border);
   [[nodiscard]] bool factorise();
   void take_quotients(const MatrixXd& right);
-  [[nodiscard]] MatrixXd quotients(const Eigen::Ref<const MatrixXd>& forces) const;
+  void keep_better(const MatrixXd& rows, const MatrixXd& border);
+  [[nodiscard]] MatrixXd works(const Eigen::Ref<const MatrixXd>& forces,
+                               const Eigen::Ref<const MatrixXd>& motions) const;
   void differentiate();
   [[nodiscard]] bool step();
   [[nodiscard]] bool converged();
@@ -180,7 +182,10 @@ bool CriticalNewton::factorise() {
   problem_.load(at_.y, at_.lambda, column);
   rows.col(k + 1) = column;
   const MatrixXd border = problem_.metric().asDiagonal() * at_.null;
+  // forces that do no work on the motions hardly move along them, where factors lose their digits
+  const MatrixXd shares = works(rows.rightCols(2), at_.null);
   MatrixXd x = rows;
+  x.rightCols(2) -= rows.leftCols(k) * shares;
   solve(x);
   at_.stiffness = (border.transpose() * x.leftCols(k)).inverse();
   v_ = x.leftCols(k) * at_.stiffness;
@@ -190,9 +195,9 @@ bool CriticalNewton::factorise() {
   q_ = x.col(k + 1) - v_ * along.col(1);
   x.resize(0, 0);
   const VectorXd factored = eigenvalues(at_.stiffness);
-  pi_ = at_.stiffness * along.col(0);
-  rho_ = at_.stiffness * along.col(1);
-  at_.stiffness = quotients(problem_.tangent_products(at_.y, at_.lambda, v_));
+  pi_ = shares.col(0) + at_.stiffness * along.col(0);
+  rho_ = shares.col(1) + at_.stiffness * along.col(1);
+  at_.stiffness = symmetric(works(problem_.tangent_products(at_.y, at_.lambda, v_), v_));
   const VectorXd exact = eigenvalues(at_.stiffness);
   const double doubt = (factored - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().minCoeff();
   if (!(doubt > least_doubt_)) {
@@ -202,10 +207,36 @@ bool CriticalNewton::factorise() {
   }
   if (!(doubt < kSure)) {
     refine(rows, border);
+    keep_better(rows, border);
     take_quotients(rows.rightCols(2));
   }
   return (v_.transpose() * problem_.metric().asDiagonal() * v_).trace() < kLargest && p_.allFinite() &&
          q_.allFinite();
+}
+
+/// Keeps the motions and the response to the load of the iteration before where those of the factors at hand
+/// satisfy their equations less.
+void CriticalNewton::keep_better(const MatrixXd& rows, const MatrixXd& border) {
+  const Index k = v_.cols();
+  const auto products = [&](const Eigen::Ref<const MatrixXd>& x) {
+    return problem_.tangent_products(at_.y, at_.lambda, x);
+  };
+  const auto left = [&](const Eigen::Ref<const MatrixXd>& motions) {
+    const MatrixXd forces = products(motions);
+    return (forces - rows.leftCols(k) * symmetric(works(forces, motions))).norm();
+  };
+  if (left(v_) > left(at_.null)) {
+    v_ = at_.null;
+    p_ -= v_ * (border.transpose() * p_);
+    q_ -= v_ * (border.transpose() * q_);
+  }
+  if (at_.response.size() == 0) return;
+  const auto left_of_load = [&](const VectorXd& response) {
+    const MatrixXd forces = rows.col(k + 1) - products(response);
+    return (forces - rows.leftCols(k) * works(forces, v_)).norm();
+  };
+  const VectorXd before = at_.response - v_ * (border.transpose() * at_.response);
+  if (left_of_load(q_) > left_of_load(before)) q_ = before;
 }
 
 /// Stiffness and multipliers as Rayleigh's quotients of the solutions: their errors are products of the
@@ -216,22 +247,20 @@ void CriticalNewton::take_quotients(const MatrixXd& right) {
   all << v_, p_, q_;
   MatrixXd forces = problem_.tangent_products(at_.y, at_.lambda, all);
   forces.rightCols(2) = right - forces.rightCols(2);
-  at_.stiffness = quotients(forces.leftCols(k));
+  at_.stiffness = symmetric(works(forces.leftCols(k), v_));
   // only v keeps in place what the load moves
-  pi_.resize(k);
-  rho_.resize(k);
-  for (Index i = 0; i < k; ++i) {
-    pi_[i] = problem_.work(forces.col(k), v_.col(i));
-    rho_[i] = problem_.work(forces.col(k + 1), v_.col(i));
-  }
+  const MatrixXd multipliers = works(forces.rightCols(2), v_);
+  pi_ = multipliers.col(0);
+  rho_ = multipliers.col(1);
 }
 
-/// Work of the forces J v on the motions v.
-MatrixXd CriticalNewton::quotients(const Eigen::Ref<const MatrixXd>& forces) const {
-  MatrixXd out(v_.cols(), v_.cols());
-  for (Index i = 0; i < v_.cols(); ++i)
-    for (Index j = 0; j < v_.cols(); ++j) out(i, j) = problem_.work(forces.col(i), v_.col(j));
-  return symmetric(out);
+/// Work of forces, by column, on motions, by row.
+MatrixXd CriticalNewton::works(const Eigen::Ref<const MatrixXd>& forces,
+                               const Eigen::Ref<const MatrixXd>& motions) const {
+  MatrixXd out(motions.cols(), forces.cols());
+  for (Index i = 0; i < motions.cols(); ++i)
+    for (Index j = 0; j < forces.cols(); ++j) out(i, j) = problem_.work(forces.col(j), motions.col(i));
+  return out;
 }
 
 void CriticalNewton::differentiate() {
