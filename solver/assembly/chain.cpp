@@ -176,11 +176,9 @@ int extra_negative(const Matrix3d& F, const Matrix3d& K) {
 Chain::Pivot Chain::pivot_of(const Run& first, const Run& second) {
   Matrix3d matrix = product(second.K, first.F);
   for (int i = 0; i < 3; ++i) matrix(i, i) += 1.0;
-  Pivot pivot;
-  pivot.det = matrix.determinant();
-  if (pivot.det == 0.0) pivot.det = std::numeric_limits<double>::min();
-  pivot.inverse = matrix.inverse();
-  const double size = pivot.inverse.cwiseAbs().maxCoeff();
+  Pivot pivot{SmallFactor(matrix)};
+  pivot.det = pivot.factor.determinant();
+  const double size = pivot.factor.inverse().cwiseAbs().maxCoeff();
   pivot.gain = std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
   pivot.quality = 1.0 / (pivot.gain * matrix.cwiseAbs().maxCoeff());
   return pivot;
@@ -195,13 +193,15 @@ void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
   join.F = first.F;
   join.K2 = second.K;
   join.X2 = second.X;
-  join.M = pivot.inverse;
+  join.pivot = pivot.factor;
   ends_.negative += extra_negative(first.F, second.K);
   ends_.log_det += std::log(std::abs(pivot.det));
-  const Matrix3d MKX = product(join.M, product(second.K, join.X));
+  const Matrix3d MKX = join.pivot.solve_columns(product(second.K, join.X));
   first.K = symmetric(first.K + product(join.X.transpose(), MKX));
   first.X = -product(second.X, Matrix3d(join.X - product(join.F, MKX)));
-  first.F = symmetric(second.F + product(product(second.X, product(join.F, join.M)), second.X.transpose()));
+  // F M is symmetric, as F is
+  first.F = symmetric(second.F + product(second.X, product(join.pivot.solve_columns_transposed(join.F),
+                                                           second.X.transpose())));
   first.last = second.last;
 }
 
@@ -261,7 +261,7 @@ void Chain::reduce(std::span<CondensedElement> elements, std::span<const Element
     const Vector3d c1 = first.rm;
     Vector3d c2 = second.ra;
     for (int c = 0; c < 3; ++c) c2[c] += rhs[dofs[join.second_first].a[c]];
-    const Vector3d m = join.M * (c2 - join.K2 * c1);
+    const Vector3d m = join.pivot.solve(c2 - join.K2 * c1);
     first.ra -= join.X.transpose() * m;
     first.rm = second.rm - join.X2 * (c1 + join.F * m);
     // the second run is not met again
@@ -280,7 +280,7 @@ void Chain::recover(std::span<const CondensedElement> elements, std::span<const 
     const Vector3d end = x.segment<3>(dofs[join->second_last].m);
     const CondensedElement& second = elements[join->second_first];
     const Vector3d free = second.rm - join->X * us;
-    const Vector3d m = join->M * (second.ra - join->X2.transpose() * end - join->K2 * free);
+    const Vector3d m = join->pivot.solve(second.ra - join->X2.transpose() * end - join->K2 * free);
     const Vector3d u = free + join->F * m;
     const ElementDofs& node = dofs[join->second_first];
     for (int c = 0; c < 3; ++c) x[node.a[c]] = u[c];

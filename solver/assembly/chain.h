@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/element/element_set.h"
+#include "solver/linalg/small_factor.h"
 
 namespace snapthrough {
 
@@ -23,7 +24,8 @@ namespace snapthrough {
 ///   m_e = M (c2 - X'^T m' - K' (c1 - X u_s)),    u_e = c1 - X u_s + F m_e,
 ///
 /// c1, c2 the right-hand sides of the two rows. Flexibilities are never inverted: F = 0 is an inextensible,
-/// rigid part.
+/// rigid part. Nor is M formed: where a support is stiff K' is large and M small across its direction, and
+/// what an inverse has lost there would be multiplied by K'.
 ///
 /// Runs are joined from the start of the member on. A pivot is singular when the two runs together, held at
 /// their start and free at their end, are at a buckling load of their own; that may be the very load that is
@@ -54,12 +56,13 @@ class Chain {
   /// The join of two runs at the start of element `second_first`.
   struct Join {
     int first_first = 0, second_first = 0, second_last = 0;
-    Eigen::Matrix3d X, F, M;  ///< of the first run, and of the pivot
-    Eigen::Matrix3d K2, X2;   ///< of the second run
+    Eigen::Matrix3d X, F;    ///< of the first run
+    Eigen::Matrix3d K2, X2;  ///< of the second run
+    SmallFactor pivot;
   };
-  /// Pivot I + K' F of a join with its inverse.
+  /// Pivot I + K' F of a join.
   struct Pivot {
-    Eigen::Matrix3d inverse;
+    SmallFactor factor;
     double det = 0.0;
     double gain = 0.0;     ///< largest entry of the inverse: what errors of the runs are multiplied by
     double quality = 0.0;  ///< reciprocal condition: 1 is perfect, 0 singular

@@ -130,6 +130,7 @@ std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, cons
   CorrectorOptions options = downhill({}, 25);
   // only the direction is taken from it, and the last correction squares this
   options.tangent_tolerance = 1e-5;
+  options.largest_residual = options.tangent_tolerance;
   Attempt attempt{problem, metric, lambda, options, work, factorisations};
   ContactState state;
   ContactState glued;

@@ -32,9 +32,8 @@ constexpr double kNearResidual = 10.0;
 /// Relative residual that nothing can be taken from.
 constexpr double kExact = 1e-15;
 
-/// With contact that changes corrections may cycle: the last leaves at most this share of the residual, and
-/// is at most that share of the one before where it is taken for the tangent's sake.
-constexpr double kConvergingShare = 0.3;
+/// With contact that changes corrections may cycle: one that is the last for the tangent's sake is at most
+/// this share of the one before.
 constexpr double kClosingShare = 0.1;
 
 /// Corrections before a residual that no longer falls counts as rounding's, and what is left of one that
@@ -125,14 +124,14 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
   if (exact || problem.one_sided()) {
     problem.residual(work.trial, lambda + dlambda, work.residual);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
-    if (problem.one_sided() &&
-        size > std::max(kConvergingShare * out.relative_residual, options.residual_floor))
+    const double rounding =
+        std::max(options.residual_floor, problem.residual_rounding(work.trial, lambda + dlambda));
+    const double most = std::min(out.relative_residual, options.largest_residual);
+    if (problem.one_sided() && size > std::max(most, rounding))
       return correction <= kLargestLeft && out.relative_residual <= options.stagnant_residual;
     // one that leaves more was not the last, but where residuals are smooth and no longer fall
     const bool falls = problem.one_sided() || size <= kStagnantShare * out.relative_residual;
-    if (exact && falls && size > options.residual_floor &&
-        size > problem.residual_rounding(work.trial, lambda + dlambda))
-      return false;
+    if (exact && falls && size > rounding) return false;
   }
   y.swap(work.trial);
   lambda += dlambda;

@@ -8,6 +8,8 @@
 /// (Der Stahlbau 46, 1977), which is a fit with an exponent of two digits.
 #include <Eigen/LU>
 #include <complex>
+#include <optional>
+#include <vector>
 
 #include "tests/verification/cases.h"
 
@@ -132,14 +134,15 @@ TEST(ConfinedColumn, LosesStabilityAsOnAnElasticPatch) {
 }
 
 /// Half of a ring, R = EI = 1, in a host of great stiffness, which a small force lifts off at the crown.
-Model encased_ring(double diameter_by_thickness) {
+/// @param host its stiffness
+Model encased_ring(double diameter_by_thickness, std::optional<double> host = {}) {
   const double EA = 3.0 * diameter_by_thickness * diameter_by_thickness;
   Model model;
   model.nodes = {{"bottom", 0.0, -1.0}, {"crown", 0.0, 1.0}};
   model.sections = {{"s", EA, 1.0, {}}};
   model.members = {{"ring", "bottom", "crown", "s", ArcCurve{180.0}, false, false}};
   model.supports = {support("bottom", "xr"), support("crown", "xr")};
-  model.foundations = {one_sided("ring", 1e4 * std::pow(EA, 0.8), Side::right)};
+  model.foundations = {one_sided("ring", host.value_or(1e4 * std::pow(EA, 0.8)), Side::right)};
   PointLoad lift = force_at(at_node("crown"), 0.0, -1e-3 * std::pow(EA, 0.4) / 30.0);
   lift.pattern = Pattern::constant;
   model.loads = {PressureLoad{"ring", 1.0, Side::right, Pattern::proportional}, lift};
@@ -159,6 +162,28 @@ TEST(EncasedRing, ReachesGlocksLoad) {
     const double glock = 12.0 * std::pow(ratio, -2.2) * std::pow(0.5 * ratio, 3);
     expect_relative(limits[0].load_factor, glock, 0.03, "D/t " + std::to_string(ratio));
   }
+}
+
+/// A detached ring touches its host along a patch as wide as the host's own length (EI / K)^(1/4), which the
+/// stiffest host of this test makes 1/300 of the radius; the limit load tends to that in a rigid host.
+TEST(EncasedRing, ReachesALimitAsItsHostStiffens) {
+  std::vector<double> loads;
+  for (const double host : {1e7, 1e8, 1e9, 1e10}) {
+    Discretization mesh;
+    mesh.accuracy = 1e-4;
+    Analysis analysis = path_on(mesh, 1);
+    analysis.stop.steps = 3000;
+    const Result result = solve_soundly(encased_ring(50.0, host), analysis);
+    const auto limits = limits_of(result);
+    ASSERT_EQ(limits.size(), 1u) << host;
+    loads.push_back(limits[0].load_factor);
+  }
+  const double least = std::sqrt(10.0);  // fall of what remains, even if that goes as the length's square
+  for (std::size_t i = 2; i < loads.size(); ++i) {
+    EXPECT_GT(loads[i], loads[i - 1]);
+    EXPECT_LT(least * (loads[i] - loads[i - 1]), loads[i - 1] - loads[i - 2]);
+  }
+  expect_relative(loads.back(), 12.0 * std::pow(50.0, -2.2) * std::pow(25.0, 3), 0.03, "Glock");
 }
 
 }  // namespace

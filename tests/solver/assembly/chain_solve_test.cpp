@@ -54,7 +54,8 @@ VectorXd dense_solution(const std::vector<CondensedElement>& elements) {
     if (i + 1 < n) A.block<3, 3>(m(i), u(i + 1)) += Matrix3d::Identity();
     if (i + 1 < n) A.block<3, 3>(u(i + 1), m(i)) += Matrix3d::Identity();
   }
-  return A.fullPivLu().solve(b);
+  using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  return Wide(A.cast<long double>()).partialPivLu().solve(b.cast<long double>()).cast<double>();
 }
 
 /// The same by the chain: both ends are held, so the end's force follows from F m = -r.
@@ -95,6 +96,23 @@ TEST(ChainSolve, KeepsItsDigitsWhereAPartBucklesOnItsOwn) {
       // a thousand roundings times the ratio of stiff to soft; a run that is taken at its own buckling load
       // loses all digits
       EXPECT_LT((chain_solution(elements) - exact).norm(), 1e-8 * exact.norm()) << count << " bars, " << off;
+    }
+}
+
+/// Two springs side by side, as a patch of a stiff base: an error of 1e-15 in what each moves is one of 1e-15
+/// times its stiffness in the forces. Formed as an inverse, the pivot loses the ratio of stiff to soft twice.
+TEST(ChainSolve, KeepsItsDigitsBesideAPatchOfAStiffBase) {
+  constexpr double kRounding = 1e-15;
+  for (const double k : {1e6, 1e8, 1e10, 1e12})
+    for (int at = 1; at < kElements; ++at) {
+      auto elements = bars(0.5);
+      for (const double arm : {0.0, 0.1 * kLength}) {
+        const Eigen::Vector3d spring(0.6, 0.8, arm);
+        elements[at].K += k * spring * spring.transpose();
+      }
+      const VectorXd exact = dense_solution(elements);
+      const VectorXd found = chain_solution(elements);
+      EXPECT_LT((found - exact).norm(), kRounding * k * exact.norm()) << "springs " << k << " at " << at;
     }
 }
 

@@ -1,0 +1,89 @@
+#pragma once
+/// @file
+/// L U of a matrix of three rows.
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+namespace snapthrough {
+
+/// @brief P A = L U with row pivoting. A solution's error is that of A's rounding, which an explicit inverse
+/// does not give where the solution is far smaller than inverse and right-hand side together.
+class SmallFactor {
+ public:
+  SmallFactor() = default;
+  /// @brief Factorises `a`; a last pivot of exactly zero becomes tiny.
+  explicit SmallFactor(const Eigen::Matrix3d& a) : lu_(a) {
+    for (int k = 0; k < 2; ++k) {
+      int best = k;
+      for (int i = k + 1; i < 3; ++i)
+        if (std::abs(lu_(i, k)) > std::abs(lu_(best, k))) best = i;
+      if (best != k) {
+        for (int j = 0; j < 3; ++j) std::swap(lu_(k, j), lu_(best, j));
+        std::swap(row_[k], row_[best]);
+        odd_ = !odd_;
+      }
+      if (lu_(k, k) == 0.0) lu_(k, k) = kTiny;
+      for (int i = k + 1; i < 3; ++i) {
+        lu_(i, k) /= lu_(k, k);
+        for (int j = k + 1; j < 3; ++j) lu_(i, j) -= lu_(i, k) * lu_(k, j);
+      }
+    }
+    if (lu_(2, 2) == 0.0) lu_(2, 2) = kTiny;
+  }
+
+  /// det A; not zero.
+  [[nodiscard]] double determinant() const {
+    const double product = lu_(0, 0) * lu_(1, 1) * lu_(2, 2);
+    if (product == 0.0) return std::numeric_limits<double>::min();
+    return odd_ ? -product : product;
+  }
+  /// A^-1 b.
+  [[nodiscard]] Eigen::Vector3d solve(const Eigen::Vector3d& b) const {
+    const double y0 = b[row_[0]];
+    const double y1 = b[row_[1]] - lu_(1, 0) * y0;
+    const double y2 = b[row_[2]] - lu_(2, 0) * y0 - lu_(2, 1) * y1;
+    Eigen::Vector3d x;
+    x[2] = y2 / lu_(2, 2);
+    x[1] = (y1 - lu_(1, 2) * x[2]) / lu_(1, 1);
+    x[0] = (y0 - lu_(0, 1) * x[1] - lu_(0, 2) * x[2]) / lu_(0, 0);
+    return x;
+  }
+  /// A^-T b.
+  [[nodiscard]] Eigen::Vector3d solve_transposed(const Eigen::Vector3d& b) const {
+    const double y0 = b[0] / lu_(0, 0);
+    const double y1 = (b[1] - lu_(0, 1) * y0) / lu_(1, 1);
+    const double y2 = (b[2] - lu_(0, 2) * y0 - lu_(1, 2) * y1) / lu_(2, 2);
+    Eigen::Vector3d x;
+    x[row_[2]] = y2;
+    const double x1 = y1 - lu_(2, 1) * y2;
+    x[row_[1]] = x1;
+    x[row_[0]] = y0 - lu_(1, 0) * x1 - lu_(2, 0) * y2;
+    return x;
+  }
+  /// A^-1 B and A^-T B.
+  [[nodiscard]] Eigen::Matrix3d solve_columns(const Eigen::Matrix3d& b) const {
+    Eigen::Matrix3d x;
+    for (int j = 0; j < 3; ++j) x.col(j) = solve(Eigen::Vector3d(b.col(j)));
+    return x;
+  }
+  [[nodiscard]] Eigen::Matrix3d solve_columns_transposed(const Eigen::Matrix3d& b) const {
+    Eigen::Matrix3d x;
+    for (int j = 0; j < 3; ++j) x.col(j) = solve_transposed(Eigen::Vector3d(b.col(j)));
+    return x;
+  }
+  [[nodiscard]] Eigen::Matrix3d inverse() const { return solve_columns(Eigen::Matrix3d::Identity()); }
+
+ private:
+  static constexpr double kTiny = 1e-300;
+
+  Eigen::Matrix3d lu_ = Eigen::Matrix3d::Identity();  ///< U, and L below its diagonal of ones
+  std::array<std::uint8_t, 3> row_{0, 1, 2};          ///< of A, for every row of L U
+  bool odd_ = false;                                  ///< permutation
+};
+
+}  // namespace snapthrough
