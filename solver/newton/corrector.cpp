@@ -54,26 +54,6 @@ constexpr double kRoundingSize = 2e-15;
 constexpr double kRoundingShare = 1e-10;
 constexpr int kLeastIterations = 3;
 
-/// Share of the correction to take so that the residual, `now` before it, falls.
-double damping(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lambda, double dlambda,
-               double now, Workspace& work) {
-  constexpr int kMostHalvings = 4;
-  double share = 1.0;
-  double best = std::numeric_limits<double>::infinity();
-  double best_share = 1.0;
-  for (int i = 0; i <= kMostHalvings; ++i, share *= 0.5) {
-    work.trial = y + share * work.correction;
-    problem.residual(work.trial, lambda + share * dlambda, work.residual);
-    const double size = problem.relative_residual(work.residual, work.trial, lambda + share * dlambda);
-    if (size <= (1.0 - 0.5 * share) * now) return share;
-    if (size < best) {
-      best = size;
-      best_share = share;
-    }
-  }
-  return best_share;
-}
-
 /// Share of the correction at which the forces do no work on it any more. At a given load and small
 /// displacements one-sided supports have a convex energy, of which this is the least along the correction:
 /// so Newton's method can't cycle between contact patterns.
@@ -150,10 +130,8 @@ class Progress {
     const bool small =
         std::max(expected_, size * ratio(size) * ratio(size)) <= options_.tolerance * movement_ &&
         residual <= options_.largest_residual;
-    // damped corrections fall towards where the residual is least, although it may not vanish there
-    const bool rounding =
-        !options_.damped && (residual <= kRoundingResidual ||
-                             size <= std::min(kLargestRounding, kLargestRoundingShare * movement_));
+    const bool rounding = residual <= kRoundingResidual ||
+                          size <= std::min(kLargestRounding, kLargestRoundingShare * movement_);
     stagnant_ = iteration >= kStagnantIterations && residual <= options_.stagnant_residual &&
                 residual > kStagnantShare * last_residual_;
     last_residual_ = residual;
@@ -176,12 +154,12 @@ class Progress {
   }
   /// Takes in a correction of which `share` was taken; false when too many did not shrink.
   [[nodiscard]] bool goes_on(double size, double share, double residual) {
-    // damped corrections may grow while the residual falls, and near rounding nothing falls
+    // near rounding nothing falls
     if (size > 0.5 * least_ && residual > options_.stagnant_residual) ++stalled_;
     least_ = std::min(least_, size);
     expected_ = share < 1.0 ? size : size * ratio(size) * ratio(size);
     previous_ = size;
-    return stalled_ <= options_.most_stalled || options_.damped;
+    return stalled_ <= options_.most_stalled;
   }
 
  private:
@@ -241,9 +219,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
       out.status = CorrectorStatus::converged;
       return out;
     }
-    const double share = options.least_energy ? least_energy(problem, y, lambda, work)
-                         : options.damped     ? damping(problem, y, lambda, dlambda, residual, work)
-                                              : 1.0;
+    const double share = options.least_energy ? least_energy(problem, y, lambda, work) : 1.0;
     y += share * work.correction;
     lambda += share * dlambda;
     if (size > options.largest_correction * scale) return out;

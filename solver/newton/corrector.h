@@ -48,7 +48,6 @@ struct CorrectorOptions {
   double largest_correction = 2.0;  ///< a correction beyond this many steps ends the iteration as diverged
   double largest_first = std::numeric_limits<double>::infinity();   ///< the same for the first
   double largest_growth = std::numeric_limits<double>::infinity();  ///< from one correction to the next
-  bool damped = false;               ///< shortens corrections that raise the residual, see correct()
   bool least_energy = false;         ///< shortens corrections to where the energy is least, see correct()
   double residual_floor = 2e-13;     ///< relative residual that rounding allows; the iteration stops there
   double stagnant_residual = 1e-11;  ///< below it, one that no longer falls is rounding's, too
@@ -84,9 +83,7 @@ struct Workspace {
 /// Each iteration factorises once and solves twice (bordering); the step taken with the last factors leaves
 /// the point more accurate than the tolerance, and `work.load_response` = J^-1 load with those factors, for
 /// the tangent.
-/// Undamped it is the fastest while the contact changes little. Damped, a correction is halved until it
-/// lowers the residual (or four times at most): that ends cycles between contact patterns, at the price of
-/// some residuals. With least_energy, for a given load and small displacements, a correction ends where the
+/// With least_energy, for a given load and small displacements, a correction ends where the
 /// forces do no work on it: the energy of one-sided supports is convex, and falls with each.
 /// @param scale norm of the step that led to the starting point
 [[nodiscard]] CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric,

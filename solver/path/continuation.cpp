@@ -37,15 +37,15 @@ constexpr int kMostStalled = 2;
 /// their stiffness: then steps grow by this much, so long as they stay this far from what limits them.
 constexpr double kFastGrowth = 8.0;
 constexpr double kFarFromLimits = 0.1;
-/// A turn is a corner when it did not change while the steps shrank by this much, and their chords with them.
-constexpr double kCornerShrink = 0.02;
+/// Distance to a point beyond a corner, over the step that should have led there, that only a jump to another
+/// path takes.
 constexpr double kCornerLength = 4.0;
 /// Share of the last size that was accepted at once to which steps must have shrunk before a turn is looked
 /// for.
 constexpr double kTurnShrink = 1e-3;
 
-/// Share of the last size that was accepted at once below which corrections that cycle are damped; a larger
-/// step is shortened first, which costs less.
+/// Share of the last size that was accepted at once below which a step may take all corrections it needs; a
+/// larger one is shortened first, which costs less.
 constexpr double kPatientShare = 0.2;
 
 /// A path's load bound over the scale of the member that buckles first, and of that which does so last.
@@ -375,28 +375,21 @@ void Continuation::predict(const PathPoint& from, double step, PathPoint& to) co
   to.lambda += 0.5 * step * step * bend_.lambda2 + step * step * step / 6.0 * bend_.lambda3;
 }
 
-/// Corrects `to` from the predictor under the side condition at hand, damped where the contact makes it
-/// cycle.
+/// Corrects `to` from the predictor under the side condition at hand.
 CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, double movement,
                                             PathPoint& to) {
   CorrectorOptions options = options_.corrector;
   // supports act on a structure that hardly moves under much load, too
   if (problem_.one_sided()) options.movement = std::max(step * metric_.norm(from.tangent, 0.0), kLeastNoise);
-  const bool patient = step < kPatientShare * easy_size_;
-  if (!patient) {
+  if (step >= kPatientShare * easy_size_) {
     options.largest_first = kLargestCorrection;
     options.largest_growth = kLargestGrowth;
     options.most_stalled = std::min(options.most_stalled, kMostStalled);
   }
-  for (;;) {
-    predict(from, step, to);
-    const auto outcome = correct(problem_, metric_, side_, movement, options, to.y, to.lambda, work_);
-    count(outcome);
-    if (options.damped || !patient || !problem_.one_sided() ||
-        outcome.status != CorrectorStatus::too_many_iterations)
-      return outcome;
-    options.damped = true;
-  }
+  predict(from, step, to);
+  const auto outcome = correct(problem_, metric_, side_, movement, options, to.y, to.lambda, work_);
+  count(outcome);
+  return outcome;
 }
 
 Continuation::Trial Continuation::try_step(const PathPoint& from, double step, PathPoint& to) {
@@ -428,36 +421,6 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   to.arc_length = from.arc_length + arc(from, to);
   statistics_.max_relative_residual = std::max(statistics_.max_relative_residual, outcome.relative_residual);
   return trial;
-}
-
-/// A step that prescribes the movement alone and leaves the load free: it passes where the load turns back
-/// within a movement that is too small to count in the path's norm.
-bool Continuation::step_by_movement(const PathPoint& from, double size, PathPoint& to) {
-  constexpr double kLargestTurn = 0.9;  // of the movement, rad
-  side_.normal = metric_.weights->cwiseProduct(from.tangent);
-  side_.normal_lambda = 0.0;
-  const double movement = size * metric_.norm(from.tangent, 0.0);
-  if (movement == 0.0) return false;
-  const auto outcome = correct_step(from, size, movement, to);
-  if (outcome.status != CorrectorStatus::converged) return false;
-  set_tangent(to, from.negative, outcome, from.tangent, 0.0);
-  const double along = metric_.inner(to.tangent, 0.0, from.tangent, 0.0);
-  const double norms = metric_.norm(to.tangent, 0.0) * metric_.norm(from.tangent, 0.0);
-  to.arc_length = from.arc_length + arc(from, to);
-  return along > std::cos(kLargestTurn) * norms && keeps_orientation(from, to) &&
-         metric_.norm(to.y - from.y, 0.0) < kCornerLength * movement;
-}
-
-/// A turn that stays the same while the steps that meet it shrink is a corner of the path itself: a support
-/// that starts or stops to act. A jump to another path keeps its distance instead, so `to` must be as near as
-/// the step is short.
-bool Continuation::is_corner(const Trial& trial, double size) {
-  if (!trial.converged || trial.angle <= options_.max_angle || trial.length > kCornerLength * size)
-    return false;
-  if (std::abs(trial.angle - corner_.angle) > 0.1 * trial.angle) corner_ = {trial.angle, size};
-  if (size > kCornerShrink * corner_.first_size) return false;
-  corner_ = {};
-  return true;
 }
 
 /// A point beyond a corner that is less than `depth` from `from`, with the path's direction there: that of
@@ -542,11 +505,6 @@ bool Continuation::settle_beyond(const PathPoint& from, const PathPoint& beyond,
          (to.tangent_lambda > 0.0) == (dlambda > 0.0);
 }
 
-bool Continuation::pass_corner(const PathPoint& from, double size, PathPoint& to) {
-  return step_by_movement(from, size, to) || turn(from, size, to) ||
-         (from.negative == 0 && settle_beyond(from, from, size, to));
-}
-
 StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint& to) {
   problem_.set_holds(from.holds);
   to.holds = from.holds;
@@ -557,21 +515,19 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
     const Trial trial = try_step(from, size, to);
     bend_ = {};
     const bool smooth = trial.angle <= options_.max_angle && trial.correction <= kLargestCorrection;
-    if (trial.converged && (smooth || is_corner(trial, size))) {
+    if (trial.converged && smooth) {
       ++statistics_.steps;
       ++statistics_.corrections[std::min<std::size_t>(trial.corrections, statistics_.corrections.size() - 1)];
-      // steps that close in on a corner are accepted, too, each much smaller than the last
       easy_ = size == first_size;
       if (easy_) easy_size_ = std::max(size, kForget * easy_size_);
       step.taken = size;
-      const double growth = smooth ? trial.growth : options_.max_growth;
-      step.wanted =
-          std::min(size * (smooth && size < first_size ? std::min(growth, 1.0) : growth), options_.max_step);
+      const double growth = size < first_size ? std::min(trial.growth, 1.0) : trial.growth;
+      step.wanted = std::min(size * growth, options_.max_step);
       return StepOutcome::advanced;
     }
     ++statistics_.rejected_steps;
     size *= std::min(trial.growth, 0.5);
-    if (problem_.one_sided() && size < kTurnShrink * easy_size_ && pass_corner(from, size, to)) {
+    if (problem_.one_sided() && size < kTurnShrink * easy_size_ && turn(from, size, to)) {
       ++statistics_.steps;
       step.taken = size;
       step.wanted = std::min(size * options_.max_growth, options_.max_step);
@@ -665,7 +621,6 @@ void Continuation::weigh_load(bool to_limit, PathPoint& at, StepSize& step) {
   easy_size_ *= length;
   options_.min_step *= length;
   options_.max_step *= length;
-  corner_ = {};
   bend_ = {};
 }
 
@@ -741,15 +696,9 @@ std::optional<PathPoint> Continuation::between(const Chord& chord, const PathPoi
   side_.normal = metric_.weights->cwiseProduct(chord.y);
   side_.normal_lambda = metric_.load_weight * chord.lambda;
   const double scale = std::max(distance_in(chord, lo, hi), chord.movement_only ? kLeastNoise : kNoise);
-  CorrectorOptions options = options_.corrector;
-  auto outcome = correct(problem_, metric_, side_, scale, options, point.y, point.lambda, work_);
+  const auto outcome =
+      correct(problem_, metric_, side_, scale, options_.corrector, point.y, point.lambda, work_);
   count(outcome);
-  if (outcome.status == CorrectorStatus::too_many_iterations && problem_.one_sided()) {
-    options.damped = true;
-    interpolate(chord, lo, hi, share, point);
-    outcome = correct(problem_, metric_, side_, scale, options, point.y, point.lambda, work_);
-    count(outcome);
-  }
   if (outcome.status != CorrectorStatus::converged) return std::nullopt;
   const bool at_start = outcome.tangent.negative % 2 == lo.negative % 2;
   set_tangent(point, at_start ? lo.negative : hi.negative, outcome, chord.y, chord.lambda);

@@ -201,23 +201,15 @@ class Continuation {
     double growth = 0.3;      ///< wanted factor to the next step size
     int corrections = 0;
   };
-  /// A turn that was met, and the size of the first step that met it.
-  struct Corner {
-    double angle = 0.0;
-    double first_size = 0.0;
-  };
-  [[nodiscard]] bool is_corner(const Trial& trial, double size);
   [[nodiscard]] CorrectorOutcome correct_step(const PathPoint& from, double step, double movement,
                                               PathPoint& to);
   void predict(const PathPoint& from, double step, PathPoint& to) const;
-  [[nodiscard]] bool step_by_movement(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] bool turn(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] std::optional<PathPoint> beyond_corner(const PathPoint& from, double depth);
   [[nodiscard]] bool step_from_beyond(const PathPoint& from, const PathPoint& beyond, double step,
                                       PathPoint& to);
   /// Angle between the tangents, rad.
   [[nodiscard]] double angle_between(const PathPoint& a, const PathPoint& b) const;
-  [[nodiscard]] bool pass_corner(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] bool settle_beyond(const PathPoint& from, const PathPoint& beyond, double size,
                                    PathPoint& to);
   [[nodiscard]] Trial try_step(const PathPoint& from, double step, PathPoint& to);
@@ -233,7 +225,6 @@ class Continuation {
   double load_bound_ = 1.0;
   double loosening_ = 1.0;
   double arc_weight_ = 1.0;  ///< of the load in arc lengths
-  Corner corner_;
   Eigen::VectorXd loose_motion_;
   bool symmetric_ = true;   ///< the tangent is, so that stiffnesses of motions are real
   bool easy_ = false;       ///< the last step was accepted at its first size

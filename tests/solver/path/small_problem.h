@@ -16,14 +16,17 @@ class SmallProblem final : public EquilibriumProblem {
  public:
   using Gradient = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
   using Hessian = std::function<Eigen::MatrixXd(const Eigen::VectorXd&)>;
-  SmallProblem(Gradient g, Hessian h, Eigen::VectorXd load)
+  /// @param one_sided whether the Hessian jumps, as where a support begins to act
+  SmallProblem(Gradient g, Hessian h, Eigen::VectorXd load, bool one_sided = false)
       : gradient_(std::move(g)),
         hessian_(std::move(h)),
         load_(std::move(load)),
+        one_sided_(one_sided),
         metric_(Eigen::VectorXd::Ones(load_.size())) {}
 
   [[nodiscard]] Eigen::Index size() const override { return load_.size(); }
   [[nodiscard]] const Eigen::VectorXd& metric() const override { return metric_; }
+  [[nodiscard]] bool one_sided() const override { return one_sided_; }
   void residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) override {
     f = gradient_(y) - lambda * load_;
   }
@@ -48,6 +51,7 @@ class SmallProblem final : public EquilibriumProblem {
   Gradient gradient_;
   Hessian hessian_;
   Eigen::VectorXd load_;
+  bool one_sided_;
   Eigen::VectorXd metric_;
   Eigen::MatrixXd tangent_;
 };

@@ -192,7 +192,7 @@ SmallProblem truss(double h, double ks, double g) {
             return Eigen::MatrixXd(Eigen::MatrixXd::Constant(
                 1, 1, 2.0 * (1.0 / l0 - 1.0 / (l * l * l)) + (w[0] > g ? ks : 0.0)));
           },
-          Eigen::VectorXd::Ones(1)};
+          Eigen::VectorXd::Ones(1), ks > 0.0};
 }
 
 struct TrussFold {
