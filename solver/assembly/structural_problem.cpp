@@ -76,6 +76,7 @@ void StructuralProblem::add_joint_springs(const VectorXd& y, VectorXd& f) {
     if (!frozen_) spring_active_[i] = bonded_ || !spring.one_sided || acts;
     double force = spring_active_[i] ? spring.stiffness * (w - gap) : 0.0;
     if (spring.one_sided) force *= softness_;
+    if (spring.one_sided) force += grip_ * spring.stiffness * w;
     for (int c = 0; c < 3; ++c) f[3 * spring.joint + c] += force * spring.row[c];
   }
 }
@@ -129,7 +130,7 @@ void StructuralProblem::add_holds(const VectorXd& y, VectorXd& f) const {
 double StructuralProblem::acting_stiffness(std::size_t spring) const {
   const JointSpring& s = structure_.joint_springs[spring];
   if (!s.one_sided) return s.stiffness;
-  return spring_active_[spring] ? softness_ * s.stiffness : 0.0;
+  return s.stiffness * ((spring_active_[spring] ? softness_ : 0.0) + grip_);
 }
 
 /// Turns the rows of nodes into the axes of their supports.
@@ -309,6 +310,11 @@ void StructuralProblem::solve_symmetric(VectorXd& x) {
 void StructuralProblem::set_bonded(bool bonded) {
   bonded_ = bonded;
   structure_.elements->set_bonded(bonded);
+}
+
+void StructuralProblem::set_grip(double share) {
+  grip_ = share;
+  structure_.elements->set_grip(share);
 }
 
 void StructuralProblem::set_softness(double share) {

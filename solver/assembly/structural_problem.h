@@ -47,6 +47,7 @@ class StructuralProblem final : public EquilibriumProblem {
   void set_holds(const SharedHolds& holds) override;
   void force_along(const Eigen::VectorXd& motion, Eigen::VectorXd& out) const override;
   void set_bonded(bool bonded) override;
+  void set_grip(double share) override;
   void set_softness(double share) override;
   /// Euler's load of the most compressed member: pi^2 EI / (N l^2).
   [[nodiscard]] double critical_load_scale(const Eigen::VectorXd& unit_response) const override;
@@ -130,6 +131,7 @@ class StructuralProblem final : public EquilibriumProblem {
   Stage stage_ = Stage::proportional;
   bool bonded_ = false;
   double largest_load_ = 0.0;  ///< of the forces and moments of the unit load: imposed strains are none
+  double grip_ = 0.0;
   double softness_ = 1.0;
   bool frozen_ = false;  ///< spring_active_ and the elements' contact stay as they are
 };

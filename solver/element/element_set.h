@@ -119,6 +119,8 @@ class ElementSet {
   virtual void set_linear_geometry(bool linear) = 0;
   /// Treats one-sided supports as glued and without gap, as long as it is set.
   virtual void set_bonded(bool bonded) = 0;
+  /// One-sided supports also react in both directions, without gap, with this share of their stiffness.
+  virtual void set_grip(double share) = 0;
   /// One-sided supports have this share of their stiffness only, in (0, 1].
   virtual void set_softness(double share) = 0;
   /// @brief From now on one-sided supports are glued where they touch at y (penetration above `-tolerance`)

@@ -47,6 +47,7 @@ class ElementSetOf final : public ElementSet {
   void add_strip(int element, ContactStrip strip, Touch touch) override;
   void set_linear_geometry(bool linear) override { linear_ = linear; }
   void set_bonded(bool bonded) override { bonded_ = bonded; }
+  void set_grip(double share) override { grip_ = share; }
   void set_softness(double share) override { softness_ = share; }
   [[nodiscard]] double support_rounding() const override { return support_rounding_; }
   void freeze_contact(const Eigen::VectorXd& y, double tolerance) override;
@@ -179,6 +180,7 @@ class ElementSetOf final : public ElementSet {
   std::array<Gauss, P> a_{};  ///< A_qr
   bool linear_ = false;
   bool bonded_ = false;
+  double grip_ = 0.0;
   double softness_ = 1.0;
   double support_rounding_ = 0.0;
   double proportional_ = 0.0;  ///< factors on the pressures

@@ -33,6 +33,8 @@ void ElementSetOf<P>::collect_strip(std::size_t index, const double* y, const El
     strip.contact_intervals(u.start, u.dx, u.dy, intervals_);
   for (const auto& interval : intervals_)
     add_interval(index, shape, interval, softness_ * strip.modulus(), bonded_ ? 0.0 : strip.gap());
+  if (grip_ > 0.0)
+    add_interval(index, shape, {strip.range()[0], strip.range()[1]}, grip_ * strip.modulus(), 0.0);
 }
 
 /// The penetration at a place of a strip, with neither stiffness nor gap.
@@ -86,6 +88,11 @@ void ElementSetOf<P>::add_support_residual(int element, const double* y, double*
   for (int i = 0; i < shape.strip_count; ++i) collect_strip(shape.first_strip + i, y, dofs, shape);
   for (int i = 0; i < shape.station_count; ++i) {
     const std::size_t station = shape.first_station + i;
+    if (grip_ > 0.0 && stations_[station].one_sided) {
+      acting_.push_back(stations_[station]);
+      acting_.back().stiffness *= grip_;
+      acting_.back().gap = 0.0;
+    }
     if (!acts(stations_[station], station, dofs, y)) continue;
     acting_.push_back(stations_[station]);
     if (stations_[station].one_sided) acting_.back().stiffness *= softness_;

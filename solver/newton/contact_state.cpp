@@ -10,6 +10,13 @@ using Eigen::VectorXd;
 
 namespace {
 
+/// Smallest share of their stiffness that the supports' grip is released to before it is let go.
+constexpr double kLeastGrip = 1e-20;
+/// Factor from one share to the next: the least, and one that is as good as no progress.
+constexpr double kFastestRelease = 0.1;
+constexpr double kSlowestRelease = 0.97;
+/// Share below which it is tried to do without.
+constexpr double kTryFree = 1e-3;
 /// A displacement gradient that only a mechanism reaches.
 constexpr double kSingular = 1e13;
 
@@ -56,6 +63,16 @@ bool settle(Attempt& attempt, ContactState& state) {
   }
 }
 
+/// Newton's method with a grip; `state` changes only when it settles.
+bool settle_with(Attempt& attempt, double grip, ContactState& state) {
+  ContactState trial = state;
+  attempt.problem.set_grip(grip);
+  const bool settled = settle(attempt, trial);
+  attempt.problem.set_grip(0.0);
+  if (settled) state = std::move(trial);
+  return settled;
+}
+
 /// With supports so soft that the structure leaves them or leans on them as a whole, which are then hardened
 /// by and by: on stiff ones Newton's method moves the ends of contact by some decay lengths an iteration.
 bool harden(Attempt& attempt, ContactState& state) {
@@ -88,6 +105,23 @@ bool harden(Attempt& attempt, ContactState& state) {
   return softness == 1.0;
 }
 
+/// From the glued guess, with a grip that is let go by and by.
+bool release_grip(Attempt& attempt, ContactState& state) {
+  double grip = 1.0;
+  double release = kFastestRelease;
+  if (!settle_with(attempt, grip, state)) return false;
+  while (grip > kLeastGrip && release < kSlowestRelease) {
+    if (!settle_with(attempt, grip * release, state)) {
+      release = std::sqrt(release);
+      continue;
+    }
+    grip *= release;
+    release = std::max(kFastestRelease, release * release);
+    if (grip < kTryFree && settle_with(attempt, 0.0, state)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, const PathMetric& metric,
@@ -99,16 +133,20 @@ std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, cons
   options.largest_residual = options.tangent_tolerance;
   Attempt attempt{problem, metric, lambda, options, work, factorisations};
   ContactState state;
+  ContactState glued;
   if (guess != nullptr) {
     state.y = *guess;
     if (settle(attempt, state)) return state;
   }
   for (const bool bonded : {true, false}) {
     if (!first_guess(attempt, bonded, state)) continue;
+    if (bonded) glued = state;
     if (state.y.isZero(0.0) || settle(attempt, state)) return state;
   }
-  if (!harden(attempt, state)) return std::nullopt;
-  return state;
+  if (glued.y.size() == 0) return std::nullopt;
+  if (harden(attempt, state)) return state;
+  if (!release_grip(attempt, glued)) return std::nullopt;
+  return glued;
 }
 
 }  // namespace snapthrough

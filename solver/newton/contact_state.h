@@ -14,13 +14,18 @@ struct ContactState {
   Eigen::VectorXd y;
   TangentReport tangent;
   double relative_residual = 0.0;
+  bool through_grip =
+      false;  ///< it took the grip's release to find it: the response need not be proportional
 };
 
 /// @brief Solves F(y, lambda) = 0 at fixed lambda from the unloaded state.
 ///
 /// Newton's method from the response of the structure glued to its supports, and from that without them, ends
 /// in most cases with the right contact. On supports so stiff that contact ends move slowly, they are made
-/// soft and hardened by steps, each of which starts next to the last one's solution.
+/// soft and hardened by steps. Where nothing holds the structure until a gap closes, the supports get a grip:
+/// they also react, in both directions and without gap, with a share of their stiffness. The share falls from
+/// one to nothing by steps that shrink when Newton's method fails; each problem on the way is strictly
+/// monotone and starts next to the last one's solution.
 ///
 /// @param guess tried first, if given
 /// @param options its limits on iterations and corrections are the caller's to widen

@@ -46,6 +46,8 @@ class EquilibriumProblem {
   [[nodiscard]] virtual bool one_sided() const { return false; }
   /// Treats one-sided supports as glued, without gap, as long as it is set.
   virtual void set_bonded(bool) {}
+  /// One-sided supports also react in both directions, without gap, with this share of their stiffness.
+  virtual void set_grip(double) {}
   /// One-sided supports have this share of their stiffness only, in (0, 1].
   virtual void set_softness(double) {}
   /// @brief Motions that nothing but one-sided supports can resist: orthonormal columns over the first
