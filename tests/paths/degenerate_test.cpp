@@ -172,5 +172,29 @@ TEST(Degenerate, ContactThatBeginsIsAnEvent) {
   expect_relative(result.contact_events[0].load_factor, 0.03, 2e-4, "closing load");
 }
 
+/// Three bars in a chain between two pins, held by a base of one side on the last alone: under the first
+/// small load it has several states of rest, and every mesh must begin in the same.
+TEST(Degenerate, LinkageOnAOneSidedBaseRestsAlikeOnEveryMesh) {
+  Model model;
+  model.nodes = {{"n0", 0.0, 0.0}, {"n1", 0.456, 0.441}, {"n2", 1.003, 1.06}, {"n3", 0.79, 1.945}};
+  model.sections = {{"s", 2e4, 1.0, {}}};
+  model.members = {{"m0", "n0", "n1", "s", LineCurve{}, false, true},
+                   {"m1", "n1", "n2", "s", ArcCurve{125.0}, false, true},
+                   {"m2", "n2", "n3", "s", ArcCurve{27.0}, false, false}};
+  model.supports = {support("n0", "xy"), support("n3", "xy")};
+  model.foundations = {one_sided("m2", 2.7, Side::right)};
+  PointLoad load = force_at(at_member("m1", 0.19), -0.12, -0.64);
+  load.moment = -0.0116;
+  model.loads = {load};
+  const Result coarse = solve_soundly(model, analysis_of(AnalysisType::critical, fixed_mesh(4, 5)));
+  ASSERT_TRUE(coarse.summary.critical_load_factor);
+  for (const int elements : {6, 8, 16, 48}) {
+    const Result fine = solve_soundly(model, analysis_of(AnalysisType::critical, fixed_mesh(elements, 5)));
+    ASSERT_TRUE(fine.summary.critical_load_factor) << elements;
+    expect_relative(*fine.summary.critical_load_factor, *coarse.summary.critical_load_factor, 1e-6,
+                    std::to_string(elements));
+  }
+}
+
 }  // namespace
 }  // namespace snapthrough
