@@ -177,7 +177,6 @@ Chain::Pivot Chain::pivot_of(const Run& first, const Run& second) {
   Matrix3d matrix = product(second.K, first.F);
   for (int i = 0; i < 3; ++i) matrix(i, i) += 1.0;
   Pivot pivot{SmallFactor(matrix)};
-  pivot.det = pivot.factor.determinant();
   const double size = pivot.factor.inverse().cwiseAbs().maxCoeff();
   pivot.gain = std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
   pivot.quality = 1.0 / (pivot.gain * matrix.cwiseAbs().maxCoeff());
@@ -195,7 +194,7 @@ void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
   join.X2 = second.X;
   join.pivot = pivot.factor;
   ends_.negative += extra_negative(first.F, second.K);
-  ends_.log_det += std::log(std::abs(pivot.det));
+  ends_.log_det += std::log(std::abs(pivot.factor.determinant()));
   const Matrix3d MKX = join.pivot.solve_columns(product(second.K, join.X));
   first.K = symmetric(first.K + product(join.X.transpose(), MKX));
   first.X = -product(second.X, Matrix3d(join.X - product(join.F, MKX)));

@@ -63,7 +63,6 @@ class Chain {
   /// Pivot I + K' F of a join.
   struct Pivot {
     SmallFactor factor;
-    double det = 0.0;
     double gain = 0.0;     ///< largest entry of the inverse: what errors of the runs are multiplied by
     double quality = 0.0;  ///< reciprocal condition: 1 is perfect, 0 singular
   };

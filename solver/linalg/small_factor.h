@@ -16,7 +16,7 @@ namespace snapthrough {
 class SmallFactor {
  public:
   SmallFactor() = default;
-  /// @brief Factorises `a`; a last pivot of exactly zero becomes tiny.
+  /// @brief Factorises `a`; pivots of exactly zero become tiny.
   explicit SmallFactor(const Eigen::Matrix3d& a) : lu_(a) {
     for (int k = 0; k < 2; ++k) {
       int best = k;

@@ -128,7 +128,8 @@ std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, cons
                                                double lambda, Workspace& work, int& factorisations,
                                                const VectorXd* guess) {
   CorrectorOptions options = downhill({}, 25);
-  // only the direction is taken from it, and the last correction squares this
+  // only the direction is taken from it, and the last correction squares this; forces of a very small load
+  // are not known better where supports are stiff
   options.tangent_tolerance = 1e-5;
   options.largest_residual = options.tangent_tolerance;
   Attempt attempt{problem, metric, lambda, options, work, factorisations};

@@ -14,8 +14,6 @@ struct ContactState {
   Eigen::VectorXd y;
   TangentReport tangent;
   double relative_residual = 0.0;
-  bool through_grip =
-      false;  ///< it took the grip's release to find it: the response need not be proportional
 };
 
 /// @brief Solves F(y, lambda) = 0 at fixed lambda from the unloaded state.

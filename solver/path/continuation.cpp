@@ -417,7 +417,6 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
                      kFarFromLimits * options_.target_correction * movement / std::max(missed, 1e-300)});
   }
   trial.growth = std::clamp(room, kLeastGrowth, std::max(options_.max_growth, fast));
-  trial.length = metric_.norm(to.y - from.y, to.lambda - from.lambda);
   to.arc_length = from.arc_length + arc(from, to);
   statistics_.max_relative_residual = std::max(statistics_.max_relative_residual, outcome.relative_residual);
   return trial;

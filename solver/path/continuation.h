@@ -197,7 +197,6 @@ class Continuation {
     bool converged = false;
     double angle = 0.0;       ///< between the tangents
     double correction = 0.0;  ///< first correction over the step
-    double length = 0.0;      ///< of the chord from the last point
     double growth = 0.3;      ///< wanted factor to the next step size
     int corrections = 0;
   };
