@@ -276,9 +276,9 @@ double bisect(Pencil& pencil, double lo, double hi, int below) {
 }
 
 /// Holds each value of a bracket against the counts just beside it. Where they disagree, the counts have lost
-/// their digits next to a double load, if the mode's quotient is the same value; or elimination was poor at
-/// the shift (a single element held at one end buckles near it), and the value is taken from the counts,
-/// which need signs only.
+/// their digits next to a double load, if the value is in the bracket and the mode's quotient is the same; or
+/// elimination was poor at the shift (a single element held at one end buckles near it), and the value is
+/// taken from the counts, which need signs only.
 void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>& pairs) {
   constexpr double kBeside = 1e-9;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -286,8 +286,11 @@ void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>&
     const double load = pairs[i].load;
     const bool right = load > 0.0 && pencil.count(load * (1.0 - kBeside)) <= below &&
                        pencil.count(load * (1.0 + kBeside)) > below;
-    if (right || std::abs(pencil.quotient(pairs[i].mode) - load) <= kBeside * load) continue;
-    pairs[i].load = bisect(pencil, bracket.lo, bracket.hi, below);
+    const auto exact = [&] {
+      return load >= bracket.lo && load <= bracket.hi &&
+             std::abs(pencil.quotient(pairs[i].mode) - load) <= kBeside * load;
+    };
+    if (!right && !exact()) pairs[i].load = bisect(pencil, bracket.lo, bracket.hi, below);
   }
 }
 
