@@ -42,7 +42,7 @@ const Structure& CriticalLoads::structure_of(int number) const {
 FineMesh* CriticalLoads::level(int number) {
   while (static_cast<int>(levels_.size()) < number) {
     const Structure& coarse = structure_of(static_cast<int>(levels_.size()));
-    const auto mesh = finer_mesh(coarse.mesh, structure_.one_sided);
+    const auto mesh = finer_mesh(coarse.mesh);
     if (!mesh) return nullptr;
     const Discretization& asked = analysis_.discretization;
     const double tolerance = asked.fixed_mesh ? 1e-9 : std::min(1e-7, 1e-3 * asked.accuracy);

@@ -317,8 +317,8 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
 /// Every element cut in four: a mesh whose points finer ones do not share is too coarse by far, and a path on
 /// few elements is cheap beside the last.
 std::optional<Mesh> much_finer(const Mesh& mesh) {
-  const auto halved = finer_mesh(mesh, true);
-  return halved ? finer_mesh(*halved, true) : std::nullopt;
+  const auto halved = finer_mesh(mesh);
+  return halved ? finer_mesh(*halved) : std::nullopt;
 }
 
 }  // namespace

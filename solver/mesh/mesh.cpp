@@ -161,15 +161,11 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
   return mesh;
 }
 
-std::optional<Mesh> finer_mesh(const Mesh& mesh, bool kinks) {
+std::optional<Mesh> finer_mesh(const Mesh& mesh) {
   constexpr std::size_t kMostElements = 4000;
+  if (2 * mesh.elements.size() > kMostElements) return std::nullopt;
   Mesh out = mesh;
   out.foundation = FoundationRule::consistent;
-  if (!kinks && mesh.order < kMaxOrder) {
-    ++out.order;
-    return out;
-  }
-  if (2 * mesh.elements.size() > kMostElements) return std::nullopt;
   out.elements.clear();
   for (const MeshElement& e : mesh.elements) {
     const double middle = 0.5 * (e.from + e.to);

@@ -50,12 +50,10 @@ enum class MeshUse {
 [[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
                              MeshUse use = MeshUse::final);
 
-/// @brief The next finer mesh, on which the error is much less: one order more on the same elements, or every
-/// element cut in two.
-/// @param kinks whether solutions have kinks inside elements (ends of contact), where a higher order gains
-/// little
+/// @brief The next finer mesh, on which the error is much less: every element cut in two. (One order more on
+/// the same elements is no witness where an element is too long for what it carries: both err together.)
 /// @return empty when it would have too many elements
-[[nodiscard]] std::optional<Mesh> finer_mesh(const Mesh& mesh, bool kinks);
+[[nodiscard]] std::optional<Mesh> finer_mesh(const Mesh& mesh);
 
 /// @brief Index of the thing with this id; -1 when there is none.
 template <typename T>

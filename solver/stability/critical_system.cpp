@@ -343,7 +343,6 @@ bool CriticalNewton::step() {
 /// Whether the next correction would be too small to count, as quadratic convergence lets expect; or no
 /// smaller than this one although the solves are exact: then both are rounding's.
 bool CriticalNewton::converged() {
-  constexpr double kSmall = 1e-3;     // of the reach
   constexpr double kRounding = 1e-6;  // of the reach, and of the load factor
   const bool falls = previous_ == 0.0 || moved_ < 0.5 * previous_;
   const double ratio = falls && previous_ > 0.0 ? moved_ / previous_ : 1.0;
@@ -352,8 +351,8 @@ bool CriticalNewton::converged() {
                         std::abs(dlambda_) <= kRounding * size;
   previous_ = moved_;
   stalled_ = stalled_ || !falls;
-  return stagnant ||
-         (moved_ <= kSmall * options_.reach && std::abs(dlambda_) * ratio <= options_.tolerance * size);
+  return stagnant || (moved_ * ratio <= options_.place * options_.reach &&
+                      std::abs(dlambda_) * ratio <= options_.tolerance * size);
 }
 
 std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {

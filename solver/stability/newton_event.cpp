@@ -16,7 +16,9 @@ using Eigen::VectorXd;
 namespace {
 
 CriticalOptions options_for(const Continuation& continuation, double tolerance, double reach) {
+  constexpr double kPlaceOfNoState = 1e-3;  // where only the load is reported, which errs by the square
   CriticalOptions options;
+  if (continuation.options().corrector.tangent_tolerance > 0.0) options.place = kPlaceOfNoState;
   options.tolerance = 0.1 * tolerance;
   options.least_load = 1e-6 * continuation.load_scale();
   options.reach = reach;
