@@ -4,9 +4,13 @@
 
 #include <string>
 
+#include "api/api.h"
 #include "solver/solve.h"
+#include "tests/stress/broad_model.h"
+#include "tests/stress/frame_model.h"
 #include "tests/stress/inertia.h"
 #include "tests/stress/random_model.h"
+#include "tests/stress/request_text.h"
 #include "tests/stress/stress_run.h"
 
 namespace snapthrough::testing {
@@ -82,6 +86,19 @@ TEST(Stress, SliceOfRandomModels) {
     if (out.reached) ++reached;
   }
   EXPECT_GT(reached, 0);
+}
+
+/// What `stress_request` writes is the request that was drawn: read as a user's document it is written the
+/// same.
+TEST(Stress, RequestsOfSeedsAreWrittenWhole) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed)
+    for (const RandomRequest& drawn :
+         {random_request(seed), broad_request(seed), frame_request(seed, 1e-3)}) {
+      const std::string text = request_text(drawn);
+      const api::ReadOutcome read = api::read_request(text);
+      ASSERT_TRUE(read.request) << seed << ": " << text;
+      EXPECT_EQ(request_text({read.request->model, read.request->analysis}), text) << seed;
+    }
 }
 
 }  // namespace

@@ -1,0 +1,213 @@
+#include "tests/stress/request_text.h"
+
+#include <nlohmann/json.hpp>
+
+namespace snapthrough::testing {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Choice>
+const char* named(Choice choice, std::initializer_list<const char*> names) {
+  return names.begin()[static_cast<std::size_t>(choice)];
+}
+
+const char* name_of(Pattern p) { return named(p, {"proportional", "constant"}); }
+const char* name_of(Reaction r) { return named(r, {"bilateral", "compression_only", "tension_only"}); }
+const char* name_of(Side s) { return named(s, {"left", "right"}); }
+const char* name_of(LoadMeasure m) { return named(m, {"length", "horizontal", "vertical"}); }
+const char* name_of(Component c) { return named(c, {"x", "y", "rotation", "normal"}); }
+
+Json written(const Location& at) {
+  if (!at.node.empty()) return {{"node", at.node}};
+  return {{"member", at.member}, {"fraction", at.fraction}};
+}
+
+Json written(const LineCurve&) { return {{"type", "line"}}; }
+Json written(const ArcCurve& c) { return {{"type", "arc"}, {"sweep_degrees", c.sweep_degrees}}; }
+Json written(const ParabolaCurve& c) { return {{"type", "parabola"}, {"rise", c.rise}}; }
+Json written(const SineCurve& c) {
+  return {{"type", "sine"}, {"rise", c.rise}, {"half_waves", c.half_waves}};
+}
+Json written(const PointsCurve& c) { return {{"type", "points"}, {"points", c.points}}; }
+
+Json written(const Section& s) {
+  Json out{{"id", s.id}, {"EA", s.EA}, {"EI", s.EI}};
+  if (s.GA) out["GA"] = *s.GA;
+  return out;
+}
+
+Json written(const Member& m) {
+  Json out{{"id", m.id}, {"start", m.start}, {"end", m.end}, {"section", m.section}};
+  out["curve"] = std::visit([](const auto& curve) { return written(curve); }, m.curve);
+  if (m.release_start_rotation) out["release"]["start"] = {"rotation"};
+  if (m.release_end_rotation) out["release"]["end"] = {"rotation"};
+  return out;
+}
+
+Json written(const Support& s) {
+  Json out{{"node", s.node}, {"fixed", Json::array()}, {"angle_degrees", s.angle_degrees}};
+  if (s.x) out["fixed"].push_back("x");
+  if (s.y) out["fixed"].push_back("y");
+  if (s.rotation) out["fixed"].push_back("rotation");
+  if (const auto& d = s.displacement)
+    out["displacement"] = {
+        {"x", d->x}, {"y", d->y}, {"rotation", d->rotation}, {"pattern", name_of(d->pattern)}};
+  return out;
+}
+
+Json written(const Spring& s) {
+  Json out{{"id", s.id}, {"at", written(s.at)}, {"stiffness", s.stiffness}, {"direction", "rotation"}};
+  if (s.direction) out["direction"] = *s.direction;
+  out["reaction"] = name_of(s.reaction);
+  out["gap"] = s.gap;
+  return out;
+}
+
+Json written(const Foundation& f) {
+  Json out{{"id", f.id},
+           {"member", f.member},
+           {"stiffness", f.stiffness},
+           {"shear_stiffness", f.shear_stiffness},
+           {"reaction", name_of(f.reaction)},
+           {"range", f.range},
+           {"gap", f.gap}};
+  if (f.direction)
+    out["direction"] = *f.direction;
+  else
+    out["side"] = name_of(f.side);
+  return out;
+}
+
+Json written(const PointLoad& l) {
+  return {{"type", "point"}, {"at", written(l.at)}, {"force", l.force}, {"moment", l.moment}};
+}
+Json written(const DistributedLoad& l) {
+  return {{"type", "distributed"},
+          {"member", l.member},
+          {"force", l.force},
+          {"range", l.range},
+          {"per", name_of(l.per)}};
+}
+Json written(const PressureLoad& l) {
+  return {{"type", "pressure"}, {"member", l.member}, {"value", l.value}, {"side", name_of(l.side)}};
+}
+Json written(const InitialStrain& l) {
+  return {{"type", "initial_strain"}, {"member", l.member}, {"axial", l.axial}, {"curvature", l.curvature}};
+}
+Json written(const Load& load) {
+  return std::visit(
+      [](const auto& l) {
+        Json out = written(l);
+        out["pattern"] = name_of(l.pattern);
+        return out;
+      },
+      load);
+}
+
+Json written(const SineImperfection& i) {
+  return {{"type", "sine"}, {"member", i.member}, {"half_waves", i.half_waves}, {"amplitude", i.amplitude}};
+}
+Json written(const ModeImperfection& i) {
+  return {{"type", "mode"}, {"number", i.number}, {"amplitude", i.amplitude}};
+}
+Json written(const PointsImperfection& i) {
+  return {{"type", "points"}, {"member", i.member}, {"offsets", i.offsets}};
+}
+Json written(const Imperfection& imperfection) {
+  return std::visit([](const auto& i) { return written(i); }, imperfection);
+}
+
+Json written(const Monitor& m) {
+  return {{"id", m.id}, {"at", written(m.at)}, {"component", name_of(m.component)}};
+}
+
+template <typename Item>
+Json all_of(const std::vector<Item>& items) {
+  Json out = Json::array();
+  for (const Item& item : items) out.push_back(written(item));
+  return out;
+}
+
+Json written(const Model& m) {
+  Json out;
+  out["title"] = m.title;
+  for (const auto& [quantity, unit] : m.units) out["units"][quantity] = unit;
+  for (const Node& n : m.nodes) out["nodes"].push_back({{"id", n.id}, {"x", n.x}, {"y", n.y}});
+  out["sections"] = all_of(m.sections);
+  out["members"] = all_of(m.members);
+  out["supports"] = all_of(m.supports);
+  out["springs"] = all_of(m.springs);
+  out["foundations"] = all_of(m.foundations);
+  out["loads"] = all_of(m.loads);
+  out["imperfections"] = all_of(m.imperfections);
+  out["monitors"] = all_of(m.monitors);
+  return out;
+}
+
+Json written(const Discretization& d) {
+  if (!d.fixed_mesh) return {{"accuracy", d.accuracy}};
+  Json out{{"elements", d.elements},
+           {"order", d.order},
+           {"foundation", named(d.foundation, {"consistent", "lumped"})}};
+  if (!d.member_elements.empty()) out["elements"] = Json::object();
+  for (const auto& [member, elements] : d.member_elements) out["elements"][member] = elements;
+  return out;
+}
+
+Json written(const StopRules& s) {
+  Json out = Json::object();
+  if (s.limit_points) out["limit_points"] = *s.limit_points;
+  if (s.load_factor) out["load_factor"] = *s.load_factor;
+  if (s.monitor) out["monitor"] = {{"id", s.monitor->id}, {"range", s.monitor->range}};
+  if (s.steps) out["steps"] = *s.steps;
+  return out;
+}
+
+Json written(const StepOptions& s) {
+  Json out = Json::object();
+  if (s.initial) out["initial"] = *s.initial;
+  if (s.min) out["min"] = *s.min;
+  if (s.max) out["max"] = *s.max;
+  return out;
+}
+
+Json written(const OutputOptions& o) {
+  Json out;
+  if (o.states == StateOutput::every)
+    out["states"]["every"] = o.every;
+  else if (o.states == StateOutput::at_load_factors)
+    out["states"]["at_load_factors"] = o.at_load_factors;
+  else
+    out["states"] = named(o.states, {"none", "critical", "all"});
+  if (o.states != StateOutput::none) out["points_per_member"] = o.points_per_member;
+  if (o.path_points) out["path_points"] = *o.path_points;
+  if (o.extremes) out["extremes"] = true;
+  return out;
+}
+
+Json written(const Analysis& a) {
+  Json out;
+  out["type"] = named(a.type, {"buckling", "critical", "path", "static"});
+  out["discretization"] = written(a.discretization);
+  out["output"] = written(a.output);
+  if (a.type != AnalysisType::path) return out;
+  if (a.control.type == ControlType::displacement)
+    out["control"]["displacement"] = a.control.monitor;
+  else
+    out["control"] = named(a.control.type, {"arc_length", "load"});
+  out["step"] = written(a.step);
+  out["stop"] = written(a.stop);
+  out["branches"]["follow"] = named(a.branches.follow, {"primary", "first", "all"});
+  if (a.branches.limit) out["branches"]["limit"] = *a.branches.limit;
+  return out;
+}
+
+}  // namespace
+
+std::string request_text(const RandomRequest& request) {
+  const Json out{{"model", written(request.model)}, {"analysis", written(request.analysis)}};
+  return out.dump(1);
+}
+
+}  // namespace snapthrough::testing
