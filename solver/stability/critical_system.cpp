@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "solver/linalg/pseudo_random.h"
 #include "solver/path/soft_mode.h"
 
 namespace snapthrough {
@@ -99,6 +100,7 @@ class CriticalNewton {
     if (bifurcation) at_.unfolding = VectorXd::Zero(guess.null.cols());
   }
   [[nodiscard]] std::optional<CriticalSolution> run(int& factorisations);
+  [[nodiscard]] VectorXd another_null_motion(const CriticalSolution& at);
 
  private:
   void solve(MatrixXd& x);
@@ -376,12 +378,52 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
   return std::nullopt;
 }
 
+/// A motion that loses its stiffness at a bifurcation, too, and is none of those that it was solved for;
+/// empty when there is none. By inverse iteration with the last factors.
+VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
+  constexpr double kBeside = 1e-3;  // of the load
+  constexpr double kDriven = 1e-3;
+  constexpr int kIterations = 2;
+  const Index k = at.null.cols();
+  if (k == (problem_.metric().array() > 0.0).count()) return {};
+  const MatrixXd border = problem_.metric().asDiagonal() * at.null;
+  VectorXd x = pseudo_random(at.y.size(), static_cast<unsigned>(k + 1));
+  VectorXd force;
+  for (int it = 0; it < kIterations; ++it) {
+    x -= at.null * (border.transpose() * x);
+    problem_.metric_forces(x, force);
+    problem_.solve(force);
+    x = force - at.null * (border.transpose() * force);
+    x /= metric_.norm(x, 0.0);
+  }
+  if (!x.allFinite()) return {};
+  // what the load drives, as it drives its own response, is the motion of a limit point
+  problem_.load(at.y, at.lambda, force);
+  const double driven = std::abs(problem_.work(force, x)) * metric_.norm(at.response, 0.0);
+  if (!(driven <= kDriven * std::abs(problem_.work(force, at.response)))) return {};
+  const PathDirection along_z{at.response, 1.0, metric_.norm(at.response, 1.0)};
+  const double rate = works(tangent_change(problem_, at.y, at.lambda, along_z, x), x)(0, 0);
+  const double stiffness = works(problem_.tangent_products(at.y, at.lambda, x), x)(0, 0);
+  return std::abs(stiffness) <= kBeside * std::abs(at.lambda * rate) ? x : VectorXd();
+}
+
 }  // namespace
 
 std::optional<CriticalSolution> solve_bifurcation(EquilibriumProblem& problem, const PathMetric& metric,
                                                   const CriticalGuess& guess, const CriticalOptions& options,
                                                   int& factorisations) {
-  return CriticalNewton(problem, metric, guess, options, true).run(factorisations);
+  CriticalGuess wider = guess;
+  for (;;) {
+    CriticalNewton newton(problem, metric, wider, options, true);
+    auto found = newton.run(factorisations);
+    if (!found) return std::nullopt;
+    const VectorXd another = newton.another_null_motion(*found);
+    if (another.size() == 0) return found;
+    // anew from the guess: at a multiple bifurcation itself factors have no digits left
+    const Index k = found->null.cols();
+    wider.null.resize(Eigen::NoChange, k + 1);
+    wider.null << found->null, another;
+  }
 }
 
 std::optional<CriticalSolution> solve_limit_point(EquilibriumProblem& problem, const PathMetric& metric,

@@ -73,9 +73,10 @@ struct CriticalOptions {
 /// n.load = 0 in y, lambda and mu. It is regular at bifurcations, also beside a path that misses them by a
 /// small imperfection: mu is its size.
 ///
-/// Where several motions lose their stiffness close together the others are bordered, too. One factorisation
-/// and two solves an iteration, and one for each motion; derivatives of the tangent by differences of its
-/// products.
+/// Where several motions lose their stiffness close together the others are bordered, too, also those that
+/// the guess did not have (a multiple bifurcation has no place where one of its motions alone says where the
+/// path goes on). One factorisation and two solves an iteration, and one for each motion; derivatives of the
+/// tangent by differences of its products.
 /// @param factorisations those that were made are added
 /// @pre the tangent is symmetric
 /// @return empty when it does not converge, or only farther away

@@ -63,17 +63,23 @@ TEST(Degenerate, PathWithoutCriticalPointEnds) {
   EXPECT_EQ(result.branches[0].termination, result.summary.termination);
 }
 
+/// A ring of radius 1 and EI = 1 under pressure.
+Model pressed_ring(double EA) {
+  Model model;
+  model.nodes = {{"bottom", 0.0, -1.0}, {"top", 0.0, 1.0}};
+  model.sections = {{"s", EA, 1.0, {}}};
+  model.members = {{"right", "bottom", "top", "s", ArcCurve{180.0}, false, false},
+                   {"left", "top", "bottom", "s", ArcCurve{180.0}, false, false}};
+  for (const Member& member : model.members)
+    model.loads.push_back(PressureLoad{member.id, 1.0, Side::right, Pattern::proportional});
+  return model;
+}
+
 /// The two modes of each pair of a ring under pressure: critical
 /// points closer than any tolerance are one of multiplicity two, or two at one load.
 TEST(Degenerate, CriticalPointsTogetherAreAllCounted) {
-  Model model;
-  model.nodes = {{"bottom", 0.0, -1.0}, {"top", 0.0, 1.0}};
-  model.sections = {{"s", 1.2e5, 1.0, {}}};
-  model.members = {{"right", "bottom", "top", "s", ArcCurve{180.0}, false, false},
-                   {"left", "top", "bottom", "s", ArcCurve{180.0}, false, false}};
+  Model model = pressed_ring(1.2e5);
   model.supports = {support("bottom", "xy"), support("top", "x")};
-  for (const Member& member : model.members)
-    model.loads.push_back(PressureLoad{member.id, 1.0, Side::right, Pattern::proportional});
   Analysis analysis = analysis_of(AnalysisType::path, {});
   analysis.stop.load_factor = std::array{-1.0, 5.0};
   int multiplicity = 0;
@@ -82,6 +88,31 @@ TEST(Degenerate, CriticalPointsTogetherAreAllCounted) {
     multiplicity += point.multiplicity;
   }
   EXPECT_EQ(multiplicity, 2);
+}
+
+/// All pairs of a ring that is held at one point, whatever accuracy is asked for: where the guess has one
+/// motion of a pair, the other is found at the solution. Loads n^2 - 1, raised by the ring's own shortening.
+TEST(Degenerate, PairsOfARingAreDoubleAtEveryAccuracy) {
+  constexpr double kEA = 1e6;
+  Model model = pressed_ring(kEA);
+  model.supports = {support("bottom", "xyr")};
+  Analysis analysis = analysis_of(AnalysisType::path, {});
+  analysis.stop.load_factor = std::array{-1.0, 26.0};
+  analysis.output.states = StateOutput::none;
+  for (const double accuracy : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+    SCOPED_TRACE(accuracy);
+    analysis.discretization.accuracy = accuracy;
+    const Result result = solve_soundly(model, analysis);
+    EXPECT_EQ(result.summary.termination, "load_factor");
+    ASSERT_EQ(result.critical_points.size(), 4u);
+    for (int n = 2; n <= 5; ++n) {
+      const CriticalPoint& point = result.critical_points[static_cast<std::size_t>(n - 2)];
+      EXPECT_EQ(point.multiplicity, 2);
+      EXPECT_TRUE(point.confirmed);
+      const double inextensible = n * n - 1.0;
+      expect_relative(point.load_factor, inextensible, 2.0 * inextensible / kEA + accuracy, "pair");
+    }
+  }
 }
 
 /// A beam that nothing but a spring behind a gap holds in place starts where it comes to rest against it.
