@@ -113,6 +113,7 @@ class CriticalNewton {
   void differentiate();
   [[nodiscard]] bool step();
   [[nodiscard]] bool converged();
+  [[nodiscard]] bool balances();
   [[nodiscard]] MatrixXd share_of_target() const;
   [[nodiscard]] VectorXd small_step() const;
 
@@ -357,6 +358,20 @@ bool CriticalNewton::converged() {
                       std::abs(dlambda_) * ratio <= options_.tolerance * size);
 }
 
+/// Whether the forces balance at the solution. Where supports act on one side only the last correction,
+/// however small, may have changed what touches.
+bool CriticalNewton::balances() {
+  if (!problem_.one_sided()) return true;
+  problem_.residual(at_.y, at_.lambda, residual_);
+  VectorXd column;
+  for (Index i = 0; i < at_.unfolding.size(); ++i) {
+    problem_.metric_forces(at_.null.col(i), column);
+    residual_ += at_.unfolding[i] * column;
+  }
+  const double size = problem_.relative_residual(residual_, at_.y, at_.lambda);
+  return size <= std::max(options_.largest_residual, problem_.residual_rounding(at_.y, at_.lambda));
+}
+
 std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
   constexpr int kMostIterations = 8;
   constexpr double kAside = 1e-8;  // of the reach
@@ -373,7 +388,7 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
     if (!step()) return std::nullopt;
     const bool broken = bifurcation_ && at_.imperfection() > options_.largest_imperfection;
     if (broken && it >= kSettling) return std::nullopt;
-    if (converged()) return std::move(at_);
+    if (converged() && balances()) return std::move(at_);
   }
   return std::nullopt;
 }
