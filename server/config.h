@@ -28,6 +28,7 @@ struct ServiceConfig {
   std::vector<http::ApiKey> keys;                    ///< empty: requests are not authenticated
   std::string store_path = "snapthrough.db";         ///< SQLite file; its folder must exist
   int workers = 1;                                   ///< analyses at the same time, 1 to 1024
+  std::string runner_executable = "/proc/self/exe";  ///< snapthrough; what computes is started from it
   JobLimits jobs;                                    ///< queue, leases, retention
   std::int64_t ballast_bytes = 4 * 1024 * 1024;      ///< reserve on the disk of the store; 0: none
   std::int64_t least_free_bytes = 64 * 1024 * 1024;  ///< with less on that disk no jobs are taken

@@ -12,6 +12,7 @@
 #include "server/maintenance/upkeep.h"
 #include "server/metrics/metrics.h"
 #include "server/store/sqlite/sqlite_store.h"
+#include "server/worker/child_runner.h"
 #include "solver/model/limits.h"
 
 namespace snapthrough::server {
@@ -57,11 +58,15 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"keep_keys_s", number(config.jobs.keep_keys.count())}};
 }
 
+ChildRunnerOptions runner_options(const ServiceConfig& config) {
+  return {config.runner_executable, config.jobs.job_memory, config.jobs.max_crashes};
+}
+
 }  // namespace
 
 /// Built bottom up; destroyed top down.
 struct Service::Parts {
-  Parts(const ServiceConfig& config, const Environment& environment, SolveFunction solve, Log& log,
+  Parts(const ServiceConfig& config, const Environment& environment, const RunnerFactory& runners, Log& log,
         std::unique_ptr<Store> opened)
       : store(std::move(opened)),
         desk(*store, environment, log, config.jobs),
@@ -69,7 +74,8 @@ struct Service::Parts {
                DiskGuard(config.store_path, static_cast<std::uint64_t>(config.ballast_bytes),
                          static_cast<std::uint64_t>(config.least_free_bytes)),
                log),
-        workers(config.workers, desk, std::move(solve), log),
+        workers(config.workers, desk,
+                runners ? runners : child_runners(runner_options(config), runner_counters), log),
         routes(desk, config.waits,
                {[this] { return metrics_text(); }, [this] { return not_ready(); }, published_limits(config)}),
         gateway(routes, environment, log, http::KeyRing(config.keys), metrics),
@@ -82,6 +88,7 @@ struct Service::Parts {
   std::unique_ptr<Store> store;
   JobDesk desk;
   Upkeep upkeep;
+  RunnerCounters runner_counters;
   WorkerPool workers;
   RequestMetrics metrics;
   http::Routes routes;
@@ -112,6 +119,11 @@ std::string Service::Parts::metrics_text() {
   counter("snapthrough_sweep_points_solved_total", "Points that were solved.", points.solved);
   counter("snapthrough_sweep_points_failed_total", "Points that were tried and failed.", points.failed);
   counter("snapthrough_sweep_points_reused_total", "Points that were known already.", points.reused);
+  counter("snapthrough_runners_started_total", "Processes that compute, started.", runner_counters.started);
+  counter("snapthrough_runners_out_of_memory_total", "Ended at the bound of their memory.",
+          runner_counters.out_of_memory);
+  counter("snapthrough_runners_killed_total", "Ended because they did not stop.", runner_counters.killed);
+  counter("snapthrough_runners_crashed_total", "Ended otherwise.", runner_counters.crashed);
   gauge("snapthrough_store_writable", "1 when the latest write went well.", health.writable ? 1 : 0);
   gauge("snapthrough_disk_has_space", "1 when new jobs are taken.", health.has_space ? 1 : 0);
   return text;
@@ -134,8 +146,11 @@ std::string Service::Parts::not_ready() {
   return store->get("").ok() ? "" : "The store can't be read.";
 }
 
-Service::Service(ServiceConfig config, Environment environment, SolveFunction solve, Log& log)
-    : config_(std::move(config)), environment_(std::move(environment)), solve_(std::move(solve)), log_(log) {}
+Service::Service(ServiceConfig config, Environment environment, RunnerFactory runners, Log& log)
+    : config_(std::move(config)),
+      environment_(std::move(environment)),
+      runners_(std::move(runners)),
+      log_(log) {}
 
 Service::~Service() { stop(); }
 
@@ -160,7 +175,7 @@ Status Service::start() {
                {{"points", *points},
                 {"detail", std::string_view("the service died while it worked on these points")}});
   }
-  parts_ = std::make_unique<Parts>(config_, environment_, solve_, log_, std::move(opened));
+  parts_ = std::make_unique<Parts>(config_, environment_, runners_, log_, std::move(opened));
   if (Status status = parts_->listener.start(); !status.ok()) {
     stop();
     return status;

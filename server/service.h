@@ -15,8 +15,9 @@ namespace snapthrough::server {
 /// @brief A service that runs from start() to stop(). start() and stop() from one thread.
 class Service {
  public:
+  /// @param runners what computes; empty: processes of their own (worker/child_runner.h)
   /// @pre config.check() is empty; `log` outlives the service
-  Service(ServiceConfig config, Environment environment, SolveFunction solve, Log& log);
+  Service(ServiceConfig config, Environment environment, RunnerFactory runners, Log& log);
   /// Stops first if need be.
   ~Service();
   Service(const Service&) = delete;
@@ -36,7 +37,7 @@ class Service {
   struct Parts;
   ServiceConfig config_;
   Environment environment_;
-  SolveFunction solve_;
+  RunnerFactory runners_;
   Log& log_;
   std::unique_ptr<Parts> parts_;
 };

@@ -8,7 +8,6 @@
 #include "server/environment.h"
 #include "server/log/log.h"
 #include "server/service.h"
-#include "solver/solve.h"
 
 namespace snapthrough::server::cli {
 namespace {
@@ -75,7 +74,7 @@ int serve_command(const SettingSources& sources, const Streams& streams) {
   const Environment environment = Environment::system();
   Log log(config.log_level, environment.now);
   log_config(log, config);
-  Service service(config, environment, solve_checked, log);
+  Service service(config, environment, {}, log);
   if (const Status status = service.start(); !status.ok()) {
     streams.err << "snapthrough: " << status.message() << '\n';
     return kOther;

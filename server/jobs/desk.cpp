@@ -116,10 +116,10 @@ StatusOr<Submission> JobDesk::submit(const Order& order) {
   return store_new(order, *std::move(read.request), std::move(key));
 }
 
-StatusOr<Submission> JobDesk::store_new(const Order& order, api::Request request, std::string key) {
+StatusOr<Submission> JobDesk::store_new(const Order& order, const api::Request& request, std::string key) {
   NewJob job = new_job(order, request, std::move(key), environment_);
   std::promise<bool> stored;
-  Handoff handoff{{job.id, 1}, std::move(request), stored.get_future().share()};
+  Handoff handoff{{job.id, 1, job.document}, stored.get_future().share()};
   const Lease lease = new_lease();
   // With a key it may be a repetition, which nobody shall solve.
   if (!order.idempotency_key && exchange_.offer(handoff)) {

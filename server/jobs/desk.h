@@ -62,7 +62,7 @@ class JobDesk {
 
  private:
   class KeyInUse;
-  StatusOr<Submission> store_new(const Order& order, api::Request request, std::string key);
+  StatusOr<Submission> store_new(const Order& order, const api::Request& request, std::string key);
   void log_accepted(const NewJob& job, std::string_view request_id);
 
   Store& store_;

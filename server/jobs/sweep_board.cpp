@@ -15,6 +15,7 @@ constexpr std::size_t kLargestChunk = 2048;
 
 ActiveSweep::ActiveSweep(std::string name, api::Sweep read, OpenSweep open)
     : id(std::move(name)),
+      document(std::move(open.document)),
       sweep(std::move(read)),
       owner(std::move(open.owner)),
       outputs(sweep.outputs_text()),

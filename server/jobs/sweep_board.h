@@ -26,6 +26,7 @@ class ActiveSweep {
   ActiveSweep(std::string name, api::Sweep read, OpenSweep open);
 
   const std::string id;
+  const std::string document;  ///< that it was read from
   const api::Sweep sweep;
   const std::string owner;
   const std::string outputs;  ///< their pointers, for keys

@@ -15,7 +15,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "api/api.h"
 #include "server/environment.h"
 #include "server/jobs/job.h"
 
@@ -24,7 +23,6 @@ namespace snapthrough::server {
 /// A job that goes to an idle worker while it is still being stored: solving and storing overlap.
 struct Handoff {
   Claim claim;
-  api::Request request;
   std::shared_future<bool> stored;  ///< true: what the store is asked from then on comes after the job
 };
 

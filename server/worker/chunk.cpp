@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "server/jobs/content_key.h"
-#include "server/worker/point.h"
 
 namespace snapthrough::server {
 namespace {
@@ -20,7 +19,6 @@ constexpr std::chrono::milliseconds kRetryPause{200};
 /// A point that is still to be computed.
 struct Pending {
   std::uint64_t point = 0;
-  std::shared_ptr<const nlohmann::json> document;
   std::string key;
 };
 
@@ -40,9 +38,7 @@ std::vector<Pending> pending_points(const Chunk& chunk) {
   const std::string curve = chunk.sweep->sweep.curve_text(chunk.points.front());
   std::vector<Pending> all;
   for (const std::uint64_t point : chunk.points) {
-    auto document = chunk.sweep->sweep.document_at(point);
-    std::string key = key_of(chunk, curve, *document);
-    all.push_back({point, std::move(document), std::move(key)});
+    all.push_back({point, key_of(chunk, curve, *chunk.sweep->sweep.document_at(point))});
   }
   return all;
 }
@@ -77,42 +73,40 @@ bool is_late(double seconds, const JobDesk& desk) {
 }
 
 /// Computes what is pending; what it does not come to is left as the rest.
-void compute(const Chunk& chunk, JobDesk& desk, const SolveFunction& solve, SweepBoard::Watch& watch,
-             Work& work) {
+void compute(const Chunk& chunk, JobDesk& desk, Runner& runner, SweepBoard::Watch& watch, Work& work) {
   const double start = desk.environment().monotonic_seconds();
-  bool stopped = false;
-  for (std::size_t i = 0; i < work.pending.size(); ++i) {
-    Pending& pending = work.pending[i];
-    stopped = stopped || watch.token().stop_requested() ||
-              (i > 0 && is_late(desk.environment().monotonic_seconds() - start, desk));
-    if (stopped) {
-      work.rest.push_back(pending.point);
-      continue;
-    }
-    watch.begin(desk.environment().now());
-    api::PointOutcome outcome = solve_point(chunk.sweep->sweep, pending.document, solve, {watch.token(), {}},
-                                            desk.limits().job_memory);
+  std::vector<std::uint64_t> points;
+  for (const Pending& pending : work.pending) {
+    points.push_back(pending.point);
+  }
+  std::size_t next = 0;
+  const auto late = [&] { return is_late(desk.environment().monotonic_seconds() - start, desk); };
+  const auto take = [&](api::PointOutcome outcome) {
     if (outcome.code == "cancelled" && watch.reason() == StopReason::time_limit) {
       outcome = {"", "time_limit",
                  "the analysis took longer than " + std::to_string(desk.limits().longest_run.count()) + " s"};
     } else if (outcome.code == "cancelled") {
-      stopped = true;
-      work.rest.push_back(pending.point);
-      continue;
+      return;
     }
-    work.rows.push_back({pending.point, std::move(outcome), std::move(pending.key)});
-  }
+    work.rows.push_back({points[next], std::move(outcome), std::move(work.pending[next].key)});
+    ++next;
+    watch.begin(desk.environment().now());
+  };
+  watch.begin(desk.environment().now());
+  runner.run_points(
+      {chunk.sweep->id, chunk.sweep->document, chunk.sweep->sweep, points, watch.token(), late, take});
+  work.rest.assign(points.begin() + static_cast<std::ptrdiff_t>(next), points.end());
 }
 
 /// Computes a curve, wholly or not at all.
-void compute_curve(const Chunk& chunk, JobDesk& desk, SweepBoard::Watch& watch, Work& work) {
+void compute_curve(const Chunk& chunk, JobDesk& desk, Runner& runner, SweepBoard::Watch& watch, Work& work) {
   if (work.pending.empty()) {
     return;
   }
   work.rows.clear();  // what was found of a curve is not enough
   watch.begin(desk.environment().now());
-  std::vector<api::PointOutcome> outcomes =
-      solve_curve(chunk.sweep->sweep, chunk.points.front(), watch.token(), desk.limits().job_memory);
+  std::vector<api::PointOutcome> outcomes = runner.run_curve(
+      {chunk.sweep->id, chunk.sweep->document, chunk.sweep->sweep, chunk.points, watch.token()});
   const std::string curve = chunk.sweep->sweep.curve_text(chunk.points.front());
   const bool late = watch.reason() == StopReason::time_limit;
   if (watch.token().stop_requested() && !late) {
@@ -137,8 +131,7 @@ void pause(const std::stop_token& stop) {
 
 }  // namespace
 
-void work_on(const Chunk& chunk, JobDesk& desk, const SolveFunction& solve, Log& log,
-             const std::stop_token& stop) {
+void work_on(const Chunk& chunk, JobDesk& desk, Runner& runner, Log& log, const std::stop_token& stop) {
   SweepBoard::Watch watch(desk.sweeps().board(), desk.environment().now());
   const std::stop_callback on_shutdown(stop, [&] { watch.stop(StopReason::shutdown); });
   const std::stop_callback on_dismissal(chunk.sweep->stopped(), [&] { watch.stop(StopReason::dismissed); });
@@ -147,9 +140,9 @@ void work_on(const Chunk& chunk, JobDesk& desk, const SolveFunction& solve, Log&
   work.pending = pending_points(chunk);
   look_up(chunk, desk, work);
   if (chunk.sweep->sweep.follows()) {
-    compute_curve(chunk, desk, watch, work);
+    compute_curve(chunk, desk, runner, watch, work);
   } else {
-    compute(chunk, desk, solve, watch, work);
+    compute(chunk, desk, runner, watch, work);
   }
   const double seconds = desk.environment().monotonic_seconds() - start;
   Status status = desk.sweeps().settle(chunk, work.rows, work.rest, seconds);

@@ -2,11 +2,12 @@
 
 #include <array>
 #include <chrono>
+#include <exception>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
-#include "server/worker/bounded_run.h"
 #include "solver/sweep/critical_curve.h"
 
 namespace snapthrough::server {
@@ -96,18 +97,34 @@ std::vector<api::PointOutcome> followed(const api::Sweep& sweep, std::uint64_t f
 
 }  // namespace
 
+JobFailure mishap_now() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return {kOutOfMemory, "the analysis needs more memory than there is", ""};
+  } catch (const std::exception& error) {
+    return {"internal_error", error.what(), ""};
+  } catch (...) {
+    return {"internal_error", "unknown exception", ""};
+  }
+}
+
 std::vector<api::PointOutcome> solve_curve(const api::Sweep& sweep, std::uint64_t first,
-                                           const std::stop_token& stop, std::int64_t memory) {
-  std::vector<api::PointOutcome> outcomes;
-  const BoundedRun run = run_bounded(memory, [&] { outcomes = followed(sweep, first, stop); });
-  return run.mishap ? std::vector<api::PointOutcome>(sweep.block(), failed(*run.mishap)) : outcomes;
+                                           const std::stop_token& stop) {
+  try {
+    return followed(sweep, first, stop);
+  } catch (...) {
+    return std::vector<api::PointOutcome>(sweep.block(), failed(mishap_now()));
+  }
 }
 
 api::PointOutcome solve_point(const api::Sweep& sweep, const std::shared_ptr<const nlohmann::json>& document,
-                              const SolveFunction& solve, const Hooks& hooks, std::int64_t memory) {
-  api::PointOutcome outcome;
-  const BoundedRun run = run_bounded(memory, [&] { outcome = solved(sweep, document, solve, hooks); });
-  return run.mishap ? failed(*run.mishap) : outcome;
+                              const SolveFunction& solve, const Hooks& hooks) {
+  try {
+    return solved(sweep, document, solve, hooks);
+  } catch (...) {
+    return failed(mishap_now());
+  }
 }
 
 }  // namespace snapthrough::server

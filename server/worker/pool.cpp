@@ -6,10 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "api/api.h"
-#include "server/worker/bounded_run.h"
 #include "server/worker/chunk.h"
-#include "server/worker/memory_meter.h"
 
 namespace snapthrough::server {
 namespace {
@@ -21,34 +18,9 @@ constexpr duration<double> kLongestNap{1.0};
 /// How long a worker waits before it tries again to store an outcome.
 constexpr duration<double> kRetryPause{0.2};
 
-/// What an attempt came to: exactly one of the two is set unless it was interrupted.
-struct Outcome {
-  std::optional<JobResult> result;
-  std::optional<JobFailure> failure;
-  StoredPath reached;  ///< with a failure
-  std::int64_t peak_bytes = 0;
-};
-
-Outcome failed(JobFailure failure) { return {std::nullopt, std::move(failure), {}}; }
-
-Outcome to_outcome(const api::Request& request, Result result, double seconds) {
-  std::string document = api::write_result(request, result, seconds).dump();
-  if (result.failure) {
-    return {
-        std::nullopt,
-        JobFailure{std::move(result.failure->code), std::move(result.failure->detail), std::move(document)},
-        {std::move(result.branches), std::move(result.critical_points)}};
-  }
-  return {JobResult{std::move(document), seconds, std::move(result.summary), std::move(result.branches),
-                    std::move(result.critical_points)},
-          std::nullopt,
-          {}};
-}
-
 /// Hooks that let the followers of a job know what its analysis does.
 Hooks told_hooks(const Claim& claim, ProgressBoard& board, const std::stop_token& stop) {
   const auto tell = [&claim, &board](auto change) {
-    const MemoryMeter::Pause pause;  // news belong to the service
     board.update(claim.id, [&](JobNews& news) {
       news.attempt = claim.attempt;
       ++news.number;
@@ -61,22 +33,6 @@ Hooks told_hooks(const Claim& claim, ProgressBoard& board, const std::stop_token
           }};
 }
 
-Outcome attempt(const Claim& claim, const api::Request& request, JobDesk& desk, const SolveFunction& solve,
-                const std::stop_token& stop) {
-  const Hooks hooks = told_hooks(claim, desk.progress_board(), stop);
-  Outcome outcome;
-  BoundedRun run = run_bounded(desk.limits().job_memory, [&] {
-    const double start = desk.environment().monotonic_seconds();
-    Result result = solve(request.model, request.analysis, hooks);
-    outcome = to_outcome(request, std::move(result), desk.environment().monotonic_seconds() - start);
-  });
-  if (run.mishap) {
-    outcome = failed(*std::move(run.mishap));
-  }
-  outcome.peak_bytes = run.peak_bytes;
-  return outcome;
-}
-
 /// A job begins or goes back to the queue.
 void log_job(Log& log, const Claim& claim, JobState state) {
   log.write(LogLevel::info, "job",
@@ -86,7 +42,7 @@ void log_job(Log& log, const Claim& claim, JobState state) {
 }
 
 /// A job ended: with a termination or failure code, and a sentence.
-void log_job_end(Log& log, const Claim& claim, const Outcome& outcome) {
+void log_job_end(Log& log, const Claim& claim, const JobRun& outcome) {
   const bool failed = outcome.failure.has_value();
   log.write(
       failed ? LogLevel::warning : LogLevel::info, "job",
@@ -105,7 +61,7 @@ void log_trouble(Log& log, const Claim& claim, const Status& status) {
              {"detail", std::string_view(status.message())}});
 }
 
-Status store_once(const Claim& claim, Outcome& outcome, JobDesk& desk) {
+Status store_once(const Claim& claim, JobRun& outcome, JobDesk& desk) {
   const Time now = desk.environment().now();
   if (!outcome.result) {
     return desk.store().fail(claim, *outcome.failure, outcome.reached, now);
@@ -129,7 +85,7 @@ void pause(const std::stop_token& stop, duration<double> time) {
 
 /// Stores the outcome; while the store can't be written, again and again until the claim is lost or the
 /// service stops: the job is found running at the next start then.
-Status store_outcome(const Claim& claim, Outcome& outcome, JobDesk& desk, Log& log,
+Status store_outcome(const Claim& claim, JobRun& outcome, JobDesk& desk, Log& log,
                      const std::stop_token& stop) {
   Status status = store_once(claim, outcome, desk);
   if (status.code() == StatusCode::unavailable) {
@@ -152,7 +108,7 @@ void give_back(const Claim& claim, JobDesk& desk, Log& log) {
 }
 
 /// What an analysis that was asked to stop came to; false when nothing is to be stored.
-bool settle_stop(const Claim& claim, StopReason reason, Outcome& outcome, JobDesk& desk, Log& log) {
+bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, JobDesk& desk, Log& log) {
   const bool cancelled = outcome.failure && outcome.failure->code == "cancelled";
   if (!cancelled) {
     return true;  // it came to its end before it saw the request to stop
@@ -176,16 +132,12 @@ bool settle_stop(const Claim& claim, StopReason reason, Outcome& outcome, JobDes
 }
 
 /// @param stored when the store may be asked about the job, if that is not now
-void run_job(const Claim& claim, const api::Request* request, const std::shared_future<bool>* stored,
-             JobDesk& desk, const SolveFunction& solve, Log& log, const std::stop_token& stop) {
+void run_job(const Claim& claim, const std::shared_future<bool>* stored, JobDesk& desk, Runner& runner,
+             Log& log, const std::stop_token& stop) {
   log_job(log, claim, JobState::running);
   ActiveJobs::Entry entry(desk.active(), claim, desk.environment().now());
   const std::stop_callback on_shutdown(stop, [&] { entry.stop(StopReason::shutdown); });
-  Outcome outcome =
-      request != nullptr
-          ? attempt(claim, *request, desk, solve, entry.token())
-          : failed({"invalid_request",
-                    "this version of the service does not accept the stored request any more", ""});
+  JobRun outcome = runner.run_job(claim.document, told_hooks(claim, desk.progress_board(), entry.token()));
   desk.progress_board().erase(claim.id);
   if (stored != nullptr && !stored->get()) {
     return;
@@ -202,19 +154,16 @@ void run_job(const Claim& claim, const api::Request* request, const std::shared_
 
 }  // namespace
 
-void work_on(const Claim& claim, JobDesk& desk, const SolveFunction& solve, Log& log,
-             const std::stop_token& stop) {
-  const api::ReadOutcome read = api::read_request(claim.document);
-  run_job(claim, read.request ? &*read.request : nullptr, nullptr, desk, solve, log, stop);
+void work_on(const Claim& claim, JobDesk& desk, Runner& runner, Log& log, const std::stop_token& stop) {
+  run_job(claim, nullptr, desk, runner, log, stop);
 }
 
-void work_on(const Handoff& handoff, JobDesk& desk, const SolveFunction& solve, Log& log,
-             const std::stop_token& stop) {
-  run_job(handoff.claim, &handoff.request, &handoff.stored, desk, solve, log, stop);
+void work_on(const Handoff& handoff, JobDesk& desk, Runner& runner, Log& log, const std::stop_token& stop) {
+  run_job(handoff.claim, &handoff.stored, desk, runner, log, stop);
 }
 
-WorkerPool::WorkerPool(int threads, JobDesk& desk, SolveFunction solve, Log& log)
-    : desk_(desk), solve_(std::move(solve)), log_(log) {
+WorkerPool::WorkerPool(int threads, JobDesk& desk, RunnerFactory make, Log& log)
+    : desk_(desk), make_(std::move(make)), log_(log) {
   threads_.reserve(static_cast<std::size_t>(threads));
   for (int i = 0; i < threads; ++i) {
     threads_.emplace_back([this](const std::stop_token& stop) { run(stop); });
@@ -234,7 +183,7 @@ void WorkerPool::stop() {
   }
 }
 
-bool WorkerPool::claim_and_work(const std::stop_token& stop) {
+bool WorkerPool::claim_and_work(Runner& runner, const std::stop_token& stop) {
   const StatusOr<std::optional<Claim>> claim =
       desk_.store().claim(desk_.new_lease(), desk_.environment().now());
   if (!claim.ok()) {
@@ -245,32 +194,34 @@ bool WorkerPool::claim_and_work(const std::stop_token& stop) {
     return false;
   }
   desk_.add_waiting(-1);
-  work_on(**claim, desk_, solve_, log_, stop);
+  work_on(**claim, desk_, runner, log_, stop);
   return true;
 }
 
-bool WorkerPool::take_chunk_and_work(const std::stop_token& stop) {
+bool WorkerPool::take_chunk_and_work(Runner& runner, const std::stop_token& stop) {
   const std::optional<Chunk> chunk = stop.stop_requested() ? std::nullopt : desk_.sweeps().take();
   if (chunk) {
-    work_on(*chunk, desk_, solve_, log_, stop);
+    work_on(*chunk, desk_, runner, log_, stop);
   }
   return chunk.has_value();
 }
 
 void WorkerPool::run(const std::stop_token& stop) {
+  const std::unique_ptr<Runner> own = make_();
+  Runner& runner = *own;
   std::uint64_t seen = 0;
   while (!stop.stop_requested()) {
     // In turn: neither jobs nor sweeps wait for the end of the other. While sweeps go on the store is not
     // asked for jobs that nobody submitted.
     const bool waited = desk_.waiting() > 0;
-    const bool worked = waited && claim_and_work(stop);
-    if (take_chunk_and_work(stop) || worked || (!waited && claim_and_work(stop))) {
+    const bool worked = waited && claim_and_work(runner, stop);
+    if (take_chunk_and_work(runner, stop) || worked || (!waited && claim_and_work(runner, stop))) {
       continue;
     }
     // Jobs that are given directly come before those that wait: nobody is idle while some wait.
     std::optional<Handoff> handoff;
     while ((handoff = desk_.exchange().wait(seen, stop, kLongestNap))) {
-      work_on(*handoff, desk_, solve_, log_, stop);
+      work_on(*handoff, desk_, runner, log_, stop);
       if (desk_.waiting() > 0 || desk_.sweeps().has_work() || stop.stop_requested()) {
         break;
       }

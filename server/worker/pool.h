@@ -2,35 +2,30 @@
 /// @file
 /// The threads that claim, solve and complete jobs and points of sweeps.
 
-#include <functional>
 #include <stop_token>
 #include <thread>
 #include <vector>
 
 #include "server/jobs/desk.h"
-#include "solver/solve.h"
+#include "server/worker/runner.h"
 
 namespace snapthrough::server {
-
-/// What runs one analysis: snapthrough::solve, or a test's stand-in. Must be reentrant.
-using SolveFunction = std::function<Result(const Model&, const Analysis&, const Hooks&)>;
 
 /// @brief Works on one claimed job to its end and stores the outcome.
 ///
 /// A numerical failure or an exception makes the job failed; a stop of the service that interrupts the
 /// analysis gives the job back to the queue. A claim that was lost meanwhile changes nothing. While the store
 /// can't be written, the outcome is kept and tried again as long as the lease may hold.
-void work_on(const Claim& claim, JobDesk& desk, const SolveFunction& solve, Log& log,
-             const std::stop_token& stop);
+void work_on(const Claim& claim, JobDesk& desk, Runner& runner, Log& log, const std::stop_token& stop);
 
 /// The same for a job that is still being stored.
-void work_on(const Handoff& handoff, JobDesk& desk, const SolveFunction& solve, Log& log,
-             const std::stop_token& stop);
+void work_on(const Handoff& handoff, JobDesk& desk, Runner& runner, Log& log, const std::stop_token& stop);
 
 /// @brief A fixed number of working threads. Thread-safe; the parts it is given must outlive it.
 class WorkerPool {
  public:
-  WorkerPool(int threads, JobDesk& desk, SolveFunction solve, Log& log);
+  /// @param make called once on each thread
+  WorkerPool(int threads, JobDesk& desk, RunnerFactory make, Log& log);
   /// Stops first if need be.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
@@ -43,11 +38,11 @@ class WorkerPool {
 
  private:
   void run(const std::stop_token& stop);
-  bool claim_and_work(const std::stop_token& stop);
-  bool take_chunk_and_work(const std::stop_token& stop);
+  bool claim_and_work(Runner& runner, const std::stop_token& stop);
+  bool take_chunk_and_work(Runner& runner, const std::stop_token& stop);
 
   JobDesk& desk_;
-  SolveFunction solve_;
+  RunnerFactory make_;
   Log& log_;
   std::vector<std::jthread> threads_;
 };

@@ -214,7 +214,7 @@ class FullDisk : public ServiceTest {
     small.store_path = disk_ + "/store.db";
     small.ballast_bytes = 64 * 1024;
     small.least_free_bytes = 0;
-    service_ = std::make_unique<Service>(small, Environment::system(), quick, log_);
+    service_ = std::make_unique<Service>(small, Environment::system(), local_runners(quick), log_);
     const Status status = service_->start();
     ASSERT_TRUE(status.ok()) << status.message();
   }

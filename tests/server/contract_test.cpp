@@ -396,7 +396,7 @@ TEST_F(ContractOverHttp, AStrangersJobIsNotThere) {
   // SHA-256 of "alice" and "bob", from sha256sum.
   keyed.keys = {{"ann", "2bd806c97f0e00af1a1fc3328fa763a9269723c8db8fac4f93af71db186d6e90"},
                 {"bob", "81b637d8fcd2c6da6359e6963113a1170de795e4b725b84d1e0b4cfd9ec58ce9"}};
-  service_ = std::make_unique<Service>(keyed, Environment::system(), solve, log_);
+  service_ = std::make_unique<Service>(keyed, Environment::system(), local_runners(solve), log_);
   ASSERT_TRUE(service_->start().ok());
   const std::string json_type = "Content-Type: application/json";
   EXPECT_EQ(post(port(), "/v1/jobs", column_request()).status, 401);

@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <Eigen/Core>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -12,8 +11,7 @@
 
 #include "api/api.h"
 #include "server/jobs/least_memory.h"
-#include "server/worker/bounded_run.h"
-#include "server/worker/memory_meter.h"
+#include "server/worker/child_runner.h"
 #include "tests/server/support/running_service.h"
 
 namespace snapthrough::server::test {
@@ -23,91 +21,55 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr std::int64_t kMegabyte = 1 << 20;
-
-TEST(MemoryMeter, CountsWhatIsInUseAndTheMostOfIt) {
-  MemoryMeter meter(10 * kMegabyte);
-  {
-    const std::vector<double> one(kMegabyte / 8);
-    const Eigen::VectorXd two(kMegabyte / 8);  // malloc
-    struct alignas(64) Block {
-      std::array<char, 64> bytes;
-    };
-    const std::vector<Block> three(kMegabyte / 64);  // new with an alignment
-    EXPECT_GE(meter.peak(), 3 * kMegabyte);
-  }
-  EXPECT_LE(meter.peak(), 3 * kMegabyte + 100'000);
-  const std::vector<double> again(2 * kMegabyte / 8);
-  EXPECT_LE(meter.peak(), 3 * kMegabyte + 100'000) << "what was freed is not in use";
-  EXPECT_FALSE(meter.exceeded());
-}
-
-TEST(MemoryMeter, RefusesWhatGoesBeyondTheLimitOfThisThreadOnly) {
-  MemoryMeter meter(kMegabyte);
-  EXPECT_THROW(static_cast<void>(std::vector<char>(2U * kMegabyte)), std::bad_alloc);
-  EXPECT_THROW(static_cast<void>(Eigen::VectorXd::Zero(kMegabyte).eval()), std::bad_alloc);
-  Eigen::VectorXd growing(1000);
-  EXPECT_THROW(growing.conservativeResize(kMegabyte), std::bad_alloc);
-  EXPECT_EQ(std::calloc(kMegabyte, 8), nullptr);
-  EXPECT_TRUE(meter.exceeded());
-  EXPECT_LT(meter.peak(), kMegabyte / 2) << "nothing of it was allocated";
-  bool elsewhere = false;
-  {
-    const MemoryMeter::Pause pause;
-    std::thread([&] { elsewhere = std::vector<char>(4 * kMegabyte).size() > 0; }).join();
-  }
-  EXPECT_TRUE(elsewhere);
-  const MemoryMeter::Pause pause;
-  EXPECT_EQ(std::vector<char>(4 * kMegabyte).size(), 4U * kMegabyte);
-}
-
-std::string example(const std::string& name) {
-  std::ifstream file(std::string(SNAPTHROUGH_SOURCE_DIR) + "/examples/" + name);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// The result document in so much memory; empty when that is not enough.
-std::string solved_within(std::int64_t memory, const api::Request& request, std::int64_t& peak) {
-  std::string document;
-  const BoundedRun run = run_bounded(memory, [&] {
-    document = api::write_result(request, solve(request.model, request.analysis), 0.0).dump();
-  });
-  peak = run.peak_bytes;
-  if (!run.mishap) {
-    return document;
-  }
-  EXPECT_EQ(run.mishap->code, "memory_limit") << run.mishap->detail;
-  return "";
-}
-
-// Each limit makes another allocation the first that is refused.
-TEST(MemoryLimit, WhereverItStrikesNothingIsLeftAndTheNextRunIsRight) {
-  for (const char* name : {"column_winkler.json", "arch_no_base.json", "arch_outside_base_k1e7.json"}) {
-    const api::ReadOutcome read = api::read_request(example(name));
-    ASSERT_TRUE(read.request) << name;
-    std::int64_t whole = 0;
-    const std::string right = solved_within(kNoMemoryLimit, *read.request, whole);
-    ASSERT_FALSE(right.empty());
-    int refused = 0;
-    constexpr int kLimits = 150;
-    for (int i = 1; i <= kLimits; ++i) {
-      std::int64_t peak = 0;
-      const std::int64_t limit = whole * i / kLimits;
-      const std::string document = solved_within(limit, *read.request, peak);
-      EXPECT_LE(peak, limit + 4096) << "beyond the limit by more than the heap rounds up";
-      EXPECT_TRUE(document.empty() || document == right) << name << " " << i;
-      refused += document.empty() ? 1 : 0;
-    }
-    EXPECT_GT(refused, kLimits * 3 / 4) << name;
-    std::int64_t peak = 0;
-    EXPECT_EQ(solved_within(kNoMemoryLimit, *read.request, peak), right);
-  }
-}
+constexpr std::int64_t kNoLimit = std::int64_t{1} << 40;
 
 /// The column of samples.h with other things in its analysis.
 json column(const json& analysis) {
   json request = json::parse(column_request());
   request["analysis"] = analysis;
   return request;
+}
+
+/// A path of 40 states.
+/// @param points that each is given at: 20 000 take about 1 MB
+json many_states(int points = 20'000) {
+  return column({{"type", "path"},
+                 {"discretization", {{"elements", 4}, {"order", 2}}},
+                 {"stop", {{"steps", 40}}},
+                 {"output", {{"states", "all"}, {"points_per_member", points}}}});
+}
+
+/// What a process of its own makes of a request in so much memory.
+JobRun solved_within(std::int64_t memory, const std::string& request) {
+  RunnerCounters counters;
+  ChildRunner runner({SNAPTHROUGH_EXECUTABLE, memory}, counters);
+  return runner.run_job(request, {});
+}
+
+// Each limit makes another allocation the first that is refused.
+TEST(MemoryLimit, WhereverItStrikesOneAnalysisFailsAndTheNextIsRight) {
+  const std::string request = many_states(3000).dump();
+  const JobRun whole = solved_within(kNoLimit, request);
+  ASSERT_TRUE(whole.result);
+  ASSERT_GT(whole.peak_bytes, 8 * kMegabyte);
+  const auto summary = [](const JobRun& run) { return json::parse(run.result->document)["summary"]; };
+  RunnerCounters counters;
+  int refused = 0;
+  constexpr int kLimits = 16;
+  for (int i = 1; i <= kLimits; ++i) {
+    ChildRunner runner({SNAPTHROUGH_EXECUTABLE, 3 * whole.peak_bytes * i / kLimits}, counters);
+    const JobRun run = runner.run_job(request, {});
+    if (run.failure) {
+      ++refused;
+      EXPECT_EQ(run.failure->code, "memory_limit") << i << ": " << run.failure->detail;
+    } else {
+      EXPECT_EQ(summary(run), summary(whole)) << i;
+    }
+  }
+  EXPECT_GT(refused, kLimits / 4);
+  EXPECT_LT(refused, kLimits);
+  EXPECT_EQ(counters.out_of_memory, refused);
+  EXPECT_EQ(counters.crashed, 0);
 }
 
 TEST(MemoryLimit, TheLeastIsBelowEveryPeak) {
@@ -120,10 +82,10 @@ TEST(MemoryLimit, TheLeastIsBelowEveryPeak) {
         analysis["geometry"] = "linear";
         analysis.erase("output");
       }
-      const api::ReadOutcome read = api::read_request(column(analysis).dump());
+      const std::string text = column(analysis).dump();
+      const api::ReadOutcome read = api::read_request(text);
       ASSERT_TRUE(read.request) << type << (read.findings.empty() ? "" : read.findings[0].detail);
-      std::int64_t peak = 0;
-      solved_within(kNoMemoryLimit, *read.request, peak);
+      const std::int64_t peak = solved_within(kNoLimit, text).peak_bytes;
       const std::int64_t least = least_memory(read.request->model, read.request->analysis);
       EXPECT_LT(least, peak) << type << " order " << order;
       EXPECT_GT(least, peak / 10) << type << " order " << order << ": a bound that bounds nothing";
@@ -136,21 +98,11 @@ class MemoryOverHttp : public ServiceTest {
   void start_with(std::int64_t memory) {
     ServiceConfig small = config();
     small.jobs.job_memory = memory;
-    const SolveFunction solver = [](const Model& model, const Analysis& analysis, const Hooks& hooks) {
-      return solve(model, analysis, hooks);
-    };
-    service_ = std::make_unique<Service>(small, Environment::system(), solver, log_);
+    small.runner_executable = SNAPTHROUGH_EXECUTABLE;
+    service_ = std::make_unique<Service>(small, Environment::system(), RunnerFactory(), log_);
     ASSERT_TRUE(service_->start().ok());
   }
 };
-
-/// A path whose states take about 1 MB each.
-json many_states() {
-  return column({{"type", "path"},
-                 {"discretization", {{"elements", 4}, {"order", 2}}},
-                 {"stop", {{"steps", 40}}},
-                 {"output", {{"states", "all"}, {"points_per_member", 20'000}}}});
-}
 
 TEST_F(MemoryOverHttp, AMeshThatCannotFitIsRefusedBeforeAnythingIsStored) {
   start_with(8 * kMegabyte);

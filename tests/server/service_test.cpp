@@ -298,7 +298,7 @@ TEST_F(ServiceTest, APortInUseIsReported) {
   ServiceConfig other = config();
   other.listener.port = port();
   other.store_path = folder_.file("other.db");
-  Service second(other, Environment::system(), solved, log_);
+  Service second(other, Environment::system(), local_runners(solved), log_);
   const Status status = second.start();
   EXPECT_EQ(status.code(), StatusCode::unavailable);
   EXPECT_THAT(status.message(), HasSubstr(std::to_string(port())));

@@ -373,7 +373,7 @@ TEST_F(SweepService, APointWhoseModelIsInvalidIsRefusedAsAJob) {
 TEST_F(SweepService, LargeTablesAreAskedForInParts) {
   ServiceConfig small = config();
   small.jobs.table_rows = 10;
-  service_ = std::make_unique<Service>(small, Environment::system(), counting(), log_);
+  service_ = std::make_unique<Service>(small, Environment::system(), local_runners(counting()), log_);
   ASSERT_TRUE(service_->start().ok());
   const std::string sweep = submit_sweep(column_sweep(15));
   ended(sweep);
@@ -389,7 +389,7 @@ TEST_F(SweepService, AStrangersSweepIsNotThere) {
   // SHA-256 of "alice" and "bob", from sha256sum.
   keyed.keys = {{"ann", "2bd806c97f0e00af1a1fc3328fa763a9269723c8db8fac4f93af71db186d6e90"},
                 {"bob", "81b637d8fcd2c6da6359e6963113a1170de795e4b725b84d1e0b4cfd9ec58ce9"}};
-  service_ = std::make_unique<Service>(keyed, Environment::system(), counting(), log_);
+  service_ = std::make_unique<Service>(keyed, Environment::system(), local_runners(counting()), log_);
   ASSERT_TRUE(service_->start().ok());
   const std::string sweep = submit_sweep(column_sweep(5), {"Authorization: Bearer alice"});
   for (const std::string& target :

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "server/service.h"
+#include "server/worker/local_runner.h"
 #include "tests/server/support/client.h"
 #include "tests/server/support/samples.h"
 #include "tests/server/support/temp_dir.h"
@@ -71,7 +72,8 @@ inline SolveFunction gated(std::shared_ptr<GatedSolver> solver) {
 class ServiceTest : public testing::Test {
  protected:
   void start(SolveFunction solver) {
-    service_ = std::make_unique<Service>(config(), Environment::system(), std::move(solver), log_);
+    service_ =
+        std::make_unique<Service>(config(), Environment::system(), local_runners(std::move(solver)), log_);
     const Status status = service_->start();
     ASSERT_TRUE(status.ok()) << status.message();
   }

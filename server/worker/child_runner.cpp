@@ -1,0 +1,357 @@
+#include "server/worker/child_runner.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stop_token>
+#include <utility>
+
+#include "server/worker/frame.h"
+#include "server/worker/point.h"
+#include "server/worker/record.h"
+#include "server/worker/runner_process.h"
+
+namespace snapthrough::server {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// How often it is asked whether what is left of a list may wait.
+constexpr std::chrono::milliseconds kLook{20};
+/// Sweeps that a process is told of before it forgets them all.
+constexpr std::size_t kMostSweeps = 16;
+
+bool retries(int crashes, int most) { return crashes < most; }
+
+}  // namespace
+
+/// What to do while the process works on a task.
+struct ChildRunner::Watch {
+  std::stop_token stop;
+  std::function<bool(Frame&)> take;        ///< @return whether it was the last frame
+  std::function<bool()> enough = nullptr;  ///< see PointTask
+};
+
+ChildRunner::ChildRunner(ChildRunnerOptions options, RunnerCounters& counters)
+    : options_(std::move(options)), counters_(counters), alarm_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  start();
+}
+
+ChildRunner::~ChildRunner() {
+  if (process_ != 0) {
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, nullptr, 0);
+    close_ends();
+  }
+  ::close(alarm_);
+}
+
+void ChildRunner::close_ends() {
+  ::close(socket_);
+  ::close(control_);
+}
+
+void ChildRunner::start() {
+  std::array<int, 2> ends{};
+  std::array<int, 2> controls{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    ended_by_ = std::string("it could not be started: ") + std::strerror(errno);
+    return;  // the next task finds no process
+  }
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, controls.data()) != 0) {
+    ended_by_ = std::string("it could not be started: ") + std::strerror(errno);
+    ::close(ends[0]);
+    ::close(ends[1]);
+    return;
+  }
+  posix_spawn_file_actions_t actions{};
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], kTaskSocket);
+  posix_spawn_file_actions_adddup2(&actions, controls[1], kControlPipe);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addclosefrom_np(&actions, kControlPipe + 1);
+  posix_spawnattr_t attributes{};
+  posix_spawnattr_init(&attributes);
+  sigset_t none{};
+  sigset_t all{};
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  // a signal from the terminal is for the service, which ends the analysis in its own way
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  std::string name = "snapthrough";
+  std::string command = kRunnerCommand;
+  std::string parent = std::to_string(::getpid());
+  std::array<char*, 4> arguments{name.data(), command.data(), parent.data(), nullptr};
+  std::array<char*, 1> environment{nullptr};
+  pid_t process = 0;
+  const int failed = ::posix_spawn(&process, options_.executable.c_str(), &actions, &attributes,
+                                   arguments.data(), environment.data());
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[1]);
+  ::close(controls[1]);
+  socket_ = ends[0];
+  control_ = controls[0];
+  if (failed != 0) {
+    ended_by_ = std::string("it could not be started: ") + std::strerror(failed);
+    close_ends();
+    return;
+  }
+  ++counters_.started;
+  process_ = process;
+  task_ = 0;
+}
+
+/// A process that has ended, or shall: its successor knows nothing.
+void ChildRunner::replace() {
+  if (process_ != 0) {
+    close_ends();
+    process_ = 0;
+  }
+  sweeps_.clear();
+  start();
+}
+
+ChildRunner::End ChildRunner::end_of_process(bool killed) {
+  int status = 0;
+  ::waitpid(process_, &status, 0);
+  const bool no_memory = WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemoryStatus;
+  const End end = killed ? End::killed : no_memory ? End::out_of_memory : End::crashed;
+  if (end == End::crashed) {
+    ended_by_ = WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
+                                    : "status " + std::to_string(WEXITSTATUS(status));
+  }
+  ++(end == End::killed ? counters_.killed : no_memory ? counters_.out_of_memory : counters_.crashed);
+  replace();
+  return end;
+}
+
+bool ChildRunner::control(FrameType type) {
+  std::string body;
+  RecordWriter(body).put(task_);
+  return write_frame(control_, type, body);
+}
+
+ChildRunner::End ChildRunner::run_task(FrameType type, std::string_view body, Watch& watch) {
+  ++task_;
+  // a process that is gone is seen by attend()
+  static_cast<void>(process_ != 0 && write_frame(socket_, type, body));
+  return attend(watch);
+}
+
+/// Takes the frames of a task until its last one, the process' end, or the end of the grace that it has to
+/// stop in.
+ChildRunner::End ChildRunner::attend(Watch& watch) {
+  if (process_ == 0) {
+    ++counters_.crashed;
+    replace();
+    return End::crashed;
+  }
+  const std::stop_callback on_stop(watch.stop, [this] {
+    const std::uint64_t one = 1;
+    // only full counters refuse, and those wake as well
+    [[maybe_unused]] const ssize_t written = ::write(alarm_, &one, sizeof one);
+  });
+  std::optional<Clock::time_point> deadline;
+  bool told_enough = false;
+  for (;;) {
+    std::array<pollfd, 2> fds{pollfd{socket_, POLLIN, 0}, pollfd{alarm_, POLLIN, 0}};
+    std::optional<std::chrono::milliseconds> wait;
+    if (deadline) {
+      wait = std::chrono::ceil<std::chrono::milliseconds>(*deadline - Clock::now());
+    } else if (watch.enough && !told_enough) {
+      wait = kLook;
+    }
+    const int ready = ::poll(fds.data(), deadline ? 1 : 2, wait ? static_cast<int>(wait->count()) : -1);
+    if (ready > 0 && fds[0].revents != 0) {
+      Frame frame;
+      if (!read_frame(socket_, frame)) {
+        return end_of_process(false);
+      }
+      if (watch.take(frame)) {
+        break;
+      }
+    }
+    if (!deadline && watch.stop.stop_requested()) {
+      deadline = Clock::now() + options_.grace;
+      if (!control(FrameType::stop)) {
+        return end_of_process(false);
+      }
+    }
+    if (deadline && Clock::now() >= *deadline) {
+      ::kill(process_, SIGKILL);
+      return end_of_process(true);
+    }
+    if (watch.enough && !told_enough && watch.enough()) {
+      told_enough = true;
+      if (!control(FrameType::enough)) {
+        return end_of_process(false);
+      }
+    }
+  }
+  std::uint64_t count = 0;
+  // empty unless a stop was requested
+  [[maybe_unused]] const ssize_t got = ::read(alarm_, &count, sizeof count);
+  return End::answered;
+}
+
+JobFailure ChildRunner::failure_of(End end, int crashes) const {
+  switch (end) {
+    case End::out_of_memory:
+      return {"memory_limit",
+              "the analysis needs more than " + std::to_string(options_.memory) + " bytes of memory", ""};
+    case End::killed:
+      return {"cancelled", "the analysis was ended, because it did not stop when it was asked to", ""};
+    case End::answered:
+    case End::crashed:
+      break;
+  }
+  return {"crashed",
+          "the process that computed it died " + std::to_string(crashes) + " times, the last by " + ended_by_,
+          ""};
+}
+
+JobRun ChildRunner::run_job(std::string_view request, const Hooks& hooks) {
+  std::string body;
+  RecordWriter writer(body);
+  writer.put(options_.memory);
+  writer.put(request);
+  for (int crashes = 0;;) {
+    JobRun run;
+    Watch watch{hooks.stop, [&](Frame& frame) {
+                  RecordReader reader(frame.body);
+                  if (frame.type == FrameType::job_run) {
+                    reader.get(run);
+                    return true;
+                  }
+                  const auto progress = reader.get<std::optional<Progress>>();
+                  for (const CriticalPoint& point : reader.get<std::vector<CriticalPoint>>()) {
+                    if (hooks.on_critical) hooks.on_critical(point);
+                  }
+                  if (progress && hooks.on_progress) hooks.on_progress(*progress);
+                  return false;
+                }};
+    const End end = run_task(FrameType::job, body, watch);
+    if (end == End::answered) {
+      return run;
+    }
+    crashes += end == End::crashed ? 1 : 0;
+    if (end != End::crashed || !retries(crashes, options_.max_crashes) || hooks.stop.stop_requested()) {
+      run.failure = failure_of(end, crashes);
+      return run;
+    }
+  }
+}
+
+/// The number that the process knows the sweep by; it is told of it if need be.
+std::uint64_t ChildRunner::send_sweep(const PointTask& task) {
+  if (const auto known = sweeps_.find(task.id); known != sweeps_.end()) {
+    return known->second;
+  }
+  const bool forget = sweeps_.size() >= kMostSweeps;
+  if (forget) {
+    sweeps_.clear();
+  }
+  const std::uint64_t number = next_sweep_++;
+  sweeps_.emplace(task.id, number);
+  std::string body;
+  RecordWriter writer(body);
+  writer.put(forget);
+  writer.put(number);
+  writer.put(task.document);
+  static_cast<void>(process_ != 0 && write_frame(socket_, FrameType::sweep, body));
+  return number;
+}
+
+ChildRunner::End ChildRunner::attempt_points(const PointTask& task, std::size_t& told, bool at_once,
+                                             bool curve) {
+  const std::uint64_t number = send_sweep(task);
+  std::string body;
+  RecordWriter writer(body);
+  writer.put(options_.memory);
+  writer.put(number);
+  if (curve) {
+    writer.put(task.points.front());
+  } else {
+    writer.put(at_once);
+    const auto rest = task.points.subspan(told);
+    writer.put(std::vector<std::uint64_t>(rest.begin(), rest.end()));
+  }
+  Watch watch{task.stop,
+              [&](Frame& frame) {
+                for (RecordReader reader(frame.body); !reader.at_end(); ++told) {
+                  task.tell(reader.get<api::PointOutcome>());
+                }
+                return frame.type == FrameType::done;
+              },
+              task.enough};
+  return run_task(curve ? FrameType::curve : FrameType::points, body, watch);
+}
+
+/// A process that runs out of memory tells all outcomes before, so that the next point is the one; one that
+/// crashes may not, and tells each at once after that.
+void ChildRunner::run_points(const PointTask& task) {
+  int crashes = 0;
+  bool at_once = false;
+  for (std::size_t told = 0; told < task.points.size();) {
+    const std::size_t before = told;
+    const End end = attempt_points(task, told, at_once, false);
+    if (end == End::answered) {
+      return;
+    }
+    crashes = (told == before ? crashes : 0) + (end == End::crashed ? 1 : 0);
+    const bool sure = at_once || end != End::crashed;
+    at_once = at_once || end == End::crashed;
+    if (told < task.points.size() && sure &&
+        !(end == End::crashed && retries(crashes, options_.max_crashes))) {
+      const JobFailure failure = failure_of(end, crashes);
+      task.tell({"", failure.code, failure.detail});
+      ++told;
+      crashes = 0;
+    }
+    if (task.stop.stop_requested()) {
+      return;
+    }
+  }
+}
+
+std::vector<api::PointOutcome> ChildRunner::run_curve(const PointTask& task) {
+  for (int crashes = 0;;) {
+    std::vector<api::PointOutcome> outcomes;
+    const auto tell = [&](api::PointOutcome outcome) { outcomes.push_back(std::move(outcome)); };
+    const PointTask whole{task.id, task.document, task.sweep, task.points, task.stop, {}, tell};
+    std::size_t told = 0;
+    const End end = attempt_points(whole, told, false, true);
+    if (end == End::answered) {
+      return outcomes;
+    }
+    crashes += end == End::crashed ? 1 : 0;
+    if (end != End::crashed || !retries(crashes, options_.max_crashes) || task.stop.stop_requested()) {
+      const JobFailure failure = failure_of(end, crashes);
+      return std::vector<api::PointOutcome>(task.sweep.block(), {"", failure.code, failure.detail});
+    }
+  }
+}
+
+RunnerFactory child_runners(ChildRunnerOptions options, RunnerCounters& counters) {
+  return
+      [options = std::move(options), &counters] { return std::make_unique<ChildRunner>(options, counters); };
+}
+
+}  // namespace snapthrough::server

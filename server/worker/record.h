@@ -1,0 +1,161 @@
+#pragma once
+/// @file
+/// Values as bytes, between the service and its runners: two processes of one program, so that neither byte
+/// order nor versions matter.
+
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "api/sweep.h"
+#include "server/jobs/job.h"
+#include "server/worker/runner.h"
+#include "solver/solve.h"
+
+namespace snapthrough::server {
+
+/// The members of a type that travel.
+template <class T>
+inline constexpr auto kFields = nullptr;
+
+template <>
+inline constexpr auto kFields<Summary> =
+    std::tuple{&Summary::critical_load_factor, &Summary::critical_type, &Summary::error_estimate,
+               &Summary::termination, &Summary::message};
+template <>
+inline constexpr auto kFields<NamedSeries> = std::tuple{&NamedSeries::id, &NamedSeries::values};
+template <>
+inline constexpr auto kFields<Branch> = std::tuple{&Branch::id,
+                                                   &Branch::parent,
+                                                   &Branch::load_factor,
+                                                   &Branch::arc_length,
+                                                   &Branch::monitors,
+                                                   &Branch::negative_eigenvalues,
+                                                   &Branch::contact_fraction,
+                                                   &Branch::termination};
+/// As they are stored: without monitors, state, mode and meshes, which the result document has.
+template <>
+inline constexpr auto kFields<CriticalPoint> =
+    std::tuple{&CriticalPoint::branch,         &CriticalPoint::type,         &CriticalPoint::load_factor,
+               &CriticalPoint::error_estimate, &CriticalPoint::arc_length,   &CriticalPoint::negative_before,
+               &CriticalPoint::negative_after, &CriticalPoint::multiplicity, &CriticalPoint::cause,
+               &CriticalPoint::confirmed,      &CriticalPoint::imperfection};
+template <>
+inline constexpr auto kFields<Progress> =
+    std::tuple{&Progress::branch, &Progress::step, &Progress::load_factor, &Progress::negative_eigenvalues};
+template <>
+inline constexpr auto kFields<JobResult> =
+    std::tuple{&JobResult::document, &JobResult::wall_time_s, &JobResult::summary, &JobResult::branches,
+               &JobResult::critical_points};
+template <>
+inline constexpr auto kFields<JobFailure> =
+    std::tuple{&JobFailure::code, &JobFailure::detail, &JobFailure::reached};
+template <>
+inline constexpr auto kFields<StoredPath> = std::tuple{&StoredPath::branches, &StoredPath::critical_points};
+template <>
+inline constexpr auto kFields<JobRun> =
+    std::tuple{&JobRun::result, &JobRun::failure, &JobRun::reached, &JobRun::peak_bytes};
+template <>
+inline constexpr auto kFields<api::PointOutcome> =
+    std::tuple{&api::PointOutcome::outputs, &api::PointOutcome::code, &api::PointOutcome::detail};
+
+template <class T>
+inline constexpr bool kIsPlain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// Appends values to a text.
+class RecordWriter {
+ public:
+  explicit RecordWriter(std::string& out) : out_(out) {}
+
+  template <class T>
+  requires kIsPlain<T>
+  void put(T value) { out_.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  void put(std::string_view text) {
+    put(text.size());
+    out_.append(text);
+  }
+  void put(const std::string& text) { put(std::string_view(text)); }
+  template <class T>
+  void put(const std::optional<T>& value) {
+    put(value.has_value());
+    if (value) put(*value);
+  }
+  template <class T>
+  void put(const std::vector<T>& values) {
+    put(values.size());
+    if constexpr (kIsPlain<T>) {
+      out_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    } else {
+      for (const T& value : values) put(value);
+    }
+  }
+  template <class T>
+  requires(!kIsPlain<T> && !std::is_convertible_v<const T&, std::string_view>) void put(const T& value) {
+    std::apply([&](auto... field) { (put(value.*field), ...); }, kFields<T>);
+  }
+
+ private:
+  std::string& out_;
+};
+
+/// Takes values from a text, in the order that they were put. @throws std::runtime_error past its end
+class RecordReader {
+ public:
+  explicit RecordReader(std::string_view bytes) : bytes_(bytes) {}
+
+  [[nodiscard]] bool at_end() const { return bytes_.empty(); }
+
+  template <class T>
+  requires kIsPlain<T>
+  void get(T& value) { std::memcpy(&value, take(sizeof value).data(), sizeof value); }
+  void get(std::string& text) {
+    std::size_t size = 0;
+    get(size);
+    text = take(size);
+  }
+  template <class T>
+  void get(std::optional<T>& value) {
+    bool is_there = false;
+    get(is_there);
+    if (is_there) get(value.emplace());
+  }
+  template <class T>
+  void get(std::vector<T>& values) {
+    std::size_t size = 0;
+    get(size);
+    if constexpr (kIsPlain<T>) {
+      const std::string_view block = take(size * sizeof(T));
+      values.resize(size);
+      if (size > 0) std::memcpy(values.data(), block.data(), block.size());
+    } else {
+      for (std::size_t i = 0; i < size; ++i) get(values.emplace_back());
+    }
+  }
+  template <class T>
+  requires(!kIsPlain<T>) void get(T& value) {
+    std::apply([&](auto... field) { (get(value.*field), ...); }, kFields<T>);
+  }
+  template <class T>
+  [[nodiscard]] T get() {
+    T value{};
+    get(value);
+    return value;
+  }
+
+ private:
+  std::string_view take(std::size_t size) {
+    if (size > bytes_.size()) throw std::runtime_error("a record ends too early");
+    const std::string_view out = bytes_.substr(0, size);
+    bytes_.remove_prefix(size);
+    return out;
+  }
+
+  std::string_view bytes_;
+};
+
+}  // namespace snapthrough::server

@@ -1,0 +1,311 @@
+#include "server/worker/runner_process.h"
+
+#include <malloc.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "server/worker/confinement.h"
+#include "server/worker/frame.h"
+#include "server/worker/local_runner.h"
+#include "server/worker/record.h"
+
+namespace snapthrough::server {
+namespace {
+
+/// Outcomes that are not told yet, as bytes: they can be told when no memory is left.
+class OutcomeBuffer {
+ public:
+  void add(const api::PointOutcome& outcome) { RecordWriter(bytes_).put(outcome); }
+  /// @return whether the other side is there
+  bool tell() {
+    if (bytes_.empty()) {
+      return true;
+    }
+    const bool told = write_frame(kTaskSocket, FrameType::outcomes, bytes_);
+    bytes_.clear();
+    return told;
+  }
+
+ private:
+  std::string bytes_;
+};
+
+OutcomeBuffer& untold() {
+  static OutcomeBuffer buffer;
+  return buffer;
+}
+
+/// Nothing can be unwound where memory is out: destructors may need some.
+[[noreturn]] void end_without_memory() {
+  untold().tell();
+  ::_exit(kOutOfMemoryStatus);
+}
+
+/// An exception that nobody may catch: of an allocation, or a mistake in this program.
+[[noreturn]] void on_terminate() {
+  try {
+    if (std::current_exception()) {
+      throw;
+    }
+  } catch (const std::bad_alloc&) {
+    end_without_memory();
+  } catch (...) {
+  }
+  std::abort();
+}
+
+/// What the service wants of the task at hand, read by a thread of its own: it is heard at once, and tasks
+/// need not pass from one thread to another.
+class Control {
+ public:
+  Control() {
+    constexpr std::size_t kStack = 256 << 10;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, kStack);
+    pthread_t thread{};
+    if (pthread_create(&thread, &attributes, &Control::read, this) != 0) {
+      std::abort();
+    }
+    pthread_detach(thread);
+    pthread_attr_destroy(&attributes);
+  }
+
+  /// The next task begins, which may have been asked to stop already.
+  [[nodiscard]] std::stop_token begin() {
+    const std::lock_guard guard(mutex_);
+    ++task_;
+    stop_ = {};
+    heed();
+    return stop_.get_token();
+  }
+  /// Whether the task at hand shall begin nothing new.
+  [[nodiscard]] bool enough() const { return enough_ == task_; }
+
+ private:
+  static void* read(void* control) {
+    static_cast<Control*>(control)->read_all();
+    return nullptr;
+  }
+
+  void read_all() {
+    Frame frame;
+    while (read_frame(kControlPipe, frame)) {
+      const auto task = RecordReader(frame.body).get<std::uint64_t>();
+      if (frame.type == FrameType::enough) {
+        enough_ = task;
+        continue;
+      }
+      const std::lock_guard guard(mutex_);
+      stopped_ = task;
+      heed();
+    }
+    ::_exit(EXIT_SUCCESS);  // nobody is there to compute for
+  }
+
+  void heed() {
+    if (stopped_ == task_) {
+      stop_.request_stop();
+    }
+  }
+
+  std::mutex mutex_;
+  std::stop_source stop_;
+  std::uint64_t stopped_ = 0;
+  std::atomic<std::uint64_t> task_ = 0;  ///< counted from 1
+  std::atomic<std::uint64_t> enough_ = 0;
+};
+
+/// News of a running analysis, at most twenty times a second.
+class News {
+ public:
+  [[nodiscard]] Hooks hooks(std::stop_token stop) {
+    return {std::move(stop),
+            [this](const Progress& progress) {
+              progress_ = progress;
+              tell_if_due();
+            },
+            [this](const CriticalPoint& point) {
+              found_.push_back(point);
+              tell_if_due();
+            }};
+  }
+  /// What was not told yet.
+  void tell() {
+    if (!progress_ && found_.empty()) {
+      return;
+    }
+    std::string body;
+    RecordWriter writer(body);
+    writer.put(progress_);
+    writer.put(found_);
+    if (!write_frame(kTaskSocket, FrameType::news, body)) {
+      ::_exit(EXIT_SUCCESS);
+    }
+    progress_.reset();
+    found_.clear();
+    told_ = std::chrono::steady_clock::now();
+  }
+
+ private:
+  void tell_if_due() {
+    constexpr std::chrono::milliseconds kPause{50};
+    if (std::chrono::steady_clock::now() - told_ >= kPause) {
+      tell();
+    }
+  }
+
+  std::optional<Progress> progress_;
+  std::vector<CriticalPoint> found_;
+  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
+};
+
+class RunnerProcess {
+ public:
+  explicit RunnerProcess(MemoryBound& memory) : memory_(memory) {}
+
+  /// Until the other side is gone.
+  void work() {
+    Frame frame;
+    while (read_frame(kTaskSocket, frame)) {
+      RecordReader reader(frame.body);
+      switch (frame.type) {
+        case FrameType::job:
+          run_job(reader);
+          break;
+        case FrameType::sweep:
+          keep_sweep(reader);
+          break;
+        case FrameType::points:
+          run_points(reader);
+          break;
+        case FrameType::curve:
+          run_curve(reader);
+          break;
+        default:
+          std::abort();
+      }
+      memory_.lift();
+    }
+  }
+
+ private:
+  void answer(FrameType type, std::string_view body) {
+    if (!write_frame(kTaskSocket, type, body)) {
+      ::_exit(EXIT_SUCCESS);
+    }
+  }
+
+  void run_job(RecordReader& reader) {
+    const std::stop_token stop = control_.begin();
+    memory_.set(reader.get<std::int64_t>());
+    News news;
+    std::string body;
+    {
+      JobRun run = solve_job(reader.get<std::string>(), solve_checked, news.hooks(stop));
+      if (run.failure && run.failure->code == kOutOfMemory) {
+        end_without_memory();
+      }
+      run.peak_bytes = memory_.peak();
+      RecordWriter(body).put(run);
+    }
+    news.tell();
+    answer(FrameType::job_run, body);
+  }
+
+  void keep_sweep(RecordReader& reader) {
+    if (reader.get<bool>()) {
+      sweeps_.clear();
+    }
+    const auto number = reader.get<std::uint64_t>();
+    api::SweepOutcome read = api::read_sweep(reader.get<std::string>());
+    if (read.sweep) {
+      sweeps_.emplace(number, *std::move(read.sweep));
+    }
+  }
+
+  /// An outcome that is not told at once is told when the next takes long.
+  void run_points(RecordReader& reader) {
+    constexpr std::chrono::milliseconds kUntold{10};
+    const std::stop_token stop = control_.begin();
+    memory_.set(reader.get<std::int64_t>());
+    const api::Sweep& sweep = sweeps_.at(reader.get<std::uint64_t>());
+    const bool at_once = reader.get<bool>();
+    const auto points = reader.get<std::vector<std::uint64_t>>();
+    static const std::string kNotNeeded;
+    auto told = std::chrono::steady_clock::now();
+    const auto tell = [&](const api::PointOutcome& outcome) {
+      if (outcome.code == kOutOfMemory) {
+        end_without_memory();
+      }
+      untold().add(outcome);
+      const auto now = std::chrono::steady_clock::now();
+      if (at_once || now - told >= kUntold) {
+        told = now;
+        if (!untold().tell()) {
+          ::_exit(EXIT_SUCCESS);
+        }
+      }
+    };
+    LocalRunner(solve_checked)
+        .run_points(
+            {kNotNeeded, kNotNeeded, sweep, points, stop, [this] { return control_.enough(); }, tell});
+    untold().tell();
+    answer(FrameType::done, "");
+  }
+
+  void run_curve(RecordReader& reader) {
+    const std::stop_token stop = control_.begin();
+    memory_.set(reader.get<std::int64_t>());
+    const api::Sweep& sweep = sweeps_.at(reader.get<std::uint64_t>());
+    for (const api::PointOutcome& outcome : solve_curve(sweep, reader.get<std::uint64_t>(), stop)) {
+      if (outcome.code == kOutOfMemory) {
+        end_without_memory();
+      }
+      untold().add(outcome);
+    }
+    untold().tell();
+    answer(FrameType::done, "");
+  }
+
+  MemoryBound& memory_;
+  Control control_;
+  std::unordered_map<std::uint64_t, api::Sweep> sweeps_;
+};
+
+/// What is freed goes back to the system: the bound of an analysis is on what the process has.
+void keep_heap_small() {
+  constexpr int kLarge = 1 << 20;
+  ::mallopt(M_MMAP_THRESHOLD, kLarge);
+  ::mallopt(M_TRIM_THRESHOLD, 2 * kLarge);
+  ::mallopt(M_ARENA_MAX, 1);
+}
+
+}  // namespace
+
+int run_runner(int parent) {
+  if (!confine_process(parent)) {
+    return EXIT_FAILURE;
+  }
+  keep_heap_small();
+  std::set_new_handler(end_without_memory);
+  std::set_terminate(on_terminate);
+  MemoryBound memory;
+  RunnerProcess process(memory);
+  confine_calls();
+  process.work();
+  return EXIT_SUCCESS;
+}
+
+}  // namespace snapthrough::server

@@ -1,0 +1,228 @@
+/// @file
+/// Runners: processes that are killed, crash, run out of memory or do not stop, and what the jobs and points
+/// come to that they had.
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "server/worker/child_runner.h"
+#include "tests/server/support/running_service.h"
+
+namespace snapthrough::server::test {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+using testing::HasSubstr;
+
+constexpr std::int64_t kMegabyte = 1 << 20;
+constexpr std::int64_t kEnough = 512 * kMegabyte;
+
+/// A path that goes on for minutes.
+json endless() {
+  json request = json::parse(column_request("endless"));
+  request["analysis"] = {{"type", "path"},
+                         {"discretization", {{"elements", 2000}, {"order", 5}}},
+                         {"step", {{"initial", 1e-6}, {"max", 1e-6}}},
+                         {"stop", {{"steps", 100'000}}},
+                         {"output", {{"states", "none"}}}};
+  return request;
+}
+
+class RunnerTest : public testing::Test {
+ protected:
+  [[nodiscard]] ChildRunnerOptions options(std::int64_t memory = kEnough, int max_crashes = 2) const {
+    return {SNAPTHROUGH_EXECUTABLE, memory, max_crashes};
+  }
+  RunnerCounters counters_;
+};
+
+TEST_F(RunnerTest, AJobIsSolvedAsInThisProcess) {
+  ChildRunner runner(options(), counters_);
+  const JobRun there = runner.run_job(column_request(), {});
+  const JobRun here = local_runners(solve_checked)()->run_job(column_request(), {});
+  ASSERT_TRUE(there.result && here.result);
+  const auto without_time = [](const JobRun& run) {
+    json document = json::parse(run.result->document);
+    document["diagnostics"].erase("wall_time_s");
+    return document;
+  };
+  EXPECT_EQ(without_time(there), without_time(here));
+  EXPECT_EQ(there.result->summary.message, here.result->summary.message);
+  EXPECT_EQ(there.result->critical_points.size(), here.result->critical_points.size());
+}
+
+TEST_F(RunnerTest, ARequestThatIsNoneIsAFailure) {
+  ChildRunner runner(options(), counters_);
+  const JobRun run = runner.run_job("{}", {});
+  ASSERT_TRUE(run.failure);
+  EXPECT_EQ(run.failure->code, "invalid_request");
+  EXPECT_EQ(counters_.started, 1);
+}
+
+TEST_F(RunnerTest, OneThatIsKilledIsReplacedAndTheJobTriedAgain) {
+  ChildRunner runner(options(), counters_);
+  for (int i = 0; i < 20; ++i) {
+    ::kill(runner.process(), SIGKILL);
+    EXPECT_TRUE(runner.run_job(column_request(), {}).result) << i;
+  }
+  EXPECT_EQ(counters_.crashed, 20);
+  EXPECT_EQ(counters_.started, 21);
+}
+
+TEST_F(RunnerTest, AJobThatKillsItsRunnersIsGivenUp) {
+  ChildRunner runner(options(), counters_);
+  std::jthread killer([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      std::this_thread::sleep_for(milliseconds(20));
+      if (counters_.crashed < 2) {
+        ::kill(runner.process(), SIGABRT);
+      }
+    }
+  });
+  const JobRun run = runner.run_job(endless().dump(), {});
+  killer.request_stop();
+  ASSERT_TRUE(run.failure);
+  EXPECT_EQ(run.failure->code, "crashed");
+  EXPECT_THAT(run.failure->detail, HasSubstr("2 times"));
+  killer.join();
+  EXPECT_TRUE(runner.run_job(column_request(), {}).result);
+}
+
+TEST_F(RunnerTest, OneThatStopsIsKept) {
+  ChildRunner runner(options(), counters_);
+  std::stop_source stop;
+  std::jthread stopper([&] {
+    std::this_thread::sleep_for(milliseconds(200));
+    stop.request_stop();
+  });
+  const auto start = steady_clock::now();
+  const JobRun run = runner.run_job(endless().dump(), {stop.get_token()});
+  EXPECT_LT(steady_clock::now() - start, milliseconds(2000));
+  ASSERT_TRUE(run.failure);
+  EXPECT_EQ(run.failure->code, "cancelled");
+  EXPECT_EQ(counters_.killed, 0);
+  EXPECT_EQ(counters_.started, 1);
+}
+
+/// What is heard of a stop by nobody: the process itself is stopped.
+TEST_F(RunnerTest, OneThatDoesNotStopIsKilledAfterItsGrace) {
+  ChildRunnerOptions brief = options();
+  brief.grace = milliseconds(300);
+  ChildRunner runner(brief, counters_);
+  std::stop_source stop;
+  std::jthread stopper([&] {
+    std::this_thread::sleep_for(milliseconds(100));
+    ::kill(runner.process(), SIGSTOP);
+    stop.request_stop();
+  });
+  const auto start = steady_clock::now();
+  const JobRun run = runner.run_job(endless().dump(), {stop.get_token()});
+  EXPECT_LT(steady_clock::now() - start, milliseconds(2000));
+  ASSERT_TRUE(run.failure);
+  EXPECT_EQ(run.failure->code, "cancelled");
+  EXPECT_EQ(counters_.killed, 1);
+  EXPECT_TRUE(runner.run_job(column_request(), {}).result);
+}
+
+TEST_F(RunnerTest, NewsOfALongAnalysisArriveWhileItRuns) {
+  ChildRunner runner(options(), counters_);
+  std::stop_source stop;
+  int news = 0;
+  const JobRun run = runner.run_job(endless().dump(), {stop.get_token(), [&](const Progress& progress) {
+                                                         EXPECT_GE(progress.step, news);
+                                                         if (++news == 5) {
+                                                           stop.request_stop();
+                                                         }
+                                                       }});
+  ASSERT_TRUE(run.failure);
+  EXPECT_EQ(run.failure->code, "cancelled");
+  EXPECT_GE(news, 5);
+}
+
+/// A sweep over the points at which states are given: some need more than 16 MB.
+json hungry_sweep(const std::vector<int>& points) {
+  json sweep = json::parse(column_request("hungry"));
+  sweep["analysis"] = {{"type", "path"},
+                       {"discretization", {{"elements", 4}, {"order", 2}}},
+                       {"stop", {{"steps", 40}}},
+                       {"output", {{"states", "all"}, {"points_per_member", 11}}}};
+  sweep["parameters"] = {{{"name", "points"},
+                          {"targets", {{{"pointer", "/analysis/output/points_per_member"}}}},
+                          {"values", points}}};
+  sweep["design"] = "grid";
+  sweep["outputs"] = {"/summary/termination", "/states/0/members/m/x/0"};
+  return sweep;
+}
+
+TEST_F(RunnerTest, ThePointsThatNeedTooMuchAreTheOnesThatFail) {
+  ChildRunner runner(options(16 * kMegabyte), counters_);
+  const std::string id = "s";
+  const std::string document = hungry_sweep({11, 12, 20'000, 13, 20'000, 20'000, 14}).dump();
+  const api::SweepOutcome read = api::read_sweep(document);
+  ASSERT_TRUE(read.sweep);
+  const std::vector<std::uint64_t> points{0, 1, 2, 3, 4, 5, 6};
+  std::vector<std::string> codes;
+  runner.run_points({id, document, *read.sweep, points, {}, {}, [&](const api::PointOutcome& outcome) {
+                       codes.push_back(outcome.code);
+                     }});
+  EXPECT_THAT(codes, testing::ElementsAre("", "", "memory_limit", "", "memory_limit", "memory_limit", ""));
+  EXPECT_EQ(counters_.out_of_memory, 3);
+}
+
+TEST_F(RunnerTest, PointsOfAKilledRunnerAreComputedAgainAndNoneIsBlamed) {
+  ChildRunner runner(options(), counters_);
+  const std::string id = "s";
+  const std::string document = hungry_sweep({5001, 5002, 5003, 5004, 5005, 5006, 5007, 5008}).dump();
+  const api::SweepOutcome read = api::read_sweep(document);
+  ASSERT_TRUE(read.sweep);
+  const std::vector<std::uint64_t> points{0, 1, 2, 3, 4, 5, 6, 7};
+  int told = 0;
+  runner.run_points({id, document, *read.sweep, points, {}, {}, [&](const api::PointOutcome& outcome) {
+                       EXPECT_EQ(outcome.code, "") << outcome.detail;
+                       if (++told == 3) {
+                         ::kill(runner.process(), SIGKILL);
+                       }
+                     }});
+  EXPECT_EQ(told, 8);
+}
+
+class RunnerService : public ServiceTest {
+ protected:
+  void start_with(std::int64_t memory) {
+    ServiceConfig own = config();
+    own.runner_executable = SNAPTHROUGH_EXECUTABLE;
+    own.jobs.job_memory = memory;
+    service_ = std::make_unique<Service>(own, Environment::system(), RunnerFactory(), log_);
+    ASSERT_TRUE(service_->start().ok());
+  }
+};
+
+/// 808 bytes that ended the whole service by SIGABRT after 21 s: the refused allocation passed through code
+/// that must not throw while the result was unwound.
+TEST_F(RunnerService, TheRequestThatEndedTheServiceIsOneFailedJob) {
+  start_with(64 * kMegabyte);
+  json bomb = json::parse(column_request("bomb"));
+  bomb["analysis"] = {{"type", "path"},
+                      {"discretization", {{"elements", 8}, {"order", 3}}},
+                      {"step", {{"initial", 1e-3}, {"max", 1e-3}}},
+                      {"stop", {{"steps", 4000}}},
+                      {"output", {{"states", "all"}, {"points_per_member", 2001}}}};
+  const std::string innocent = submit("innocent");
+  const Reply reply =
+      post(port(), "/v1/jobs", bomb.dump(), {"Content-Type: application/json", "Prefer: wait=60"});
+  EXPECT_EQ(reply.status, 422) << reply.body.substr(0, 300);
+  EXPECT_EQ(json::parse(reply.body)["code"], "memory_limit");
+  EXPECT_EQ(json::parse(get(port(), innocent, {"Prefer: wait=20"}).body)["status"], "successful");
+  EXPECT_EQ(get(port(), "/livez").status, 200);
+}
+
+}  // namespace
+}  // namespace snapthrough::server::test
