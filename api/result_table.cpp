@@ -31,7 +31,7 @@ void append(std::string& text, const Json& value) {
   if (value.is_number_float()) {
     append(text, value.get<double>());
   } else if (value.is_string()) {
-    append_csv_field(text, value.get<std::string>());
+    append_csv_text(text, value.get<std::string>());
   } else if (!value.is_null()) {
     append_csv_field(text, value.dump());
   }
@@ -88,7 +88,7 @@ class Rows {
   void begin() {
     for (const std::string& column : columns_) {
       text_ += text_.empty() ? "" : ",";
-      append_csv_field(text_, column);
+      append_csv_text(text_, column);
     }
     text_ += kLineEnd;
   }
@@ -227,7 +227,7 @@ std::string points_csv(const std::vector<Branch>& branches) {
   const std::vector<std::string> bases = ids_of(branches, &Branch::contact_fraction);
   std::string text = "branch,point,load_factor,arc_length,negative_eigenvalues";
   for (const std::string& id : monitors) {
-    append_csv_field(text += ',', id);
+    append_csv_text(text += ',', id);
   }
   for (const std::string& id : bases) {
     append_csv_field(text += ',', "contact_fraction:" + id);

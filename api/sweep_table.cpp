@@ -15,7 +15,11 @@ void append_csv_value(const Json& value, std::string& text) {
   if (value.is_null()) {
     return;
   }
-  append_csv_field(text, value.is_string() ? value.get<std::string>() : value.dump());
+  if (value.is_string()) {
+    append_csv_text(text, value.get<std::string>());
+  } else {
+    append_csv_field(text, value.dump());
+  }
 }
 
 Json error_of(const PointOutcome& outcome) { return {{"code", outcome.code}, {"detail", outcome.detail}}; }
@@ -67,7 +71,7 @@ std::string TableWriter::head() const {
     case TableForm::csv:
       for (const std::string& column : columns_) {
         text += text.empty() ? "" : ",";
-        append_csv_field(text, column);
+        append_csv_text(text, column);
       }
       return text + "\n";
     case TableForm::ndjson:

@@ -38,7 +38,7 @@ start_service() {
     echo "Port $port is taken, using a free one."
     port=0
   fi
-  if ! flock --nonblock "$store.lock" true; then
+  if [ -e "$store" ] && ! flock --nonblock "$store" true; then
     store="$build/snapthrough-$$.db"
     log="$build/service-$$.log"
     echo "Another service has the usual store, using $store."

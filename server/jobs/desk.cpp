@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "api/api.h"
-#include "server/digest.h"
 #include "server/jobs/content_key.h"
 #include "server/jobs/least_memory.h"
+#include "server/jobs/repetition.h"
 
 namespace snapthrough::server {
 namespace {
@@ -34,9 +34,7 @@ NewJob new_job(const Order& order, const api::Request& request, std::string key,
   job.owner = order.owner;
   job.content_key = std::move(key);
   job.reuse = order.reuse && order.idempotency_key.has_value();  // without a key it was looked for already
-  if (order.idempotency_key) {
-    job.idempotency = IdempotencyKey{std::string(*order.idempotency_key), sha256_hex(order.document)};
-  }
+  job.idempotency = key_of(order);
   return job;
 }
 
@@ -111,7 +109,7 @@ StatusOr<Submission> JobDesk::submit(const Order& order) {
     }
   }
   if (waiting_ >= limits_.queue) {
-    return Submission{Submission::Kind::queue_full};
+    return known_or_full(store_, order);
   }
   return store_new(order, *std::move(read.request), std::move(key));
 }

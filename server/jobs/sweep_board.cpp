@@ -123,12 +123,12 @@ void SweepBoard::give_back(const Chunk& chunk, std::vector<std::uint64_t> rest, 
   look();
 }
 
-void SweepBoard::remove(const std::string& id) {
+template <class Is>
+void SweepBoard::remove_if(Is is) {
   std::shared_ptr<ActiveSweep> removed;
   {
     const std::lock_guard guard(mutex_);
-    const auto found =
-        std::find_if(sweeps_.begin(), sweeps_.end(), [&](const auto& sweep) { return sweep->id == id; });
+    const auto found = std::find_if(sweeps_.begin(), sweeps_.end(), is);
     if (found == sweeps_.end()) {
       return;
     }
@@ -137,6 +137,14 @@ void SweepBoard::remove(const std::string& id) {
     look();
   }
   removed->stop_.request_stop();  // calls those who work on it, who use this board
+}
+
+void SweepBoard::remove(const std::string& id) {
+  remove_if([&](const auto& sweep) { return sweep->id == id; });
+}
+
+void SweepBoard::remove(const std::shared_ptr<ActiveSweep>& sweep) {
+  remove_if([&](const auto& other) { return other == sweep; });
 }
 
 SweepBoard::Watch::Watch(SweepBoard& board, Time since) : board_(board), since_(since) {

@@ -73,6 +73,8 @@ class SweepBoard {
   void give_back(const Chunk& chunk, std::vector<std::uint64_t> rest, double seconds, std::size_t done);
   /// Nothing of it is wanted any more: those who work on it are asked to stop.
   void remove(const std::string& id);
+  /// The same for this one only, not for one of that id that was added since (dismissed and tried again).
+  void remove(const std::shared_ptr<ActiveSweep>& sweep);
 
   /// A chunk is worked on for as long as this exists; upkeep sees when a point takes too long.
   class Watch {
@@ -100,6 +102,8 @@ class SweepBoard {
   void stop_older(Time since);
 
  private:
+  template <class Is>
+  void remove_if(Is is);
   std::vector<std::uint64_t> next_points(ActiveSweep& sweep);
   static bool has_more(ActiveSweep& sweep);
   void look();

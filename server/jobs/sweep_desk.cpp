@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/digest.h"
+#include "server/jobs/repetition.h"
 
 namespace snapthrough::server {
 namespace {
@@ -34,15 +34,13 @@ StatusOr<Submission> SweepDesk::submit(const Order& order) {
     return waiting.status();
   }
   if (*waiting >= world_.limits.sweeps) {
-    return Submission{Submission::Kind::queue_full};
+    return known_or_full(world_.store, order);
   }
   NewSweep sweep{new_id(world_.environment),  read.sweep->title(),
                  std::string(order.document), static_cast<std::int64_t>(read.sweep->size()),
                  world_.environment.now(),    order.owner};
   sweep.reuse = order.reuse;
-  if (order.idempotency_key) {
-    sweep.idempotency = IdempotencyKey{std::string(*order.idempotency_key), sha256_hex(order.document)};
-  }
+  sweep.idempotency = key_of(order);
   const StatusOr<Submitted> submitted = world_.store.submit(sweep);
   if (!submitted.ok()) {
     if (submitted.status().code() == StatusCode::unavailable) {
@@ -171,7 +169,7 @@ std::optional<Chunk> SweepDesk::take() {
       log_sweep(id, "claim", claim.status().message());
       return std::nullopt;
     }
-    board_.remove(id);
+    board_.remove(chunk->sweep);
   }
   return std::nullopt;
 }
@@ -191,8 +189,9 @@ Status SweepDesk::settle(const Chunk& chunk, const std::vector<PointRow>& rows,
     world_.health.writable = false;
     return record.status();
   }
-  // Dismissed or removed meanwhile, or the store is broken: then the next start takes it up again.
-  board_.remove(chunk.sweep->id);
+  // Dismissed or removed meanwhile, or the store is broken: then the next start takes it up again. One that
+  // was tried again since is another.
+  board_.remove(chunk.sweep);
   return record.status();
 }
 

@@ -68,6 +68,9 @@ class Store {
     return submit(job, [] {});
   }
 
+  /// What is known of an idempotency key of an owner; empty when it is new.
+  virtual StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) = 0;
+
   /// Gives the oldest accepted job to the caller and makes it running; empty when none waits. It survives
   /// the death of the process, not that of the machine: the job is accepted again then.
   virtual StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) = 0;

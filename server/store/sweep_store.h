@@ -45,6 +45,8 @@ class SweepStore {
 
   /// Adds a sweep in state accepted, unless its idempotency key is known.
   virtual StatusOr<Submitted> submit(const NewSweep& sweep) = 0;
+  /// What is known of an idempotency key of an owner; empty when it is new.
+  virtual StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) = 0;
   /// Ids of sweeps that are accepted or running, the oldest first.
   virtual StatusOr<std::vector<std::string>> unfinished() = 0;
   /// What a worker needs to go on with an accepted or running sweep; empty when there is none.

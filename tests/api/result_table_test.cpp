@@ -1,6 +1,7 @@
 /// Tables of results: columns, rows, and which analysis has which.
 
 #include "api/result_table.h"
+#include "api/csv_field.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,6 +53,17 @@ TEST(ResultTable, CriticalPointsHaveTheirMonitors) {
   EXPECT_EQ(result_csv(json::object(), ResultTable::critical_points).find('\n'),
             result_csv(json::object(), ResultTable::critical_points).size() - 1)
       << "a header alone";
+}
+
+/// Names that a spreadsheet would compute are marked as texts; numbers stay as they are.
+TEST(CsvField, TextsThatLookLikeFormulasAreMarked) {
+  std::string text;
+  for (const char* name : {"=1+1", "+a", "-a", "@a", "\ta", "a=b", "", "=\"x\", y"}) {
+    append_csv_text(text, name);
+    text += ';';
+  }
+  append_csv_field(text, "-1.5");
+  EXPECT_EQ(text, "'=1+1;'+a;'-a;'@a;'\ta;a=b;;\"'=\"\"x\"\", y\";-1.5");
 }
 
 TEST(ResultTable, StatesAreRowsAlongTheMembers) {

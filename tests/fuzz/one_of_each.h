@@ -23,6 +23,9 @@ inline Status store_is_full() { return {StatusCode::unavailable, "full"}; }
 class FuzzedSweeps final : public SweepStore {
  public:
   StatusOr<Submitted> submit(const NewSweep&) override { return store_is_full(); }
+  StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey&, std::string_view) override {
+    return std::optional<Submitted>();
+  }
   StatusOr<std::vector<std::string>> unfinished() override { return std::vector<std::string>(); }
   StatusOr<std::optional<OpenSweep>> open(std::string_view) override { return std::optional<OpenSweep>(); }
   StatusOr<PointClaim> claim(std::string_view, const std::vector<std::uint64_t>&, Time) override {
@@ -92,6 +95,9 @@ class FuzzedSweeps final : public SweepStore {
 class FuzzedStore final : public Store {
  public:
   StatusOr<Submitted> submit(const NewJob&, const std::function<void()>&) override { return store_is_full(); }
+  StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey&, std::string_view) override {
+    return std::optional<Submitted>();
+  }
   StatusOr<std::optional<Claim>> claim(const Lease&, Time) override { return std::optional<Claim>(); }
   StatusOr<std::vector<std::string>> renew(const std::vector<Claim>&, Time, Time) override {
     return store_is_full();

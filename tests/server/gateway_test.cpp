@@ -20,6 +20,9 @@ class FailingStore final : public Store {
   explicit FailingStore(StatusCode code) : code_(code) {}
 
   StatusOr<Submitted> submit(const NewJob&, const std::function<void()>&) override { return status(); }
+  StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey&, std::string_view) override {
+    return status();
+  }
   StatusOr<std::optional<Claim>> claim(const Lease&, Time) override { return status(); }
   StatusOr<std::vector<std::string>> renew(const std::vector<Claim>&, Time, Time) override {
     return status();

@@ -1,6 +1,7 @@
 #include "server/store/sqlite/migrations.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "server/jobs/state.h"
 #include "server/store/sqlite/sqlite_store.h"
@@ -111,6 +112,16 @@ TEST_F(Migrations, TheStoreReportsANewerSchema) {
   const auto opened = open_store(path, at_second(0));
   EXPECT_EQ(opened.status().code(), StatusCode::unsupported);
   EXPECT_THAT(opened.status().message(), HasSubstr("newer version"));
+}
+
+TEST_F(Migrations, OneProcessHasAStoreByWhateverNameItIsOpened) {
+  const std::string path = folder_.file("store.db");
+  const auto first = open_store(path, at_second(0));
+  ASSERT_TRUE(first.ok());
+  ASSERT_EQ(::symlink(path.c_str(), folder_.file("symbolic.db").c_str()), 0);
+  ASSERT_EQ(::link(path.c_str(), folder_.file("hard.db").c_str()), 0);
+  for (const char* name : {"store.db", "symbolic.db", "hard.db"})
+    EXPECT_EQ(open_store(folder_.file(name), at_second(0)).status().code(), StatusCode::unavailable) << name;
 }
 
 TEST_F(Migrations, AFileThatIsNoDatabaseIsRefused) {

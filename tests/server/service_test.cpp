@@ -304,5 +304,29 @@ TEST_F(ServiceTest, APortInUseIsReported) {
   EXPECT_THAT(status.message(), HasSubstr(std::to_string(port())));
 }
 
+/// What was acknowledged is known, also while nothing new is taken.
+TEST_F(ServiceTest, AnAcknowledgedIdempotencyKeyIsKnownWhileTheQueueIsFull) {
+  const auto solver = std::make_shared<GatedSolver>();
+  ServiceConfig small = config();
+  small.workers = 1;
+  small.jobs.queue = 1;
+  service_ = std::make_unique<Service>(small, Environment::system(), local_runners(gated(solver)), log_);
+  ASSERT_TRUE(service_->start().ok());
+  submit("held");
+  solver->wait_started(1);
+  const Headers keyed{"Content-Type: application/json", "Prefer: respond-async", "Idempotency-Key: \"k1\""};
+  const Reply first = post(port(), "/v1/jobs", column_request("waiting"), keyed);
+  EXPECT_EQ(first.status, 201) << first.body;
+  EXPECT_EQ(post(port(), "/v1/jobs", column_request("another"),
+                 {"Content-Type: application/json", "Prefer: respond-async"})
+                .status,
+            429);
+  const Reply again = post(port(), "/v1/jobs", column_request("waiting"), keyed);
+  EXPECT_NE(again.status, 429);
+  EXPECT_EQ(again.header("Location"), first.header("Location"));
+  EXPECT_EQ(post(port(), "/v1/jobs", column_request("other document"), keyed).status, 422);
+  solver->open();
+}
+
 }  // namespace
 }  // namespace snapthrough::server::test

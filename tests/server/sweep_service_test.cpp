@@ -225,6 +225,56 @@ TEST_F(SweepService, DismissalStopsItWithinASecondAndKeepsRows) {
   EXPECT_EQ(get(port(), sweep).status, 404);
 }
 
+/// An analysis that does not hear that it shall stop, until its gate is opened.
+class DeafSolver {
+ public:
+  Result operator()(const Model&, const Analysis&, const Hooks&) {
+    std::unique_lock lock(mutex_);
+    const int number = ++started_;
+    changed_.notify_all();
+    changed_.wait_for(lock, std::chrono::seconds(20), [&] { return number <= open_; });
+    Result result;
+    result.summary.termination = "steps";
+    return result;
+  }
+  /// Lets the first so many analyses end.
+  void open(int first) {
+    const std::lock_guard guard(mutex_);
+    open_ = first;
+    changed_.notify_all();
+  }
+  void wait_started(int count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, std::chrono::seconds(20), [&] { return started_ >= count; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int started_ = 0;
+  int open_ = 0;
+};
+
+/// A worker that still has points of the sweep as it was before the dismissal says so after it was taken up
+/// again: that ended the new work, and the sweep stayed `running` for ever.
+TEST_F(SweepService, DismissedWhileAPointIsComputedAndTriedAgainItGoesOn) {
+  const auto solver = std::make_shared<DeafSolver>();
+  start([solver](const Model& model, const Analysis& analysis, const Hooks& hooks) {
+    return (*solver)(model, analysis, hooks);
+  });
+  workers_ = 2;
+  const std::string sweep = submit_sweep(column_sweep(40));
+  solver->wait_started(2);  // both workers have points of it
+  EXPECT_EQ(post(port(), sweep + "/dismiss", "").status, 200);
+  EXPECT_EQ(post(port(), sweep + "/retry", "").status, 200);
+  solver->open(1);  // one of them takes up the new work
+  solver->wait_started(3);
+  solver->open(2);  // the other one settles the old
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  solver->open(1'000);
+  EXPECT_EQ(json::parse(get(port(), sweep, {"Prefer: wait=20"}).body)["status"], "successful");
+}
+
 TEST_F(SweepService, EventsTellHowFarItIs) {
   const auto solver = std::make_shared<GatedSolver>();
   start(gated(solver));

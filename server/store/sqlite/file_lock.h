@@ -9,8 +9,11 @@
 
 namespace snapthrough::server::sqlite {
 
-/// @brief An advisory lock on a file, held until destruction; the kernel releases it when the process dies.
-/// Movable, not copyable.
+/// @brief An advisory lock on a file, whatever name it was opened by, held until destruction; the kernel
+/// releases it when the process dies. Movable, not copyable.
+///
+/// SQLite's own locks (of another kind) end when their process closes any descriptor of the file: this one
+/// must outlive every connection.
 class FileLock {
  public:
   /// Creates the file if need be. `unavailable` when another holder has it.

@@ -18,6 +18,7 @@ class SqliteStore final : public Store {
 
   using Store::submit;
   StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) override;
+  StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) override;
   StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) override;
   StatusOr<std::vector<std::string>> renew(const std::vector<Claim>& claims, Time until, Time now) override;
   Status finish(const Claim& claim, const JobResult& result, Time now) override;
@@ -89,12 +90,13 @@ void insert_failure(Connection& connection, std::int64_t job, const JobFailure& 
 }
 
 /// What an idempotency key that is known amounts to; empty when it is new.
-std::optional<Submitted> known_key(Connection& connection, const NewJob& job) {
+std::optional<Submitted> known_key(const Connection& connection, const IdempotencyKey& key,
+                                   std::string_view owner) {
   Statement row = connection.prepare(
       "SELECT idempotency_keys.fingerprint, jobs.id FROM idempotency_keys JOIN jobs ON jobs.seq = job"
       " WHERE idempotency_keys.owner = ? AND idempotency_keys.key = ?");
-  row.bind(job.owner).bind(job.idempotency->key);
-  return known_key(row, *job.idempotency);
+  row.bind(owner).bind(key.key);
+  return known_key(row, key);
 }
 
 void insert_job(Connection& connection, const NewJob& job) {
@@ -143,7 +145,7 @@ std::optional<std::pair<std::int64_t, std::string>> same_content(const Connectio
 StatusOr<Submitted> SqliteStore::submit(const NewJob& job, const std::function<void()>& queued) {
   const auto work = [&](Connection& connection) -> StatusOr<Submitted> {
     if (job.idempotency) {
-      if (const std::optional<Submitted> known = known_key(connection, job)) {
+      if (const std::optional<Submitted> known = known_key(connection, *job.idempotency, job.owner)) {
         return *known;
       }
     }
@@ -167,6 +169,11 @@ StatusOr<Submitted> SqliteStore::submit(const NewJob& job, const std::function<v
     return submitted;
   };
   return database_.write<Submitted>(work, Durability::synced, queued, job.patient);
+}
+
+StatusOr<std::optional<Submitted>> SqliteStore::find_key(const IdempotencyKey& key, std::string_view owner) {
+  return database_.read<std::optional<Submitted>>(
+      [&](const Connection& connection) { return known_key(connection, key, owner); });
 }
 
 StatusOr<std::optional<Claim>> SqliteStore::claim(const Lease& lease, Time now) {
@@ -482,7 +489,7 @@ StatusOr<StoredPath> SqliteStore::path(std::string_view id) {
 
 StatusOr<std::unique_ptr<Store>> open_store(const std::string& path, Time now,
                                             std::span<const Migration> migrations) {
-  StatusOr<FileLock> lock = FileLock::acquire(path + ".lock");
+  StatusOr<FileLock> lock = FileLock::acquire(path);
   if (!lock.ok()) {
     return lock.status();
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The store on SQLite: one file (with its -wal, -shm and .lock beside it).
+/// The store on SQLite: one file (with its -wal and -shm beside it).
 
 #include <memory>
 #include <span>

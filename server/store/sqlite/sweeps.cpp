@@ -22,12 +22,13 @@ std::optional<Place> find(const Connection& connection, std::string_view id) {
                     : std::nullopt;
 }
 
-std::optional<Submitted> known_key(const Connection& connection, const NewSweep& sweep) {
+std::optional<Submitted> known_key(const Connection& connection, const IdempotencyKey& key,
+                                   std::string_view owner) {
   Statement row = connection.prepare(
       "SELECT sweep_keys.fingerprint, sweeps.id FROM sweep_keys JOIN sweeps ON sweeps.seq = sweep"
       " WHERE sweep_keys.owner = ? AND sweep_keys.key = ? AND removed = 0");
-  row.bind(sweep.owner).bind(sweep.idempotency->key);
-  return known_key(row, *sweep.idempotency);
+  row.bind(owner).bind(key.key);
+  return known_key(row, key);
 }
 
 void insert_sweep(Connection& connection, const NewSweep& sweep) {
@@ -153,13 +154,19 @@ bool blame(Connection& connection, const Suspect& suspect, int max_crashes) {
 StatusOr<Submitted> SqliteSweepStore::submit(const NewSweep& sweep) {
   return database_.write<Submitted>([&](Connection& connection) -> StatusOr<Submitted> {
     if (sweep.idempotency) {
-      if (const std::optional<Submitted> known = known_key(connection, sweep)) {
+      if (const std::optional<Submitted> known = known_key(connection, *sweep.idempotency, sweep.owner)) {
         return *known;
       }
     }
     insert_sweep(connection, sweep);
     return Submitted{Submitted::Kind::created, sweep.id};
   });
+}
+
+StatusOr<std::optional<Submitted>> SqliteSweepStore::find_key(const IdempotencyKey& key,
+                                                              std::string_view owner) {
+  return database_.read<std::optional<Submitted>>(
+      [&](const Connection& connection) { return known_key(connection, key, owner); });
 }
 
 StatusOr<PointClaim> SqliteSweepStore::claim(std::string_view id, const std::vector<std::uint64_t>& points,

@@ -15,6 +15,7 @@ class SqliteSweepStore final : public SweepStore {
   StatusOr<Submitted> submit(const NewSweep& sweep) override;
   StatusOr<std::vector<std::string>> unfinished() override;
   StatusOr<std::optional<OpenSweep>> open(std::string_view id) override;
+  StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) override;
   StatusOr<PointClaim> claim(std::string_view id, const std::vector<std::uint64_t>& points,
                              Time now) override;
   StatusOr<SweepRecord> put(const PointClaim& claim, const std::vector<PointRow>& rows, Time now) override;

@@ -14,6 +14,9 @@ class FailingSweepStore final : public SweepStore {
   explicit FailingSweepStore(StatusCode code) : code_(code) {}
 
   StatusOr<Submitted> submit(const NewSweep&) override { return status(); }
+  StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey&, std::string_view) override {
+    return status();
+  }
   StatusOr<std::vector<std::string>> unfinished() override { return status(); }
   StatusOr<std::optional<OpenSweep>> open(std::string_view) override { return status(); }
   StatusOr<PointClaim> claim(std::string_view, const std::vector<std::uint64_t>&, Time) override {
