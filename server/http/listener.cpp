@@ -270,6 +270,7 @@ void Listener::Server::attend(const ClientPointer& client, std::uint32_t events)
       }
       return rearm(*client, EPOLLIN);
     case Phase::deferred:
+      return drop(*client);  // it is watched for its end only
     case Phase::closed:
       return;
   }
@@ -337,7 +338,11 @@ bool Listener::Server::answer(const ClientPointer& client, Received received) {
   request->remote = client->remote;
   client->head_only = request->method == "HEAD";
   client->close_after = !received.head.keep_alive;
-  return deliver(client, gateway_.serve(std::move(*request)));
+  const std::size_t size = request->body.size();
+  buffered_ += size;
+  Response response = gateway_.serve(std::move(*request));
+  buffered_ -= size;
+  return deliver(client, std::move(response));
 }
 
 /// Answers and ends the connection: what follows on it can't be trusted.
@@ -374,6 +379,7 @@ bool Listener::Server::defer(const ClientPointer& client, Deferred deferred) {
       server->wake(wake);
     }
   });
+  rearm(*client, EPOLLRDHUP);
   return false;
 }
 

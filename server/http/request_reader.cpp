@@ -46,9 +46,14 @@ Received RequestReader::next() {
   }
   received.kind = Received::Kind::request;
   received.head_text = cleaned_head(std::string_view(buffer_).substr(0, head_size_));
-  received.body = buffer_.substr(head_size_, head_.body_bytes);
   received.head = std::exchange(head_, {});
-  buffer_.erase(0, total);
+  if (buffer_.size() == total) {  // a large body is not there twice, and not kept while its answer waits
+    received.body = std::exchange(buffer_, {});
+    received.body.erase(0, head_size_);
+  } else {
+    received.body = buffer_.substr(head_size_, total - head_size_);
+    buffer_.erase(0, total);
+  }
   head_size_ = 0;
   searched_ = 0;
   return received;

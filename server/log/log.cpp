@@ -1,13 +1,14 @@
 #include "server/log/log.h"
 
 #include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+
+#include "server/log/pipe_sink.h"
 
 namespace snapthrough::server {
 namespace {
@@ -45,9 +46,8 @@ std::optional<LogLevel> log_level_from(std::string_view name) {
   return std::nullopt;
 }
 
-Log::Log(LogLevel level, std::function<Time()> now)
-    : sink_(std::make_unique<Sink>(level, std::make_shared<spdlog::sinks::stderr_sink_mt>())),
-      now_(std::move(now)) {}
+Log::Log(LogLevel level, std::function<Time()> now, int descriptor)
+    : sink_(std::make_unique<Sink>(level, std::make_shared<PipeSink>(descriptor))), now_(std::move(now)) {}
 
 Log::Log(LogLevel level, std::function<Time()> now, std::ostream& stream)
     : sink_(std::make_unique<Sink>(level, std::make_shared<spdlog::sinks::ostream_sink_mt>(stream))),

@@ -29,8 +29,9 @@ struct LogField {
 /// every line is valid JSON.
 class Log {
  public:
-  /// To standard error, each line flushed.
-  Log(LogLevel level, std::function<Time()> now);
+  /// To a descriptor, standard error if none is given. It is never waited for: where nobody reads, lines are
+  /// lost and counted.
+  Log(LogLevel level, std::function<Time()> now, int descriptor = 2);
   /// To a stream that outlives the log.
   Log(LogLevel level, std::function<Time()> now, std::ostream& stream);
   ~Log();

@@ -328,5 +328,40 @@ TEST_F(ServiceTest, AnAcknowledgedIdempotencyKeyIsKnownWhileTheQueueIsFull) {
   solver->open();
 }
 
+/// The gauge of that name.
+double gauge(int port, const std::string& name) {
+  const std::string text = get(port, "/metrics").body;
+  const std::size_t at = text.find("\n" + name + " ");
+  return at == std::string::npos ? -1.0 : std::stod(text.substr(at + name.size() + 2));
+}
+
+/// Connections of clients that left while their answers waited were kept to the end of the wait.
+TEST_F(ServiceTest, AClientThatLeavesWhileItsAnswerWaitsIsLetGo) {
+  const auto solver = std::make_shared<GatedSolver>();
+  start(gated(solver));
+  const std::string job = submit();
+  solver->wait_started(1);
+  const double before = gauge(port(), "snapthrough_connections");
+  {
+    std::vector<std::unique_ptr<Socket>> waiting;
+    for (int i = 0; i < 100; ++i) {
+      waiting.push_back(std::make_unique<Socket>(port()));
+      waiting.back()->send("GET " + job + " HTTP/1.1\r\nHost: a\r\nPrefer: wait=30\r\n\r\n");
+    }
+    for (int i = 0; i < 100 && gauge(port(), "snapthrough_connections") < before + 100; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_GE(gauge(port(), "snapthrough_connections"), before + 100);
+  }
+  const auto left = std::chrono::steady_clock::now();
+  while (gauge(port(), "snapthrough_connections") > before &&
+         std::chrono::steady_clock::now() - left < std::chrono::seconds(5)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - left, std::chrono::seconds(1));
+  solver->open();
+  EXPECT_EQ(json::parse(get(port(), job, {"Prefer: wait=20"}).body)["status"], "successful");
+}
+
 }  // namespace
 }  // namespace snapthrough::server::test

@@ -2,6 +2,7 @@
 /// Times, identifiers, the configuration, preferences, log lines.
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -129,6 +130,40 @@ TEST(Log, EachLineIsOneJsonObjectWhateverTheTextHolds) {
   EXPECT_EQ(line["status"], 200);
   EXPECT_EQ(line["ok"], true);
   EXPECT_EQ(line["path"], "a\"b\\c\nd\x01\xef\xbf\xbd\xc3\xa4");
+}
+
+/// A reader that stalls stopped every thread that wrote a line, requests for /livez among them.
+TEST(Log, AReaderThatStallsIsNotWaitedForAndIsToldWhatItMissed) {
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(::pipe(ends), 0);
+  Log log(LogLevel::info, Environment::system().now, ends[1]);
+  constexpr int kLines = 5'000;
+  const std::string detail(200, 'x');
+  for (int i = 0; i < kLines; ++i) {
+    log.write(LogLevel::info, "job", {{"number", std::int64_t{i}}, {"detail", std::string_view(detail)}});
+  }
+  std::string text;
+  const auto read_some = [&] {
+    std::vector<char> chunk(1 << 20);
+    const ssize_t got = ::read(ends[0], chunk.data(), chunk.size());
+    text.append(chunk.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  };
+  read_some();
+  log.write(LogLevel::info, "last", {});
+  ::close(ends[1]);
+  read_some();
+  std::istringstream lines(text);
+  int seen = 0;
+  std::int64_t lost = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const auto parsed = nlohmann::json::parse(line);
+    seen += parsed["event"] == "job" ? 1 : 0;
+    lost += parsed.value("lost_lines", std::int64_t{0});
+  }
+  EXPECT_GT(seen, 100);
+  EXPECT_EQ(seen + lost, kLines);
+  EXPECT_THAT(text, testing::HasSubstr("\"event\":\"last\""));
+  ::close(ends[0]);
 }
 
 TEST(Log, LevelsHoldBack) {
