@@ -57,6 +57,26 @@ const char* problem_kind(int status) {
   }
 }
 
+/// The name in "name:port"; brackets stay with the addresses that have them.
+std::string_view host_name(std::string_view host) {
+  const std::size_t end = host.starts_with('[') ? host.find(']') + 1 : std::min(host.find(':'), host.size());
+  return host.substr(0, end);
+}
+
+/// A page of another site that reaches this machine by a name that its owner points here (DNS rebinding), or
+/// sends a request from where it was loaded.
+bool comes_from_elsewhere(const Request& request) {
+  const std::string_view host = request.header("Host").value_or("localhost");
+  const std::string_view name = host_name(host);
+  const bool local = equal_ignoring_case(name, "localhost") || name == "[::1]" || name.starts_with("127.");
+  const bool numeric = name.find_first_not_of("0123456789.") == std::string_view::npos;
+  if (!local || (name.starts_with("127.") && !numeric)) {
+    return true;
+  }
+  const std::optional<std::string_view> origin = request.header("Origin");
+  return origin && *origin != "http://" + std::string(host);
+}
+
 }  // namespace
 
 Response Gateway::guarded(const Request& request, const std::function<Response()>& work) const {
@@ -73,9 +93,23 @@ Response Gateway::guarded(const Request& request, const std::function<Response()
 Response Gateway::serve(Request request) {
   const double start = environment_.monotonic_seconds();
   request.id = request_id(request, environment_);
+  request.body_bytes = request.body.size();
   const std::optional<std::string> owner = keys_.owner(request);
   request.owner = owner.value_or("");
-  const auto kept = std::make_shared<const Request>(std::move(request));
+  const auto kept = std::make_shared<Request>(std::move(request));
+  if (keys_.open() && !is_public(kept->path) && comes_from_elsewhere(*kept)) {
+    Response refused =
+        problem_response({403,
+                          "foreign-origin",
+                          "Foreign origin",
+                          "A service without keys answers to local names only, and to pages of its own.",
+                          {},
+                          "",
+                          ""},
+                         *kept);
+    complete(*kept, refused, start);
+    return refused;
+  }
   if (!owner && !is_public(kept->path)) {
     Response refused = problem_response({401,
                                          "unauthorized",
@@ -92,11 +126,12 @@ Response Gateway::serve(Request request) {
   return finish(kept, guarded(*kept, [&] { return routes_.respond(*kept); }), start);
 }
 
-Response Gateway::finish(const std::shared_ptr<const Request>& request, Response response, double start) {
+Response Gateway::finish(const std::shared_ptr<Request>& request, Response response, double start) {
   if (!response.deferred) {
     complete(*request, response, start);
     return response;
   }
+  std::string().swap(request->body);  // it was read
   response.deferred->resume = [this, request, start, route = response.route,
                                resume = std::move(response.deferred->resume)] {
     Response late = guarded(*request, resume);
@@ -141,7 +176,7 @@ void Gateway::complete(const Request& request, Response& response, double start)
               {"route", std::string_view(response.route)},
               {"status", static_cast<std::int64_t>(response.status)},
               {"milliseconds", seconds * 1e3},
-              {"bytes_in", static_cast<std::int64_t>(request.body.size())},
+              {"bytes_in", static_cast<std::int64_t>(request.body_bytes)},
               {"bytes_out", static_cast<std::int64_t>(response.body.size())},
               {"owner", std::string_view(request.owner)},
               {"trace", trace_of(request)},

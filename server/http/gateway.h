@@ -28,7 +28,7 @@ class Gateway {
 
  private:
   Response guarded(const Request& request, const std::function<Response()>& work) const;
-  Response finish(const std::shared_ptr<const Request>& request, Response response, double start);
+  Response finish(const std::shared_ptr<Request>& request, Response response, double start);
   void complete(const Request& request, Response& response, double start);
 
   Routes& routes_;

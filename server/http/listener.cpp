@@ -366,7 +366,7 @@ bool Listener::Server::deliver(const ClientPointer& client, Response response) {
   if (response.stream && !client->head_only) {
     return begin_stream(client, response);
   }
-  client->output = to_bytes(response, client->head_only, !client->close_after);
+  client->output += to_bytes(response, client->head_only, !client->close_after);  // behind a 100 Continue
   return send_on(client);
 }
 
@@ -392,7 +392,7 @@ bool Listener::Server::begin_stream(const ClientPointer& client, const Response&
   }
   client->phase = Phase::streaming;
   client->close_after = true;
-  client->output = to_bytes(response, false, false);
+  client->output += to_bytes(response, false, false);
   client->outbox = std::make_shared<Outbox>();
   client->source = response.stream->open(
       [weak = weak_from_this(), id = client->id, outbox = client->outbox](std::string piece, bool last) {

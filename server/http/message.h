@@ -22,9 +22,10 @@ struct Request {
   Fields query;      ///< decoded, in order
   Fields headers;    ///< in order
   std::string body;
-  std::string id;      ///< identifies the request in logs and problems
-  std::string remote;  ///< address of the peer
-  std::string owner;   ///< whose key came with it; empty: no keys are asked for
+  std::size_t body_bytes = 0;  ///< of the body as it came
+  std::string id;              ///< identifies the request in logs and problems
+  std::string remote;          ///< address of the peer
+  std::string owner;           ///< whose key came with it; empty: no keys are asked for
 
   /// The first header of that name, or nothing.
   [[nodiscard]] std::optional<std::string_view> header(std::string_view name) const;

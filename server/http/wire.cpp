@@ -12,6 +12,8 @@ namespace snapthrough::server::http {
 namespace {
 
 constexpr std::string_view kLineEnd = "\r\n";
+/// What the HTTP library reads of one line.
+constexpr std::size_t kHeaderBytes = 8192;
 
 /// Takes the first line, without its end, off the text.
 std::string_view take_line(std::string_view& text) {
@@ -39,7 +41,10 @@ struct Facts {
   bool expects_continue = false;
   bool close = false;
   bool keep_alive = false;
+  bool empty_key =
+      false;  ///< the library leaves out a header that is empty: the client would be told nothing
   int hosts = 0;
+  std::size_t longest = 0;  ///< line, with its end
 };
 
 bool lists(std::string_view value, std::string_view word) {
@@ -69,6 +74,8 @@ void note_header(std::string_view name, std::string_view value, Facts& facts) {
     facts.keep_alive |= lists(value, "keep-alive");
   } else if (equal_ignoring_case(name, "Host")) {
     ++facts.hosts;
+  } else if (equal_ignoring_case(name, "Idempotency-Key")) {
+    facts.empty_key |= value.empty();
   }
 }
 
@@ -80,6 +87,7 @@ Facts read_headers(std::string_view lines) {
       break;
     }
     ++facts.count;
+    facts.longest = std::max(facts.longest, line.size() + kLineEnd.size());
     const std::size_t colon = line.find(':');
     const std::string_view name = line.substr(0, colon);
     // A space in or before the name is how headers are smuggled past one of two parsers.
@@ -107,6 +115,16 @@ std::optional<std::size_t> length_of(std::string_view digits) {
   return whole ? std::optional(value) : std::nullopt;
 }
 
+/// The path and query of a target that names the scheme and host as well; the target itself if it doesn't.
+std::string_view origin_form(std::string_view target) {
+  constexpr std::string_view kScheme = "http://";
+  if (target.size() < kScheme.size() || !equal_ignoring_case(target.substr(0, kScheme.size()), kScheme)) {
+    return target;
+  }
+  const std::size_t path = target.find('/', kScheme.size());
+  return path == std::string_view::npos ? std::string_view("/") : target.substr(path);
+}
+
 bool read_request_line(std::string_view line, Head& head) {
   const std::size_t first = line.find(' ');
   const std::size_t last = line.rfind(' ');
@@ -114,7 +132,7 @@ bool read_request_line(std::string_view line, Head& head) {
     return false;
   }
   head.method = line.substr(0, first);
-  head.target = line.substr(first + 1, last - first - 1);
+  head.target = origin_form(line.substr(first + 1, last - first - 1));
   head.keep_alive = line.substr(last + 1) == "HTTP/1.1";  // unless a header says otherwise
   return !head.target.empty() && head.target.find(' ') == std::string::npos;
 }
@@ -137,8 +155,17 @@ Head judge(Head head, const Facts& facts, const WireLimits& limits) {
     return refuse(std::move(head), 431,
                   "A request may have " + std::to_string(limits.header_count) + " headers.");
   }
+  if (facts.longest > kHeaderBytes) {
+    return refuse(std::move(head), 431, "A header may have " + std::to_string(kHeaderBytes) + " bytes.");
+  }
   if (facts.malformed || facts.hosts > 1) {
     return refuse(std::move(head), 400, "The headers are malformed.");
+  }
+  if (facts.empty_key) {
+    return refuse(std::move(head), 400, "An Idempotency-Key has 1 to 255 visible ASCII characters.");
+  }
+  if (facts.hosts == 0 && head.keep_alive) {
+    return refuse(std::move(head), 400, "A request of HTTP/1.1 needs a Host.");
   }
   const bool has_body = head.method == "POST" || head.method == "PUT" || head.method == "PATCH";
   if (facts.transfer_encoding || (has_body && !facts.content_length)) {
@@ -176,7 +203,11 @@ std::string cleaned_head(std::string_view head) {
       "Range", "Expect", "REMOTE_ADDR", "REMOTE_PORT", "LOCAL_ADDR", "LOCAL_PORT", "If-Range"};
   std::string cleaned;
   cleaned.reserve(head.size());
-  cleaned.append(take_line(head)).append(kLineEnd);
+  const std::string_view request_line = take_line(head);
+  const std::size_t first = request_line.find(' ') + 1;
+  const std::size_t last = request_line.rfind(' ');
+  cleaned.append(request_line.substr(0, first)).append(origin_form(request_line.substr(first, last - first)));
+  cleaned.append(request_line.substr(last)).append(kLineEnd);
   while (!head.empty()) {
     const std::string_view line = take_line(head);
     const std::string_view name = line.substr(0, line.find(':'));

@@ -39,9 +39,10 @@ struct Head {
 /// @param head request line and headers up to and including the empty line
 [[nodiscard]] Head read_head(std::string_view head, const WireLimits& limits);
 
-/// @brief The head without the headers that the HTTP library would act on: ranges (they amplify), codings of
-/// the response (the library compresses slowly), expectations (met already), and the names it stores
-/// addresses under.
+/// @brief The head, its target without scheme and host, and without the headers that the HTTP library would
+/// act on: ranges (they amplify), codings of the response (the library compresses slowly), expectations (met
+/// already), and the names it stores addresses under.
+/// @pre read_head() did not refuse it
 [[nodiscard]] std::string cleaned_head(std::string_view head);
 
 }  // namespace snapthrough::server::http

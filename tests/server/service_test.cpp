@@ -239,7 +239,7 @@ TEST_F(ServiceTest, StoppingPutsARunningJobBackAndTheNextStartFinishesIt) {
   const std::string job = submit();
   solver->wait_started(1);
   Socket waiting(port());
-  waiting.send("GET " + job + " HTTP/1.1\r\nHost: a\r\nPrefer: wait=60\r\n\r\n");
+  waiting.send("GET " + job + " HTTP/1.1\r\nHost: localhost\r\nPrefer: wait=60\r\n\r\n");
   Socket idle(port());
   std::this_thread::sleep_for(std::chrono::milliseconds(100));  // lets the request reach its handler
   const auto before = std::chrono::steady_clock::now();
@@ -262,7 +262,7 @@ TEST_F(ServiceTest, ManyRequestsShareAConnection) {
   const std::string body = column_request();
   for (int i = 0; i < 50; ++i) {
     socket.send(
-        "GET /livez HTTP/1.1\r\nHost: a\r\n\r\nPOST /v1/jobs HTTP/1.1\r\nHost: a\r\n"
+        "GET /livez HTTP/1.1\r\nHost: localhost\r\n\r\nPOST /v1/jobs HTTP/1.1\r\nHost: localhost\r\n"
         "Content-Type: application/json\r\nContent-Length: " +
         std::to_string(body.size()) + "\r\n\r\n" + body);
     EXPECT_EQ(socket.receive().status, 200);
@@ -273,9 +273,10 @@ TEST_F(ServiceTest, ManyRequestsShareAConnection) {
 TEST_F(ServiceTest, AnUnreadBodyDoesNotBecomeTheNextRequest) {
   start(solved);
   Socket socket(port());
-  const std::string smuggled = "GET /smuggled HTTP/1.1\r\nHost: a\r\n\r\n";
-  socket.send("POST /nowhere HTTP/1.1\r\nHost: a\r\nContent-Length: " + std::to_string(smuggled.size()) +
-              "\r\n\r\n" + smuggled + "GET /livez HTTP/1.1\r\nHost: a\r\n\r\n");
+  const std::string smuggled = "GET /smuggled HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  socket.send(
+      "POST /nowhere HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + std::to_string(smuggled.size()) +
+      "\r\n\r\n" + smuggled + "GET /livez HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_EQ(socket.receive().status, 404);
   EXPECT_EQ(socket.receive().status, 200);
 }
@@ -285,7 +286,8 @@ TEST_F(ServiceTest, AsksForABodyThatTheClientHoldsBack) {
   Socket socket(port());
   const std::string body = column_request();
   socket.send(
-      "POST /v1/jobs HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\nExpect: 100-continue\r\n"
+      "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nExpect: "
+      "100-continue\r\n"
       "Content-Length: " +
       std::to_string(body.size()) + "\r\n\r\n");
   EXPECT_EQ(socket.receive().status, 100);
@@ -304,6 +306,13 @@ TEST_F(ServiceTest, APortInUseIsReported) {
   EXPECT_THAT(status.message(), HasSubstr(std::to_string(port())));
 }
 
+/// The gauge of that name.
+double gauge(int port, const std::string& name) {
+  const std::string text = get(port, "/metrics").body;
+  const std::size_t at = text.find("\n" + name + " ");
+  return at == std::string::npos ? -1.0 : std::stod(text.substr(at + name.size() + 2));
+}
+
 /// What was acknowledged is known, also while nothing new is taken.
 TEST_F(ServiceTest, AnAcknowledgedIdempotencyKeyIsKnownWhileTheQueueIsFull) {
   const auto solver = std::make_shared<GatedSolver>();
@@ -314,6 +323,10 @@ TEST_F(ServiceTest, AnAcknowledgedIdempotencyKeyIsKnownWhileTheQueueIsFull) {
   ASSERT_TRUE(service_->start().ok());
   submit("held");
   solver->wait_started(1);
+  for (int i = 0; i < 500 && gauge(port(), "snapthrough_jobs_waiting") > 0;
+       ++i) {  // counted again now and then
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
   const Headers keyed{"Content-Type: application/json", "Prefer: respond-async", "Idempotency-Key: \"k1\""};
   const Reply first = post(port(), "/v1/jobs", column_request("waiting"), keyed);
   EXPECT_EQ(first.status, 201) << first.body;
@@ -328,13 +341,6 @@ TEST_F(ServiceTest, AnAcknowledgedIdempotencyKeyIsKnownWhileTheQueueIsFull) {
   solver->open();
 }
 
-/// The gauge of that name.
-double gauge(int port, const std::string& name) {
-  const std::string text = get(port, "/metrics").body;
-  const std::size_t at = text.find("\n" + name + " ");
-  return at == std::string::npos ? -1.0 : std::stod(text.substr(at + name.size() + 2));
-}
-
 /// Connections of clients that left while their answers waited were kept to the end of the wait.
 TEST_F(ServiceTest, AClientThatLeavesWhileItsAnswerWaitsIsLetGo) {
   const auto solver = std::make_shared<GatedSolver>();
@@ -346,7 +352,7 @@ TEST_F(ServiceTest, AClientThatLeavesWhileItsAnswerWaitsIsLetGo) {
     std::vector<std::unique_ptr<Socket>> waiting;
     for (int i = 0; i < 100; ++i) {
       waiting.push_back(std::make_unique<Socket>(port()));
-      waiting.back()->send("GET " + job + " HTTP/1.1\r\nHost: a\r\nPrefer: wait=30\r\n\r\n");
+      waiting.back()->send("GET " + job + " HTTP/1.1\r\nHost: localhost\r\nPrefer: wait=30\r\n\r\n");
     }
     for (int i = 0; i < 100 && gauge(port(), "snapthrough_connections") < before + 100; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -361,6 +367,32 @@ TEST_F(ServiceTest, AClientThatLeavesWhileItsAnswerWaitsIsLetGo) {
   EXPECT_LT(std::chrono::steady_clock::now() - left, std::chrono::seconds(1));
   solver->open();
   EXPECT_EQ(json::parse(get(port(), job, {"Prefer: wait=20"}).body)["status"], "successful");
+}
+
+/// Without keys whoever reaches the port may do everything: pages of other sites must not reach it.
+TEST_F(ServiceTest, WithoutKeysOnlyLocalNamesAndPagesOfItsOwnAreAnswered) {
+  start(gated(std::make_shared<GatedSolver>()));
+  const auto status = [&](const std::string& host, const std::string& origin = "") {
+    Socket socket(port());
+    socket.send("GET /v1/limits HTTP/1.1\r\nHost: " + host + "\r\n" +
+                (origin.empty() ? "" : "Origin: " + origin + "\r\n") + "Connection: close\r\n\r\n");
+    return socket.receive().status;
+  };
+  for (const char* host :
+       {"localhost", "localhost:8080", "127.0.0.1:8080", "127.0.0.1", "[::1]:8080", "LocalHost"})
+    EXPECT_EQ(status(host), 200) << host;
+  for (const char* host :
+       {"evil.example", "127.0.0.1.evil.example", "localhost.evil.example:8080", "192.0.2.1"})
+    EXPECT_EQ(status(host), 403) << host;
+  EXPECT_EQ(status("localhost:8080", "http://localhost:8080"), 200);
+  for (const char* origin : {"http://evil.example", "null", "https://localhost:8080", "http://localhost:9"})
+    EXPECT_EQ(status("localhost:8080", origin), 403) << origin;
+}
+
+TEST_F(ServiceTest, ALongHeaderThatIsAllowedIsServed) {
+  start(gated(std::make_shared<GatedSolver>()));
+  EXPECT_EQ(get(port(), "/livez", {"X-Long: " + std::string(8000, 'x')}).status, 200);
+  EXPECT_EQ(get(port(), "/livez", {"X-Long: " + std::string(9000, 'x')}).status, 431);
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 namespace snapthrough::server::http {
 namespace {
 
+/// With a Host where there is none.
 Head head_of(const std::string& lines, const WireLimits& limits = {}) {
-  return read_head(lines + "\r\n", limits);
+  const std::string host = lines.find("Host:") == std::string::npos ? "Host: a\r\n" : "";
+  return read_head(lines + host + "\r\n", limits);
 }
 int refusal(const std::string& lines, const WireLimits& limits = {}) {
   const Head head = head_of(lines, limits);
@@ -26,6 +28,33 @@ TEST(Wire, ReadsWhatFollowsTheHead) {
 TEST(Wire, ARequestWithoutBodyNeedsNoLength) {
   EXPECT_EQ(refusal("GET / HTTP/1.1\r\n"), 0);
   EXPECT_EQ(head_of("GET / HTTP/1.1\r\n").body_bytes, 0U);
+}
+
+TEST(Wire, ARequestOfHttp11NeedsAHost) {
+  EXPECT_EQ(read_head("GET / HTTP/1.1\r\n\r\n", {}).refusal->status, 400);
+  EXPECT_FALSE(read_head("GET / HTTP/1.0\r\n\r\n", {}).refusal);
+}
+
+TEST(Wire, AnIdempotencyKeyThatIsEmptyIsRefused) {
+  EXPECT_EQ(refusal("GET / HTTP/1.1\r\nIdempotency-Key: \r\n"), 400);
+  EXPECT_EQ(refusal("GET / HTTP/1.1\r\nIdempotency-Key: a\r\n"), 0);
+}
+
+TEST(Wire, ATargetMayNameSchemeAndHost) {
+  EXPECT_EQ(head_of("GET http://a:1/v1/jobs?x=1 HTTP/1.1\r\n").target, "/v1/jobs?x=1");
+  EXPECT_EQ(head_of("GET HTTP://a HTTP/1.1\r\n").target, "/");
+  EXPECT_EQ(cleaned_head("GET http://a/livez HTTP/1.1\r\nHost: a\r\n\r\n").substr(0, 20),
+            "GET /livez HTTP/1.1\r");
+}
+
+/// The library reads so much of a line; what is allowed is served.
+TEST(Wire, TheLimitOfOneHeaderIsExact) {
+  const auto with = [](std::size_t bytes) {
+    const std::string name = "X-Long: ";
+    return refusal("GET / HTTP/1.1\r\n" + name + std::string(bytes - name.size() - 2, 'x') + "\r\n");
+  };
+  EXPECT_EQ(with(8192), 0);
+  EXPECT_EQ(with(8193), 431);
 }
 
 TEST(Wire, ABodyNeedsALength) {
@@ -76,7 +105,7 @@ TEST(Wire, LongTargetsAndManyHeadersAreRefused) {
   EXPECT_EQ(refusal("GET /" + std::string(limits.target_bytes - 1, 'a') + " HTTP/1.1\r\n"), 0);
   EXPECT_EQ(refusal("GET /" + std::string(limits.target_bytes, 'a') + " HTTP/1.1\r\n"), 414);
   std::string headers;
-  for (std::size_t i = 0; i < limits.header_count; ++i) {
+  for (std::size_t i = 1; i < limits.header_count; ++i) {  // Host is one, too
     headers += "A: b\r\n";
   }
   EXPECT_EQ(refusal("GET / HTTP/1.1\r\n" + headers), 0);

@@ -98,7 +98,7 @@ class ServiceTest : public testing::Test {
   /// Begins to follow the events of a job or sweep. @param last_id of the last that was seen
   static void follow(Socket& stream, const std::string& path, const std::string& last_id = "") {
     const std::string seen = last_id.empty() ? "" : "Last-Event-ID: " + last_id + "\r\n";
-    stream.send("GET " + path + "/events HTTP/1.1\r\nHost: a\r\n" + seen + "\r\n");
+    stream.send("GET " + path + "/events HTTP/1.1\r\nHost: localhost\r\n" + seen + "\r\n");
     EXPECT_EQ(stream.receive().header("Content-Type"), "text/event-stream");
   }
   /// The events of something that the solver works on and ends when its gate is opened.
