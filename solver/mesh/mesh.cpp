@@ -7,6 +7,8 @@
 #include <string>
 #include <variant>
 
+#include "solver/model/id_index.h"
+
 namespace snapthrough {
 namespace {
 
@@ -123,10 +125,11 @@ void add_elements(Mesh& mesh, int member, const std::vector<double>& breaks, con
 
 Axes make_axes(const Model& model) {
   const Node& origin = model.nodes.front();
+  const IdIndex nodes(model.nodes);
   Axes axes;
   for (const Member& member : model.members) {
-    const Node& a = model.nodes[index_of(model.nodes, member.start)];
-    const Node& b = model.nodes[index_of(model.nodes, member.end)];
+    const Node& a = model.nodes[nodes.of(member.start)];
+    const Node& b = model.nodes[nodes.of(member.end)];
     Curve curve = member.curve;
     if (auto* points = std::get_if<PointsCurve>(&curve))
       for (auto& point : points->points) point = {point[0] - origin.x, point[1] - origin.y};

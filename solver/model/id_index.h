@@ -1,0 +1,32 @@
+#pragma once
+/// @file
+/// Positions of things by their ids.
+
+#include <cstddef>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace snapthrough {
+
+/// @brief Finds things by id without a search of the list each time: loops over a model stay linear in it.
+///
+/// Refers to the ids, which must outlive it.
+class IdIndex {
+ public:
+  template <class T>
+  explicit IdIndex(const std::vector<T>& things) {
+    positions_.reserve(things.size());
+    for (std::size_t i = 0; i < things.size(); ++i) positions_.emplace(things[i].id, static_cast<int>(i));
+  }
+  /// -1 when there is none.
+  [[nodiscard]] int of(std::string_view id) const {
+    const auto found = positions_.find(id);
+    return found == positions_.end() ? -1 : found->second;
+  }
+
+ private:
+  std::unordered_map<std::string_view, int> positions_;
+};
+
+}  // namespace snapthrough
