@@ -63,6 +63,7 @@ std::string_view reason_phrase(int status) {
       {304, "Not Modified"},
       {400, "Bad Request"},
       {401, "Unauthorized"},
+      {403, "Forbidden"},
       {404, "Not Found"},
       {405, "Method Not Allowed"},
       {406, "Not Acceptable"},

@@ -286,6 +286,8 @@ class Mechanism {
 
   /// One vector of the rigid parts' unknowns a motion, orthonormal.
   [[nodiscard]] const std::vector<Eigen::VectorXd>& motions() const { return motions_; }
+  /// Whether the parts are connected in too many ways to tell.
+  [[nodiscard]] bool unknown() const { return unknown_; }
   /// Displacements of the joints (x, y, rotation each).
   [[nodiscard]] Eigen::VectorXd of_joints(const Eigen::VectorXd& motion) const;
   /// The node that moves most.
@@ -296,6 +298,7 @@ class Mechanism {
  private:
   RigidParts parts_;
   std::vector<Eigen::VectorXd> motions_;
+  bool unknown_ = false;
 };
 
 Mechanism::Mechanism(const Model& model, bool one_sided) : parts_(model) {
@@ -305,6 +308,7 @@ Mechanism::Mechanism(const Model& model, bool one_sided) : parts_(model) {
   std::vector<Row> sizes = parts_.turns();
   sizes.insert(sizes.end(), holding.moved.begin(), holding.moved.end());
   NullSpace space(matrix_of(rows, parts_.unknowns()), matrix_of(sizes, parts_.unknowns()), kOneDirection);
+  unknown_ = space.too_dense();
   while (motions_.size() < kMostMotions) {
     std::optional<Eigen::VectorXd> motion = space.next();
     if (!motion) break;
@@ -370,6 +374,11 @@ Eigen::MatrixXd free_motions(const Model& model) {
 std::vector<Finding> find_mechanism(const Model& model) {
   if (is_plainly_held(model)) return {};
   const Mechanism mechanism(model, true);
+  if (mechanism.unknown())
+    return {
+        {"/model/members", "too_connected",
+         "these members connect far nodes in so many ways that their equations fill up: neither whether the "
+         "structure can move nor what it does under load can be computed in reasonable time"}};
   if (mechanism.motions().empty()) return {};
   if (mechanism.motions().size() == kMostMotions)
     return {{"/model/supports", "mechanism",

@@ -11,7 +11,8 @@ namespace snapthrough {
 
 /// @brief A finding with code "mechanism" when the loads do work on a motion of the unloaded structure
 /// without strain, with one-sided supports counted as glued; empty otherwise. A motion that no load drives is
-/// none: the analysis holds it and tells of it (Result::neutral_motion).
+/// none: the analysis holds it and tells of it (Result::neutral_motion). With code "too_connected" when that
+/// would take too long.
 /// @pre the model passed all other checks
 [[nodiscard]] std::vector<Finding> find_mechanism(const Model& model);
 

@@ -21,13 +21,16 @@ NullSpace::NullSpace(SparseMatrix<double> rows, SparseMatrix<double> sizes, doub
   // some roundings of each diagonal entry: the pivots of a singular matrix stay positive, and a vector of the
   // null space still grows a hundred times as fast as one that B maps to 1e-6
   constexpr double kShift = 1e-14;
+  constexpr Index kMostEntries = 2'000'000;  // of the factor: half a second
   SparseMatrix<double> squares = rows_.transpose() * rows_;
   SparseMatrix<double> shift(squares.rows(), squares.cols());
   shift.setIdentity();
   const VectorXd diagonal = squares.diagonal();
   for (Index i = 0; i < shift.cols(); ++i) shift.coeffRef(i, i) = kShift * std::max(diagonal[i], 1.0);
   squares += shift;
-  factor_.compute(squares);
+  factor_.analyzePattern(squares);
+  too_dense_ = factor_.entries() > kMostEntries;
+  if (!too_dense_) factor_.factorize(squares);
 }
 
 namespace {
@@ -53,7 +56,7 @@ bool NullSpace::is_null(const VectorXd& x) const {
 std::optional<VectorXd> NullSpace::next() {
   constexpr int kMostSteps = 30;
   constexpr int kRefinements = 3;
-  if (static_cast<Index>(found_.size()) == rows_.cols()) return std::nullopt;
+  if (too_dense_ || static_cast<Index>(found_.size()) == rows_.cols()) return std::nullopt;
   VectorXd x = pseudo_random(rows_.cols(), static_cast<unsigned>(found_.size()) + 1U);
   make_orthogonal(found_, x);
   x.normalize();
