@@ -8,10 +8,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <exception>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -30,6 +32,8 @@ using Clock = std::chrono::steady_clock;
 
 /// How often it is asked whether what is left of a list may wait.
 constexpr std::chrono::milliseconds kLook{20};
+/// Bytes of a frame beside what an analysis may hold.
+constexpr std::uint64_t kMostBeside = 1 << 20;
 /// Sweeps that a process is told of before it forgets them all.
 constexpr std::size_t kMostSweeps = 16;
 
@@ -155,6 +159,21 @@ ChildRunner::End ChildRunner::run_task(FrameType type, std::string_view body, Wa
   return attend(watch);
 }
 
+/// Takes a frame. What the process sends is not trusted: it may have been led astray by what it computes.
+/// @return whether it was the last; nothing when the process is gone, or talks nonsense and is killed
+std::optional<bool> ChildRunner::take_frame(Watch& watch) {
+  Frame frame;
+  try {
+    if (read_frame(socket_, frame, static_cast<std::uint64_t>(options_.memory) + kMostBeside)) {
+      return watch.take(frame);
+    }
+  } catch (const std::exception&) {
+    // the record is none, or larger than this process can hold
+  }
+  ::kill(process_, SIGKILL);
+  return std::nullopt;
+}
+
 /// Takes the frames of a task until its last one, the process' end, or the end of the grace that it has to
 /// stop in.
 ChildRunner::End ChildRunner::attend(Watch& watch) {
@@ -163,6 +182,9 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
     replace();
     return End::crashed;
   }
+  std::uint64_t count = 0;
+  // what a stop left that came while the process ended
+  [[maybe_unused]] const ssize_t left = ::read(alarm_, &count, sizeof count);
   const std::stop_callback on_stop(watch.stop, [this] {
     const std::uint64_t one = 1;
     // only full counters refuse, and those wake as well
@@ -174,18 +196,19 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
     std::array<pollfd, 2> fds{pollfd{socket_, POLLIN, 0}, pollfd{alarm_, POLLIN, 0}};
     std::optional<std::chrono::milliseconds> wait;
     if (deadline) {
-      wait = std::chrono::ceil<std::chrono::milliseconds>(*deadline - Clock::now());
+      wait = std::max(std::chrono::milliseconds(0),
+                      std::chrono::ceil<std::chrono::milliseconds>(*deadline - Clock::now()));
     } else if (watch.enough && !told_enough) {
       wait = kLook;
     }
     const int ready = ::poll(fds.data(), deadline ? 1 : 2, wait ? static_cast<int>(wait->count()) : -1);
     if (ready > 0 && fds[0].revents != 0) {
-      Frame frame;
-      if (!read_frame(socket_, frame)) {
+      const std::optional<bool> last = take_frame(watch);
+      if (!last) {
         return end_of_process(false);
       }
-      if (watch.take(frame)) {
-        break;
+      if (*last) {
+        return End::answered;
       }
     }
     if (!deadline && watch.stop.stop_requested()) {
@@ -205,10 +228,6 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
       }
     }
   }
-  std::uint64_t count = 0;
-  // empty unless a stop was requested
-  [[maybe_unused]] const ssize_t got = ::read(alarm_, &count, sizeof count);
-  return End::answered;
 }
 
 JobFailure ChildRunner::failure_of(End end, int crashes) const {

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "server/worker/frame.h"
@@ -58,6 +59,7 @@ class ChildRunner final : public Runner {
   [[nodiscard]] bool control(FrameType type);
   [[nodiscard]] std::uint64_t send_sweep(const PointTask& task);
   [[nodiscard]] End attend(Watch& watch);
+  [[nodiscard]] std::optional<bool> take_frame(Watch& watch);
   [[nodiscard]] End end_of_process(bool killed);
   /// What is left of a list of points, until the process has answered or ended.
   [[nodiscard]] End attempt_points(const PointTask& task, std::size_t& told, bool at_once, bool curve);

@@ -61,13 +61,16 @@ bool write_frame(int fd, FrameType type, std::string_view body) {
   return true;
 }
 
-bool read_frame(int fd, Frame& frame) {
+bool read_frame(int fd, Frame& frame, std::uint64_t most) {
   std::array<char, sizeof(Head)> bytes{};
   if (!read_all(fd, bytes.data(), bytes.size())) {
     return false;
   }
   Head head;
   std::memcpy(&head, bytes.data(), sizeof head);
+  if (head.size > most) {
+    return false;
+  }
   frame.type = head.type;
   frame.body.resize(head.size);
   return read_all(fd, frame.body.data(), frame.body.size());

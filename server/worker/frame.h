@@ -3,6 +3,7 @@
 /// Messages between the service and a runner, each with its length before it.
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -31,7 +32,9 @@ struct Frame {
 
 /// @brief Writes a whole frame. @return false when the other side is gone
 [[nodiscard]] bool write_frame(int fd, FrameType type, std::string_view body);
-/// @brief Waits for a whole frame. @return false when the other side is gone
-[[nodiscard]] bool read_frame(int fd, Frame& frame);
+/// @brief Waits for a whole frame. @return false when the other side is gone, or says that there are more
+/// than `most` bytes
+[[nodiscard]] bool read_frame(int fd, Frame& frame,
+                              std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
 }  // namespace snapthrough::server

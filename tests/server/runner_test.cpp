@@ -3,6 +3,7 @@
 /// come to that they had.
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <csignal>
@@ -145,6 +146,22 @@ TEST_F(RunnerTest, NewsOfALongAnalysisArriveWhileItRuns) {
   ASSERT_TRUE(run.failure);
   EXPECT_EQ(run.failure->code, "cancelled");
   EXPECT_GE(news, 5);
+}
+
+/// A process that was led astray may send anything; the service believes none of it.
+TEST_F(RunnerTest, OneThatTalksNonsenseIsOneThatCrashed) {
+  TempDir folder;
+  const std::string program = folder.file("nonsense");
+  for (const char* bytes : {"head -c 64 /dev/zero | tr '\\0' '\\377'", "head -c 64 /dev/zero"}) {
+    std::ofstream(program) << "#!/bin/sh\n" << bytes << " >&0\nsleep 5\n";
+    ASSERT_EQ(::chmod(program.c_str(), 0700), 0);
+    ChildRunnerOptions astray = options();
+    astray.executable = program;
+    ChildRunner runner(astray, counters_);
+    const JobRun run = runner.run_job(column_request(), {});
+    ASSERT_TRUE(run.failure);
+    EXPECT_EQ(run.failure->code, "crashed") << bytes;
+  }
 }
 
 /// A sweep over the points at which states are given: some need more than 16 MB.
