@@ -17,6 +17,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <stop_token>
 #include <utility>
 
@@ -36,8 +37,6 @@ constexpr std::chrono::milliseconds kLook{20};
 constexpr std::uint64_t kMostBeside = 1 << 20;
 /// Sweeps that a process is told of before it forgets them all.
 constexpr std::size_t kMostSweeps = 16;
-
-bool retries(int crashes, int most) { return crashes < most; }
 
 }  // namespace
 
@@ -257,6 +256,9 @@ JobRun ChildRunner::run_job(std::string_view request, const Hooks& hooks) {
                   RecordReader reader(frame.body);
                   if (frame.type == FrameType::job_run) {
                     reader.get(run);
+                    if (run.result.has_value() == run.failure.has_value()) {
+                      throw std::runtime_error("a job comes to a result or a failure");
+                    }
                     return true;
                   }
                   const auto progress = reader.get<std::optional<Progress>>();
@@ -271,7 +273,7 @@ JobRun ChildRunner::run_job(std::string_view request, const Hooks& hooks) {
       return run;
     }
     crashes += end == End::crashed ? 1 : 0;
-    if (end != End::crashed || !retries(crashes, options_.max_crashes) || hooks.stop.stop_requested()) {
+    if (end != End::crashed || crashes >= options_.max_crashes || hooks.stop.stop_requested()) {
       run.failure = failure_of(end, crashes);
       return run;
     }
@@ -315,7 +317,13 @@ ChildRunner::End ChildRunner::attempt_points(const PointTask& task, std::size_t&
   Watch watch{task.stop,
               [&](Frame& frame) {
                 for (RecordReader reader(frame.body); !reader.at_end(); ++told) {
+                  if (told == task.points.size()) {
+                    throw std::runtime_error("there are more outcomes than points");
+                  }
                   task.tell(reader.get<api::PointOutcome>());
+                }
+                if (frame.type == FrameType::done && curve && told < task.points.size()) {
+                  throw std::runtime_error("a curve is computed wholly");
                 }
                 return frame.type == FrameType::done;
               },
@@ -337,8 +345,7 @@ void ChildRunner::run_points(const PointTask& task) {
     crashes = (told == before ? crashes : 0) + (end == End::crashed ? 1 : 0);
     const bool sure = at_once || end != End::crashed;
     at_once = at_once || end == End::crashed;
-    if (told < task.points.size() && sure &&
-        !(end == End::crashed && retries(crashes, options_.max_crashes))) {
+    if (told < task.points.size() && sure && (end != End::crashed || crashes >= options_.max_crashes)) {
       const JobFailure failure = failure_of(end, crashes);
       task.tell({"", failure.code, failure.detail});
       ++told;
@@ -361,7 +368,7 @@ std::vector<api::PointOutcome> ChildRunner::run_curve(const PointTask& task) {
       return outcomes;
     }
     crashes += end == End::crashed ? 1 : 0;
-    if (end != End::crashed || !retries(crashes, options_.max_crashes) || task.stop.stop_requested()) {
+    if (end != End::crashed || crashes >= options_.max_crashes || task.stop.stop_requested()) {
       const JobFailure failure = failure_of(end, crashes);
       return std::vector<api::PointOutcome>(task.sweep.block(), {"", failure.code, failure.detail});
     }

@@ -69,7 +69,6 @@ bool confine_process(int parent) {
     return false;
   }
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  ::prctl(PR_SET_DUMPABLE, 0);
   limit(RLIMIT_CORE, 0);
   ::setpriority(PRIO_PROCESS, 0, kNice);
   write_once("/proc/self/oom_score_adj", "1000");
@@ -77,6 +76,7 @@ bool confine_process(int parent) {
 }
 
 void confine_calls() {
+  ::prctl(PR_SET_DUMPABLE, 0);  // from now on the files of /proc/self are not the user's any more
 #if !SNAPTHROUGH_OWN_RUNTIME && defined(__x86_64__)
   static constexpr std::array kAllowed{
       SYS_read,         SYS_write,          SYS_pread64,

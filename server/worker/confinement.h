@@ -11,8 +11,8 @@ namespace snapthrough::server {
 /// @return false when the parent is gone already
 [[nodiscard]] bool confine_process(int parent);
 
-/// @brief From now on the process can read, write, take memory and end; opening, connecting or starting
-/// anything ends it. Does nothing where the kernel has no filters.
+/// @brief From now on nobody of its user can look into the process, and it can read, write, take memory and
+/// end; opening, connecting or starting anything ends it. Does nothing where the kernel has no filters.
 void confine_calls();
 
 /// Memory of this process and its bound.

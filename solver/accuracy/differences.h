@@ -13,7 +13,7 @@ inline constexpr int kMostLevels = 6;
 /// @brief Estimates the relative error of a load on each mesh by its difference to the next one.
 ///
 /// Twice the difference, because the finer mesh's error may be half of the coarser one's where both are so
-/// coarse that errors change their sign from order to order. Successive differences must fall by four;
+/// coarse that errors change their sign from mesh to mesh. Successive differences must fall by four;
 /// otherwise the larger one counts.
 class Differences {
  public:
