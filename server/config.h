@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "server/http/keys.h"
-#include "server/http/listener.h"
-#include "server/http/routes.h"
-#include "server/jobs/desk.h"
+#include "server/front/keys.h"
+#include "server/front/listener.h"
+#include "server/jobs/job_service.h"
 #include "server/log/log.h"
+#include "server/resources/routes.h"
 
 namespace snapthrough::server {
 

@@ -5,12 +5,12 @@
 
 #include "api/json_text.h"
 #include "api/sweep.h"
-#include "server/http/gateway.h"
-#include "server/http/listener.h"
-#include "server/http/routes.h"
-#include "server/jobs/desk.h"
+#include "server/front/gateway.h"
+#include "server/front/listener.h"
+#include "server/jobs/job_service.h"
 #include "server/maintenance/upkeep.h"
 #include "server/metrics/metrics.h"
+#include "server/resources/routes.h"
 #include "server/store/sqlite/sqlite_store.h"
 #include "server/worker/child_runner.h"
 #include "solver/model/limits.h"
@@ -20,7 +20,7 @@ namespace snapthrough::server {
 namespace {
 
 std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig& config) {
-  const http::WireLimits& wire = config.listener.limits;
+  const http::HeadLimits& wire = config.listener.limits;
   const auto number = [](auto value) { return static_cast<double>(value); };
   const api::ParseLimits parse;
   return {{"body_bytes", number(wire.body_bytes)},
@@ -69,14 +69,12 @@ struct Service::Parts {
   Parts(const ServiceConfig& config, const Environment& environment, const RunnerFactory& runners, Log& log,
         std::unique_ptr<Store> opened)
       : store(std::move(opened)),
-        desk(*store, environment, log, config.jobs),
-        upkeep(desk,
-               DiskGuard(config.store_path, static_cast<std::uint64_t>(config.ballast_bytes),
-                         static_cast<std::uint64_t>(config.least_free_bytes)),
-               log),
-        workers(config.workers, desk,
-                runners ? runners : child_runners(runner_options(config), runner_counters), log),
-        routes(desk, config.waits,
+        jobs(*store, environment, log, config.jobs),
+        upkeep(jobs.context(), DiskGuard(config.store_path, static_cast<std::uint64_t>(config.ballast_bytes),
+                                         static_cast<std::uint64_t>(config.least_free_bytes))),
+        workers(config.workers, jobs.context(),
+                runners ? runners : child_runners(runner_options(config), runner_counters)),
+        routes(jobs, config.waits,
                {[this] { return metrics_text(); }, [this] { return not_ready(); }, published_limits(config)}),
         gateway(routes, environment, log, http::KeyRing(config.keys), metrics),
         listener(config.listener, gateway),
@@ -86,7 +84,7 @@ struct Service::Parts {
   [[nodiscard]] std::string not_ready();
 
   std::unique_ptr<Store> store;
-  JobDesk desk;
+  JobService jobs;
   Upkeep upkeep;
   RunnerCounters runner_counters;
   WorkerPool workers;
@@ -101,21 +99,22 @@ std::string Service::Parts::metrics_text() {
   std::string text;
   metrics.write(text);
   const http::ListenerLoad load = listener.load();
-  const StoreHealth& health = desk.health();
+  const StoreHealth& health = jobs.context().health;
   const auto gauge = [&](const char* name, const char* help, double value) {
     write_metric(text, name, "gauge", help, value);
   };
   gauge("snapthrough_connections", "Open connections.", load.connections);
   gauge("snapthrough_streams", "Open streams of events.", load.streams);
   gauge("snapthrough_buffered_bytes", "Of incomplete requests.", static_cast<double>(load.buffered_bytes));
-  gauge("snapthrough_jobs_waiting", "Accepted jobs, about.", static_cast<double>(desk.waiting()));
-  gauge("snapthrough_jobs_running", "Analyses of this process.", static_cast<double>(desk.active().count()));
-  const PointCounters& points = desk.sweeps().counters();
+  gauge("snapthrough_jobs_waiting", "Accepted jobs, about.", static_cast<double>(jobs.context().waiting));
+  gauge("snapthrough_jobs_running", "Analyses of this process.",
+        static_cast<double>(jobs.context().active.count()));
+  const PointCounters& points = jobs.sweeps().counters();
   const auto counter = [&](const char* name, const char* help, std::int64_t value) {
     write_metric(text, name, "counter", help, static_cast<double>(value));
   };
   gauge("snapthrough_sweeps_active", "Sweeps that points are given out of.",
-        static_cast<double>(desk.sweeps().board().count()));
+        static_cast<double>(jobs.sweeps().scheduler().count()));
   counter("snapthrough_sweep_points_solved_total", "Points that were solved.", points.solved);
   counter("snapthrough_sweep_points_failed_total", "Points that were tried and failed.", points.failed);
   counter("snapthrough_sweep_points_reused_total", "Points that were known already.", points.reused);
@@ -130,7 +129,7 @@ std::string Service::Parts::metrics_text() {
 }
 
 std::string Service::Parts::not_ready() {
-  const StoreHealth& health = desk.health();
+  const StoreHealth& health = jobs.context().health;
   if (health.draining) {
     return "The service is stopping.";
   }
@@ -140,7 +139,7 @@ std::string Service::Parts::not_ready() {
   if (!health.has_space) {
     return "The disk of the store is nearly full.";
   }
-  if (desk.waiting() >= desk.limits().queue) {
+  if (jobs.context().waiting >= jobs.limits().queue) {
     return "The queue is full.";
   }
   return store->get("").ok() ? "" : "The store can't be read.";
@@ -195,8 +194,8 @@ void Service::stop() {
   if (!parts_) {
     return;
   }
-  parts_->desk.health().draining = true;
-  parts_->desk.ends().close();
+  parts_->jobs.context().health.draining = true;
+  parts_->jobs.context().completions.close();
   parts_->listener.stop();
   parts_->workers.stop();
   parts_.reset();

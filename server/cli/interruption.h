@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <thread>
 
-#include "server/http/sockets.h"
+#include "server/front/sockets.h"
 
 namespace snapthrough::server::cli {
 

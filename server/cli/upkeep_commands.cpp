@@ -9,7 +9,7 @@
 #include <string>
 
 #include "server/cli/commands.h"
-#include "server/http/sockets.h"
+#include "server/front/sockets.h"
 #include "server/store/sqlite/sqlite_store.h"
 
 namespace snapthrough::server::cli {

@@ -32,10 +32,10 @@ void log_recovery(Log& log, const Recovery& recovery, std::string_view why) {
 
 void Upkeep::run_once(Time now) {
   look_at_disk(now);
-  desk_.active().stop_older(now - desk_.limits().longest_run, StopReason::time_limit);
-  desk_.sweeps().board().stop_older(now - desk_.limits().longest_run);
+  context_.active.stop_older(now - context_.limits.longest_run, StopReason::time_limit);
+  context_.sweeps.scheduler().stop_older(now - context_.limits.longest_run);
   if (now >= next_renewal_) {
-    next_renewal_ = now + desk_.limits().lease / 4;
+    next_renewal_ = now + context_.limits.lease / 4;
     renew_leases(now);
     rescue(now);
   }
@@ -48,77 +48,78 @@ void Upkeep::run_once(Time now) {
 }
 
 void Upkeep::renew_leases(Time now) {
-  const std::vector<Claim> held = desk_.active().older(now - desk_.limits().lease / 8);
+  const std::vector<Claim> held = context_.active.older(now - context_.limits.lease / 8);
   if (held.empty()) {
     return;
   }
-  const StatusOr<std::vector<std::string>> lost = desk_.store().renew(held, now + desk_.limits().lease, now);
+  const StatusOr<std::vector<std::string>> lost =
+      context_.store.renew(held, now + context_.limits.lease, now);
   if (!lost.ok()) {
-    log_.write(LogLevel::error, "store", {{"detail", std::string_view(lost.status().message())}});
+    context_.log.write(LogLevel::error, "store", {{"detail", std::string_view(lost.status().message())}});
     return;
   }
   for (const std::string& id : *lost) {
-    desk_.active().stop(id, StopReason::lease_lost);
+    context_.active.stop(id, StopReason::lease_lost);
   }
 }
 
 void Upkeep::rescue(Time now) {
   const StatusOr<Recovery> recovery =
-      desk_.store().rescue(desk_.new_lease().worker, desk_.limits().max_crashes, now);
+      context_.store.rescue(context_.new_lease().worker, context_.limits.max_crashes, now);
   if (!recovery.ok()) {
     return;  // it is tried again soon, and the disk is looked at
   }
-  log_recovery(log_, *recovery, "the lease of the worker ran out");
+  log_recovery(context_.log, *recovery, "the lease of the worker ran out");
   for (const std::string& id : recovery->failed) {
-    desk_.ends().announce(id);
+    context_.completions.announce(id);
   }
   for (std::size_t i = 0; i < recovery->requeued.size(); ++i) {
-    desk_.add_waiting(1);
-    desk_.exchange().ring();
+    context_.waiting += 1;
+    context_.handoffs.ring();
   }
 }
 
 void Upkeep::look_at_disk(Time now) {
-  StoreHealth& health = desk_.health();
+  StoreHealth& health = context_.health;
   const bool before = health.writable && health.has_space;
-  const Status probe = desk_.store().probe(now);
+  const Status probe = context_.store.probe(now);
   health.writable = probe.ok();
   health.has_space = guard_.check(probe.ok());
   if (const bool after = health.writable && health.has_space; after != before) {
-    log_.write(after ? LogLevel::info : LogLevel::error, "disk",
-               {{"writable", health.writable.load()},
-                {"has_space", health.has_space.load()},
-                {"free_bytes", static_cast<std::int64_t>(guard_.free_bytes())},
-                {"detail", std::string_view(probe.message())}});
+    context_.log.write(after ? LogLevel::info : LogLevel::error, "disk",
+                       {{"writable", health.writable.load()},
+                        {"has_space", health.has_space.load()},
+                        {"free_bytes", static_cast<std::int64_t>(guard_.free_bytes())},
+                        {"detail", std::string_view(probe.message())}});
   }
 }
 
 void Upkeep::retire(Time now) {
-  const JobLimits& limits = desk_.limits();
+  const JobLimits& limits = context_.limits;
   if (limits.keep_jobs.count() > 0) {
     StatusOr<int> retired = kRetiredAtOnce;
     int total = 0;
     while (retired.ok() && *retired == kRetiredAtOnce) {
-      retired = desk_.store().retire(now - limits.keep_jobs, kRetiredAtOnce);
+      retired = context_.store.retire(now - limits.keep_jobs, kRetiredAtOnce);
       total += retired.ok() ? *retired : 0;
     }
     if (total > 0) {
-      log_.write(LogLevel::info, "retired", {{"jobs", static_cast<std::int64_t>(total)}});
+      context_.log.write(LogLevel::info, "retired", {{"jobs", static_cast<std::int64_t>(total)}});
     }
   }
-  if (const Status status = desk_.store().forget_keys(now - limits.keep_keys); !status.ok()) {
-    log_.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
+  if (const Status status = context_.store.forget_keys(now - limits.keep_keys); !status.ok()) {
+    context_.log.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
   }
 }
 
 /// Sweeps that are kept no longer, and the space of those that were removed.
 void Upkeep::retire_sweeps(Time now) {
-  SweepStore& store = desk_.store().sweeps();
-  const JobLimits& limits = desk_.limits();
+  SweepStore& store = context_.store.sweeps();
+  const JobLimits& limits = context_.limits;
   if (limits.keep_jobs.count() > 0) {
     const StatusOr<int> retired = store.retire(now - limits.keep_jobs);
     if (retired.ok() && *retired > 0) {
-      log_.write(LogLevel::info, "retired", {{"sweeps", static_cast<std::int64_t>(*retired)}});
+      context_.log.write(LogLevel::info, "retired", {{"sweeps", static_cast<std::int64_t>(*retired)}});
     }
   }
   StatusOr<bool> more = true;
@@ -126,13 +127,13 @@ void Upkeep::retire_sweeps(Time now) {
     more = store.purge(kPurgedRows);
   }
   if (const Status status = store.forget_keys(now - limits.keep_keys); !status.ok()) {
-    log_.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
+    context_.log.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
   }
 }
 
 void Upkeep::count_waiting() {
-  if (const StatusOr<JobCounts> counts = desk_.store().counts(); counts.ok()) {
-    desk_.set_waiting((*counts)[static_cast<std::size_t>(JobState::accepted)]);
+  if (const StatusOr<JobCounts> counts = context_.store.counts(); counts.ok()) {
+    context_.waiting = (*counts)[static_cast<std::size_t>(JobState::accepted)];
   }
 }
 

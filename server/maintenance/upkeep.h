@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "server/jobs/desk.h"
+#include "server/jobs/worker_context.h"
 #include "server/log/log.h"
 #include "server/maintenance/disk_guard.h"
 
@@ -13,7 +13,7 @@ namespace snapthrough::server {
 /// @brief The recurring work. run_once() from one thread; the parts it is given must outlive it.
 class Upkeep {
  public:
-  Upkeep(JobDesk& desk, DiskGuard guard, Log& log) : desk_(desk), guard_(std::move(guard)), log_(log) {}
+  Upkeep(const WorkerContext& context, DiskGuard guard) : context_(context), guard_(std::move(guard)) {}
 
   /// Does what is due at that time.
   void run_once(Time now);
@@ -26,9 +26,8 @@ class Upkeep {
   void retire_sweeps(Time now);
   void count_waiting();
 
-  JobDesk& desk_;
+  const WorkerContext& context_;
   DiskGuard guard_;
-  Log& log_;
   Time next_renewal_{};
   Time next_retirement_{};
 };

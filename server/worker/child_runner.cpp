@@ -67,21 +67,21 @@ void ChildRunner::close_ends() {
 }
 
 void ChildRunner::start() {
-  std::array<int, 2> ends{};
+  std::array<int, 2> completions{};
   std::array<int, 2> controls{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, completions.data()) != 0) {
     ended_by_ = std::string("it could not be started: ") + std::strerror(errno);
     return;  // the next task finds no process
   }
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, controls.data()) != 0) {
     ended_by_ = std::string("it could not be started: ") + std::strerror(errno);
-    ::close(ends[0]);
-    ::close(ends[1]);
+    ::close(completions[0]);
+    ::close(completions[1]);
     return;
   }
   posix_spawn_file_actions_t actions{};
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], kTaskSocket);
+  posix_spawn_file_actions_adddup2(&actions, completions[1], kTaskSocket);
   posix_spawn_file_actions_adddup2(&actions, controls[1], kControlPipe);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addclosefrom_np(&actions, kControlPipe + 1);
@@ -107,9 +107,9 @@ void ChildRunner::start() {
                                    arguments.data(), environment.data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  ::close(ends[1]);
+  ::close(completions[1]);
   ::close(controls[1]);
-  socket_ = ends[0];
+  socket_ = completions[0];
   control_ = controls[0];
   if (failed != 0) {
     ended_by_ = std::string("it could not be started: ") + std::strerror(failed);

@@ -44,7 +44,7 @@ std::vector<Pending> pending_points(const Chunk& chunk) {
 }
 
 /// Takes what is known already.
-void look_up(const Chunk& chunk, JobDesk& desk, Work& work) {
+void look_up(const Chunk& chunk, const WorkerContext& context, Work& work) {
   if (!chunk.sweep->reuse) {
     return;
   }
@@ -52,7 +52,7 @@ void look_up(const Chunk& chunk, JobDesk& desk, Work& work) {
   for (const Pending& pending : work.pending) {
     keys.push_back(pending.key);
   }
-  const auto found = desk.sweeps().find_outputs(keys);
+  const auto found = context.sweeps.find_outputs(keys);
   if (!found.ok()) {
     return;  // they are computed then
   }
@@ -68,43 +68,46 @@ void look_up(const Chunk& chunk, JobDesk& desk, Work& work) {
   work.pending = std::move(unknown);
 }
 
-bool is_late(double seconds, const JobDesk& desk) {
-  return seconds > kLongest || (seconds > kLongestWhileJobsWait && desk.waiting() > 0);
+bool is_late(double seconds, const WorkerContext& context) {
+  return seconds > kLongest || (seconds > kLongestWhileJobsWait && context.waiting > 0);
 }
 
 /// Computes what is pending; what it does not come to is left as the rest.
-void compute(const Chunk& chunk, JobDesk& desk, Runner& runner, SweepBoard::Watch& watch, Work& work) {
-  const double start = desk.environment().monotonic_seconds();
+void compute(const Chunk& chunk, const WorkerContext& context, Runner& runner, PointScheduler::Watch& watch,
+             Work& work) {
+  const double start = context.environment.monotonic_seconds();
   std::vector<std::uint64_t> points;
   for (const Pending& pending : work.pending) {
     points.push_back(pending.point);
   }
   std::size_t next = 0;
-  const auto late = [&] { return is_late(desk.environment().monotonic_seconds() - start, desk); };
+  const auto late = [&] { return is_late(context.environment.monotonic_seconds() - start, context); };
   const auto take = [&](api::PointOutcome outcome) {
     if (outcome.code == "cancelled" && watch.reason() == StopReason::time_limit) {
-      outcome = {"", "time_limit",
-                 "the analysis took longer than " + std::to_string(desk.limits().longest_run.count()) + " s"};
+      outcome = {
+          "", "time_limit",
+          "the analysis took longer than " + std::to_string(context.limits.longest_run.count()) + " s"};
     } else if (outcome.code == "cancelled") {
       return;
     }
     work.rows.push_back({points[next], std::move(outcome), std::move(work.pending[next].key)});
     ++next;
-    watch.begin(desk.environment().now());
+    watch.begin(context.environment.now());
   };
-  watch.begin(desk.environment().now());
+  watch.begin(context.environment.now());
   runner.run_points(
       {chunk.sweep->id, chunk.sweep->document, chunk.sweep->sweep, points, watch.token(), late, take});
   work.rest.assign(points.begin() + static_cast<std::ptrdiff_t>(next), points.end());
 }
 
 /// Computes a curve, wholly or not at all.
-void compute_curve(const Chunk& chunk, JobDesk& desk, Runner& runner, SweepBoard::Watch& watch, Work& work) {
+void compute_curve(const Chunk& chunk, const WorkerContext& context, Runner& runner,
+                   PointScheduler::Watch& watch, Work& work) {
   if (work.pending.empty()) {
     return;
   }
   work.rows.clear();  // what was found of a curve is not enough
-  watch.begin(desk.environment().now());
+  watch.begin(context.environment.now());
   std::vector<api::PointOutcome> outcomes = runner.run_curve(
       {chunk.sweep->id, chunk.sweep->document, chunk.sweep->sweep, chunk.points, watch.token()});
   const std::string curve = chunk.sweep->sweep.curve_text(chunk.points.front());
@@ -131,28 +134,29 @@ void pause(const std::stop_token& stop) {
 
 }  // namespace
 
-void work_on(const Chunk& chunk, JobDesk& desk, Runner& runner, Log& log, const std::stop_token& stop) {
-  SweepBoard::Watch watch(desk.sweeps().board(), desk.environment().now());
+void work_on(const Chunk& chunk, const WorkerContext& context, Runner& runner, const std::stop_token& stop) {
+  PointScheduler::Watch watch(context.sweeps.scheduler(), context.environment.now());
   const std::stop_callback on_shutdown(stop, [&] { watch.stop(StopReason::shutdown); });
   const std::stop_callback on_dismissal(chunk.sweep->stopped(), [&] { watch.stop(StopReason::dismissed); });
-  const double start = desk.environment().monotonic_seconds();
+  const double start = context.environment.monotonic_seconds();
   Work work;
   work.pending = pending_points(chunk);
-  look_up(chunk, desk, work);
+  look_up(chunk, context, work);
   if (chunk.sweep->sweep.follows()) {
-    compute_curve(chunk, desk, runner, watch, work);
+    compute_curve(chunk, context, runner, watch, work);
   } else {
-    compute(chunk, desk, runner, watch, work);
+    compute(chunk, context, runner, watch, work);
   }
-  const double seconds = desk.environment().monotonic_seconds() - start;
-  Status status = desk.sweeps().settle(chunk, work.rows, work.rest, seconds);
+  const double seconds = context.environment.monotonic_seconds() - start;
+  Status status = context.sweeps.settle(chunk, work.rows, work.rest, seconds);
   while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
     pause(stop);
-    status = desk.sweeps().settle(chunk, work.rows, work.rest, seconds);
+    status = context.sweeps.settle(chunk, work.rows, work.rest, seconds);
   }
   if (!status.ok() && status.code() != StatusCode::conflict) {
-    log.write(LogLevel::error, "store",
-              {{"sweep", std::string_view(chunk.sweep->id)}, {"detail", std::string_view(status.message())}});
+    context.log.write(
+        LogLevel::error, "store",
+        {{"sweep", std::string_view(chunk.sweep->id)}, {"detail", std::string_view(status.message())}});
   }
 }
 

@@ -2,7 +2,7 @@
 /// @file
 /// Some points of a sweep, worked on by one thread.
 
-#include "server/jobs/desk.h"
+#include "server/jobs/worker_context.h"
 #include "server/worker/runner.h"
 
 namespace snapthrough::server {
@@ -12,6 +12,6 @@ namespace snapthrough::server {
 /// Points of the same content that were solved before are not solved again. A point that fails is a row like
 /// the others. It ends early when jobs wait, when it takes long, or when the service stops: what was not
 /// computed is given out again. While the store can't be written, the rows are kept and tried again.
-void work_on(const Chunk& chunk, JobDesk& desk, Runner& runner, Log& log, const std::stop_token& stop);
+void work_on(const Chunk& chunk, const WorkerContext& context, Runner& runner, const std::stop_token& stop);
 
 }  // namespace snapthrough::server

@@ -19,9 +19,9 @@ constexpr duration<double> kLongestNap{1.0};
 constexpr duration<double> kRetryPause{0.2};
 
 /// Hooks that let the followers of a job know what its analysis does.
-Hooks told_hooks(const Claim& claim, ProgressBoard& board, const std::stop_token& stop) {
-  const auto tell = [&claim, &board](auto change) {
-    board.update(claim.id, [&](JobNews& news) {
+Hooks told_hooks(const Claim& claim, JobProgress& topic, const std::stop_token& stop) {
+  const auto tell = [&claim, &topic](auto change) {
+    topic.update(claim.id, [&](JobNews& news) {
       news.attempt = claim.attempt;
       ++news.number;
       change(news);
@@ -61,19 +61,19 @@ void log_trouble(Log& log, const Claim& claim, const Status& status) {
              {"detail", std::string_view(status.message())}});
 }
 
-Status store_once(const Claim& claim, JobRun& outcome, JobDesk& desk) {
-  const Time now = desk.environment().now();
+Status store_once(const Claim& claim, JobRun& outcome, const WorkerContext& context) {
+  const Time now = context.environment.now();
   if (!outcome.result) {
-    return desk.store().fail(claim, *outcome.failure, outcome.reached, now);
+    return context.store.fail(claim, *outcome.failure, outcome.reached, now);
   }
-  Status status = desk.store().finish(claim, *outcome.result, now);
+  Status status = context.store.finish(claim, *outcome.result, now);
   if (status.code() != StatusCode::io_error) {
     return status;
   }
   // The result itself can't be stored (a number that is none): say so rather than leave the job running.
   outcome.result.reset();
   outcome.failure = JobFailure{"not_stored", "the result could not be stored: " + status.message(), ""};
-  return desk.store().fail(claim, *outcome.failure, {}, now);
+  return context.store.fail(claim, *outcome.failure, {}, now);
 }
 
 void pause(const std::stop_token& stop, duration<double> time) {
@@ -85,37 +85,37 @@ void pause(const std::stop_token& stop, duration<double> time) {
 
 /// Stores the outcome; while the store can't be written, again and again until the claim is lost or the
 /// service stops: the job is found running at the next start then.
-Status store_outcome(const Claim& claim, JobRun& outcome, JobDesk& desk, Log& log,
+Status store_outcome(const Claim& claim, JobRun& outcome, const WorkerContext& context,
                      const std::stop_token& stop) {
-  Status status = store_once(claim, outcome, desk);
+  Status status = store_once(claim, outcome, context);
   if (status.code() == StatusCode::unavailable) {
-    log_trouble(log, claim, status);
+    log_trouble(context.log, claim, status);
   }
   while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
-    desk.health().writable = false;
+    context.health.writable = false;
     pause(stop, kRetryPause);
-    status = store_once(claim, outcome, desk);
+    status = store_once(claim, outcome, context);
   }
   return status;
 }
 
-void give_back(const Claim& claim, JobDesk& desk, Log& log) {
-  if (const Status status = desk.store().requeue(claim); !status.ok()) {
-    return log_trouble(log, claim, status);
+void give_back(const Claim& claim, const WorkerContext& context) {
+  if (const Status status = context.store.requeue(claim); !status.ok()) {
+    return log_trouble(context.log, claim, status);
   }
-  desk.add_waiting(1);
-  log_job(log, claim, JobState::accepted);
+  context.waiting += 1;
+  log_job(context.log, claim, JobState::accepted);
 }
 
 /// What an analysis that was asked to stop came to; false when nothing is to be stored.
-bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, JobDesk& desk, Log& log) {
+bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, const WorkerContext& context) {
   const bool cancelled = outcome.failure && outcome.failure->code == "cancelled";
   if (!cancelled) {
     return true;  // it came to its end before it saw the request to stop
   }
   switch (reason) {
     case StopReason::shutdown:
-      give_back(claim, desk, log);
+      give_back(claim, context);
       return false;
     case StopReason::dismissed:
     case StopReason::lease_lost:
@@ -123,7 +123,7 @@ bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, JobDesk
     case StopReason::time_limit:
       outcome.failure->code = "time_limit";
       outcome.failure->detail =
-          "the analysis took longer than " + std::to_string(desk.limits().longest_run.count()) + " s";
+          "the analysis took longer than " + std::to_string(context.limits.longest_run.count()) + " s";
       return true;
     case StopReason::none:
       return true;
@@ -132,38 +132,39 @@ bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, JobDesk
 }
 
 /// @param stored when the store may be asked about the job, if that is not now
-void run_job(const Claim& claim, const std::shared_future<bool>* stored, JobDesk& desk, Runner& runner,
-             Log& log, const std::stop_token& stop) {
-  log_job(log, claim, JobState::running);
-  ActiveJobs::Entry entry(desk.active(), claim, desk.environment().now());
+void run_job(const Claim& claim, const std::shared_future<bool>* stored, const WorkerContext& context,
+             Runner& runner, const std::stop_token& stop) {
+  log_job(context.log, claim, JobState::running);
+  ActiveJobs::Entry entry(context.active, claim, context.environment.now());
   const std::stop_callback on_shutdown(stop, [&] { entry.stop(StopReason::shutdown); });
-  JobRun outcome = runner.run_job(claim.document, told_hooks(claim, desk.progress_board(), entry.token()));
-  desk.progress_board().erase(claim.id);
+  JobRun outcome = runner.run_job(claim.document, told_hooks(claim, context.progress, entry.token()));
+  context.progress.erase(claim.id);
   if (stored != nullptr && !stored->get()) {
     return;
   }
-  if (!settle_stop(claim, entry.reason(), outcome, desk, log)) {
+  if (!settle_stop(claim, entry.reason(), outcome, context)) {
     return;
   }
-  if (const Status status = store_outcome(claim, outcome, desk, log, stop); !status.ok()) {
-    return log_trouble(log, claim, status);
+  if (const Status status = store_outcome(claim, outcome, context, stop); !status.ok()) {
+    return log_trouble(context.log, claim, status);
   }
-  desk.ends().announce(claim.id);
-  log_job_end(log, claim, outcome);
+  context.completions.announce(claim.id);
+  log_job_end(context.log, claim, outcome);
 }
 
 }  // namespace
 
-void work_on(const Claim& claim, JobDesk& desk, Runner& runner, Log& log, const std::stop_token& stop) {
-  run_job(claim, nullptr, desk, runner, log, stop);
+void work_on(const Claim& claim, const WorkerContext& context, Runner& runner, const std::stop_token& stop) {
+  run_job(claim, nullptr, context, runner, stop);
 }
 
-void work_on(const Handoff& handoff, JobDesk& desk, Runner& runner, Log& log, const std::stop_token& stop) {
-  run_job(handoff.claim, &handoff.stored, desk, runner, log, stop);
+void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runner,
+             const std::stop_token& stop) {
+  run_job(handoff.claim, &handoff.stored, context, runner, stop);
 }
 
-WorkerPool::WorkerPool(int threads, JobDesk& desk, RunnerFactory make, Log& log)
-    : desk_(desk), make_(std::move(make)), log_(log) {
+WorkerPool::WorkerPool(int threads, const WorkerContext& context, RunnerFactory make)
+    : context_(context), make_(std::move(make)) {
   threads_.reserve(static_cast<std::size_t>(threads));
   for (int i = 0; i < threads; ++i) {
     threads_.emplace_back([this](const std::stop_token& stop) { run(stop); });
@@ -185,23 +186,23 @@ void WorkerPool::stop() {
 
 bool WorkerPool::claim_and_work(Runner& runner, const std::stop_token& stop) {
   const StatusOr<std::optional<Claim>> claim =
-      desk_.store().claim(desk_.new_lease(), desk_.environment().now());
+      context_.store.claim(context_.new_lease(), context_.environment.now());
   if (!claim.ok()) {
-    log_.write(LogLevel::error, "store", {{"detail", std::string_view(claim.status().message())}});
+    context_.log.write(LogLevel::error, "store", {{"detail", std::string_view(claim.status().message())}});
     return false;
   }
   if (!claim->has_value()) {
     return false;
   }
-  desk_.add_waiting(-1);
-  work_on(**claim, desk_, runner, log_, stop);
+  context_.waiting -= 1;
+  work_on(**claim, context_, runner, stop);
   return true;
 }
 
 bool WorkerPool::take_chunk_and_work(Runner& runner, const std::stop_token& stop) {
-  const std::optional<Chunk> chunk = stop.stop_requested() ? std::nullopt : desk_.sweeps().take();
+  const std::optional<Chunk> chunk = stop.stop_requested() ? std::nullopt : context_.sweeps.take();
   if (chunk) {
-    work_on(*chunk, desk_, runner, log_, stop);
+    work_on(*chunk, context_, runner, stop);
   }
   return chunk.has_value();
 }
@@ -213,16 +214,16 @@ void WorkerPool::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     // In turn: neither jobs nor sweeps wait for the end of the other. While sweeps go on the store is not
     // asked for jobs that nobody submitted.
-    const bool waited = desk_.waiting() > 0;
+    const bool waited = context_.waiting > 0;
     const bool worked = waited && claim_and_work(runner, stop);
     if (take_chunk_and_work(runner, stop) || worked || (!waited && claim_and_work(runner, stop))) {
       continue;
     }
     // Jobs that are given directly come before those that wait: nobody is idle while some wait.
     std::optional<Handoff> handoff;
-    while ((handoff = desk_.exchange().wait(seen, stop, kLongestNap))) {
-      work_on(*handoff, desk_, runner, log_, stop);
-      if (desk_.waiting() > 0 || desk_.sweeps().has_work() || stop.stop_requested()) {
+    while ((handoff = context_.handoffs.wait(seen, stop, kLongestNap))) {
+      work_on(*handoff, context_, runner, stop);
+      if (context_.waiting > 0 || context_.sweeps.has_work() || stop.stop_requested()) {
         break;
       }
     }

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/jobs/desk.h"
+#include "server/jobs/worker_context.h"
 #include "server/worker/runner.h"
 
 namespace snapthrough::server {
@@ -16,16 +16,17 @@ namespace snapthrough::server {
 /// A numerical failure or an exception makes the job failed; a stop of the service that interrupts the
 /// analysis gives the job back to the queue. A claim that was lost meanwhile changes nothing. While the store
 /// can't be written, the outcome is kept and tried again as long as the lease may hold.
-void work_on(const Claim& claim, JobDesk& desk, Runner& runner, Log& log, const std::stop_token& stop);
+void work_on(const Claim& claim, const WorkerContext& context, Runner& runner, const std::stop_token& stop);
 
 /// The same for a job that is still being stored.
-void work_on(const Handoff& handoff, JobDesk& desk, Runner& runner, Log& log, const std::stop_token& stop);
+void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runner,
+             const std::stop_token& stop);
 
 /// @brief A fixed number of working threads. Thread-safe; the parts it is given must outlive it.
 class WorkerPool {
  public:
   /// @param make called once on each thread
-  WorkerPool(int threads, JobDesk& desk, RunnerFactory make, Log& log);
+  WorkerPool(int threads, const WorkerContext& context, RunnerFactory make);
   /// Stops first if need be.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
@@ -41,9 +42,8 @@ class WorkerPool {
   bool claim_and_work(Runner& runner, const std::stop_token& stop);
   bool take_chunk_and_work(Runner& runner, const std::stop_token& stop);
 
-  JobDesk& desk_;
+  const WorkerContext& context_;
   RunnerFactory make_;
-  Log& log_;
   std::vector<std::jthread> threads_;
 };
 

@@ -149,7 +149,7 @@ class RecordReader {
 
  private:
   std::string_view take(std::size_t size) {
-    if (size > bytes_.size()) throw std::runtime_error("a record ends too early");
+    if (size > bytes_.size()) throw std::runtime_error("a record completions too early");
     const std::string_view out = bytes_.substr(0, size);
     bytes_.remove_prefix(size);
     return out;

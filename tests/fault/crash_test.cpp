@@ -120,7 +120,7 @@ class Crash : public KilledServiceTest {
       if (entry.is_object() && entry["event"] == "job" &&
           (entry["status"] == "successful" || entry["status"] == "failed" ||
            entry["status"] == "dismissed")) {
-        ++ends_[entry["job"]];
+        ++completions_[entry["job"]];
       }
     }
   }
@@ -160,7 +160,7 @@ class Crash : public KilledServiceTest {
                                {"Content-Type: application/json", "Idempotency-Key: " + key});
       EXPECT_EQ(again.header("Location"), job);
     }
-    for (const auto& [job, count] : ends_) {
+    for (const auto& [job, count] : completions_) {
       EXPECT_EQ(count, 1) << job << " ended more than once";
     }
     std::printf("%zu acknowledged jobs, %d successful, %zu removed, %d requests\n", told_.jobs.size(),
@@ -168,7 +168,7 @@ class Crash : public KilledServiceTest {
   }
 
   Told told_;
-  std::map<std::string, int> ends_;
+  std::map<std::string, int> completions_;
 };
 
 TEST_F(Crash, EveryAcknowledgedJobIsThereAndEndsOnce) {

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <utility>
 
-#include "server/http/gateway.h"
-#include "server/http/library.h"
-#include "server/http/request_reader.h"
+#include "server/front/gateway.h"
+#include "server/front/library.h"
+#include "server/front/request_reader.h"
 #include "tests/fuzz/one_of_each.h"
 
 namespace snapthrough::server::http {
@@ -22,12 +22,12 @@ struct Front {
   Environment environment = Environment::system();
   Log log{LogLevel::off, environment.now, text};
   test::FuzzedStore store;
-  JobDesk desk{store, environment, log};
+  JobService jobs{store, environment, log};
   RequestMetrics metrics;
-  Routes routes{desk, {}};
+  Routes routes{jobs, {}};
   Gateway gateway{routes, environment, log, KeyRing(), metrics};
   RequestParser parser;
-  WireLimits limits;
+  HeadLimits limits;
 };
 
 void check_response(Response response) {

@@ -12,8 +12,8 @@
 
 #include "api/api.h"
 #include "api/openapi/document.h"
-#include "server/http/embedded.h"
-#include "server/http/routes.h"
+#include "server/resources/embedded.h"
+#include "server/resources/routes.h"
 #include "solver/solve.h"
 #include "tests/server/support/json_schema.h"
 #include "tests/server/support/running_service.h"

@@ -1,4 +1,4 @@
-#include "server/http/gateway.h"
+#include "server/front/gateway.h"
 
 #include <gmock/gmock.h>
 
@@ -77,8 +77,8 @@ struct Bench {
   std::ostringstream log_text;
   Log log{LogLevel::debug, environment.now, log_text};
   FailingStore store;
-  JobDesk desk{store, environment, log};
-  Routes routes{desk, {}};
+  JobService jobs{store, environment, log};
+  Routes routes{jobs, {}};
   RequestMetrics metrics;
   Gateway gateway{routes, environment, log, KeyRing(), metrics};
 };

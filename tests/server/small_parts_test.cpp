@@ -10,8 +10,8 @@
 
 #include "server/config.h"
 #include "server/environment.h"
-#include "server/http/prefer.h"
 #include "server/log/log.h"
+#include "server/resources/prefer.h"
 #include "tests/server/support/samples.h"
 
 namespace snapthrough::server {
@@ -134,9 +134,9 @@ TEST(Log, EachLineIsOneJsonObjectWhateverTheTextHolds) {
 
 /// A reader that stalls stopped every thread that wrote a line, requests for /livez among them.
 TEST(Log, AReaderThatStallsIsNotWaitedForAndIsToldWhatItMissed) {
-  int ends[2] = {-1, -1};
-  ASSERT_EQ(::pipe(ends), 0);
-  Log log(LogLevel::info, Environment::system().now, ends[1]);
+  int completions[2] = {-1, -1};
+  ASSERT_EQ(::pipe(completions), 0);
+  Log log(LogLevel::info, Environment::system().now, completions[1]);
   constexpr int kLines = 5'000;
   const std::string detail(200, 'x');
   for (int i = 0; i < kLines; ++i) {
@@ -145,12 +145,12 @@ TEST(Log, AReaderThatStallsIsNotWaitedForAndIsToldWhatItMissed) {
   std::string text;
   const auto read_some = [&] {
     std::vector<char> chunk(1 << 20);
-    const ssize_t got = ::read(ends[0], chunk.data(), chunk.size());
+    const ssize_t got = ::read(completions[0], chunk.data(), chunk.size());
     text.append(chunk.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
   };
   read_some();
   log.write(LogLevel::info, "last", {});
-  ::close(ends[1]);
+  ::close(completions[1]);
   read_some();
   std::istringstream lines(text);
   int seen = 0;
@@ -163,7 +163,7 @@ TEST(Log, AReaderThatStallsIsNotWaitedForAndIsToldWhatItMissed) {
   EXPECT_GT(seen, 100);
   EXPECT_EQ(seen + lost, kLines);
   EXPECT_THAT(text, testing::HasSubstr("\"event\":\"last\""));
-  ::close(ends[0]);
+  ::close(completions[0]);
 }
 
 TEST(Log, LevelsHoldBack) {

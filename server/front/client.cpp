@@ -1,0 +1,95 @@
+#include "server/front/client.h"
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <utility>
+
+namespace snapthrough::server::http {
+namespace {
+
+bool would_block() { return errno == EAGAIN || errno == EWOULDBLOCK; }
+
+/// A client that leaves so much waiting does not follow any more.
+constexpr std::size_t kMostWaiting = 256 * 1024;
+
+}  // namespace
+
+bool Outbox::put(std::string piece, bool last) {
+  const std::lock_guard guard(mutex_);
+  if (closed_ || waiting_.size() + piece.size() > kMostWaiting) {
+    closed_ = true;
+    return false;
+  }
+  waiting_ += piece;
+  last_ = last;
+  return true;
+}
+
+std::string Outbox::take(bool& last) {
+  const std::lock_guard guard(mutex_);
+  last = last_ || closed_;
+  return std::exchange(waiting_, {});
+}
+
+void Outbox::close() {
+  const std::lock_guard guard(mutex_);
+  closed_ = true;
+}
+
+Client::~Client() { close(); }
+
+Client::Read Client::receive() {
+  std::array<char, 16 * 1024> chunk;  // not cleared: it costs as much as the rest
+  ssize_t count = 0;
+  do {
+    count = ::recv(socket, chunk.data(), chunk.size(), MSG_DONTWAIT);
+  } while (count < 0 && errno == EINTR);
+  if (count <= 0) {
+    return count < 0 && would_block() ? Read::nothing_now : Read::ended;
+  }
+  reader.append(std::string_view(chunk.data(), static_cast<std::size_t>(count)));
+  return static_cast<std::size_t>(count) < chunk.size() ? Read::drained : Read::more;
+}
+
+Client::Sent Client::flush() {
+  while (output_sent < output.size()) {
+    const ssize_t count =
+        ::send(socket, output.data() + output_sent, output.size() - output_sent, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (count > 0) {
+      output_sent += static_cast<std::size_t>(count);
+    } else if (count < 0 && errno == EINTR) {
+      continue;
+    } else {
+      return count < 0 && would_block() ? Sent::some : Sent::failed;
+    }
+  }
+  output_sent = 0;
+  output.clear();
+  if (output.capacity() > 64 * 1024) {
+    std::string().swap(output);
+  }
+  return Sent::all;
+}
+
+void Client::end_output() const { ::shutdown(socket, SHUT_WR); }
+
+Client::Read Client::discard() const {
+  std::array<char, 16 * 1024> chunk;
+  const ssize_t count = ::recv(socket, chunk.data(), chunk.size(), MSG_DONTWAIT);
+  if (count > 0) {
+    return Read::more;
+  }
+  return count < 0 && (would_block() || errno == EINTR) ? Read::nothing_now : Read::ended;
+}
+
+void Client::close() {
+  if (socket >= 0) {
+    ::close(std::exchange(socket, -1));
+  }
+  phase = Phase::closed;
+}
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,186 @@
+#include "server/front/gateway.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace snapthrough::server::http {
+namespace {
+
+bool is_token(std::string_view text) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_' || c == '.';
+  };
+  return !text.empty() && text.size() <= 128 && std::all_of(text.begin(), text.end(), allowed);
+}
+
+/// The trace of a W3C traceparent header ("00-<32 hexadecimal digits>-..."), else empty.
+std::string_view trace_of(const Request& request) {
+  const std::string_view parent = request.header("traceparent").value_or("");
+  return parent.size() >= 55 && parent[2] == '-' && parent[35] == '-' ? parent.substr(3, 32) : "";
+}
+
+/// The client's identifier when it is harmless, else that of its trace, else a new one.
+std::string request_id(const Request& request, const Environment& environment) {
+  for (const std::string_view given : {request.header("X-Request-Id").value_or(""), trace_of(request)}) {
+    if (is_token(given)) {
+      return std::string(given);
+    }
+  }
+  return new_id(environment);
+}
+
+/// What tells nothing about anybody's jobs is answered without a key.
+bool is_public(std::string_view path) {
+  return path == "/livez" || path == "/readyz" || path == "/v1/openapi.json";
+}
+
+const char* problem_kind(int status) {
+  switch (status) {
+    case 411:
+      return "length-required";
+    case 413:
+      return "body-too-large";
+    case 414:
+      return "target-too-long";
+    case 415:
+      return "unsupported-media-type";
+    case 431:
+      return "headers-too-large";
+    case 501:
+      return "unknown-method";
+    case 503:
+      return "overloaded";
+    default:
+      return "bad-request";
+  }
+}
+
+/// The name in "name:port"; brackets stay with the addresses that have them.
+std::string_view host_name(std::string_view host) {
+  const std::size_t end = host.starts_with('[') ? host.find(']') + 1 : std::min(host.find(':'), host.size());
+  return host.substr(0, end);
+}
+
+/// A page of another site that reaches this machine by a name that its owner points here (DNS rebinding), or
+/// sends a request from where it was loaded.
+bool comes_from_elsewhere(const Request& request) {
+  const std::string_view host = request.header("Host").value_or("localhost");
+  const std::string_view name = host_name(host);
+  const bool local = equal_ignoring_case(name, "localhost") || name == "[::1]" || name.starts_with("127.");
+  const bool numeric = name.find_first_not_of("0123456789.") == std::string_view::npos;
+  if (!local || (name.starts_with("127.") && !numeric)) {
+    return true;
+  }
+  const std::optional<std::string_view> origin = request.header("Origin");
+  return origin && *origin != "http://" + std::string(host);
+}
+
+}  // namespace
+
+Response Gateway::guarded(const Request& request, const std::function<Response()>& work) const {
+  try {
+    return work();
+  } catch (const std::exception& error) {
+    Response response = problem_response(
+        {500, "internal-error", "Internal error", "The request could not be served.", {}, "", ""}, request);
+    response.trouble = error.what();
+    return response;
+  }
+}
+
+Response Gateway::serve(Request request) {
+  const double start = environment_.monotonic_seconds();
+  request.id = request_id(request, environment_);
+  request.body_bytes = request.body.size();
+  const std::optional<std::string> owner = keys_.owner(request);
+  request.owner = owner.value_or("");
+  const auto kept = std::make_shared<Request>(std::move(request));
+  if (keys_.open() && !is_public(kept->path) && comes_from_elsewhere(*kept)) {
+    Response refused =
+        problem_response({403,
+                          "foreign-origin",
+                          "Foreign origin",
+                          "A service without keys answers to local names only, and to pages of its own.",
+                          {},
+                          "",
+                          ""},
+                         *kept);
+    complete(*kept, refused, start);
+    return refused;
+  }
+  if (!owner && !is_public(kept->path)) {
+    Response refused = problem_response({401,
+                                         "unauthorized",
+                                         "Unauthorized",
+                                         "This service needs a bearer key (Authorization: Bearer ...).",
+                                         {},
+                                         "",
+                                         ""},
+                                        *kept);
+    refused.headers.emplace_back("WWW-Authenticate", "Bearer");
+    complete(*kept, refused, start);
+    return refused;
+  }
+  return finish(kept, guarded(*kept, [&] { return routes_.respond(*kept); }), start);
+}
+
+Response Gateway::finish(const std::shared_ptr<Request>& request, Response response, double start) {
+  if (!response.deferred) {
+    complete(*request, response, start);
+    return response;
+  }
+  std::string().swap(request->body);  // it was read
+  response.deferred->resume = [this, request, start, route = response.route,
+                               resume = std::move(response.deferred->resume)] {
+    Response late = guarded(*request, resume);
+    late.deferred.reset();
+    late.route = route;
+    complete(*request, late, start);
+    return late;
+  };
+  return response;
+}
+
+Response Gateway::refuse(const Head& head, const std::string& remote) {
+  Request request;
+  request.method = head.method;
+  request.path = head.target.substr(0, std::min(head.target.find('?'), std::size_t{256}));
+  request.remote = remote;
+  request.id = new_id(environment_);
+  const int status = head.refusal->status;
+  Response response = problem_response(
+      {status, problem_kind(status), std::string(reason_phrase(status)), head.refusal->detail, {}, "", ""},
+      request);
+  complete(request, response, environment_.monotonic_seconds());
+  return response;
+}
+
+void Gateway::complete(const Request& request, Response& response, double start) {
+  compress(response, request.header("Accept-Encoding").value_or(""));
+  response.headers.emplace_back("X-Request-Id", request.id);
+  response.headers.emplace_back("Date", http_date(environment_.now()));
+  response.headers.emplace_back("X-Content-Type-Options", "nosniff");
+  if (!response.trouble.empty()) {
+    log_.write(
+        LogLevel::error, "trouble",
+        {{"request_id", std::string_view(request.id)}, {"detail", std::string_view(response.trouble)}});
+  }
+  const double seconds = environment_.monotonic_seconds() - start;
+  metrics_.count(request.method, response.route, response.status, seconds);
+  log_.write(response.status >= 500 ? LogLevel::error : LogLevel::info, "request",
+             {{"request_id", std::string_view(request.id)},
+              {"method", std::string_view(request.method)},
+              {"path", std::string_view(request.path)},
+              {"route", std::string_view(response.route)},
+              {"status", static_cast<std::int64_t>(response.status)},
+              {"milliseconds", seconds * 1e3},
+              {"bytes_in", static_cast<std::int64_t>(request.body_bytes)},
+              {"bytes_out", static_cast<std::int64_t>(response.body.size())},
+              {"owner", std::string_view(request.owner)},
+              {"trace", trace_of(request)},
+              {"remote", std::string_view(request.remote)}});
+}
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,41 @@
+#pragma once
+/// @file
+/// What every request gets whatever it asks for: an identifier, an owner, a Date, one log line, its place in
+/// the metrics.
+
+#include "server/environment.h"
+#include "server/front/keys.h"
+#include "server/front/request_head.h"
+#include "server/front/response_bytes.h"
+#include "server/log/log.h"
+#include "server/metrics/metrics.h"
+#include "server/resources/message.h"
+#include "server/resources/routes.h"
+
+namespace snapthrough::server::http {
+
+/// @brief Serves requests through the routes. Thread-safe; the parts it is given must outlive it.
+class Gateway {
+ public:
+  Gateway(Routes& routes, const Environment& environment, Log& log, KeyRing keys, RequestMetrics& metrics)
+      : routes_(routes), environment_(environment), log_(log), keys_(std::move(keys)), metrics_(metrics) {}
+
+  /// Never throws for a request: what a resource throws is logged and becomes status 500 without particulars.
+  /// A deferred response comes back deferred; what its `resume` gives is complete and was logged.
+  [[nodiscard]] Response serve(Request request);
+  /// The response to a request that was refused from its bytes; what is known of it is in `head`.
+  [[nodiscard]] Response refuse(const Head& head, const std::string& remote);
+
+ private:
+  Response guarded(const Request& request, const std::function<Response()>& work) const;
+  Response finish(const std::shared_ptr<Request>& request, Response response, double start);
+  void complete(const Request& request, Response& response, double start);
+
+  Routes& routes_;
+  const Environment& environment_;
+  Log& log_;
+  KeyRing keys_;
+  RequestMetrics& metrics_;
+};
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,26 @@
+#include "server/front/keys.h"
+
+#include "server/digest.h"
+
+namespace snapthrough::server::http {
+
+std::optional<std::string> KeyRing::owner(const Request& request) const {
+  if (open()) {
+    return "";
+  }
+  const std::string_view value = request.header("Authorization").value_or("");
+  const std::size_t space = value.find(' ');
+  if (space == std::string_view::npos || !equal_ignoring_case(value.substr(0, space), "Bearer")) {
+    return std::nullopt;
+  }
+  const std::string digest = sha256_hex(trimmed(value.substr(space + 1)));
+  std::optional<std::string> owner;
+  for (const ApiKey& key : keys_) {  // all of them, so that the time does not tell which
+    if (equal_in_constant_time(key.sha256, digest)) {
+      owner = key.owner;
+    }
+  }
+  return owner;
+}
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,34 @@
+#pragma once
+/// @file
+/// Who may use the service.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/resources/message.h"
+
+namespace snapthrough::server::http {
+
+/// A bearer key as it is configured: its digest, never the key.
+struct ApiKey {
+  std::string owner;   ///< name of whom it was given to; jobs belong to it
+  std::string sha256;  ///< of the key, 64 lower-case hexadecimal digits
+};
+
+/// @brief The keys that are accepted. Immutable.
+class KeyRing {
+ public:
+  explicit KeyRing(std::vector<ApiKey> keys = {}) : keys_(std::move(keys)) {}
+
+  /// Without keys everybody may do everything, and jobs have no owner.
+  [[nodiscard]] bool open() const { return keys_.empty(); }
+  /// The owner of the request's bearer key; nothing when it has none that is known.
+  [[nodiscard]] std::optional<std::string> owner(const Request& request) const;
+
+ private:
+  std::vector<ApiKey> keys_;
+};
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,536 @@
+#include "server/front/listener.h"
+
+#include <poll.h>
+#include <sys/epoll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <deque>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "server/front/client.h"
+#include "server/front/library.h"
+#include "server/front/response_bytes.h"
+#include "server/front/sockets.h"
+
+namespace snapthrough::server::http {
+namespace {
+
+using Clock = Client::Clock;
+using ClientPointer = std::shared_ptr<Client>;
+
+constexpr std::uint64_t kWakes = 0;  ///< epoll names: clients are numbered from kFirstClient
+constexpr std::uint64_t kEnd = 1;
+constexpr std::uint64_t kFirstClient = 2;
+/// Steps of one connection before others get their turn.
+constexpr int kFairSteps = 64;
+constexpr std::chrono::milliseconds kSweep{100};
+constexpr std::chrono::milliseconds kLinger{500};
+constexpr std::string_view kTooMany =
+    "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 5\r\nContent-Type: application/problem+json\r\n"
+    "Content-Length: 153\r\nConnection: close\r\n\r\n"
+    R"({"type":"urn:snapthrough:problem:too-many-connections","title":"Too many connections","status":503,)"
+    R"("detail":"As many connections are open as are taken."})";
+
+/// Something happened to a connection; a deferred response that was meant may be gone meanwhile.
+struct Wake {
+  std::uint64_t client = 0;
+  std::uint64_t turn = 0;
+};
+
+}  // namespace
+
+class Listener::Server final : public std::enable_shared_from_this<Listener::Server> {
+ public:
+  Server(ListenerOptions options, Gateway& gateway)
+      : options_(std::move(options)), gateway_(gateway), epoll_(::epoll_create1(EPOLL_CLOEXEC)) {
+    watch(wakes_ready_.get(), kWakes, EPOLLIN, EPOLL_CTL_ADD);
+    watch(end_.get(), kEnd, EPOLLIN, EPOLL_CTL_ADD);
+  }
+
+  Status start();
+  void shut_down();
+  [[nodiscard]] int port() const { return port_; }
+  [[nodiscard]] ListenerLoad load() const;
+
+ private:
+  void work();
+  void keep();
+  void accept_all();
+  void sweep();
+  void sweep_one(const ClientPointer& client, Clock::time_point now);
+
+  void attend(const ClientPointer& client, std::uint32_t events);
+  void read_and_serve(const ClientPointer& client);
+  bool note_incomplete(Client& client, const Received& received);
+  bool answer(const ClientPointer& client, Received received);
+  bool refuse(const ClientPointer& client, const Head& head, bool linger);
+  bool deliver(const ClientPointer& client, Response response);
+  bool defer(const ClientPointer& client, Deferred deferred);
+  bool begin_stream(const ClientPointer& client, const Response& response);
+  bool send_on(const ClientPointer& client);
+  bool after_response(const ClientPointer& client);
+  void pump(const ClientPointer& client);
+  void woken(const Wake& wake);
+  void wake(const Wake& wake);
+  void take_wake();
+
+  void drop(Client& client);
+  void account(Client& client);
+  void rearm(const Client& client, std::uint32_t events) const {
+    watch(client.socket, client.id, events | EPOLLONESHOT, EPOLL_CTL_MOD);
+  }
+  void watch(int descriptor, std::uint64_t name, std::uint32_t events, int operation) const {
+    epoll_event event{};
+    event.events = events;
+    event.data.u64 = name;
+    ::epoll_ctl(epoll_.get(), operation, descriptor, &event);
+  }
+  [[nodiscard]] ClientPointer find(std::uint64_t id) const;
+
+  const ListenerOptions options_;
+  Gateway& gateway_;
+  RequestParser parser_;
+  Descriptor epoll_;
+  Descriptor listening_;
+  Counter wakes_ready_{true};
+  Counter end_{false};
+  int port_ = 0;
+  std::atomic<bool> stopping_ = false;
+
+  mutable std::mutex table_mutex_;
+  std::unordered_map<std::uint64_t, ClientPointer> clients_;
+  std::uint64_t next_id_ = kFirstClient;
+  std::atomic<int> streams_ = 0;
+  std::atomic<std::size_t> buffered_ = 0;
+
+  std::mutex wakes_mutex_;
+  std::deque<Wake> wakes_;
+
+  std::thread keeper_;
+  std::vector<std::thread> threads_;
+};
+
+Status Listener::Server::start() {
+  raise_descriptor_limit();
+  StatusOr<Descriptor> listening = listen_on(options_.host, options_.port);
+  if (!listening.ok()) {
+    return listening.status();
+  }
+  listening_ = std::move(listening).value();
+  port_ = port_of(listening_.get());
+  for (int i = 0; i < options_.threads; ++i) {
+    threads_.emplace_back([this] { work(); });
+  }
+  keeper_ = std::thread([this] { keep(); });
+  return {};
+}
+
+void Listener::Server::shut_down() {
+  stopping_ = true;
+  if (keeper_.joinable()) {
+    keeper_.join();
+  }
+  end_.add();
+  for (std::thread& thread : threads_) {
+    thread.join();
+  }
+  threads_.clear();
+  const std::lock_guard guard(table_mutex_);
+  clients_.clear();
+}
+
+ListenerLoad Listener::Server::load() const {
+  const std::lock_guard guard(table_mutex_);
+  return {static_cast<int>(clients_.size()), streams_, buffered_};
+}
+
+void Listener::Server::work() {
+  while (true) {
+    epoll_event event{};
+    if (::epoll_wait(epoll_.get(), &event, 1, -1) != 1) {
+      continue;
+    }
+    if (event.data.u64 == kEnd) {
+      return;
+    }
+    if (event.data.u64 == kWakes) {
+      take_wake();
+    } else if (const ClientPointer client = find(event.data.u64)) {
+      const std::lock_guard guard(client->mutex);
+      attend(client, event.events);
+    }
+  }
+}
+
+/// Accepts, and ends what takes too long; after a stop until nobody is left or the time for it is over.
+void Listener::Server::keep() {
+  Clock::time_point next_sweep = Clock::now() + kSweep;
+  while (!stopping_) {
+    pollfd readable{listening_.get(), POLLIN, 0};
+    if (::poll(&readable, 1, static_cast<int>(kSweep.count())) > 0) {
+      accept_all();
+    }
+    if (Clock::now() >= next_sweep) {
+      sweep();
+      next_sweep = Clock::now() + kSweep;
+    }
+  }
+  listening_.reset();
+  const Clock::time_point deadline = Clock::now() + options_.times.drain;
+  while (load().connections > 0 && Clock::now() < deadline) {
+    sweep();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+void Listener::Server::accept_all() {
+  std::string remote;
+  int socket = -1;
+  while ((socket = accept_from(listening_.get(), remote)) >= 0) {
+    Descriptor owned(socket);
+    const std::lock_guard guard(table_mutex_);
+    if (static_cast<int>(clients_.size()) >= options_.connections) {
+      ::send(socket, kTooMany.data(), kTooMany.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      continue;
+    }
+    const std::uint64_t id = next_id_++;
+    auto client = std::make_shared<Client>(socket, id, remote, options_.limits);
+    owned.release();  // the client closes it
+    client->deadline = Clock::now() + options_.times.idle;
+    clients_.emplace(id, client);
+    watch(socket, id, EPOLLIN | EPOLLONESHOT, EPOLL_CTL_ADD);
+  }
+  if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) {
+    std::this_thread::sleep_for(kSweep);  // poll() would come back at once
+  }
+}
+
+void Listener::Server::sweep() {
+  std::vector<ClientPointer> all;
+  {
+    const std::lock_guard guard(table_mutex_);
+    all.reserve(clients_.size());
+    for (const auto& [id, client] : clients_) {
+      all.push_back(client);
+    }
+  }
+  const Clock::time_point now = Clock::now();
+  for (const ClientPointer& client : all) {
+    const std::unique_lock lock(client->mutex, std::try_to_lock);
+    if (lock.owns_lock()) {  // else it is being worked on, and nobody is late
+      sweep_one(client, now);
+    }
+  }
+}
+
+void Listener::Server::sweep_one(const ClientPointer& client, Clock::time_point now) {
+  const bool going = stopping_ && (client->phase == Phase::idle || client->phase == Phase::streaming);
+  if (client->phase == Phase::closed || (!going && now < client->deadline)) {
+    return;
+  }
+  if (client->phase == Phase::deferred) {
+    client->deadline = Clock::time_point::max();
+    wake({client->id, client->turn});
+  } else if (client->phase == Phase::streaming && !going) {
+    client->outbox->put(": still there\n\n", false);
+    pump(client);
+  } else {
+    drop(*client);
+  }
+}
+
+void Listener::Server::attend(const ClientPointer& client, std::uint32_t events) {
+  switch (client->phase) {
+    case Phase::idle:
+    case Phase::head:
+    case Phase::body:
+      return read_and_serve(client);
+    case Phase::sending:
+      if (send_on(client)) {
+        read_and_serve(client);
+      }
+      return;
+    case Phase::streaming:
+      if ((events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0) {
+        return drop(*client);
+      }
+      return pump(client);
+    case Phase::lingering:
+      if (client->discard() == Client::Read::ended) {
+        return drop(*client);
+      }
+      return rearm(*client, EPOLLIN);
+    case Phase::deferred:
+      return drop(*client);  // it is watched for its end only
+    case Phase::closed:
+      return;
+  }
+}
+
+/// Serves the requests that are there, then waits for more.
+void Listener::Server::read_and_serve(const ClientPointer& client) {
+  bool drained = false;
+  for (int step = 0; step < kFairSteps; ++step) {
+    Received received = client->reader.next();
+    if (received.kind == Received::Kind::request) {
+      account(*client);
+      if (!answer(client, std::move(received))) {
+        return;
+      }
+      drained = drained && client->reader.held() == 0;
+      continue;
+    }
+    if (received.kind == Received::Kind::refused) {
+      refuse(client, received.head, true);
+      return;
+    }
+    if (!note_incomplete(*client, received)) {
+      refuse(client, received.head, true);
+      return;
+    }
+    const Client::Read read = drained ? Client::Read::nothing_now : client->receive();
+    if (read == Client::Read::ended) {
+      return drop(*client);
+    }
+    if (read == Client::Read::nothing_now) {
+      client->reader.shrink();
+      return rearm(*client, EPOLLIN);
+    }
+    drained = read == Client::Read::drained;
+  }
+  rearm(*client, EPOLLIN | EPOLLOUT);  // comes back at once, behind the others
+}
+
+/// False when the service has no room for what is still to come.
+bool Listener::Server::note_incomplete(Client& client, const Received& received) {
+  account(client);
+  const Clock::time_point now = Clock::now();
+  if (received.kind == Received::Kind::body_incomplete && client.phase != Phase::body) {
+    client.phase = Phase::body;
+    client.deadline = now + options_.times.body;
+    if (received.head.expects_continue) {
+      client.output = "HTTP/1.1 100 Continue\r\n\r\n";
+      client.flush();
+    }
+  } else if (client.phase == Phase::idle && client.reader.held() > 0) {
+    client.phase = Phase::head;
+    client.deadline = now + options_.times.head;
+  }
+  return buffered_ <= options_.limits.buffered_bytes || client.phase != Phase::body;
+}
+
+bool Listener::Server::answer(const ClientPointer& client, Received received) {
+  std::optional<Request> request = parser_.parse(received.head_text);
+  if (!request) {
+    received.head.refusal = Refusal{400, "The request is malformed."};
+    return refuse(client, received.head, false);
+  }
+  request->body = std::move(received.body);
+  request->remote = client->remote;
+  client->head_only = request->method == "HEAD";
+  client->close_after = !received.head.keep_alive;
+  const std::size_t size = request->body.size();
+  buffered_ += size;
+  Response response = gateway_.serve(std::move(*request));
+  buffered_ -= size;
+  return deliver(client, std::move(response));
+}
+
+/// Answers and ends the connection: what follows on it can't be trusted.
+bool Listener::Server::refuse(const ClientPointer& client, const Head& head, bool linger) {
+  Head refused = head;
+  if (!refused.refusal) {
+    refused.refusal = Refusal{503, "Too many requests are being sent at this moment."};
+  }
+  client->close_after = true;
+  client->linger_after = linger;
+  client->head_only = head.method == "HEAD";
+  return deliver(client, gateway_.refuse(refused, client->remote));
+}
+
+/// True when the response was sent and the connection is ready for another request.
+bool Listener::Server::deliver(const ClientPointer& client, Response response) {
+  client->close_after = client->close_after || stopping_;
+  if (response.deferred) {
+    return defer(client, std::move(*response.deferred));
+  }
+  if (response.stream && !client->head_only) {
+    return begin_stream(client, response);
+  }
+  client->output += to_bytes(response, client->head_only, !client->close_after);  // behind a 100 Continue
+  return send_on(client);
+}
+
+bool Listener::Server::defer(const ClientPointer& client, Deferred deferred) {
+  client->phase = Phase::deferred;
+  client->deadline = Clock::now() + deferred.wait;
+  client->resume = std::move(deferred.resume);
+  deferred.arm([weak = weak_from_this(), wake = Wake{client->id, ++client->turn}] {
+    if (const auto server = weak.lock()) {
+      server->wake(wake);
+    }
+  });
+  rearm(*client, EPOLLRDHUP);
+  return false;
+}
+
+bool Listener::Server::begin_stream(const ClientPointer& client, const Response& response) {
+  if (++streams_ > options_.streams) {
+    --streams_;
+    Head head;
+    head.refusal = Refusal{503, "There are too many streams of events already."};
+    return refuse(client, head, false);
+  }
+  client->phase = Phase::streaming;
+  client->close_after = true;
+  client->output += to_bytes(response, false, false);
+  client->outbox = std::make_shared<Outbox>();
+  client->source = response.stream->open(
+      [weak = weak_from_this(), id = client->id, outbox = client->outbox](std::string piece, bool last) {
+        const bool taken = outbox->put(std::move(piece), last);
+        if (const auto server = weak.lock()) {
+          server->wake({id, 0});
+        }
+        return taken;
+      });
+  pump(client);
+  return false;
+}
+
+/// Sends what a stream has, as far as the client takes it.
+void Listener::Server::pump(const ClientPointer& client) {
+  if (client->source) {
+    client->source->poll();
+  }
+  bool last = false;
+  client->output += client->outbox->take(last);
+  const Client::Sent sent = client->flush();
+  const bool behind = client->output.size() > options_.limits.head_bytes * 64;
+  if (sent == Client::Sent::failed || behind || (sent == Client::Sent::all && last)) {
+    return drop(*client);
+  }
+  client->deadline = Clock::now() + options_.times.ping;
+  rearm(*client, EPOLLRDHUP | (sent == Client::Sent::some ? EPOLLOUT : 0U));
+}
+
+bool Listener::Server::send_on(const ClientPointer& client) {
+  switch (client->flush()) {
+    case Client::Sent::all:
+      return after_response(client);
+    case Client::Sent::some:
+      if (client->phase != Phase::sending) {
+        client->phase = Phase::sending;
+        client->deadline = Clock::now() + options_.times.send;
+      }
+      rearm(*client, EPOLLOUT);
+      return false;
+    case Client::Sent::failed:
+      drop(*client);
+      return false;
+  }
+  return false;
+}
+
+bool Listener::Server::after_response(const ClientPointer& client) {
+  if (client->linger_after) {
+    client->end_output();
+    client->phase = Phase::lingering;
+    client->deadline = Clock::now() + kLinger;
+    rearm(*client, EPOLLIN);
+    return false;
+  }
+  if (client->close_after) {
+    drop(*client);
+    return false;
+  }
+  client->phase = Phase::idle;
+  client->deadline = Clock::now() + options_.times.idle;
+  return true;
+}
+
+void Listener::Server::wake(const Wake& wake) {
+  {
+    const std::lock_guard guard(wakes_mutex_);
+    wakes_.push_back(wake);
+  }
+  wakes_ready_.add();
+}
+
+void Listener::Server::take_wake() {
+  wakes_ready_.take();
+  Wake wake;
+  {
+    const std::lock_guard guard(wakes_mutex_);
+    if (wakes_.empty()) {
+      return;
+    }
+    wake = wakes_.front();
+    wakes_.pop_front();
+  }
+  woken(wake);
+}
+
+void Listener::Server::woken(const Wake& wake) {
+  const ClientPointer client = find(wake.client);
+  if (!client) {
+    return;
+  }
+  const std::lock_guard guard(client->mutex);
+  if (client->phase == Phase::streaming) {
+    return pump(client);
+  }
+  if (client->phase == Phase::deferred && client->turn == wake.turn) {
+    const std::function<Response()> resume = std::exchange(client->resume, nullptr);
+    if (deliver(client, resume())) {
+      read_and_serve(client);
+    }
+  }
+}
+
+void Listener::Server::account(Client& client) {
+  const std::size_t held = client.reader.held();
+  buffered_ += held - std::exchange(client.counted, held);
+}
+
+void Listener::Server::drop(Client& client) {
+  if (client.phase == Phase::streaming) {
+    --streams_;
+    client.outbox->close();
+  }
+  client.source.reset();
+  client.resume = nullptr;
+  buffered_ -= std::exchange(client.counted, 0);
+  client.close();
+  const std::lock_guard guard(table_mutex_);
+  clients_.erase(client.id);
+}
+
+ClientPointer Listener::Server::find(std::uint64_t id) const {
+  const std::lock_guard guard(table_mutex_);
+  const auto found = clients_.find(id);
+  return found == clients_.end() ? nullptr : found->second;
+}
+
+Listener::Listener(ListenerOptions options, Gateway& gateway)
+    : server_(std::make_shared<Server>(std::move(options), gateway)) {}
+
+Listener::~Listener() { stop(); }
+
+Status Listener::start() { return server_->start(); }
+
+int Listener::port() const { return server_->port(); }
+
+ListenerLoad Listener::load() const { return server_->load(); }
+
+void Listener::stop() { server_->shut_down(); }
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,224 @@
+#include "server/front/request_head.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <utility>
+#include <vector>
+
+#include "server/resources/message.h"
+
+namespace snapthrough::server::http {
+namespace {
+
+constexpr std::string_view kLineEnd = "\r\n";
+/// What the HTTP library reads of one line.
+constexpr std::size_t kHeaderBytes = 8192;
+
+/// Takes the first line, without its end, off the text.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find(kLineEnd);
+  if (end == std::string_view::npos) {
+    return std::exchange(text, {});
+  }
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end + kLineEnd.size());
+  return line;
+}
+
+Head refuse(Head head, int status, std::string detail) {
+  head.refusal = Refusal{status, std::move(detail)};
+  return head;
+}
+
+/// What the headers say, before it is judged.
+struct Facts {
+  std::size_t count = 0;
+  std::optional<std::string_view> content_length;
+  bool malformed = false;
+  bool transfer_encoding = false;
+  bool content_encoding = false;
+  bool expects_continue = false;
+  bool close = false;
+  bool keep_alive = false;
+  bool empty_key =
+      false;  ///< the library leaves out a header that is empty: the client would be told nothing
+  int hosts = 0;
+  std::size_t longest = 0;  ///< line, with its end
+};
+
+bool lists(std::string_view value, std::string_view word) {
+  const std::vector<std::string_view> parts = split_list(value, ',');
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](std::string_view part) { return equal_ignoring_case(part, word); });
+}
+
+/// Control characters in a value are how a second parser is made to see another header.
+bool has_control(std::string_view value) {
+  return std::any_of(value.begin(), value.end(),
+                     [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F; });
+}
+
+void note_header(std::string_view name, std::string_view value, Facts& facts) {
+  if (equal_ignoring_case(name, "Content-Length")) {
+    facts.malformed |= facts.content_length.has_value();
+    facts.content_length = value;
+  } else if (equal_ignoring_case(name, "Transfer-Encoding")) {
+    facts.transfer_encoding = true;
+  } else if (equal_ignoring_case(name, "Content-Encoding")) {
+    facts.content_encoding = !equal_ignoring_case(value, "identity");
+  } else if (equal_ignoring_case(name, "Expect")) {
+    facts.expects_continue = equal_ignoring_case(value, "100-continue");
+  } else if (equal_ignoring_case(name, "Connection")) {
+    facts.close |= lists(value, "close");
+    facts.keep_alive |= lists(value, "keep-alive");
+  } else if (equal_ignoring_case(name, "Host")) {
+    ++facts.hosts;
+  } else if (equal_ignoring_case(name, "Idempotency-Key")) {
+    facts.empty_key |= value.empty();
+  }
+}
+
+Facts read_headers(std::string_view lines) {
+  Facts facts;
+  while (!lines.empty()) {
+    const std::string_view line = take_line(lines);
+    if (line.empty()) {
+      break;
+    }
+    ++facts.count;
+    facts.longest = std::max(facts.longest, line.size() + kLineEnd.size());
+    const std::size_t colon = line.find(':');
+    const std::string_view name = line.substr(0, colon);
+    // A space in or before the name is how headers are smuggled past one of two parsers.
+    if (colon == std::string_view::npos || name.empty() || name.find_first_of(" \t\r\n") != name.npos) {
+      facts.malformed = true;
+      return facts;
+    }
+    const std::string_view value = trimmed(line.substr(colon + 1));
+    if (has_control(value) || has_control(name)) {
+      facts.malformed = true;
+      return facts;
+    }
+    note_header(name, value, facts);
+  }
+  return facts;
+}
+
+std::optional<std::size_t> length_of(std::string_view digits) {
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc::result_out_of_range) {
+    return static_cast<std::size_t>(-1);
+  }
+  const bool whole = error == std::errc() && end == digits.data() + digits.size();
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+/// The path and query of a target that names the scheme and host as well; the target itself if it doesn't.
+std::string_view origin_form(std::string_view target) {
+  constexpr std::string_view kScheme = "http://";
+  if (target.size() < kScheme.size() || !equal_ignoring_case(target.substr(0, kScheme.size()), kScheme)) {
+    return target;
+  }
+  const std::size_t path = target.find('/', kScheme.size());
+  return path == std::string_view::npos ? std::string_view("/") : target.substr(path);
+}
+
+bool read_request_line(std::string_view line, Head& head) {
+  const std::size_t first = line.find(' ');
+  const std::size_t last = line.rfind(' ');
+  if (first == std::string_view::npos || first == last || !line.substr(last + 1).starts_with("HTTP/1.")) {
+    return false;
+  }
+  head.method = line.substr(0, first);
+  head.target = origin_form(line.substr(first + 1, last - first - 1));
+  head.keep_alive = line.substr(last + 1) == "HTTP/1.1";  // unless a header says otherwise
+  return !head.target.empty() && head.target.find(' ') == std::string::npos;
+}
+
+bool is_known_method(std::string_view method) {
+  static constexpr std::array<std::string_view, 7> kMethods{"GET",   "HEAD",   "POST",   "PUT",
+                                                            "PATCH", "DELETE", "OPTIONS"};
+  return std::find(kMethods.begin(), kMethods.end(), method) != kMethods.end();
+}
+
+Head judge(Head head, const Facts& facts, const HeadLimits& limits) {
+  if (!is_known_method(head.method)) {
+    return refuse(std::move(head), 501, "This method is not known here.");
+  }
+  if (head.target.size() > limits.target_bytes) {
+    return refuse(std::move(head), 414,
+                  "The path and query may have " + std::to_string(limits.target_bytes) + " bytes.");
+  }
+  if (facts.count > limits.header_count) {
+    return refuse(std::move(head), 431,
+                  "A request may have " + std::to_string(limits.header_count) + " headers.");
+  }
+  if (facts.longest > kHeaderBytes) {
+    return refuse(std::move(head), 431, "A header may have " + std::to_string(kHeaderBytes) + " bytes.");
+  }
+  if (facts.malformed || facts.hosts > 1) {
+    return refuse(std::move(head), 400, "The headers are malformed.");
+  }
+  if (facts.empty_key) {
+    return refuse(std::move(head), 400, "An Idempotency-Key has 1 to 255 visible ASCII characters.");
+  }
+  if (facts.hosts == 0 && head.keep_alive) {
+    return refuse(std::move(head), 400, "A request of HTTP/1.1 needs a Host.");
+  }
+  const bool has_body = head.method == "POST" || head.method == "PUT" || head.method == "PATCH";
+  if (facts.transfer_encoding || (has_body && !facts.content_length)) {
+    return refuse(std::move(head), 411, "A request body needs a Content-Length.");
+  }
+  if (facts.content_encoding) {
+    return refuse(std::move(head), 415, "A request body is not compressed here.");
+  }
+  const std::optional<std::size_t> length = length_of(facts.content_length.value_or("0"));
+  if (!length) {
+    return refuse(std::move(head), 400, "The Content-Length is no number.");
+  }
+  if (*length > limits.body_bytes) {
+    return refuse(std::move(head), 413,
+                  "A request body may have " + std::to_string(limits.body_bytes) + " bytes.");
+  }
+  head.body_bytes = *length;
+  head.keep_alive = !facts.close && (head.keep_alive || facts.keep_alive);
+  head.expects_continue = facts.expects_continue && *length > 0;
+  return head;
+}
+
+}  // namespace
+
+Head read_head(std::string_view head_text, const HeadLimits& limits) {
+  Head head;
+  if (!read_request_line(take_line(head_text), head)) {
+    return refuse(std::move(head), 400, "The request line is malformed.");
+  }
+  return judge(std::move(head), read_headers(head_text), limits);
+}
+
+std::string cleaned_head(std::string_view head) {
+  static constexpr std::array<std::string_view, 7> kDropped{
+      "Range", "Expect", "REMOTE_ADDR", "REMOTE_PORT", "LOCAL_ADDR", "LOCAL_PORT", "If-Range"};
+  std::string cleaned;
+  cleaned.reserve(head.size());
+  const std::string_view request_line = take_line(head);
+  const std::size_t first = request_line.find(' ') + 1;
+  const std::size_t last = request_line.rfind(' ');
+  cleaned.append(request_line.substr(0, first)).append(origin_form(request_line.substr(first, last - first)));
+  cleaned.append(request_line.substr(last)).append(kLineEnd);
+  while (!head.empty()) {
+    const std::string_view line = take_line(head);
+    const std::string_view name = line.substr(0, line.find(':'));
+    const bool dropped = std::any_of(kDropped.begin(), kDropped.end(), [&](std::string_view other) {
+      return equal_ignoring_case(name, other);
+    });
+    if (!dropped) {
+      cleaned.append(line).append(kLineEnd);
+    }
+  }
+  return cleaned;
+}
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,48 @@
+#pragma once
+/// @file
+/// What is decided about a request from its bytes alone, before any library parses it: how long it is, and
+/// whether it is refused. Pure functions.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace snapthrough::server::http {
+
+/// Bounds on what a client may send.
+struct HeadLimits {
+  std::size_t head_bytes = 16 * 1024;  ///< request line and headers together
+  std::size_t target_bytes = 2048;     ///< path and query
+  std::size_t header_count = 100;
+  std::size_t body_bytes = 8 * 1024 * 1024;
+  std::size_t buffered_bytes = 64 * 1024 * 1024;  ///< of all incomplete requests together
+};
+
+/// Why a request is refused before it is parsed.
+struct Refusal {
+  int status = 400;
+  std::string detail;
+};
+
+/// What the head of a request says about the bytes that follow.
+struct Head {
+  std::string method;
+  std::string target;
+  std::size_t body_bytes = 0;
+  bool keep_alive = false;         ///< the client may send another request on this connection
+  bool expects_continue = false;   ///< the client waits for "100 Continue" before it sends the body
+  std::optional<Refusal> refusal;  ///< set: answer this and close the connection; the rest may be missing
+};
+
+/// @brief Reads the head of a request.
+/// @param head request line and headers up to and including the empty line
+[[nodiscard]] Head read_head(std::string_view head, const HeadLimits& limits);
+
+/// @brief The head, its target without scheme and host, and without the headers that the HTTP library would
+/// act on: ranges (they amplify), codings of the response (the library compresses slowly), expectations (met
+/// already), and the names it stores addresses under.
+/// @pre read_head() did not refuse it
+[[nodiscard]] std::string cleaned_head(std::string_view head);
+
+}  // namespace snapthrough::server::http

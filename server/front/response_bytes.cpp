@@ -1,0 +1,130 @@
+#include "server/front/response_bytes.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+#include <vector>
+
+namespace snapthrough::server::http {
+namespace {
+
+constexpr std::size_t kWorthCompressing = 1400;  // what fits in one packet is not made faster
+
+/// Whether a list of codings ("br;q=1.0, gzip;q=0.8") takes gzip.
+bool takes_gzip(std::string_view accepted) {
+  bool any = false;
+  for (const std::string_view part : split_list(accepted, ',')) {
+    const std::size_t semicolon = part.find(';');
+    const std::string_view coding = trimmed(part.substr(0, semicolon));
+    const bool named = equal_ignoring_case(coding, "gzip");
+    if (!named && coding != "*") {
+      continue;
+    }
+    const std::size_t quality = semicolon == part.npos ? part.npos : part.find("q=", semicolon);
+    double weight = 1.0;
+    if (quality != part.npos) {
+      std::from_chars(part.data() + quality + 2, part.data() + part.size(), weight);
+    }
+    if (named) {
+      return weight > 0.0;
+    }
+    any = weight > 0.0;
+  }
+  return any;
+}
+
+/// The gzip form, empty when the library does not manage.
+std::string gzip(const std::string& body) {
+  z_stream stream{};
+  constexpr int kGzip = 15 + 16;
+  if (::deflateInit2(&stream, 1, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
+    return {};
+  }
+  std::string packed(::deflateBound(&stream, body.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(body.data()));  // zlib does not write to it
+  stream.avail_in = static_cast<uInt>(body.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const bool whole = ::deflate(&stream, Z_FINISH) == Z_STREAM_END;
+  packed.resize(whole ? stream.total_out : 0);
+  ::deflateEnd(&stream);
+  return packed;
+}
+
+}  // namespace
+
+std::string_view reason_phrase(int status) {
+  static constexpr std::pair<int, std::string_view> kPhrases[] = {
+      {200, "OK"},
+      {201, "Created"},
+      {204, "No Content"},
+      {304, "Not Modified"},
+      {400, "Bad Request"},
+      {401, "Unauthorized"},
+      {403, "Forbidden"},
+      {404, "Not Found"},
+      {405, "Method Not Allowed"},
+      {406, "Not Acceptable"},
+      {409, "Conflict"},
+      {411, "Length Required"},
+      {413, "Content Too Large"},
+      {414, "URI Too Long"},
+      {415, "Unsupported Media Type"},
+      {422, "Unprocessable Content"},
+      {429, "Too Many Requests"},
+      {431, "Request Header Fields Too Large"},
+      {500, "Internal Server Error"},
+      {501, "Not Implemented"},
+      {503, "Service Unavailable"},
+  };
+  const auto* found = std::find_if(std::begin(kPhrases), std::end(kPhrases),
+                                   [&](const auto& row) { return row.first == status; });
+  return found == std::end(kPhrases) ? "Unknown" : found->second;
+}
+
+std::string to_bytes(const Response& response, bool head_only, bool keep_alive) {
+  std::string bytes;
+  bytes.reserve(512 + (head_only ? 0 : response.body.size()));
+  bytes.append("HTTP/1.1 ").append(std::to_string(response.status)).append(" ");
+  bytes.append(reason_phrase(response.status)).append("\r\n");
+  for (const auto& [name, value] : response.headers) {
+    bytes.append(name).append(": ").append(value).append("\r\n");
+  }
+  if (!response.content_type.empty()) {
+    bytes.append("Content-Type: ").append(response.content_type).append("\r\n");
+  }
+  const bool bodiless = response.status == 204 || response.status == 304;
+  if (!response.stream && !bodiless) {
+    bytes.append("Content-Length: ").append(std::to_string(response.body.size())).append("\r\n");
+  }
+  bytes.append(keep_alive ? "Connection: keep-alive\r\n\r\n" : "Connection: close\r\n\r\n");
+  if (!head_only && !bodiless && !response.stream) {
+    bytes.append(response.body);
+  }
+  return bytes;
+}
+
+void compress(Response& response, std::string_view accept_encoding) {
+  if (response.status != 200 || response.body.size() < kWorthCompressing) {
+    return;
+  }
+  response.headers.emplace_back("Vary", "Accept, Accept-Encoding");
+  if (!takes_gzip(accept_encoding)) {
+    return;
+  }
+  std::string packed = gzip(response.body);
+  if (packed.empty() || packed.size() >= response.body.size()) {
+    return;
+  }
+  response.body = std::move(packed);
+  response.headers.emplace_back("Content-Encoding", "gzip");
+  for (auto& [name, value] : response.headers) {
+    if (name == "ETag" && value.size() > 2) {
+      value.insert(value.size() - 1, "-gzip");
+    }
+  }
+}
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,119 @@
+#include "server/front/sockets.h"
+
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/eventfd.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+namespace snapthrough::server::http {
+namespace {
+
+constexpr int kBacklog = 4096;  // the kernel lowers it to its own limit
+
+Status cannot_listen(const std::string& host, int port, const std::string& cause) {
+  return {StatusCode::unavailable, "cannot listen on " + host + ":" + std::to_string(port) + ": " + cause};
+}
+
+}  // namespace
+
+Descriptor::Descriptor(Descriptor&& other) noexcept : value_(std::exchange(other.value_, -1)) {}
+
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+  std::swap(value_, other.value_);
+  return *this;
+}
+
+void Descriptor::reset() {
+  if (value_ >= 0) {
+    ::close(std::exchange(value_, -1));
+  }
+}
+
+StatusOr<Descriptor> listen_on(const std::string& host, int port) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+  addrinfo* list = nullptr;
+  const int code = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &list);
+  if (code != 0) {
+    return cannot_listen(host, port, ::gai_strerror(code));
+  }
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owned(list, &::freeaddrinfo);
+  int cause = 0;
+  for (const addrinfo* address = list; address != nullptr; address = address->ai_next) {
+    Descriptor socket(::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    // Only SO_REUSEADDR: with SO_REUSEPORT two services could share a port without noticing.
+    const int on = 1;
+    ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    if (socket.get() >= 0 && ::bind(socket.get(), address->ai_addr, address->ai_addrlen) == 0 &&
+        ::listen(socket.get(), kBacklog) == 0) {
+      return socket;
+    }
+    cause = errno;
+  }
+  return cannot_listen(host, port, std::generic_category().message(cause));
+}
+
+int port_of(int socket) {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+  if (::getsockname(socket, reinterpret_cast<sockaddr*>(&storage), &size) != 0) {
+    return 0;
+  }
+  return ntohs(storage.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(storage).sin6_port
+                                             : reinterpret_cast<const sockaddr_in&>(storage).sin_port);
+}
+
+int accept_from(int listener, std::string& remote) {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+  auto* address = reinterpret_cast<sockaddr*>(&storage);
+  const int socket = ::accept4(listener, address, &size, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (socket < 0) {
+    return -1;
+  }
+  const int on = 1;
+  ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  std::array<char, NI_MAXHOST> host{};
+  if (::getnameinfo(address, size, host.data(), host.size(), nullptr, 0, NI_NUMERICHOST) == 0) {
+    remote = host.data();
+  }
+  return socket;
+}
+
+Counter::Counter(bool one_by_one)
+    : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK | (one_by_one ? EFD_SEMAPHORE : 0))) {
+  if (descriptor_.get() < 0) {
+    throw std::system_error(errno, std::generic_category(), "eventfd");
+  }
+}
+
+void Counter::add() const {
+  const std::uint64_t one = 1;
+  // A full counter would be readable too.
+  [[maybe_unused]] const ssize_t written = ::write(descriptor_.get(), &one, sizeof one);
+}
+
+void Counter::take() const {
+  std::uint64_t value = 0;
+  [[maybe_unused]] const ssize_t count = ::read(descriptor_.get(), &value, sizeof value);
+}
+
+void raise_descriptor_limit() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) == 0) {
+    limit.rlim_cur = limit.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+  }
+}
+
+}  // namespace snapthrough::server::http

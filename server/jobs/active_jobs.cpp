@@ -1,0 +1,72 @@
+#include "server/jobs/active_jobs.h"
+
+namespace snapthrough::server {
+
+ActiveJobs::Entry::Entry(ActiveJobs& active, const Claim& claim, Time since)
+    : active_(active), claim_{claim.id, claim.attempt}, since_(since) {
+  const std::lock_guard guard(active_.mutex_);
+  active_.entries_.emplace(claim_.id, this);
+}
+
+ActiveJobs::Entry::~Entry() {
+  const std::lock_guard guard(active_.mutex_);
+  const auto [first, last] = active_.entries_.equal_range(claim_.id);
+  for (auto it = first; it != last; ++it) {
+    if (it->second == this) {
+      active_.entries_.erase(it);
+      return;
+    }
+  }
+}
+
+void ActiveJobs::Entry::stop(StopReason reason) {
+  const std::lock_guard guard(active_.mutex_);
+  stop_entry(*this, reason);
+}
+
+StopReason ActiveJobs::Entry::reason() const {
+  const std::lock_guard guard(active_.mutex_);
+  return reason_;
+}
+
+void ActiveJobs::stop_entry(Entry& entry, StopReason reason) {
+  if (entry.reason_ == StopReason::none) {
+    entry.reason_ = reason;
+    entry.stop_.request_stop();
+  }
+}
+
+void ActiveJobs::stop(const std::string& id, StopReason reason) {
+  const std::lock_guard guard(mutex_);
+  const auto [first, last] = entries_.equal_range(id);
+  for (auto it = first; it != last; ++it) {
+    stop_entry(*it->second, reason);
+  }
+}
+
+void ActiveJobs::stop_older(Time since, StopReason reason) {
+  const std::lock_guard guard(mutex_);
+  for (const auto& [id, entry] : entries_) {
+    if (entry->since_ < since) {
+      stop_entry(*entry, reason);
+    }
+  }
+}
+
+std::vector<Claim> ActiveJobs::older(Time since) const {
+  const std::lock_guard guard(mutex_);
+  std::vector<Claim> claims;
+  for (const auto& [id, entry] : entries_) {
+    if (entry->since_ < since) {
+      claims.push_back(entry->claim_);
+    }
+  }
+  return claims;
+}
+
+std::size_t ActiveJobs::count() const {
+  const std::lock_guard guard(mutex_);
+  return entries_.size();
+}
+
+}  // namespace snapthrough::server

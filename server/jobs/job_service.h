@@ -1,0 +1,70 @@
+#pragma once
+/// @file
+/// What a caller can do with jobs, whatever the protocol: hand one in, look at it, dismiss it.
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/environment.h"
+#include "server/jobs/submission.h"
+#include "server/jobs/worker_context.h"
+#include "server/log/log.h"
+#include "server/store/store.h"
+#include "solver/solve.h"
+
+namespace snapthrough::server {
+
+/// @brief Where jobs are handed in and asked for. Thread-safe; the parts it is given must outlive it.
+class JobService {
+ public:
+  JobService(Store& store, const Environment& environment, Log& log, JobLimits limits = {});
+
+  /// @brief Reads and checks a request document and, when nothing is wrong, stores it as a job.
+  /// The job is durable when this returns an id. `unavailable` when nothing can be stored at the moment.
+  StatusOr<Submission> submit(const Order& order);
+  /// The job, if there is one and it is the owner's.
+  StatusOr<std::optional<Job>> get(const std::string& id, std::string_view owner);
+  /// Dismisses a job and stops its analysis. @pre get() found it
+  StatusOr<Dismissal> dismiss(const std::string& id);
+  /// Removes a job, after stopping its analysis. @pre get() found it
+  Status remove(const std::string& id);
+
+  /// Where a running analysis stands; nothing before its first step.
+  [[nodiscard]] std::optional<Progress> progress(const std::string& id) const {
+    return progress_.get(id, &JobNews::progress).value_or(std::nullopt);
+  }
+  [[nodiscard]] Store& store() { return store_; }
+  [[nodiscard]] const Environment& environment() const { return environment_; }
+  [[nodiscard]] const JobLimits& limits() const { return limits_; }
+  /// Sweeps, for callers and workers.
+  [[nodiscard]] SweepService& sweeps() { return sweeps_; }
+  /// For the workers, and for whoever follows what they do.
+  [[nodiscard]] const WorkerContext& context() const { return context_; }
+
+ private:
+  class KeyInUse;
+  StatusOr<Submission> store_new(const Order& order, const api::Request& request, std::string key);
+  void log_accepted(const NewJob& job, std::string_view request_id);
+
+  Store& store_;
+  const Environment& environment_;
+  Log& log_;
+  const JobLimits limits_;
+  StoreHealth health_;
+  std::atomic<std::int64_t> waiting_ = 0;
+  std::mutex keys_mutex_;
+  std::set<std::pair<std::string, std::string>> keys_in_use_;
+  JobCompletions completions_;
+  HandoffQueue handoffs_;
+  ActiveJobs active_;
+  JobProgress progress_;
+  SweepService sweeps_;
+  const WorkerContext context_;
+};
+
+}  // namespace snapthrough::server

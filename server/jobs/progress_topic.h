@@ -1,0 +1,112 @@
+#pragma once
+/// @file
+/// What running work tells, and who follows it.
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "solver/solve.h"
+
+namespace snapthrough::server {
+
+/// @brief The latest news of what this process works on, by id, and who follows it. Thread-safe.
+template <class News>
+class ProgressTopic {
+ public:
+  /// Follows one id for as long as it exists.
+  class Follower {
+   public:
+    /// Tells the latest news at once if there are any. The callback is called by one thread at a time; it
+    /// must be quick, must not throw, and must not use the topic.
+    Follower(ProgressTopic& topic, std::string id, std::function<void(const News&)> callback)
+        : topic_(topic), id_(std::move(id)), callback_(std::move(callback)) {
+      const std::lock_guard guard(topic_.mutex_);
+      topic_.followers_.emplace(id_, this);
+      if (const auto latest = topic_.latest_.find(id_); latest != topic_.latest_.end()) {
+        callback_(latest->second);
+      }
+    }
+    ~Follower() {
+      const std::lock_guard guard(topic_.mutex_);
+      const auto [first, last] = topic_.followers_.equal_range(id_);
+      for (auto it = first; it != last; ++it) {
+        if (it->second == this) {
+          topic_.followers_.erase(it);
+          return;
+        }
+      }
+    }
+    Follower(const Follower&) = delete;
+    Follower& operator=(const Follower&) = delete;
+    Follower(Follower&&) = delete;
+    Follower& operator=(Follower&&) = delete;
+
+   private:
+    friend class ProgressTopic;
+    ProgressTopic& topic_;
+    std::string id_;
+    std::function<void(const News&)> callback_;
+  };
+
+  /// Changes what is remembered (which begins empty) and tells the followers.
+  /// @param change called with News&
+  template <class Change>
+  void update(const std::string& id, Change change) {
+    const std::lock_guard guard(mutex_);
+    News& news = latest_[id];
+    change(news);
+    tell(id, news);
+  }
+  /// Only tells the followers.
+  void pass_on(const std::string& id, const News& news) const {
+    const std::lock_guard guard(mutex_);
+    tell(id, news);
+  }
+  void erase(const std::string& id) {
+    const std::lock_guard guard(mutex_);
+    latest_.erase(id);
+  }
+  /// One field of what is remembered.
+  template <class Field>
+  [[nodiscard]] std::optional<Field> get(const std::string& id, Field News::*field) const {
+    const std::lock_guard guard(mutex_);
+    const auto found = latest_.find(id);
+    return found == latest_.end() ? std::nullopt : std::optional<Field>(found->second.*field);
+  }
+
+ private:
+  void tell(const std::string& id, const News& news) const {
+    const auto [first, last] = followers_.equal_range(id);
+    for (auto it = first; it != last; ++it) {
+      it->second->callback_(news);
+    }
+  }
+  mutable std::mutex mutex_;
+  std::unordered_map<std::string, News> latest_;
+  std::unordered_multimap<std::string, Follower*> followers_;
+};
+
+/// A critical point that a running analysis has found.
+struct FoundPoint {
+  std::uint64_t number = 0;  ///< JobNews::number of the news that brought it
+  CriticalPoint point;
+};
+
+/// What a running analysis has told so far.
+struct JobNews {
+  int attempt = 0;
+  std::uint64_t number = 0;          ///< how often it told something in this attempt
+  std::optional<Progress> progress;  ///< the latest
+  std::vector<FoundPoint> found;     ///< all, in the order they were found
+};
+
+/// Where the jobs are that run in this process.
+using JobProgress = ProgressTopic<JobNews>;
+
+}  // namespace snapthrough::server

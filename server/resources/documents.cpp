@@ -1,0 +1,174 @@
+#include "server/resources/documents.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "api/api.h"
+
+namespace snapthrough::server::http {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string to_text(const ordered_json& document) {
+  return document.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+ordered_json optional_time(const std::optional<Time>& time) {
+  return time ? ordered_json(rfc3339(*time)) : ordered_json(nullptr);
+}
+
+ordered_json link(std::string_view rel, const std::string& href) {
+  return {{"rel", rel}, {"href", href}, {"type", "application/json"}};
+}
+
+std::string status_message(const Job& job, const std::optional<Progress>& progress) {
+  if (job.failure) {
+    return job.failure->detail;
+  }
+  if (job.state == JobState::running && progress) {
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(), "branch %d, step %d, load factor %.6g, negative eigenvalues %d",
+                  progress->branch, progress->step, progress->load_factor, progress->negative_eigenvalues);
+    return text.data();
+  }
+  switch (job.state) {
+    case JobState::accepted:
+      return "waits for a worker";
+    case JobState::running:
+      return "runs";
+    case JobState::successful:
+      return "the result is ready";
+    case JobState::failed:
+      return "failed";
+    case JobState::dismissed:
+      return "dismissed";
+  }
+  return "";
+}
+
+ordered_json job_status(const Job& job, const std::optional<Progress>& progress) {
+  const std::string path = job_path(job.id);
+  ordered_json links = ordered_json::array({link("self", path), link("request", path + "/request")});
+  if (is_final(job.state)) {
+    links.push_back(link("result", path + "/result"));
+  }
+  ordered_json status{
+      {"id", job.id},
+      {"status", to_string(job.state)},
+      // The length of an equilibrium path is not known before its end; the message says where it is.
+      {"progress", is_final(job.state) ? 100 : 0},
+      {"message", status_message(job, progress)},
+      {"title", job.title},
+      {"analysis", job.analysis_type},
+      {"attempt", job.attempt},
+      {"created", rfc3339(job.created)},
+      {"started", optional_time(job.started)},
+      {"finished", optional_time(job.finished)}};
+  if (job.failure) {
+    status["error"] = {{"code", job.failure->code}, {"detail", job.failure->detail}};
+  }
+  status["links"] = std::move(links);
+  return status;
+}
+
+std::string sweep_message(const SweepRecord& sweep) {
+  switch (sweep.state) {
+    case JobState::accepted:
+      return "waits for a worker";
+    case JobState::running:
+      return std::to_string(sweep.done()) + " of " + std::to_string(sweep.points) + " points are done";
+    case JobState::successful:
+      return "the table is complete";
+    case JobState::failed:
+      return "the table is complete; " + std::to_string(sweep.failed) + " of " +
+             std::to_string(sweep.points) + " points failed";
+    case JobState::dismissed:
+      return "dismissed; " + std::to_string(sweep.done()) + " of " + std::to_string(sweep.points) +
+             " points have a row";
+  }
+  return "";
+}
+
+ordered_json sweep_status(const SweepRecord& sweep) {
+  const std::string path = sweep_path(sweep.id);
+  return {{"id", sweep.id},
+          {"status", to_string(sweep.state)},
+          {"progress", 100 * sweep.done() / std::max<std::int64_t>(sweep.points, 1)},
+          {"message", sweep_message(sweep)},
+          {"title", sweep.title},
+          {"points", sweep.points},
+          {"counts",
+           {{"successful", sweep.successful},
+            {"failed", sweep.failed},
+            {"reused", sweep.reused},
+            {"remaining", sweep.points - sweep.done()}}},
+          {"created", rfc3339(sweep.created)},
+          {"started", optional_time(sweep.started)},
+          {"finished", optional_time(sweep.finished)},
+          {"links", ordered_json::array({link("self", path), link("request", path + "/request"),
+                                         link("table", path + "/table")})}};
+}
+
+}  // namespace
+
+std::string sweep_path(std::string_view id) { return "/v1/sweeps/" + std::string(id); }
+
+std::string sweep_status_document(const SweepRecord& sweep) { return to_text(sweep_status(sweep)); }
+
+std::string sweep_list_document(const SweepPage& page, std::string_view next) {
+  ordered_json sweeps = ordered_json::array();
+  for (const SweepRecord& sweep : page.sweeps) {
+    sweeps.push_back(sweep_status(sweep));
+  }
+  ordered_json links = ordered_json::array();
+  if (!next.empty()) {
+    links.push_back(link("next", std::string(next)));
+  }
+  return to_text({{"sweeps", std::move(sweeps)}, {"links", std::move(links)}});
+}
+
+std::string job_path(std::string_view id) { return "/v1/jobs/" + std::string(id); }
+
+std::string job_status_document(const Job& job, const std::optional<Progress>& progress) {
+  return to_text(job_status(job, progress));
+}
+
+std::string job_list_document(const JobPage& page, std::string_view next) {
+  ordered_json jobs = ordered_json::array();
+  for (const Job& job : page.jobs) {
+    jobs.push_back(job_status(job, std::nullopt));
+  }
+  ordered_json links = ordered_json::array();
+  if (!next.empty()) {
+    links.push_back(link("next", std::string(next)));
+  }
+  return to_text({{"jobs", std::move(jobs)}, {"links", std::move(links)}});
+}
+
+Response problem_response(const Problem& problem, const Request& request) {
+  ordered_json document{{"type", "urn:snapthrough:problem:" + problem.kind},
+                        {"title", problem.title},
+                        {"status", problem.status},
+                        {"detail", problem.detail},
+                        {"instance", request.path},
+                        {"request_id", request.id}};
+  if (!problem.errors.empty()) {
+    document["errors"] = api::write_findings(problem.errors);
+  }
+  if (!problem.code.empty()) {
+    document["code"] = problem.code;
+  }
+  if (!problem.reached.empty()) {
+    document["reached"] = ordered_json::parse(problem.reached);
+  }
+  Response response;
+  response.status = problem.status;
+  response.content_type = "application/problem+json";
+  response.body = to_text(document);
+  return response;
+}
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,114 @@
+#include "server/resources/events.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "server/resources/documents.h"
+#include "server/resources/following.h"
+
+namespace snapthrough::server::http {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Events of a running job are numbered attempt by attempt; those of its end come after all of them.
+constexpr std::uint64_t kAttempt = 1'000'000'000'000;
+constexpr std::uint64_t kEndings = 1'000'000 * kAttempt;
+static_assert(kEndings < kEndOfJob);
+
+const char* type_name(CriticalType type) {
+  switch (type) {
+    case CriticalType::bifurcation:
+      return "bifurcation";
+    case CriticalType::limit_max:
+      return "limit_max";
+    case CriticalType::limit_min:
+      return "limit_min";
+    case CriticalType::broken_bifurcation:
+      return "broken_bifurcation";
+  }
+  return "";
+}
+
+std::string progress_data(const Progress& progress) {
+  return ordered_json{{"branch", progress.branch},
+                      {"step", progress.step},
+                      {"load_factor", progress.load_factor},
+                      {"negative_eigenvalues", progress.negative_eigenvalues}}
+      .dump();
+}
+
+/// @param last as the result has it; else as the path's own mesh gave it
+std::string critical_data(const CriticalPoint& point, bool last) {
+  ordered_json data{{"branch", point.branch},
+                    {"type", type_name(point.type)},
+                    {"load_factor", point.load_factor},
+                    {"arc_length", point.arc_length},
+                    {"negative_before", point.negative_before},
+                    {"negative_after", point.negative_after}};
+  data["error_estimate"] = point.error_estimate ? ordered_json(*point.error_estimate) : ordered_json(nullptr);
+  data["final"] = last;
+  return data.dump();
+}
+
+/// One client that follows one job.
+class FollowingJob final : public Following {
+ public:
+  using Following::Following;
+
+  void begin() {
+    const StatusOr<std::optional<Job>> job = jobs_.store().get(id_);
+    if (!job.ok() || !job->has_value() || is_final((*job)->state)) {
+      return end_at_once();
+    }
+    send_status(static_cast<std::uint64_t>((*job)->attempt) * kAttempt,
+                job_status_document(**job, jobs_.progress(id_)));
+    follower_.emplace(jobs_.context().progress, id_, [this](const JobNews& news) { on_news(news); });
+    listen_for_end();
+  }
+
+ private:
+  void on_news(const JobNews& news) {
+    const std::uint64_t base = static_cast<std::uint64_t>(news.attempt) * kAttempt;
+    const auto lacking =
+        std::partition_point(news.found.begin(), news.found.end(),
+                             [&](const FoundPoint& found) { return !lacks(base + found.number); });
+    for (auto found = lacking; found != news.found.end(); ++found) {
+      send(base + found->number, "critical_point", critical_data(found->point, false));
+    }
+    if (news.progress) {
+      send_progress(base + news.number, progress_data(*news.progress));
+    }
+  }
+
+  [[nodiscard]] std::string ending() override {
+    const StatusOr<std::optional<Job>> job = jobs_.store().get(id_);
+    if (!job.ok() || !job->has_value() || !is_final((*job)->state)) {
+      return "";
+    }
+    const StatusOr<StoredPath> path = jobs_.store().path(id_);
+    std::string text;
+    std::uint64_t number = kEndings;
+    for (const CriticalPoint& point : path.ok() ? path->critical_points : std::vector<CriticalPoint>()) {
+      if (lacks(++number)) {
+        text += event_text(number, "critical_point", critical_data(point, true));
+      }
+    }
+    return text + event_text(kEndOfJob, "end", job_status_document(**job, std::nullopt));
+  }
+
+  std::optional<JobProgress::Follower> follower_;
+};
+
+}  // namespace
+
+std::shared_ptr<StreamSource> follow_job(JobService& jobs, const std::string& id, std::uint64_t last_id,
+                                         Stream::Push push) {
+  auto following = std::make_shared<FollowingJob>(jobs, id, last_id, std::move(push));
+  following->begin();
+  return following;
+}
+
+}  // namespace snapthrough::server::http

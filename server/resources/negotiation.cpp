@@ -1,0 +1,196 @@
+#include "server/resources/negotiation.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/resources/routes.h"
+
+namespace snapthrough::server::http {
+namespace {
+
+constexpr std::size_t kLongestKey = 255;
+
+bool is_key(std::string_view text) {
+  return !text.empty() && text.size() <= kLongestKey &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c > 0x20 && c < 0x7F; });
+}
+
+Response refused_document(const Request& request, Submission submission) {
+  Problem problem{422, "invalid-request", "Invalid request", "", std::move(submission.findings), "", ""};
+  if (submission.kind == Submission::Kind::malformed) {
+    problem = {400, "malformed-json", "Malformed JSON", "", std::move(problem.errors), "", ""};
+  }
+  const std::size_t count = problem.errors.size();
+  problem.detail = "The document has " + std::to_string(count) + (count == 1 ? " error" : " errors") +
+                   "; nothing was stored.";
+  return problem_response(problem, request);
+}
+
+std::optional<api::TableForm> accepted_form(std::string_view range) {
+  if (equal_ignoring_case(range, "text/csv") || range == "text/*") {
+    return api::TableForm::csv;
+  }
+  for (const char* name : {"application/x-ndjson", "application/ndjson", "application/jsonl"}) {
+    if (equal_ignoring_case(range, name)) {
+      return api::TableForm::ndjson;
+    }
+  }
+  const bool json =
+      equal_ignoring_case(range, "application/json") || range == "*/*" || range == "application/*";
+  return json ? std::optional(api::TableForm::json) : std::nullopt;
+}
+
+/// False when it is unknown or its value is not acceptable.
+bool read_list_parameter(const std::string& name, const std::string& value, const ListQuery& query) {
+  if (name == "limit") {
+    query.limit = whole_number<int>(value).value_or(0);
+    return query.limit >= 1 && query.limit <= kLargestPage;
+  }
+  if (name == "cursor") {
+    query.before = whole_number<std::int64_t>(value);
+    return query.before.has_value();
+  }
+  if (name == "status") {
+    query.state = job_state_from(value);
+    return query.state.has_value();
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<Response> read_list_query(const Request& request, ListQuery query) {
+  for (const auto& [name, value] : request.query) {
+    if (!read_list_parameter(name, value, query)) {
+      return wrong_parameter(
+          request, "limit (1 to " + std::to_string(kLargestPage) + "), cursor (from a next link) and status",
+          name, value);
+    }
+  }
+  return std::nullopt;
+}
+
+std::string next_page(const Request& request, ListQuery query, std::optional<std::int64_t> cursor) {
+  if (!cursor) {
+    return "";
+  }
+  std::string target =
+      request.path + "?limit=" + std::to_string(query.limit) + "&cursor=" + std::to_string(*cursor);
+  if (query.state) {
+    target += "&status=" + std::string(to_string(*query.state));
+  }
+  return target;
+}
+
+Response list_page(std::string document, const std::string& next) {
+  Response response = json_response(200, std::move(document));
+  if (!next.empty()) {
+    response.headers.emplace_back("Link", "<" + next + ">; rel=\"next\"");
+  }
+  return response;
+}
+
+Response wrong_parameter(const Request& request, const std::string& expected, const std::string& name,
+                         const std::string& value) {
+  return simple_problem(
+      request, 400, "invalid-parameter", "Invalid parameter",
+      "The query parameters are " + expected + "; this is none of them: " + name + "=" + value);
+}
+
+Response event_stream(const Request& request, std::optional<std::uint64_t> end,
+                      std::function<std::shared_ptr<StreamSource>(std::uint64_t, Stream::Push)> follow) {
+  Response response;
+  response.headers.emplace_back("Cache-Control", "no-store");
+  const std::uint64_t last =
+      whole_number<std::uint64_t>(request.header("Last-Event-ID").value_or("")).value_or(0);
+  if (end && last >= *end) {
+    response.status = 204;
+    return response;
+  }
+  response.content_type = "text/event-stream";
+  response.stream =
+      Stream{[follow = std::move(follow), last](Stream::Push push) { return follow(last, std::move(push)); }};
+  return response;
+}
+
+bool matches_etag(const Request& request, const std::string& etag) {
+  const std::optional<std::string_view> header = request.header("If-None-Match");
+  if (!header) {
+    return false;
+  }
+  const std::string packed = etag.substr(0, etag.size() - 1) + "-gzip\"";
+  const std::vector<std::string_view> tags = split_list(*header, ',');
+  return std::any_of(tags.begin(), tags.end(), [&](std::string_view tag) {
+    const std::string_view strong = tag.starts_with("W/") ? tag.substr(2) : tag;
+    return strong == "*" || strong == etag || strong == packed;
+  });
+}
+
+bool wants_fresh(const Request& request) {
+  const std::vector<std::string_view> parts = split_list(request.header("Cache-Control").value_or(""), ',');
+  return std::any_of(parts.begin(), parts.end(),
+                     [](std::string_view part) { return equal_ignoring_case(part, "no-cache"); });
+}
+
+std::optional<Response> refused_key(const Request& request) {
+  const std::optional<std::string_view> key = request.header("Idempotency-Key");
+  if (!key || is_key(*key)) {
+    return std::nullopt;
+  }
+  return simple_problem(request, 400, "invalid-header", "Invalid header",
+                        "An Idempotency-Key has 1 to 255 visible ASCII characters.");
+}
+
+std::optional<Response> refusal_of(const Request& request, Submission& submission, const char* what) {
+  switch (submission.kind) {
+    case Submission::Kind::malformed:
+    case Submission::Kind::invalid:
+      return refused_document(request, std::move(submission));
+    case Submission::Kind::key_conflict:
+      return simple_problem(request, 422, "idempotency-key-reused", "Idempotency key reused",
+                            "This Idempotency-Key came with another document before.");
+    case Submission::Kind::key_in_use: {
+      Response response =
+          simple_problem(request, 409, "idempotency-key-in-use", "Idempotency key in use",
+                         "A request with this Idempotency-Key is being served at this moment.");
+      response.headers.emplace_back("Retry-After", "1");
+      return response;
+    }
+    case Submission::Kind::queue_full: {
+      Response response =
+          simple_problem(request, 429, "queue-full", "Queue full",
+                         "As many " + std::string(what) + " wait as the service takes (see /v1/limits).");
+      response.headers.emplace_back("Retry-After", "10");
+      return response;
+    }
+    case Submission::Kind::stored:
+    case Submission::Kind::repeated:
+    case Submission::Kind::reused:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<api::TableForm> wanted_table_form(const Request& request) {
+  for (const auto& [name, value] : request.query) {
+    if (name == "format") {
+      return api::table_form_from(value);
+    }
+  }
+  const std::optional<std::string_view> accept = request.header("Accept");
+  if (!accept || trimmed(*accept).empty()) {
+    return api::TableForm::json;
+  }
+  std::optional<api::TableForm> form;
+  for (const std::string_view part : split_list(*accept, ',')) {
+    const bool none = part.find("q=0") != part.npos && part.find("q=0.") == part.npos;
+    const auto accepted = none ? std::nullopt : accepted_form(trimmed(part.substr(0, part.find(';'))));
+    if (accepted == api::TableForm::json) {
+      return accepted;
+    }
+    form = form ? form : accepted;
+  }
+  return form;
+}
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,144 @@
+#include "server/resources/routes.h"
+
+#include <utility>
+
+namespace snapthrough::server::http {
+namespace {
+
+/// What the segments of a path are that a pattern leaves open.
+struct Segments {
+  std::string id;
+  std::string point;
+};
+
+/// Whether a path has the form of a route's pattern; "{id}" and "{n}" take one segment each.
+bool matches(std::string_view pattern, std::string_view path, Segments& found) {
+  while (!pattern.empty() && !path.empty()) {
+    const std::size_t pattern_end = std::min(pattern.find('/', 1), pattern.size());
+    const std::size_t path_end = std::min(path.find('/', 1), path.size());
+    const std::string_view segment = pattern.substr(0, pattern_end);
+    if (segment == "/{id}" || segment == "/{n}") {
+      (segment == "/{id}" ? found.id : found.point) = path.substr(1, path_end - 1);
+    } else if (segment != path.substr(0, path_end)) {
+      return false;
+    }
+    pattern.remove_prefix(pattern_end);
+    path.remove_prefix(path_end);
+  }
+  return pattern.empty() && path.empty();
+}
+
+}  // namespace
+
+Response json_response(int status, std::string body) {
+  Response response;
+  response.status = status;
+  response.content_type = "application/json";
+  response.body = std::move(body);
+  return response;
+}
+
+Response simple_problem(const Request& request, int status, const char* kind, const char* title,
+                        std::string detail) {
+  return problem_response({status, kind, title, std::move(detail), {}, "", ""}, request);
+}
+
+Response store_trouble(const Request& request, const Status& status) {
+  Response response;
+  if (status.code() == StatusCode::unavailable) {
+    response = simple_problem(request, 503, "store-unavailable", "Service unavailable",
+                              "The store cannot be used at the moment.");
+    response.headers.emplace_back("Retry-After", "5");
+  } else {
+    response = simple_problem(request, 500, "internal-error", "Internal error", "The store failed.");
+  }
+  response.trouble = status.message();
+  return response;
+}
+
+bool is_json(std::string_view content_type) {
+  return equal_ignoring_case(trimmed(content_type.substr(0, content_type.find(';'))), "application/json");
+}
+
+Response job_missing(const Request& request, const std::string& id) {
+  return simple_problem(request, 404, "no-such-job", "No such job",
+                        "There is no job with the id " + id + ".");
+}
+
+struct Routes::Route {
+  const char* method;
+  const char* pattern;
+  /// Given the request and the segment {id}.
+  Response (Routes::*handler)(const Request&, const std::string&);
+  /// In its place where there is a segment {n}, which it is given too.
+  Response (Routes::*point_handler)(const Request&, const std::string&, const std::string&) = nullptr;
+};
+
+const std::vector<Routes::Route>& Routes::table() {
+  static const std::vector<Route> routes{
+      {"POST", "/v1/jobs", &Routes::create_job},
+      {"GET", "/v1/jobs", &Routes::list_jobs},
+      {"GET", "/v1/jobs/{id}", &Routes::job_status},
+      {"GET", "/v1/jobs/{id}/result", &Routes::job_result},
+      {"GET", "/v1/jobs/{id}/request", &Routes::job_request},
+      {"GET", "/v1/jobs/{id}/events", &Routes::job_events},
+      {"POST", "/v1/jobs/{id}/dismiss", &Routes::dismiss_job},
+      {"DELETE", "/v1/jobs/{id}", &Routes::delete_job},
+      {"POST", "/v1/sweeps", &Routes::create_sweep},
+      {"GET", "/v1/sweeps", &Routes::list_sweeps},
+      {"GET", "/v1/sweeps/{id}", &Routes::sweep_status},
+      {"GET", "/v1/sweeps/{id}/request", &Routes::sweep_request},
+      {"GET", "/v1/sweeps/{id}/table", &Routes::sweep_table},
+      {"GET", "/v1/sweeps/{id}/events", &Routes::sweep_events},
+      {"GET", "/v1/sweeps/{id}/points/{n}/request", nullptr, &Routes::point_request},
+      {"POST", "/v1/sweeps/{id}/points/{n}/job", nullptr, &Routes::create_point_job},
+      {"POST", "/v1/sweeps/{id}/dismiss", &Routes::dismiss_sweep},
+      {"POST", "/v1/sweeps/{id}/retry", &Routes::retry_sweep},
+      {"DELETE", "/v1/sweeps/{id}", &Routes::delete_sweep},
+      {"POST", "/v1/check", &Routes::check},
+      {"GET", "/v1/limits", &Routes::limits},
+      {"GET", "/v1/openapi.json", &Routes::openapi},
+      {"GET", "/v1/examples", &Routes::examples},
+      {"GET", "/livez", &Routes::alive},
+      {"GET", "/readyz", &Routes::ready},
+      {"GET", "/metrics", &Routes::metrics},
+  };
+  return routes;
+}
+
+Response Routes::respond(const Request& request) {
+  const std::string_view method = request.method == "HEAD" ? "GET" : std::string_view(request.method);
+  std::string allowed;
+  for (const Route& route : table()) {
+    Segments found;
+    if (!matches(route.pattern, request.path, found)) {
+      continue;
+    }
+    if (method == route.method) {
+      Response response = route.handler != nullptr
+                              ? (this->*route.handler)(request, found.id)
+                              : (this->*route.point_handler)(request, found.id, found.point);
+      response.route = route.pattern;
+      return response;
+    }
+    allowed += (allowed.empty() ? "" : ", ") + std::string(route.method);
+    allowed += std::string_view(route.method) == "GET" ? ", HEAD" : "";
+  }
+  if (allowed.empty()) {
+    return simple_problem(request, 404, "not-found", "Not found", "There is nothing at this path.");
+  }
+  Response response = simple_problem(request, 405, "method-not-allowed", "Method not allowed",
+                                     "This resource answers " + allowed + ".");
+  response.headers.emplace_back("Allow", allowed);
+  return response;
+}
+
+std::vector<std::pair<std::string, std::string>> Routes::resources() {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const Route& route : table()) {
+    all.emplace_back(route.method, route.pattern);
+  }
+  return all;
+}
+
+}  // namespace snapthrough::server::http

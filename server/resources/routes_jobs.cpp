@@ -1,0 +1,324 @@
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "api/result_table.h"
+#include "server/resources/events.h"
+#include "server/resources/negotiation.h"
+#include "server/resources/prefer.h"
+#include "server/resources/routes.h"
+
+namespace snapthrough::server::http {
+namespace {
+
+/// The problem of a failed job: the caller's model could not be analysed, or the service is to blame.
+Problem failure_problem(const JobFailure& failure) {
+  static constexpr std::array kOwnFaults{"internal_error", "out_of_memory", "crashed", "not_stored"};
+  const bool own_fault = std::find(kOwnFaults.begin(), kOwnFaults.end(), failure.code) != kOwnFaults.end();
+  return {own_fault ? 500 : 422, "analysis-failed", "The analysis could not be completed", failure.detail, {},
+          failure.code,          failure.reached};
+}
+
+/// A result never changes, so its job's id is a strong validator.
+std::string result_etag(const std::string& id, const std::string& form) {
+  return "\"" + id + "." + form + "\"";
+}
+
+enum class Form { json, csv, none };
+
+std::optional<std::string> query_value(const Request& request, std::string_view name) {
+  const auto found = std::find_if(request.query.begin(), request.query.end(),
+                                  [&](const auto& one) { return one.first == name; });
+  return found == request.query.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// The form of a result that the client takes: by ?format= before Accept; CSV when only a table is named,
+/// else JSON when both will do.
+Form wanted_form(const Request& request) {
+  if (const auto value = query_value(request, "format")) {
+    return *value == "csv" ? Form::csv : *value == "json" ? Form::json : Form::none;
+  }
+  if (query_value(request, "table")) {
+    return Form::csv;
+  }
+  const std::optional<std::string_view> accept = request.header("Accept");
+  if (!accept || trimmed(*accept).empty()) {
+    return Form::json;
+  }
+  Form form = Form::none;
+  for (const std::string_view part : split_list(*accept, ',')) {
+    const std::string_view range = trimmed(part.substr(0, part.find(';')));
+    if (part.find("q=0") != part.npos && part.find("q=0.") == part.npos) {
+      continue;
+    }
+    if (equal_ignoring_case(range, "application/json") || range == "*/*" || range == "application/*") {
+      return Form::json;
+    }
+    if (equal_ignoring_case(range, "text/csv") || range == "text/*") {
+      form = Form::csv;
+    }
+  }
+  return form;
+}
+
+/// The table of that name, or the one to give by default, if results of such an analysis have it.
+std::optional<api::ResultTable> wanted_table(const std::optional<std::string>& name,
+                                             const std::string& analysis_type) {
+  const std::span<const api::ResultTable> tables = api::tables_of(analysis_type);
+  if (!name) {
+    return tables.empty() ? std::nullopt : std::optional(tables.front());
+  }
+  const std::optional<api::ResultTable> table = api::result_table_from(*name);
+  return table && std::find(tables.begin(), tables.end(), *table) != tables.end() ? table : std::nullopt;
+}
+
+}  // namespace
+
+Response Routes::create_job(const Request& request, const std::string& /*id*/) {
+  if (!is_json(request.header("Content-Type").value_or(""))) {
+    return simple_problem(request, 415, "unsupported-media-type", "Unsupported media type",
+                          "A request document has Content-Type: application/json.");
+  }
+  return submit_job(request, request.body);
+}
+
+Response Routes::submit_job(const Request& request, std::string_view document) {
+  const std::optional<std::string_view> key = request.header("Idempotency-Key");
+  if (std::optional<Response> refusal = refused_key(request)) {
+    return *std::move(refusal);
+  }
+  StatusOr<Submission> outcome = jobs_.submit(
+      {document, request.id, request.owner, key, wait_of(request).count() > 0, !wants_fresh(request)});
+  if (!outcome.ok()) {
+    return store_trouble(request, outcome.status());
+  }
+  Submission submission = std::move(outcome).value();
+  if (std::optional<Response> refusal = refusal_of(request, submission, "jobs")) {
+    return *std::move(refusal);
+  }
+  return created(request, submission);
+}
+
+/// How long a submission waits for its outcome.
+std::chrono::seconds Routes::wait_of(const Request& request) const {
+  const Preferences preferences = read_preferences(request);
+  if (preferences.wait_s) {
+    return std::min(std::chrono::seconds(*preferences.wait_s), waits_.longest_wait);
+  }
+  return preferences.respond_async ? std::chrono::seconds(0) : waits_.default_wait;
+}
+
+Response Routes::created(const Request& request, const Submission& submission) {
+  const bool reused = submission.kind == Submission::Kind::reused;
+  Response response = reused ? outcome_of(request, submission.id, true, true)
+                             : wait_or_status(request, submission.id, wait_of(request), true);
+  response.headers.emplace_back("X-Cache", reused ? "hit" : "miss");
+  return response;
+}
+
+/// The status or result of a job as it is, or a response that waits for its end first.
+Response Routes::wait_or_status(const Request& request, const std::string& id, std::chrono::seconds wait,
+                                bool post) {
+  if (wait.count() <= 0) {
+    return outcome_of(request, id, post, false);
+  }
+  const auto ticket = std::make_shared<JobCompletions::Ticket>(jobs_.context().completions, id);
+  const StatusOr<std::optional<Job>> job = jobs_.get(id, request.owner);
+  if (!job.ok() || !job->has_value() || is_final((*job)->state)) {
+    return outcome_of(request, id, post, post);
+  }
+  Response response;
+  response.deferred =
+      Deferred{[ticket](std::function<void()> wake) { ticket->on_end(std::move(wake)); }, wait,
+               // The request lives as long as whoever holds this function (see Gateway).
+               [this, ticket, &request, id, post] {
+                 Response late = outcome_of(request, id, post, post);
+                 if (post) {
+                   late.headers.emplace_back("X-Cache", "miss");
+                 }
+                 return late;
+               }};
+  return response;
+}
+
+/// @param want_result answer with the result if there is one
+Response Routes::outcome_of(const Request& request, const std::string& id, bool post, bool want_result) {
+  const StatusOr<std::optional<Job>> job = jobs_.get(id, request.owner);
+  if (!job.ok()) {
+    return store_trouble(request, job.status());
+  }
+  if (!job->has_value()) {
+    return job_missing(request, id);
+  }
+  Response response;
+  if (want_result && is_final((*job)->state)) {
+    response = result_of(request, **job);
+  } else {
+    response = json_response(post ? 201 : 200, job_status_document(**job, jobs_.progress(id)));
+  }
+  if (post) {
+    response.headers.emplace_back("Location", job_path(id));
+    if (read_preferences(request).respond_async && response.status == 201) {
+      response.headers.emplace_back("Preference-Applied", "respond-async");
+    }
+  }
+  return response;
+}
+
+Response Routes::list_jobs(const Request& request, const std::string& /*id*/) {
+  JobQuery query;
+  query.owner = request.owner;
+  const ListQuery list{query.limit, query.before, query.state};
+  if (std::optional<Response> refusal = read_list_query(request, list)) {
+    return *std::move(refusal);
+  }
+  const StatusOr<JobPage> page = jobs_.store().list(query);
+  if (!page.ok()) {
+    return store_trouble(request, page.status());
+  }
+  const std::string next = next_page(request, list, page->next);
+  return list_page(job_list_document(*page, next), next);
+}
+
+Response Routes::job_status(const Request& request, const std::string& id) {
+  const std::chrono::seconds wait{read_preferences(request).wait_s.value_or(0)};
+  return wait_or_status(request, id, std::min(wait, waits_.longest_wait), false);
+}
+
+Response Routes::job_result(const Request& request, const std::string& id) {
+  const StatusOr<std::optional<Job>> job = jobs_.get(id, request.owner);
+  if (!job.ok()) {
+    return store_trouble(request, job.status());
+  }
+  return job->has_value() ? result_of(request, **job) : job_missing(request, id);
+}
+
+Response Routes::result_of(const Request& request, const Job& job) {
+  if (job.failure) {
+    return problem_response(failure_problem(*job.failure), request);
+  }
+  if (!is_final(job.state)) {
+    Response response = simple_problem(request, 404, "result-not-ready", "Result not ready",
+                                       "The job is " + std::string(to_string(job.state)) + ".");
+    response.headers.emplace_back("Retry-After", "1");
+    return response;
+  }
+  if (job.state == JobState::dismissed) {
+    return simple_problem(request, 404, "dismissed", "No result", "The job was dismissed.");
+  }
+  const Form form = wanted_form(request);
+  if (form == Form::none) {
+    return simple_problem(request, 406, "not-acceptable", "Not acceptable",
+                          "A result is application/json, or text/csv (its paths).");
+  }
+  const std::optional<std::string> name = query_value(request, "table");
+  const std::optional<api::ResultTable> table =
+      form == Form::csv ? wanted_table(name, job.analysis_type) : std::nullopt;
+  if (!table && (name || form == Form::csv)) {
+    return wrong_parameter(request,
+                           "table (CSV: " + api::table_names(api::tables_of(job.analysis_type)) + ")",
+                           "table", name.value_or(""));
+  }
+  const std::string etag = result_etag(job.id, form == Form::csv ? "csv." + name.value_or("") : "json");
+  Response response;
+  if (request.method != "POST" && matches_etag(request, etag)) {
+    response.status = 304;
+  } else if (table) {
+    response = table_of_result(request, job, *table);
+  } else {
+    StatusOr<std::optional<std::string>> document = jobs_.store().result(job.id);
+    if (!document.ok()) {
+      return store_trouble(request, document.status());
+    }
+    if (!document->has_value()) {
+      return job_missing(request, job.id);
+    }
+    response = json_response(200, *std::move(document).value());
+  }
+  if (response.status < 400) {
+    response.headers.emplace_back("ETag", etag);
+    response.headers.emplace_back("Cache-Control", "private, max-age=86400, immutable");
+    response.headers.emplace_back("Content-Location", job_path(job.id) + "/result");
+  }
+  return response;
+}
+
+Response Routes::table_of_result(const Request& request, const Job& job, api::ResultTable table) {
+  Response response;
+  response.content_type = "text/csv; charset=utf-8; header=present";
+  if (table == api::ResultTable::points) {
+    const StatusOr<StoredPath> path = jobs_.store().path(job.id);
+    if (!path.ok()) {
+      return store_trouble(request, path.status());
+    }
+    response.body = api::points_csv(path->branches);
+    return response;
+  }
+  const StatusOr<std::optional<std::string>> document = jobs_.store().result(job.id);
+  if (!document.ok() || !document->has_value()) {
+    return document.ok() ? job_missing(request, job.id) : store_trouble(request, document.status());
+  }
+  response.body = api::result_csv(nlohmann::json::parse(**document), table);
+  return response;
+}
+
+Response Routes::job_request(const Request& request, const std::string& id) {
+  const StatusOr<std::optional<Job>> job = jobs_.get(id, request.owner);
+  if (!job.ok() || !job->has_value()) {
+    return job.ok() ? job_missing(request, id) : store_trouble(request, job.status());
+  }
+  StatusOr<std::optional<std::string>> document = jobs_.store().request(id);
+  if (!document.ok()) {
+    return store_trouble(request, document.status());
+  }
+  if (!document->has_value()) {
+    return job_missing(request, id);
+  }
+  return json_response(200, *std::move(document).value());
+}
+
+Response Routes::job_events(const Request& request, const std::string& id) {
+  const StatusOr<std::optional<Job>> job = jobs_.get(id, request.owner);
+  if (!job.ok() || !job->has_value()) {
+    return job.ok() ? job_missing(request, id) : store_trouble(request, job.status());
+  }
+  const std::optional<std::uint64_t> end = is_final((*job)->state) ? std::optional(kEndOfJob) : std::nullopt;
+  return event_stream(request, end, [this, id](std::uint64_t last, Stream::Push push) {
+    return follow_job(jobs_, id, last, std::move(push));
+  });
+}
+
+Response Routes::dismiss_job(const Request& request, const std::string& id) {
+  const StatusOr<std::optional<Job>> job = jobs_.get(id, request.owner);
+  if (!job.ok() || !job->has_value()) {
+    return job.ok() ? job_missing(request, id) : store_trouble(request, job.status());
+  }
+  const StatusOr<Dismissal> dismissal = jobs_.dismiss(id);
+  if (!dismissal.ok()) {
+    return store_trouble(request, dismissal.status());
+  }
+  if (!dismissal->found) {
+    return job_missing(request, id);
+  }
+  if (is_final(dismissal->before) && dismissal->before != JobState::dismissed) {
+    return simple_problem(request, 409, "already-finished", "Already finished",
+                          "The job is " + std::string(to_string(dismissal->before)) + " already.");
+  }
+  return outcome_of(request, id, false, false);
+}
+
+Response Routes::delete_job(const Request& request, const std::string& id) {
+  const StatusOr<std::optional<Job>> job = jobs_.get(id, request.owner);
+  if (!job.ok() || !job->has_value()) {
+    return job.ok() ? job_missing(request, id) : store_trouble(request, job.status());
+  }
+  if (const Status status = jobs_.remove(id); !status.ok()) {
+    return store_trouble(request, status);
+  }
+  Response response;
+  response.status = 204;
+  return response;
+}
+
+}  // namespace snapthrough::server::http
