@@ -3,6 +3,8 @@
 #include <benchmark/benchmark.h>
 
 #include <memory>
+#include <numeric>
+#include <vector>
 
 #include "bench/cases.h"
 #include "solver/assembly/structural_problem.h"
@@ -57,10 +59,13 @@ void add_dense() {
   benchmark::RegisterBenchmark("kernel/dense", [](benchmark::State& state) {
     Kernel kernel;
     const Eigen::Index n = kernel.structure.size;
-    Eigen::MatrixXd matrix(n, n);
+    std::vector<Eigen::MatrixXd> matrix{Eigen::MatrixXd(n, n)};
     for (Eigen::Index j = 0; j < n; ++j)
-      matrix.col(j) = kernel.problem.tangent_product(kernel.y, kernel.lambda, Eigen::VectorXd::Unit(n, j));
+      matrix[0].col(j) = kernel.problem.tangent_product(kernel.y, kernel.lambda, Eigen::VectorXd::Unit(n, j));
+    std::vector<int> unknowns(static_cast<std::size_t>(n));
+    std::iota(unknowns.begin(), unknowns.end(), 0);
     SymmetricIndefinite factor;
+    factor.analyse(static_cast<int>(n), {unknowns});
     for (auto unused : state) {
       (void)unused;
       factor.factorise(matrix);

@@ -368,7 +368,11 @@ Eigen::MatrixXd free_motions(const Model& model) {
   for (Eigen::Index i = 0; i < count; ++i)
     joints.col(i) = mechanism.of_joints(mechanism.motions()[static_cast<std::size_t>(i)]);
   const Eigen::HouseholderQR<Eigen::MatrixXd> orthonormal(joints);
-  return orthonormal.householderQ() * Eigen::MatrixXd::Identity(joints.rows(), count);
+  const Eigen::MatrixXd motions =
+      orthonormal.householderQ() * Eigen::MatrixXd::Identity(joints.rows(), count);
+  // what rounding left where nothing moves would couple parts that have nothing to do with one another
+  constexpr double kRounding = 1e-14;
+  return (motions.array().abs() > kRounding).select(motions, 0.0);
 }
 
 std::vector<Finding> find_mechanism(const Model& model) {

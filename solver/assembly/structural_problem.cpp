@@ -10,6 +10,7 @@ namespace snapthrough {
 
 using Eigen::Index;
 using Eigen::Matrix3d;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 StructuralProblem::StructuralProblem(const Structure& structure)
@@ -31,8 +32,6 @@ StructuralProblem::StructuralProblem(const Structure& structure)
   const Index n = 3 * structure.joints + structure.releases + 3 * static_cast<Index>(members_);
   for (Index i = 0; i < n; ++i) (is_fixed(i) ? fixed_ : free_).push_back(i);
   largest_load_ = force_norm(structure.proportional_load);
-  joint_matrix_.resize(n, n);
-  free_matrix_.resize(static_cast<Index>(free_.size()), static_cast<Index>(free_.size()));
 }
 
 bool StructuralProblem::is_fixed(Index scalar) const {
@@ -109,15 +108,14 @@ double StructuralProblem::work(const VectorXd& forces, const VectorXd& motion) c
 void StructuralProblem::set_holds(const SharedHolds& holds) {
   if (holds == holds_) return;
   holds_ = holds;
+  planned_ = false;
   if (!holds_) return;
-  const Index rows = holds_->motions.rows();
-  Eigen::MatrixXd turned(rows, holds_->motions.cols());
+  hold_rows_.resize(holds_->motions.rows(), holds_->motions.cols());
   VectorXd column;
-  for (Index i = 0; i < turned.cols(); ++i) {
+  for (Index i = 0; i < hold_rows_.cols(); ++i) {
     force_along(holds_->motions.col(i), column);
-    turned.col(i) = column.head(rows);
+    hold_rows_.col(i) = std::sqrt(holds_->stiffness) * column.head(hold_rows_.rows());
   }
-  hold_matrix_ = holds_->stiffness * turned * turned.transpose();
 }
 
 void StructuralProblem::add_holds(const VectorXd& y, VectorXd& f) const {
@@ -185,44 +183,66 @@ void StructuralProblem::load(const VectorXd& y, double, VectorXd& out) {
   }
 }
 
-void StructuralProblem::add_member(std::size_t member) {
+void StructuralProblem::fill_member(std::size_t member, MatrixXd& block) const {
   const CondensedElement& ends = chains_[member].ends();
-  const ElementDofs& first = structure_.dofs[structure_.mesh.first[member]];
-  const ElementDofs& last = structure_.dofs[structure_.mesh.first[member + 1] - 1];
-  const Matrix3d Ta = axes_of(first.a);
-  const Matrix3d Tb = axes_of(last.b);
-  const Matrix3d K = Ta.transpose() * ends.K * Ta;
-  const Matrix3d X = ends.X * Ta;
-  const Index m = multiplier(member);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      joint_matrix_(first.a[i], first.a[j]) += K(i, j);
-      joint_matrix_(m + i, first.a[j]) += X(i, j);
-      joint_matrix_(first.a[j], m + i) += X(i, j);
-      joint_matrix_(m + i, m + j) -= ends.F(i, j);
-      joint_matrix_(m + i, last.b[j]) += Tb(i, j);
-      joint_matrix_(last.b[j], m + i) += Tb(i, j);
-    }
+  const Matrix3d Ta = axes_of(structure_.dofs[structure_.mesh.first[member]].a);
+  const Matrix3d Tb = axes_of(structure_.dofs[structure_.mesh.first[member + 1] - 1].b);
+  block.setZero(9, 9);  // start, end, force
+  block.topLeftCorner<3, 3>() = Ta.transpose() * ends.K * Ta;
+  block.bottomLeftCorner<3, 3>() = ends.X * Ta;
+  block.block<3, 3>(6, 3) = Tb;
+  block.bottomRightCorner<3, 3>() = -ends.F;
+}
+
+/// Which scalars the blocks of the joint system couple: members, then joint springs, then nodes that are
+/// held.
+void StructuralProblem::plan_joints() {
+  joint_rows_.clear();
+  for (std::size_t m = 0; m < members_; ++m) {
+    const std::array<int, 3>& a = structure_.dofs[structure_.mesh.first[m]].a;
+    const std::array<int, 3>& b = structure_.dofs[structure_.mesh.first[m + 1] - 1].b;
+    const auto force = static_cast<int>(multiplier(m));
+    joint_rows_.push_back({a[0], a[1], a[2], b[0], b[1], b[2], force, force + 1, force + 2});
   }
+  for (const JointSpring& spring : structure_.joint_springs)
+    joint_rows_.push_back({3 * spring.joint, 3 * spring.joint + 1, 3 * spring.joint + 2});
+  const auto scalars = static_cast<int>(multiplier(members_));
+  const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
+  for (int joint = 0; holds > 0 && joint < structure_.joints; ++joint) {
+    joint_rows_.push_back({3 * joint, 3 * joint + 1, 3 * joint + 2});
+    for (int h = 0; h < holds; ++h) joint_rows_.back().push_back(scalars + h);
+  }
+  joint_blocks_.resize(joint_rows_.size());
+  std::vector<int> number(static_cast<std::size_t>(scalars + holds), -1);
+  for (std::size_t i = 0; i < free_.size(); ++i) number[free_[i]] = static_cast<int>(i);
+  for (int h = 0; h < holds; ++h) number[scalars + h] = static_cast<int>(free_.size()) + h;
+  std::vector<std::vector<int>> blocks = joint_rows_;
+  for (std::vector<int>& block : blocks)
+    for (int& row : block) row = number[row];
+  factor_.analyse(static_cast<int>(free_.size()) + holds, std::move(blocks));
+  planned_ = true;
 }
 
 void StructuralProblem::assemble_joints() {
-  joint_matrix_.setZero();
-  for (std::size_t member = 0; member < members_; ++member) add_member(member);
+  if (!planned_) plan_joints();
+  for (std::size_t member = 0; member < members_; ++member) fill_member(member, joint_blocks_[member]);
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
-    const double stiffness = acting_stiffness(i);
-    if (stiffness == 0.0) continue;
     const JointSpring& spring = structure_.joint_springs[i];
     const std::array<int, 3> dofs{3 * spring.joint, 3 * spring.joint + 1, 3 * spring.joint + 2};
     const Eigen::Vector3d row =
         axes_of(dofs).transpose() * Eigen::Vector3d(spring.row[0], spring.row[1], spring.row[2]);
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) joint_matrix_(dofs[r], dofs[c]) += stiffness * row[r] * row[c];
+    joint_blocks_[members_ + i] = acting_stiffness(i) * row * row.transpose();
   }
-  if (holds_) joint_matrix_.topLeftCorner(hold_matrix_.rows(), hold_matrix_.cols()) += hold_matrix_;
-  const auto n = static_cast<Index>(free_.size());
-  for (Index j = 0; j < n; ++j)
-    for (Index i = j; i < n; ++i) free_matrix_(i, j) = joint_matrix_(free_[i], free_[j]);
+  const std::size_t first_hold = members_ + structure_.joint_springs.size();
+  for (std::size_t i = first_hold; i < joint_blocks_.size(); ++i) {
+    const Index holds = hold_rows_.cols();
+    MatrixXd& block = joint_blocks_[i];
+    block.setZero(3 + holds, 3 + holds);
+    block.bottomLeftCorner(holds, 3) =
+        hold_rows_.middleRows<3>(3 * static_cast<Index>(i - first_hold)).transpose();
+    if (i == first_hold) block.diagonal().tail(holds).setConstant(-1.0);
+  }
+  factor_.factorise(joint_blocks_);
 }
 
 TangentReport StructuralProblem::linearise(const VectorXd& y, double lambda, VectorXd& f) {
@@ -239,8 +259,8 @@ TangentReport StructuralProblem::linearise(const VectorXd& y, double lambda, Vec
     report.log_abs_det += chains_[m].ends().log_det;
   }
   assemble_joints();
-  factor_.factorise(free_matrix_);
-  report.negative += factor_.inertia().negative - 3 * static_cast<int>(members_);
+  const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
+  report.negative += factor_.inertia().negative - 3 * static_cast<int>(members_) - holds;
   report.log_abs_det += factor_.log_abs_det();
   if (!follower_ends_.empty()) add_follower_ends(lambda, report);
   constrain_residual(y, lambda, f);
@@ -263,10 +283,26 @@ void StructuralProblem::solve(VectorXd& x) {
   if (!follower_ends_.empty()) follower_ends_.correct(x);
 }
 
+void StructuralProblem::subtract_fixed(const VectorXd& rhs, VectorXd& reduced) const {
+  const bool moved = std::any_of(fixed_.begin(), fixed_.end(), [&](Index row) { return rhs[row] != 0.0; });
+  if (!moved) return;
+  for (std::size_t b = 0; b < joint_rows_.size(); ++b) {
+    const std::vector<int>& rows = joint_rows_[b];
+    const std::vector<int>& numbers = factor_.blocks()[b];
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (numbers[k] >= 0 || rhs[rows[k]] == 0.0) continue;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto [low, high] = std::minmax<Index>({static_cast<Index>(i), static_cast<Index>(k)});
+        if (numbers[i] >= 0) reduced[numbers[i]] -= joint_blocks_[b](high, low) * rhs[rows[k]];
+      }
+    }
+  }
+}
+
 void StructuralProblem::solve_symmetric(VectorXd& x) {
   structure_.elements->reduce(x, condensed_);
   VectorXd& rhs = joint_rhs_;
-  rhs.setZero(joint_matrix_.rows());
+  rhs.setZero(multiplier(members_));
   rhs.head(3 * structure_.joints + structure_.releases) = x.head(3 * structure_.joints + structure_.releases);
   for (std::size_t m = 0; m < members_; ++m) {
     const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
@@ -281,14 +317,11 @@ void StructuralProblem::solve_symmetric(VectorXd& x) {
     }
   }
   VectorXd& reduced = free_rhs_;
-  reduced.resize(static_cast<Index>(free_.size()));
-  for (Index i = 0; i < reduced.size(); ++i) {
-    double sum = rhs[free_[i]];
-    for (const Index k : fixed_) sum -= joint_matrix_(free_[i], k) * rhs[k];
-    reduced[i] = sum;
-  }
+  reduced.setZero(factor_.size());
+  for (std::size_t i = 0; i < free_.size(); ++i) reduced[static_cast<Index>(i)] = rhs[free_[i]];
+  subtract_fixed(rhs, reduced);
   factor_.solve(reduced);
-  for (Index i = 0; i < reduced.size(); ++i) rhs[free_[i]] = reduced[i];
+  for (std::size_t i = 0; i < free_.size(); ++i) rhs[free_[i]] = reduced[static_cast<Index>(i)];
   // back to global axes, then inwards
   for (int j = 0; j < structure_.joints; ++j) {
     const auto [c, s] = turn_of(3 * j);

@@ -17,11 +17,13 @@ namespace snapthrough {
 
 /// @brief Mixed equilibrium equations of a Structure, factorised in three levels.
 ///
-/// Element interiors (ElementSet), then the nodes inside members (Chain), then a dense symmetric system for
-/// the nodes' displacements, released rotations and the forces at members' ends:
+/// Element interiors (ElementSet), then the nodes inside members (Chain), then a sparse symmetric system for
+/// the nodes' displacements, released rotations and the forces at members' ends, one block a member:
 ///
 ///   [ K_s + springs   X^T   .  ] [u_joints]
-///   [ X               -F    I  ] [m_member]     (one row block a member; I acts on its end node)
+///   [ X               -F    I  ] [m_member]     (I acts on its end node)
+///
+/// Holds, k H H^T, are blocks with an unknown force of each: [ . sqrt(k) H ; . -1 ].
 ///
 /// Rows of a node with a turned support, and of its fixed components, are in the support's axes; a fixed
 /// component's row is u - lambda d - d_0. The inertia is the sum over the levels minus one negative for each
@@ -102,8 +104,11 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] double force_norm(const Eigen::VectorXd& f) const;
   [[nodiscard]] double largest_force(const Eigen::VectorXd& y, double lambda) const;
   void constrain_residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) const;
+  void plan_joints();
   void assemble_joints();
-  void add_member(std::size_t member);
+  void fill_member(std::size_t member, Eigen::MatrixXd& block) const;
+  /// Moves what is fixed to the right-hand side.
+  void subtract_fixed(const Eigen::VectorXd& rhs, Eigen::VectorXd& reduced) const;
   /// Position of a displacement unknown's scalar in the joint system is its index; multipliers follow.
   [[nodiscard]] Eigen::Index multiplier(std::size_t member) const {
     return 3 * structure_.joints + structure_.releases + 3 * static_cast<Eigen::Index>(member);
@@ -116,18 +121,19 @@ class StructuralProblem final : public EquilibriumProblem {
   std::size_t members_;
   std::vector<CondensedElement> condensed_;
   std::vector<Chain> chains_;
-  Eigen::MatrixXd joint_matrix_;    ///< all joint scalars and multipliers
-  std::vector<Eigen::Index> free_;  ///< rows of joint_matrix_ that are unknown
+  std::vector<Eigen::Index> free_;  ///< joint scalars and multipliers that are unknown
   std::vector<Eigen::Index> fixed_;
+  std::vector<std::vector<int>> joint_rows_;   ///< scalars of each block of the joint system
+  std::vector<Eigen::MatrixXd> joint_blocks_;  ///< of members, joint springs, nodes that are held
   std::vector<char> free_rotation_;  ///< node rotations that nothing holds: all members released there
-  Eigen::MatrixXd free_matrix_;
+  bool planned_ = false;             ///< joint_rows_ and factor_ know the holds
   SymmetricIndefinite factor_;
   Eigen::VectorXd joint_rhs_, free_rhs_;  ///< scratch of solve
   FollowerEnds follower_ends_;
   std::vector<char> spring_active_;
   std::vector<char> spring_touches_;  ///< as mark_touching() found them
   SharedHolds holds_;
-  Eigen::MatrixXd hold_matrix_;  ///< of the holds, in the axes of the supports
+  Eigen::MatrixXd hold_rows_;  ///< sqrt(k) H in the axes of the supports
   Stage stage_ = Stage::proportional;
   bool bonded_ = false;
   double largest_load_ = 0.0;  ///< of the forces and moments of the unit load: imposed strains are none

@@ -1,50 +1,55 @@
 #pragma once
 /// @file
-/// Dense symmetric indefinite factorisation with inertia.
+/// Sparse symmetric indefinite factorisation with inertia.
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
+
+#include "solver/linalg/elimination_plan.h"
+#include "solver/linalg/front.h"
 
 namespace snapthrough {
 
-/// Signs of the eigenvalues of a symmetric matrix.
-struct Inertia {
-  int negative = 0;
-  int zero = 0;  ///< how many are zero to the tolerance, whatever their computed sign
-};
-
-/// @brief P A P^T = L D L^T with 1 x 1 and 2 x 2 pivots (Bunch and Kaufman, Math. Comp. 31, 1977).
+/// @brief A symmetric matrix that is the sum of small dense blocks, factorised front by front (Duff and Reid,
+/// ACM Trans. Math. Softw. 9, 1983).
 ///
-/// Reads the lower triangle only. Backward stable whatever the inertia. Not thread safe while factorising.
+/// Unknowns that find no good pivot in their front wait for the next one, so that the factorisation is
+/// backward stable whatever the inertia. A small matrix is one dense front. Not thread safe while
+/// factorising.
 class SymmetricIndefinite {
  public:
-  /// @brief Factorises a (n x n). A pivot below `tolerance` times the largest entry counts as zero. When an
-  /// entry is not finite, so are the solutions, and the pivot ratio is 0.
-  void factorise(const Eigen::MatrixXd& a, double tolerance = 1e-15);
-  /// @brief Solves in place, `x` of size n.
-  void solve(Eigen::Ref<Eigen::VectorXd> x) const;
-  [[nodiscard]] Inertia inertia() const { return inertia_; }
+  /// @brief Plans the elimination.
+  /// @param blocks unknowns of each block; negative ones are left out
+  void analyse(int size, std::vector<std::vector<int>> blocks);
+  /// @brief Factorises the sum of the blocks, of which the lower triangles are read. A pivot below
+  /// `tolerance` times the largest entry of a block counts as zero. When an entry is not finite, neither are
+  /// the solutions.
+  /// @pre one matrix a block of analyse(), of its size
+  void factorise(std::span<const Eigen::MatrixXd> values, double tolerance = 1e-15);
+  /// @brief Solves in place, `x` of the size of the matrix.
+  void solve(Eigen::Ref<Eigen::VectorXd> x);
+  [[nodiscard]] int size() const { return size_; }
+  /// Unknowns of each block, as analyse() was given them.
+  [[nodiscard]] const std::vector<std::vector<int>>& blocks() const { return blocks_; }
+  [[nodiscard]] Inertia inertia() const { return pivots_.inertia; }
   /// log |det|; a zero pivot counts with its tiny replacement.
-  [[nodiscard]] double log_abs_det() const { return log_abs_det_; }
-  /// Smallest pivot (eigenvalue of a pivot block) over the largest, in absolute value.
-  [[nodiscard]] double pivot_ratio() const { return pivot_ratio_; }
+  [[nodiscard]] double log_abs_det() const { return pivots_.log_abs_det; }
+  /// Entries of the factor.
+  [[nodiscard]] Eigen::Index entries() const;
 
  private:
-  void swap_rows(Eigen::Index a, Eigen::Index b, Eigen::Index done);
-  void refuse();
-  void note_pivot(double eigenvalue);
-  Eigen::Index eliminate_one(Eigen::Index k);
-  Eigen::Index eliminate_two(Eigen::Index k);
+  Eigen::Index start_front(std::size_t number);
+  void assemble(std::size_t number, std::span<const Eigen::MatrixXd> values);
 
-  Eigen::MatrixXd l_;
-  std::vector<Eigen::Index> swap_;  ///< row exchanged with row k when k was eliminated
-  std::vector<char> two_;           ///< k starts a 2 x 2 pivot
-  Inertia inertia_;
-  double log_abs_det_ = 0.0;
-  double smallest_ = 0.0;
-  double largest_ = 0.0;
-  double floor_ = 0.0;
-  double pivot_ratio_ = 0.0;
+  int size_ = 0;
+  std::vector<std::vector<int>> blocks_;
+  std::vector<FrontPlan> plan_;
+  std::vector<Front> fronts_;
+  std::vector<int> row_;   ///< of each unknown in the front that is being built
+  Eigen::VectorXd local_;  ///< scratch of solve()
+  PivotSummary pivots_;
+  bool finite_ = true;
 };
 
 }  // namespace snapthrough
