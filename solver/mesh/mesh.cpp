@@ -166,7 +166,9 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
 
 std::optional<Mesh> finer_mesh(const Mesh& mesh) {
   constexpr std::size_t kMostElements = 4000;
-  if (2 * mesh.elements.size() > kMostElements) return std::nullopt;
+  constexpr std::size_t kMostPerMember = 16;  // of many members
+  const std::size_t members = mesh.first.size() - 1;
+  if (2 * mesh.elements.size() > std::max(kMostElements, kMostPerMember * members)) return std::nullopt;
   Mesh out = mesh;
   out.foundation = FoundationRule::consistent;
   out.elements.clear();

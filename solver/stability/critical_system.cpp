@@ -397,7 +397,6 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
 /// empty when there is none. By inverse iteration with the last factors.
 VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
   constexpr double kBeside = 1e-3;  // of the load
-  constexpr double kDriven = 1e-3;
   constexpr int kIterations = 2;
   const Index k = at.null.cols();
   if (k == (problem_.metric().array() > 0.0).count()) return {};
@@ -412,14 +411,13 @@ VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
     x /= metric_.norm(x, 0.0);
   }
   if (!x.allFinite()) return {};
-  // what the load drives, as it drives its own response, is the motion of a limit point
-  problem_.load(at.y, at.lambda, force);
-  const double driven = std::abs(problem_.work(force, x)) * metric_.norm(at.response, 0.0);
-  if (!(driven <= kDriven * std::abs(problem_.work(force, at.response)))) return {};
   const PathDirection along_z{at.response, 1.0, metric_.norm(at.response, 1.0)};
   const double rate = works(tangent_change(problem_, at.y, at.lambda, along_z, x), x)(0, 0);
   const double stiffness = works(problem_.tangent_products(at.y, at.lambda, x), x)(0, 0);
-  return std::abs(stiffness) <= kBeside * std::abs(at.lambda * rate) ? x : VectorXd();
+  // a motion that the load drives, as an imperfection would, is that of a limit point
+  problem_.load(at.y, at.lambda, force);
+  const bool driven = std::abs(problem_.work(force, x)) > options_.largest_imperfection * std::abs(rate);
+  return !driven && std::abs(stiffness) <= kBeside * std::abs(at.lambda * rate) ? x : VectorXd();
 }
 
 }  // namespace
@@ -428,16 +426,18 @@ std::optional<CriticalSolution> solve_bifurcation(EquilibriumProblem& problem, c
                                                   const CriticalGuess& guess, const CriticalOptions& options,
                                                   int& factorisations) {
   CriticalGuess wider = guess;
+  std::optional<CriticalSolution> best;
   for (;;) {
     CriticalNewton newton(problem, metric, wider, options, true);
     auto found = newton.run(factorisations);
-    if (!found) return std::nullopt;
+    if (!found) return best;
     const VectorXd another = newton.another_null_motion(*found);
     if (another.size() == 0) return found;
     // anew from the guess: at a multiple bifurcation itself factors have no digits left
     const Index k = found->null.cols();
     wider.null.resize(Eigen::NoChange, k + 1);
     wider.null << found->null, another;
+    best = std::move(found);
   }
 }
 
