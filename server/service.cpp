@@ -1,5 +1,6 @@
 #include "server/service.h"
 
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -76,7 +77,8 @@ struct Service::Parts {
                 runners ? runners : child_runners(runner_options(config), runner_counters)),
         routes(jobs, config.waits,
                {[this] { return metrics_text(); }, [this] { return not_ready(); }, published_limits(config)}),
-        gateway(routes, environment, log, http::KeyRing(config.keys), metrics),
+        keys(config.keys),
+        gateway(routes, environment, log, keys, metrics),
         listener(config.listener, gateway),
         upkeep_thread(upkeep, environment) {}
 
@@ -90,6 +92,7 @@ struct Service::Parts {
   WorkerPool workers;
   RequestMetrics metrics;
   http::Routes routes;
+  http::KeyRing keys;
   http::Gateway gateway;
   http::Listener listener;
   UpkeepThread upkeep_thread;
@@ -190,14 +193,24 @@ Status Service::start() {
 
 int Service::port() const { return parts_ ? parts_->listener.port() : 0; }
 
+Status Service::replace_keys(std::vector<http::ApiKey> keys) {
+  if (keys.empty() != config_.keys.empty()) {
+    return {StatusCode::unsupported, "whether keys are asked for at all is decided at the start"};
+  }
+  parts_->keys.replace(std::move(keys));
+  return {};
+}
+
 void Service::stop() {
   if (!parts_) {
     return;
   }
-  parts_->jobs.context().health.draining = true;
-  parts_->jobs.context().completions.close();
-  parts_->listener.stop();
+  const WorkerContext& context = parts_->jobs.context();
+  context.health.draining = true;
+  std::this_thread::sleep_for(config_.drain_delay);
   parts_->workers.stop();
+  context.completions.close();  // after that: who waits is told what became of the job
+  parts_->listener.stop();
   parts_.reset();
   log_.write(LogLevel::info, "stopped");
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include <toml++/toml.h>
@@ -138,6 +139,9 @@ std::vector<Setting> front_settings() {
       duration(
           "longest_wait_s", "Wait in one request at most",
           [](ServiceConfig & c) -> auto& { return c.waits.longest_wait; }),
+      duration(
+          "drain_delay_s", "From SIGTERM, when /readyz turns 503, until running work is given back",
+          [](ServiceConfig & c) -> auto& { return c.drain_delay; }),
       log_level_setting(),
   };
 }
@@ -182,6 +186,34 @@ const Setting* find_setting(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+/// How many characters have to be put in, left out or replaced to make one text of the other.
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> row(to.size() + 1);  // of the part of `from` so far to each beginning of `to`
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// @param form the name of a setting as this source spells it
+template <class Form>
+std::string no_such_setting(const std::string& name, const Form& form) {
+  std::vector<std::string> known;
+  for (const Setting& setting : settings()) {
+    known.push_back(form(setting.name));
+  }
+  return "there is no such setting; the nearest is " +
+         *std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+           return edit_distance(name, a) < edit_distance(name, b);
+         });
+}
+
 std::string place(const std::string& file, const toml::node& node) {
   return file + ":" + std::to_string(node.source().begin.line);
 }
@@ -222,7 +254,7 @@ void read_file(const std::string& file, ServiceConfig& config, std::vector<Confi
     if (name == "keys") {
       read_keys(node, file, config, mistakes);
     } else if (setting == nullptr) {
-      mistakes.push_back({where, "there is no such setting"});
+      mistakes.push_back({where, no_such_setting(name, [](const std::string& known) { return known; })});
     } else if (!node.is_string() && !node.is_integer()) {
       mistakes.push_back({where, "expected a text or a whole number"});
     } else {
@@ -234,10 +266,24 @@ void read_file(const std::string& file, ServiceConfig& config, std::vector<Confi
   }
 }
 
+void read_environment(const std::map<std::string, std::string>& variables, ServiceConfig& config,
+                      std::vector<ConfigMistake>& mistakes) {
+  for (const auto& [name, value] : variables) {
+    const auto setting = std::find_if(settings().begin(), settings().end(),
+                                      [&](const Setting& one) { return variable_name(one.name) == name; });
+    if (setting == settings().end() && name != kConfigVariable) {
+      mistakes.push_back({name, no_such_setting(name, variable_name)});
+    } else if (const Mistake mistake =
+                   setting != settings().end() ? setting->set(config, value) : std::nullopt) {
+      mistakes.push_back({name, *mistake});
+    }
+  }
+}
+
 }  // namespace
 
 std::string variable_name(const std::string& setting) {
-  std::string name = "SNAPTHROUGH_" + setting;
+  std::string name = std::string(kVariablePrefix) + setting;
   std::transform(name.begin(), name.end(), name.begin(),
                  [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
   return name;
@@ -259,13 +305,7 @@ std::pair<ServiceConfig, std::vector<ConfigMistake>> load_config(const SettingSo
   if (!sources.file.empty()) {
     read_file(sources.file, config, mistakes);
   }
-  for (const Setting& setting : settings()) {
-    const std::string name = variable_name(setting.name);
-    const std::optional<std::string> value = sources.environment ? sources.environment(name) : std::nullopt;
-    if (const Mistake mistake = value ? setting.set(config, *value) : std::nullopt) {
-      mistakes.push_back({name, *mistake});
-    }
-  }
+  read_environment(sources.environment, config, mistakes);
   for (const auto& [name, value] : sources.flags) {
     const Setting* setting = find_setting(name);
     if (const Mistake mistake = setting != nullptr ? setting->set(config, value) : Mistake("unknown")) {

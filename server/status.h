@@ -13,6 +13,7 @@ enum class StatusCode {
   ok,
   conflict,     ///< the job is no longer in the state, or the attempt, that the caller holds
   unavailable,  ///< it may work later: busy, disk full, address in use
+  stopping,     ///< nothing new is taken: the service is about to end
   unsupported,  ///< written by a newer version, or by something else
   io_error,     ///< everything else
 };

@@ -80,8 +80,8 @@ JobService::JobService(Store& store, const Environment& environment, Log& log, J
                completions_, handoffs_,    active_, progress_, sweeps_, new_id(environment)} {}
 
 StatusOr<Submission> JobService::submit(const Order& order) {
-  if (health_.draining || !health_.has_space) {
-    return Status(StatusCode::unavailable, health_.draining ? "the service is stopping" : "the disk is full");
+  if (Status status = health_.takes_work(); !status.ok()) {
+    return status;
   }
   const KeyInUse in_use(*this, order);
   if (in_use.by_another()) {

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdint>
 
+#include "server/status.h"
+
 namespace snapthrough::server {
 
 /// With less no analysis would get far.
@@ -30,6 +32,14 @@ struct StoreHealth {
   std::atomic<bool> writable = true;   ///< the latest write that tells
   std::atomic<bool> has_space = true;  ///< enough for new jobs
   std::atomic<bool> draining = false;  ///< the service is about to stop
+
+  /// Ok when new work may be handed in; else `stopping` or `unavailable`.
+  [[nodiscard]] Status takes_work() const {
+    if (draining) {
+      return {StatusCode::stopping, "The service is stopping."};
+    }
+    return has_space ? Status() : Status(StatusCode::unavailable, "the disk is full");
+  }
 };
 
 }  // namespace snapthrough::server

@@ -19,9 +19,8 @@ std::vector<PointRow> not_stored(std::vector<PointRow> rows, const Status& statu
 }  // namespace
 
 StatusOr<Submission> SweepService::submit(const Order& order) {
-  if (world_.health.draining || !world_.health.has_space) {
-    return Status(StatusCode::unavailable,
-                  world_.health.draining ? "the service is stopping" : "the disk is full");
+  if (Status status = world_.health.takes_work(); !status.ok()) {
+    return status;
   }
   api::SweepOutcome read =
       api::read_sweep(order.document, static_cast<std::uint64_t>(world_.limits.sweep_points));

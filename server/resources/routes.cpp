@@ -44,6 +44,11 @@ Response simple_problem(const Request& request, int status, const char* kind, co
 }
 
 Response store_trouble(const Request& request, const Status& status) {
+  if (status.code() == StatusCode::stopping) {
+    Response refused = simple_problem(request, 503, "not-ready", "Not ready", status.message());
+    refused.headers.emplace_back("Retry-After", "5");
+    return refused;
+  }
   Response response;
   if (status.code() == StatusCode::unavailable) {
     response = simple_problem(request, 503, "store-unavailable", "Service unavailable",

@@ -36,7 +36,7 @@ class SweepCrash : public KilledServiceTest {
 
 TEST_F(SweepCrash, GoesOnWhereItWasKilled) {
   constexpr int kPoints = 1500;
-  const char* wanted = std::getenv("SNAPTHROUGH_KILLS");
+  const char* wanted = std::getenv("KILLS");
   const int kills = wanted == nullptr ? 5 : std::atoi(wanted);
   const unsigned seed = std::random_device()();
   SCOPED_TRACE("seed " + std::to_string(seed));

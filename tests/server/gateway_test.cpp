@@ -80,7 +80,8 @@ struct Bench {
   JobService jobs{store, environment, log};
   Routes routes{jobs, {}};
   RequestMetrics metrics;
-  Gateway gateway{routes, environment, log, KeyRing(), metrics};
+  KeyRing keys;
+  Gateway gateway{routes, environment, log, keys, metrics};
 };
 
 TEST(Gateway, AStoreThatIsUnavailableIs503) {
