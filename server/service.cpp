@@ -10,7 +10,7 @@
 #include "server/front/listener.h"
 #include "server/jobs/job_service.h"
 #include "server/maintenance/upkeep.h"
-#include "server/metrics/metrics.h"
+#include "server/metrics/request_metrics.h"
 #include "server/resources/routes.h"
 #include "server/store/sqlite/sqlite_store.h"
 #include "server/worker/child_runner.h"
@@ -101,6 +101,14 @@ struct Service::Parts {
 std::string Service::Parts::metrics_text() {
   std::string text;
   metrics.write(text);
+  jobs.context().metrics.write(text);
+  store->write_metrics(text);
+  if (const StatusOr<std::optional<Time>> oldest = store->oldest_waiting(); oldest.ok()) {
+    const Time now = jobs.environment().now();
+    write_metric(text, "snapthrough_oldest_waiting_job_seconds", "gauge",
+                 "Since the oldest accepted job was handed in; 0 when none waits.",
+                 std::chrono::duration<double>(now - oldest->value_or(now)).count());
+  }
   const http::ListenerLoad load = listener.load();
   const StoreHealth& health = jobs.context().health;
   const auto gauge = [&](const char* name, const char* help, double value) {
@@ -112,15 +120,11 @@ std::string Service::Parts::metrics_text() {
   gauge("snapthrough_jobs_waiting", "Accepted jobs, about.", static_cast<double>(jobs.context().waiting));
   gauge("snapthrough_jobs_running", "Analyses of this process.",
         static_cast<double>(jobs.context().active.count()));
-  const PointCounters& points = jobs.sweeps().counters();
   const auto counter = [&](const char* name, const char* help, std::int64_t value) {
     write_metric(text, name, "counter", help, static_cast<double>(value));
   };
   gauge("snapthrough_sweeps_active", "Sweeps that points are given out of.",
         static_cast<double>(jobs.sweeps().scheduler().count()));
-  counter("snapthrough_sweep_points_solved_total", "Points that were solved.", points.solved);
-  counter("snapthrough_sweep_points_failed_total", "Points that were tried and failed.", points.failed);
-  counter("snapthrough_sweep_points_reused_total", "Points that were known already.", points.reused);
   counter("snapthrough_runners_started_total", "Processes that compute, started.", runner_counters.started);
   counter("snapthrough_runners_out_of_memory_total", "Ended at the bound of their memory.",
           runner_counters.out_of_memory);
@@ -178,6 +182,9 @@ Status Service::start() {
                 {"detail", std::string_view("the service died while it worked on these points")}});
   }
   parts_ = std::make_unique<Parts>(config_, environment_, runners_, log_, std::move(opened));
+  for (std::size_t i = 0; i < recovery->failed.size(); ++i) {
+    parts_->jobs.context().metrics.job_ended("crashed");
+  }
   if (Status status = parts_->listener.start(); !status.ok()) {
     stop();
     return status;

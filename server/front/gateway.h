@@ -8,7 +8,7 @@
 #include "server/front/request_head.h"
 #include "server/front/response_bytes.h"
 #include "server/log/log.h"
-#include "server/metrics/metrics.h"
+#include "server/metrics/request_metrics.h"
 #include "server/resources/message.h"
 #include "server/resources/routes.h"
 

@@ -78,6 +78,7 @@ struct Claim {
   std::string id;
   int attempt = 0;
   std::string document = {};  ///< the request
+  Time created = {};          ///< the job was handed in then
 };
 
 /// What a finished job leaves: the document that is served, and its parts for queries.

@@ -75,9 +75,9 @@ JobService::JobService(Store& store, const Environment& environment, Log& log, J
       environment_(environment),
       log_(log),
       limits_(limits),
-      sweeps_({store_.sweeps(), environment_, log_, limits_, health_, handoffs_, completions_}),
-      context_{store_,       environment_, log_,    limits_,   health_, waiting_,
-               completions_, handoffs_,    active_, progress_, sweeps_, new_id(environment)} {}
+      sweeps_({store_.sweeps(), environment_, log_, limits_, health_, handoffs_, completions_, metrics_}),
+      context_{store_,    environment_, log_,      limits_, health_,  waiting_,           completions_,
+               handoffs_, active_,      progress_, sweeps_, metrics_, new_id(environment)} {}
 
 StatusOr<Submission> JobService::submit(const Order& order) {
   if (Status status = health_.takes_work(); !status.ok()) {
@@ -116,7 +116,7 @@ StatusOr<Submission> JobService::submit(const Order& order) {
 StatusOr<Submission> JobService::store_new(const Order& order, const api::Request& request, std::string key) {
   NewJob job = new_job(order, request, std::move(key), environment_);
   std::promise<bool> stored;
-  Handoff handoff{{job.id, 1, job.document}, stored.get_future().share()};
+  Handoff handoff{{job.id, 1, job.document, job.created}, stored.get_future().share()};
   const Lease lease = context_.new_lease();
   // With a key it may be a repetition, which nobody shall solve.
   if (!order.idempotency_key && handoffs_.offer(handoff)) {
@@ -175,6 +175,7 @@ StatusOr<Dismissal> JobService::dismiss(const std::string& id) {
   if (dismissal->before == JobState::accepted) {
     --waiting_;
   }
+  metrics_.job_ended("dismissed");
   active_.stop(id, StopReason::dismissed);
   completions_.announce(id);
   log_.write(LogLevel::info, "job",

@@ -196,10 +196,9 @@ Status SweepService::settle(const Chunk& chunk, const std::vector<PointRow>& row
 
 void SweepService::stored(const SweepRecord& record, const std::vector<PointRow>& rows) {
   for (const PointRow& row : rows) {
-    std::atomic<std::int64_t>& counter = row.reused             ? counters_.reused
-                                         : row.outcome.failed() ? counters_.failed
-                                                                : counters_.solved;
-    ++counter;
+    world_.metrics.point_ended(row.reused             ? "reused"
+                               : row.outcome.failed() ? std::string_view(row.outcome.code)
+                                                      : "successful");
   }
   if (!is_final(record.state)) {
     news_.pass_on(record.id, record);

@@ -12,6 +12,7 @@
 #include "server/environment.h"
 #include "server/jobs/handoff.h"
 #include "server/jobs/job_completions.h"
+#include "server/jobs/job_metrics.h"
 #include "server/jobs/limits.h"
 #include "server/jobs/point_scheduler.h"
 #include "server/jobs/progress_topic.h"
@@ -30,13 +31,7 @@ struct SweepSurroundings {
   StoreHealth& health;
   HandoffQueue& handoffs;
   JobCompletions& completions;  ///< of sweeps, too
-};
-
-/// How many points this process dealt with.
-struct PointCounters {
-  std::atomic<std::int64_t> solved = 0;  ///< computed, and they have outputs
-  std::atomic<std::int64_t> failed = 0;  ///< computed, and they have none
-  std::atomic<std::int64_t> reused = 0;  ///< found
+  JobMetrics& metrics;
 };
 
 /// @brief Where sweeps are handed in, asked for, and worked on. Thread-safe.
@@ -75,7 +70,6 @@ class SweepService {
   [[nodiscard]] SweepStore& store() { return world_.store; }
   [[nodiscard]] PointScheduler& scheduler() { return scheduler_; }
   [[nodiscard]] ProgressTopic<SweepRecord>& news() { return news_; }
-  [[nodiscard]] const PointCounters& counters() const { return counters_; }
 
  private:
   StatusOr<std::int64_t> unfinished();
@@ -88,7 +82,6 @@ class SweepService {
   const SweepSurroundings world_;
   PointScheduler scheduler_;
   ProgressTopic<SweepRecord> news_;
-  PointCounters counters_;
   std::mutex loading_;
   std::atomic<bool> unloaded_ = true;  ///< the store may have sweeps that the scheduler does not have
 };

@@ -111,6 +111,10 @@ class Store {
   virtual StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
                                                            std::string_view owner) = 0;
   virtual StatusOr<JobCounts> counts() = 0;
+  /// When the oldest accepted job was handed in; empty when none waits.
+  virtual StatusOr<std::optional<Time>> oldest_waiting() = 0;
+  /// Appends what the driver measures of itself, in the text format of Prometheus.
+  virtual void write_metrics(std::string& /*text*/) const {}
 
   /// The job, or empty when there is none of that id.
   virtual StatusOr<std::optional<Job>> get(std::string_view id) = 0;

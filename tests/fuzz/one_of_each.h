@@ -118,6 +118,7 @@ class FuzzedStore final : public Store {
     return std::optional<std::string>();
   }
   StatusOr<JobCounts> counts() override { return JobCounts{}; }
+  StatusOr<std::optional<Time>> oldest_waiting() override { return std::optional<Time>(); }
   StatusOr<std::optional<Job>> get(std::string_view id) override {
     return id == kFuzzedJob ? std::optional(job()) : std::nullopt;
   }

@@ -37,6 +37,7 @@ class FailingStore final : public Store {
     return status();
   }
   StatusOr<JobCounts> counts() override { return status(); }
+  StatusOr<std::optional<Time>> oldest_waiting() override { return status(); }
   Status finish(const Claim&, const JobResult&, Time) override { return status(); }
   Status fail(const Claim&, const JobFailure&, const StoredPath&, Time) override { return status(); }
   Status requeue(const Claim&) override { return status(); }

@@ -34,6 +34,8 @@ class SqliteStore final : public Store {
   StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
                                                    std::string_view owner) override;
   StatusOr<JobCounts> counts() override;
+  StatusOr<std::optional<Time>> oldest_waiting() override;
+  void write_metrics(std::string& text) const override { database_.write_metrics(text); }
   StatusOr<std::optional<Job>> get(std::string_view id) override;
   StatusOr<JobPage> list(const JobQuery& query) override;
   StatusOr<std::optional<std::string>> request(std::string_view id) override;
@@ -181,13 +183,13 @@ StatusOr<std::optional<Claim>> SqliteStore::claim(const Lease& lease, Time now) 
   return database_.write<std::optional<Claim>>(
       [&](Connection& connection) -> Outcome {
         Statement row = connection.prepare(
-            "SELECT jobs.seq, jobs.id, jobs.attempt, requests.document FROM jobs"
+            "SELECT jobs.seq, jobs.id, jobs.attempt, requests.document, jobs.created_us FROM jobs"
             " JOIN requests ON requests.job = jobs.seq WHERE jobs.status = 'accepted'"
             " ORDER BY jobs.seq LIMIT 1");
         if (!row.step()) {
           return std::optional<Claim>();
         }
-        Claim claim{row.text(1), static_cast<int>(row.integer(2)) + 1, row.text(3)};
+        Claim claim{row.text(1), static_cast<int>(row.integer(2)) + 1, row.text(3), time_in(row, 4)};
         connection
             .prepare(
                 "UPDATE jobs SET status = 'running', attempt = ?, started_us = ?, worker = ?,"
@@ -405,6 +407,14 @@ StatusOr<JobCounts> SqliteStore::counts() {
       counts[static_cast<std::size_t>(job_state_from(row.text(0)).value())] = row.integer(1);
     }
     return counts;
+  });
+}
+
+StatusOr<std::optional<Time>> SqliteStore::oldest_waiting() {
+  return database_.read<std::optional<Time>>([](const Connection& connection) {
+    Statement row =
+        connection.prepare("SELECT created_us FROM jobs WHERE status = 'accepted' ORDER BY seq LIMIT 1");
+    return row.step() ? std::optional(time_in(row, 0)) : std::nullopt;
   });
 }
 
