@@ -158,6 +158,13 @@ std::vector<Setting> job_settings() {
             [](ServiceConfig& c) -> int& { return c.jobs.sweep_points; }),
       whole("max_table_rows", "Rows of a sweep's table in one response",
             [](ServiceConfig& c) -> int& { return c.jobs.table_rows; }),
+      whole("quota_jobs_waiting",
+            "Jobs of one owner that may wait; the next is refused with 429; 0: any number",
+            [](ServiceConfig& c) -> std::int64_t& { return c.jobs.quotas.jobs_waiting; }),
+      whole("quota_points_waiting", "Points of one owner's sweeps that may wait, else 429; 0: any number",
+            [](ServiceConfig& c) -> std::int64_t& { return c.jobs.quotas.points_waiting; }),
+      whole("quota_bytes_kept", "Documents of one owner that are kept, else 403; 0: any size",
+            [](ServiceConfig& c) -> std::int64_t& { return c.jobs.quotas.bytes_kept; }),
       whole("max_crashes", "A job during which the service died so often is given up",
             [](ServiceConfig& c) -> int& { return c.jobs.max_crashes; }),
       duration(

@@ -115,11 +115,12 @@ StatusOr<Submission> JobService::submit(const Order& order) {
 
 StatusOr<Submission> JobService::store_new(const Order& order, const api::Request& request, std::string key) {
   NewJob job = new_job(order, request, std::move(key), environment_);
+  job.quotas = limits_.quotas;
   std::promise<bool> stored;
   Handoff handoff{{job.id, 1, job.document, job.created}, stored.get_future().share()};
   const Lease lease = context_.new_lease();
-  // With a key it may be a repetition, which nobody shall solve.
-  if (!order.idempotency_key && handoffs_.offer(handoff)) {
+  // With a key it may be a repetition, with quotas be refused: nobody shall solve it then.
+  if (!order.idempotency_key && !job.quotas.any() && handoffs_.offer(handoff)) {
     job.lease = lease;
     job.patient = order.waits;
   }

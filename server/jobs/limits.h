@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "server/jobs/quotas.h"
 #include "server/status.h"
 
 namespace snapthrough::server {
@@ -25,6 +26,7 @@ struct JobLimits {
   int sweeps = 1000;                           ///< sweeps that may be unfinished, >= 1
   int sweep_points = 100'000;                  ///< of one sweep, 1 to api::kMaxSweepPoints
   int table_rows = 250'000;                    ///< in one response, >= 1
+  Quotas quotas;                               ///< of each owner
 };
 
 /// Whether writing to the store works. Thread-safe.

@@ -40,6 +40,7 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
                  world_.environment.now(),    order.owner};
   sweep.reuse = order.reuse;
   sweep.idempotency = key_of(order);
+  sweep.quotas = world_.limits.quotas;
   const StatusOr<Submitted> submitted = world_.store.submit(sweep);
   if (!submitted.ok()) {
     if (submitted.status().code() == StatusCode::unavailable) {
@@ -86,7 +87,7 @@ StatusOr<SweepChange> SweepService::dismiss(const std::string& id) {
 }
 
 StatusOr<SweepChange> SweepService::retry(const std::string& id) {
-  StatusOr<SweepChange> change = world_.store.retry(id);
+  StatusOr<SweepChange> change = world_.store.retry(id, world_.limits.quotas);
   if (change.ok() && change->changed) {
     log_sweep(id, to_string(JobState::accepted), "tried again");
     wake();

@@ -61,7 +61,8 @@ class Store {
   Store& operator=(Store&&) = delete;
   virtual ~Store() = default;
 
-  /// Adds a job in state accepted (running when it comes with a lease), unless its idempotency key is known.
+  /// Adds a job in state accepted (running when it comes with a lease), unless its idempotency key is known;
+  /// `waiting_quota` or `storage_quota` when its owner would have more than its quotas then.
   /// `queued` is called when any verb that is called from then on comes after this one.
   virtual StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) = 0;
   StatusOr<Submitted> submit(const NewJob& job) {

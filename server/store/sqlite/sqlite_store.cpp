@@ -5,6 +5,7 @@
 
 #include "server/store/sqlite/database.h"
 #include "server/store/sqlite/file_lock.h"
+#include "server/store/sqlite/quotas.h"
 #include "server/store/sqlite/rows.h"
 #include "server/store/sqlite/sweeps.h"
 
@@ -158,6 +159,10 @@ StatusOr<Submitted> SqliteStore::submit(const NewJob& job, const std::function<v
       row = same->first;
       submitted = {Submitted::Kind::reused, same->second};
     } else {
+      const Addition addition{job.lease ? 0 : 1, 0, static_cast<std::int64_t>(job.document.size())};
+      if (Status status = check_quotas(connection, job.owner, job.quotas, addition); !status.ok()) {
+        return status;
+      }
       insert_job(connection, job);
       row = connection.last_row();
       connection.prepare("INSERT INTO requests (job, document) VALUES (?, ?)")
