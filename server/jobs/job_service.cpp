@@ -119,8 +119,8 @@ StatusOr<Submission> JobService::store_new(const Order& order, const api::Reques
   std::promise<bool> stored;
   Handoff handoff{{job.id, 1, job.document, job.created}, stored.get_future().share()};
   const Lease lease = context_.new_lease();
-  // With a key it may be a repetition, with quotas be refused: nobody shall solve it then.
-  if (!order.idempotency_key && !job.quotas.any() && handoffs_.offer(handoff)) {
+  // With a key it may be a repetition, with a quota of bytes be refused: nobody shall solve it then.
+  if (!order.idempotency_key && job.quotas.bytes_kept == 0 && handoffs_.offer(handoff)) {
     job.lease = lease;
     job.patient = order.waits;
   }
