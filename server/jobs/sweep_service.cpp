@@ -87,6 +87,9 @@ StatusOr<SweepChange> SweepService::dismiss(const std::string& id) {
 }
 
 StatusOr<SweepChange> SweepService::retry(const std::string& id) {
+  if (Status status = world_.health.takes_work(); !status.ok()) {
+    return status;
+  }
   StatusOr<SweepChange> change = world_.store.retry(id, world_.limits.quotas);
   if (change.ok() && change->changed) {
     log_sweep(id, to_string(JobState::accepted), "tried again");

@@ -46,7 +46,8 @@ class SweepService {
   StatusOr<std::optional<SweepRecord>> get(const std::string& id, std::string_view owner);
   /// Dismisses a sweep and stops work on it; its rows stay. @pre get() found it
   StatusOr<SweepChange> dismiss(const std::string& id);
-  /// Computes failed and missing points of a sweep that has ended again. @pre get() found it
+  /// Computes failed and missing points of a sweep that has ended again. `unavailable` or `stopping` when no
+  /// work is taken at the moment. @pre get() found it
   StatusOr<SweepChange> retry(const std::string& id);
   /// Removes a sweep and its rows, after stopping work on it. @pre get() found it
   Status remove(const std::string& id);

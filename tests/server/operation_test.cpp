@@ -70,6 +70,8 @@ class Operation : public testing::Test {
 TEST_F(Operation, FromSigtermOnItIsNotReadyAndAnswersUntilItIsDrained) {
   const auto service = serve({"--drain-delay-s", "2"});
   const std::string job = post(port_, "/v1/jobs", column_request()).header("Location");
+  const std::string sweep = post(port_, "/v1/sweeps", column_sweep(1000)).header("Location");
+  EXPECT_EQ(call(port_, "POST", sweep + "/dismiss", "", {}).status, 200);
   const auto start = steady_clock::now();
   service->signal(SIGTERM);
   ASSERT_TRUE(wait_for_log(*service, "\"stopping\""));
@@ -86,6 +88,7 @@ TEST_F(Operation, FromSigtermOnItIsNotReadyAndAnswersUntilItIsDrained) {
     EXPECT_FALSE(refused.header("Retry-After").empty());
     EXPECT_EQ(json::parse(refused.body)["type"], "urn:snapthrough:problem:not-ready") << refused.body;
   }
+  EXPECT_EQ(call(port_, "POST", sweep + "/retry", "", {}).status, 503);
   EXPECT_EQ(service->wait(), 0);
   EXPECT_GE(steady_clock::now() - start, std::chrono::seconds(2));
   EXPECT_LT(steady_clock::now() - start, std::chrono::seconds(5));
