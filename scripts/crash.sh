@@ -2,4 +2,4 @@
 # Kills the service N times (200) while clients use it, and checks what it promised them. Needs a built tree.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-SNAPTHROUGH_KILLS="${1:-200}" "build/${PRESET:-release}/tests/fault_tests" --gtest_filter='Crash.*'
+KILLS="${1:-200}" "build/${PRESET:-release}/tests/fault_tests" --gtest_filter='Crash.*'

@@ -9,8 +9,8 @@ source scripts/lib/packages.sh
 if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
   install_packages "${SCHEMA_PACKAGES[@]}"
 fi
-SNAPTHROUGH_EXECUTABLE="$(realpath "${1:-build/release/snapthrough}")"
-export SNAPTHROUGH_EXECUTABLE
+SERVICE_EXECUTABLE="$(realpath "${1:-build/release/snapthrough}")"
+export SERVICE_EXECUTABLE
 cd tests/schema
 # The lock file fixes every package by its hash.
 npm ci --ignore-scripts --no-audit --no-fund --loglevel=error

@@ -58,6 +58,9 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   require(jobs.sweep_points >= 1 && static_cast<std::uint64_t>(jobs.sweep_points) <= api::kMaxSweepPoints,
           "jobs.sweep_points", "must be 1 to 1000000");
   require(jobs.table_rows >= 1, "jobs.table_rows", "must be >= 1");
+  require(jobs.quotas.jobs_waiting >= 0, "jobs.quotas.jobs_waiting", "must be >= 0");
+  require(jobs.quotas.points_waiting >= 0, "jobs.quotas.points_waiting", "must be >= 0");
+  require(jobs.quotas.bytes_kept >= 0, "jobs.quotas.bytes_kept", "must be >= 0");
   require(jobs.lease.count() >= 1, "jobs.lease", "must be >= 1 s");
   require(jobs.longest_run.count() >= 1, "jobs.longest_run", "must be >= 1 s");
   require(jobs.job_memory >= kLeastJobMemory, "jobs.job_memory", "must be >= 1048576 bytes");

@@ -2,6 +2,7 @@
 /// @file
 /// What can be set for the service.
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ struct ServiceConfig {
   JobLimits jobs;                                    ///< queue, leases, retention
   std::int64_t ballast_bytes = 4 * 1024 * 1024;      ///< reserve on the disk of the store; 0: none
   std::int64_t least_free_bytes = 64 * 1024 * 1024;  ///< with less on that disk no jobs are taken
+  std::chrono::seconds drain_delay{0};               ///< from SIGTERM until workers are stopped
   LogLevel log_level = LogLevel::info;
 
   /// One worker for each core.

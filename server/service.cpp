@@ -1,5 +1,6 @@
 #include "server/service.h"
 
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -9,7 +10,7 @@
 #include "server/front/listener.h"
 #include "server/jobs/job_service.h"
 #include "server/maintenance/upkeep.h"
-#include "server/metrics/metrics.h"
+#include "server/metrics/request_metrics.h"
 #include "server/resources/routes.h"
 #include "server/store/sqlite/sqlite_store.h"
 #include "server/worker/child_runner.h"
@@ -47,6 +48,9 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"connections", number(config.listener.connections)},
           {"streams", number(config.listener.streams)},
           {"queue", number(config.jobs.queue)},
+          {"quota_jobs_waiting", number(config.jobs.quotas.jobs_waiting)},
+          {"quota_points_waiting", number(config.jobs.quotas.points_waiting)},
+          {"quota_bytes_kept", number(config.jobs.quotas.bytes_kept)},
           {"workers", number(config.workers)},
           {"max_run_s", number(config.jobs.longest_run.count())},
           {"max_job_memory_bytes", number(config.jobs.job_memory)},
@@ -76,7 +80,8 @@ struct Service::Parts {
                 runners ? runners : child_runners(runner_options(config), runner_counters)),
         routes(jobs, config.waits,
                {[this] { return metrics_text(); }, [this] { return not_ready(); }, published_limits(config)}),
-        gateway(routes, environment, log, http::KeyRing(config.keys), metrics),
+        keys(config.keys),
+        gateway(routes, environment, log, keys, metrics),
         listener(config.listener, gateway),
         upkeep_thread(upkeep, environment) {}
 
@@ -90,6 +95,7 @@ struct Service::Parts {
   WorkerPool workers;
   RequestMetrics metrics;
   http::Routes routes;
+  http::KeyRing keys;
   http::Gateway gateway;
   http::Listener listener;
   UpkeepThread upkeep_thread;
@@ -98,6 +104,14 @@ struct Service::Parts {
 std::string Service::Parts::metrics_text() {
   std::string text;
   metrics.write(text);
+  jobs.context().metrics.write(text);
+  store->write_metrics(text);
+  if (const StatusOr<std::optional<Time>> oldest = store->oldest_waiting(); oldest.ok()) {
+    const Time now = jobs.environment().now();
+    write_metric(text, "snapthrough_oldest_waiting_job_seconds", "gauge",
+                 "Since the oldest accepted job was handed in; 0 when none waits.",
+                 std::chrono::duration<double>(now - oldest->value_or(now)).count());
+  }
   const http::ListenerLoad load = listener.load();
   const StoreHealth& health = jobs.context().health;
   const auto gauge = [&](const char* name, const char* help, double value) {
@@ -109,15 +123,11 @@ std::string Service::Parts::metrics_text() {
   gauge("snapthrough_jobs_waiting", "Accepted jobs, about.", static_cast<double>(jobs.context().waiting));
   gauge("snapthrough_jobs_running", "Analyses of this process.",
         static_cast<double>(jobs.context().active.count()));
-  const PointCounters& points = jobs.sweeps().counters();
   const auto counter = [&](const char* name, const char* help, std::int64_t value) {
     write_metric(text, name, "counter", help, static_cast<double>(value));
   };
   gauge("snapthrough_sweeps_active", "Sweeps that points are given out of.",
         static_cast<double>(jobs.sweeps().scheduler().count()));
-  counter("snapthrough_sweep_points_solved_total", "Points that were solved.", points.solved);
-  counter("snapthrough_sweep_points_failed_total", "Points that were tried and failed.", points.failed);
-  counter("snapthrough_sweep_points_reused_total", "Points that were known already.", points.reused);
   counter("snapthrough_runners_started_total", "Processes that compute, started.", runner_counters.started);
   counter("snapthrough_runners_out_of_memory_total", "Ended at the bound of their memory.",
           runner_counters.out_of_memory);
@@ -175,6 +185,9 @@ Status Service::start() {
                 {"detail", std::string_view("the service died while it worked on these points")}});
   }
   parts_ = std::make_unique<Parts>(config_, environment_, runners_, log_, std::move(opened));
+  for (std::size_t i = 0; i < recovery->failed.size(); ++i) {
+    parts_->jobs.context().metrics.job_ended("crashed");
+  }
   if (Status status = parts_->listener.start(); !status.ok()) {
     stop();
     return status;
@@ -190,14 +203,24 @@ Status Service::start() {
 
 int Service::port() const { return parts_ ? parts_->listener.port() : 0; }
 
+Status Service::replace_keys(std::vector<http::ApiKey> keys) {
+  if (keys.empty() != config_.keys.empty()) {
+    return {StatusCode::unsupported, "whether keys are asked for at all is decided at the start"};
+  }
+  parts_->keys.replace(std::move(keys));
+  return {};
+}
+
 void Service::stop() {
   if (!parts_) {
     return;
   }
-  parts_->jobs.context().health.draining = true;
-  parts_->jobs.context().completions.close();
-  parts_->listener.stop();
+  const WorkerContext& context = parts_->jobs.context();
+  context.health.draining = true;
+  std::this_thread::sleep_for(config_.drain_delay);
   parts_->workers.stop();
+  context.completions.close();  // after that: who waits is told what became of the job
+  parts_->listener.stop();
   parts_.reset();
   log_.write(LogLevel::info, "stopped");
 }

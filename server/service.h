@@ -3,6 +3,7 @@
 /// The whole service: store, queue, workers and HTTP, put together.
 
 #include <memory>
+#include <vector>
 
 #include "server/config.h"
 #include "server/environment.h"
@@ -29,8 +30,13 @@ class Service {
   Status start();
   /// The port that is listened to, once started.
   [[nodiscard]] int port() const;
-  /// @brief Stops listening, answers requests in flight (those that wait for a result get the job's status),
-  /// and puts running jobs back to the queue. Repeatable.
+  /// @brief Accepts these keys from now on and no others. `unsupported`, and nothing changes, when the
+  /// service was started with keys and these are none, or the other way round. @pre started; the keys are
+  /// valid
+  Status replace_keys(std::vector<http::ApiKey> keys);
+  /// @brief Takes no new work and is not ready from now on, but answers everything else: for `drain_delay`,
+  /// and until running jobs are back in the queue. Then answers requests in flight (those that wait for a
+  /// result get the job's status) and stops listening. Repeatable.
   void stop();
 
  private:

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include <toml++/toml.h>
@@ -138,6 +139,9 @@ std::vector<Setting> front_settings() {
       duration(
           "longest_wait_s", "Wait in one request at most",
           [](ServiceConfig & c) -> auto& { return c.waits.longest_wait; }),
+      duration(
+          "drain_delay_s", "From SIGTERM, when /readyz turns 503, until running work is given back",
+          [](ServiceConfig & c) -> auto& { return c.drain_delay; }),
       log_level_setting(),
   };
 }
@@ -154,6 +158,13 @@ std::vector<Setting> job_settings() {
             [](ServiceConfig& c) -> int& { return c.jobs.sweep_points; }),
       whole("max_table_rows", "Rows of a sweep's table in one response",
             [](ServiceConfig& c) -> int& { return c.jobs.table_rows; }),
+      whole("quota_jobs_waiting",
+            "Jobs of one owner that may wait; the next is refused with 429; 0: any number",
+            [](ServiceConfig& c) -> std::int64_t& { return c.jobs.quotas.jobs_waiting; }),
+      whole("quota_points_waiting", "Points of one owner's sweeps that may wait, else 429; 0: any number",
+            [](ServiceConfig& c) -> std::int64_t& { return c.jobs.quotas.points_waiting; }),
+      whole("quota_bytes_kept", "Documents of one owner that are kept, else 403; 0: any size",
+            [](ServiceConfig& c) -> std::int64_t& { return c.jobs.quotas.bytes_kept; }),
       whole("max_crashes", "A job during which the service died so often is given up",
             [](ServiceConfig& c) -> int& { return c.jobs.max_crashes; }),
       duration(
@@ -180,6 +191,34 @@ const Setting* find_setting(const std::string& name) {
   const std::vector<Setting>& all = settings();
   const auto found = std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.name == name; });
   return found == all.end() ? nullptr : &*found;
+}
+
+/// How many characters have to be put in, left out or replaced to make one text of the other.
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> row(to.size() + 1);  // of the part of `from` so far to each beginning of `to`
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// @param form the name of a setting as this source spells it
+template <class Form>
+std::string no_such_setting(const std::string& name, const Form& form) {
+  std::vector<std::string> known;
+  for (const Setting& setting : settings()) {
+    known.push_back(form(setting.name));
+  }
+  return "there is no such setting; the nearest is " +
+         *std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+           return edit_distance(name, a) < edit_distance(name, b);
+         });
 }
 
 std::string place(const std::string& file, const toml::node& node) {
@@ -222,7 +261,7 @@ void read_file(const std::string& file, ServiceConfig& config, std::vector<Confi
     if (name == "keys") {
       read_keys(node, file, config, mistakes);
     } else if (setting == nullptr) {
-      mistakes.push_back({where, "there is no such setting"});
+      mistakes.push_back({where, no_such_setting(name, [](const std::string& known) { return known; })});
     } else if (!node.is_string() && !node.is_integer()) {
       mistakes.push_back({where, "expected a text or a whole number"});
     } else {
@@ -234,10 +273,24 @@ void read_file(const std::string& file, ServiceConfig& config, std::vector<Confi
   }
 }
 
+void read_environment(const std::map<std::string, std::string>& variables, ServiceConfig& config,
+                      std::vector<ConfigMistake>& mistakes) {
+  for (const auto& [name, value] : variables) {
+    const auto setting = std::find_if(settings().begin(), settings().end(),
+                                      [&](const Setting& one) { return variable_name(one.name) == name; });
+    if (setting == settings().end() && name != kConfigVariable) {
+      mistakes.push_back({name, no_such_setting(name, variable_name)});
+    } else if (const Mistake mistake =
+                   setting != settings().end() ? setting->set(config, value) : std::nullopt) {
+      mistakes.push_back({name, *mistake});
+    }
+  }
+}
+
 }  // namespace
 
 std::string variable_name(const std::string& setting) {
-  std::string name = "SNAPTHROUGH_" + setting;
+  std::string name = std::string(kVariablePrefix) + setting;
   std::transform(name.begin(), name.end(), name.begin(),
                  [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
   return name;
@@ -259,13 +312,7 @@ std::pair<ServiceConfig, std::vector<ConfigMistake>> load_config(const SettingSo
   if (!sources.file.empty()) {
     read_file(sources.file, config, mistakes);
   }
-  for (const Setting& setting : settings()) {
-    const std::string name = variable_name(setting.name);
-    const std::optional<std::string> value = sources.environment ? sources.environment(name) : std::nullopt;
-    if (const Mistake mistake = value ? setting.set(config, *value) : std::nullopt) {
-      mistakes.push_back({name, *mistake});
-    }
-  }
+  read_environment(sources.environment, config, mistakes);
   for (const auto& [name, value] : sources.flags) {
     const Setting* setting = find_setting(name);
     if (const Mistake mistake = setting != nullptr ? setting->set(config, value) : Mistake("unknown")) {

@@ -4,8 +4,10 @@
 /// the command line.
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,10 +30,15 @@ struct Setting {
 
 /// Where values come from; later ones win: file, environment, flags.
 struct SettingSources {
-  std::string file;                                                           ///< TOML; empty: none
-  std::function<std::optional<std::string>(const std::string&)> environment;  ///< by variable name
-  std::vector<std::pair<std::string, std::string>> flags;                     ///< by setting name
+  std::string file;                                ///< TOML; empty: none
+  std::map<std::string, std::string> environment;  ///< every variable that begins with kVariablePrefix
+  std::vector<std::pair<std::string, std::string>> flags;  ///< by setting name
 };
+
+/// Variables of the environment that begin so are settings, or kConfigVariable; others are mistakes.
+inline constexpr std::string_view kVariablePrefix = "SNAPTHROUGH_";
+/// Names the configuration file.
+inline constexpr const char* kConfigVariable = "SNAPTHROUGH_CONFIG";
 
 /// @brief Reads all sources. Every mistake is listed with the place it comes from; the configuration is not
 /// to be used then.

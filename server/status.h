@@ -11,10 +11,13 @@ namespace snapthrough::server {
 /// What went wrong with a store, a socket or a file. `ok` is the only success.
 enum class StatusCode {
   ok,
-  conflict,     ///< the job is no longer in the state, or the attempt, that the caller holds
-  unavailable,  ///< it may work later: busy, disk full, address in use
-  unsupported,  ///< written by a newer version, or by something else
-  io_error,     ///< everything else
+  conflict,       ///< the job is no longer in the state, or the attempt, that the caller holds
+  unavailable,    ///< it may work later: busy, disk full, address in use
+  stopping,       ///< nothing new is taken: the service is about to end
+  waiting_quota,  ///< the owner has as much waiting as it may
+  storage_quota,  ///< the owner keeps as much as it may
+  unsupported,    ///< written by a newer version, or by something else
+  io_error,       ///< everything else
 };
 
 /// Outcome of an operation without a value. Copyable, immutable after construction.

@@ -4,11 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <exception>
 #include <map>
 #include <optional>
 #include <ostream>
+#include <string_view>
 #include <thread>
 
 #include "server/cli/commands.h"
@@ -32,9 +32,17 @@ struct Arguments {
   bool ready = false;
 };
 
-std::optional<std::string> from_environment(const std::string& name) {
-  const char* value = std::getenv(name.c_str());
-  return value == nullptr ? std::nullopt : std::optional<std::string>(value);
+/// The variables that are the service's, by name.
+std::map<std::string, std::string> own_variables() {
+  std::map<std::string, std::string> own;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text(*entry);
+    const std::size_t equals = std::min(text.find('='), text.size());
+    if (text.starts_with(kVariablePrefix)) {
+      own.emplace(text.substr(0, equals), text.substr(std::min(equals + 1, text.size())));
+    }
+  }
+  return own;
 }
 
 CLI::App* add_request_command(CLI::App& app, const char* name, const char* description,
@@ -98,9 +106,10 @@ void add_health_command(CLI::App& app, Arguments& arguments) {
 }
 
 int serve(const Arguments& arguments, const Streams& streams) {
-  SettingSources sources{arguments.config_file, from_environment, {}};
-  if (sources.file.empty()) {
-    sources.file = from_environment("SNAPTHROUGH_CONFIG").value_or("");
+  SettingSources sources{arguments.config_file, own_variables(), {}};
+  const auto file = sources.environment.find(kConfigVariable);
+  if (sources.file.empty() && file != sources.environment.end()) {
+    sources.file = file->second;
   }
   sources.flags.assign(arguments.settings.begin(), arguments.settings.end());
   return serve_command(sources, streams);

@@ -38,7 +38,8 @@ struct SweepOptions {
 /// and the status is 128 + signal.
 int sweep_command(const std::string& path, const Streams& streams, const SweepOptions& options);
 
-/// Runs the service until SIGTERM or SIGINT.
+/// Runs the service until SIGTERM or SIGINT. SIGHUP reads the keys of the configuration file again; without
+/// such a file it ends the service, too.
 int serve_command(const SettingSources& sources, const Streams& streams);
 
 /// Copies the store of a service, which may be running, to a new file.

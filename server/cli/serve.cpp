@@ -12,7 +12,7 @@
 namespace snapthrough::server::cli {
 namespace {
 
-/// Holds SIGTERM and SIGINT back from every thread made after it, so that one place waits for them.
+/// Holds SIGTERM, SIGINT and SIGHUP back from every thread made after it, so that one place waits for them.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -20,26 +20,29 @@ class HeldSignals {
     sigemptyset(&signals_);
     sigaddset(&signals_, SIGTERM);
     sigaddset(&signals_, SIGINT);
-    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+    sigaddset(&signals_, SIGHUP);
+    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
   }
-  ~HeldSignals() { release(); }
+  ~HeldSignals() = default;
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
   HeldSignals(HeldSignals&&) = delete;
   HeldSignals& operator=(HeldSignals&&) = delete;
 
-  /// The first signal that comes.
+  /// The next signal that comes.
   [[nodiscard]] int wait() const {
     int signal = 0;
     sigwait(&signals_, &signal);
     return signal;
   }
-  /// From now on a signal ends the process at once.
-  void release() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  /// From now on SIGTERM and SIGINT end the process at once, and SIGHUP does nothing.
+  void release() const {
+    std::signal(SIGHUP, SIG_IGN);
+    pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
+  }
 
  private:
   sigset_t signals_{};
-  sigset_t before_{};
 };
 
 /// Large blocks go back to the system when they are freed, and threads share arenas: one wide document shall
@@ -56,6 +59,33 @@ void log_config(Log& log, const ServiceConfig& config) {
     const std::string value = setting.get(config);
     log.write(LogLevel::info, "setting",
               {{"name", std::string_view(setting.name)}, {"value", std::string_view(value)}});
+  }
+}
+
+/// Reads the sources again and uses their keys; when something is wrong, all stays as it is.
+void reload_keys(const SettingSources& sources, const ServiceConfig& running, Service& service, Log& log) {
+  auto [config, mistakes] = load_config(sources);
+  const std::size_t count = config.keys.size();
+  if (mistakes.empty()) {
+    if (const Status status = service.replace_keys(std::move(config.keys)); !status.ok()) {
+      mistakes.push_back({"keys", status.message()});
+    }
+  }
+  for (const ConfigMistake& mistake : mistakes) {
+    log.write(LogLevel::error, "reload",
+              {{"field", std::string_view(mistake.field)}, {"detail", std::string_view(mistake.detail)}});
+  }
+  if (!mistakes.empty()) {
+    return;
+  }
+  log.write(LogLevel::info, "reload", {{"keys", static_cast<std::int64_t>(count)}});
+  for (const Setting& setting : settings()) {
+    if (const std::string value = setting.get(config); value != setting.get(running)) {
+      log.write(LogLevel::warning, "setting",
+                {{"name", std::string_view(setting.name)},
+                 {"value", std::string_view(value)},
+                 {"detail", std::string_view("used from the next start on")}});
+    }
   }
 }
 
@@ -79,7 +109,11 @@ int serve_command(const SettingSources& sources, const Streams& streams) {
     streams.err << "snapthrough: " << status.message() << '\n';
     return kOther;
   }
-  const int signal = signals.wait();
+  int signal = signals.wait();
+  while (signal == SIGHUP && !sources.file.empty()) {
+    reload_keys(sources, config, service, log);
+    signal = signals.wait();
+  }
   signals.release();  // who signals twice does not want to wait
   log.write(LogLevel::info, "stopping", {{"signal", static_cast<std::int64_t>(signal)}});
   service.stop();

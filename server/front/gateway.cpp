@@ -168,7 +168,10 @@ void Gateway::complete(const Request& request, Response& response, double start)
         {{"request_id", std::string_view(request.id)}, {"detail", std::string_view(response.trouble)}});
   }
   const double seconds = environment_.monotonic_seconds() - start;
-  metrics_.count(request.method, response.route, response.status, seconds);
+  const std::string route = label("route", response.route.empty() ? "none" : response.route);
+  const std::string method = label("method", is_known_method(request.method) ? request.method : "other");
+  metrics_.answered.add(method + "," + route + "," + label("status", std::to_string(response.status)));
+  metrics_.seconds.observe(seconds, route);
   log_.write(response.status >= 500 ? LogLevel::error : LogLevel::info, "request",
              {{"request_id", std::string_view(request.id)},
               {"method", std::string_view(request.method)},

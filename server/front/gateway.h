@@ -8,7 +8,7 @@
 #include "server/front/request_head.h"
 #include "server/front/response_bytes.h"
 #include "server/log/log.h"
-#include "server/metrics/metrics.h"
+#include "server/metrics/request_metrics.h"
 #include "server/resources/message.h"
 #include "server/resources/routes.h"
 
@@ -17,8 +17,9 @@ namespace snapthrough::server::http {
 /// @brief Serves requests through the routes. Thread-safe; the parts it is given must outlive it.
 class Gateway {
  public:
-  Gateway(Routes& routes, const Environment& environment, Log& log, KeyRing keys, RequestMetrics& metrics)
-      : routes_(routes), environment_(environment), log_(log), keys_(std::move(keys)), metrics_(metrics) {}
+  Gateway(Routes& routes, const Environment& environment, Log& log, const KeyRing& keys,
+          RequestMetrics& metrics)
+      : routes_(routes), environment_(environment), log_(log), keys_(keys), metrics_(metrics) {}
 
   /// Never throws for a request: what a resource throws is logged and becomes status 500 without particulars.
   /// A deferred response comes back deferred; what its `resume` gives is complete and was logged.
@@ -34,7 +35,7 @@ class Gateway {
   Routes& routes_;
   const Environment& environment_;
   Log& log_;
-  KeyRing keys_;
+  const KeyRing& keys_;
   RequestMetrics& metrics_;
 };
 

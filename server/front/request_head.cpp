@@ -137,12 +137,6 @@ bool read_request_line(std::string_view line, Head& head) {
   return !head.target.empty() && head.target.find(' ') == std::string::npos;
 }
 
-bool is_known_method(std::string_view method) {
-  static constexpr std::array<std::string_view, 7> kMethods{"GET",   "HEAD",   "POST",   "PUT",
-                                                            "PATCH", "DELETE", "OPTIONS"};
-  return std::find(kMethods.begin(), kMethods.end(), method) != kMethods.end();
-}
-
 Head judge(Head head, const Facts& facts, const HeadLimits& limits) {
   if (!is_known_method(head.method)) {
     return refuse(std::move(head), 501, "This method is not known here.");
@@ -189,6 +183,12 @@ Head judge(Head head, const Facts& facts, const HeadLimits& limits) {
 }
 
 }  // namespace
+
+bool is_known_method(std::string_view method) {
+  static constexpr std::array<std::string_view, 7> kMethods{"GET",   "HEAD",   "POST",   "PUT",
+                                                            "PATCH", "DELETE", "OPTIONS"};
+  return std::find(kMethods.begin(), kMethods.end(), method) != kMethods.end();
+}
 
 Head read_head(std::string_view head_text, const HeadLimits& limits) {
   Head head;

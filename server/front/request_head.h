@@ -39,6 +39,9 @@ struct Head {
 /// @param head request line and headers up to and including the empty line
 [[nodiscard]] Head read_head(std::string_view head, const HeadLimits& limits);
 
+/// Whether the service knows a method, be it to say that a resource has it not.
+[[nodiscard]] bool is_known_method(std::string_view method);
+
 /// @brief The head, its target without scheme and host, and without the headers that the HTTP library would
 /// act on: ranges (they amplify), codings of the response (the library compresses slowly), expectations (met
 /// already), and the names it stores addresses under.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/environment.h"
+#include "server/jobs/quotas.h"
 #include "server/jobs/state.h"
 #include "solver/result.h"
 
@@ -58,6 +59,7 @@ struct NewJob {
   std::optional<IdempotencyKey> idempotency = {};
   bool patient = false;  ///< its outcome may come at once: the commit may wait a millisecond for it
   bool reuse = false;    ///< a successful job of the same owner and content takes its place, if there is one
+  Quotas quotas = {};    ///< of the owner
   std::optional<Lease> lease = {};  ///< set: a worker has it already, the job begins running in attempt 1
 };
 
@@ -78,6 +80,7 @@ struct Claim {
   std::string id;
   int attempt = 0;
   std::string document = {};  ///< the request
+  Time created = {};          ///< the job was handed in then
 };
 
 /// What a finished job leaves: the document that is served, and its parts for queries.

@@ -75,13 +75,13 @@ JobService::JobService(Store& store, const Environment& environment, Log& log, J
       environment_(environment),
       log_(log),
       limits_(limits),
-      sweeps_({store_.sweeps(), environment_, log_, limits_, health_, handoffs_, completions_}),
-      context_{store_,       environment_, log_,    limits_,   health_, waiting_,
-               completions_, handoffs_,    active_, progress_, sweeps_, new_id(environment)} {}
+      sweeps_({store_.sweeps(), environment_, log_, limits_, health_, handoffs_, completions_, metrics_}),
+      context_{store_,    environment_, log_,      limits_, health_,  waiting_,           completions_,
+               handoffs_, active_,      progress_, sweeps_, metrics_, new_id(environment)} {}
 
 StatusOr<Submission> JobService::submit(const Order& order) {
-  if (health_.draining || !health_.has_space) {
-    return Status(StatusCode::unavailable, health_.draining ? "the service is stopping" : "the disk is full");
+  if (Status status = health_.takes_work(); !status.ok()) {
+    return status;
   }
   const KeyInUse in_use(*this, order);
   if (in_use.by_another()) {
@@ -115,11 +115,12 @@ StatusOr<Submission> JobService::submit(const Order& order) {
 
 StatusOr<Submission> JobService::store_new(const Order& order, const api::Request& request, std::string key) {
   NewJob job = new_job(order, request, std::move(key), environment_);
+  job.quotas = limits_.quotas;
   std::promise<bool> stored;
-  Handoff handoff{{job.id, 1, job.document}, stored.get_future().share()};
+  Handoff handoff{{job.id, 1, job.document, job.created}, stored.get_future().share()};
   const Lease lease = context_.new_lease();
-  // With a key it may be a repetition, which nobody shall solve.
-  if (!order.idempotency_key && handoffs_.offer(handoff)) {
+  // With a key it may be a repetition, with a quota of bytes be refused: nobody shall solve it then.
+  if (!order.idempotency_key && job.quotas.bytes_kept == 0 && handoffs_.offer(handoff)) {
     job.lease = lease;
     job.patient = order.waits;
   }
@@ -175,6 +176,7 @@ StatusOr<Dismissal> JobService::dismiss(const std::string& id) {
   if (dismissal->before == JobState::accepted) {
     --waiting_;
   }
+  metrics_.job_ended("dismissed");
   active_.stop(id, StopReason::dismissed);
   completions_.announce(id);
   log_.write(LogLevel::info, "job",

@@ -63,6 +63,7 @@ class JobService {
   HandoffQueue handoffs_;
   ActiveJobs active_;
   JobProgress progress_;
+  JobMetrics metrics_;
   SweepService sweeps_;
   const WorkerContext context_;
 };

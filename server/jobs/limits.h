@@ -6,6 +6,9 @@
 #include <chrono>
 #include <cstdint>
 
+#include "server/jobs/quotas.h"
+#include "server/status.h"
+
 namespace snapthrough::server {
 
 /// With less no analysis would get far.
@@ -23,6 +26,7 @@ struct JobLimits {
   int sweeps = 1000;                           ///< sweeps that may be unfinished, >= 1
   int sweep_points = 100'000;                  ///< of one sweep, 1 to api::kMaxSweepPoints
   int table_rows = 250'000;                    ///< in one response, >= 1
+  Quotas quotas;                               ///< of each owner
 };
 
 /// Whether writing to the store works. Thread-safe.
@@ -30,6 +34,14 @@ struct StoreHealth {
   std::atomic<bool> writable = true;   ///< the latest write that tells
   std::atomic<bool> has_space = true;  ///< enough for new jobs
   std::atomic<bool> draining = false;  ///< the service is about to stop
+
+  /// Ok when new work may be handed in; else `stopping` or `unavailable`.
+  [[nodiscard]] Status takes_work() const {
+    if (draining) {
+      return {StatusCode::stopping, "The service is stopping."};
+    }
+    return has_space ? Status() : Status(StatusCode::unavailable, "the disk is full");
+  }
 };
 
 }  // namespace snapthrough::server

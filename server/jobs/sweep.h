@@ -43,7 +43,8 @@ struct NewSweep {
   Time created;
   std::string owner = {};
   std::optional<IdempotencyKey> idempotency = {};
-  bool reuse = true;  ///< rows of other sweeps of the same owner will do
+  bool reuse = true;   ///< rows of other sweeps of the same owner will do
+  Quotas quotas = {};  ///< of the owner
 };
 
 /// A row of a sweep's table.

@@ -19,9 +19,8 @@ std::vector<PointRow> not_stored(std::vector<PointRow> rows, const Status& statu
 }  // namespace
 
 StatusOr<Submission> SweepService::submit(const Order& order) {
-  if (world_.health.draining || !world_.health.has_space) {
-    return Status(StatusCode::unavailable,
-                  world_.health.draining ? "the service is stopping" : "the disk is full");
+  if (Status status = world_.health.takes_work(); !status.ok()) {
+    return status;
   }
   api::SweepOutcome read =
       api::read_sweep(order.document, static_cast<std::uint64_t>(world_.limits.sweep_points));
@@ -41,6 +40,7 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
                  world_.environment.now(),    order.owner};
   sweep.reuse = order.reuse;
   sweep.idempotency = key_of(order);
+  sweep.quotas = world_.limits.quotas;
   const StatusOr<Submitted> submitted = world_.store.submit(sweep);
   if (!submitted.ok()) {
     if (submitted.status().code() == StatusCode::unavailable) {
@@ -87,7 +87,10 @@ StatusOr<SweepChange> SweepService::dismiss(const std::string& id) {
 }
 
 StatusOr<SweepChange> SweepService::retry(const std::string& id) {
-  StatusOr<SweepChange> change = world_.store.retry(id);
+  if (Status status = world_.health.takes_work(); !status.ok()) {
+    return status;
+  }
+  StatusOr<SweepChange> change = world_.store.retry(id, world_.limits.quotas);
   if (change.ok() && change->changed) {
     log_sweep(id, to_string(JobState::accepted), "tried again");
     wake();
@@ -197,10 +200,9 @@ Status SweepService::settle(const Chunk& chunk, const std::vector<PointRow>& row
 
 void SweepService::stored(const SweepRecord& record, const std::vector<PointRow>& rows) {
   for (const PointRow& row : rows) {
-    std::atomic<std::int64_t>& counter = row.reused             ? counters_.reused
-                                         : row.outcome.failed() ? counters_.failed
-                                                                : counters_.solved;
-    ++counter;
+    world_.metrics.point_ended(row.reused             ? "reused"
+                               : row.outcome.failed() ? std::string_view(row.outcome.code)
+                                                      : "successful");
   }
   if (!is_final(record.state)) {
     news_.pass_on(record.id, record);

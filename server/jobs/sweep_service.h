@@ -12,6 +12,7 @@
 #include "server/environment.h"
 #include "server/jobs/handoff.h"
 #include "server/jobs/job_completions.h"
+#include "server/jobs/job_metrics.h"
 #include "server/jobs/limits.h"
 #include "server/jobs/point_scheduler.h"
 #include "server/jobs/progress_topic.h"
@@ -30,13 +31,7 @@ struct SweepSurroundings {
   StoreHealth& health;
   HandoffQueue& handoffs;
   JobCompletions& completions;  ///< of sweeps, too
-};
-
-/// How many points this process dealt with.
-struct PointCounters {
-  std::atomic<std::int64_t> solved = 0;  ///< computed, and they have outputs
-  std::atomic<std::int64_t> failed = 0;  ///< computed, and they have none
-  std::atomic<std::int64_t> reused = 0;  ///< found
+  JobMetrics& metrics;
 };
 
 /// @brief Where sweeps are handed in, asked for, and worked on. Thread-safe.
@@ -51,7 +46,8 @@ class SweepService {
   StatusOr<std::optional<SweepRecord>> get(const std::string& id, std::string_view owner);
   /// Dismisses a sweep and stops work on it; its rows stay. @pre get() found it
   StatusOr<SweepChange> dismiss(const std::string& id);
-  /// Computes failed and missing points of a sweep that has ended again. @pre get() found it
+  /// Computes failed and missing points of a sweep that has ended again. `unavailable` or `stopping` when no
+  /// work is taken at the moment. @pre get() found it
   StatusOr<SweepChange> retry(const std::string& id);
   /// Removes a sweep and its rows, after stopping work on it. @pre get() found it
   Status remove(const std::string& id);
@@ -75,7 +71,6 @@ class SweepService {
   [[nodiscard]] SweepStore& store() { return world_.store; }
   [[nodiscard]] PointScheduler& scheduler() { return scheduler_; }
   [[nodiscard]] ProgressTopic<SweepRecord>& news() { return news_; }
-  [[nodiscard]] const PointCounters& counters() const { return counters_; }
 
  private:
   StatusOr<std::int64_t> unfinished();
@@ -88,7 +83,6 @@ class SweepService {
   const SweepSurroundings world_;
   PointScheduler scheduler_;
   ProgressTopic<SweepRecord> news_;
-  PointCounters counters_;
   std::mutex loading_;
   std::atomic<bool> unloaded_ = true;  ///< the store may have sweeps that the scheduler does not have
 };

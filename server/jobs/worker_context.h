@@ -10,6 +10,7 @@
 #include "server/jobs/active_jobs.h"
 #include "server/jobs/handoff.h"
 #include "server/jobs/job_completions.h"
+#include "server/jobs/job_metrics.h"
 #include "server/jobs/limits.h"
 #include "server/jobs/progress_topic.h"
 #include "server/jobs/sweep_service.h"
@@ -31,6 +32,7 @@ struct WorkerContext {
   ActiveJobs& active;
   JobProgress& progress;
   SweepService& sweeps;
+  JobMetrics& metrics;
   const std::string instance;  ///< of the service: the name that leases bear
 
   /// A lease from now on.

@@ -72,6 +72,7 @@ void Upkeep::rescue(Time now) {
   log_recovery(context_.log, *recovery, "the lease of the worker ran out");
   for (const std::string& id : recovery->failed) {
     context_.completions.announce(id);
+    context_.metrics.job_ended("crashed");
   }
   for (std::size_t i = 0; i < recovery->requeued.size(); ++i) {
     context_.waiting += 1;

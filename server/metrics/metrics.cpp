@@ -6,60 +6,76 @@
 namespace snapthrough::server {
 namespace {
 
-void append_number(std::string& text, double value) {
+std::string number(double value) {
   std::array<char, 40> digits{};
   const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  text.append(digits.data(), end);
+  return {digits.data(), end};
+}
+
+void write_head(std::string& text, std::string_view name, std::string_view type, std::string_view help) {
+  text.append("# HELP ").append(name).append(" ").append(help).append("\n# TYPE ").append(name);
+  text.append(" ").append(type).append("\n");
+}
+
+void write_sample(std::string& text, std::string_view name, const std::string& labels, double value) {
+  text.append(name);
+  if (!labels.empty()) {
+    text.append("{").append(labels).append("}");
+  }
+  text.append(" ").append(number(value)).append("\n");
 }
 
 }  // namespace
 
-void RequestMetrics::count(std::string_view method, std::string_view route, int status, double seconds) {
-  const std::string name(route.empty() ? "none" : route);
-  const auto* bound = std::lower_bound(kBounds.begin(), kBounds.end(), seconds);
-  const std::lock_guard guard(mutex_);
-  ++requests_[{std::string(method), name, status}];
-  Histogram& histogram = durations_[name];
-  ++histogram.counts[static_cast<std::size_t>(bound - kBounds.begin())];
-  histogram.sum += seconds;
+std::string label(std::string_view name, std::string_view value) {
+  std::string text = std::string(name) + "=\"";
+  for (const char c : value) {
+    text += c == '\\' || c == '"' ? std::string{'\\', c} : c == '\n' ? "\\n" : std::string{c};
+  }
+  return text + "\"";
 }
 
-void RequestMetrics::write(std::string& text) const {
+void Counter::add(const std::string& labels) {
   const std::lock_guard guard(mutex_);
-  text += "# HELP snapthrough_requests_total Requests answered.\n# TYPE snapthrough_requests_total counter\n";
-  for (const auto& [key, count] : requests_) {
-    const auto& [method, route, status] = key;
-    text += "snapthrough_requests_total{method=\"" + method + "\",route=\"" + route + "\",status=\"" +
-            std::to_string(status) + "\"} " + std::to_string(count) + "\n";
+  ++counts_[labels];
+}
+
+void Counter::write(std::string& text) const {
+  write_head(text, name_, "counter", help_);
+  const std::lock_guard guard(mutex_);
+  for (const auto& [labels, count] : counts_) {
+    write_sample(text, name_, labels, static_cast<double>(count));
   }
-  text +=
-      "# HELP snapthrough_request_seconds Time from a complete request to its response, waits included.\n"
-      "# TYPE snapthrough_request_seconds histogram\n";
-  for (const auto& [route, histogram] : durations_) {
-    const std::string label = "{route=\"" + route + "\"";
-    std::uint64_t below = 0;
-    for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
-      below += histogram.counts[i];
-      text += "snapthrough_request_seconds_bucket" + label + ",le=\"";
-      if (i < kBounds.size()) {
-        append_number(text, kBounds[i]);
-      } else {
-        text += "+Inf";
-      }
-      text += "\"} " + std::to_string(below) + "\n";
+}
+
+void Histogram::observe(double seconds, const std::string& labels) {
+  const auto bucket = std::lower_bound(kBounds.begin(), kBounds.end(), seconds) - kBounds.begin();
+  const std::lock_guard guard(mutex_);
+  Series& series = series_[labels];
+  ++series.counts[static_cast<std::size_t>(bucket)];
+  series.sum += seconds;
+}
+
+void Histogram::write(std::string& text) const {
+  const std::string name(name_);
+  write_head(text, name_, "histogram", help_);
+  const std::lock_guard guard(mutex_);
+  for (const auto& [labels, series] : series_) {
+    double below = 0.0;  // the counts of a format that adds them up
+    for (std::size_t i = 0; i < series.counts.size(); ++i) {
+      below += static_cast<double>(series.counts[i]);
+      const std::string bound = label("le", i < kBounds.size() ? number(kBounds[i]) : "+Inf");
+      write_sample(text, name + "_bucket", labels.empty() ? bound : labels + "," + bound, below);
     }
-    text += "snapthrough_request_seconds_sum" + label + "} ";
-    append_number(text, histogram.sum);
-    text += "\nsnapthrough_request_seconds_count" + label + "} " + std::to_string(below) + "\n";
+    write_sample(text, name + "_sum", labels, series.sum);
+    write_sample(text, name + "_count", labels, below);
   }
 }
 
 void write_metric(std::string& text, std::string_view name, std::string_view type, std::string_view help,
                   double value) {
-  text.append("# HELP ").append(name).append(" ").append(help).append("\n# TYPE ").append(name);
-  text.append(" ").append(type).append("\n").append(name).append(" ");
-  append_number(text, value);
-  text += '\n';
+  write_head(text, name, type, help);
+  write_sample(text, name, "", value);
 }
 
 }  // namespace snapthrough::server

@@ -45,12 +45,24 @@ Response simple_problem(const Request& request, int status, const char* kind, co
 
 Response store_trouble(const Request& request, const Status& status) {
   Response response;
-  if (status.code() == StatusCode::unavailable) {
-    response = simple_problem(request, 503, "store-unavailable", "Service unavailable",
-                              "The store cannot be used at the moment.");
-    response.headers.emplace_back("Retry-After", "5");
-  } else {
-    response = simple_problem(request, 500, "internal-error", "Internal error", "The store failed.");
+  switch (status.code()) {
+    case StatusCode::stopping:
+      response = simple_problem(request, 503, "not-ready", "Not ready", status.message());
+      response.headers.emplace_back("Retry-After", "5");
+      return response;
+    case StatusCode::waiting_quota:
+      response = simple_problem(request, 429, "waiting-quota", "Quota of waiting work", status.message());
+      response.headers.emplace_back("Retry-After", "10");
+      return response;
+    case StatusCode::storage_quota:
+      return simple_problem(request, 403, "storage-quota", "Quota of storage", status.message());
+    case StatusCode::unavailable:
+      response = simple_problem(request, 503, "store-unavailable", "Service unavailable",
+                                "The store cannot be used at the moment.");
+      response.headers.emplace_back("Retry-After", "5");
+      break;
+    default:
+      response = simple_problem(request, 500, "internal-error", "Internal error", "The store failed.");
   }
   response.trouble = status.message();
   return response;

@@ -61,7 +61,8 @@ class Store {
   Store& operator=(Store&&) = delete;
   virtual ~Store() = default;
 
-  /// Adds a job in state accepted (running when it comes with a lease), unless its idempotency key is known.
+  /// Adds a job in state accepted (running when it comes with a lease), unless its idempotency key is known;
+  /// `waiting_quota` or `storage_quota` when its owner would have more than its quotas then.
   /// `queued` is called when any verb that is called from then on comes after this one.
   virtual StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) = 0;
   StatusOr<Submitted> submit(const NewJob& job) {
@@ -111,6 +112,10 @@ class Store {
   virtual StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
                                                            std::string_view owner) = 0;
   virtual StatusOr<JobCounts> counts() = 0;
+  /// When the oldest accepted job was handed in; empty when none waits.
+  virtual StatusOr<std::optional<Time>> oldest_waiting() = 0;
+  /// Appends what the driver measures of itself, in the text format of Prometheus.
+  virtual void write_metrics(std::string& /*text*/) const {}
 
   /// The job, or empty when there is none of that id.
   virtual StatusOr<std::optional<Job>> get(std::string_view id) = 0;

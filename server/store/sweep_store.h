@@ -43,7 +43,8 @@ class SweepStore {
   SweepStore& operator=(SweepStore&&) = delete;
   virtual ~SweepStore() = default;
 
-  /// Adds a sweep in state accepted, unless its idempotency key is known.
+  /// Adds a sweep in state accepted, unless its idempotency key is known; fails as Store::submit() does when
+  /// its owner would have more than its quotas.
   virtual StatusOr<Submitted> submit(const NewSweep& sweep) = 0;
   /// What is known of an idempotency key of an owner; empty when it is new.
   virtual StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) = 0;
@@ -67,8 +68,9 @@ class SweepStore {
 
   /// Makes an accepted or running sweep dismissed; its rows stay.
   virtual StatusOr<SweepChange> dismiss(std::string_view id, Time now) = 0;
-  /// Takes the failed rows out of a failed or dismissed sweep and makes it accepted.
-  virtual StatusOr<SweepChange> retry(std::string_view id) = 0;
+  /// Takes the failed rows out of a failed or dismissed sweep and makes it accepted, unless its owner would
+  /// have more points waiting than its quota: `waiting_quota`.
+  virtual StatusOr<SweepChange> retry(std::string_view id, const Quotas& quotas) = 0;
   /// Nobody shall find the sweep any more; purge() gives its space back. False when there is none.
   virtual StatusOr<bool> remove(std::string_view id) = 0;
   /// Removes sweeps that ended before that time; how many.

@@ -135,6 +135,10 @@ bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, const W
 void run_job(const Claim& claim, const std::shared_future<bool>* stored, const WorkerContext& context,
              Runner& runner, const std::stop_token& stop) {
   log_job(context.log, claim, JobState::running);
+  if (claim.attempt == 1) {
+    context.metrics.waiting.observe(duration<double>(context.environment.now() - claim.created).count());
+  }
+  const double begun = context.environment.monotonic_seconds();
   ActiveJobs::Entry entry(context.active, claim, context.environment.now());
   const std::stop_callback on_shutdown(stop, [&] { entry.stop(StopReason::shutdown); });
   JobRun outcome = runner.run_job(claim.document, told_hooks(claim, context.progress, entry.token()));
@@ -148,6 +152,8 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
   if (const Status status = store_outcome(claim, outcome, context, stop); !status.ok()) {
     return log_trouble(context.log, claim, status);
   }
+  context.metrics.running.observe(context.environment.monotonic_seconds() - begun);
+  context.metrics.job_ended(outcome.failure ? std::string_view(outcome.failure->code) : "successful");
   context.completions.announce(claim.id);
   log_job_end(context.log, claim, outcome);
 }

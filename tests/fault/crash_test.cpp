@@ -1,6 +1,6 @@
 /// @file
 /// Kills the service again and again while clients use it, and checks what it promised them.
-/// SNAPTHROUGH_KILLS sets how often (20); scripts/crash.sh passes its argument on.
+/// KILLS sets how often (20); scripts/crash.sh passes its argument on.
 
 #include <gmock/gmock.h>
 
@@ -172,7 +172,7 @@ class Crash : public KilledServiceTest {
 };
 
 TEST_F(Crash, EveryAcknowledgedJobIsThereAndEndsOnce) {
-  const char* wanted = std::getenv("SNAPTHROUGH_KILLS");
+  const char* wanted = std::getenv("KILLS");
   const int kills = wanted == nullptr ? 20 : std::atoi(wanted);
   const unsigned seed = std::random_device()();
   SCOPED_TRACE("seed " + std::to_string(seed));

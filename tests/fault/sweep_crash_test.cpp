@@ -24,11 +24,13 @@ class SweepCrash : public KilledServiceTest {
     const json counts = json::parse(get(port_, sweep).body)["counts"];
     return counts["successful"].get<std::int64_t>() + counts["failed"].get<std::int64_t>();
   }
-  /// Points that this process has computed and stored.
+  /// Points that this process has computed and stored; -1 when it does not say.
   [[nodiscard]] std::int64_t solved() const {
     const std::string text = get(port_, "/metrics").body;
     std::smatch found;
-    return std::regex_search(text, found, std::regex("\nsnapthrough_sweep_points_solved_total ([0-9]+)"))
+    return std::regex_search(
+               text, found,
+               std::regex("\nsnapthrough_sweep_points_ended_total\\{code=\"successful\"\\} ([0-9]+)"))
                ? std::stoll(found[1])
                : -1;
   }
@@ -36,7 +38,7 @@ class SweepCrash : public KilledServiceTest {
 
 TEST_F(SweepCrash, GoesOnWhereItWasKilled) {
   constexpr int kPoints = 1500;
-  const char* wanted = std::getenv("SNAPTHROUGH_KILLS");
+  const char* wanted = std::getenv("KILLS");
   const int kills = wanted == nullptr ? 5 : std::atoi(wanted);
   const unsigned seed = std::random_device()();
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -72,6 +74,7 @@ TEST_F(SweepCrash, GoesOnWhereItWasKilled) {
   }
   EXPECT_EQ(status["status"], "successful");
   EXPECT_EQ(status["counts"]["successful"], kPoints);
+  EXPECT_GT(solved(), 0);
   EXPECT_LE(solved(), kPoints - before) << "points that were done before were computed again";
   EXPECT_EQ(interrupted, kills) << "kills came after the end";
   EXPECT_GT(found, 0) << "nothing was there before";

@@ -25,7 +25,8 @@ struct Front {
   JobService jobs{store, environment, log};
   RequestMetrics metrics;
   Routes routes{jobs, {}};
-  Gateway gateway{routes, environment, log, KeyRing(), metrics};
+  KeyRing keys;
+  Gateway gateway{routes, environment, log, keys, metrics};
   RequestParser parser;
   HeadLimits limits;
 };

@@ -36,7 +36,7 @@ class FuzzedSweeps final : public SweepStore {
   }
   StatusOr<std::int64_t> recover(int, Time) override { return 0; }
   StatusOr<SweepChange> dismiss(std::string_view id, Time) override { return changed(id); }
-  StatusOr<SweepChange> retry(std::string_view id) override { return changed(id); }
+  StatusOr<SweepChange> retry(std::string_view id, const Quotas&) override { return changed(id); }
   StatusOr<bool> remove(std::string_view id) override { return record(id).has_value(); }
   StatusOr<int> retire(Time) override { return 0; }
   StatusOr<bool> purge(int) override { return false; }
@@ -118,6 +118,7 @@ class FuzzedStore final : public Store {
     return std::optional<std::string>();
   }
   StatusOr<JobCounts> counts() override { return JobCounts{}; }
+  StatusOr<std::optional<Time>> oldest_waiting() override { return std::optional<Time>(); }
   StatusOr<std::optional<Job>> get(std::string_view id) override {
     return id == kFuzzedJob ? std::optional(job()) : std::nullopt;
   }

@@ -37,6 +37,7 @@ class FailingStore final : public Store {
     return status();
   }
   StatusOr<JobCounts> counts() override { return status(); }
+  StatusOr<std::optional<Time>> oldest_waiting() override { return status(); }
   Status finish(const Claim&, const JobResult&, Time) override { return status(); }
   Status fail(const Claim&, const JobFailure&, const StoredPath&, Time) override { return status(); }
   Status requeue(const Claim&) override { return status(); }
@@ -80,7 +81,8 @@ struct Bench {
   JobService jobs{store, environment, log};
   Routes routes{jobs, {}};
   RequestMetrics metrics;
-  Gateway gateway{routes, environment, log, KeyRing(), metrics};
+  KeyRing keys;
+  Gateway gateway{routes, environment, log, keys, metrics};
 };
 
 TEST(Gateway, AStoreThatIsUnavailableIs503) {

@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <future>
 #include <nlohmann/json.hpp>
+#include <system_error>
+#include <thread>
 
 #include "tests/server/support/running_service.h"
 
@@ -254,6 +257,29 @@ TEST_F(ServiceTest, StoppingPutsARunningJobBackAndTheNextStartFinishesIt) {
   const json status = json::parse(get(port(), job, {"Prefer: wait=30"}).body);
   EXPECT_EQ(status["status"], "successful");
   EXPECT_EQ(status["attempt"], 2);
+}
+
+/// A load balancer must be able to ask while the analyses that run come to their end.
+TEST_F(ServiceTest, ItAnswersWhileItWaitsForAnAnalysisThatDoesNotStop) {
+  std::promise<void> end;
+  start([&, ended = end.get_future().share()](const Model& model, const Analysis& analysis,
+                                              const Hooks& hooks) {
+    ended.wait();
+    return solved(model, analysis, hooks);
+  });
+  const std::string job = submit();
+  const int kept_port = port();
+  std::thread stopping([&] { service_->stop(); });
+  for (int i = 0; i < 500 && get(kept_port, "/readyz").status == 200; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_EQ(get(kept_port, "/readyz").status, 503);
+  EXPECT_EQ(get(kept_port, "/livez").status, 200);
+  EXPECT_EQ(get(kept_port, job).status, 200);
+  EXPECT_EQ(post(kept_port, "/v1/jobs", column_request("new"), kAsync).status, 503);
+  end.set_value();
+  stopping.join();
+  EXPECT_THROW(get(kept_port, "/livez"), std::system_error);
 }
 
 TEST_F(ServiceTest, ManyRequestsShareAConnection) {

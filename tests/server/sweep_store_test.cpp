@@ -98,12 +98,12 @@ TEST_P(SweepStoreConformance, AClaimStoresItsRowsOnce) {
 
 TEST_P(SweepStoreConformance, FailedPointsMakeItFailedAndAreTriedAgain) {
   const std::string id = submit(1, 3);
-  EXPECT_FALSE(sweeps().retry(id)->changed);
+  EXPECT_FALSE(sweeps().retry(id, {})->changed);
   ASSERT_TRUE(sweeps().put(claim(id, {0, 1, 2}), {good(0), bad(1), good(2)}, at_second(60)).ok());
   EXPECT_EQ(record(id).state, JobState::failed);
   EXPECT_THAT(rows(id, {0, 9, true}), ElementsAre("1 no_convergence"));
   EXPECT_THAT(rows(id, {0, 9, false}), ElementsAre("0 [0.5]", "2 [2.5]"));
-  const auto change = sweeps().retry(id);
+  const auto change = sweeps().retry(id, {});
   EXPECT_TRUE(change->changed);
   EXPECT_EQ(change->before, JobState::failed);
   EXPECT_EQ(record(id).state, JobState::accepted);
@@ -123,7 +123,7 @@ TEST_P(SweepStoreConformance, ADismissedSweepKeepsItsRowsAndTakesNoMore) {
   EXPECT_FALSE(sweeps().dismiss(id, at_second(62))->changed);
   EXPECT_EQ(sweeps().put(held, {good(1)}, at_second(63)).status().code(), StatusCode::conflict);
   EXPECT_THAT(rows(id), ElementsAre("0 [0.5]"));
-  EXPECT_TRUE(sweeps().retry(id)->changed);
+  EXPECT_TRUE(sweeps().retry(id, {})->changed);
   EXPECT_EQ(sweeps().put(held, {good(1)}, at_second(64)).status().code(), StatusCode::conflict)
       << "a claim from before";
   EXPECT_FALSE(sweeps().dismiss(id_number(9), at_second(1))->before);

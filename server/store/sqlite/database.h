@@ -78,6 +78,7 @@ class Database {
   /// Runs `work(connection)`, which gives a T, on a reader.
   template <class T, class Work>
   StatusOr<T> read(const Work& work) {
+    const Timed timed(read_seconds_);
     try {
       return readers_.with([&](const Connection& connection) -> T { return work(connection); });
     } catch (const Error& error) {
@@ -85,9 +86,15 @@ class Database {
     }
   }
 
+  void write_metrics(std::string& text) const {
+    writer_.commit_seconds().write(text);
+    read_seconds_.write(text);
+  }
+
  private:
   Writer writer_;
   ReaderPool readers_;
+  Histogram read_seconds_{"snapthrough_store_read_seconds", "Of one read of the store."};
 };
 
 }  // namespace snapthrough::server::sqlite

@@ -5,6 +5,7 @@
 
 #include "server/store/sqlite/database.h"
 #include "server/store/sqlite/file_lock.h"
+#include "server/store/sqlite/quotas.h"
 #include "server/store/sqlite/rows.h"
 #include "server/store/sqlite/sweeps.h"
 
@@ -34,6 +35,8 @@ class SqliteStore final : public Store {
   StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
                                                    std::string_view owner) override;
   StatusOr<JobCounts> counts() override;
+  StatusOr<std::optional<Time>> oldest_waiting() override;
+  void write_metrics(std::string& text) const override { database_.write_metrics(text); }
   StatusOr<std::optional<Job>> get(std::string_view id) override;
   StatusOr<JobPage> list(const JobQuery& query) override;
   StatusOr<std::optional<std::string>> request(std::string_view id) override;
@@ -156,6 +159,10 @@ StatusOr<Submitted> SqliteStore::submit(const NewJob& job, const std::function<v
       row = same->first;
       submitted = {Submitted::Kind::reused, same->second};
     } else {
+      const Addition addition{job.lease ? 0 : 1, 0, static_cast<std::int64_t>(job.document.size())};
+      if (Status status = check_quotas(connection, job.owner, job.quotas, addition); !status.ok()) {
+        return status;
+      }
       insert_job(connection, job);
       row = connection.last_row();
       connection.prepare("INSERT INTO requests (job, document) VALUES (?, ?)")
@@ -181,13 +188,13 @@ StatusOr<std::optional<Claim>> SqliteStore::claim(const Lease& lease, Time now) 
   return database_.write<std::optional<Claim>>(
       [&](Connection& connection) -> Outcome {
         Statement row = connection.prepare(
-            "SELECT jobs.seq, jobs.id, jobs.attempt, requests.document FROM jobs"
+            "SELECT jobs.seq, jobs.id, jobs.attempt, requests.document, jobs.created_us FROM jobs"
             " JOIN requests ON requests.job = jobs.seq WHERE jobs.status = 'accepted'"
             " ORDER BY jobs.seq LIMIT 1");
         if (!row.step()) {
           return std::optional<Claim>();
         }
-        Claim claim{row.text(1), static_cast<int>(row.integer(2)) + 1, row.text(3)};
+        Claim claim{row.text(1), static_cast<int>(row.integer(2)) + 1, row.text(3), time_in(row, 4)};
         connection
             .prepare(
                 "UPDATE jobs SET status = 'running', attempt = ?, started_us = ?, worker = ?,"
@@ -405,6 +412,14 @@ StatusOr<JobCounts> SqliteStore::counts() {
       counts[static_cast<std::size_t>(job_state_from(row.text(0)).value())] = row.integer(1);
     }
     return counts;
+  });
+}
+
+StatusOr<std::optional<Time>> SqliteStore::oldest_waiting() {
+  return database_.read<std::optional<Time>>([](const Connection& connection) {
+    Statement row =
+        connection.prepare("SELECT created_us FROM jobs WHERE status = 'accepted' ORDER BY seq LIMIT 1");
+    return row.step() ? std::optional(time_in(row, 0)) : std::nullopt;
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "server/store/sqlite/quotas.h"
 #include "server/store/sqlite/rows.h"
 
 namespace snapthrough::server::sqlite {
@@ -84,6 +85,7 @@ struct Counts {
   std::int64_t successful = 0;
   std::int64_t failed = 0;
   std::int64_t reused = 0;
+  std::int64_t bytes = 0;
 };
 
 /// Inserts rows and counts them; when all points have one, the sweep ends.
@@ -93,15 +95,18 @@ void insert_points(Connection& connection, std::int64_t sweep, const std::vector
     if (insert_point(connection, sweep, row)) {
       (row.outcome.failed() ? counts.failed : counts.successful) += 1;
       counts.reused += row.reused ? 1 : 0;
+      counts.bytes += static_cast<std::int64_t>(row.outcome.outputs.size() + row.outcome.code.size() +
+                                                row.outcome.detail.size());
     }
   }
   connection
       .prepare(
-          "UPDATE sweeps SET successful = successful + ?, failed = failed + ?, reused = reused + ?"
-          " WHERE seq = ?")
+          "UPDATE sweeps SET successful = successful + ?, failed = failed + ?, reused = reused + ?,"
+          " bytes = bytes + ? WHERE seq = ?")
       .bind(counts.successful)
       .bind(counts.failed)
       .bind(counts.reused)
+      .bind(counts.bytes)
       .bind(sweep)
       .run();
   connection
@@ -157,6 +162,10 @@ StatusOr<Submitted> SqliteSweepStore::submit(const NewSweep& sweep) {
       if (const std::optional<Submitted> known = known_key(connection, *sweep.idempotency, sweep.owner)) {
         return *known;
       }
+    }
+    const Addition addition{0, sweep.points, static_cast<std::int64_t>(sweep.document.size())};
+    if (Status status = check_quotas(connection, sweep.owner, sweep.quotas, addition); !status.ok()) {
+      return status;
     }
     insert_sweep(connection, sweep);
     return Submitted{Submitted::Kind::created, sweep.id};
@@ -249,7 +258,7 @@ StatusOr<SweepChange> SqliteSweepStore::dismiss(std::string_view id, Time now) {
   });
 }
 
-StatusOr<SweepChange> SqliteSweepStore::retry(std::string_view id) {
+StatusOr<SweepChange> SqliteSweepStore::retry(std::string_view id, const Quotas& quotas) {
   return database_.write<SweepChange>([&](Connection& connection) -> StatusOr<SweepChange> {
     const std::optional<Place> place = find(connection, id);
     if (!place) {
@@ -258,13 +267,23 @@ StatusOr<SweepChange> SqliteSweepStore::retry(std::string_view id) {
     if (place->state != JobState::failed && place->state != JobState::dismissed) {
       return SweepChange{place->state, false};
     }
+    Statement sweep = connection.prepare("SELECT owner, points - successful FROM sweeps WHERE seq = ?");
+    sweep.bind(place->row).step();
+    if (Status status = check_quotas(connection, sweep.text(0), quotas, {0, sweep.integer(1), 0});
+        !status.ok()) {
+      return status;
+    }
+    connection
+        .prepare(
+            "UPDATE sweeps SET failed = 0, status = 'accepted', finished_us = NULL, bytes = max(0, bytes -"
+            " (SELECT ifnull(sum(length(CAST(code || detail AS BLOB))), 0) FROM sweep_points"
+            " WHERE sweep = seq AND code IS NOT NULL)) WHERE seq = ?")
+        .bind(place->row)
+        .run();
     connection.prepare("DELETE FROM sweep_points WHERE sweep = ? AND code IS NOT NULL")
         .bind(place->row)
         .run();
     connection.prepare("DELETE FROM sweep_crashes WHERE sweep = ?").bind(place->row).run();
-    connection.prepare("UPDATE sweeps SET failed = 0, status = 'accepted', finished_us = NULL WHERE seq = ?")
-        .bind(place->row)
-        .run();
     return SweepChange{place->state, true};
   });
 }

@@ -21,7 +21,7 @@ class SqliteSweepStore final : public SweepStore {
   StatusOr<SweepRecord> put(const PointClaim& claim, const std::vector<PointRow>& rows, Time now) override;
   StatusOr<std::int64_t> recover(int max_crashes, Time now) override;
   StatusOr<SweepChange> dismiss(std::string_view id, Time now) override;
-  StatusOr<SweepChange> retry(std::string_view id) override;
+  StatusOr<SweepChange> retry(std::string_view id, const Quotas& quotas) override;
   StatusOr<bool> remove(std::string_view id) override;
   StatusOr<int> retire(Time ended_before) override;
   StatusOr<bool> purge(int most) override;

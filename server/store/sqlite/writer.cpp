@@ -94,6 +94,7 @@ void Writer::loop() {
 }
 
 void Writer::commit_batch(std::deque<Item*>& batch) {
+  const Timed timed(commit_seconds_);
   try {
     begin(batch);
     for (Item* item : batch) {

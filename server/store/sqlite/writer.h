@@ -10,6 +10,7 @@
 #include <semaphore>
 #include <thread>
 
+#include "server/metrics/metrics.h"
 #include "server/status.h"
 #include "server/store/sqlite/connection.h"
 
@@ -44,6 +45,7 @@ class Writer {
   /// @param patient the commit may wait a millisecond for work that is not patient
   Status run(const Work& work, Durability durability, const std::function<void()>& queued = {},
              bool patient = false);
+  [[nodiscard]] const Histogram& commit_seconds() const { return commit_seconds_; }
 
  private:
   struct Item {
@@ -60,6 +62,8 @@ class Writer {
 
   std::unique_ptr<Connection> connection_;
   Durability level_ = Durability::synced;
+  Histogram commit_seconds_{"snapthrough_store_commit_seconds",
+                            "Of one transaction that writes, with all that waited for it and its sync."};
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Item*> waiting_;

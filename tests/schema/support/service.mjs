@@ -7,7 +7,7 @@ import {createInterface} from 'node:readline';
 
 import {root} from './document.mjs';
 
-export const executable = process.env.SNAPTHROUGH_EXECUTABLE ?? new URL('build/release/snapthrough', root).pathname;
+export const executable = process.env.SERVICE_EXECUTABLE ?? new URL('build/release/snapthrough', root).pathname;
 
 /** Exit status and standard output of a command of the executable. */
 export function command(args, input) {
@@ -17,7 +17,7 @@ export function command(args, input) {
 
 /** A running service: `address`, and stop(), which ends it and removes its store. */
 export async function startService(...settings) {
-  if (!existsSync(executable)) throw new Error(`${executable} is not built (SNAPTHROUGH_EXECUTABLE names another)`);
+  if (!existsSync(executable)) throw new Error(`${executable} is not built (SERVICE_EXECUTABLE names another)`);
   const folder = mkdtempSync(join(tmpdir(), 'snapthrough-schema-'));
   const child = spawn(executable, ['serve', '--listen', '127.0.0.1:0', '--store', join(folder, 'store.db'), ...settings],
                       {stdio: ['ignore', 'ignore', 'pipe']});
