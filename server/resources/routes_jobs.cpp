@@ -167,17 +167,16 @@ Response Routes::outcome_of(const Request& request, const std::string& id, bool 
 }
 
 Response Routes::list_jobs(const Request& request, const std::string& /*id*/) {
-  JobQuery query;
+  ListQuery query;
   query.owner = request.owner;
-  const ListQuery list{query.limit, query.before, query.state};
-  if (std::optional<Response> refusal = read_list_query(request, list)) {
+  if (std::optional<Response> refusal = read_list_query(request, query)) {
     return *std::move(refusal);
   }
   const StatusOr<JobPage> page = jobs_.store().list(query);
   if (!page.ok()) {
     return store_trouble(request, page.status());
   }
-  const std::string next = next_page(request, list, page->next);
+  const std::string next = next_page(request, page->next);
   return list_page(job_list_document(*page, next), next);
 }
 

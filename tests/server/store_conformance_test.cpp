@@ -41,7 +41,7 @@ class StoreConformance : public StoreTest {
     EXPECT_TRUE(job.ok() && job->has_value()) << job.status().message();
     return job.ok() && job->has_value() ? **job : Job{};
   }
-  std::vector<std::string> ids(const JobQuery& query) {
+  std::vector<std::string> ids(const ListQuery& query) {
     const auto page = store_->list(query);
     EXPECT_TRUE(page.ok()) << page.status().message();
     std::vector<std::string> found;
@@ -227,7 +227,7 @@ TEST_P(StoreConformance, ListsNewestFirstInPages) {
   for (int i = 1; i <= 5; ++i) {
     submit(i);
   }
-  JobQuery query;
+  ListQuery query;
   query.limit = 2;
   EXPECT_THAT(ids(query), ElementsAre(id_number(5), id_number(4)));
   query.before = store_->list(query)->next;
@@ -242,7 +242,7 @@ TEST_P(StoreConformance, ListsNewestFirstInPages) {
 TEST_P(StoreConformance, AFullLastPageHasNoNext) {
   submit(1);
   submit(2);
-  JobQuery query;
+  ListQuery query;
   query.limit = 2;
   EXPECT_EQ(store_->list(query)->next, std::nullopt);
 }
@@ -253,7 +253,7 @@ TEST_P(StoreConformance, ListsOneState) {
   submit(3);
   ASSERT_TRUE(finish(claim()).ok());
   const Claim running = claim();
-  JobQuery query;
+  ListQuery query;
   query.state = JobState::successful;
   EXPECT_THAT(ids(query), ElementsAre(id_number(1)));
   query.state = JobState::running;
@@ -524,7 +524,7 @@ TEST_P(StoreConformance, ListsOneOwnersJobs) {
   NewJob job = new_job(id_number(2));
   job.owner = "she";
   ASSERT_TRUE(store_->submit(job).ok());
-  JobQuery query;
+  ListQuery query;
   query.owner = "she";
   EXPECT_THAT(ids(query), ElementsAre(id_number(2)));
   EXPECT_EQ(this->job(2).owner, "she");
