@@ -7,6 +7,7 @@
 #include "api/sweep.h"
 #include "server/front/gateway.h"
 #include "server/front/listener.h"
+#include "server/jobs/envelope.h"
 #include "server/jobs/job_service.h"
 #include "server/maintenance/upkeep.h"
 #include "server/metrics/metrics.h"
@@ -41,6 +42,10 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"sweep_outputs", number(api::kMaxSweepOutputs)},
           {"sweeps", number(config.jobs.sweeps)},
           {"table_rows", number(config.jobs.table_rows)},
+          {"label_characters", number(kLongestLabel)},
+          {"metadata_members", number(kMostMetadata)},
+          {"metadata_name_characters", number(kLongestMetadataName)},
+          {"metadata_value_characters", number(kLongestMetadataValue)},
           {"buckling_modes", number(kMaxModes)},
           {"monitors", number(kMaxMonitors)},
           {"state_points", number(kMaxStatePoints)},
@@ -76,7 +81,8 @@ struct Service::Parts {
                 runners ? runners : child_runners(runner_options(config), runner_counters)),
         routes(jobs, config.waits,
                {[this] { return metrics_text(); }, [this] { return not_ready(); }, published_limits(config)}),
-        gateway(routes, environment, log, http::KeyRing(config.keys), metrics),
+        gateway(routes, environment, log, http::KeyRing(config.keys), metrics,
+                http::CrossOrigin(config.allowed_origins)),
         listener(config.listener, gateway),
         upkeep_thread(upkeep, environment) {}
 

@@ -15,17 +15,17 @@ namespace snapthrough::server {
 
 // Characters are code points of Unicode.
 inline constexpr std::size_t kLongestLabel = 200;
-inline constexpr std::size_t kMostMetadata = 16;            ///< members of metadata
-inline constexpr std::size_t kLongestMetadataName = 40;     ///< characters
-inline constexpr std::size_t kLongestMetadataValue = 200;   ///< characters
+inline constexpr std::size_t kMostMetadata = 16;           ///< members of metadata
+inline constexpr std::size_t kLongestMetadataName = 40;    ///< characters
+inline constexpr std::size_t kLongestMetadataValue = 200;  ///< characters
 
 /// What was handed in, taken apart. Without findings there is a document.
 struct Envelope {
   std::shared_ptr<const nlohmann::json> document;  ///< the request or sweep
   std::string_view text;                           ///< of the document, byte for byte as it came
-  std::string pointer;      ///< of the document in what was handed in: "" or e.g. "/request"
+  std::string pointer;  ///< of the document in what was handed in: "" or e.g. "/request"
   Annotations annotations;
-  bool malformed = false;   ///< not acceptable as JSON
+  bool malformed = false;  ///< not acceptable as JSON
   std::vector<Finding> findings;
 };
 

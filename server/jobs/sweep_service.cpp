@@ -28,8 +28,8 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
   if (envelope.malformed) {
     return Submission{Submission::Kind::malformed, envelope.findings};
   }
-  api::SweepOutcome read = api::read_sweep_document(envelope.document,
-                                                    static_cast<std::uint64_t>(world_.limits.sweep_points));
+  api::SweepOutcome read =
+      api::read_sweep_document(envelope.document, static_cast<std::uint64_t>(world_.limits.sweep_points));
   if (std::vector<Finding> findings = in_envelope(envelope, std::move(read.findings)); !findings.empty()) {
     return Submission{Submission::Kind::invalid, std::move(findings)};
   }
@@ -40,9 +40,9 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
   if (*waiting >= world_.limits.sweeps) {
     return known_or_full(world_.store, order);
   }
-  NewSweep sweep{new_id(world_.environment),  read.sweep->title(),
+  NewSweep sweep{new_id(world_.environment), read.sweep->title(),
                  std::string(envelope.text), static_cast<std::int64_t>(read.sweep->size()),
-                 world_.environment.now(),    order.owner};
+                 world_.environment.now(),   order.owner};
   sweep.reuse = order.reuse;
   sweep.idempotency = key_of(order);
   sweep.analysis_type = read.sweep->analysis_type();

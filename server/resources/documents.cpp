@@ -106,20 +106,20 @@ std::string sweep_message(const SweepRecord& sweep) {
 ordered_json sweep_status(const SweepRecord& sweep) {
   const std::string path = sweep_path(sweep.id);
   ordered_json status{{"id", sweep.id},
-          {"status", to_string(sweep.state)},
-          {"progress", 100 * sweep.done() / std::max<std::int64_t>(sweep.points, 1)},
-          {"message", sweep_message(sweep)},
-          {"title", sweep.title},
-          {"analysis", sweep.analysis_type},
-          {"points", sweep.points},
-          {"counts",
-           {{"successful", sweep.successful},
-            {"failed", sweep.failed},
-            {"reused", sweep.reused},
-            {"remaining", sweep.points - sweep.done()}}},
-          {"created", rfc3339(sweep.created)},
-          {"started", optional_time(sweep.started)},
-          {"finished", optional_time(sweep.finished)}};
+                      {"status", to_string(sweep.state)},
+                      {"progress", 100 * sweep.done() / std::max<std::int64_t>(sweep.points, 1)},
+                      {"message", sweep_message(sweep)},
+                      {"title", sweep.title},
+                      {"analysis", sweep.analysis_type},
+                      {"points", sweep.points},
+                      {"counts",
+                       {{"successful", sweep.successful},
+                        {"failed", sweep.failed},
+                        {"reused", sweep.reused},
+                        {"remaining", sweep.points - sweep.done()}}},
+                      {"created", rfc3339(sweep.created)},
+                      {"started", optional_time(sweep.started)},
+                      {"finished", optional_time(sweep.finished)}};
   add_annotations(sweep.annotations, status);
   status["links"] = ordered_json::array(
       {link("self", path), link("request", path + "/request"), link("table", path + "/table")});

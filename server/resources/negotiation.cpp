@@ -68,8 +68,8 @@ constexpr ListParameter kListParameters[] = {
        query.limit = whole_number<int>(value).value_or(0);
        return query.limit >= 1 && query.limit <= kLargestPage;
      }},
-    {"cursor", [](const std::string& value,
-                  ListQuery& query) { return (query.before = place_of(value)).has_value(); }},
+    {"cursor",
+     [](const std::string& value, ListQuery& query) { return (query.before = place_of(value)).has_value(); }},
     {"status", [](const std::string& value,
                   ListQuery& query) { return (query.state = job_state_from(value)).has_value(); }},
     {"analysis",
@@ -84,8 +84,10 @@ constexpr ListParameter kListParameters[] = {
      }},
     {"created_after", [](const std::string& value,
                          ListQuery& query) { return (query.created_after = time_from(value)).has_value(); }},
-    {"created_before", [](const std::string& value,
-                          ListQuery& query) { return (query.created_before = time_from(value)).has_value(); }},
+    {"created_before",
+     [](const std::string& value, ListQuery& query) {
+       return (query.created_before = time_from(value)).has_value();
+     }},
 };
 
 /// False when it is unknown, there already, or its value is not acceptable.

@@ -30,8 +30,8 @@ std::string list_sql(const ListedTable& table, const ListQuery& query) {
 
 void bind_list(Statement& rows, const ListQuery& query) {
   using Place = std::pair<std::int64_t, std::int64_t>;
-  const Place last = query.before ? Place(to_row(query.before->created), query.before->number)
-                                  : Place(INT64_MAX, INT64_MAX);
+  const Place last =
+      query.before ? Place(to_row(query.before->created), query.before->number) : Place(INT64_MAX, INT64_MAX);
   const Place end =
       query.created_before ? std::min(last, Place(to_row(*query.created_before), INT64_MIN)) : last;
   rows.bind(query.owner)

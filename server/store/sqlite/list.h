@@ -19,9 +19,9 @@ struct ListedTable {
   const char* condition;  ///< of every row that is listed: " AND ...", or ""
 };
 
-/// @brief The statement that reads a page, one row more than the limit; created_us and seq follow the columns.
-/// Rows come in order from an index whatever the filters are, so a page costs what its rows cost. With all
-/// statuses it merges one run of the index for each.
+/// @brief The statement that reads a page, one row more than the limit; created_us and seq follow the
+/// columns. Rows come in order from an index whatever the filters are, so a page costs what its rows cost.
+/// With all statuses it merges one run of the index for each.
 [[nodiscard]] std::string list_sql(const ListedTable& table, const ListQuery& query);
 
 /// Binds a statement of list_sql().

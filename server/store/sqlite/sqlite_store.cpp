@@ -107,7 +107,8 @@ void insert_job(Connection& connection, const NewJob& job) {
   connection
       .prepare(
           "INSERT INTO jobs (id, title, analysis_type, created_us, owner, content_key, status, attempt,"
-          " started_us, worker, lease_until_us, label, metadata) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+          " started_us, worker, lease_until_us, label, metadata) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+          "?)")
       .bind(job.id)
       .bind(job.title)
       .bind(job.analysis_type)
