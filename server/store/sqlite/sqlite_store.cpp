@@ -148,7 +148,8 @@ struct KnownJob {
 std::optional<KnownJob> same_content(const Connection& connection, std::string_view content_key,
                                      std::string_view owner, const Annotations& annotations) {
   Statement row = connection.prepare(
-      "SELECT seq, id, label, metadata FROM jobs WHERE content_key = ?1 AND owner = ?2"
+      "SELECT seq, id, label, metadata FROM jobs INDEXED BY jobs_by_content WHERE content_key = ?1 AND owner "
+      "= ?2"
       " AND status = 'successful' AND content_key <> ''"
       " ORDER BY label IS ?3 AND metadata IS ?4 DESC, seq DESC LIMIT 1");
   row.bind(content_key)
@@ -353,8 +354,8 @@ Recovery take_all_back(Connection& connection, Time ended_before, std::string_vi
   std::vector<std::pair<TakenBack, bool>> jobs;
   {
     Statement row = connection.prepare(
-        "SELECT seq, id, crashes, worker FROM jobs WHERE status = 'running' AND lease_until_us < ?"
-        " ORDER BY seq");
+        "SELECT seq, id, crashes, worker FROM jobs INDEXED BY jobs_by_lease WHERE status = 'running'"
+        " AND lease_until_us < ? ORDER BY seq");
     row.bind(to_row(ended_before));
     while (row.step()) {
       const bool crashed = worker.empty() || row.text(3) != worker;
