@@ -84,11 +84,19 @@ std::string Sweep::outputs_text() const {
   return list.dump();
 }
 
-std::string Sweep::title() const {
-  const Json& model = data_->base.at("model");
-  const auto title = model.find("title");
-  return title != model.end() && title->is_string() ? title->get<std::string>() : "";
+namespace {
+
+/// A text of a part of the request; empty when it has none.
+std::string text_of(const Json& part, const char* member) {
+  const auto found = part.find(member);
+  return found != part.end() && found->is_string() ? found->get<std::string>() : "";
 }
+
+}  // namespace
+
+std::string Sweep::title() const { return text_of(data_->base.at("model"), "title"); }
+
+std::string Sweep::analysis_type() const { return text_of(data_->base.at("analysis"), "type"); }
 
 Json Sweep::values(std::uint64_t point) const { return design_values(*data_, point); }
 

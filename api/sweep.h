@@ -51,6 +51,8 @@ class Sweep {
   [[nodiscard]] std::string outputs_text() const;
   /// Title of the model; may be empty.
   [[nodiscard]] std::string title() const;
+  /// Type of the analysis as it stands around the targets; may be empty.
+  [[nodiscard]] std::string analysis_type() const;
 
   /// @brief The values of the parameters at a point, as a JSON array.
   /// @pre point < size(). Points of a grid are numbered with the last parameter varying fastest.

@@ -79,7 +79,7 @@ class Client {
   std::array<char, 65536> chunk_{};
 };
 
-std::string get(const std::string& path) { return "GET " + path + " HTTP/1.1\r\nHost: a\r\n\r\n"; }
+std::string get(const std::string& path) { return "GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n"; }
 
 std::string post(const std::string& title, const char* prefer) {
   const std::string body =
@@ -90,8 +90,8 @@ std::string post(const std::string& title, const char* prefer) {
       R"("loads":[{"type":"point","at":{"node":"b"},"force":[-1,0]}]},)"
 
       R"("analysis":{"type":"buckling","discretization":{"elements":4,"order":2}}})";
-  return std::string("POST /v1/jobs HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\n") + prefer +
-         "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+  return std::string("POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n") +
+         prefer + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
 }
 
 /// Requests a second of that many connections, each made by `make(number)`; every response must start so.

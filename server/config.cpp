@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "api/sweep.h"
+#include "server/front/cross_origin.h"
 
 namespace snapthrough::server {
 namespace {
@@ -68,6 +69,11 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   require(jobs.keep_keys.count() >= 0, "jobs.keep_keys", "must be >= 0");
   require(ballast_bytes >= 0, "ballast_bytes", "must be >= 0");
   require(least_free_bytes >= 0, "least_free_bytes", "must be >= 0");
+  for (const std::string& origin : allowed_origins) {
+    require(http::is_origin(origin), "allowed_origins",
+            "each must be an exact origin as browsers send it, e.g. https://app.example or "
+            "http://localhost:5173: no *, no path, no port that is the scheme's own");
+  }
   for (const http::ApiKey& key : keys) {
     require(!key.owner.empty(), "keys.owner", "must not be empty");
     require(is_digest(key.sha256), "keys.sha256", "must be 64 lower-case hexadecimal digits");

@@ -27,6 +27,7 @@ struct ServiceConfig {
   http::ListenerOptions listener;                    ///< without keys a loopback address
   http::WaitLimits waits;                            ///< how long clients may wait for results
   std::vector<http::ApiKey> keys;                    ///< empty: requests are not authenticated
+  std::vector<std::string> allowed_origins;          ///< pages of these may use the service, too; exact
   std::string store_path = "snapthrough.db";         ///< SQLite file; its folder must exist
   int workers = 1;                                   ///< analyses at the same time, 1 to 1024
   std::string runner_executable = "/proc/self/exe";  ///< snapthrough; what computes is started from it

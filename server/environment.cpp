@@ -1,5 +1,6 @@
 #include "server/environment.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <random>
@@ -18,6 +19,46 @@ CivilTime civil(Time time) {
   const auto day = std::chrono::floor<std::chrono::days>(time);
   return {std::chrono::year_month_day{day}, std::chrono::weekday{day},
           std::chrono::hh_mm_ss<std::chrono::microseconds>{time - day}};
+}
+
+/// The number that so many digits of a text from there on are, or nothing.
+std::optional<int> digits(std::string_view text, std::size_t at, std::size_t count) {
+  int value = 0;
+  for (const char c : text.substr(at, count)) {
+    if (c < '0' || c > '9') {
+      return std::nullopt;
+    }
+    value = 10 * value + (c - '0');
+  }
+  return text.size() >= at + count ? std::optional(value) : std::nullopt;
+}
+
+/// What follows the seconds of a time: the fraction less the offset ("", ".25" before "Z", "+01:00").
+std::optional<std::chrono::microseconds> fraction_and_offset(std::string_view text) {
+  std::chrono::microseconds sum{0};
+  if (text.starts_with('.')) {
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", 1), text.size());
+    std::string fraction(text.substr(1, end - 1));
+    if (fraction.empty() || fraction.size() > 6) {
+      return std::nullopt;
+    }
+    fraction.resize(6, '0');
+    sum = std::chrono::microseconds(digits(fraction, 0, 6).value());
+    text.remove_prefix(end);
+  }
+  if (text == "Z") {
+    return sum;
+  }
+  if (text.size() != 6 || (text[0] != '+' && text[0] != '-') || text[3] != ':') {
+    return std::nullopt;
+  }
+  const auto hours = digits(text, 1, 2);
+  const auto minutes = digits(text, 4, 2);
+  if (!hours || !minutes || *hours > 23 || *minutes > 59) {
+    return std::nullopt;
+  }
+  const auto offset = std::chrono::hours(*hours) + std::chrono::minutes(*minutes);
+  return text[0] == '+' ? sum - offset : sum + offset;
 }
 
 std::uint64_t system_random_bits() {
@@ -44,6 +85,32 @@ std::string rfc3339(Time time) {
       static_cast<int>(t.clock.hours().count()), static_cast<int>(t.clock.minutes().count()),
       static_cast<int>(t.clock.seconds().count()), static_cast<int>(t.clock.subseconds().count()));
   return {text.data(), static_cast<std::size_t>(size)};
+}
+
+std::optional<Time> time_from(std::string_view text) {
+  const bool valid_separators = text.size() >= 20 && text[4] == '-' && text[7] == '-' && text[10] == 'T' &&
+                                text[13] == ':' && text[16] == ':';
+  if (!valid_separators) {
+    return std::nullopt;
+  }
+  const auto year = digits(text, 0, 4);
+  const auto month = digits(text, 5, 2);
+  const auto day = digits(text, 8, 2);
+  const auto hour = digits(text, 11, 2);
+  const auto minute = digits(text, 14, 2);
+  const auto second = digits(text, 17, 2);
+  const auto rest = fraction_and_offset(text.substr(19));
+  if (!year || !month || !day || !hour || !minute || !second || !rest) {
+    return std::nullopt;
+  }
+  const std::chrono::year_month_day date{std::chrono::year(*year),
+                                         std::chrono::month(static_cast<unsigned>(*month)),
+                                         std::chrono::day(static_cast<unsigned>(*day))};
+  if (!date.ok() || *year < 1970 || *hour > 23 || *minute > 59 || *second > 59) {
+    return std::nullopt;
+  }
+  return std::chrono::sys_days(date) + std::chrono::hours(*hour) + std::chrono::minutes(*minute) +
+         std::chrono::seconds(*second) + *rest;
 }
 
 std::string http_date(Time time) {

@@ -5,7 +5,9 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace snapthrough::server {
 
@@ -24,6 +26,10 @@ struct Environment {
 
 /// RFC 3339 in UTC with microseconds, e.g. "2026-01-31T08:30:00.250000Z".
 [[nodiscard]] std::string rfc3339(Time time);
+
+/// @brief The time that a text of RFC 3339 means ("2026-01-31T08:30:00Z", with up to six digits of a
+/// fraction, or an offset such as "+01:00"), or nothing when it is none or before 1970 or after 9999.
+[[nodiscard]] std::optional<Time> time_from(std::string_view text);
 
 /// HTTP date (RFC 9110, 5.6.7), e.g. "Sat, 31 Jan 2026 08:30:00 GMT".
 [[nodiscard]] std::string http_date(Time time);

@@ -8,6 +8,7 @@
 #include "api/sweep.h"
 #include "server/front/gateway.h"
 #include "server/front/listener.h"
+#include "server/jobs/envelope.h"
 #include "server/jobs/job_service.h"
 #include "server/maintenance/upkeep.h"
 #include "server/metrics/request_metrics.h"
@@ -42,6 +43,10 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"sweep_outputs", number(api::kMaxSweepOutputs)},
           {"sweeps", number(config.jobs.sweeps)},
           {"table_rows", number(config.jobs.table_rows)},
+          {"label_characters", number(kLongestLabel)},
+          {"metadata_members", number(kMostMetadata)},
+          {"metadata_name_characters", number(kLongestMetadataName)},
+          {"metadata_value_characters", number(kLongestMetadataValue)},
           {"buckling_modes", number(kMaxModes)},
           {"monitors", number(kMaxMonitors)},
           {"state_points", number(kMaxStatePoints)},
@@ -81,7 +86,7 @@ struct Service::Parts {
         routes(jobs, config.waits,
                {[this] { return metrics_text(); }, [this] { return not_ready(); }, published_limits(config)}),
         keys(config.keys),
-        gateway(routes, environment, log, keys, metrics),
+        gateway(routes, environment, log, keys, metrics, http::CrossOrigin(config.allowed_origins)),
         listener(config.listener, gateway),
         upkeep_thread(upkeep, environment) {}
 

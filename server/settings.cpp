@@ -84,6 +84,25 @@ Setting store_setting() {
           [](const ServiceConfig& config) { return config.store_path; }};
 }
 
+Setting allowed_origins_setting() {
+  return {"allowed_origins",
+          "Origins of pages that may use the service, too, exact, with commas between; none: its own",
+          [](ServiceConfig& config, const std::string& text) -> Mistake {
+            config.allowed_origins.clear();
+            for (const std::string_view origin : http::split_list(text, ',')) {
+              config.allowed_origins.emplace_back(origin);
+            }
+            return std::nullopt;
+          },
+          [](const ServiceConfig& config) {
+            std::string list;
+            for (const std::string& origin : config.allowed_origins) {
+              list += (list.empty() ? "" : ",") + origin;
+            }
+            return list;
+          }};
+}
+
 constexpr std::array kLevels{std::pair{LogLevel::debug, "debug"}, std::pair{LogLevel::info, "info"},
                              std::pair{LogLevel::warning, "warning"}, std::pair{LogLevel::error, "error"},
                              std::pair{LogLevel::off, "off"}};
@@ -142,6 +161,7 @@ std::vector<Setting> front_settings() {
       duration(
           "drain_delay_s", "From SIGTERM, when /readyz turns 503, until running work is given back",
           [](ServiceConfig & c) -> auto& { return c.drain_delay; }),
+      allowed_origins_setting(),
       log_level_setting(),
   };
 }

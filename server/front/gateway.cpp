@@ -65,7 +65,7 @@ std::string_view host_name(std::string_view host) {
 
 /// A page of another site that reaches this machine by a name that its owner points here (DNS rebinding), or
 /// sends a request from where it was loaded.
-bool comes_from_elsewhere(const Request& request) {
+bool comes_from_elsewhere(const Request& request, const CrossOrigin& allowed) {
   const std::string_view host = request.header("Host").value_or("localhost");
   const std::string_view name = host_name(host);
   const bool local = equal_ignoring_case(name, "localhost") || name == "[::1]" || name.starts_with("127.");
@@ -74,7 +74,7 @@ bool comes_from_elsewhere(const Request& request) {
     return true;
   }
   const std::optional<std::string_view> origin = request.header("Origin");
-  return origin && *origin != "http://" + std::string(host);
+  return origin && *origin != "http://" + std::string(host) && !allowed.allows(*origin);
 }
 
 }  // namespace
@@ -90,27 +90,24 @@ Response Gateway::guarded(const Request& request, const std::function<Response()
   }
 }
 
-Response Gateway::serve(Request request) {
-  const double start = environment_.monotonic_seconds();
-  request.id = request_id(request, environment_);
-  request.body_bytes = request.body.size();
-  const std::optional<std::string> owner = keys_.owner(request);
-  request.owner = owner.value_or("");
-  const auto kept = std::make_shared<Request>(std::move(request));
-  if (keys_.open() && !is_public(kept->path) && comes_from_elsewhere(*kept)) {
-    Response refused =
-        problem_response({403,
-                          "foreign-origin",
-                          "Foreign origin",
-                          "A service without keys answers to local names only, and to pages of its own.",
-                          {},
-                          "",
-                          ""},
-                         *kept);
-    complete(*kept, refused, start);
-    return refused;
+std::optional<Response> Gateway::without_resource(const Request& request, bool known) const {
+  if (keys_.open() && !is_public(request.path) && comes_from_elsewhere(request, cross_origin_)) {
+    return problem_response(
+        {403,
+         "foreign-origin",
+         "Foreign origin",
+         "A service without keys answers to local names only, and to pages of its own and "
+         "of the origins that it allows.",
+         {},
+         "",
+         ""},
+        request);
   }
-  if (!owner && !is_public(kept->path)) {
+  if (cross_origin_.is_preflight(request)) {
+    const std::string methods = Routes::methods_at(request.path);
+    return methods.empty() ? std::nullopt : std::optional(CrossOrigin::preflight(methods));
+  }
+  if (!known && !is_public(request.path)) {
     Response refused = problem_response({401,
                                          "unauthorized",
                                          "Unauthorized",
@@ -118,10 +115,23 @@ Response Gateway::serve(Request request) {
                                          {},
                                          "",
                                          ""},
-                                        *kept);
+                                        request);
     refused.headers.emplace_back("WWW-Authenticate", "Bearer");
-    complete(*kept, refused, start);
     return refused;
+  }
+  return std::nullopt;
+}
+
+Response Gateway::serve(Request request) {
+  const double start = environment_.monotonic_seconds();
+  request.id = request_id(request, environment_);
+  request.body_bytes = request.body.size();
+  const std::optional<std::string> owner = keys_.owner(request);
+  request.owner = owner.value_or("");
+  const auto kept = std::make_shared<Request>(std::move(request));
+  if (std::optional<Response> response = without_resource(*kept, owner.has_value())) {
+    complete(*kept, *response, start);
+    return *std::move(response);
   }
   return finish(kept, guarded(*kept, [&] { return routes_.respond(*kept); }), start);
 }
@@ -149,6 +159,9 @@ Response Gateway::refuse(const Head& head, const std::string& remote) {
   request.path = head.target.substr(0, std::min(head.target.find('?'), std::size_t{256}));
   request.remote = remote;
   request.id = new_id(environment_);
+  if (!head.origin.empty()) {
+    request.headers.emplace_back("Origin", head.origin);
+  }
   const int status = head.refusal->status;
   Response response = problem_response(
       {status, problem_kind(status), std::string(reason_phrase(status)), head.refusal->detail, {}, "", ""},
@@ -162,6 +175,7 @@ void Gateway::complete(const Request& request, Response& response, double start)
   response.headers.emplace_back("X-Request-Id", request.id);
   response.headers.emplace_back("Date", http_date(environment_.now()));
   response.headers.emplace_back("X-Content-Type-Options", "nosniff");
+  cross_origin_.mark(request.header("Origin").value_or(""), response);
   if (!response.trouble.empty()) {
     log_.write(
         LogLevel::error, "trouble",

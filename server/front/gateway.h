@@ -4,6 +4,7 @@
 /// the metrics.
 
 #include "server/environment.h"
+#include "server/front/cross_origin.h"
 #include "server/front/keys.h"
 #include "server/front/request_head.h"
 #include "server/front/response_bytes.h"
@@ -18,8 +19,13 @@ namespace snapthrough::server::http {
 class Gateway {
  public:
   Gateway(Routes& routes, const Environment& environment, Log& log, const KeyRing& keys,
-          RequestMetrics& metrics)
-      : routes_(routes), environment_(environment), log_(log), keys_(keys), metrics_(metrics) {}
+          RequestMetrics& metrics, CrossOrigin cross_origin = CrossOrigin())
+      : routes_(routes),
+        environment_(environment),
+        log_(log),
+        keys_(keys),
+        metrics_(metrics),
+        cross_origin_(std::move(cross_origin)) {}
 
   /// Never throws for a request: what a resource throws is logged and becomes status 500 without particulars.
   /// A deferred response comes back deferred; what its `resume` gives is complete and was logged.
@@ -28,6 +34,8 @@ class Gateway {
   [[nodiscard]] Response refuse(const Head& head, const std::string& remote);
 
  private:
+  /// The response that a request gets before any resource is asked, if it does.
+  [[nodiscard]] std::optional<Response> without_resource(const Request& request, bool known) const;
   Response guarded(const Request& request, const std::function<Response()>& work) const;
   Response finish(const std::shared_ptr<Request>& request, Response response, double start);
   void complete(const Request& request, Response& response, double start);
@@ -37,6 +45,7 @@ class Gateway {
   Log& log_;
   const KeyRing& keys_;
   RequestMetrics& metrics_;
+  CrossOrigin cross_origin_;
 };
 
 }  // namespace snapthrough::server::http

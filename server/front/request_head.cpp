@@ -44,6 +44,7 @@ struct Facts {
   bool empty_key =
       false;  ///< the library leaves out a header that is empty: the client would be told nothing
   int hosts = 0;
+  std::string_view origin;
   std::size_t longest = 0;  ///< line, with its end
 };
 
@@ -74,6 +75,8 @@ void note_header(std::string_view name, std::string_view value, Facts& facts) {
     facts.keep_alive |= lists(value, "keep-alive");
   } else if (equal_ignoring_case(name, "Host")) {
     ++facts.hosts;
+  } else if (equal_ignoring_case(name, "Origin")) {
+    facts.origin = value;
   } else if (equal_ignoring_case(name, "Idempotency-Key")) {
     facts.empty_key |= value.empty();
   }
@@ -195,7 +198,9 @@ Head read_head(std::string_view head_text, const HeadLimits& limits) {
   if (!read_request_line(take_line(head_text), head)) {
     return refuse(std::move(head), 400, "The request line is malformed.");
   }
-  return judge(std::move(head), read_headers(head_text), limits);
+  const Facts facts = read_headers(head_text);
+  head.origin = facts.origin;
+  return judge(std::move(head), facts, limits);
 }
 
 std::string cleaned_head(std::string_view head) {

@@ -29,6 +29,7 @@ struct Refusal {
 struct Head {
   std::string method;
   std::string target;
+  std::string origin;  ///< of the page that sends it; empty: not told
   std::size_t body_bytes = 0;
   bool keep_alive = false;         ///< the client may send another request on this connection
   bool expects_continue = false;   ///< the client waits for "100 Continue" before it sends the body

@@ -20,6 +20,14 @@ struct JobFailure {
   std::string reached;  ///< result document (JSON text) of what was reached; empty: nothing
 };
 
+/// What a client notes on a job or sweep. It has no part in what is computed.
+struct Annotations {
+  std::string label;     ///< empty: none
+  std::string metadata;  ///< JSON object of texts; empty: none
+
+  bool operator==(const Annotations&) const = default;
+};
+
 /// What is known of a job without its documents.
 struct Job {
   std::string id;
@@ -33,6 +41,7 @@ struct Job {
   std::optional<Time> started;        ///< of the latest claim
   std::optional<Time> finished;       ///< exactly in a final state
   std::optional<JobFailure> failure;  ///< exactly when failed; get() fills it, list() leaves it out
+  Annotations annotations;
 };
 
 /// What makes a repeated submission the same one.
@@ -58,16 +67,18 @@ struct NewJob {
   std::string content_key = {};  ///< equal for requests with equal results; empty: its result is not reused
   std::optional<IdempotencyKey> idempotency = {};
   bool patient = false;  ///< its outcome may come at once: the commit may wait a millisecond for it
-  bool reuse = false;    ///< a successful job of the same owner and content takes its place, if there is one
+  bool reuse = false;    ///< the result of a successful job of the same owner and content will do
   Quotas quotas = {};    ///< of the owner
   std::optional<Lease> lease = {};  ///< set: a worker has it already, the job begins running in attempt 1
+  Annotations annotations = {};
 };
 
 /// What became of a submission.
 struct Submitted {
   enum class Kind {
     created,
-    reused,       ///< `id` is a successful job of the same content
+    reused,       ///< `id` is a successful job of the same content; its annotations are those that were given
+    copied,       ///< `id` is the new job: successful, with the result of one that was annotated otherwise
     repeated,     ///< the idempotency key was used with the same document: `id` is that job
     key_conflict  ///< the idempotency key was used with another document
   } kind = Kind::created;

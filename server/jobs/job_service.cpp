@@ -4,6 +4,7 @@
 
 #include "api/api.h"
 #include "server/jobs/content_key.h"
+#include "server/jobs/envelope.h"
 #include "server/jobs/least_memory.h"
 #include "server/jobs/repetition.h"
 
@@ -24,17 +25,19 @@ std::string_view analysis_name(AnalysisType type) {
   return "";
 }
 
-NewJob new_job(const Order& order, const api::Request& request, std::string key, const Environment& world) {
+NewJob new_job(const Order& order, const api::Request& request, const Envelope& envelope,
+               const Environment& world) {
   NewJob job;
   job.id = new_id(world);
   job.title = request.model.title;
   job.analysis_type = analysis_name(request.analysis.type);
-  job.document = order.document;
+  job.document = envelope.text;
   job.created = world.now();
   job.owner = order.owner;
-  job.content_key = std::move(key);
+  job.content_key = content_key(*request.document);
   job.reuse = order.reuse && order.idempotency_key.has_value();  // without a key it was looked for already
   job.idempotency = key_of(order);
+  job.annotations = envelope.annotations;
   return job;
 }
 
@@ -87,40 +90,41 @@ StatusOr<Submission> JobService::submit(const Order& order) {
   if (in_use.by_another()) {
     return Submission{Submission::Kind::key_in_use};
   }
-  api::ReadOutcome read = api::read_request(order.document);
-  if (read.malformed || !read.findings.empty() || !read.request) {
-    return Submission{read.malformed ? Submission::Kind::malformed : Submission::Kind::invalid,
-                      std::move(read.findings)};
+  const Envelope envelope = open_envelope(order.document, "request");
+  if (envelope.malformed) {
+    return Submission{Submission::Kind::malformed, envelope.findings};
   }
-  if (std::vector<Finding> findings =
-          check_memory(read.request->model, read.request->analysis, limits_.job_memory);
-      !findings.empty()) {
+  api::ReadOutcome read = api::read_request_document(envelope.document);
+  if (read.request) {
+    read.findings = check_memory(read.request->model, read.request->analysis, limits_.job_memory);
+  }
+  if (std::vector<Finding> findings = in_envelope(envelope, std::move(read.findings)); !findings.empty()) {
     return Submission{Submission::Kind::invalid, std::move(findings)};
   }
-  std::string key = content_key(*read.request->document);
+  NewJob job = new_job(order, *read.request, envelope, environment_);
   if (order.reuse && !order.idempotency_key) {
-    StatusOr<std::optional<std::string>> known = store_.find_result(key, order.owner);
+    StatusOr<std::optional<std::string>> known = store_.find_result(job.content_key, order.owner);
     if (!known.ok()) {
       return known.status();
     }
-    if (known->has_value()) {
+    job.reuse = known->has_value();
+    if (known->has_value() && job.annotations == Annotations{}) {
       return Submission{Submission::Kind::reused, {}, **known};
     }
   }
   if (waiting_ >= limits_.queue) {
     return known_or_full(store_, order);
   }
-  return store_new(order, *std::move(read.request), std::move(key));
+  return store_new(order, std::move(job));
 }
 
-StatusOr<Submission> JobService::store_new(const Order& order, const api::Request& request, std::string key) {
-  NewJob job = new_job(order, request, std::move(key), environment_);
+StatusOr<Submission> JobService::store_new(const Order& order, NewJob job) {
   job.quotas = limits_.quotas;
   std::promise<bool> stored;
   Handoff handoff{{job.id, 1, job.document, job.created}, stored.get_future().share()};
   const Lease lease = context_.new_lease();
-  // With a key it may be a repetition, with a quota of bytes be refused: nobody shall solve it then.
-  if (!order.idempotency_key && job.quotas.bytes_kept == 0 && handoffs_.offer(handoff)) {
+  // What may be a repetition, or have a result already, or be refused for its bytes, nobody shall solve.
+  if (!order.idempotency_key && !job.reuse && job.quotas.bytes_kept == 0 && handoffs_.offer(handoff)) {
     job.lease = lease;
     job.patient = order.waits;
   }
@@ -132,19 +136,24 @@ StatusOr<Submission> JobService::store_new(const Order& order, const api::Reques
   if (!queued) {
     stored.set_value(false);
   }
-  const bool created = submitted.ok() && submitted->kind == Submitted::Kind::created;
   if (!submitted.ok()) {
     health_.writable = health_.writable && submitted.status().code() != StatusCode::unavailable;
     return submitted.status();
   }
-  if (submitted->kind == Submitted::Kind::key_conflict) {
-    return Submission{Submission::Kind::key_conflict};
+  switch (submitted->kind) {
+    case Submitted::Kind::created:
+      break;
+    case Submitted::Kind::reused:
+      return Submission{Submission::Kind::reused, {}, submitted->id};
+    case Submitted::Kind::repeated:
+      return Submission{Submission::Kind::repeated, {}, submitted->id};
+    case Submitted::Kind::key_conflict:
+      return Submission{Submission::Kind::key_conflict};
+    case Submitted::Kind::copied:
+      log_new(job, JobState::successful, order.request_id);
+      return Submission{Submission::Kind::copied, {}, submitted->id};
   }
-  if (!created) {
-    const bool reused = submitted->kind == Submitted::Kind::reused;
-    return Submission{reused ? Submission::Kind::reused : Submission::Kind::repeated, {}, submitted->id};
-  }
-  log_accepted(job, order.request_id);
+  log_new(job, JobState::accepted, order.request_id);
   if (!job.lease) {
     ++waiting_;
     handoffs_.ring();
@@ -152,10 +161,10 @@ StatusOr<Submission> JobService::store_new(const Order& order, const api::Reques
   return Submission{Submission::Kind::stored, {}, std::move(job.id)};
 }
 
-void JobService::log_accepted(const NewJob& job, std::string_view request_id) {
+void JobService::log_new(const NewJob& job, JobState state, std::string_view request_id) {
   log_.write(LogLevel::info, "job",
              {{"job", std::string_view(job.id)},
-              {"status", to_string(JobState::accepted)},
+              {"status", to_string(state)},
               {"analysis", std::string_view(job.analysis_type)},
               {"request_id", request_id}});
 }

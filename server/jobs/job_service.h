@@ -48,8 +48,8 @@ class JobService {
 
  private:
   class KeyInUse;
-  StatusOr<Submission> store_new(const Order& order, const api::Request& request, std::string key);
-  void log_accepted(const NewJob& job, std::string_view request_id);
+  StatusOr<Submission> store_new(const Order& order, NewJob job);
+  void log_new(const NewJob& job, JobState state, std::string_view request_id);
 
   Store& store_;
   const Environment& environment_;

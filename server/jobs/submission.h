@@ -13,7 +13,7 @@ namespace snapthrough::server {
 
 /// A request or sweep document and how it was handed in.
 struct Order {
-  std::string_view document;
+  std::string_view document;                             ///< by itself or in an envelope (jobs/envelope.h)
   std::string_view request_id = {};                      ///< for the log
   std::string owner = {};                                ///< see Job
   std::optional<std::string_view> idempotency_key = {};  ///< a second order with it is the first
@@ -27,6 +27,7 @@ struct Submission {
     stored,        ///< `id` is a new job or sweep
     repeated,      ///< `id` is that of the same idempotency key
     reused,        ///< `id` is a successful job of the same content
+    copied,        ///< `id` is a new, successful job with the result of one of the same content
     malformed,     ///< not a JSON document, see findings; nothing was stored
     invalid,       ///< see findings; nothing was stored
     key_conflict,  ///< the idempotency key came with another document before

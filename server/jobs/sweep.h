@@ -23,6 +23,7 @@ struct SweepRecord {
   JobState state = JobState::accepted;
   std::string owner;  ///< as of a job
   std::string title;
+  std::string analysis_type;    ///< of its document, whatever its parameters make of it
   std::int64_t points = 0;      ///< of the design
   std::int64_t successful = 0;  ///< rows with outputs
   std::int64_t failed = 0;      ///< rows with an error
@@ -30,6 +31,7 @@ struct SweepRecord {
   Time created;
   std::optional<Time> started;
   std::optional<Time> finished;  ///< exactly in a final state
+  Annotations annotations;
 
   [[nodiscard]] std::int64_t done() const { return successful + failed; }
 };
@@ -43,7 +45,9 @@ struct NewSweep {
   Time created;
   std::string owner = {};
   std::optional<IdempotencyKey> idempotency = {};
-  bool reuse = true;   ///< rows of other sweeps of the same owner will do
+  bool reuse = true;  ///< rows of other sweeps of the same owner will do
+  std::string analysis_type = {};
+  Annotations annotations = {};
   Quotas quotas = {};  ///< of the owner
 };
 

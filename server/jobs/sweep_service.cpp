@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/jobs/envelope.h"
 #include "server/jobs/repetition.h"
 
 namespace snapthrough::server {
@@ -22,11 +23,14 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
   if (Status status = world_.health.takes_work(); !status.ok()) {
     return status;
   }
+  const Envelope envelope = open_envelope(order.document, "sweep");
+  if (envelope.malformed) {
+    return Submission{Submission::Kind::malformed, envelope.findings};
+  }
   api::SweepOutcome read =
-      api::read_sweep(order.document, static_cast<std::uint64_t>(world_.limits.sweep_points));
-  if (!read.sweep) {
-    return Submission{read.malformed ? Submission::Kind::malformed : Submission::Kind::invalid,
-                      std::move(read.findings)};
+      api::read_sweep_document(envelope.document, static_cast<std::uint64_t>(world_.limits.sweep_points));
+  if (std::vector<Finding> findings = in_envelope(envelope, std::move(read.findings)); !findings.empty()) {
+    return Submission{Submission::Kind::invalid, std::move(findings)};
   }
   const StatusOr<std::int64_t> waiting = unfinished();
   if (!waiting.ok()) {
@@ -35,12 +39,14 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
   if (*waiting >= world_.limits.sweeps) {
     return known_or_full(world_.store, order);
   }
-  NewSweep sweep{new_id(world_.environment),  read.sweep->title(),
-                 std::string(order.document), static_cast<std::int64_t>(read.sweep->size()),
-                 world_.environment.now(),    order.owner};
+  NewSweep sweep{new_id(world_.environment), read.sweep->title(),
+                 std::string(envelope.text), static_cast<std::int64_t>(read.sweep->size()),
+                 world_.environment.now(),   order.owner};
   sweep.reuse = order.reuse;
   sweep.idempotency = key_of(order);
   sweep.quotas = world_.limits.quotas;
+  sweep.analysis_type = read.sweep->analysis_type();
+  sweep.annotations = envelope.annotations;
   const StatusOr<Submitted> submitted = world_.store.submit(sweep);
   if (!submitted.ok()) {
     if (submitted.status().code() == StatusCode::unavailable) {

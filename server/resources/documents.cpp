@@ -24,6 +24,16 @@ ordered_json link(std::string_view rel, const std::string& href) {
   return {{"rel", rel}, {"href", href}, {"type", "application/json"}};
 }
 
+/// Members that are there only where a client gave them.
+void add_annotations(const Annotations& annotations, ordered_json& status) {
+  if (!annotations.label.empty()) {
+    status["label"] = annotations.label;
+  }
+  if (!annotations.metadata.empty()) {
+    status["metadata"] = ordered_json::parse(annotations.metadata);
+  }
+}
+
 std::string status_message(const Job& job, const std::optional<Progress>& progress) {
   if (job.failure) {
     return job.failure->detail;
@@ -67,6 +77,7 @@ ordered_json job_status(const Job& job, const std::optional<Progress>& progress)
       {"created", rfc3339(job.created)},
       {"started", optional_time(job.started)},
       {"finished", optional_time(job.finished)}};
+  add_annotations(job.annotations, status);
   if (job.failure) {
     status["error"] = {{"code", job.failure->code}, {"detail", job.failure->detail}};
   }
@@ -94,22 +105,25 @@ std::string sweep_message(const SweepRecord& sweep) {
 
 ordered_json sweep_status(const SweepRecord& sweep) {
   const std::string path = sweep_path(sweep.id);
-  return {{"id", sweep.id},
-          {"status", to_string(sweep.state)},
-          {"progress", 100 * sweep.done() / std::max<std::int64_t>(sweep.points, 1)},
-          {"message", sweep_message(sweep)},
-          {"title", sweep.title},
-          {"points", sweep.points},
-          {"counts",
-           {{"successful", sweep.successful},
-            {"failed", sweep.failed},
-            {"reused", sweep.reused},
-            {"remaining", sweep.points - sweep.done()}}},
-          {"created", rfc3339(sweep.created)},
-          {"started", optional_time(sweep.started)},
-          {"finished", optional_time(sweep.finished)},
-          {"links", ordered_json::array({link("self", path), link("request", path + "/request"),
-                                         link("table", path + "/table")})}};
+  ordered_json status{{"id", sweep.id},
+                      {"status", to_string(sweep.state)},
+                      {"progress", 100 * sweep.done() / std::max<std::int64_t>(sweep.points, 1)},
+                      {"message", sweep_message(sweep)},
+                      {"title", sweep.title},
+                      {"analysis", sweep.analysis_type},
+                      {"points", sweep.points},
+                      {"counts",
+                       {{"successful", sweep.successful},
+                        {"failed", sweep.failed},
+                        {"reused", sweep.reused},
+                        {"remaining", sweep.points - sweep.done()}}},
+                      {"created", rfc3339(sweep.created)},
+                      {"started", optional_time(sweep.started)},
+                      {"finished", optional_time(sweep.finished)}};
+  add_annotations(sweep.annotations, status);
+  status["links"] = ordered_json::array(
+      {link("self", path), link("request", path + "/request"), link("table", path + "/table")});
+  return status;
 }
 
 }  // namespace

@@ -82,6 +82,9 @@ struct Response {
 /// The text without spaces and tabs at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
+/// The text with everything but letters, digits, "-", "_", "." and "~" percent-encoded (RFC 3986).
+[[nodiscard]] std::string percent_encoded(std::string_view text);
+
 /// The parts between the separators, trimmed, empty ones left out.
 [[nodiscard]] std::vector<std::string_view> split_list(std::string_view text, char separator);
 

@@ -1,8 +1,10 @@
 #include "server/resources/negotiation.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
+#include "server/jobs/envelope.h"
 #include "server/resources/routes.h"
 
 namespace snapthrough::server::http {
@@ -40,44 +42,88 @@ std::optional<api::TableForm> accepted_form(std::string_view range) {
   return json ? std::optional(api::TableForm::json) : std::nullopt;
 }
 
-/// False when it is unknown or its value is not acceptable.
-bool read_list_parameter(const std::string& name, const std::string& value, const ListQuery& query) {
-  if (name == "limit") {
-    query.limit = whole_number<int>(value).value_or(0);
-    return query.limit >= 1 && query.limit <= kLargestPage;
-  }
-  if (name == "cursor") {
-    query.before = whole_number<std::int64_t>(value);
-    return query.before.has_value();
-  }
-  if (name == "status") {
-    query.state = job_state_from(value);
-    return query.state.has_value();
-  }
-  return false;
+/// A place in a list as a cursor: "<microseconds>.<number>".
+std::string cursor_of(const ListPlace& place) {
+  return std::to_string(place.created.time_since_epoch().count()) + "." + std::to_string(place.number);
+}
+
+std::optional<ListPlace> place_of(std::string_view cursor) {
+  const std::size_t point = cursor.find('.');
+  const auto time = whole_number<std::int64_t>(cursor.substr(0, point));
+  const auto number = whole_number<std::int64_t>(point == cursor.npos ? "" : cursor.substr(point + 1));
+  return time && number ? std::optional(ListPlace{Time(std::chrono::microseconds(*time)), *number})
+                        : std::nullopt;
+}
+
+/// One query parameter of a list.
+struct ListParameter {
+  std::string_view name;
+  /// False when the value is not acceptable.
+  bool (*read)(const std::string& value, ListQuery& query);
+};
+
+constexpr ListParameter kListParameters[] = {
+    {"limit",
+     [](const std::string& value, ListQuery& query) {
+       query.limit = whole_number<int>(value).value_or(0);
+       return query.limit >= 1 && query.limit <= kLargestPage;
+     }},
+    {"cursor",
+     [](const std::string& value, ListQuery& query) { return (query.before = place_of(value)).has_value(); }},
+    {"status", [](const std::string& value,
+                  ListQuery& query) { return (query.state = job_state_from(value)).has_value(); }},
+    {"analysis",
+     [](const std::string& value, ListQuery& query) {
+       query.analysis = value;
+       return value == "buckling" || value == "critical" || value == "path" || value == "static";
+     }},
+    {"label",
+     [](const std::string& value, ListQuery& query) {
+       query.label = value;
+       return !value.empty() && characters(value) <= kLongestLabel;
+     }},
+    {"created_after", [](const std::string& value,
+                         ListQuery& query) { return (query.created_after = time_from(value)).has_value(); }},
+    {"created_before",
+     [](const std::string& value, ListQuery& query) {
+       return (query.created_before = time_from(value)).has_value();
+     }},
+};
+
+/// False when it is unknown, there already, or its value is not acceptable.
+bool read_list_parameter(const std::string& name, const std::string& value, std::set<std::string>& seen,
+                         ListQuery& query) {
+  const auto* parameter = std::find_if(std::begin(kListParameters), std::end(kListParameters),
+                                       [&](const ListParameter& one) { return one.name == name; });
+  return parameter != std::end(kListParameters) && seen.insert(name).second && parameter->read(value, query);
 }
 
 }  // namespace
 
-std::optional<Response> read_list_query(const Request& request, ListQuery query) {
+std::optional<Response> read_list_query(const Request& request, ListQuery& query) {
+  std::set<std::string> seen;
   for (const auto& [name, value] : request.query) {
-    if (!read_list_parameter(name, value, query)) {
-      return wrong_parameter(
-          request, "limit (1 to " + std::to_string(kLargestPage) + "), cursor (from a next link) and status",
-          name, value);
+    if (!read_list_parameter(name, value, seen, query)) {
+      return wrong_parameter(request,
+                             "limit (1 to " + std::to_string(kLargestPage) +
+                                 "), cursor (from a next link), status, analysis (buckling, critical, path, "
+                                 "static), label (1 to " +
+                                 std::to_string(kLongestLabel) +
+                                 " characters), created_after and created_before (RFC 3339, e.g. "
+                                 "2026-01-31T08:30:00Z), each once",
+                             name, value);
     }
   }
   return std::nullopt;
 }
 
-std::string next_page(const Request& request, ListQuery query, std::optional<std::int64_t> cursor) {
-  if (!cursor) {
+std::string next_page(const Request& request, const std::optional<ListPlace>& next) {
+  if (!next) {
     return "";
   }
-  std::string target =
-      request.path + "?limit=" + std::to_string(query.limit) + "&cursor=" + std::to_string(*cursor);
-  if (query.state) {
-    target += "&status=" + std::string(to_string(*query.state));
+  std::string target = request.path + "?cursor=" + cursor_of(*next);
+  for (const auto& [name, value] : request.query) {
+    target += name == "cursor" ? "" : "&" + name + "=" + percent_encoded(value);
   }
   return target;
 }
@@ -166,6 +212,7 @@ std::optional<Response> refusal_of(const Request& request, Submission& submissio
     case Submission::Kind::stored:
     case Submission::Kind::repeated:
     case Submission::Kind::reused:
+    case Submission::Kind::copied:
       return std::nullopt;
   }
   return std::nullopt;

@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include "api/sweep_table.h"
-#include "server/jobs/state.h"
 #include "server/jobs/submission.h"
 #include "server/resources/message.h"
+#include "server/store/list_query.h"
 
 namespace snapthrough::server::http {
 
@@ -27,20 +27,14 @@ template <class Number>
 /// Most entries of one page of a list.
 inline constexpr int kLargestPage = 1000;
 
-/// What JobQuery and SweepQuery have in common.
-struct ListQuery {
-  int& limit;
-  std::optional<std::int64_t>& before;
-  std::optional<JobState>& state;
-};
+/// @brief Reads the query parameters of a list, of jobs or of sweeps, into `query`.
+/// @return the problem of the first that is unknown, repeated, or has no acceptable value; nothing when all
+/// are good
+[[nodiscard]] std::optional<Response> read_list_query(const Request& request, ListQuery& query);
 
-/// @brief Reads the query parameters of a list: `limit`, `cursor`, `status`.
-/// @return the problem of the first that is unknown or has no acceptable value; nothing when all are good
-[[nodiscard]] std::optional<Response> read_list_query(const Request& request, ListQuery query);
-
-/// The target of a list's next page; empty when there is none. @param cursor where it begins
-[[nodiscard]] std::string next_page(const Request& request, ListQuery query,
-                                    std::optional<std::int64_t> cursor);
+/// The target of a list's next page, with the same filters; empty when there is none.
+/// @param next where it begins
+[[nodiscard]] std::string next_page(const Request& request, const std::optional<ListPlace>& next);
 
 /// A page of a list; `next`, if not empty, is its Link.
 [[nodiscard]] Response list_page(std::string document, const std::string& next);

@@ -5,6 +5,14 @@
 namespace snapthrough::server::http {
 namespace {
 
+std::optional<ReturnPreference> return_shape(std::string_view value) {
+  if (equal_ignoring_case(value, "minimal")) {
+    return ReturnPreference::minimal;
+  }
+  return equal_ignoring_case(value, "representation") ? std::optional(ReturnPreference::representation)
+                                                      : std::nullopt;
+}
+
 void read_preference(std::string_view text, Preferences& preferences) {
   text = trimmed(text.substr(0, text.find(';')));  // parameters of a preference mean nothing here
   const std::size_t equals = text.find('=');
@@ -12,10 +20,19 @@ void read_preference(std::string_view text, Preferences& preferences) {
   if (equal_ignoring_case(name, "respond-async")) {
     preferences.respond_async = true;
   }
-  if (!equal_ignoring_case(name, "wait") || equals == std::string_view::npos || preferences.wait_s) {
-    return;  // the first of several counts
+  if (equals == std::string_view::npos) {
+    return;
   }
-  const std::string_view value = trimmed(text.substr(equals + 1));
+  std::string_view value = trimmed(text.substr(equals + 1));
+  if (value.size() >= 2 && value.front() == '"' && value.back() == '"') {
+    value = value.substr(1, value.size() - 2);
+  }
+  if (equal_ignoring_case(name, "return") && !preferences.return_shape) {
+    preferences.return_shape = return_shape(value);
+  }
+  if (!equal_ignoring_case(name, "wait") || preferences.wait_s) {
+    return;
+  }
   int seconds = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), seconds);
   if (error == std::errc() && end == value.data() + value.size() && seconds >= 0) {

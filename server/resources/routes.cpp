@@ -120,22 +120,18 @@ const std::vector<Routes::Route>& Routes::table() {
 
 Response Routes::respond(const Request& request) {
   const std::string_view method = request.method == "HEAD" ? "GET" : std::string_view(request.method);
-  std::string allowed;
   for (const Route& route : table()) {
     Segments found;
-    if (!matches(route.pattern, request.path, found)) {
+    if (method != route.method || !matches(route.pattern, request.path, found)) {
       continue;
     }
-    if (method == route.method) {
-      Response response = route.handler != nullptr
-                              ? (this->*route.handler)(request, found.id)
-                              : (this->*route.point_handler)(request, found.id, found.point);
-      response.route = route.pattern;
-      return response;
-    }
-    allowed += (allowed.empty() ? "" : ", ") + std::string(route.method);
-    allowed += std::string_view(route.method) == "GET" ? ", HEAD" : "";
+    Response response = route.handler != nullptr
+                            ? (this->*route.handler)(request, found.id)
+                            : (this->*route.point_handler)(request, found.id, found.point);
+    response.route = route.pattern;
+    return response;
   }
+  const std::string allowed = methods_at(request.path);
   if (allowed.empty()) {
     return simple_problem(request, 404, "not-found", "Not found", "There is nothing at this path.");
   }
@@ -143,6 +139,18 @@ Response Routes::respond(const Request& request) {
                                      "This resource answers " + allowed + ".");
   response.headers.emplace_back("Allow", allowed);
   return response;
+}
+
+std::string Routes::methods_at(std::string_view path) {
+  std::string methods;
+  for (const Route& route : table()) {
+    Segments found;
+    if (matches(route.pattern, path, found)) {
+      methods += (methods.empty() ? "" : ", ") + std::string(route.method);
+      methods += std::string_view(route.method) == "GET" ? ", HEAD" : "";
+    }
+  }
+  return methods;
 }
 
 std::vector<std::pair<std::string, std::string>> Routes::resources() {

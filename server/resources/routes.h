@@ -14,6 +14,7 @@
 #include "server/jobs/job_service.h"
 #include "server/resources/documents.h"
 #include "server/resources/message.h"
+#include "server/resources/prefer.h"
 
 namespace snapthrough::server::http {
 
@@ -40,6 +41,9 @@ class Routes {
   /// Throws only for what is nobody's fault but the program's (std::bad_alloc, a defect).
   [[nodiscard]] Response respond(const Request& request);
 
+  /// Methods of the resource at a path, as a list; empty when there is none.
+  [[nodiscard]] static std::string methods_at(std::string_view path);
+
   /// Method and path template of every resource, for tests against the published document.
   [[nodiscard]] static std::vector<std::pair<std::string, std::string>> resources();
 
@@ -58,11 +62,12 @@ class Routes {
   Response job_events(const Request& request, const std::string& id);
   Response dismiss_job(const Request& request, const std::string& id);
   Response delete_job(const Request& request, const std::string& id);
-  [[nodiscard]] std::chrono::seconds wait_of(const Request& request) const;
+  [[nodiscard]] std::chrono::seconds wait_of(const Preferences& preferences) const;
+  Response when_ended(const Request& request, const std::string& id, std::chrono::seconds wait,
+                      std::function<Response()> answer);
   Response created(const Request& request, const Submission& submission);
-  Response wait_or_status(const Request& request, const std::string& id, std::chrono::seconds wait,
-                          bool post);
-  Response outcome_of(const Request& request, const std::string& id, bool post, bool want_result);
+  Response answer_of_post(const Request& request, const std::string& id, Submission::Kind kind);
+  Response status_of_job(const Request& request, const std::string& id);
   Response result_of(const Request& request, const Job& job);
   Response table_of_result(const Request& request, const Job& job, api::ResultTable table);
 

@@ -62,6 +62,28 @@ Form wanted_form(const Request& request) {
   return form;
 }
 
+/// Preference-Applied (RFC 7240) of a response with a result or with a job.
+std::string applied_preferences(const Preferences& preferences, bool with_result, std::chrono::seconds wait) {
+  std::vector<std::string> applied;
+  if (preferences.respond_async) {
+    applied.emplace_back("respond-async");
+  }
+  if (preferences.return_shape == ReturnPreference::minimal && !with_result) {
+    applied.emplace_back("return=minimal");
+  }
+  if (preferences.return_shape == ReturnPreference::representation && with_result) {
+    applied.emplace_back("return=representation");
+  }
+  if (preferences.wait_s) {
+    applied.push_back("wait=" + std::to_string(wait.count()));
+  }
+  std::string list;
+  for (const std::string& one : applied) {
+    list += (list.empty() ? "" : ", ") + one;
+  }
+  return list;
+}
+
 /// The table of that name, or the one to give by default, if results of such an analysis have it.
 std::optional<api::ResultTable> wanted_table(const std::optional<std::string>& name,
                                              const std::string& analysis_type) {
@@ -88,8 +110,9 @@ Response Routes::submit_job(const Request& request, std::string_view document) {
   if (std::optional<Response> refusal = refused_key(request)) {
     return *std::move(refusal);
   }
-  StatusOr<Submission> outcome = jobs_.submit(
-      {document, request.id, request.owner, key, wait_of(request).count() > 0, !wants_fresh(request)});
+  const bool waits = wait_of(read_preferences(request)).count() > 0;
+  StatusOr<Submission> outcome =
+      jobs_.submit({document, request.id, request.owner, key, waits, !wants_fresh(request)});
   if (!outcome.ok()) {
     return store_trouble(request, outcome.status());
   }
@@ -100,90 +123,99 @@ Response Routes::submit_job(const Request& request, std::string_view document) {
   return created(request, submission);
 }
 
-/// How long a submission waits for its outcome.
-std::chrono::seconds Routes::wait_of(const Request& request) const {
-  const Preferences preferences = read_preferences(request);
+/// How long a submission waits for its outcome: a job is there at once, a result is waited for.
+std::chrono::seconds Routes::wait_of(const Preferences& preferences) const {
   if (preferences.wait_s) {
     return std::min(std::chrono::seconds(*preferences.wait_s), waits_.longest_wait);
   }
-  return preferences.respond_async ? std::chrono::seconds(0) : waits_.default_wait;
+  return preferences.wants_job() ? std::chrono::seconds(0) : waits_.default_wait;
 }
 
-Response Routes::created(const Request& request, const Submission& submission) {
-  const bool reused = submission.kind == Submission::Kind::reused;
-  Response response = reused ? outcome_of(request, submission.id, true, true)
-                             : wait_or_status(request, submission.id, wait_of(request), true);
-  response.headers.emplace_back("X-Cache", reused ? "hit" : "miss");
-  return response;
-}
-
-/// The status or result of a job as it is, or a response that waits for its end first.
-Response Routes::wait_or_status(const Request& request, const std::string& id, std::chrono::seconds wait,
-                                bool post) {
+/// Answers once the job has ended or the time is over.
+Response Routes::when_ended(const Request& request, const std::string& id, std::chrono::seconds wait,
+                            std::function<Response()> answer) {
   if (wait.count() <= 0) {
-    return outcome_of(request, id, post, false);
+    return answer();
   }
   const auto ticket = std::make_shared<JobCompletions::Ticket>(jobs_.context().completions, id);
   const StatusOr<std::optional<Job>> job = jobs_.get(id, request.owner);
   if (!job.ok() || !job->has_value() || is_final((*job)->state)) {
-    return outcome_of(request, id, post, post);
+    return answer();
   }
   Response response;
-  response.deferred =
-      Deferred{[ticket](std::function<void()> wake) { ticket->on_end(std::move(wake)); }, wait,
-               // The request lives as long as whoever holds this function (see Gateway).
-               [this, ticket, &request, id, post] {
-                 Response late = outcome_of(request, id, post, post);
-                 if (post) {
-                   late.headers.emplace_back("X-Cache", "miss");
-                 }
-                 return late;
-               }};
+  response.deferred = Deferred{[ticket](std::function<void()> wake) { ticket->on_end(std::move(wake)); },
+                               wait, [ticket, answer = std::move(answer)] { return answer(); }};
   return response;
 }
 
-/// @param want_result answer with the result if there is one
-Response Routes::outcome_of(const Request& request, const std::string& id, bool post, bool want_result) {
+Response Routes::created(const Request& request, const Submission& submission) {
+  // The request lives as long as whoever holds this function (see Gateway).
+  return when_ended(request, submission.id, wait_of(read_preferences(request)),
+                    [this, &request, id = submission.id, kind = submission.kind] {
+                      return answer_of_post(request, id, kind);
+                    });
+}
+
+/// The shape is told by the status: 200 with a result, 202 with a job whose result is not there yet, 201 with
+/// a new job; 200 with a job only where a job was asked for.
+Response Routes::answer_of_post(const Request& request, const std::string& id, Submission::Kind kind) {
+  const StatusOr<std::optional<Job>> job = jobs_.get(id, request.owner);
+  if (!job.ok() || !job->has_value()) {
+    return job.ok() ? job_missing(request, id) : store_trouble(request, job.status());
+  }
+  const Preferences preferences = read_preferences(request);
+  const bool with_result = !preferences.wants_job() && is_final((*job)->state);
+  Response response;
+  if (with_result) {
+    response = result_of(request, **job);
+  } else {
+    response = json_response(201, job_status_document(**job, jobs_.progress(id)));
+    if (preferences.wants_job()) {
+      const bool is_new = kind == Submission::Kind::stored || kind == Submission::Kind::copied;
+      response.status = is_new ? 201 : 200;
+    } else if (preferences.return_shape == ReturnPreference::representation) {
+      response.status = 202;
+      response.headers.emplace_back("Retry-After", "1");
+    }
+  }
+  response.headers.emplace_back("Location", job_path(id));
+  const bool hit = kind == Submission::Kind::reused || kind == Submission::Kind::copied;
+  response.headers.emplace_back("X-Cache", hit ? "hit" : "miss");
+  const std::string applied = applied_preferences(preferences, with_result, wait_of(preferences));
+  if (response.status < 400 && !applied.empty()) {
+    response.headers.emplace_back("Preference-Applied", applied);
+  }
+  return response;
+}
+
+Response Routes::status_of_job(const Request& request, const std::string& id) {
   const StatusOr<std::optional<Job>> job = jobs_.get(id, request.owner);
   if (!job.ok()) {
     return store_trouble(request, job.status());
   }
-  if (!job->has_value()) {
-    return job_missing(request, id);
-  }
-  Response response;
-  if (want_result && is_final((*job)->state)) {
-    response = result_of(request, **job);
-  } else {
-    response = json_response(post ? 201 : 200, job_status_document(**job, jobs_.progress(id)));
-  }
-  if (post) {
-    response.headers.emplace_back("Location", job_path(id));
-    if (read_preferences(request).respond_async && response.status == 201) {
-      response.headers.emplace_back("Preference-Applied", "respond-async");
-    }
-  }
-  return response;
+  return job->has_value() ? json_response(200, job_status_document(**job, jobs_.progress(id)))
+                          : job_missing(request, id);
 }
 
 Response Routes::list_jobs(const Request& request, const std::string& /*id*/) {
-  JobQuery query;
+  ListQuery query;
   query.owner = request.owner;
-  const ListQuery list{query.limit, query.before, query.state};
-  if (std::optional<Response> refusal = read_list_query(request, list)) {
+  if (std::optional<Response> refusal = read_list_query(request, query)) {
     return *std::move(refusal);
   }
   const StatusOr<JobPage> page = jobs_.store().list(query);
   if (!page.ok()) {
     return store_trouble(request, page.status());
   }
-  const std::string next = next_page(request, list, page->next);
+  const std::string next = next_page(request, page->next);
   return list_page(job_list_document(*page, next), next);
 }
 
 Response Routes::job_status(const Request& request, const std::string& id) {
   const std::chrono::seconds wait{read_preferences(request).wait_s.value_or(0)};
-  return wait_or_status(request, id, std::min(wait, waits_.longest_wait), false);
+  // The request lives as long as whoever holds this function (see Gateway).
+  return when_ended(request, id, std::min(wait, waits_.longest_wait),
+                    [this, &request, id] { return status_of_job(request, id); });
 }
 
 Response Routes::job_result(const Request& request, const std::string& id) {
@@ -305,7 +337,7 @@ Response Routes::dismiss_job(const Request& request, const std::string& id) {
     return simple_problem(request, 409, "already-finished", "Already finished",
                           "The job is " + std::string(to_string(dismissal->before)) + " already.");
   }
-  return outcome_of(request, id, false, false);
+  return status_of_job(request, id);
 }
 
 Response Routes::delete_job(const Request& request, const std::string& id) {

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "api/api.h"
-#include "api/json_text.h"
 #include "api/openapi/document.h"
 #include "api/sweep.h"
+#include "server/jobs/envelope.h"
 #include "server/jobs/least_memory.h"
 #include "server/resources/embedded.h"
 #include "server/resources/routes.h"
@@ -61,6 +61,14 @@ Checked checked_sweep(const std::shared_ptr<const nlohmann::json>& document, con
   return checked;
 }
 
+/// A document with or without an envelope, of either kind.
+Envelope opened(std::string_view body) {
+  Envelope envelope = open_envelope(body, "request");
+  const bool sweep = envelope.document != nullptr && envelope.pointer.empty() &&
+                     envelope.document->is_object() && envelope.document->contains("sweep");
+  return sweep ? open_envelope(body, "sweep") : envelope;
+}
+
 Response fresh(Response response) {
   response.headers.emplace_back("Cache-Control", "no-store");
   return response;
@@ -73,15 +81,16 @@ Response Routes::check(const Request& request, const std::string& /*id*/) {
     return simple_problem(request, 415, "unsupported-media-type", "Unsupported media type",
                           "A request document has Content-Type: application/json.");
   }
-  const api::ParsedText parsed = api::parse_json(request.body);
-  if (parsed.document == nullptr) {
+  const Envelope envelope = opened(request.body);
+  if (envelope.malformed) {
     return problem_response({400, "malformed-json", "Malformed JSON", "The body is no acceptable JSON text.",
-                             parsed.findings, "", ""},
+                             envelope.findings, "", ""},
                             request);
   }
-  const Checked checked = api::is_sweep(*parsed.document)
-                              ? checked_sweep(parsed.document, jobs_.limits())
-                              : checked_request(parsed.document, jobs_.limits().job_memory);
+  const bool sweep = envelope.pointer == "/sweep" || api::is_sweep(*envelope.document);
+  Checked checked = sweep ? checked_sweep(envelope.document, jobs_.limits())
+                          : checked_request(envelope.document, jobs_.limits().job_memory);
+  checked.findings = in_envelope(envelope, std::move(checked.findings));
   ordered_json document{{"valid", checked.findings.empty()},
                         {"errors", api::write_findings(checked.findings)},
                         {"size", nullptr}};

@@ -159,17 +159,16 @@ Response Routes::create_sweep(const Request& request, const std::string& /*id*/)
 }
 
 Response Routes::list_sweeps(const Request& request, const std::string& /*id*/) {
-  SweepQuery query;
+  ListQuery query;
   query.owner = request.owner;
-  const ListQuery list{query.limit, query.before, query.state};
-  if (std::optional<Response> refusal = read_list_query(request, list)) {
+  if (std::optional<Response> refusal = read_list_query(request, query)) {
     return *std::move(refusal);
   }
   const StatusOr<SweepPage> page = jobs_.sweeps().store().list(query);
   if (!page.ok()) {
     return store_trouble(request, page.status());
   }
-  const std::string next = next_page(request, list, page->next);
+  const std::string next = next_page(request, page->next);
   return list_page(sweep_list_document(*page, next), next);
 }
 

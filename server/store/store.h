@@ -13,22 +13,15 @@
 
 #include "server/jobs/job.h"
 #include "server/status.h"
+#include "server/store/list_query.h"
 #include "server/store/sweep_store.h"
 
 namespace snapthrough::server {
 
-/// Which jobs to list.
-struct JobQuery {
-  int limit = 20;                      ///< > 0
-  std::optional<std::int64_t> before;  ///< JobPage::next of the page before; empty: from the newest
-  std::optional<JobState> state;       ///< only these
-  std::optional<std::string> owner;    ///< only of this owner
-};
-
 /// One page of jobs, newest first.
 struct JobPage {
   std::vector<Job> jobs;
-  std::optional<std::int64_t> next;  ///< where the next page starts; empty: this is the last
+  std::optional<ListPlace> next;  ///< where the next page starts; empty: this is the last
 };
 
 /// What was done about the jobs that a dead process left running.
@@ -61,9 +54,10 @@ class Store {
   Store& operator=(Store&&) = delete;
   virtual ~Store() = default;
 
-  /// Adds a job in state accepted (running when it comes with a lease), unless its idempotency key is known;
-  /// `waiting_quota` or `storage_quota` when its owner would have more than its quotas then.
-  /// `queued` is called when any verb that is called from then on comes after this one.
+  /// Adds a job in state accepted (running when it comes with a lease), unless its idempotency key is known
+  /// or there is a result that it may reuse (see Submitted); `waiting_quota` or `storage_quota` when its
+  /// owner would have more than its quotas then. `queued` is called when any verb that is called from then on
+  /// comes after this one.
   virtual StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) = 0;
   StatusOr<Submitted> submit(const NewJob& job) {
     return submit(job, [] {});
@@ -108,7 +102,8 @@ class Store {
   /// Writes something, to find out whether writing works.
   virtual Status probe(Time now) = 0;
 
-  /// A successful job of that owner and content, the newest; empty when there is none.
+  /// A successful job of that owner and content, the newest (of those without annotations, if there are
+  /// any); empty when there is none.
   virtual StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
                                                            std::string_view owner) = 0;
   virtual StatusOr<JobCounts> counts() = 0;
@@ -119,7 +114,7 @@ class Store {
 
   /// The job, or empty when there is none of that id.
   virtual StatusOr<std::optional<Job>> get(std::string_view id) = 0;
-  virtual StatusOr<JobPage> list(const JobQuery& query) = 0;
+  virtual StatusOr<JobPage> list(const ListQuery& query) = 0;
 
   /// The request document; empty when there is no such job.
   virtual StatusOr<std::optional<std::string>> request(std::string_view id) = 0;

@@ -10,21 +10,14 @@
 
 #include "server/jobs/sweep.h"
 #include "server/status.h"
+#include "server/store/list_query.h"
 
 namespace snapthrough::server {
-
-/// Which sweeps to list.
-struct SweepQuery {
-  int limit = 20;                      ///< > 0
-  std::optional<std::int64_t> before;  ///< SweepPage::next of the page before; empty: from the newest
-  std::optional<JobState> state;       ///< only these
-  std::string owner = {};              ///< only of this owner
-};
 
 /// One page of sweeps, newest first.
 struct SweepPage {
   std::vector<SweepRecord> sweeps;
-  std::optional<std::int64_t> next;  ///< where the next page starts; empty: this is the last
+  std::optional<ListPlace> next;  ///< where the next page starts; empty: this is the last
 };
 
 /// What was asked of a sweep: what it was before (empty: there is none), and whether it is done now.
@@ -81,7 +74,7 @@ class SweepStore {
   virtual Status forget_keys(Time used_before) = 0;
 
   virtual StatusOr<std::optional<SweepRecord>> get(std::string_view id) = 0;
-  virtual StatusOr<SweepPage> list(const SweepQuery& query) = 0;
+  virtual StatusOr<SweepPage> list(const ListQuery& query) = 0;
   /// The sweep document; empty when there is no such sweep.
   virtual StatusOr<std::optional<std::string>> document(std::string_view id) = 0;
   /// Calls it with each row that is there, in the order of points.

@@ -42,11 +42,11 @@ class FuzzedSweeps final : public SweepStore {
   StatusOr<bool> purge(int) override { return false; }
   Status forget_keys(Time) override { return {}; }
   StatusOr<std::optional<SweepRecord>> get(std::string_view id) override { return record(id); }
-  StatusOr<SweepPage> list(const SweepQuery& query) override {
+  StatusOr<SweepPage> list(const ListQuery& query) override {
     SweepPage page;
     if (!query.state || *query.state == JobState::failed) {
       page.sweeps.push_back(*record(kFuzzedSweep));
-      page.next = query.before ? std::nullopt : std::optional<std::int64_t>(7);
+      page.next = query.before ? std::nullopt : std::optional(ListPlace{at_second(1), 7});
     }
     return page;
   }
@@ -72,8 +72,8 @@ class FuzzedSweeps final : public SweepStore {
     if (id != kFuzzedSweep && id != kRunningSweep) {
       return std::nullopt;
     }
-    SweepRecord sweep{std::string(id), JobState::running, "",          "a title", 3, 1, 0, 0,
-                      at_second(1),    at_second(2),      std::nullopt};
+    SweepRecord sweep{std::string(id), JobState::running, "",           "a title", "path", 3, 1, 0, 0,
+                      at_second(1),    at_second(2),      std::nullopt, {}};
     if (id == kFuzzedSweep) {
       sweep.state = JobState::failed;
       sweep.successful = 2;
@@ -122,10 +122,10 @@ class FuzzedStore final : public Store {
   StatusOr<std::optional<Job>> get(std::string_view id) override {
     return id == kFuzzedJob ? std::optional(job()) : std::nullopt;
   }
-  StatusOr<JobPage> list(const JobQuery& query) override {
+  StatusOr<JobPage> list(const ListQuery& query) override {
     JobPage page;
     page.jobs.push_back(job());
-    page.next = query.before ? std::nullopt : std::optional<std::int64_t>(7);
+    page.next = query.before ? std::nullopt : std::optional(ListPlace{at_second(1), 7});
     return page;
   }
   StatusOr<std::optional<std::string>> request(std::string_view) override {

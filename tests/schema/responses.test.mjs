@@ -57,7 +57,8 @@ async function call(method, path, target, {body, headers = {}} = {}) {
   const json = JSON.parse(text);
   const schema = content[type].schema;
   assert.deepEqual(faults(validatorOf(schema), json), [], label);
-  if (schema.$ref?.endsWith('/Result')) mark(schema, json, '');
+  const result = [schema, ...(schema.anyOf ?? [])].find(({$ref}) => $ref?.endsWith('/Result'));
+  if (result && json.summary) mark(result, json, '');
   return {status: response.status, headers: response.headers, json};
 }
 

@@ -244,6 +244,10 @@ class ContractOverHttp : public ServiceTest {
       expect_published("GET", "/v1/sweeps/{id}", get(port(), at, {"Prefer: wait=20"}));
       use("DELETE", "/v1/sweeps/{id}", at);
     }
+    const std::string annotated =
+        "{\"sweep\": " + column_sweep(2) + R"(, "label": "a", "metadata": {"k": "v"}})";
+    EXPECT_TRUE(schemas_.valid(schemas_.named("AnnotatedSweep"), json::parse(annotated)));
+    use("POST", "/v1/sweeps", "/v1/sweeps", annotated);
     use("GET", "/v1/sweeps", "/v1/sweeps?limit=1");
     use("GET", "/v1/sweeps", "/v1/sweeps?limit=0");
   }
@@ -277,6 +281,16 @@ TEST_F(ContractOverHttp, EveryResponseIsAsPublished) {
   use("POST", "/v1/jobs", "/v1/jobs", column_request(),
       {"Content-Type: application/json", "Prefer: respond-async", "Cache-Control: no-cache"});
   use("POST", "/v1/jobs", "/v1/jobs", column_request(), {"Content-Type: text/plain"});
+  const std::string annotated =
+      "{\"request\": " + column_request() + R"(, "label": "a", "metadata": {"k": "v"}})";
+  EXPECT_TRUE(schemas_.valid(schemas_.named("AnnotatedRequest"), json::parse(annotated)));
+  for (const char* preference : {"return=minimal", "return=representation", "respond-async"}) {
+    use("POST", "/v1/jobs", "/v1/jobs", annotated,
+        {"Content-Type: application/json", std::string("Prefer: ") + preference});
+  }
+  use("POST", "/v1/jobs", "/v1/jobs", column_request("not ready"),
+      {"Content-Type: application/json", "Prefer: return=representation, wait=0"});
+  use("GET", "/v1/jobs", "/v1/jobs?label=a&analysis=path&created_after=2020-01-01T00:00:00Z");
   use("POST", "/v1/check", "/v1/check", column_request());
   use_sweeps();
   use("GET", "/v1/jobs", "/v1/jobs?limit=1");

@@ -48,7 +48,7 @@ class FailingStore final : public Store {
     }
     return status();
   }
-  StatusOr<JobPage> list(const JobQuery&) override { return status(); }
+  StatusOr<JobPage> list(const ListQuery&) override { return status(); }
   StatusOr<std::optional<std::string>> request(std::string_view) override {
     throw std::runtime_error("secret");
   }

@@ -104,6 +104,24 @@ TEST_F(Migrations, AStoreOfTheFirstVersionKeepsItsJobs) {
   EXPECT_EQ((*store->claim({"worker", at_second(9)}, at_second(3)))->id, test::id_number(1));
 }
 
+TEST_F(Migrations, AStoreWithoutLabelsKeepsItsListsAndItsSweepsGetTheirAnalysis) {
+  const std::string path = folder_.file("old.db");
+  {
+    Connection old(path, Access::read_write);
+    ASSERT_TRUE(migrate(old, std::span(embedded_migrations()).first(4), at_second(0)).ok());
+    old.execute("INSERT INTO jobs (id, analysis_type, created_us) VALUES ('" + test::id_number(1) +
+                "', 'path', 1)");
+    old.execute("INSERT INTO sweeps (seq, id, points, created_us) VALUES (7, '" + test::id_number(2) +
+                "', 3, 1)");
+    old.execute(R"(INSERT INTO sweep_documents VALUES (7, '{"model": {}, "analysis": {"type": "static"}}'))");
+  }
+  auto opened = open_store(path, at_second(1));
+  ASSERT_TRUE(opened.ok()) << opened.status().message();
+  const std::unique_ptr<Store> store = std::move(opened).value();
+  EXPECT_EQ(store->list({})->jobs.at(0).annotations, Annotations{});
+  EXPECT_EQ(store->sweeps().list({})->sweeps.at(0).analysis_type, "static");
+}
+
 TEST_F(Migrations, TheStoreReportsANewerSchema) {
   const std::string path = folder_.file("newer.db");
   ASSERT_TRUE(open_store(path, at_second(0)).ok());

@@ -41,7 +41,7 @@ class StoreConformance : public StoreTest {
     EXPECT_TRUE(job.ok() && job->has_value()) << job.status().message();
     return job.ok() && job->has_value() ? **job : Job{};
   }
-  std::vector<std::string> ids(const JobQuery& query) {
+  std::vector<std::string> ids(const ListQuery& query) {
     const auto page = store_->list(query);
     EXPECT_TRUE(page.ok()) << page.status().message();
     std::vector<std::string> found;
@@ -227,7 +227,7 @@ TEST_P(StoreConformance, ListsNewestFirstInPages) {
   for (int i = 1; i <= 5; ++i) {
     submit(i);
   }
-  JobQuery query;
+  ListQuery query;
   query.limit = 2;
   EXPECT_THAT(ids(query), ElementsAre(id_number(5), id_number(4)));
   query.before = store_->list(query)->next;
@@ -242,7 +242,7 @@ TEST_P(StoreConformance, ListsNewestFirstInPages) {
 TEST_P(StoreConformance, AFullLastPageHasNoNext) {
   submit(1);
   submit(2);
-  JobQuery query;
+  ListQuery query;
   query.limit = 2;
   EXPECT_EQ(store_->list(query)->next, std::nullopt);
 }
@@ -253,7 +253,7 @@ TEST_P(StoreConformance, ListsOneState) {
   submit(3);
   ASSERT_TRUE(finish(claim()).ok());
   const Claim running = claim();
-  JobQuery query;
+  ListQuery query;
   query.state = JobState::successful;
   EXPECT_THAT(ids(query), ElementsAre(id_number(1)));
   query.state = JobState::running;
@@ -262,6 +262,68 @@ TEST_P(StoreConformance, ListsOneState) {
   EXPECT_THAT(ids(query), ElementsAre(id_number(3)));
   query.state = JobState::failed;
   EXPECT_THAT(ids(query), IsEmpty());
+}
+
+TEST_P(StoreConformance, ListsByLabelAnalysisAndTime) {
+  const auto add = [&](int number, const char* label, const char* analysis, int second) {
+    NewJob job = new_job(id_number(number), second);
+    job.analysis_type = analysis;
+    job.annotations = {label, label[0] == '\0' ? "" : R"({"k":"v"})"};
+    ASSERT_TRUE(store_->submit(job).ok());
+  };
+  add(1, "a", "path", 10);
+  add(2, "b", "path", 20);
+  add(3, "a", "static", 20);
+  add(4, "", "static", 5);  // the clock was set back
+  ASSERT_TRUE(store_->dismiss(id_number(3), at_second(30)).ok());
+  EXPECT_EQ(job(1).annotations, (Annotations{"a", R"({"k":"v"})"}));
+  EXPECT_EQ(job(4).annotations, Annotations{});
+  EXPECT_THAT(ids({}), ElementsAre(id_number(3), id_number(2), id_number(1), id_number(4)));
+  ListQuery query;
+  query.label = "a";
+  EXPECT_THAT(ids(query), ElementsAre(id_number(3), id_number(1)));
+  query.analysis = "static";
+  EXPECT_THAT(ids(query), ElementsAre(id_number(3)));
+  query.state = JobState::accepted;
+  EXPECT_THAT(ids(query), IsEmpty());
+  query = {};
+  query.created_after = at_second(5);
+  query.created_before = at_second(20);
+  EXPECT_THAT(ids(query), ElementsAre(id_number(1)));
+  query = {};
+  query.limit = 1;
+  std::vector<std::string> all;
+  for (int i = 0; i < 4; ++i) {
+    all.push_back(ids(query).at(0));
+    query.before = store_->list(query)->next;
+    EXPECT_EQ(query.before.has_value(), i < 3);
+  }
+  EXPECT_THAT(all, ElementsAre(id_number(3), id_number(2), id_number(1), id_number(4)));
+}
+
+TEST_P(StoreConformance, AResultIsCopiedForAJobThatIsAnnotatedOtherwise) {
+  NewJob first = new_job(id_number(1));
+  first.content_key = "content";
+  ASSERT_TRUE(store_->submit(first).ok());
+  ASSERT_TRUE(finish(claim()).ok());
+  NewJob second = new_job(id_number(2), 300);
+  second.content_key = "content";
+  second.reuse = true;
+  second.annotations.label = "mine";
+  EXPECT_EQ(store_->submit(second)->kind, Submitted::Kind::copied);
+  EXPECT_EQ(job(2).state, JobState::successful);
+  EXPECT_EQ(job(2).finished, at_second(300));
+  EXPECT_EQ(*store_->result(id_number(2)), *store_->result(id_number(1)));
+  EXPECT_EQ(store_->path(id_number(2))->branches.size(), store_->path(id_number(1))->branches.size());
+  EXPECT_EQ(store_->path(id_number(2))->critical_points.size(), 3U);
+  second.id = id_number(3);
+  const Submitted again = *store_->submit(second);
+  EXPECT_EQ(again.kind, Submitted::Kind::reused);
+  EXPECT_EQ(again.id, id_number(2));
+  second.annotations = {};
+  EXPECT_EQ(store_->submit(second)->id, id_number(1));
+  ASSERT_TRUE(*store_->remove(id_number(1)));
+  EXPECT_TRUE(store_->result(id_number(2))->has_value());
 }
 
 TEST_P(StoreConformance, EverythingSurvivesReopening) {
@@ -539,7 +601,7 @@ TEST_P(StoreConformance, ListsOneOwnersJobs) {
   NewJob job = new_job(id_number(2));
   job.owner = "she";
   ASSERT_TRUE(store_->submit(job).ok());
-  JobQuery query;
+  ListQuery query;
   query.owner = "she";
   EXPECT_THAT(ids(query), ElementsAre(id_number(2)));
   EXPECT_EQ(this->job(2).owner, "she");

@@ -166,7 +166,7 @@ TEST_P(SweepStoreConformance, ListsAreNewestFirstOfOneOwner) {
   submit(3, 1, "ann");
   submit(4, 1, "ann");
   ASSERT_TRUE(sweeps().dismiss(id_number(3), at_second(9)).ok());
-  const auto ids = [&](const SweepQuery& query) {
+  const auto ids = [&](const ListQuery& query) {
     std::vector<std::string> all;
     const StatusOr<SweepPage> page = sweeps().list(query);
     for (const SweepRecord& sweep : page->sweeps) {

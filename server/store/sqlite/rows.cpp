@@ -96,7 +96,7 @@ std::vector<NamedSeries> read_series(const Connection& connection, std::int64_t 
 
 const char* const kJobColumns =
     "jobs.id, jobs.status, jobs.attempt, jobs.crashes, jobs.title, jobs.analysis_type, jobs.created_us,"
-    " jobs.started_us, jobs.finished_us, jobs.owner";
+    " jobs.started_us, jobs.finished_us, jobs.owner, jobs.label, jobs.metadata";
 
 std::int64_t to_row(Time time) { return time.time_since_epoch().count(); }
 
@@ -114,6 +114,14 @@ JobState state_in(const Statement& row, int column) {
     throw Error(0, "unknown status in the store: " + row.text(column));
   }
   return *state;
+}
+
+Annotations annotations_in(const Statement& row, int column) {
+  return {row.text(column), row.text(column + 1)};
+}
+
+std::optional<std::string_view> text_or_null(std::string_view text) {
+  return text.empty() ? std::nullopt : std::optional(text);
 }
 
 std::optional<Submitted> known_key(Statement& row, const IdempotencyKey& key) {
@@ -145,6 +153,7 @@ Job read_job(const Statement& row) {
   job.started = optional_time_in(row, 7);
   job.finished = optional_time_in(row, 8);
   job.owner = row.text(9);
+  job.annotations = annotations_in(row, 10);
   return job;
 }
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "server/store/sqlite/list.h"
 #include "server/store/sqlite/rows.h"
 #include "server/store/sqlite/sweeps.h"
 
@@ -22,7 +23,8 @@ std::vector<bool> done_points(const Connection& connection, std::int64_t sweep, 
 
 const char* const kSweepColumns =
     "sweeps.id, sweeps.status, sweeps.owner, sweeps.title, sweeps.points, sweeps.successful, sweeps.failed,"
-    " sweeps.reused, sweeps.created_us, sweeps.started_us, sweeps.finished_us";
+    " sweeps.reused, sweeps.created_us, sweeps.started_us, sweeps.finished_us, sweeps.analysis_type,"
+    " sweeps.label, sweeps.metadata";
 
 SweepRecord read_sweep_record(const Statement& row) {
   SweepRecord sweep;
@@ -37,6 +39,8 @@ SweepRecord read_sweep_record(const Statement& row) {
   sweep.created = time_in(row, 8);
   sweep.started = optional_time_in(row, 9);
   sweep.finished = optional_time_in(row, 10);
+  sweep.analysis_type = row.text(11);
+  sweep.annotations = annotations_in(row, 12);
   return sweep;
 }
 
@@ -84,29 +88,12 @@ StatusOr<std::optional<SweepRecord>> SqliteSweepStore::get(std::string_view id) 
       });
 }
 
-StatusOr<SweepPage> SqliteSweepStore::list(const SweepQuery& query) {
+StatusOr<SweepPage> SqliteSweepStore::list(const ListQuery& query) {
   return database_.read<SweepPage>([&](const Connection& connection) {
-    std::string sql = "SELECT " + std::string(kSweepColumns) +
-                      ", sweeps.seq FROM sweeps WHERE owner = ? AND removed = 0 AND seq < ?";
-    sql += query.state ? " AND status = ?" : "";
-    sql += " ORDER BY seq DESC LIMIT ?";
-    Statement rows = connection.prepare(sql);
-    rows.bind(query.owner).bind(query.before.value_or(INT64_MAX));
-    if (query.state) {
-      rows.bind(to_string(*query.state));
-    }
-    rows.bind(query.limit + 1);  // one more, to see whether another page follows
-    SweepPage page;
-    std::int64_t last = 0;
-    while (rows.step()) {
-      if (static_cast<int>(page.sweeps.size()) == query.limit) {
-        page.next = last;
-        break;
-      }
-      page.sweeps.push_back(read_sweep_record(rows));
-      last = rows.integer(kSweepColumnCount);
-    }
-    return page;
+    static const ListedTable kListedSweeps{"sweeps", kSweepColumns, " AND removed = 0"};
+    auto [sweeps, next] =
+        read_page<SweepRecord>(connection, kListedSweeps, kSweepColumnCount, query, read_sweep_record);
+    return SweepPage{std::move(sweeps), next};
   });
 }
 

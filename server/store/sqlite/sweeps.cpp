@@ -34,13 +34,18 @@ std::optional<Submitted> known_key(const Connection& connection, const Idempoten
 
 void insert_sweep(Connection& connection, const NewSweep& sweep) {
   connection
-      .prepare("INSERT INTO sweeps (id, owner, title, reuse, points, created_us) VALUES (?, ?, ?, ?, ?, ?)")
+      .prepare(
+          "INSERT INTO sweeps (id, owner, title, reuse, points, created_us, analysis_type, label, metadata)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(sweep.id)
       .bind(sweep.owner)
       .bind(sweep.title)
       .bind(sweep.reuse ? 1 : 0)
       .bind(sweep.points)
       .bind(to_row(sweep.created))
+      .bind(sweep.analysis_type)
+      .bind(text_or_null(sweep.annotations.label))
+      .bind(text_or_null(sweep.annotations.metadata))
       .run();
   const std::int64_t row = connection.last_row();
   connection.prepare("INSERT INTO sweep_documents (sweep, document) VALUES (?, ?)")

@@ -27,7 +27,7 @@ class SqliteSweepStore final : public SweepStore {
   StatusOr<bool> purge(int most) override;
   Status forget_keys(Time used_before) override;
   StatusOr<std::optional<SweepRecord>> get(std::string_view id) override;
-  StatusOr<SweepPage> list(const SweepQuery& query) override;
+  StatusOr<SweepPage> list(const ListQuery& query) override;
   StatusOr<std::optional<std::string>> document(std::string_view id) override;
   Status each_row(std::string_view id, const PointQuery& query,
                   const std::function<void(std::uint64_t, const api::PointOutcome&)>& use) override;
@@ -40,7 +40,7 @@ class SqliteSweepStore final : public SweepStore {
 
 /// The columns that read_sweep_record() reads, for SELECT; needs the table `sweeps`.
 extern const char* const kSweepColumns;
-inline constexpr int kSweepColumnCount = 11;
+inline constexpr int kSweepColumnCount = 14;
 [[nodiscard]] SweepRecord read_sweep_record(const Statement& row);
 
 }  // namespace snapthrough::server::sqlite

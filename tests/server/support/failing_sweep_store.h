@@ -33,7 +33,7 @@ class FailingSweepStore final : public SweepStore {
   StatusOr<bool> purge(int) override { return status(); }
   Status forget_keys(Time) override { return status(); }
   StatusOr<std::optional<SweepRecord>> get(std::string_view) override { return status(); }
-  StatusOr<SweepPage> list(const SweepQuery&) override { return status(); }
+  StatusOr<SweepPage> list(const ListQuery&) override { return status(); }
   StatusOr<std::optional<std::string>> document(std::string_view) override { return status(); }
   Status each_row(std::string_view, const PointQuery&,
                   const std::function<void(std::uint64_t, const api::PointOutcome&)>&) override {
