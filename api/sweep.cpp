@@ -42,6 +42,23 @@ Found look_up(const Json& result, const std::vector<std::string>& tokens) {
   return {at, false};
 }
 
+std::size_t bytes_of(const Json& value) {
+  constexpr std::size_t kNode = 64;  // of the tree that an object is
+  std::size_t bytes = sizeof(Json);
+  if (value.is_string()) {
+    bytes += value.get_ref<const std::string&>().size();
+  } else if (value.is_object()) {
+    for (const auto& [key, member] : value.items()) {
+      bytes += kNode + key.size() + bytes_of(member);
+    }
+  } else if (value.is_array()) {
+    for (const Json& element : value) {
+      bytes += bytes_of(element);
+    }
+  }
+  return bytes;
+}
+
 }  // namespace
 
 /// @param document the base, or what this has made of it for other values
@@ -74,6 +91,30 @@ std::vector<std::string> Sweep::columns() const {
   }
   names.emplace_back("error");
   return names;
+}
+
+Sweep Sweep::for_table() const {
+  auto data = std::make_shared<SweepData>();
+  data->parameters = data_->parameters;
+  data->design = data_->design;
+  data->samples = data_->samples;
+  data->seed = data_->seed;
+  data->outputs = data_->outputs;
+  data->points = data_->points;
+  return Sweep(std::move(data));
+}
+
+std::size_t Sweep::value_bytes() const {
+  std::size_t bytes = 0;
+  for (const SweepParameter& parameter : data_->parameters) {
+    for (const Json& value : parameter.values) {
+      bytes += bytes_of(value);
+    }
+    for (const std::string& label : parameter.labels) {
+      bytes += sizeof(std::string) + label.size();
+    }
+  }
+  return bytes;
 }
 
 std::string Sweep::outputs_text() const {

@@ -47,6 +47,11 @@ class Sweep {
   /// Names of the parameters, pointers of the outputs, and "error": what a row begins with, in this order.
   [[nodiscard]] std::vector<std::string> columns() const;
   [[nodiscard]] std::size_t output_count() const;
+  /// What columns(), output_count() and labels() need, without the model and the analysis: a table that is
+  /// written for a while keeps no more in memory.
+  [[nodiscard]] Sweep for_table() const;
+  /// Memory of the values of the parameters, about.
+  [[nodiscard]] std::size_t value_bytes() const;
   /// The pointers of the outputs as a JSON array.
   [[nodiscard]] std::string outputs_text() const;
   /// Title of the model; may be empty.

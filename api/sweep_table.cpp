@@ -47,7 +47,7 @@ std::optional<TableForm> table_form_from(std::string_view name) {
 }
 
 TableWriter::TableWriter(const Sweep& sweep, TableForm form, std::optional<PointLinks> links)
-    : sweep_(sweep), form_(form), links_(std::move(links)), columns_(sweep.columns()) {
+    : sweep_(sweep.for_table()), form_(form), links_(std::move(links)), columns_(sweep.columns()) {
   if (form_ == TableForm::ndjson || (form_ == TableForm::csv && links_)) {
     columns_.emplace_back("point");
   }
@@ -80,16 +80,41 @@ std::string TableWriter::head() const {
   return text;
 }
 
-std::string TableWriter::tail() const {
-  return form_ == TableForm::json ? "\n ],\n \"points\": " + Json(points_).dump() + "}\n" : "";
+bool TableWriter::append_tail(std::string& text, std::size_t bytes) {
+  if (form_ != TableForm::json) {
+    return false;
+  }
+  const std::size_t before = text.size();
+  if (!std::exchange(tail_begun_, true)) {
+    text += "\n ],\n \"points\": [";
+  }
+  for (; run_ < runs_.size(); ++run_, written_of_run_ = 0) {
+    const auto& [first, end] = runs_[run_];
+    for (; first + written_of_run_ < end; ++written_of_run_) {
+      if (text.size() - before >= bytes) {
+        return true;
+      }
+      text += run_ + written_of_run_ == 0 ? "" : ",";
+      text += std::to_string(first + written_of_run_);
+    }
+  }
+  text += "]}\n";
+  return false;
+}
+
+std::size_t TableWriter::held_bytes() const {
+  return sweep_.value_bytes() + runs_.capacity() * sizeof(runs_[0]);
 }
 
 void TableWriter::append_row(std::uint64_t point, const PointOutcome& outcome, std::string& text) {
   switch (form_) {
     case TableForm::json:
-      text += points_.empty() ? "\n  " : ",\n  ";
+      text += runs_.empty() ? "\n  " : ",\n  ";
       append_json(point, outcome, text);
-      points_.push_back(point);
+      if (runs_.empty() || runs_.back().second != point) {
+        runs_.emplace_back(point, point);
+      }
+      ++runs_.back().second;
       break;
     case TableForm::csv:
       append_csv(point, outcome, text);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "api/sweep.h"
@@ -40,8 +41,11 @@ class TableWriter {
   /// Appends the row of a point. @pre outcome.outputs is a JSON array of sweep.output_count() values, or
   /// outcome.failed()
   void append_row(std::uint64_t point, const PointOutcome& outcome, std::string& text);
-  /// What comes after the rows.
-  [[nodiscard]] std::string tail() const;
+  /// @brief Appends what comes after the rows, at most about so many bytes of it at once.
+  /// False when that was the rest of it. No row may follow.
+  bool append_tail(std::string& text, std::size_t bytes = SIZE_MAX);
+  /// Memory that it keeps, about.
+  [[nodiscard]] std::size_t held_bytes() const;
 
  private:
   void append_json(std::uint64_t point, const PointOutcome& outcome, std::string& text) const;
@@ -52,8 +56,12 @@ class TableWriter {
   TableForm form_;
   std::optional<PointLinks> links_;
   std::vector<std::string> columns_;
-  std::vector<std::string> keys_;      ///< of NDJSON, quoted
-  std::vector<std::uint64_t> points_;  ///< of the rows, for the end of a JSON document
+  std::vector<std::string> keys_;  ///< of NDJSON, quoted
+  /// Numbers of points of the rows, for the end of a JSON document: first and one past the last, in order.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> runs_;
+  bool tail_begun_ = false;
+  std::size_t run_ = 0;               ///< of the tail: that is written next,
+  std::uint64_t written_of_run_ = 0;  ///< and how many of its points were
 };
 
 }  // namespace snapthrough::api

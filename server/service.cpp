@@ -124,7 +124,8 @@ std::string Service::Parts::metrics_text() {
   };
   gauge("snapthrough_connections", "Open connections.", load.connections);
   gauge("snapthrough_streams", "Open streams of events.", load.streams);
-  gauge("snapthrough_buffered_bytes", "Of incomplete requests.", static_cast<double>(load.buffered_bytes));
+  gauge("snapthrough_buffered_bytes", "Of incomplete requests and responses that are being sent.",
+        static_cast<double>(load.buffered_bytes));
   gauge("snapthrough_jobs_waiting", "Accepted jobs, about.", static_cast<double>(jobs.context().waiting));
   gauge("snapthrough_jobs_running", "Analyses of this process.",
         static_cast<double>(jobs.context().active.count()));

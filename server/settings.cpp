@@ -138,7 +138,7 @@ std::vector<Setting> front_settings() {
             [](ServiceConfig& c) -> std::size_t& { return c.listener.limits.body_bytes; }),
       whole("max_head_bytes", "Size of request line and headers",
             [](ServiceConfig& c) -> std::size_t& { return c.listener.limits.head_bytes; }),
-      whole("max_buffered_bytes", "Of all incomplete requests together",
+      whole("max_buffered_bytes", "Of all incomplete requests and responses that are being sent, together",
             [](ServiceConfig& c) -> std::size_t& { return c.listener.limits.buffered_bytes; }),
       duration(
           "idle_timeout_ms", "Until the first byte of a request",
@@ -150,7 +150,7 @@ std::vector<Setting> front_settings() {
           "body_timeout_ms", "For the body of a request",
           [](ServiceConfig & c) -> auto& { return c.listener.times.body; }),
       duration(
-          "send_timeout_ms", "For a client to take a response",
+          "send_timeout_ms", "For a client to take some of a response",
           [](ServiceConfig & c) -> auto& { return c.listener.times.send; }),
       duration(
           "default_wait_s", "Wait for a result when the client does not say",

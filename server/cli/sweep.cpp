@@ -85,7 +85,9 @@ class RowQueue {
   /// To be called when all points were put that ever will be.
   RowCounts finish() {
     const std::lock_guard guard(mutex_);
-    streams_.out << writer_.tail() << std::flush;
+    std::string tail;
+    writer_.append_tail(tail);
+    streams_.out << tail << std::flush;
     show_bar(true);
     return {written_, failed_};
   }

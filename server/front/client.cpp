@@ -30,7 +30,7 @@ bool Outbox::put(std::string piece, bool last) {
 
 std::string Outbox::take(bool& last) {
   const std::lock_guard guard(mutex_);
-  last = last_ || closed_;
+  last = last_;
   return std::exchange(waiting_, {});
 }
 
@@ -39,7 +39,16 @@ void Outbox::close() {
   closed_ = true;
 }
 
+bool Outbox::closed() {
+  const std::lock_guard guard(mutex_);
+  return closed_;
+}
+
 Client::~Client() { close(); }
+
+std::size_t Client::held_bytes() const {
+  return reader.held() + output.size() + (rest ? rest->held_bytes() : 0);
+}
 
 Client::Read Client::receive() {
   std::array<char, 16 * 1024> chunk;  // not cleared: it costs as much as the rest

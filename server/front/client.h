@@ -37,6 +37,8 @@ class Outbox {
   std::string take(bool& last);
   /// Nothing more can be sent.
   void close();
+  /// Whether that is so, because it was closed or too much was put.
+  [[nodiscard]] bool closed();
 
  private:
   std::mutex mutex_;
@@ -69,6 +71,8 @@ struct Client {
   /// Whether there was something to discard and more may come.
   [[nodiscard]] Read discard() const;
   void close();
+  /// What is in memory for this client, about.
+  [[nodiscard]] std::size_t held_bytes() const;
 
   std::mutex mutex;
   int socket;
@@ -77,12 +81,14 @@ struct Client {
   Phase phase = Phase::idle;
   Clock::time_point deadline;
   RequestReader reader;
-  std::size_t counted = 0;  ///< bytes of the reader that the listener has counted
+  std::size_t counted = 0;  ///< of held_bytes(): what the listener has counted
   std::string output;
   std::size_t output_sent = 0;
   bool close_after = false;              ///< the response that is being sent is the last
   bool linger_after = false;             ///< and the client may still be sending
   bool head_only = false;                ///< the request was HEAD
+  bool chunked = false;                  ///< how a body with a rest is sent
+  std::shared_ptr<BodySource> rest;      ///< what follows `output`
   std::function<Response()> resume;      ///< makes a deferred response
   std::uint64_t turn = 0;                ///< counts deferred responses
   std::shared_ptr<Outbox> outbox;        ///< of a stream

@@ -77,6 +77,37 @@ bool comes_from_elsewhere(const Request& request, const CrossOrigin& allowed) {
   return origin && *origin != "http://" + std::string(host) && !allowed.allows(*origin);
 }
 
+/// A body whose failures are logged, exceptions too.
+class GuardedSource final : public BodySource {
+ public:
+  GuardedSource(std::shared_ptr<BodySource> source, Log& log, std::string request_id)
+      : source_(std::move(source)), log_(log), request_id_(std::move(request_id)) {}
+
+  StatusOr<bool> append_next(std::string& piece) override {
+    StatusOr<bool> more = attempt(piece);
+    if (!more.ok()) {
+      log_.write(LogLevel::error, "trouble",
+                 {{"request_id", std::string_view(request_id_)},
+                  {"detail", std::string_view(more.status().message())}});
+    }
+    return more;
+  }
+  [[nodiscard]] std::size_t held_bytes() const override { return source_->held_bytes(); }
+
+ private:
+  StatusOr<bool> attempt(std::string& piece) {
+    try {
+      return source_->append_next(piece);
+    } catch (const std::exception& error) {
+      return Status(StatusCode::io_error, error.what());
+    }
+  }
+
+  std::shared_ptr<BodySource> source_;
+  Log& log_;
+  const std::string request_id_;
+};
+
 }  // namespace
 
 Response Gateway::guarded(const Request& request, const std::function<Response()>& work) const {
@@ -166,12 +197,18 @@ Response Gateway::refuse(const Head& head, const std::string& remote) {
   Response response = problem_response(
       {status, problem_kind(status), std::string(reason_phrase(status)), head.refusal->detail, {}, "", ""},
       request);
+  if (status == 503) {
+    response.headers.emplace_back("Retry-After", "1");
+  }
   complete(request, response, environment_.monotonic_seconds());
   return response;
 }
 
 void Gateway::complete(const Request& request, Response& response, double start) {
   compress(response, request.header("Accept-Encoding").value_or(""));
+  if (response.rest) {
+    response.rest = std::make_shared<GuardedSource>(std::move(response.rest), log_, request.id);
+  }
   response.headers.emplace_back("X-Request-Id", request.id);
   response.headers.emplace_back("Date", http_date(environment_.now()));
   response.headers.emplace_back("X-Content-Type-Options", "nosniff");

@@ -34,6 +34,8 @@ constexpr std::uint64_t kFirstClient = 2;
 constexpr int kFairSteps = 64;
 constexpr std::chrono::milliseconds kSweep{100};
 constexpr std::chrono::milliseconds kLinger{500};
+/// A response that is smaller is always sent.
+constexpr std::size_t kSmallResponse = 64 * 1024;
 constexpr std::string_view kTooMany =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 5\r\nContent-Type: application/problem+json\r\n"
     "Content-Length: 153\r\nConnection: close\r\n\r\n"
@@ -76,7 +78,10 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   bool deliver(const ClientPointer& client, Response response);
   bool defer(const ClientPointer& client, Deferred deferred);
   bool begin_stream(const ClientPointer& client, const Response& response);
+  bool begin_body(const ClientPointer& client, const Response& response);
   bool send_on(const ClientPointer& client);
+  bool append_piece(const ClientPointer& client);
+  bool wait_to_send(const ClientPointer& client, std::uint32_t events, Clock::time_point deadline);
   bool after_response(const ClientPointer& client);
   void pump(const ClientPointer& client);
   void woken(const Wake& wake);
@@ -84,7 +89,7 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   void take_wake();
 
   void drop(Client& client);
-  void account(Client& client);
+  std::size_t account(Client& client);
   void rearm(const Client& client, std::uint32_t events) const {
     watch(client.socket, client.id, events | EPOLLONESHOT, EPOLL_CTL_MOD);
   }
@@ -237,7 +242,8 @@ void Listener::Server::sweep_one(const ClientPointer& client, Clock::time_point 
   if (client->phase == Phase::closed || (!going && now < client->deadline)) {
     return;
   }
-  if (client->phase == Phase::deferred) {
+  const bool wants_room = client->phase == Phase::sending && client->output.empty();
+  if (client->phase == Phase::deferred || wants_room) {
     client->deadline = Clock::time_point::max();
     wake({client->id, client->turn});
   } else if (client->phase == Phase::streaming && !going) {
@@ -255,6 +261,9 @@ void Listener::Server::attend(const ClientPointer& client, std::uint32_t events)
     case Phase::body:
       return read_and_serve(client);
     case Phase::sending:
+      if ((events & (EPOLLHUP | EPOLLERR)) != 0) {
+        return drop(*client);
+      }
       if (send_on(client)) {
         read_and_serve(client);
       }
@@ -338,6 +347,7 @@ bool Listener::Server::answer(const ClientPointer& client, Received received) {
   request->remote = client->remote;
   client->head_only = request->method == "HEAD";
   client->close_after = !received.head.keep_alive;
+  client->chunked = received.head.takes_chunks;
   const std::size_t size = request->body.size();
   buffered_ += size;
   Response response = gateway_.serve(std::move(*request));
@@ -366,7 +376,24 @@ bool Listener::Server::deliver(const ClientPointer& client, Response response) {
   if (response.stream && !client->head_only) {
     return begin_stream(client, response);
   }
-  client->output += to_bytes(response, client->head_only, !client->close_after);  // behind a 100 Continue
+  return begin_body(client, response);
+}
+
+/// Sends a response, unless it is large and too much is being sent already.
+bool Listener::Server::begin_body(const ClientPointer& client, const Response& response) {
+  const std::size_t waiting = client->output.size();  // a 100 Continue
+  client->close_after = client->close_after || (response.rest && !client->chunked);
+  client->output += to_bytes(response, client->head_only, !client->close_after, client->chunked);
+  client->rest = client->head_only ? nullptr : response.rest;
+  const bool large = client->rest || client->output.size() > kSmallResponse;
+  if (account(*client) > options_.limits.buffered_bytes && large) {
+    client->output.resize(waiting);
+    client->rest.reset();
+    account(*client);
+    Head head;
+    head.refusal = Refusal{503, "Too many large responses are being sent at this moment."};
+    return refuse(client, head, false);
+  }
   return send_on(client);
 }
 
@@ -412,32 +439,76 @@ void Listener::Server::pump(const ClientPointer& client) {
     client->source->poll();
   }
   bool last = false;
-  client->output += client->outbox->take(last);
-  const Client::Sent sent = client->flush();
-  const bool behind = client->output.size() > options_.limits.head_bytes * 64;
-  if (sent == Client::Sent::failed || behind || (sent == Client::Sent::all && last)) {
+  Client::Sent sent = Client::Sent::all;
+  while (sent == Client::Sent::all && !last) {
+    if (client->output.empty()) {
+      client->output = client->outbox->take(last);
+    }
+    if (client->output.empty()) {
+      break;
+    }
+    sent = client->flush();
+  }
+  account(*client);
+  if (sent == Client::Sent::failed || client->outbox->closed() || (sent == Client::Sent::all && last)) {
     return drop(*client);
   }
   client->deadline = Clock::now() + options_.times.ping;
   rearm(*client, EPOLLRDHUP | (sent == Client::Sent::some ? EPOLLOUT : 0U));
 }
 
+/// True when the response was sent and the connection is ready for another request.
 bool Listener::Server::send_on(const ClientPointer& client) {
-  switch (client->flush()) {
-    case Client::Sent::all:
-      return after_response(client);
-    case Client::Sent::some:
-      if (client->phase != Phase::sending) {
-        client->phase = Phase::sending;
-        client->deadline = Clock::now() + options_.times.send;
-      }
-      rearm(*client, EPOLLOUT);
-      return false;
-    case Client::Sent::failed:
+  for (int piece = 0; piece < kFairSteps; ++piece) {
+    const std::size_t before = client->output_sent;
+    const Client::Sent sent = client->flush();
+    account(*client);
+    if (sent == Client::Sent::failed) {
       drop(*client);
       return false;
+    }
+    if (sent == Client::Sent::some) {  // the client has its time anew when it took something
+      const bool first = client->phase != Phase::sending || piece > 0 || client->output_sent > before;
+      return wait_to_send(client, EPOLLOUT, first ? Clock::now() + options_.times.send : client->deadline);
+    }
+    if (!client->rest) {
+      return after_response(client);
+    }
+    if (buffered_ > options_.limits.buffered_bytes) {  // until others have read
+      return wait_to_send(client, 0, Clock::now() + kSweep);
+    }
+    if (!append_piece(client)) {
+      drop(*client);
+      return false;
+    }
   }
+  return wait_to_send(client, EPOLLOUT, Clock::now() + options_.times.send);  // behind the others
+}
+
+bool Listener::Server::wait_to_send(const ClientPointer& client, std::uint32_t events,
+                                    Clock::time_point deadline) {
+  client->phase = Phase::sending;
+  client->deadline = deadline;
+  rearm(*client, events);
   return false;
+}
+
+/// False when the body can't be completed.
+bool Listener::Server::append_piece(const ClientPointer& client) {
+  std::string piece;
+  const StatusOr<bool> more = client->rest->append_next(piece);
+  if (!more.ok()) {
+    return false;
+  }
+  if (client->chunked) {
+    append_chunk(client->output, piece, !*more);
+  } else {
+    client->output += piece;
+  }
+  if (!*more) {
+    client->rest.reset();
+  }
+  return true;
 }
 
 bool Listener::Server::after_response(const ClientPointer& client) {
@@ -488,6 +559,12 @@ void Listener::Server::woken(const Wake& wake) {
   if (client->phase == Phase::streaming) {
     return pump(client);
   }
+  if (client->phase == Phase::sending && client->output.empty()) {
+    if (send_on(client)) {
+      read_and_serve(client);
+    }
+    return;
+  }
   if (client->phase == Phase::deferred && client->turn == wake.turn) {
     const std::function<Response()> resume = std::exchange(client->resume, nullptr);
     if (deliver(client, resume())) {
@@ -496,9 +573,10 @@ void Listener::Server::woken(const Wake& wake) {
   }
 }
 
-void Listener::Server::account(Client& client) {
-  const std::size_t held = client.reader.held();
-  buffered_ += held - std::exchange(client.counted, held);
+/// Counts what is in memory for a client; the sum of all of them without what this call added.
+std::size_t Listener::Server::account(Client& client) {
+  const std::size_t held = client.held_bytes();
+  return buffered_.fetch_add(held - std::exchange(client.counted, held));
 }
 
 void Listener::Server::drop(Client& client) {
@@ -507,6 +585,7 @@ void Listener::Server::drop(Client& client) {
     client.outbox->close();
   }
   client.source.reset();
+  client.rest.reset();
   client.resume = nullptr;
   buffered_ -= std::exchange(client.counted, 0);
   client.close();

@@ -17,7 +17,7 @@ struct ClientTimes {
   std::chrono::milliseconds idle{75'000};  ///< until the first byte of a request
   std::chrono::milliseconds head{10'000};  ///< from the first byte to the end of the head
   std::chrono::milliseconds body{60'000};  ///< for the body
-  std::chrono::milliseconds send{30'000};  ///< to take a response
+  std::chrono::milliseconds send{30'000};  ///< to take some of a response
   std::chrono::milliseconds ping{15'000};  ///< between signs of life on a stream without events
   std::chrono::milliseconds drain{2'000};  ///< for what is being received or sent when the service stops
 };
@@ -37,7 +37,7 @@ struct ListenerOptions {
 struct ListenerLoad {
   int connections = 0;
   int streams = 0;
-  std::size_t buffered_bytes = 0;  ///< of incomplete requests
+  std::size_t buffered_bytes = 0;  ///< of incomplete requests, and of responses that are being sent
 };
 
 /// @brief Accepts connections and serves their requests through a gateway, which must outlive it.

@@ -136,7 +136,8 @@ bool read_request_line(std::string_view line, Head& head) {
   }
   head.method = line.substr(0, first);
   head.target = origin_form(line.substr(first + 1, last - first - 1));
-  head.keep_alive = line.substr(last + 1) == "HTTP/1.1";  // unless a header says otherwise
+  head.takes_chunks = line.substr(last + 1) == "HTTP/1.1";
+  head.keep_alive = head.takes_chunks;  // unless a header says otherwise
   return !head.target.empty() && head.target.find(' ') == std::string::npos;
 }
 

@@ -16,7 +16,8 @@ struct HeadLimits {
   std::size_t target_bytes = 2048;     ///< path and query
   std::size_t header_count = 100;
   std::size_t body_bytes = 8 * 1024 * 1024;
-  std::size_t buffered_bytes = 64 * 1024 * 1024;  ///< of all incomplete requests together
+  /// Of all incomplete requests and responses that are being sent, together.
+  std::size_t buffered_bytes = 64 * 1024 * 1024;
 };
 
 /// Why a request is refused before it is parsed.
@@ -32,6 +33,7 @@ struct Head {
   std::string origin;  ///< of the page that sends it; empty: not told
   std::size_t body_bytes = 0;
   bool keep_alive = false;         ///< the client may send another request on this connection
+  bool takes_chunks = false;       ///< it speaks HTTP/1.1
   bool expects_continue = false;   ///< the client waits for "100 Continue" before it sends the body
   std::optional<Refusal> refusal;  ///< set: answer this and close the connection; the rest may be missing
 };

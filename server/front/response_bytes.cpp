@@ -3,7 +3,9 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -35,11 +37,15 @@ bool takes_gzip(std::string_view accepted) {
   return any;
 }
 
+bool begin_gzip(z_stream& stream) {
+  constexpr int kGzip = 15 + 16;
+  return ::deflateInit2(&stream, 1, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) == Z_OK;
+}
+
 /// The gzip form, empty when the library does not manage.
 std::string gzip(const std::string& body) {
   z_stream stream{};
-  constexpr int kGzip = 15 + 16;
-  if (::deflateInit2(&stream, 1, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
+  if (!begin_gzip(stream)) {
     return {};
   }
   std::string packed(::deflateBound(&stream, body.size()), '\0');
@@ -51,6 +57,67 @@ std::string gzip(const std::string& body) {
   packed.resize(whole ? stream.total_out : 0);
   ::deflateEnd(&stream);
   return packed;
+}
+
+/// The gzip form of a body that comes in pieces.
+class GzipSource final : public BodySource {
+ public:
+  explicit GzipSource(std::shared_ptr<BodySource> plain) : plain_(std::move(plain)) {
+    if (!begin_gzip(stream_)) {
+      throw std::bad_alloc();
+    }
+  }
+  ~GzipSource() override { ::deflateEnd(&stream_); }
+  GzipSource(const GzipSource&) = delete;
+  GzipSource& operator=(const GzipSource&) = delete;
+  GzipSource(GzipSource&&) = delete;
+  GzipSource& operator=(GzipSource&&) = delete;
+
+  StatusOr<bool> append_next(std::string& piece) override {
+    std::string text;
+    StatusOr<bool> more = plain_->append_next(text);
+    if (more.ok()) {
+      append_packed(text, !*more, piece);
+    }
+    return more;
+  }
+  [[nodiscard]] std::size_t held_bytes() const override {
+    constexpr std::size_t kWindowAndTables = 270'000;
+    return kWindowAndTables + plain_->held_bytes();
+  }
+  void append_packed(std::string_view text, bool last, std::string& packed) {
+    std::array<char, 16 * 1024> chunk;
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));  // zlib does not write to it
+    stream_.avail_in = static_cast<uInt>(text.size());
+    do {
+      stream_.next_out = reinterpret_cast<Bytef*>(chunk.data());
+      stream_.avail_out = chunk.size();
+      ::deflate(&stream_, last ? Z_FINISH : Z_NO_FLUSH);
+      packed.append(chunk.data(), chunk.size() - stream_.avail_out);
+    } while (stream_.avail_out == 0);
+  }
+
+ private:
+  z_stream stream_{};
+  std::shared_ptr<BodySource> plain_;
+};
+
+/// False when it is not worth while.
+bool pack(Response& response) {
+  if (response.rest) {
+    const auto source = std::make_shared<GzipSource>(std::move(response.rest));
+    std::string packed;
+    source->append_packed(response.body, false, packed);
+    response.body = std::move(packed);
+    response.rest = source;
+    return true;
+  }
+  std::string packed = gzip(response.body);
+  if (packed.empty() || packed.size() >= response.body.size()) {
+    return false;
+  }
+  response.body = std::move(packed);
+  return true;
 }
 
 }  // namespace
@@ -85,7 +152,7 @@ std::string_view reason_phrase(int status) {
   return found == std::end(kPhrases) ? "Unknown" : found->second;
 }
 
-std::string to_bytes(const Response& response, bool head_only, bool keep_alive) {
+std::string to_bytes(const Response& response, bool head_only, bool keep_alive, bool chunked) {
   std::string bytes;
   bytes.reserve(512 + (head_only ? 0 : response.body.size()));
   bytes.append("HTTP/1.1 ").append(std::to_string(response.status)).append(" ");
@@ -97,29 +164,40 @@ std::string to_bytes(const Response& response, bool head_only, bool keep_alive) 
     bytes.append("Content-Type: ").append(response.content_type).append("\r\n");
   }
   const bool bodiless = response.status == 204 || response.status == 304;
-  if (!response.stream && !bodiless) {
+  if (response.rest && chunked) {
+    bytes.append("Transfer-Encoding: chunked\r\n");
+  } else if (!response.stream && !response.rest && !bodiless) {
     bytes.append("Content-Length: ").append(std::to_string(response.body.size())).append("\r\n");
   }
   bytes.append(keep_alive ? "Connection: keep-alive\r\n\r\n" : "Connection: close\r\n\r\n");
-  if (!head_only && !bodiless && !response.stream) {
+  if (head_only || bodiless || response.stream) {
+    return bytes;
+  }
+  if (response.rest && chunked) {
+    append_chunk(bytes, response.body, false);
+  } else {
     bytes.append(response.body);
   }
   return bytes;
 }
 
+void append_chunk(std::string& bytes, std::string_view piece, bool last) {
+  if (!piece.empty()) {  // an empty chunk is the end
+    std::array<char, 20> size{};
+    const char* end = std::to_chars(size.data(), size.data() + size.size(), piece.size(), 16).ptr;
+    bytes.append(std::string_view(size.data(), end)).append("\r\n").append(piece).append("\r\n");
+  }
+  bytes.append(last ? "0\r\n\r\n" : "");
+}
+
 void compress(Response& response, std::string_view accept_encoding) {
-  if (response.status != 200 || response.body.size() < kWorthCompressing) {
+  if (response.status != 200 || (response.body.size() < kWorthCompressing && !response.rest)) {
     return;
   }
   response.headers.emplace_back("Vary", "Accept, Accept-Encoding");
-  if (!takes_gzip(accept_encoding)) {
+  if (!takes_gzip(accept_encoding) || !pack(response)) {
     return;
   }
-  std::string packed = gzip(response.body);
-  if (packed.empty() || packed.size() >= response.body.size()) {
-    return;
-  }
-  response.body = std::move(packed);
   response.headers.emplace_back("Content-Encoding", "gzip");
   for (auto& [name, value] : response.headers) {
     if (name == "ETag" && value.size() > 2) {

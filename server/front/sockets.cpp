@@ -83,6 +83,10 @@ int accept_from(int listener, std::string& remote) {
   }
   const int on = 1;
   ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  // Writable as soon as that little is unsent: a client that reads slowly is seen to read, and the kernel
+  // keeps no megabytes for it.
+  const int unsent = 128 * 1024;
+  ::setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
   std::array<char, NI_MAXHOST> host{};
   if (::getnameinfo(address, size, host.data(), host.size(), nullptr, 0, NI_NUMERICHOST) == 0) {
     remote = host.data();

@@ -3,6 +3,7 @@
 /// What running work tells, and who follows it.
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -98,13 +99,23 @@ struct FoundPoint {
   CriticalPoint point;
 };
 
+/// Points of the path that a running analysis has traced.
+struct TracedPoints {
+  std::uint64_t number = 0;  ///< JobNews::number of the news that brought them
+  std::string document;      ///< see path_points_document()
+};
+
 /// What a running analysis has told so far.
 struct JobNews {
   int attempt = 0;
   std::uint64_t number = 0;          ///< how often it told something in this attempt
   std::optional<Progress> progress;  ///< the latest
   std::vector<FoundPoint> found;     ///< all, in the order they were found
+  std::deque<TracedPoints> traced;   ///< the latest, in their order: some kTracedBytes of documents
 };
+
+/// What is kept of the path of a running analysis for those who come to follow it later.
+inline constexpr std::size_t kTracedBytes = 128 * 1024;
 
 /// Where the jobs are that run in this process.
 using JobProgress = ProgressTopic<JobNews>;

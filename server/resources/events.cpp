@@ -70,13 +70,27 @@ class FollowingJob final : public Following {
   }
 
  private:
+  /// The first of news in the order of their numbers that the client has not seen.
+  template <class List>
+  [[nodiscard]] auto first_lacking(const List& told, std::uint64_t base) const {
+    return std::partition_point(told.begin(), told.end(),
+                                [&](const auto& one) { return !lacks(base + one.number); });
+  }
+
   void on_news(const JobNews& news) {
     const std::uint64_t base = static_cast<std::uint64_t>(news.attempt) * kAttempt;
-    const auto lacking =
-        std::partition_point(news.found.begin(), news.found.end(),
-                             [&](const FoundPoint& found) { return !lacks(base + found.number); });
-    for (auto found = lacking; found != news.found.end(); ++found) {
-      send(base + found->number, "critical_point", critical_data(found->point, false));
+    auto found = first_lacking(news.found, base);
+    auto traced = first_lacking(news.traced, base);
+    while (found != news.found.end() || traced != news.traced.end()) {
+      const bool critical =
+          traced == news.traced.end() || (found != news.found.end() && found->number < traced->number);
+      if (critical) {
+        send(base + found->number, "critical_point", critical_data(found->point, false));
+        ++found;
+      } else {
+        send(base + traced->number, "points", traced->document);
+        ++traced;
+      }
     }
     if (news.progress) {
       send_progress(base + news.number, progress_data(*news.progress));

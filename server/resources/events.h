@@ -15,9 +15,10 @@ namespace snapthrough::server::http {
 inline constexpr std::uint64_t kEndOfJob = 2'000'000'000'000'000'000;
 inline constexpr std::uint64_t kEndOfSweep = 1'000'000'000'000;
 
-/// @brief Sends `status` at once; while the analysis runs `progress` (at most 20 a second) and each
-/// `critical_point` as it is found, those that were found before among them; when the job has ended its
-/// `critical_point` events as the result has them (`final`: true) and `end`, which is the last.
+/// @brief Sends `status` at once; while the analysis runs `progress` and `points` of the path (at most 20 a
+/// second each) and each `critical_point` as it is found, those that were found before among them, and what
+/// is kept of the points before; when the job has ended its `critical_point` events as the result has them
+/// (`final`: true) and `end`, which is the last.
 ///
 /// Event ids grow; what a client has seen (`last_id`, from Last-Event-ID) is not sent again.
 [[nodiscard]] std::shared_ptr<StreamSource> follow_job(JobService& jobs, const std::string& id,

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "server/status.h"
+
 namespace snapthrough::server::http {
 
 using Fields = std::vector<std::pair<std::string, std::string>>;
@@ -40,6 +42,26 @@ struct Deferred {
   std::chrono::milliseconds wait{0};  ///< at most
   std::function<Response()> resume;   ///< makes the response when woken or when the time is over
 };
+
+/// @brief A body that is made while it is sent, so that it is never in memory as a whole.
+/// Used by one thread at a time.
+class BodySource {
+ public:
+  BodySource() = default;
+  BodySource(const BodySource&) = delete;
+  BodySource& operator=(const BodySource&) = delete;
+  BodySource(BodySource&&) = delete;
+  BodySource& operator=(BodySource&&) = delete;
+  virtual ~BodySource() = default;
+  /// Appends the next piece, about kPieceBytes; false when it was the last. Not called before the pieces so
+  /// far were sent. After an error the connection ends, so that the client sees that the body is not whole.
+  virtual StatusOr<bool> append_next(std::string& piece) = 0;
+  /// Memory that is kept between pieces, about.
+  [[nodiscard]] virtual std::size_t held_bytes() const = 0;
+};
+
+/// What a piece of a body has, about.
+inline constexpr std::size_t kPieceBytes = 128 * 1024;
 
 /// Where the pieces of a stream come from.
 class StreamSource {
@@ -71,6 +93,7 @@ struct Response {
   std::string route;    ///< template of the matched route for logs, e.g. "/v1/jobs/{id}"; empty: none
   std::optional<Deferred> deferred;  ///< set: everything else is still to come
   std::optional<Stream> stream;      ///< set: takes the place of the body
+  std::shared_ptr<BodySource> rest;  ///< set: what follows `body`, which is the beginning
 
   /// The first header of that name, or nothing.
   [[nodiscard]] std::optional<std::string_view> header(std::string_view name) const;

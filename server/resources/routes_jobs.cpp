@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/result_table.h"
+#include "server/resources/body_sources.h"
 #include "server/resources/events.h"
 #include "server/resources/negotiation.h"
 #include "server/resources/prefer.h"
@@ -259,14 +260,13 @@ Response Routes::result_of(const Request& request, const Job& job) {
   } else if (table) {
     response = table_of_result(request, job, *table);
   } else {
-    StatusOr<std::optional<std::string>> document = jobs_.store().result(job.id);
-    if (!document.ok()) {
-      return store_trouble(request, document.status());
+    StatusOr<Response> begun = begin_body(result_source(jobs_.store(), job.id));
+    if (!begun.ok()) {
+      return begun.status().code() == StatusCode::conflict ? job_missing(request, job.id)
+                                                           : store_trouble(request, begun.status());
     }
-    if (!document->has_value()) {
-      return job_missing(request, job.id);
-    }
-    response = json_response(200, *std::move(document).value());
+    response = std::move(begun).value();
+    response.content_type = "application/json";
   }
   if (response.status < 400) {
     response.headers.emplace_back("ETag", etag);

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "api/sweep_table.h"
+#include "server/resources/body_sources.h"
 #include "server/resources/events.h"
 #include "server/resources/negotiation.h"
 #include "server/resources/prefer.h"
@@ -101,18 +102,13 @@ Response rows_of(const Request& request, SweepStore& store, const SweepRecord& r
     const std::string points = sweep_path(record.id) + "/points/{point}";
     links = {points + "/request", points + "/job"};
   }
-  api::TableWriter writer(*read.sweep, form, std::move(links));
-  Response response;
-  response.content_type = content_type(form);
-  response.body = writer.head();
-  const Status status =
-      store.each_row(record.id, query.points, [&](std::uint64_t point, const api::PointOutcome& outcome) {
-        writer.append_row(point, outcome, response.body);
-      });
-  if (!status.ok()) {
-    return store_trouble(request, status);
+  StatusOr<Response> begun = begin_body(
+      table_source(store, record, api::TableWriter(*read.sweep, form, std::move(links)), query.points));
+  if (!begun.ok()) {
+    return store_trouble(request, begun.status());
   }
-  response.body += writer.tail();
+  Response response = std::move(begun).value();
+  response.content_type = content_type(form);
   return response;
 }
 

@@ -39,6 +39,12 @@ struct Dismissal {
   JobState before = JobState::accepted;  ///< accepted and running jobs are dismissed now
 };
 
+/// Part of a document.
+struct DocumentPiece {
+  std::string bytes;
+  std::size_t size = 0;  ///< of the whole document
+};
+
 /// @brief The stored jobs.
 ///
 /// Thread safety: every verb may be called from any thread. Durability: a verb that returned ok survives the
@@ -120,6 +126,9 @@ class Store {
   virtual StatusOr<std::optional<std::string>> request(std::string_view id) = 0;
   /// The result document; empty when there is no such job or it is not successful.
   virtual StatusOr<std::optional<std::string>> result(std::string_view id) = 0;
+  /// At most `most` bytes of the result document from there on: nothing when there is no such document or it
+  /// is no longer than that. What is before them is not read into memory.
+  virtual StatusOr<DocumentPiece> result_piece(std::string_view id, std::size_t offset, std::size_t most) = 0;
   /// The path of a successful or failed job; empty lists when there is none.
   virtual StatusOr<StoredPath> path(std::string_view id) = 0;
 

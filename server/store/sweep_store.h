@@ -77,9 +77,9 @@ class SweepStore {
   virtual StatusOr<SweepPage> list(const ListQuery& query) = 0;
   /// The sweep document; empty when there is no such sweep.
   virtual StatusOr<std::optional<std::string>> document(std::string_view id) = 0;
-  /// Calls it with each row that is there, in the order of points.
+  /// Calls it with each row that is there, in the order of points, for as long as it returns true.
   virtual Status each_row(std::string_view id, const PointQuery& query,
-                          const std::function<void(std::uint64_t, const api::PointOutcome&)>& use) = 0;
+                          const std::function<bool(std::uint64_t, const api::PointOutcome&)>& use) = 0;
   /// Outputs of points with these keys that were solved before; empty where there is none.
   virtual StatusOr<std::vector<std::optional<std::string>>> find_outputs(
       const std::vector<std::string>& keys) = 0;

@@ -35,10 +35,29 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kLook{20};
 /// Bytes of a frame beside what an analysis may hold.
 constexpr std::uint64_t kMostBeside = 1 << 20;
+/// Bytes of what a running analysis tells at once.
+constexpr std::size_t kMostNews = 4 << 20;
 /// Sweeps that a process is told of before it forgets them all.
 constexpr std::size_t kMostSweeps = 16;
 
 }  // namespace
+
+/// Calls the hooks for what a running analysis tells. @throws std::runtime_error for more than it may tell at
+/// once
+void ChildRunner::pass_on(const Frame& news, const Hooks& hooks) {
+  if (news.body.size() > kMostNews) {
+    throw std::runtime_error("news of more bytes than there can be");
+  }
+  RecordReader reader(news.body);
+  const auto progress = reader.get<std::optional<Progress>>();
+  for (const CriticalPoint& point : reader.get<std::vector<CriticalPoint>>()) {
+    if (hooks.on_critical) hooks.on_critical(point);
+  }
+  for (const TracedPoint& point : reader.get<std::vector<TracedPoint>>()) {
+    if (hooks.on_point) hooks.on_point(point);
+  }
+  if (progress && hooks.on_progress) hooks.on_progress(*progress);
+}
 
 /// What to do while the process works on a task.
 struct ChildRunner::Watch {
@@ -261,11 +280,7 @@ JobRun ChildRunner::run_job(std::string_view request, const Hooks& hooks) {
                     }
                     return true;
                   }
-                  const auto progress = reader.get<std::optional<Progress>>();
-                  for (const CriticalPoint& point : reader.get<std::vector<CriticalPoint>>()) {
-                    if (hooks.on_critical) hooks.on_critical(point);
-                  }
-                  if (progress && hooks.on_progress) hooks.on_progress(*progress);
+                  pass_on(frame, hooks);
                   return false;
                 }};
     const End end = run_task(FrameType::job, body, watch);

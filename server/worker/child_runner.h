@@ -60,6 +60,7 @@ class ChildRunner final : public Runner {
   [[nodiscard]] std::uint64_t send_sweep(const PointTask& task);
   [[nodiscard]] End attend(Watch& watch);
   [[nodiscard]] std::optional<bool> take_frame(Watch& watch);
+  static void pass_on(const Frame& news, const Hooks& hooks);
   [[nodiscard]] End end_of_process(bool killed);
   /// What is left of a list of points, until the process has answered or ended.
   [[nodiscard]] End attempt_points(const PointTask& task, std::size_t& told, bool at_once, bool curve);

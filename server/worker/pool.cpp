@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "server/jobs/path_batch.h"
 #include "server/worker/chunk.h"
 
 namespace snapthrough::server {
@@ -18,6 +20,18 @@ constexpr duration<double> kLongestNap{1.0};
 /// How long a worker waits before it tries again to store an outcome.
 constexpr duration<double> kRetryPause{0.2};
 
+/// Adds points of the path, and forgets the oldest of those that are too many.
+void note_traced(JobNews& news, std::string document) {
+  news.traced.push_back({news.number, std::move(document)});
+  std::size_t bytes = 0;
+  for (const TracedPoints& points : news.traced) {
+    bytes += points.document.size();
+  }
+  for (; bytes > kTracedBytes && news.traced.size() > 1; news.traced.pop_front()) {
+    bytes -= news.traced.front().document.size();
+  }
+}
+
 /// Hooks that let the followers of a job know what its analysis does.
 Hooks told_hooks(const Claim& claim, JobProgress& topic, const std::stop_token& stop) {
   const auto tell = [&claim, &topic](auto change) {
@@ -27,10 +41,19 @@ Hooks told_hooks(const Claim& claim, JobProgress& topic, const std::stop_token& 
       change(news);
     });
   };
-  return {stop, [tell](const Progress& progress) { tell([&](JobNews& news) { news.progress = progress; }); },
+  const auto batch = std::make_shared<PathBatch>();
+  return {stop,
+          [tell, batch](const Progress& progress) {
+            if (!batch->empty()) {
+              tell([&](JobNews& news) { note_traced(news, path_points_document(batch->points())); });
+              batch->clear();
+            }
+            tell([&](JobNews& news) { news.progress = progress; });
+          },
           [tell](const CriticalPoint& point) {
             tell([&](JobNews& news) { news.found.push_back({news.number, point}); });
-          }};
+          },
+          [batch](const TracedPoint& point) { batch->add(point); }};
 }
 
 /// A job begins or goes back to the queue.

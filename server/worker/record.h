@@ -49,6 +49,15 @@ template <>
 inline constexpr auto kFields<Progress> =
     std::tuple{&Progress::branch, &Progress::step, &Progress::load_factor, &Progress::negative_eigenvalues};
 template <>
+inline constexpr auto kFields<NamedValue> = std::tuple{&NamedValue::id, &NamedValue::value};
+template <>
+inline constexpr auto kFields<TracedPoint> = std::tuple{&TracedPoint::branch,
+                                                        &TracedPoint::step,
+                                                        &TracedPoint::load_factor,
+                                                        &TracedPoint::arc_length,
+                                                        &TracedPoint::negative_eigenvalues,
+                                                        &TracedPoint::monitors};
+template <>
 inline constexpr auto kFields<JobResult> =
     std::tuple{&JobResult::document, &JobResult::wall_time_s, &JobResult::summary, &JobResult::branches,
                &JobResult::critical_points};

@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "server/jobs/path_batch.h"
 #include "server/worker/confinement.h"
 #include "server/worker/frame.h"
 #include "server/worker/local_runner.h"
@@ -139,7 +140,8 @@ class News {
             [this](const CriticalPoint& point) {
               found_.push_back(point);
               tell_if_due();
-            }};
+            },
+            [this](const TracedPoint& point) { traced_.add(point); }};
   }
   /// What was not told yet.
   void tell() {
@@ -150,11 +152,13 @@ class News {
     RecordWriter writer(body);
     writer.put(progress_);
     writer.put(found_);
+    writer.put(traced_.points());
     if (!write_frame(kTaskSocket, FrameType::news, body)) {
       ::_exit(EXIT_SUCCESS);
     }
     progress_.reset();
     found_.clear();
+    traced_.clear();
     told_ = std::chrono::steady_clock::now();
   }
 
@@ -168,6 +172,7 @@ class News {
 
   std::optional<Progress> progress_;
   std::vector<CriticalPoint> found_;
+  PathBatch traced_;  ///< progress follows each of its points
   std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
 };
 

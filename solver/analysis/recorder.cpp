@@ -178,8 +178,10 @@ TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> pare
   TraceSink sink;
   if (analysis_.type == AnalysisType::path) start_branch(parent);
   const auto progress = hooks.on_progress;
-  sink.on_point = [this, progress, step = 0](const PathPoint& point) mutable {
+  const auto traced = hooks.on_point;
+  sink.on_point = [this, progress, traced, step = 0](const PathPoint& point) mutable {
     add_point(point);
+    if (traced) traced({branch_, step, user_load(point), point.arc_length, point.negative, monitors(point)});
     if (progress) progress({branch_, step, user_load(point), point.negative});
     ++step;
   };

@@ -54,10 +54,10 @@ class FuzzedSweeps final : public SweepStore {
     return std::optional<std::string>(document_);
   }
   Status each_row(std::string_view, const PointQuery& query,
-                  const std::function<void(std::uint64_t, const api::PointOutcome&)>& use) override {
+                  const std::function<bool(std::uint64_t, const api::PointOutcome&)>& use) override {
     for (std::uint64_t point = query.first; point < 3 && point - query.first < query.count; ++point) {
-      if (!query.failed || *query.failed == rows_[point].failed()) {
-        use(point, rows_[point]);
+      if ((!query.failed || *query.failed == rows_[point].failed()) && !use(point, rows_[point])) {
+        break;
       }
     }
     return {};
@@ -133,6 +133,10 @@ class FuzzedStore final : public Store {
   }
   StatusOr<std::optional<std::string>> result(std::string_view) override {
     return std::optional<std::string>(result_.document);
+  }
+  StatusOr<DocumentPiece> result_piece(std::string_view, std::size_t offset, std::size_t most) override {
+    return DocumentPiece{result_.document.substr(std::min(offset, result_.document.size()), most),
+                         result_.document.size()};
   }
   SweepStore& sweeps() override { return sweeps_; }
   StatusOr<StoredPath> path(std::string_view) override {

@@ -21,7 +21,7 @@ void use_sweep(const snapthrough::api::Sweep& sweep) {
     for (const std::uint64_t point : {std::uint64_t{0}, sweep.size() - 1}) {
       writer.append_row(point, {"", "code", "a \"detail\""}, text);
     }
-    text += writer.tail();
+    writer.append_tail(text);
   }
   for (const std::uint64_t point : {std::uint64_t{0}, sweep.size() - 1}) {
     const ReadOutcome read = read_request_document(sweep.document_at(point));

@@ -114,7 +114,7 @@ test('the life of a job', async () => {
   const made = await submit(request, {Prefer: 'respond-async', 'Cache-Control': 'no-cache'});
   assert.equal(made.status, 201);
   const job = made.headers.get('Location');
-  const kinds = {status: 'Job', progress: 'JobProgressEvent', critical_point: 'CriticalPointEvent', end: 'Job'};
+  const kinds = {status: 'Job', progress: 'JobProgressEvent', points: 'PathPointsEvent', critical_point: 'CriticalPointEvent', end: 'Job'};
   await events('/v1/jobs/{id}/events', `${job}/events`, kinds);
   await call('GET', '/v1/jobs/{id}', job, {headers: {Prefer: 'wait=30'}});
   for (const query of ['', '?format=csv', '?format=json', '?format=xml', '?format=csv&table=states', '?format=csv&table=points']) {

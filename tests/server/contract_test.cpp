@@ -405,6 +405,87 @@ TEST_F(ContractOverHttp, CriticalPointsAreToldAsTheyAreFound) {
   }
 }
 
+/// The data of the events of that kind.
+std::vector<json> events_of(const std::string& text, const std::string& kind) {
+  std::vector<json> found;
+  const std::string mark = "event: " + kind + "\ndata: ";
+  for (std::size_t at = text.find(mark); at != text.npos; at = text.find(mark, at + 1)) {
+    const std::size_t begin = at + mark.size();
+    found.push_back(json::parse(text.substr(begin, text.find("\n\n", begin) - begin)));
+  }
+  return found;
+}
+
+/// Ids of all events in their order.
+std::vector<std::uint64_t> ids_of(const std::string& text) {
+  std::vector<std::uint64_t> ids;
+  for (std::size_t at = text.find("id: "); at != text.npos; at = text.find("\nid: ", at + 1)) {
+    ids.push_back(std::stoull(text.substr(text.find_first_of("0123456789", at))));
+  }
+  return ids;
+}
+
+TEST_F(ContractOverHttp, PointsOfThePathAreToldAsItGrowsAndToThoseWhoComeLate) {
+  const auto solver = std::make_shared<GatedSolver>();
+  start(gated(solver));
+  const std::string job = submit();
+  solver->wait_started(1);
+  Socket late(port());
+  follow(late, job);
+  const std::string early = late.read_until("event: progress");
+  const std::vector<json> points = events_of(early, "points");
+  ASSERT_EQ(points.size(), 1U) << early;
+  EXPECT_EQ(points[0], json::parse(R"({"branch": [0, 0], "step": [6, 7], "load_factor": [3.25, 3.5],
+    "arc_length": [0.5, 0.75], "negative_eigenvalues": [0, 1],
+    "monitors": [{"id": "tip", "values": [-0.25, -0.5]}]})"));
+  const std::string before = early.substr(0, early.find("\nevent: points"));
+  Socket again(port());
+  follow(again, job, before.substr(before.rfind("id: ") + 4));
+  EXPECT_TRUE(events_of(again.read_until("event: progress"), "points").empty()) << "seen already";
+  solver->open();
+  const std::string all = early + late.rest();
+  const std::vector<std::uint64_t> ids = ids_of(all);
+  EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end()));
+  EXPECT_GT(all.rfind("event: end"), all.rfind("event: critical_point")) << "end is the last";
+}
+
+/// With the process that computes it.
+TEST_F(ContractOverHttp, AFollowerSeesThePathOfARunnerGrow) {
+  ServiceConfig with_runners = config();
+  with_runners.runner_executable = SNAPTHROUGH_EXECUTABLE;
+  service_ = std::make_unique<Service>(with_runners, Environment::system(), RunnerFactory(), log_);
+  ASSERT_TRUE(service_->start().ok());
+  json request = json::parse(column_request());
+  request["analysis"]["stop"] = {{"steps", 100'000}};
+  request["analysis"]["step"] = {{"initial", 1e-4}, {"max", 1e-4}};
+  const Reply reply =
+      post(port(), "/v1/jobs", request.dump(), {"Content-Type: application/json", "Prefer: respond-async"});
+  ASSERT_EQ(reply.status, 201) << reply.body;
+  const std::string job = reply.header("Location");
+  Socket stream(port());
+  follow(stream, job);
+  std::string text;
+  while (events_of(text, "points").size() < 5) {
+    const std::string more = stream.read_until("\n\n");
+    ASSERT_FALSE(more.empty());
+    text += more;
+  }
+  int step = -1;
+  double arc_length = -1.0;
+  for (const json& points : events_of(text, "points")) {
+    for (std::size_t i = 0; i < points["step"].size(); ++i) {
+      EXPECT_GT(points["step"][i], step);
+      EXPECT_GT(points["arc_length"][i], arc_length);
+      step = points["step"][i];
+      arc_length = points["arc_length"][i];
+    }
+    EXPECT_EQ(points["monitors"][0]["id"], "tip");
+    EXPECT_EQ(points["monitors"][0]["values"].size(), points["step"].size());
+  }
+  EXPECT_EQ(post(port(), job + "/dismiss", "").status, 200);
+  EXPECT_THAT(stream.rest(), testing::HasSubstr("event: end\n"));
+}
+
 TEST_F(ContractOverHttp, AStrangersJobIsNotThere) {
   ServiceConfig keyed = config();
   // SHA-256 of "alice" and "bob", from sha256sum.

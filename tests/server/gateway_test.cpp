@@ -53,6 +53,9 @@ class FailingStore final : public Store {
     throw std::runtime_error("secret");
   }
   StatusOr<std::optional<std::string>> result(std::string_view) override { return status(); }
+  StatusOr<DocumentPiece> result_piece(std::string_view, std::size_t, std::size_t) override {
+    return status();
+  }
   SweepStore& sweeps() override { return sweeps_; }
   StatusOr<StoredPath> path(std::string_view) override { return status(); }
 

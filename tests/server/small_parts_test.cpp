@@ -10,6 +10,7 @@
 
 #include "server/config.h"
 #include "server/environment.h"
+#include "server/jobs/path_batch.h"
 #include "server/log/log.h"
 #include "server/resources/prefer.h"
 #include "tests/server/support/samples.h"
@@ -176,6 +177,24 @@ TEST(Log, LevelsHoldBack) {
   EXPECT_NE(out.str().find("loud"), std::string::npos);
   EXPECT_EQ(log_level_from("error"), LogLevel::error);
   EXPECT_EQ(log_level_from("verbose"), std::nullopt);
+}
+
+TEST(PathBatch, LeavesOutWhatItHasNoRoomFor) {
+  TracedPoint point;
+  for (int i = 0; i < 1000; ++i) {
+    point.monitors.push_back({"monitor " + std::to_string(i), 0.5});
+  }
+  PathBatch batch;
+  for (point.step = 0; point.step < 1000; ++point.step) {
+    batch.add(point);
+  }
+  EXPECT_EQ(batch.points().size(), 20U);
+  const nlohmann::json document = nlohmann::json::parse(path_points_document(batch.points()));
+  EXPECT_EQ(document["step"].back(), 19) << "the first ones are there";
+  EXPECT_EQ(document["monitors"].size(), 100U);
+  batch.clear();
+  batch.add(point);
+  EXPECT_EQ(batch.points().size(), 1U) << "there is room again";
 }
 
 }  // namespace

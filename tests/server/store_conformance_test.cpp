@@ -112,6 +112,11 @@ TEST_P(StoreConformance, AFinishedJobHasItsResultPathAndCriticalPoints) {
   EXPECT_EQ(job(1).finished, at_second(200));
   const JobResult expected = sample_result();
   EXPECT_EQ(*store_->result(id_number(1)), expected.document);
+  const DocumentPiece piece = *store_->result_piece(id_number(1), 2, 9);
+  EXPECT_EQ(piece.bytes, expected.document.substr(2, 9));
+  EXPECT_EQ(piece.size, expected.document.size());
+  EXPECT_EQ(store_->result_piece(id_number(1), 1'000'000, 9)->bytes, "");
+  EXPECT_EQ(store_->result_piece("nothing", 0, 9)->size, 0U);
   const StoredPath path = *store_->path(id_number(1));
   ASSERT_EQ(path.branches.size(), 2U);
   const Branch& branch = path.branches[0];

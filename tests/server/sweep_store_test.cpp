@@ -45,6 +45,7 @@ class SweepStoreConformance : public StoreTest {
                     .each_row(id, query,
                               [&](std::uint64_t point, const api::PointOutcome& outcome) {
                                 all.push_back(std::to_string(point) + " " + outcome.outputs + outcome.code);
+                                return true;
                               })
                     .ok());
     return all;
@@ -63,6 +64,15 @@ TEST_P(SweepStoreConformance, ASweepIsThereAsItWasHandedIn) {
   EXPECT_EQ(**sweeps().document(id), "{\"sweep\": 1}");
   EXPECT_THAT(*sweeps().unfinished(), ElementsAre(id));
   EXPECT_FALSE(sweeps().get(id_number(9))->has_value());
+}
+
+TEST_P(SweepStoreConformance, RowsAreReadForAsLongAsTheyAreWanted) {
+  const std::string id = submit(1, 4);
+  ASSERT_TRUE(sweeps().put(claim(id, {0, 1, 2, 3}), {good(0), good(1), good(2), good(3)}, at_second(3)).ok());
+  int read = 0;
+  ASSERT_TRUE(
+      sweeps().each_row(id, {}, [&](std::uint64_t, const api::PointOutcome&) { return ++read < 2; }).ok());
+  EXPECT_EQ(read, 2);
 }
 
 TEST_P(SweepStoreConformance, RowsComeInAnyOrderAndTheLastEndsIt) {

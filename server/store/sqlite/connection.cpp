@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -177,6 +178,23 @@ void Connection::execute(const std::string& sql) {
 std::int64_t Connection::changes() const { return sqlite3_changes64(handle_.get()); }
 
 std::int64_t Connection::last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }
+
+std::string Connection::part(const char* table, const char* column, std::int64_t row, std::size_t offset,
+                             std::size_t most, std::size_t& size) const {
+  sqlite3_blob* opened = nullptr;
+  int code = sqlite3_blob_open(handle_.get(), "main", table, column, row, 0, &opened);
+  const std::unique_ptr<sqlite3_blob, decltype(&sqlite3_blob_close)> blob(opened, &sqlite3_blob_close);
+  if (code != SQLITE_OK) {
+    raise(handle_.get(), code);
+  }
+  size = static_cast<std::size_t>(sqlite3_blob_bytes(opened));
+  std::string bytes(std::min(most, size - std::min(offset, size)), '\0');
+  code = sqlite3_blob_read(opened, bytes.data(), static_cast<int>(bytes.size()), static_cast<int>(offset));
+  if (code != SQLITE_OK) {
+    raise(handle_.get(), code);
+  }
+  return bytes;
+}
 
 bool Connection::in_transaction() const { return sqlite3_get_autocommit(handle_.get()) == 0; }
 

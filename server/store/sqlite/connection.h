@@ -105,6 +105,10 @@ class Connection {
   /// Rows changed by the latest insert, update or delete.
   [[nodiscard]] std::int64_t changes() const;
   [[nodiscard]] std::int64_t last_row() const;
+  /// @brief Bytes of a text in the row with this rowid, from `offset` on, at most `most`, without reading the
+  /// others. @param[out] size of the whole text
+  [[nodiscard]] std::string part(const char* table, const char* column, std::int64_t row, std::size_t offset,
+                                 std::size_t most, std::size_t& size) const;
   /// Whether a transaction is open; an error may have ended it.
   [[nodiscard]] bool in_transaction() const;
   /// Writes a consistent copy of the whole database to a new file; others may write meanwhile.

@@ -42,6 +42,7 @@ class SqliteStore final : public Store {
   StatusOr<JobPage> list(const ListQuery& query) override;
   StatusOr<std::optional<std::string>> request(std::string_view id) override;
   StatusOr<std::optional<std::string>> result(std::string_view id) override;
+  StatusOr<DocumentPiece> result_piece(std::string_view id, std::size_t offset, std::size_t most) override;
   StatusOr<StoredPath> path(std::string_view id) override;
   SweepStore& sweeps() override { return sweeps_; }
 
@@ -505,6 +506,19 @@ StatusOr<std::optional<std::string>> SqliteStore::request(std::string_view id) {
 
 StatusOr<std::optional<std::string>> SqliteStore::result(std::string_view id) {
   return document("results", id);
+}
+
+StatusOr<DocumentPiece> SqliteStore::result_piece(std::string_view id, std::size_t offset, std::size_t most) {
+  return database_.read<DocumentPiece>([&](const Connection& connection) -> DocumentPiece {
+    Statement row = connection.prepare("SELECT job FROM results JOIN jobs ON seq = job WHERE id = ?");
+    row.bind(id);
+    DocumentPiece piece;
+    if (row.step()) {
+      const std::int64_t job = row.integer(0);
+      piece.bytes = connection.part("results", "document", job, offset, most, piece.size);
+    }
+    return piece;
+  });
 }
 
 StatusOr<StoredPath> SqliteStore::path(std::string_view id) {

@@ -108,7 +108,7 @@ StatusOr<std::optional<std::string>> SqliteSweepStore::document(std::string_view
 }
 
 Status SqliteSweepStore::each_row(std::string_view id, const PointQuery& query,
-                                  const std::function<void(std::uint64_t, const api::PointOutcome&)>& use) {
+                                  const std::function<bool(std::uint64_t, const api::PointOutcome&)>& use) {
   const auto largest = static_cast<std::uint64_t>(INT64_MAX);
   const std::uint64_t first = std::min(query.first, largest);
   const std::uint64_t end = first + std::min(query.count, largest - first);
@@ -121,8 +121,8 @@ Status SqliteSweepStore::each_row(std::string_view id, const PointQuery& query,
     }
     Statement rows = connection.prepare(sql + " ORDER BY point");
     rows.bind(id).bind(static_cast<std::int64_t>(first)).bind(static_cast<std::int64_t>(end));
-    while (rows.step()) {
-      use(static_cast<std::uint64_t>(rows.integer(0)), {rows.text(1), rows.text(2), rows.text(3)});
+    while (rows.step() &&
+           use(static_cast<std::uint64_t>(rows.integer(0)), {rows.text(1), rows.text(2), rows.text(3)})) {
     }
     return true;
   });

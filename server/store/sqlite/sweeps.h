@@ -30,7 +30,7 @@ class SqliteSweepStore final : public SweepStore {
   StatusOr<SweepPage> list(const ListQuery& query) override;
   StatusOr<std::optional<std::string>> document(std::string_view id) override;
   Status each_row(std::string_view id, const PointQuery& query,
-                  const std::function<void(std::uint64_t, const api::PointOutcome&)>& use) override;
+                  const std::function<bool(std::uint64_t, const api::PointOutcome&)>& use) override;
   StatusOr<std::vector<std::optional<std::string>>> find_outputs(
       const std::vector<std::string>& keys) override;
 

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <sstream>
 #include <system_error>
+#include <thread>
 
 namespace snapthrough::server::test {
 
@@ -78,6 +79,10 @@ Reply Socket::receive(bool without_body) {
     const std::size_t colon = line.find(':');
     reply.headers.emplace_back(line.substr(0, colon), line.substr(line.find_first_not_of(' ', colon + 1)));
   }
+  if (reply.header("Transfer-Encoding") == "chunked" && !without_body) {
+    receive_chunks(reply);
+    return reply;
+  }
   const std::string length = reply.header("Content-Length");
   const std::size_t size = length.empty() || without_body ? 0 : std::stoul(length);
   while (buffer_.size() < size && fill()) {
@@ -85,6 +90,25 @@ Reply Socket::receive(bool without_body) {
   reply.body = buffer_.substr(0, size);
   buffer_.erase(0, size);
   return reply;
+}
+
+void Socket::receive_chunks(Reply& reply) {
+  reply.whole = false;
+  std::string line;
+  while (!(line = read_until("\r\n")).empty()) {
+    const std::size_t size = std::stoul(line, nullptr, 16);
+    while (buffer_.size() < size + 2 && fill()) {
+    }
+    if (buffer_.size() < size + 2) {
+      return;
+    }
+    reply.body.append(buffer_, 0, size);
+    buffer_.erase(0, size + 2);
+    if (size == 0) {
+      reply.whole = true;
+      return;
+    }
+  }
 }
 
 std::string Socket::read_until(const std::string& mark) {
@@ -103,6 +127,19 @@ std::string Socket::rest() {
   while (fill()) {
   }
   return std::move(buffer_);
+}
+
+std::string Socket::read_slowly(std::size_t piece, std::chrono::milliseconds pause) {
+  const int room = static_cast<int>(piece);
+  ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
+  std::string text = std::move(buffer_);
+  std::string chunk(piece, '\0');
+  ssize_t count = 0;
+  while ((count = ::recv(descriptor_, chunk.data(), chunk.size(), 0)) > 0) {
+    text.append(chunk, 0, static_cast<std::size_t>(count));
+    std::this_thread::sleep_for(pause);
+  }
+  return text;
 }
 
 bool Socket::at_end() { return buffer_.empty() && !fill(); }

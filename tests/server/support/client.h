@@ -2,6 +2,7 @@
 /// @file
 /// A plain HTTP client on sockets: it sends the bytes it is told to, right or wrong.
 
+#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@ struct Reply {
   int status = 0;
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
+  bool whole = true;  ///< a chunked body had its end
 
   /// The header's value, empty when it is missing.
   [[nodiscard]] std::string header(const std::string& name) const;
@@ -34,11 +36,14 @@ class Socket {
   std::string read_until(const std::string& mark);
   /// Everything until the other side closes.
   std::string rest();
+  /// The same, in pieces with a pause after each; the kernel keeps little meanwhile.
+  std::string read_slowly(std::size_t piece, std::chrono::milliseconds pause);
   /// Whether the other side has closed and nothing is left to read.
   [[nodiscard]] bool at_end();
 
  private:
   bool fill();
+  void receive_chunks(Reply& reply);
   int descriptor_;
   std::string buffer_;
 };

@@ -36,7 +36,7 @@ class FailingSweepStore final : public SweepStore {
   StatusOr<SweepPage> list(const ListQuery&) override { return status(); }
   StatusOr<std::optional<std::string>> document(std::string_view) override { return status(); }
   Status each_row(std::string_view, const PointQuery&,
-                  const std::function<void(std::uint64_t, const api::PointOutcome&)>&) override {
+                  const std::function<bool(std::uint64_t, const api::PointOutcome&)>&) override {
     return status();
   }
   StatusOr<std::vector<std::optional<std::string>>> find_outputs(const std::vector<std::string>&) override {

@@ -26,6 +26,8 @@ class GatedSolver {
     ++started_;
     changed_.notify_all();
     if (hooks.on_progress) {
+      hooks.on_point({0, 6, 3.25, 0.5, 0, {{"tip", -0.25}}});
+      hooks.on_point({0, 7, 3.5, 0.75, 1, {{"tip", -0.5}}});
       hooks.on_progress({0, 7, 3.5, 1});
     }
     Result result;
