@@ -8,6 +8,7 @@
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/skipped.h"
 #include "solver/assembly/mechanism.h"
+#include "solver/cancelled.h"
 
 namespace snapthrough {
 namespace {
@@ -43,33 +44,25 @@ std::vector<double> asked_load_factors(const Analysis& analysis) {
   return analysis.output.at_load_factors;
 }
 
-}  // namespace
-
-Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
-  if (const auto findings = check(model, analysis); !findings.empty())
-    throw std::invalid_argument(findings.front().pointer + ": " + findings.front().detail);
-  return solve_checked(model, analysis, hooks);
-}
-
-Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& hooks) {
-  Result result;
-  result.diagnostics = {0, 0, 0, 0, 0.0, {}, {}};
+/// @throws Cancelled when nothing of it is worth keeping
+void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, Result& result) {
   ModeOffsets modes;
   try {
-    modes = mode_offsets(model, analysis);
+    modes = mode_offsets(model, analysis, hooks.stop);
   } catch (const std::runtime_error& error) {
     fail(result, "no_buckling_mode", error.what());
     result.not_reached = asked_load_factors(analysis);
-    return result;
+    return;
   }
-  if (analysis.type == AnalysisType::buckling && run_exact_column(model, analysis, result)) {
+  if (analysis.type == AnalysisType::buckling && run_exact_column(model, analysis, hooks, result)) {
     const std::vector<std::string> absent = without_stiffness(model);
     result.diagnostics.skipped.insert(result.diagnostics.skipped.begin(), absent.begin(), absent.end());
-    return result;
+    return;
   }
   Structure structure =
       make_structure(model, analysis.discretization, analysis.geometry, modes, mesh_use(analysis));
   structure.free_motions = free_motions(model);
+  structure.stop = hooks.stop;
   switch (analysis.type) {
     case AnalysisType::critical:
     case AnalysisType::path:
@@ -87,6 +80,25 @@ Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& 
   for (std::string& what : skipped_work(model, analysis))
     result.diagnostics.skipped.push_back(std::move(what));
   report_unchecked_mesh(analysis, structure, result);
+}
+
+}  // namespace
+
+Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
+  if (const auto findings = check(model, analysis); !findings.empty())
+    throw std::invalid_argument(findings.front().pointer + ": " + findings.front().detail);
+  return solve_checked(model, analysis, hooks);
+}
+
+Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& hooks) {
+  Result result;
+  result.diagnostics = {0, 0, 0, 0, 0.0, {}, {}};
+  if (!unless_cancelled([&] { analyse(model, analysis, hooks, result); })) {
+    fail(result, "cancelled",
+         result.branches.empty() ? "cancelled before anything was found"
+                                 : "cancelled before the critical loads were checked on finer meshes");
+    result.not_reached = asked_load_factors(analysis);
+  }
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "solver/accuracy/differences.h"
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/touching.h"
+#include "solver/cancelled.h"
 #include "solver/post/state.h"
 
 namespace snapthrough {
@@ -155,7 +156,8 @@ bool CriticalLoads::confirm(const std::stop_token& stop, std::string& text) {
   double largest = 0.0;
   for (const Target& target : targets_) {
     if (stop.stop_requested()) return false;
-    const Answer answer = answer_for(target);
+    Answer answer;
+    if (!unless_cancelled([&] { answer = answer_for(target); })) return false;
     report(target, answer);
     all = all && result_.critical_points[target.index].confirmed;
     finest = std::max(finest, answer.level);

@@ -3,6 +3,7 @@
 /// The kinds of analysis, each from a checked request to its result. Called by solve().
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
 
 /// @brief `buckling` of a straight column by its differential equation.
 /// @return false, with nothing in `result`, when the model is no such column or asks for a mesh
-[[nodiscard]] bool run_exact_column(const Model& model, const Analysis& analysis, Result& result);
+[[nodiscard]] bool run_exact_column(const Model& model, const Analysis& analysis, const Hooks& hooks,
+                                    Result& result);
 
 /// Buckling loads as results report them.
 struct FoundLoads {
@@ -41,7 +43,8 @@ void report_buckling(const Analysis& analysis, FoundLoads found, Result& result)
 /// @brief Offsets of the model's mode imperfections, from the linearised buckling of the same model without
 /// imperfections; empty when it has none.
 /// @throws std::runtime_error when the structure has fewer modes than an imperfection names
-[[nodiscard]] ModeOffsets mode_offsets(const Model& model, const Analysis& analysis);
+[[nodiscard]] ModeOffsets mode_offsets(const Model& model, const Analysis& analysis,
+                                       const std::stop_token& stop = {});
 
 /// @brief The mode of a critical point as results report it, at the analysis' points of each member.
 /// @param problem of `structure`; factorised anew

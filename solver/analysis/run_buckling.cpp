@@ -126,7 +126,7 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   report_errors(analysis, loads, result);
 }
 
-ModeOffsets mode_offsets(const Model& model, const Analysis& analysis) {
+ModeOffsets mode_offsets(const Model& model, const Analysis& analysis, const std::stop_token& stop) {
   int highest = 0;
   for (const Imperfection& imperfection : model.imperfections)
     if (const auto* mode = std::get_if<ModeImperfection>(&imperfection))
@@ -136,6 +136,7 @@ ModeOffsets mode_offsets(const Model& model, const Analysis& analysis) {
   perfect.imperfections.clear();
   Structure structure = make_structure(perfect, analysis.discretization, Geometry::nonlinear);
   structure.free_motions = free_motions(perfect);
+  structure.stop = stop;
   StructuralProblem problem(structure);
   const LinearBuckling buckling = linear_buckling(structure, problem, highest, structure.scales.load);
   if (static_cast<int>(buckling.loads.size()) < highest)

@@ -65,10 +65,11 @@ void report_loads(const Analysis& analysis, const ColumnLine& line, const Column
 
 }  // namespace
 
-bool run_exact_column(const Model& model, const Analysis& analysis, Result& result) {
+bool run_exact_column(const Model& model, const Analysis& analysis, const Hooks& hooks, Result& result) {
   if (analysis.discretization.fixed_mesh) return false;
-  const std::optional<ColumnLine> line = column_line(model);
+  std::optional<ColumnLine> line = column_line(model);
   if (!line) return false;
+  line->stop = hooks.stop;
   const auto buckling = column_buckling(*line, analysis.modes);
   if (!buckling) return false;
   const std::vector<ColumnMode> modes = column_modes(*line, buckling->loads);

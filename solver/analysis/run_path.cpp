@@ -12,6 +12,7 @@
 #include "solver/analysis/recorder.h"
 #include "solver/analysis/skipped.h"
 #include "solver/analysis/touching.h"
+#include "solver/cancelled.h"
 #include "solver/path/trace.h"
 #include "solver/stability/branch.h"
 
@@ -295,13 +296,13 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   if (analysis.type == AnalysisType::path && analysis.branches.follow != Follow::primary) {
     BranchFollower follower(model, analysis, structure, continuation, recorder, loads, hooks);
     follower.add(outcome, 0);
-    branches = follower.run();
+    static_cast<void>(unless_cancelled([&] { branches = follower.run(); }));
   }
   add_statistics(continuation.statistics(), result);
   bool confirmed = true;
   std::string meshes;
   if (!analysis.discretization.fixed_mesh && !ends_on_critical(outcome) && !text_of(outcome.end).failure) {
-    confirmed = loads.confirm_end(outcome.last);
+    confirmed = unless_cancelled([&] { confirmed = loads.confirm_end(outcome.last); }) && confirmed;
     if (confirmed && result.critical_points.empty())
       meshes = "; no critical point was met, and a finer mesh agrees at the path's end";
   }

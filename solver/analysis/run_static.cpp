@@ -10,6 +10,7 @@
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/observer.h"
 #include "solver/analysis/touching.h"
+#include "solver/cancelled.h"
 #include "solver/newton/contact_state.h"
 #include "solver/path/trace.h"
 #include "solver/post/neutral_motion.h"
@@ -187,13 +188,9 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   return false;
 }
 
-}  // namespace
-
-void run_static(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
-                Result& result) {
-  StaticRows states(model, analysis, structure);
-  result.summary.termination = "load_factors";
-  result.summary.message = "equilibrium at " + std::to_string(analysis.load_factors.size()) + " load factors";
+/// States at all load factors, as far as they are reached.
+void compute(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
+             StaticRows& states, Result& result) {
   if (analysis.geometry == Geometry::linear) {
     StructuralProblem problem(structure);
     NeutralMotionLog neutral(structure, model, result.neutral_motion);
@@ -215,6 +212,17 @@ void run_static(const Model& model, const Analysis& analysis, const Structure& s
     if (growing) static_cast<void>(follow(model, analysis, structure, 1.0, hooks, states, result));
     if (falling) static_cast<void>(follow(model, analysis, structure, -1.0, hooks, states, result));
   }
+}
+
+}  // namespace
+
+void run_static(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
+                Result& result) {
+  StaticRows states(model, analysis, structure);
+  result.summary.termination = "load_factors";
+  result.summary.message = "equilibrium at " + std::to_string(analysis.load_factors.size()) + " load factors";
+  if (!unless_cancelled([&] { compute(model, analysis, structure, hooks, states, result); }))
+    fail(result, "cancelled", "cancelled before all load factors were reached");
   for (std::size_t i = 0; i < analysis.load_factors.size() && !result.failure; ++i)
     if (!states.has(i))
       fail(result, "no_convergence", "load factor " + number(analysis.load_factors[i]) + " was not reached");

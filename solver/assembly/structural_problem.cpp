@@ -6,6 +6,8 @@
 #include <limits>
 #include <span>
 
+#include "solver/cancelled.h"
+
 namespace snapthrough {
 
 using Eigen::Index;
@@ -15,6 +17,7 @@ using Eigen::VectorXd;
 
 StructuralProblem::StructuralProblem(const Structure& structure)
     : structure_(structure),
+      stop_(structure.stop),
       members_(structure.mesh.first.size() - 1),
       follower_ends_(structure.follower_ends) {
   condensed_.resize(structure.dofs.size());
@@ -164,6 +167,7 @@ void StructuralProblem::start_residual(double lambda, VectorXd& f) const {
 }
 
 void StructuralProblem::residual(const VectorXd& y, double lambda, VectorXd& f) {
+  end_if_asked(stop_);
   start_residual(lambda, f);
   structure_.elements->add_residual(y, f);
   add_joint_springs(y, f);
@@ -246,6 +250,7 @@ void StructuralProblem::assemble_joints() {
 }
 
 TangentReport StructuralProblem::linearise(const VectorXd& y, double lambda, VectorXd& f) {
+  end_if_asked(stop_);
   start_residual(lambda, f);
   structure_.elements->linearise(y, f, condensed_);
   add_joint_springs(y, f);
@@ -496,6 +501,7 @@ double StructuralProblem::relative_residual(const VectorXd& f, const VectorXd& y
 
 Eigen::MatrixXd StructuralProblem::tangent_products(const VectorXd& y, double lambda,
                                                     const Eigen::Ref<const Eigen::MatrixXd>& directions) {
+  end_if_asked(stop_);
   VectorXd scratch;
   start_residual(lambda, scratch);  // tells the elements the factors on pressures
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(y.size(), directions.cols());

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "solver/assembly/chain.h"
@@ -29,6 +30,9 @@ namespace snapthrough {
 /// component's row is u - lambda d - d_0. The inertia is the sum over the levels minus one negative for each
 /// stress and multiplier (Haynsworth), so it counts the negative eigenvalues of the constrained displacement
 /// stiffness.
+///
+/// residual(), linearise() and tangent_products() look at the structure's stop token and throw Cancelled
+/// once.
 class StructuralProblem final : public EquilibriumProblem {
  public:
   /// @param structure kept by reference, must outlive this
@@ -118,6 +122,7 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] bool is_fixed(Eigen::Index scalar) const;
 
   const Structure& structure_;
+  std::stop_token stop_;
   std::size_t members_;
   std::vector<CondensedElement> condensed_;
   std::vector<Chain> chains_;

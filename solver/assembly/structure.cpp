@@ -594,6 +594,7 @@ Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, 
   out.touching = std::move(touching);
   fill(model, structure.scales.load, out);
   out.free_motions = structure.free_motions;
+  out.stop = structure.stop;
   return out;
 }
 

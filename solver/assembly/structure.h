@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -118,6 +119,7 @@ struct Structure {
   TouchingSupports touching;  ///< empty unless they were looked for
   bool one_sided = false;     ///< some base or spring is not bilateral
   bool has_constant = false;  ///< some action has the constant pattern
+  std::stop_token stop;       ///< who computes with it looks at this
   /// Motions of the joints (x, y, rotation each, scaled) that supports of one side alone can resist, or
   /// nothing; orthonormal columns.
   Eigen::MatrixXd free_motions;

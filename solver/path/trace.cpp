@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "solver/cancelled.h"
 #include "solver/stability/newton_event.h"
 
 namespace snapthrough {
@@ -49,6 +50,7 @@ class Tracer {
   [[nodiscard]] std::optional<Bound> bounded_end(const PathPoint& from, const PathPoint& to, bool corner);
   void tell(const CriticalEvent& event);
   [[nodiscard]] bool take_events(const std::vector<CriticalEvent>& events);
+  void go(PathPoint& from, const StepOptions& steps, const std::stop_token& stop);
   [[nodiscard]] bool ends_here(const PathPoint& at, int steps, const std::stop_token& stop);
   [[nodiscard]] bool accept(const PathPoint& from, PathPoint& to, const std::vector<CriticalEvent>& events,
                             const std::optional<Bound>& bound);
@@ -396,12 +398,12 @@ void Tracer::tell_passed(const PathPoint& to, bool may_end, std::vector<Critical
   beside_.erase(beside_.begin(), waiting);
 }
 
-TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const std::stop_token& stop) {
-  PathPoint from = start;
+/// From point to point, until something ends the path.
+void Tracer::go(PathPoint& from, const StepOptions& steps, const std::stop_token& stop) {
   if (sink_.on_point) sink_.on_point(from);
   if (rules_.first_loss_of_stability && from.negative > 0) {
     finish(TraceEnd::unstable_at_start, from);
-    return std::move(out_);
+    return;
   }
   StepSize size{0.0, rules_.first_step ? *rules_.first_step : first_step(steps, from)};
   if (!rules_.first_step) continuation_.limit_steps(steps, std::abs(from.tangent_lambda));
@@ -442,6 +444,11 @@ TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const
     go_on(!corner && from.holds == to.holds, from, to);
     continuation_.weigh_load(rules_.first_loss_of_stability || rules_.limit_points.has_value(), from, size);
   }
+}
+
+TraceOutcome Tracer::run(const PathPoint& start, const StepOptions& steps, const std::stop_token& stop) {
+  PathPoint from = start;
+  if (!unless_cancelled([&] { go(from, steps, stop); })) finish(TraceEnd::cancelled, from);
   for (const CriticalEvent& event : beside_) tell(event);
   return std::move(out_);
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "solver/cancelled.h"
+
 namespace snapthrough {
 namespace {
 
@@ -269,6 +271,7 @@ double piece_count(const ColumnLine& line, double lambda) {
 }
 
 ColumnCount count_below(const ColumnLine& line, double lambda, bool cut_finer) {
+  if (line.stop.stop_requested()) throw Cancelled{};
   Walk walk;
   walk.start(line.joints[0]);
   for (std::size_t i = 0; i < line.spans.size(); ++i) {

@@ -55,6 +55,7 @@ struct ColumnPiece {
 /// @brief Counts the buckling loads below a load factor (Wittrick and Williams, Q. J. Mech. Appl. Math. 24,
 /// 1971, on pieces too short to buckle clamped).
 /// @param cut_finer more pieces than are needed: other rounding errors
+/// @throws Cancelled when the line's stop token was asked to stop
 [[nodiscard]] ColumnCount count_below(const ColumnLine& line, double lambda, bool cut_finer = false);
 
 /// @brief The pieces with their frames at a load factor.

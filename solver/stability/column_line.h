@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "solver/model/model.h"
@@ -47,6 +48,7 @@ struct ColumnLine {
   std::array<double, 2> normal{};
   std::vector<ColumnSpan> spans;
   std::vector<ColumnJoint> joints;  ///< one more than there are spans
+  std::stop_token stop;             ///< who computes with it looks at this
 };
 
 /// @brief Reads a model as a column: members in one straight line, one after another, unshearable and

@@ -13,6 +13,7 @@
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/touching.h"
 #include "solver/assembly/mechanism.h"
+#include "solver/cancelled.h"
 #include "solver/path/trace.h"
 
 namespace snapthrough {
@@ -62,6 +63,7 @@ struct Family {
         problem(structure),
         continuation(problem, {}) {
     structure.free_motions = free_motions(model);
+    structure.stop = request.stop;
   }
   Family(Model model_of_value, Structure known)
       : model(std::move(model_of_value)),
@@ -142,6 +144,7 @@ class Follower {
   [[nodiscard]] CriticalCurvePoint trace_at(double value);
   [[nodiscard]] bool follow_to(double value, int halvings);
   [[nodiscard]] Expansion predicted(double t) const;
+  void add_value(std::size_t i, std::size_t& checked);
   void check_from(std::size_t first, std::size_t last);
   void remember(std::optional<Expansion> node);
 
@@ -352,29 +355,35 @@ void Follower::check_from(std::size_t first, std::size_t last) {
   followed = trace_at(request_.values[last]);
 }
 
-CriticalCurve Follower::run() {
-  const std::size_t count = request_.values.size();
-  std::size_t checked = 0;  // values before it are certain
-  for (std::size_t i = 0; i < count; ++i) {
-    const double value = request_.values[i];
-    if (request_.stop.stop_requested()) {
-      curve_.points.push_back({value, std::nullopt, CriticalType::limit_max, false, "cancelled"});
-      continue;
-    }
-    if (!follow_to(value, 0)) {
-      if (i > checked && curve_.points.back().followed) check_from(checked, i - 1);
-      curve_.points.push_back(trace_at(value));
-      checked = i + 1;
-      continue;
-    }
-    const CriticalCurvePoint& last = curve_.points.back();
-    const double load = nodes_.back().series[0].lambda / measure_->structure.scales.load;
-    curve_.points.push_back({value, load, last.type, true, ""});
-    if (i + 1 == count || i - checked + 1 >= static_cast<std::size_t>(request_.check_every)) {
-      check_from(checked, i);
-      checked = i + 1;
-    }
+/// The next value; values before `checked` are certain.
+void Follower::add_value(std::size_t i, std::size_t& checked) {
+  const double value = request_.values[i];
+  if (!follow_to(value, 0)) {
+    if (i > checked && curve_.points.back().followed) check_from(checked, i - 1);
+    curve_.points.push_back(trace_at(value));
+    checked = i + 1;
+    return;
   }
+  const CriticalCurvePoint& last = curve_.points.back();
+  const double load = nodes_.back().series[0].lambda / measure_->structure.scales.load;
+  curve_.points.push_back({value, load, last.type, true, ""});
+  if (i + 1 == request_.values.size() || i - checked + 1 >= static_cast<std::size_t>(request_.check_every)) {
+    check_from(checked, i);
+    checked = i + 1;
+  }
+}
+
+CriticalCurve Follower::run() {
+  std::size_t checked = 0;
+  const bool all = unless_cancelled([&] {
+    for (std::size_t i = 0; i < request_.values.size(); ++i) {
+      if (request_.stop.stop_requested()) throw Cancelled{};
+      add_value(i, checked);
+    }
+  });
+  if (!all) curve_.points.resize(checked);  // what was followed since then is not certain
+  for (std::size_t i = curve_.points.size(); i < request_.values.size(); ++i)
+    curve_.points.push_back({request_.values[i], std::nullopt, CriticalType::limit_max, false, "cancelled"});
   curve_.followed = static_cast<int>(std::count_if(curve_.points.begin(), curve_.points.end(),
                                                    [](const auto& point) { return point.followed; }));
   return std::move(curve_);
