@@ -44,7 +44,7 @@ void Front::eliminate_one(PivotSummary& pivots) {
   if (matrix(k, k) == 0.0) matrix(k, k) = std::max(pivots.floor, std::numeric_limits<double>::min()) * 1e-3;
   const double d = matrix(k, k);
   pivots.note(d);
-  for (Index j = k + 1; j < n; ++j) {
+  for (Index j = k + 1; j < summed_; ++j) {
     const double f = matrix(j, k) / d;
     if (f == 0.0) continue;
     for (Index i = j; i < n; ++i) matrix(i, j) -= matrix(i, k) * f;
@@ -68,7 +68,7 @@ void Front::eliminate_two(PivotSummary& pivots) {
   for (Index j = k + 2; j < n; ++j) {
     const double f0 = (c * matrix(j, k) - b * matrix(j, k + 1)) / det;
     const double f1 = (a * matrix(j, k + 1) - b * matrix(j, k)) / det;
-    for (Index i = j; i < n; ++i) matrix(i, j) -= matrix(i, k) * f0 + matrix(i, k + 1) * f1;
+    for (Index i = j; i < n && j < summed_; ++i) matrix(i, j) -= matrix(i, k) * f0 + matrix(i, k + 1) * f1;
     matrix(j, k) = f0;
     matrix(j, k + 1) = f1;
   }
@@ -146,6 +146,24 @@ void Front::eliminate(Index summed, PivotSummary& pivots) {
     ++refused;
     swap_rows(done_, summed_ - refused);  // the next one's turn
   }
+  update_rest();
+}
+
+/// Subtracts what all pivots take from the rows that could be none, at once: no pivot needs them before.
+void Front::update_rest() {
+  const Index rest = matrix.rows() - summed_;
+  if (rest == 0 || done_ == 0) return;
+  const auto factor = matrix.block(summed_, 0, rest, done_);
+  scaled_.resize(rest, done_);
+  for (Index k = 0; k < done_; ++k) {
+    scaled_.col(k) = matrix(k, k) * factor.col(k);
+    if (!two_[static_cast<std::size_t>(k)]) continue;
+    const double b = matrix(k + 1, k);
+    scaled_.col(k) += b * factor.col(k + 1);
+    scaled_.col(k + 1) = b * factor.col(k) + matrix(k + 1, k + 1) * factor.col(k + 1);
+    ++k;
+  }
+  matrix.bottomRightCorner(rest, rest).triangularView<Eigen::Lower>() -= scaled_ * factor.transpose();
 }
 
 void Front::forward(VectorXd& x) const {

@@ -49,10 +49,12 @@ class Front {
   [[nodiscard]] double largest_in_row(Eigen::Index row, Eigen::Index except) const;
   void eliminate_one(PivotSummary& pivots);
   void eliminate_two(PivotSummary& pivots);
+  void update_rest();
 
   Eigen::Index summed_ = 0;
   Eigen::Index done_ = 0;
-  std::vector<char> two_;  ///< a 2 x 2 pivot starts here
+  std::vector<char> two_;   ///< a 2 x 2 pivot starts here
+  Eigen::MatrixXd scaled_;  ///< scratch of update_rest()
 };
 
 }  // namespace snapthrough
