@@ -25,6 +25,7 @@
 #include "tests/server/support/client.h"
 #include "tests/server/support/process.h"
 #include "tests/server/support/samples.h"
+#include "tests/server/support/sanitizer.h"
 
 namespace snapthrough::server::test {
 namespace {
@@ -32,12 +33,6 @@ namespace {
 using nlohmann::json;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-constexpr bool kBounded = false;  ///< a sanitizer's runtime takes more memory than any bound would leave
-#else
-constexpr bool kBounded = true;
-#endif
 
 /// What a hostile analysis does (tests/hostile/hostile_main.cpp), and what its job comes to.
 struct Kind {
@@ -55,7 +50,7 @@ std::vector<Kind> kinds() {
                         {"exit", "crashed"},        {"noise", "crashed"},
                         {"record", "crashed"},      {"close", "crashed"},
                         {"throw", "internal_error"}};
-  if (kBounded) {
+  if (!kSanitized) {  // no bound, no filter of calls
     all.push_back({"memory", "memory_limit"});
     all.push_back({"states", "memory_limit"});
     all.push_back({"connect", "crashed"});

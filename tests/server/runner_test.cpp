@@ -16,6 +16,7 @@
 #include "server/worker/child_runner.h"
 #include "server/worker/record.h"
 #include "tests/server/support/running_service.h"
+#include "tests/server/support/sanitizer.h"
 
 namespace snapthrough::server::test {
 namespace {
@@ -235,6 +236,7 @@ json hungry_sweep(const std::vector<int>& points) {
 }
 
 TEST_F(RunnerTest, ThePointsThatNeedTooMuchAreTheOnesThatFail) {
+  SKIP_WITHOUT_MEMORY_BOUND();
   ChildRunner runner(options(16 * kMegabyte), counters_);
   const std::string id = "s";
   const std::string document = hungry_sweep({11, 12, 20'000, 13, 20'000, 20'000, 14}).dump();
@@ -280,6 +282,7 @@ class RunnerService : public ServiceTest {
 /// 808 bytes that ended the whole service by SIGABRT after 21 s: the refused allocation passed through code
 /// that must not throw while the result was unwound.
 TEST_F(RunnerService, TheRequestThatEndedTheServiceIsOneFailedJob) {
+  SKIP_WITHOUT_MEMORY_BOUND();
   start_with(64 * kMegabyte);
   json bomb = json::parse(column_request("bomb"));
   bomb["analysis"] = {{"type", "path"},
