@@ -83,20 +83,11 @@ TEST_F(RunnerTest, OneThatIsKilledIsReplacedAndTheJobTriedAgain) {
 
 TEST_F(RunnerTest, AJobThatKillsItsRunnersIsGivenUp) {
   ChildRunner runner(options(), counters_);
-  std::jthread killer([&](const std::stop_token& stop) {
-    while (!stop.stop_requested()) {
-      std::this_thread::sleep_for(milliseconds(20));
-      if (counters_.crashed < 2) {
-        ::kill(runner.process(), SIGABRT);
-      }
-    }
-  });
-  const JobRun run = runner.run_job(endless().dump(), {});
-  killer.request_stop();
+  const JobRun run =
+      runner.run_job(endless().dump(), {{}, [&](const Progress&) { ::kill(runner.process(), SIGABRT); }});
   ASSERT_TRUE(run.failure);
   EXPECT_EQ(run.failure->code, "crashed");
   EXPECT_THAT(run.failure->detail, HasSubstr("2 times"));
-  killer.join();
   EXPECT_TRUE(runner.run_job(column_request(), {}).result);
 }
 
