@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Kills the service N times (200) while clients use it, and checks what it promised them. Needs a built tree.
+# Kills the service N times (200), and as often a runner, while clients use it, and checks what it promised them. Needs a built tree.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 KILLS="${1:-200}" "build/${PRESET:-release}/tests/fault_tests" --gtest_filter='Crash.*'

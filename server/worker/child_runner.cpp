@@ -37,6 +37,8 @@ constexpr std::chrono::milliseconds kLook{20};
 constexpr std::uint64_t kMostBeside = 1 << 20;
 /// Bytes of what a running analysis tells at once.
 constexpr std::size_t kMostNews = 4 << 20;
+/// How long a process may leave what it is sent where it is. Who waits for a task takes it at once.
+constexpr timeval kLongestSend{5, 0};
 /// Sweeps that a process is told of before it forgets them all.
 constexpr std::size_t kMostSweeps = 16;
 
@@ -130,6 +132,9 @@ void ChildRunner::start() {
   ::close(controls[1]);
   socket_ = completions[0];
   control_ = controls[0];
+  for (const int end : {socket_, control_}) {
+    ::setsockopt(end, SOL_SOCKET, SO_SNDTIMEO, &kLongestSend, sizeof kLongestSend);
+  }
   if (failed != 0) {
     ended_by_ = std::string("it could not be started: ") + std::strerror(failed);
     close_ends();
@@ -147,6 +152,7 @@ void ChildRunner::replace() {
     process_ = 0;
   }
   sweeps_.clear();
+  received_ = {};
   start();
 }
 
@@ -164,6 +170,15 @@ ChildRunner::End ChildRunner::end_of_process(bool killed) {
   return end;
 }
 
+/// A process that does not take it is killed. @return whether attend() can tell how it goes on
+bool ChildRunner::send(FrameType type, std::string_view body) {
+  if (process_ == 0 || write_frame(socket_, type, body)) {
+    return true;
+  }
+  ::kill(process_, SIGKILL);
+  return false;
+}
+
 bool ChildRunner::control(FrameType type) {
   std::string body;
   RecordWriter(body).put(task_);
@@ -172,18 +187,23 @@ bool ChildRunner::control(FrameType type) {
 
 ChildRunner::End ChildRunner::run_task(FrameType type, std::string_view body, Watch& watch) {
   ++task_;
-  // a process that is gone is seen by attend()
-  static_cast<void>(process_ != 0 && write_frame(socket_, type, body));
-  return attend(watch);
+  return send(type, body) ? attend(watch) : end_of_process(false);
 }
 
-/// Takes a frame. What the process sends is not trusted: it may have been led astray by what it computes.
+/// Takes a frame, if there is a whole one. What the process sends is not trusted: it may have been led astray
+/// by what it computes.
 /// @return whether it was the last; nothing when the process is gone, or talks nonsense and is killed
 std::optional<bool> ChildRunner::take_frame(Watch& watch) {
-  Frame frame;
   try {
-    if (read_frame(socket_, frame, static_cast<std::uint64_t>(options_.memory) + kMostBeside)) {
-      return watch.take(frame);
+    switch (received_.receive(socket_, static_cast<std::uint64_t>(options_.memory) + kMostBeside)) {
+      case FrameReceiver::State::complete: {
+        Frame frame = received_.take();
+        return watch.take(frame);
+      }
+      case FrameReceiver::State::incomplete:
+        return false;
+      case FrameReceiver::State::gone:
+        break;
     }
   } catch (const std::exception&) {
     // the record is none, or larger than this process can hold
@@ -311,7 +331,7 @@ std::uint64_t ChildRunner::send_sweep(const PointTask& task) {
   writer.put(forget);
   writer.put(number);
   writer.put(task.document);
-  static_cast<void>(process_ != 0 && write_frame(socket_, FrameType::sweep, body));
+  static_cast<void>(send(FrameType::sweep, body));  // the task that follows finds out
   return number;
 }
 

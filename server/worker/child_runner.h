@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "server/worker/frame.h"
 #include "server/worker/runner.h"
@@ -56,6 +57,7 @@ class ChildRunner final : public Runner {
   void close_ends();
   /// Sends the task and attends to it.
   [[nodiscard]] End run_task(FrameType type, std::string_view body, Watch& watch);
+  [[nodiscard]] bool send(FrameType type, std::string_view body);
   [[nodiscard]] bool control(FrameType type);
   [[nodiscard]] std::uint64_t send_sweep(const PointTask& task);
   [[nodiscard]] End attend(Watch& watch);
@@ -71,6 +73,7 @@ class ChildRunner final : public Runner {
   pid_t process_ = 0;
   int socket_ = -1;
   int control_ = -1;
+  FrameReceiver received_;                       ///< of this process
   std::uint64_t task_ = 0;                       ///< of this process, counted from 1
   int alarm_ = -1;                               ///< eventfd: a stop was requested
   std::string ended_by_;                         ///< how the last process that crashed ended

@@ -4,9 +4,11 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 namespace snapthrough::server {
 namespace {
@@ -61,19 +63,55 @@ bool write_frame(int fd, FrameType type, std::string_view body) {
   return true;
 }
 
-bool read_frame(int fd, Frame& frame, std::uint64_t most) {
+bool read_frame(int fd, Frame& frame) {
   std::array<char, sizeof(Head)> bytes{};
   if (!read_all(fd, bytes.data(), bytes.size())) {
     return false;
   }
   Head head;
   std::memcpy(&head, bytes.data(), sizeof head);
-  if (head.size > most) {
-    return false;
-  }
   frame.type = head.type;
   frame.body.resize(head.size);
   return read_all(fd, frame.body.data(), frame.body.size());
+}
+
+FrameReceiver::State FrameReceiver::receive(int fd, std::uint64_t most) {
+  std::array<char, 1 << 16> block;
+  for (;;) {
+    const bool in_head = head_.size() < sizeof(Head);
+    std::string& part = in_head ? head_ : frame_.body;
+    const std::uint64_t missing = (in_head ? sizeof(Head) : size_) - part.size();
+    if (missing == 0) {
+      return State::complete;
+    }
+    const ssize_t got =
+        ::recv(fd, block.data(), std::min<std::uint64_t>(missing, block.size()), MSG_DONTWAIT);
+    if (got < 0 && errno == EINTR) {
+      continue;
+    }
+    if (got < 0 && errno == EAGAIN) {
+      return State::incomplete;
+    }
+    if (got <= 0) {
+      return State::gone;
+    }
+    part.append(block.data(), static_cast<std::size_t>(got));
+    if (in_head && head_.size() == sizeof(Head)) {
+      Head head;
+      std::memcpy(&head, head_.data(), sizeof head);
+      if (head.size > most) {
+        return State::gone;
+      }
+      size_ = head.size;
+      frame_.type = head.type;
+      frame_.body.reserve(size_);  // address space: what is not sent takes no memory
+    }
+  }
+}
+
+Frame FrameReceiver::take() {
+  head_.clear();
+  return std::exchange(frame_, {});
 }
 
 }  // namespace snapthrough::server

@@ -3,7 +3,6 @@
 /// Messages between the service and a runner, each with its length before it.
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 
@@ -32,9 +31,24 @@ struct Frame {
 
 /// @brief Writes a whole frame. @return false when the other side is gone
 [[nodiscard]] bool write_frame(int fd, FrameType type, std::string_view body);
-/// @brief Waits for a whole frame. @return false when the other side is gone, or says that there are more
-/// than `most` bytes
-[[nodiscard]] bool read_frame(int fd, Frame& frame,
-                              std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
+/// @brief Waits for a whole frame. @return false when the other side is gone
+[[nodiscard]] bool read_frame(int fd, Frame& frame);
+
+/// @brief Puts frames together from what has arrived, and never waits: the other side may send a part of one
+/// and then nothing.
+class FrameReceiver {
+ public:
+  enum class State { incomplete, complete, gone };
+
+  /// @param most bytes of a frame; the other side is taken for gone when it says that there are more
+  [[nodiscard]] State receive(int fd, std::uint64_t most);
+  /// @pre receive() said that it is complete
+  [[nodiscard]] Frame take();
+
+ private:
+  std::string head_;
+  std::uint64_t size_ = 0;  ///< of the body, once the head is there
+  Frame frame_;
+};
 
 }  // namespace snapthrough::server

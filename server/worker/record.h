@@ -73,6 +73,14 @@ template <>
 inline constexpr auto kFields<api::PointOutcome> =
     std::tuple{&api::PointOutcome::outputs, &api::PointOutcome::code, &api::PointOutcome::detail};
 
+/// The last value of an enumeration that travels.
+template <class T>
+inline constexpr T kLast{};
+template <>
+inline constexpr CriticalType kLast<CriticalType> = CriticalType::broken_bifurcation;
+template <>
+inline constexpr CriticalCause kLast<CriticalCause> = CriticalCause::contact;
+
 template <class T>
 inline constexpr bool kIsPlain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
@@ -112,7 +120,8 @@ class RecordWriter {
   std::string& out_;
 };
 
-/// Takes values from a text, in the order that they were put. @throws std::runtime_error past its end
+/// @brief Takes values from a text, in the order that they were put.
+/// @throws std::runtime_error past its end, and at bytes that are no value of their type
 class RecordReader {
  public:
   explicit RecordReader(std::string_view bytes) : bytes_(bytes) {}
@@ -121,7 +130,18 @@ class RecordReader {
 
   template <class T>
   requires kIsPlain<T>
-  void get(T& value) { std::memcpy(&value, take(sizeof value).data(), sizeof value); }
+  void get(T& value) {
+    const std::string_view bytes = take(sizeof value);
+    if constexpr (std::is_same_v<T, bool>) {
+      require(bytes[0] == 0 || bytes[0] == 1);
+    }
+    if constexpr (std::is_enum_v<T>) {
+      std::underlying_type_t<T> number{};
+      std::memcpy(&number, bytes.data(), sizeof number);
+      require(number >= 0 && number <= static_cast<std::underlying_type_t<T>>(kLast<T>));
+    }
+    std::memcpy(&value, bytes.data(), sizeof value);
+  }
   void get(std::string& text) {
     std::size_t size = 0;
     get(size);
@@ -138,6 +158,8 @@ class RecordReader {
     std::size_t size = 0;
     get(size);
     if constexpr (kIsPlain<T>) {
+      static_assert(std::is_arithmetic_v<T>, "enumerations are read one by one");
+      require(size <= bytes_.size() / sizeof(T));
       const std::string_view block = take(size * sizeof(T));
       values.resize(size);
       if (size > 0) std::memcpy(values.data(), block.data(), block.size());
@@ -157,8 +179,11 @@ class RecordReader {
   }
 
  private:
+  static void require(bool holds) {
+    if (!holds) throw std::runtime_error("the bytes are no such record");
+  }
   std::string_view take(std::size_t size) {
-    if (size > bytes_.size()) throw std::runtime_error("a record completions too early");
+    require(size <= bytes_.size());
     const std::string_view out = bytes_.substr(0, size);
     bytes_.remove_prefix(size);
     return out;

@@ -178,7 +178,7 @@ class News {
 
 class RunnerProcess {
  public:
-  explicit RunnerProcess(MemoryBound& memory) : memory_(memory) {}
+  RunnerProcess(MemoryBound& memory, const SolveFunction& solve) : memory_(memory), solve_(solve) {}
 
   /// Until the other side is gone.
   void work() {
@@ -218,7 +218,7 @@ class RunnerProcess {
     News news;
     std::string body;
     {
-      JobRun run = solve_job(reader.get<std::string>(), solve_checked, news.hooks(stop));
+      JobRun run = solve_job(reader.get<std::string>(), solve_, news.hooks(stop));
       if (run.failure && run.failure->code == kOutOfMemory) {
         end_without_memory();
       }
@@ -263,9 +263,8 @@ class RunnerProcess {
         }
       }
     };
-    LocalRunner(solve_checked)
-        .run_points(
-            {kNotNeeded, kNotNeeded, sweep, points, stop, [this] { return control_.enough(); }, tell});
+    LocalRunner(solve_).run_points(
+        {kNotNeeded, kNotNeeded, sweep, points, stop, [this] { return control_.enough(); }, tell});
     untold().tell();
     answer(FrameType::done, "");
   }
@@ -285,6 +284,7 @@ class RunnerProcess {
   }
 
   MemoryBound& memory_;
+  const SolveFunction& solve_;
   Control control_;
   std::unordered_map<std::uint64_t, api::Sweep> sweeps_;
 };
@@ -299,7 +299,7 @@ void keep_heap_small() {
 
 }  // namespace
 
-int run_runner(int parent) {
+int run_runner(int parent, const SolveFunction& solve) {
   if (!confine_process(parent)) {
     return EXIT_FAILURE;
   }
@@ -307,7 +307,7 @@ int run_runner(int parent) {
   std::set_new_handler(end_without_memory);
   std::set_terminate(on_terminate);
   MemoryBound memory;
-  RunnerProcess process(memory);
+  RunnerProcess process(memory, solve);
   confine_calls();
   process.work();
   return EXIT_SUCCESS;

@@ -2,6 +2,8 @@
 /// @file
 /// The inside of a runner's process.
 
+#include "server/worker/point.h"
+
 namespace snapthrough::server {
 
 /// The name of the subcommand that makes a process a runner; not for users.
@@ -15,7 +17,8 @@ inline constexpr int kControlPipe = 3;
 
 /// @brief Computes what frames on kTaskSocket ask for, one after the other, until the other side is gone.
 /// @param parent process that it ends with
+/// @param solve  what solves jobs and points; curves are followed by solve_curve()
 /// @return exit status of the process
-[[nodiscard]] int run_runner(int parent);
+[[nodiscard]] int run_runner(int parent, const SolveFunction& solve);
 
 }  // namespace snapthrough::server

@@ -1,8 +1,9 @@
 /// @file
-/// Kills the service again and again while clients use it, and checks what it promised them.
-/// KILLS sets how often (20); scripts/crash.sh passes its argument on.
+/// Kills the service, and as often a runner, again and again while clients use it, and checks what it
+/// promised them. KILLS sets how often (20); scripts/crash.sh passes its argument on.
 
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 
 #include <atomic>
 #include <chrono>
@@ -28,6 +29,8 @@ namespace {
 using nlohmann::json;
 using std::chrono::milliseconds;
 
+constexpr int kSweepPoints = 20;
+
 /// What clients were told.
 struct Told {
   std::mutex mutex;
@@ -35,21 +38,71 @@ struct Told {
   std::set<std::string> removed;
   std::map<std::string, std::string> results;  ///< body that was answered, by job
   std::map<std::string, std::string> keys;     ///< job, by idempotency key
+  std::map<std::string, std::string> sweeps;   ///< idempotency key of each
   std::atomic<int> requests = 0;
 };
 
+/// A sweep of its own content: points one by one, or every other time a curve.
+std::string sweep_of(const std::string& name, bool followed) {
+  return followed ? followed_sweep(kSweepPoints, name) : column_sweep(kSweepPoints, name);
+}
+
 class Crash : public KilledServiceTest {
  protected:
+  /// The first number that a statement on the store gives; no service runs.
+  std::int64_t query(const std::string& statement) const {
+    sqlite3* database = nullptr;
+    EXPECT_EQ(sqlite3_open(folder_.file("jobs.db").c_str(), &database), SQLITE_OK);
+    std::int64_t number = -1;
+    const auto take = [](void* out, int, char** texts, char**) {
+      *static_cast<std::int64_t*>(out) = std::atoll(texts[0]);
+      return 0;
+    };
+    EXPECT_EQ(sqlite3_exec(database, statement.c_str(), take, &number, nullptr), SQLITE_OK)
+        << sqlite3_errmsg(database);
+    sqlite3_close(database);
+    return number;
+  }
+  /// From now on the store keeps count of the rows that workers have come with, those that were there too.
+  void count_rows() {
+    const auto service = serve();
+    service->signal(SIGTERM);
+    ASSERT_EQ(service->wait(), 0);
+    query(
+        "CREATE TABLE computed (sweep INTEGER, point INTEGER);"
+        "CREATE TRIGGER count_computed BEFORE INSERT ON sweep_points BEGIN"
+        " INSERT INTO computed VALUES (NEW.sweep, NEW.point); END;");
+  }
+  /// Kills a runner that lives, whichever.
+  bool kill_runner(const Process& service, std::mt19937& random) const {
+    const std::vector<pid_t> runners = service.children();
+    return !runners.empty() && ::kill(runners[random() % runners.size()], SIGKILL) == 0;
+  }
+
   /// Uses the service until it is gone.
   void use(unsigned seed) {
     std::mt19937 random(seed);
     const auto pick = [&](int count) { return std::uniform_int_distribution<int>(0, count - 1)(random); };
     try {
       for (int n = 0; n < 100'000; ++n) {
-        use_once(pick(10), "c" + std::to_string(seed) + "-" + std::to_string(n));
+        const std::string name = "c" + std::to_string(seed) + "-" + std::to_string(n);
+        pick(10) == 0 ? submit_sweep(name) : use_once(pick(10), name);
       }
     } catch (const std::system_error&) {
       // Nobody listens any more.
+    }
+  }
+
+  [[nodiscard]] Reply post_sweep(const std::string& name) const {
+    const bool followed = name.size() % 2 == 0;
+    return post(port_, "/v1/sweeps", sweep_of(name, followed),
+                {"Content-Type: application/json", "Cache-Control: no-cache", "Idempotency-Key: " + name});
+  }
+  void submit_sweep(const std::string& name) {
+    const Reply reply = post_sweep(name);
+    if (reply.status == 201) {
+      const std::lock_guard guard(told_.mutex);
+      told_.sweeps[reply.header("Location")] = name;
     }
   }
 
@@ -167,6 +220,21 @@ class Crash : public KilledServiceTest {
                 successful, told_.removed.size(), told_.requests.load());
   }
 
+  void check_sweeps() {
+    for (const auto& [sweep, key] : told_.sweeps) {
+      json status;
+      for (int i = 0; i < 20 && (status.is_null() || !status["finished"].is_string()); ++i) {
+        const Reply reply = get(port_, sweep, {"Prefer: wait=10"});
+        ASSERT_EQ(reply.status, 200) << sweep << " was acknowledged";
+        status = json::parse(reply.body);
+      }
+      EXPECT_EQ(status["status"], "successful") << status.dump();
+      EXPECT_EQ(status["counts"]["successful"], kSweepPoints) << status.dump();
+      EXPECT_EQ(json::parse(get(port_, sweep + "/table").body)["rows"].size(), kSweepPoints * 1UL);
+      EXPECT_EQ(post_sweep(key).header("Location"), sweep);
+    }
+  }
+
   Told told_;
   std::map<std::string, int> completions_;
 };
@@ -178,13 +246,20 @@ TEST_F(Crash, EveryAcknowledgedJobIsThereAndEndsOnce) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
   double slowest = 0.0;
+  int runners_killed = 0;
+  count_rows();
   for (int kill = 0; kill < kills && !HasFailure(); ++kill) {
     const auto service = serve();
     std::vector<std::jthread> clients;
     for (unsigned i = 0; i < 4; ++i) {
       clients.emplace_back([this, name = static_cast<unsigned>(kill) * 10 + i] { use(name); });
     }
-    std::this_thread::sleep_for(milliseconds(std::uniform_int_distribution<int>(20, 400)(random)));
+    const auto pause = [&] {
+      std::this_thread::sleep_for(milliseconds(std::uniform_int_distribution<int>(10, 200)(random)));
+    };
+    pause();
+    runners_killed += kill_runner(*service, random) ? 1 : 0;
+    pause();
     service->signal(SIGKILL);
     service->wait();
     clients.clear();
@@ -193,12 +268,21 @@ TEST_F(Crash, EveryAcknowledgedJobIsThereAndEndsOnce) {
   }
   const auto service = serve();
   wait_until_all_ended();
+  check_sweeps();
   note_ends(service->err());
   check_promises();
   Process backup(folder_, {"backup", "--store", folder_.file("jobs.db"), folder_.file("copy.db")});
   EXPECT_EQ(backup.wait(), 0) << "integrity check: " << backup.err();
   EXPECT_LT(slowest, 1.0);
-  std::printf("%d kills, work taken up at most %.3f s after the start\n", kills, slowest);
+  service->signal(SIGTERM);
+  EXPECT_EQ(service->wait(), 0);
+  const std::int64_t rows = query("SELECT count(*) FROM sweep_points");
+  EXPECT_GE(rows, static_cast<std::int64_t>(kSweepPoints * told_.sweeps.size()));
+  EXPECT_EQ(query("SELECT count(*) FROM computed"), rows) << "points were computed that had a row";
+  std::printf(
+      "%d kills of the service, %d of runners; %zu sweeps, %lld rows; work taken up at most %.3f s "
+      "after the start\n",
+      kills, runners_killed, told_.sweeps.size(), static_cast<long long>(rows), slowest);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "server/jobs/least_memory.h"
 #include "server/worker/child_runner.h"
 #include "tests/server/support/running_service.h"
+#include "tests/server/support/sanitizer.h"
 
 namespace snapthrough::server::test {
 namespace {
@@ -48,6 +49,7 @@ JobRun solved_within(std::int64_t memory, const std::string& request) {
 
 // Each limit makes another allocation the first that is refused.
 TEST(MemoryLimit, WhereverItStrikesOneAnalysisFailsAndTheNextIsRight) {
+  SKIP_WITHOUT_MEMORY_BOUND();
   const std::string request = many_states(3000).dump();
   const JobRun whole = solved_within(kNoLimit, request);
   ASSERT_TRUE(whole.result);
@@ -73,6 +75,7 @@ TEST(MemoryLimit, WhereverItStrikesOneAnalysisFailsAndTheNextIsRight) {
 }
 
 TEST(MemoryLimit, TheLeastIsBelowEveryPeak) {
+  SKIP_WITHOUT_MEMORY_BOUND();
   for (const char* type : {"critical", "buckling", "static"}) {
     for (int order = 1; order <= kMaxOrder; ++order) {
       json analysis{{"type", type}, {"discretization", {{"elements", 2400 / order}, {"order", order}}}};
@@ -124,6 +127,7 @@ TEST_F(MemoryOverHttp, AMeshThatCannotFitIsRefusedBeforeAnythingIsStored) {
 }
 
 TEST_F(MemoryOverHttp, AnAnalysisThatGrowsBeyondItIsStoppedAndTheOthersGoOn) {
+  SKIP_WITHOUT_MEMORY_BOUND();
   workers_ = 2;
   start_with(8 * kMegabyte);
   std::atomic<bool> over = false;
@@ -149,6 +153,7 @@ TEST_F(MemoryOverHttp, AnAnalysisThatGrowsBeyondItIsStoppedAndTheOthersGoOn) {
 }
 
 TEST_F(MemoryOverHttp, APointOfASweepThatGrowsBeyondItIsARow) {
+  SKIP_WITHOUT_MEMORY_BOUND();
   start_with(8 * kMegabyte);
   json sweep = many_states();
   sweep["parameters"] = {{{"name", "points"},

@@ -8,12 +8,15 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "server/worker/child_runner.h"
+#include "server/worker/record.h"
 #include "tests/server/support/running_service.h"
+#include "tests/server/support/sanitizer.h"
 
 namespace snapthrough::server::test {
 namespace {
@@ -80,20 +83,11 @@ TEST_F(RunnerTest, OneThatIsKilledIsReplacedAndTheJobTriedAgain) {
 
 TEST_F(RunnerTest, AJobThatKillsItsRunnersIsGivenUp) {
   ChildRunner runner(options(), counters_);
-  std::jthread killer([&](const std::stop_token& stop) {
-    while (!stop.stop_requested()) {
-      std::this_thread::sleep_for(milliseconds(20));
-      if (counters_.crashed < 2) {
-        ::kill(runner.process(), SIGABRT);
-      }
-    }
-  });
-  const JobRun run = runner.run_job(endless().dump(), {});
-  killer.request_stop();
+  const JobRun run =
+      runner.run_job(endless().dump(), {{}, [&](const Progress&) { ::kill(runner.process(), SIGABRT); }});
   ASSERT_TRUE(run.failure);
   EXPECT_EQ(run.failure->code, "crashed");
   EXPECT_THAT(run.failure->detail, HasSubstr("2 times"));
-  killer.join();
   EXPECT_TRUE(runner.run_job(column_request(), {}).result);
 }
 
@@ -148,20 +142,73 @@ TEST_F(RunnerTest, NewsOfALongAnalysisArriveWhileItRuns) {
   EXPECT_GE(news, 5);
 }
 
+/// A program that does this in place of computing.
+std::string program_in(const TempDir& folder, const std::string& commands) {
+  std::string program = folder.file("program");
+  std::ofstream(program) << "#!/bin/sh\n" << commands << "\n";
+  EXPECT_EQ(::chmod(program.c_str(), 0700), 0);
+  return program;
+}
+
 /// A process that was led astray may send anything; the service believes none of it.
 TEST_F(RunnerTest, OneThatTalksNonsenseIsOneThatCrashed) {
-  TempDir folder;
-  const std::string program = folder.file("nonsense");
+  const TempDir folder;
   for (const char* bytes : {"head -c 64 /dev/zero | tr '\\0' '\\377'", "head -c 64 /dev/zero"}) {
-    std::ofstream(program) << "#!/bin/sh\n" << bytes << " >&0\nsleep 5\n";
-    ASSERT_EQ(::chmod(program.c_str(), 0700), 0);
     ChildRunnerOptions astray = options();
-    astray.executable = program;
+    astray.executable = program_in(folder, "{ " + std::string(bytes) + "; } >&0\nsleep 60");
     ChildRunner runner(astray, counters_);
     const JobRun run = runner.run_job(column_request(), {});
     ASSERT_TRUE(run.failure);
     EXPECT_EQ(run.failure->code, "crashed") << bytes;
   }
+}
+
+/// It held its worker for good: the service waited for the rest of the frame, and looked at nothing else.
+TEST_F(RunnerTest, OneThatSendsHalfAFrameIsKilledAfterItsGrace) {
+  const TempDir folder;
+  ChildRunnerOptions half = options();
+  half.executable =
+      program_in(folder, R"(printf '\350\003\0\0\0\0\0\0\010\0\0\0\0\0\0\0part' >&0; sleep 60)");
+  half.grace = milliseconds(300);
+  ChildRunner runner(half, counters_);
+  std::stop_source stop;
+  std::jthread stopper([&] {
+    std::this_thread::sleep_for(milliseconds(300));
+    stop.request_stop();
+  });
+  const auto start = steady_clock::now();
+  const JobRun run = runner.run_job(column_request(), {stop.get_token()});
+  EXPECT_LT(steady_clock::now() - start, milliseconds(5000));
+  ASSERT_TRUE(run.failure);
+  EXPECT_EQ(run.failure->code, "cancelled");
+  EXPECT_EQ(counters_.killed, 1);
+}
+
+/// It held its worker for good: a request that no socket's buffer takes was never read.
+TEST_F(RunnerTest, OneThatDoesNotTakeItsTaskIsOneThatCrashed) {
+  const TempDir folder;
+  ChildRunnerOptions deaf = options(kEnough, 1);
+  deaf.executable = program_in(folder, "exec sleep 60");
+  ChildRunner runner(deaf, counters_);
+  const JobRun run = runner.run_job(column_request() + std::string(4 * kMegabyte, ' '), {});
+  ASSERT_TRUE(run.failure);
+  EXPECT_EQ(run.failure->code, "crashed");
+}
+
+template <class T>
+T read_as(std::initializer_list<char> bytes) {
+  return RecordReader(std::string(bytes)).get<T>();
+}
+
+TEST(Record, BytesThatAreNoValueOfTheirTypeAreRefused) {
+  EXPECT_TRUE(read_as<bool>({1}));
+  EXPECT_THROW(read_as<bool>({2}), std::runtime_error);
+  EXPECT_EQ(read_as<CriticalType>({3, 0, 0, 0}), CriticalType::broken_bifurcation);
+  EXPECT_THROW(read_as<CriticalType>({4, 0, 0, 0}), std::runtime_error);
+  EXPECT_THROW(read_as<CriticalCause>({-1, -1, -1, -1}), std::runtime_error);
+  EXPECT_THROW(read_as<int>({1, 0, 0}), std::runtime_error);
+  EXPECT_THROW(read_as<std::vector<double>>({0, 0, 0, 0, 0, 0, 0, 32}), std::runtime_error)
+      << "2^61 numbers are 2^64 bytes";
 }
 
 /// A sweep over the points at which states are given: some need more than 16 MB.
@@ -180,6 +227,7 @@ json hungry_sweep(const std::vector<int>& points) {
 }
 
 TEST_F(RunnerTest, ThePointsThatNeedTooMuchAreTheOnesThatFail) {
+  SKIP_WITHOUT_MEMORY_BOUND();
   ChildRunner runner(options(16 * kMegabyte), counters_);
   const std::string id = "s";
   const std::string document = hungry_sweep({11, 12, 20'000, 13, 20'000, 20'000, 14}).dump();
@@ -225,6 +273,7 @@ class RunnerService : public ServiceTest {
 /// 808 bytes that ended the whole service by SIGABRT after 21 s: the refused allocation passed through code
 /// that must not throw while the result was unwound.
 TEST_F(RunnerService, TheRequestThatEndedTheServiceIsOneFailedJob) {
+  SKIP_WITHOUT_MEMORY_BOUND();
   start_with(64 * kMegabyte);
   json bomb = json::parse(column_request("bomb"));
   bomb["analysis"] = {{"type", "path"},

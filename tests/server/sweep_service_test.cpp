@@ -11,6 +11,7 @@
 
 #include "api/sweep.h"
 #include "tests/server/support/running_service.h"
+#include "tests/server/support/sanitizer.h"
 
 namespace snapthrough::server::test {
 namespace {
@@ -42,13 +43,6 @@ std::string read_text(const std::string& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
-
-/// How much longer things may take in the build of a sanitizer.
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-constexpr double kSlowdown = 20.0;
-#else
-constexpr double kSlowdown = 1.0;
-#endif
 
 class SweepService : public ServiceTest {
  protected:

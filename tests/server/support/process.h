@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -31,12 +32,13 @@ inline void write_file(const std::string& path, const std::string& text) { std::
 /// The program, started with its streams in files of a folder.
 class Process {
  public:
-  Process(const TempDir& folder, const std::vector<std::string>& arguments, const std::string& input = "")
+  Process(const TempDir& folder, const std::vector<std::string>& arguments, const std::string& input = "",
+          const std::string& program = SNAPTHROUGH_EXECUTABLE)
       : out_(folder.file("out")), err_(folder.file("err")) {
     write_file(folder.file("in"), input);
     write_file(out_, "");  // nothing of a process before this one
     write_file(err_, "");
-    std::vector<std::string> words{SNAPTHROUGH_EXECUTABLE};
+    std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) {
@@ -65,6 +67,20 @@ class Process {
   Process& operator=(Process&&) = delete;
 
   [[nodiscard]] pid_t id() const { return id_; }
+  /// Processes that it started and that are its children, those included that have ended and nobody asked
+  /// after.
+  [[nodiscard]] std::vector<pid_t> children() const {
+    std::vector<pid_t> all;
+    std::error_code gone;
+    for (const auto& thread :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(id_) + "/task", gone)) {
+      std::ifstream file(thread.path() / "children");
+      for (pid_t child = 0; file >> child;) {
+        all.push_back(child);
+      }
+    }
+    return all;
+  }
   void signal(int number) const { ::kill(id_, number); }
   /// Exit status; 1000 plus the signal when one ended it.
   int wait() {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "server/environment.h"
@@ -34,6 +35,15 @@ inline std::string column_sweep(int points, const std::string& title = "column")
                  "range": {"from": 1, "to": )" +
          std::to_string(points) + R"(, "count": )" + std::to_string(points) + R"(}}],
  "design": "grid", "outputs": ["/summary/critical_load_factor", "/summary/termination"]})";
+}
+
+/// The critical load of that column, followed over as many stiffnesses.
+inline std::string followed_sweep(int points, const std::string& title = "column") {
+  nlohmann::json sweep = nlohmann::json::parse(column_sweep(points, title));
+  sweep["analysis"] = {{"type", "critical"}, {"discretization", {{"elements", 4}, {"order", 2}}}};
+  sweep["outputs"] = {"/summary/critical_load_factor", "/summary/critical_type"};
+  sweep["follow"] = "EI";
+  return sweep.dump();
 }
 
 inline Time at_second(int seconds) {
