@@ -1,14 +1,18 @@
 /// @file
 /// Callbacks: what is told of the end of a job or sweep, to whom, how often, and what it must not delay.
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <sys/socket.h>
 
 #include <atomic>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "api/openapi/document.h"
 #include "server/jobs/callback.h"
+#include "server/webhooks/post.h"
 #include "server/webhooks/signature.h"
 #include "tests/server/support/json_schema.h"
 #include "tests/server/support/receiver.h"
@@ -304,6 +308,40 @@ TEST_F(Callback, AnAttemptEndsHoweverSlowlyTheReceiverAnswers) {
   add(with_callback(receiver.address()));
   EXPECT_EQ(receiver.wait_for(2).size(), 2U);
   EXPECT_EQ(metric("callback_attempts_failed_total", 1), 1);
+}
+
+/// The library holds a lock while it connects, so that its own stop() would wait for that.
+TEST(CallbackPost, OneThatCanNotConnectIsCut) {
+  const http::Descriptor full(::socket(AF_INET, SOCK_STREAM, 0));
+  ASSERT_EQ(::listen(full.get(), 0), 0);
+  const int port = http::port_of(full.get());
+  std::vector<http::Descriptor> queue;  // the kernel answers no more than these
+  for (int i = 0; i < 4; ++i) {
+    queue.emplace_back(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    (void)::connect(queue.back().get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address));
+  }
+  Poster poster("http://127.0.0.1:" + std::to_string(port), std::chrono::seconds(60));
+  std::atomic<bool> done = false;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::jthread post([&] {
+    sigset_t signals;
+    ::sigemptyset(&signals);
+    ::sigaddset(&signals, SIGPIPE);
+    ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    EXPECT_EQ(poster.post("/", "{}", {}).status, 0);
+    done = true;
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_FALSE(done) << "it was connected or refused";
+  while (!done && std::chrono::steady_clock::now() - begin < std::chrono::seconds(50)) {
+    poster.cut_late(true);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
 }
 
 TEST_F(Callback, TheBodyOfAResponseIsNotReadToItsEnd) {
