@@ -1,24 +1,18 @@
 #include "server/config.h"
 
-#include <arpa/inet.h>
-
 #include <algorithm>
 #include <charconv>
 #include <thread>
 
 #include "api/sweep.h"
 #include "server/front/cross_origin.h"
+#include "server/jobs/callback.h"
 
 namespace snapthrough::server {
 namespace {
 
 constexpr int kMostWorkers = 1024;
-
-bool is_loopback(const std::string& host) {
-  in_addr address{};
-  const bool numeric = ::inet_pton(AF_INET, host.c_str(), &address) == 1;
-  return host == "localhost" || host == "::1" || (numeric && ntohl(address.s_addr) >> 24 == 127);
-}
+constexpr std::size_t kMostCallbackHosts = 16;  // each has a thread, or two
 
 bool is_digest(const std::string& text) {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -74,6 +68,15 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
             "each must be an exact origin as browsers send it, e.g. https://app.example or "
             "http://localhost:5173: no *, no path, no port that is the scheme's own");
   }
+  for (const std::string& host : jobs.callback_hosts) {
+    require(
+        is_callback_host(host), "jobs.callback_hosts",
+        "each must be an exact host or host:port in lower case, e.g. hooks.example or localhost:9000: no *, "
+        "no scheme, no path");
+  }
+  require(jobs.callback_hosts.size() <= kMostCallbackHosts, "jobs.callback_hosts", "must be at most 16");
+  require(jobs.callback_hosts.empty() || !callback_secret_file.empty(), "callback_secret_file",
+          "must name a file with the secret that callbacks are signed with, since there are callback_hosts");
   for (const http::ApiKey& key : keys) {
     require(!key.owner.empty(), "keys.owner", "must not be empty");
     require(is_digest(key.sha256), "keys.sha256", "must be 64 lower-case hexadecimal digits");

@@ -13,6 +13,7 @@
 #include "server/jobs/job_service.h"
 #include "server/log/log.h"
 #include "server/resources/routes.h"
+#include "server/webhooks/webhook_times.h"
 
 namespace snapthrough::server {
 
@@ -31,7 +32,9 @@ struct ServiceConfig {
   std::string store_path = "snapthrough.db";         ///< SQLite file; its folder must exist
   int workers = 1;                                   ///< analyses at the same time, 1 to 1024
   std::string runner_executable = "/proc/self/exe";  ///< snapthrough; what computes is started from it
-  JobLimits jobs;                                    ///< queue, leases, retention
+  JobLimits jobs;                                    ///< queue, leases, retention, hosts of callbacks
+  std::string callback_secret_file;  ///< what callbacks are signed with; empty: there are none
+  WebhookTimes callback_times;
   std::int64_t ballast_bytes = 4 * 1024 * 1024;      ///< reserve on the disk of the store; 0: none
   std::int64_t least_free_bytes = 64 * 1024 * 1024;  ///< with less on that disk no jobs are taken
   std::chrono::seconds drain_delay{0};               ///< from SIGTERM until workers are stopped

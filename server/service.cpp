@@ -1,5 +1,7 @@
 #include "server/service.h"
 
+#include <fstream>
+#include <iterator>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -8,12 +10,15 @@
 #include "api/sweep.h"
 #include "server/front/gateway.h"
 #include "server/front/listener.h"
+#include "server/jobs/callback.h"
 #include "server/jobs/envelope.h"
 #include "server/jobs/job_service.h"
 #include "server/maintenance/upkeep.h"
 #include "server/metrics/request_metrics.h"
 #include "server/resources/routes.h"
 #include "server/store/sqlite/sqlite_store.h"
+#include "server/webhooks/signature.h"
+#include "server/webhooks/webhooks.h"
 #include "server/worker/child_runner.h"
 #include "solver/model/limits.h"
 
@@ -47,6 +52,7 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"metadata_members", number(kMostMetadata)},
           {"metadata_name_characters", number(kLongestMetadataName)},
           {"metadata_value_characters", number(kLongestMetadataValue)},
+          {"callback_characters", number(kLongestCallback)},
           {"buckling_modes", number(kMaxModes)},
           {"monitors", number(kMaxMonitors)},
           {"state_points", number(kMaxStatePoints)},
@@ -71,12 +77,27 @@ ChildRunnerOptions runner_options(const ServiceConfig& config) {
   return {config.runner_executable, config.jobs.job_memory, config.jobs.max_crashes};
 }
 
+/// What callbacks are signed with; empty when there are none.
+StatusOr<std::string> callback_key(const ServiceConfig& config) {
+  if (config.jobs.callback_hosts.empty()) {
+    return std::string();
+  }
+  std::ifstream file(config.callback_secret_file);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::optional<std::string> key = webhook_key(text);
+  if (!key) {
+    return Status(StatusCode::unsupported, "callback_secret_file " + config.callback_secret_file +
+                                               ": expected whsec_ and the base64 of 24 to 64 bytes");
+  }
+  return *std::move(key);
+}
+
 }  // namespace
 
 /// Built bottom up; destroyed top down.
 struct Service::Parts {
   Parts(const ServiceConfig& config, const Environment& environment, const RunnerFactory& runners, Log& log,
-        std::unique_ptr<Store> opened)
+        std::unique_ptr<Store> opened, std::string callback_key)
       : store(std::move(opened)),
         jobs(*store, environment, log, config.jobs),
         upkeep(jobs.context(), DiskGuard(config.store_path, static_cast<std::uint64_t>(config.ballast_bytes),
@@ -88,7 +109,9 @@ struct Service::Parts {
         keys(config.keys),
         gateway(routes, environment, log, keys, metrics, http::CrossOrigin(config.allowed_origins)),
         listener(config.listener, gateway),
-        upkeep_thread(upkeep, environment) {}
+        upkeep_thread(upkeep, environment),
+        webhooks({*store, environment, log, config.callback_times, webhook_counters},
+                 callback_origins(config.jobs.callback_hosts), std::move(callback_key)) {}
 
   [[nodiscard]] std::string metrics_text();
   [[nodiscard]] std::string not_ready();
@@ -104,6 +127,8 @@ struct Service::Parts {
   http::Gateway gateway;
   http::Listener listener;
   UpkeepThread upkeep_thread;
+  WebhookCounters webhook_counters;
+  Webhooks webhooks;
 };
 
 std::string Service::Parts::metrics_text() {
@@ -139,6 +164,14 @@ std::string Service::Parts::metrics_text() {
           runner_counters.out_of_memory);
   counter("snapthrough_runners_killed_total", "Ended because they did not stop.", runner_counters.killed);
   counter("snapthrough_runners_crashed_total", "Ended otherwise.", runner_counters.crashed);
+  counter("snapthrough_callbacks_delivered_total", "Ends that a receiver took.", webhook_counters.delivered);
+  counter("snapthrough_callback_attempts_failed_total", "Requests to receivers that failed.",
+          webhook_counters.failed);
+  counter("snapthrough_callbacks_given_up_total", "Ends that no receiver took.", webhook_counters.given_up);
+  if (const StatusOr<std::int64_t> deliveries = store->deliveries().waiting(); deliveries.ok()) {
+    gauge("snapthrough_callbacks_waiting", "Ends that a receiver has not taken yet.",
+          static_cast<double>(*deliveries));
+  }
   gauge("snapthrough_store_writable", "1 when the latest write went well.", health.writable ? 1 : 0);
   gauge("snapthrough_disk_has_space", "1 when new jobs are taken.", health.has_space ? 1 : 0);
   return text;
@@ -170,6 +203,10 @@ Service::Service(ServiceConfig config, Environment environment, RunnerFactory ru
 Service::~Service() { stop(); }
 
 Status Service::start() {
+  StatusOr<std::string> key = callback_key(config_);
+  if (!key.ok()) {
+    return key.status();
+  }
   StatusOr<std::unique_ptr<Store>> store = sqlite::open_store(config_.store_path, environment_.now());
   if (!store.ok()) {
     return store.status();
@@ -190,7 +227,8 @@ Status Service::start() {
                {{"points", *points},
                 {"detail", std::string_view("the service died while it worked on these points")}});
   }
-  parts_ = std::make_unique<Parts>(config_, environment_, runners_, log_, std::move(opened));
+  parts_ = std::make_unique<Parts>(config_, environment_, runners_, log_, std::move(opened),
+                                   std::move(key).value());
   for (std::size_t i = 0; i < recovery->failed.size(); ++i) {
     parts_->jobs.context().metrics.job_ended("crashed");
   }

@@ -84,22 +84,24 @@ Setting store_setting() {
           [](const ServiceConfig& config) { return config.store_path; }};
 }
 
-Setting allowed_origins_setting() {
-  return {"allowed_origins",
-          "Origins of pages that may use the service, too, exact, with commas between; none: its own",
-          [](ServiceConfig& config, const std::string& text) -> Mistake {
-            config.allowed_origins.clear();
-            for (const std::string_view origin : http::split_list(text, ',')) {
-              config.allowed_origins.emplace_back(origin);
+/// A setting that is a list of texts with commas between.
+template <class Field>
+Setting text_list(std::string name, std::string help, Field field) {
+  return {std::move(name), std::move(help),
+          [field](ServiceConfig& config, const std::string& text) -> Mistake {
+            std::vector<std::string>& list = field(config);
+            list.clear();
+            for (const std::string_view entry : http::split_list(text, ',')) {
+              list.emplace_back(entry);
             }
             return std::nullopt;
           },
-          [](const ServiceConfig& config) {
-            std::string list;
-            for (const std::string& origin : config.allowed_origins) {
-              list += (list.empty() ? "" : ",") + origin;
+          [field](const ServiceConfig& config) {
+            std::string text;
+            for (const std::string& entry : field(const_cast<ServiceConfig&>(config))) {  // read only
+              text += (text.empty() ? "" : ",") + entry;
             }
-            return list;
+            return text;
           }};
 }
 
@@ -161,7 +163,18 @@ std::vector<Setting> front_settings() {
       duration(
           "drain_delay_s", "From SIGTERM, when /readyz turns 503, until running work is given back",
           [](ServiceConfig & c) -> auto& { return c.drain_delay; }),
-      allowed_origins_setting(),
+      text_list("allowed_origins",
+                "Origins of pages that may use the service, too, exact, with commas between; none: its own",
+                [](ServiceConfig& c) -> std::vector<std::string>& { return c.allowed_origins; }),
+      text_list("callback_hosts",
+                "Hosts, host[:port], that may be told of the end of jobs, with commas between; none: refused",
+                [](ServiceConfig& c) -> std::vector<std::string>& { return c.jobs.callback_hosts; }),
+      {"callback_secret_file", "File with the secret that callbacks are signed with: whsec_ and base64",
+       [](ServiceConfig& config, const std::string& text) -> Mistake {
+         config.callback_secret_file = text;
+         return std::nullopt;
+       },
+       [](const ServiceConfig& config) { return config.callback_secret_file; }},
       log_level_setting(),
   };
 }

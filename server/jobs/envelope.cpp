@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "api/json_text.h"
+#include "server/jobs/callback.h"
 #include "solver/model/pointer.h"
 
 namespace snapthrough::server {
@@ -94,15 +95,31 @@ void read_metadata(const json& value, Envelope& envelope) {
   envelope.annotations.metadata = value.empty() ? "" : value.dump();
 }
 
-void read_member(const std::string& name, const json& value, std::string_view member, Envelope& envelope) {
+void read_callback(const json& value, const std::vector<std::string>& hosts, Envelope& envelope) {
+  if (!value.is_string()) {
+    envelope.findings.push_back({"/callback", "wrong_type", "expected a string"});
+    return;
+  }
+  envelope.annotations.callback = value.get<std::string>();
+  if (const auto finding = check_callback(envelope.annotations.callback, hosts)) {
+    envelope.findings.push_back(*finding);
+  }
+}
+
+/// Reads a member beside the document.
+void read_member(const std::string& name, const json& value, std::string_view member,
+                 const std::vector<std::string>& callback_hosts, Envelope& envelope) {
   if (name == "label") {
     check_text(value, "/label", 1, kLongestLabel, envelope.findings);
     envelope.annotations.label = value.is_string() ? value.get<std::string>() : "";
   } else if (name == "metadata") {
     read_metadata(value, envelope);
-  } else if (name != member) {
-    envelope.findings.push_back({"/" + escape_pointer_token(name), "unknown_field",
-                                 "beside \"" + std::string(member) + "\" there may be label and metadata"});
+  } else if (name == "callback") {
+    read_callback(value, callback_hosts, envelope);
+  } else {
+    envelope.findings.push_back(
+        {"/" + escape_pointer_token(name), "unknown_field",
+         "beside \"" + std::string(member) + "\" there may be label, metadata and callback"});
   }
 }
 
@@ -113,7 +130,8 @@ std::size_t characters(std::string_view text) {
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-Envelope open_envelope(std::string_view text, std::string_view member) {
+Envelope open_envelope(std::string_view text, std::string_view member,
+                       const std::vector<std::string>& callback_hosts) {
   Envelope envelope;
   api::ParsedText parsed = api::parse_json(text);
   if (parsed.document == nullptr) {
@@ -127,7 +145,9 @@ Envelope open_envelope(std::string_view text, std::string_view member) {
     return envelope;
   }
   for (const auto& [name, value] : parsed.document->items()) {
-    read_member(name, value, member, envelope);
+    if (name != member) {
+      read_member(name, value, member, callback_hosts, envelope);
+    }
   }
   envelope.pointer = "/" + std::string(member);
   envelope.text = member_text(text, member);

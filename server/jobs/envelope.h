@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a client hands in: a document by itself, or in an envelope with what it notes on it.
+/// What a client hands in: a document by itself, or in an envelope with what it wants with it.
 
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -29,11 +29,13 @@ struct Envelope {
   std::vector<Finding> findings;
 };
 
-/// @brief Reads a text that is a document, or `{"<member>": document, "label": ..., "metadata": {...}}`.
-/// A document has no member of that name itself.
+/// @brief Reads a text that is a document, or an envelope `{"<member>": document}` with `label`, `metadata`
+/// and `callback` where they are wanted. A document has no member of that name itself.
 /// @param member "request" or "sweep"
+/// @param callback_hosts see check_callback()
 /// @pre the text outlives the envelope
-[[nodiscard]] Envelope open_envelope(std::string_view text, std::string_view member);
+[[nodiscard]] Envelope open_envelope(std::string_view text, std::string_view member,
+                                     const std::vector<std::string>& callback_hosts = {});
 
 /// Findings about the document, with the pointers that they have in what was handed in.
 [[nodiscard]] std::vector<Finding> in_envelope(const Envelope& envelope, std::vector<Finding> findings);

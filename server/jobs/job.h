@@ -20,10 +20,11 @@ struct JobFailure {
   std::string reached;  ///< result document (JSON text) of what was reached; empty: nothing
 };
 
-/// What a client notes on a job or sweep. It has no part in what is computed.
+/// What a client wants with a job or sweep. It has no part in what is computed.
 struct Annotations {
-  std::string label;     ///< empty: none
-  std::string metadata;  ///< JSON object of texts; empty: none
+  std::string label;          ///< empty: none
+  std::string metadata;       ///< JSON object of texts; empty: none
+  std::string callback = {};  ///< address that is told of the end (jobs/callback.h); empty: none
 
   bool operator==(const Annotations&) const = default;
 };

@@ -90,7 +90,7 @@ StatusOr<Submission> JobService::submit(const Order& order) {
   if (in_use.by_another()) {
     return Submission{Submission::Kind::key_in_use};
   }
-  const Envelope envelope = open_envelope(order.document, "request");
+  const Envelope envelope = open_envelope(order.document, "request", limits_.callback_hosts);
   if (envelope.malformed) {
     return Submission{Submission::Kind::malformed, envelope.findings};
   }

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "server/jobs/quotas.h"
 #include "server/status.h"
@@ -27,6 +29,7 @@ struct JobLimits {
   int sweep_points = 100'000;                  ///< of one sweep, 1 to api::kMaxSweepPoints
   int table_rows = 250'000;                    ///< in one response, >= 1
   Quotas quotas;                               ///< of each owner
+  std::vector<std::string> callback_hosts;  ///< that may be told of ends, `host[:port]`; see jobs/callback.h
 };
 
 /// Whether writing to the store works. Thread-safe.

@@ -23,7 +23,7 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
   if (Status status = world_.health.takes_work(); !status.ok()) {
     return status;
   }
-  const Envelope envelope = open_envelope(order.document, "sweep");
+  const Envelope envelope = open_envelope(order.document, "sweep", world_.limits.callback_hosts);
   if (envelope.malformed) {
     return Submission{Submission::Kind::malformed, envelope.findings};
   }

@@ -32,6 +32,9 @@ void add_annotations(const Annotations& annotations, ordered_json& status) {
   if (!annotations.metadata.empty()) {
     status["metadata"] = ordered_json::parse(annotations.metadata);
   }
+  if (!annotations.callback.empty()) {
+    status["callback"] = annotations.callback;
+  }
 }
 
 std::string status_message(const Job& job, const std::optional<Progress>& progress) {

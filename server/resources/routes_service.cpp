@@ -62,11 +62,11 @@ Checked checked_sweep(const std::shared_ptr<const nlohmann::json>& document, con
 }
 
 /// A document with or without an envelope, of either kind.
-Envelope opened(std::string_view body) {
-  Envelope envelope = open_envelope(body, "request");
+Envelope opened(std::string_view body, const std::vector<std::string>& callback_hosts) {
+  Envelope envelope = open_envelope(body, "request", callback_hosts);
   const bool sweep = envelope.document != nullptr && envelope.pointer.empty() &&
                      envelope.document->is_object() && envelope.document->contains("sweep");
-  return sweep ? open_envelope(body, "sweep") : envelope;
+  return sweep ? open_envelope(body, "sweep", callback_hosts) : envelope;
 }
 
 Response fresh(Response response) {
@@ -81,7 +81,7 @@ Response Routes::check(const Request& request, const std::string& /*id*/) {
     return simple_problem(request, 415, "unsupported-media-type", "Unsupported media type",
                           "A request document has Content-Type: application/json.");
   }
-  const Envelope envelope = opened(request.body);
+  const Envelope envelope = opened(request.body, jobs_.limits().callback_hosts);
   if (envelope.malformed) {
     return problem_response({400, "malformed-json", "Malformed JSON", "The body is no acceptable JSON text.",
                              envelope.findings, "", ""},

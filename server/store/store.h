@@ -13,6 +13,7 @@
 
 #include "server/jobs/job.h"
 #include "server/status.h"
+#include "server/store/delivery_store.h"
 #include "server/store/list_query.h"
 #include "server/store/sweep_store.h"
 
@@ -134,6 +135,8 @@ class Store {
 
   /// What is kept of sweeps; lives as long as this.
   virtual SweepStore& sweeps() = 0;
+  /// Who is still to be told of an end; lives as long as this.
+  virtual DeliveryStore& deliveries() = 0;
 };
 
 }  // namespace snapthrough::server

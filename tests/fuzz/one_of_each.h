@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/store/store.h"
+#include "tests/server/support/failing_delivery_store.h"
 #include "tests/server/support/samples.h"
 
 namespace snapthrough::server::test {
@@ -139,6 +140,7 @@ class FuzzedStore final : public Store {
                          result_.document.size()};
   }
   SweepStore& sweeps() override { return sweeps_; }
+  DeliveryStore& deliveries() override { return deliveries_; }
   StatusOr<StoredPath> path(std::string_view) override {
     return StoredPath{result_.branches, result_.critical_points};
   }
@@ -158,6 +160,7 @@ class FuzzedStore final : public Store {
   }
   const JobResult result_ = sample_result();
   FuzzedSweeps sweeps_;
+  FailingDeliveryStore deliveries_{StatusCode::unavailable};
 };
 
 }  // namespace snapthrough::server::test

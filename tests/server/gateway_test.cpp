@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/server/support/failing_delivery_store.h"
 #include "tests/server/support/failing_sweep_store.h"
 #include "tests/server/support/samples.h"
 
@@ -57,12 +58,14 @@ class FailingStore final : public Store {
     return status();
   }
   SweepStore& sweeps() override { return sweeps_; }
+  DeliveryStore& deliveries() override { return deliveries_; }
   StatusOr<StoredPath> path(std::string_view) override { return status(); }
 
  private:
   [[nodiscard]] Status status() const { return {code_, "the disk /dev/secret is full"}; }
   StatusCode code_;
   test::FailingSweepStore sweeps_{code_};
+  test::FailingDeliveryStore deliveries_{code_};
 };
 
 struct Bench {

@@ -96,7 +96,7 @@ std::vector<NamedSeries> read_series(const Connection& connection, std::int64_t 
 
 const char* const kJobColumns =
     "jobs.id, jobs.status, jobs.attempt, jobs.crashes, jobs.title, jobs.analysis_type, jobs.created_us,"
-    " jobs.started_us, jobs.finished_us, jobs.owner, jobs.label, jobs.metadata";
+    " jobs.started_us, jobs.finished_us, jobs.owner, jobs.label, jobs.metadata, jobs.callback";
 
 std::int64_t to_row(Time time) { return time.time_since_epoch().count(); }
 
@@ -117,7 +117,7 @@ JobState state_in(const Statement& row, int column) {
 }
 
 Annotations annotations_in(const Statement& row, int column) {
-  return {row.text(column), row.text(column + 1)};
+  return {row.text(column), row.text(column + 1), row.text(column + 2)};
 }
 
 std::optional<std::string_view> text_or_null(std::string_view text) {

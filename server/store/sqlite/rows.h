@@ -18,7 +18,7 @@ namespace snapthrough::server::sqlite {
 [[nodiscard]] std::optional<Time> optional_time_in(const Statement& row, int column);
 [[nodiscard]] JobState state_in(const Statement& row, int column);
 
-/// The annotations in two columns, label and metadata.
+/// The annotations in three columns: label, metadata, callback.
 [[nodiscard]] Annotations annotations_in(const Statement& row, int column);
 /// NULL for an empty text.
 [[nodiscard]] std::optional<std::string_view> text_or_null(std::string_view text);
@@ -31,7 +31,7 @@ namespace snapthrough::server::sqlite {
 extern const char* const kJobColumns;
 /// The job in the current row of a statement that selects kJobColumns first, and the column after the last.
 [[nodiscard]] Job read_job(const Statement& row);
-inline constexpr int kJobColumnCount = 12;
+inline constexpr int kJobColumnCount = 13;
 
 /// Inserts branches with their series, and critical points.
 void insert_path(Connection& connection, std::int64_t job, const std::vector<Branch>& branches,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/store/sqlite/database.h"
+#include "server/store/sqlite/deliveries.h"
 #include "server/store/sqlite/file_lock.h"
 #include "server/store/sqlite/list.h"
 #include "server/store/sqlite/quotas.h"
@@ -16,7 +17,10 @@ namespace {
 class SqliteStore final : public Store {
  public:
   SqliteStore(FileLock lock, std::unique_ptr<Connection> writer, const std::string& path)
-      : lock_(std::move(lock)), database_(std::move(writer), path), sweeps_(database_) {}
+      : lock_(std::move(lock)),
+        database_(std::move(writer), path),
+        sweeps_(database_),
+        deliveries_(database_) {}
 
   using Store::submit;
   StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) override;
@@ -45,6 +49,7 @@ class SqliteStore final : public Store {
   StatusOr<DocumentPiece> result_piece(std::string_view id, std::size_t offset, std::size_t most) override;
   StatusOr<StoredPath> path(std::string_view id) override;
   SweepStore& sweeps() override { return sweeps_; }
+  DeliveryStore& deliveries() override { return deliveries_; }
 
  private:
   StatusOr<std::optional<std::string>> document(const char* table, std::string_view id);
@@ -52,6 +57,7 @@ class SqliteStore final : public Store {
   FileLock lock_;
   Database database_;
   SqliteSweepStore sweeps_;
+  SqliteDeliveryStore deliveries_;
 };
 
 const ListedTable kListedJobs{"jobs", kJobColumns, ""};
@@ -111,8 +117,8 @@ void insert_job(Connection& connection, const NewJob& job) {
   connection
       .prepare(
           "INSERT INTO jobs (id, title, analysis_type, created_us, owner, content_key, status, attempt,"
-          " started_us, worker, lease_until_us, label, metadata) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
-          "?)")
+          " started_us, worker, lease_until_us, label, metadata, callback)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(job.id)
       .bind(job.title)
       .bind(job.analysis_type)
@@ -126,6 +132,7 @@ void insert_job(Connection& connection, const NewJob& job) {
       .bind(lease ? std::optional(to_row(lease->until)) : std::nullopt)
       .bind(text_or_null(job.annotations.label))
       .bind(text_or_null(job.annotations.metadata))
+      .bind(text_or_null(job.annotations.callback))
       .run();
 }
 
@@ -145,14 +152,15 @@ void insert_key(Connection& connection, const NewJob& job, std::int64_t row) {
 struct KnownJob {
   std::int64_t row = 0;
   std::string id;
-  Annotations annotations;
+  Annotations annotations;  ///< its callback, which was told, left out
 };
 
 /// The newest successful job of that content and owner, of those with these annotations if there are any.
 std::optional<KnownJob> same_content(const Connection& connection, std::string_view content_key,
                                      std::string_view owner, const Annotations& annotations) {
   Statement row = connection.prepare(
-      "SELECT seq, id, label, metadata FROM jobs INDEXED BY jobs_by_content WHERE content_key = ?1 AND owner "
+      "SELECT seq, id, label, metadata, NULL FROM jobs INDEXED BY jobs_by_content WHERE content_key = ?1 AND "
+      "owner "
       "= ?2"
       " AND status = 'successful' AND content_key <> ''"
       " ORDER BY label IS ?3 AND metadata IS ?4 DESC, seq DESC LIMIT 1");
@@ -200,6 +208,7 @@ StatusOr<Submitted> SqliteStore::submit(const NewJob& job, const std::function<v
     }
     const auto known =
         job.reuse ? same_content(connection, job.content_key, job.owner, job.annotations) : std::nullopt;
+    // A callback, which the known job does not have, is told of a new job.
     const bool will_do = known && (job.annotations == Annotations{} || job.annotations == known->annotations);
     Submitted submitted{Submitted::Kind::reused, known ? known->id : ""};
     std::int64_t row = known ? known->row : 0;

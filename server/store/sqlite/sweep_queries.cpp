@@ -24,7 +24,7 @@ std::vector<bool> done_points(const Connection& connection, std::int64_t sweep, 
 const char* const kSweepColumns =
     "sweeps.id, sweeps.status, sweeps.owner, sweeps.title, sweeps.points, sweeps.successful, sweeps.failed,"
     " sweeps.reused, sweeps.created_us, sweeps.started_us, sweeps.finished_us, sweeps.analysis_type,"
-    " sweeps.label, sweeps.metadata";
+    " sweeps.label, sweeps.metadata, sweeps.callback";
 
 SweepRecord read_sweep_record(const Statement& row) {
   SweepRecord sweep;

@@ -35,8 +35,8 @@ std::optional<Submitted> known_key(const Connection& connection, const Idempoten
 void insert_sweep(Connection& connection, const NewSweep& sweep) {
   connection
       .prepare(
-          "INSERT INTO sweeps (id, owner, title, reuse, points, created_us, analysis_type, label, metadata)"
-          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)")
+          "INSERT INTO sweeps (id, owner, title, reuse, points, created_us, analysis_type, label, metadata,"
+          " callback) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(sweep.id)
       .bind(sweep.owner)
       .bind(sweep.title)
@@ -46,6 +46,7 @@ void insert_sweep(Connection& connection, const NewSweep& sweep) {
       .bind(sweep.analysis_type)
       .bind(text_or_null(sweep.annotations.label))
       .bind(text_or_null(sweep.annotations.metadata))
+      .bind(text_or_null(sweep.annotations.callback))
       .run();
   const std::int64_t row = connection.last_row();
   connection.prepare("INSERT INTO sweep_documents (sweep, document) VALUES (?, ?)")

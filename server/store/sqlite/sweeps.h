@@ -40,7 +40,7 @@ class SqliteSweepStore final : public SweepStore {
 
 /// The columns that read_sweep_record() reads, for SELECT; needs the table `sweeps`.
 extern const char* const kSweepColumns;
-inline constexpr int kSweepColumnCount = 14;
+inline constexpr int kSweepColumnCount = 15;
 [[nodiscard]] SweepRecord read_sweep_record(const Statement& row);
 
 }  // namespace snapthrough::server::sqlite
