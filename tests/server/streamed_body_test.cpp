@@ -139,10 +139,11 @@ TEST_F(StreamedBody, ClientsThatDoNotReadHoldAPieceEachAndAreLetGo) {
   for (int i = 0; i < 8; ++i) {
     clients.push_back(stalled(sweep_ + "/table"));
   }
-  EXPECT_TRUE(eventually([&] { return metric("snapthrough_buffered_bytes") > 0; }));
+  // the answer with the metrics is counted, too, while it is on its way
+  EXPECT_TRUE(eventually([&] { return metric("snapthrough_buffered_bytes") > 128 * 1024; }));
   EXPECT_LT(metric("snapthrough_buffered_bytes"), 8 * 256 * 1024);
   EXPECT_TRUE(eventually([&] { return metric("snapthrough_connections") <= 1; })) << "nobody read";
-  EXPECT_EQ(metric("snapthrough_buffered_bytes"), 0);
+  EXPECT_TRUE(eventually([&] { return metric("snapthrough_buffered_bytes") == 0; }));
 }
 
 TEST_F(StreamedBody, AClientThatReadsSlowlyIsServedForAsLongAsItReads) {
