@@ -123,7 +123,7 @@ class Crash : public KilledServiceTest {
     {
       const std::lock_guard guard(told_.mutex);
       told_.jobs.insert(job);
-      if (reply.status == 200 && !reply.body.empty()) {
+      if (reply.status == 200 && reply.whole && !reply.body.empty()) {
         told_.results[job] = reply.body;
       }
       if (what == 2 || what == 7) {
