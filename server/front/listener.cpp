@@ -474,10 +474,14 @@ bool Listener::Server::send_on(const ClientPointer& client) {
     if (!client->rest) {
       return after_response(client);
     }
-    if (buffered_ > options_.limits.buffered_bytes) {  // until others have read
+    // room for a piece is taken before it is made, so that not all find the same room
+    const bool has_room = buffered_.fetch_add(kPieceBytes) <= options_.limits.buffered_bytes;
+    const bool whole = !has_room || append_piece(client);
+    buffered_ -= kPieceBytes;
+    if (!has_room) {  // until others have read
       return wait_to_send(client, 0, Clock::now() + kSweep);
     }
-    if (!append_piece(client)) {
+    if (!whole) {
       drop(*client);
       return false;
     }
