@@ -9,13 +9,7 @@
 
 namespace snapthrough::api {
 
-namespace {
-
-using Json = nlohmann::json;
-
-// to_json(x): one function a type. Optional values that are empty, and counts that were not filled, are null.
-
-const char* to_name(CriticalType type) {
+const char* critical_type_name(CriticalType type) {
   switch (type) {
     case CriticalType::bifurcation:
       return "bifurcation";
@@ -29,6 +23,12 @@ const char* to_name(CriticalType type) {
   throw std::invalid_argument("critical type out of range");
 }
 
+namespace {
+
+using Json = nlohmann::json;
+
+// to_json(x): one function a type. Optional values that are empty, and counts that were not filled, are null.
+
 template <class T>
 Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
@@ -41,7 +41,8 @@ Json count_or_null(T count) {
 
 Json write(const Summary& summary) {
   return {{"critical_load_factor", or_null(summary.critical_load_factor)},
-          {"critical_type", summary.critical_type ? Json(to_name(*summary.critical_type)) : Json(nullptr)},
+          {"critical_type",
+           summary.critical_type ? Json(critical_type_name(*summary.critical_type)) : Json(nullptr)},
           {"error_estimate", or_null(summary.error_estimate)},
           {"termination", summary.termination},
           {"message", summary.message}};
@@ -82,7 +83,7 @@ Json write(const Mode& mode) {
 
 Json write(const CriticalPoint& point) {
   return {{"branch", point.branch},
-          {"type", to_name(point.type)},
+          {"type", critical_type_name(point.type)},
           {"cause", point.cause == CriticalCause::smooth ? "smooth" : "contact"},
           {"load_factor", point.load_factor},
           {"error_estimate", or_null(point.error_estimate)},

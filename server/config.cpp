@@ -1,10 +1,10 @@
 #include "server/config.h"
 
 #include <algorithm>
-#include <charconv>
 #include <thread>
 
 #include "api/sweep.h"
+#include "server/authority.h"
 #include "server/front/cross_origin.h"
 #include "server/jobs/callback.h"
 
@@ -85,24 +85,13 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
 }
 
 std::optional<std::pair<std::string, int>> parse_address(std::string_view text) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos || colon == 0) {
+  const Authority authority = Authority::of(text);
+  const std::string_view host = without_brackets(authority.host);
+  const std::optional<int> port = read_port(authority.port.value_or(""));
+  if (host.empty() || !port) {
     return std::nullopt;
   }
-  std::string_view host = text.substr(0, colon);
-  if (host.front() == '[' && host.back() == ']') {
-    host = host.substr(1, host.size() - 2);
-  } else if (host.find(':') != std::string_view::npos) {
-    return std::nullopt;  // an IPv6 address without brackets
-  }
-  const std::string_view digits = text.substr(colon + 1);
-  int port = -1;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
-  const bool whole = error == std::errc() && end == digits.data() + digits.size();
-  if (!whole || host.empty() || port < 0 || port > 65535) {
-    return std::nullopt;
-  }
-  return std::pair(std::string(host), port);
+  return std::pair(std::string(host), *port);
 }
 
 }  // namespace snapthrough::server

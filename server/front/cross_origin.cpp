@@ -1,6 +1,9 @@
 #include "server/front/cross_origin.h"
 
 #include <algorithm>
+#include <optional>
+
+#include "server/authority.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -16,11 +19,8 @@ constexpr const char* kResponseHeaders =
 /// Browsers keep the answer so long, in seconds (Chromium two hours at most).
 constexpr const char* kMaxAge = "7200";
 
-bool is_port(std::string_view text, std::string_view scheme) {
-  const bool digits = !text.empty() && text.size() <= 5 && text.front() != '0' &&
-                      text.find_first_not_of("0123456789") == text.npos;
-  const bool own = (scheme == "http" && text == "80") || (scheme == "https" && text == "443");
-  return digits && !own && (text.size() < 5 || text <= "65535");
+bool is_scheme_port(std::string_view scheme, int port) {
+  return (scheme == "http" && port == 80) || (scheme == "https" && port == 443);
 }
 
 }  // namespace
@@ -31,19 +31,16 @@ bool is_origin(std::string_view text) {
   if (colon == text.npos || (scheme != "http" && scheme != "https")) {
     return false;
   }
-  const std::string_view rest = text.substr(colon + 3);
-  const bool bracketed = rest.starts_with('[');
-  const std::size_t closing = rest.find(']');
-  if (bracketed && closing == rest.npos) {
+  const Authority authority = Authority::of(text.substr(colon + 3));
+  const std::string_view name = without_brackets(authority.host);
+  const bool bracketed = name.size() < authority.host.size();
+  const std::string_view letters =
+      bracketed ? ":.0123456789abcdef" : "-._0123456789abcdefghijklmnopqrstuvwxyz";
+  if (name.empty() || name.find_first_not_of(letters) != name.npos) {
     return false;
   }
-  const std::size_t end = std::min(rest.find(':', bracketed ? closing : 0), rest.size());
-  const std::string_view host = rest.substr(0, end);
-  const std::string_view letters =
-      bracketed ? "[]:.0123456789abcdef" : "-._0123456789abcdefghijklmnopqrstuvwxyz";
-  const bool good_host =
-      !host.empty() && host.find_first_not_of(letters) == host.npos && (!bracketed || closing + 1 == end);
-  return good_host && (end == rest.size() || is_port(rest.substr(end + 1), scheme));
+  const std::optional<int> port = read_port(authority.port.value_or("1"));
+  return port.value_or(0) > 0 && !is_scheme_port(scheme, *port);
 }
 
 bool CrossOrigin::allows(std::string_view origin) const {

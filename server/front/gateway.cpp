@@ -4,6 +4,8 @@
 #include <exception>
 #include <utility>
 
+#include "server/authority.h"
+
 namespace snapthrough::server::http {
 namespace {
 
@@ -57,20 +59,12 @@ const char* problem_kind(int status) {
   }
 }
 
-/// The name in "name:port"; brackets stay with the addresses that have them.
-std::string_view host_name(std::string_view host) {
-  const std::size_t end = host.starts_with('[') ? host.find(']') + 1 : std::min(host.find(':'), host.size());
-  return host.substr(0, end);
-}
-
 /// A page of another site that reaches this machine by a name that its owner points here (DNS rebinding), or
 /// sends a request from where it was loaded.
 bool comes_from_elsewhere(const Request& request, const CrossOrigin& allowed) {
   const std::string_view host = request.header("Host").value_or("localhost");
-  const std::string_view name = host_name(host);
-  const bool local = equal_ignoring_case(name, "localhost") || name == "[::1]" || name.starts_with("127.");
-  const bool numeric = name.find_first_not_of("0123456789.") == std::string_view::npos;
-  if (!local || (name.starts_with("127.") && !numeric)) {
+  const std::string_view name = without_brackets(Authority::of(host).host);
+  if (!equal_ignoring_case(name, "localhost") && !is_loopback(name)) {
     return true;
   }
   const std::optional<std::string_view> origin = request.header("Origin");

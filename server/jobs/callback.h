@@ -13,9 +13,6 @@ namespace snapthrough::server {
 
 inline constexpr std::size_t kLongestCallback = 2000;  ///< characters
 
-/// Whether it is "localhost", "::1" or an IPv4 address 127.x.x.x.
-[[nodiscard]] bool is_loopback(const std::string& host);
-
 /// Whether it is an exact `host` or `host:port` in lower case (IPv6 in brackets), without "*".
 [[nodiscard]] bool is_callback_host(const std::string& host);
 

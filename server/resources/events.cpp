@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "api/api.h"
 #include "server/resources/documents.h"
 #include "server/resources/following.h"
 
@@ -18,20 +19,6 @@ constexpr std::uint64_t kAttempt = 1'000'000'000'000;
 constexpr std::uint64_t kEndings = 1'000'000 * kAttempt;
 static_assert(kEndings < kEndOfJob);
 
-const char* type_name(CriticalType type) {
-  switch (type) {
-    case CriticalType::bifurcation:
-      return "bifurcation";
-    case CriticalType::limit_max:
-      return "limit_max";
-    case CriticalType::limit_min:
-      return "limit_min";
-    case CriticalType::broken_bifurcation:
-      return "broken_bifurcation";
-  }
-  return "";
-}
-
 std::string progress_data(const Progress& progress) {
   return ordered_json{{"branch", progress.branch},
                       {"step", progress.step},
@@ -43,7 +30,7 @@ std::string progress_data(const Progress& progress) {
 /// @param last as the result has it; else as the path's own mesh gave it
 std::string critical_data(const CriticalPoint& point, bool last) {
   ordered_json data{{"branch", point.branch},
-                    {"type", type_name(point.type)},
+                    {"type", api::critical_type_name(point.type)},
                     {"load_factor", point.load_factor},
                     {"arc_length", point.arc_length},
                     {"negative_before", point.negative_before},

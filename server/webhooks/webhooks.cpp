@@ -1,11 +1,10 @@
 #include "server/webhooks/webhooks.h"
 
-#include <condition_variable>
 #include <csignal>
-#include <mutex>
 #include <optional>
 #include <utility>
 
+#include "server/pause.h"
 #include "server/resources/documents.h"
 #include "server/webhooks/signature.h"
 
@@ -14,14 +13,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kBetweenCuts{50};
 constexpr std::chrono::seconds kAfterStoreTrouble{5};
-
-/// Waits, or returns at once when a stop is requested.
-void pause(const std::stop_token& stop, std::chrono::milliseconds time) {
-  std::mutex mutex;
-  std::condition_variable_any never;
-  std::unique_lock lock(mutex);
-  never.wait_for(lock, stop, time, [] { return false; });
-}
 
 /// A socket that the other side has closed is an error, not a signal.
 void ignore_closed_sockets() {

@@ -1,12 +1,11 @@
 #include "server/worker/chunk.h"
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "server/jobs/content_key.h"
+#include "server/pause.h"
 
 namespace snapthrough::server {
 namespace {
@@ -125,13 +124,6 @@ void compute_curve(const Chunk& chunk, const WorkerContext& context, Runner& run
   }
 }
 
-void pause(const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any never;
-  std::unique_lock lock(mutex);
-  never.wait_for(lock, stop, kRetryPause, [] { return false; });
-}
-
 }  // namespace
 
 void work_on(const Chunk& chunk, const WorkerContext& context, Runner& runner, const std::stop_token& stop) {
@@ -150,7 +142,7 @@ void work_on(const Chunk& chunk, const WorkerContext& context, Runner& runner, c
   const double seconds = context.environment.monotonic_seconds() - start;
   Status status = context.sweeps.settle(chunk, work.rows, work.rest, seconds);
   while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
-    pause(stop);
+    pause(stop, kRetryPause);
     status = context.sweeps.settle(chunk, work.rows, work.rest, seconds);
   }
   if (!status.ok() && status.code() != StatusCode::conflict) {

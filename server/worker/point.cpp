@@ -1,6 +1,5 @@
 #include "server/worker/point.h"
 
-#include <array>
 #include <chrono>
 #include <exception>
 #include <new>
@@ -52,14 +51,10 @@ Model model_between(const api::Sweep& sweep, std::uint64_t first, double value) 
 
 /// The result document as far as a curve has it.
 nlohmann::json curve_document(const CriticalCurvePoint& point) {
-  static constexpr std::array kNames{std::pair{CriticalType::bifurcation, "bifurcation"},
-                                     std::pair{CriticalType::limit_max, "limit_max"},
-                                     std::pair{CriticalType::limit_min, "limit_min"}};
   nlohmann::json summary{{"critical_load_factor", nullptr}, {"critical_type", nullptr}};
-  for (const auto& [type, name] : kNames) {
-    if (point.load_factor && point.type == type) {
-      summary = {{"critical_load_factor", *point.load_factor}, {"critical_type", name}};
-    }
+  if (point.load_factor) {
+    summary = {{"critical_load_factor", *point.load_factor},
+               {"critical_type", api::critical_type_name(point.type)}};
   }
   return {{"summary", std::move(summary)}};
 }

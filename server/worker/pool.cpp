@@ -1,13 +1,12 @@
 #include "server/worker/pool.h"
 
 #include <chrono>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "server/jobs/path_batch.h"
+#include "server/pause.h"
 #include "server/worker/chunk.h"
 
 namespace snapthrough::server {
@@ -18,7 +17,7 @@ using std::chrono::duration;
 /// How long a worker without work waits at most before it looks at the queue again.
 constexpr duration<double> kLongestNap{1.0};
 /// How long a worker waits before it tries again to store an outcome.
-constexpr duration<double> kRetryPause{0.2};
+constexpr std::chrono::milliseconds kRetryPause{200};
 
 /// Adds points of the path, and forgets the oldest of those that are too many.
 void note_traced(JobNews& news, std::string document) {
@@ -97,13 +96,6 @@ Status store_once(const Claim& claim, JobRun& outcome, const WorkerContext& cont
   outcome.result.reset();
   outcome.failure = JobFailure{"not_stored", "the result could not be stored: " + status.message(), ""};
   return context.store.fail(claim, *outcome.failure, {}, now);
-}
-
-void pause(const std::stop_token& stop, duration<double> time) {
-  std::mutex mutex;
-  std::condition_variable_any never;
-  std::unique_lock lock(mutex);
-  never.wait_for(lock, stop, time, [] { return false; });
 }
 
 /// Stores the outcome; while the store can't be written, again and again until the claim is lost or the

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "server/authority.h"
 #include "server/config.h"
 #include "server/environment.h"
 #include "server/jobs/path_batch.h"
@@ -97,6 +98,24 @@ http::Preferences preferences(std::vector<std::string> values) {
     request.headers.emplace_back("prefer", std::move(value));
   }
   return http::read_preferences(request);
+}
+
+TEST(Authority, PortsAndLoopbackHosts) {
+  EXPECT_EQ(Authority::of("[::1]:80").host, "[::1]");
+  EXPECT_EQ(Authority::of("[::1]:80").port, "80");
+  EXPECT_EQ(Authority::of("[::1]").port, std::nullopt);
+  EXPECT_EQ(Authority::of("name:").port, "");
+  EXPECT_EQ(read_port("65535"), 65535);
+  EXPECT_EQ(read_port("0"), 0);
+  for (const char* wrong : {"", "65536", "-1", "+1", "080", "8a", " 80"}) {
+    EXPECT_EQ(read_port(wrong), std::nullopt) << wrong;
+  }
+  for (const char* own : {"localhost", "127.0.0.1", "127.255.0.9", "::1"}) {
+    EXPECT_TRUE(is_loopback(own)) << own;
+  }
+  for (const char* other : {"127.0.0.1.evil.example", "127.1", "128.0.0.1", "evil", "[::1]", ""}) {
+    EXPECT_FALSE(is_loopback(other)) << other;
+  }
 }
 
 TEST(Prefer, ReadsWaitAndAsync) {
