@@ -183,10 +183,8 @@ Response Gateway::refuse(const Head& head, const std::string& remote) {
   request.method = head.method;
   request.path = head.target.substr(0, std::min(head.target.find('?'), std::size_t{256}));
   request.remote = remote;
-  request.id = new_id(environment_);
-  if (!head.origin.empty()) {
-    request.headers.emplace_back("Origin", head.origin);
-  }
+  request.headers = head.headers;
+  request.id = request_id(request, environment_);
   const int status = head.refusal->status;
   Response response = problem_response(
       {status, problem_kind(status), std::string(reason_phrase(status)), head.refusal->detail, {}, "", ""},

@@ -1,32 +1,14 @@
 #pragma once
 /// @file
-/// The only place that sees the HTTP library: it parses request lines, headers and queries.
+/// The only place of the front that sees the HTTP library: it decodes targets.
 
-#include <memory>
-#include <optional>
-#include <string>
-
+#include "server/front/request_head.h"
 #include "server/resources/message.h"
 
 namespace snapthrough::server::http {
 
-/// @brief Parses the heads of requests. Thread-safe.
-class RequestParser {
- public:
-  RequestParser();
-  ~RequestParser();
-  RequestParser(const RequestParser&) = delete;
-  RequestParser& operator=(const RequestParser&) = delete;
-  RequestParser(RequestParser&&) = delete;
-  RequestParser& operator=(RequestParser&&) = delete;
-
-  /// @param head request line and headers up to and including the empty line, from cleaned_head()
-  /// @return the request without body, id and peer; nothing when the library does not take it
-  [[nodiscard]] std::optional<Request> parse(const std::string& head) const;
-
- private:
-  class Library;
-  std::unique_ptr<Library> library_;
-};
+/// @brief The request of a head, without body, id and peer.
+/// @pre read_head() did not refuse it
+[[nodiscard]] Request request_of(Head head);
 
 }  // namespace snapthrough::server::http

@@ -103,7 +103,6 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
 
   const ListenerOptions options_;
   Gateway& gateway_;
-  RequestParser parser_;
   Descriptor epoll_;
   Descriptor listening_;
   Counter wakes_ready_{true};
@@ -338,19 +337,15 @@ bool Listener::Server::note_incomplete(Client& client, const Received& received)
 }
 
 bool Listener::Server::answer(const ClientPointer& client, Received received) {
-  std::optional<Request> request = parser_.parse(received.head_text);
-  if (!request) {
-    received.head.refusal = Refusal{400, "The request is malformed."};
-    return refuse(client, received.head, false);
-  }
-  request->body = std::move(received.body);
-  request->remote = client->remote;
-  client->head_only = request->method == "HEAD";
   client->close_after = !received.head.keep_alive;
   client->chunked = received.head.takes_chunks;
-  const std::size_t size = request->body.size();
+  Request request = request_of(std::move(received.head));
+  request.body = std::move(received.body);
+  request.remote = client->remote;
+  client->head_only = request.method == "HEAD";
+  const std::size_t size = request.body.size();
   buffered_ += size;
-  Response response = gateway_.serve(std::move(*request));
+  Response response = gateway_.serve(std::move(request));
   buffered_ -= size;
   return deliver(client, std::move(response));
 }

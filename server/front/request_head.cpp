@@ -6,14 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "server/resources/message.h"
-
 namespace snapthrough::server::http {
 namespace {
 
 constexpr std::string_view kLineEnd = "\r\n";
-/// What the HTTP library reads of one line.
-constexpr std::size_t kHeaderBytes = 8192;
 
 /// Takes the first line, without its end, off the text.
 std::string_view take_line(std::string_view& text) {
@@ -33,19 +29,14 @@ Head refuse(Head head, int status, std::string detail) {
 
 /// What the headers say, before it is judged.
 struct Facts {
-  std::size_t count = 0;
   std::optional<std::string_view> content_length;
-  bool malformed = false;
+  bool two_lengths = false;
   bool transfer_encoding = false;
   bool content_encoding = false;
   bool expects_continue = false;
   bool close = false;
   bool keep_alive = false;
-  bool empty_key =
-      false;  ///< the library leaves out a header that is empty: the client would be told nothing
   int hosts = 0;
-  std::string_view origin;
-  std::size_t longest = 0;  ///< line, with its end
 };
 
 bool lists(std::string_view value, std::string_view word) {
@@ -54,15 +45,15 @@ bool lists(std::string_view value, std::string_view word) {
                      [&](std::string_view part) { return equal_ignoring_case(part, word); });
 }
 
-/// Control characters in a value are how a second parser is made to see another header.
-bool has_control(std::string_view value) {
-  return std::any_of(value.begin(), value.end(),
+/// Control characters are how a second parser is made to see another request.
+bool has_control(std::string_view text) {
+  return std::any_of(text.begin(), text.end(),
                      [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F; });
 }
 
 void note_header(std::string_view name, std::string_view value, Facts& facts) {
   if (equal_ignoring_case(name, "Content-Length")) {
-    facts.malformed |= facts.content_length.has_value();
+    facts.two_lengths = facts.content_length.has_value();
     facts.content_length = value;
   } else if (equal_ignoring_case(name, "Transfer-Encoding")) {
     facts.transfer_encoding = true;
@@ -75,37 +66,35 @@ void note_header(std::string_view name, std::string_view value, Facts& facts) {
     facts.keep_alive |= lists(value, "keep-alive");
   } else if (equal_ignoring_case(name, "Host")) {
     ++facts.hosts;
-  } else if (equal_ignoring_case(name, "Origin")) {
-    facts.origin = value;
-  } else if (equal_ignoring_case(name, "Idempotency-Key")) {
-    facts.empty_key |= value.empty();
   }
 }
 
-Facts read_headers(std::string_view lines) {
+Facts facts_of(const Fields& headers) {
   Facts facts;
+  for (const auto& [name, value] : headers) {
+    note_header(name, value, facts);
+  }
+  return facts;
+}
+
+/// Nothing when a line is no header.
+std::optional<Fields> read_headers(std::string_view lines) {
+  Fields headers;
   while (!lines.empty()) {
     const std::string_view line = take_line(lines);
     if (line.empty()) {
       break;
     }
-    ++facts.count;
-    facts.longest = std::max(facts.longest, line.size() + kLineEnd.size());
     const std::size_t colon = line.find(':');
     const std::string_view name = line.substr(0, colon);
     // A space in or before the name is how headers are smuggled past one of two parsers.
-    if (colon == std::string_view::npos || name.empty() || name.find_first_of(" \t\r\n") != name.npos) {
-      facts.malformed = true;
-      return facts;
+    if (colon == std::string_view::npos || name.empty() || name.find_first_of(" \t") != name.npos ||
+        has_control(line)) {
+      return std::nullopt;
     }
-    const std::string_view value = trimmed(line.substr(colon + 1));
-    if (has_control(value) || has_control(name)) {
-      facts.malformed = true;
-      return facts;
-    }
-    note_header(name, value, facts);
+    headers.emplace_back(name, trimmed(line.substr(colon + 1)));
   }
-  return facts;
+  return headers;
 }
 
 std::optional<std::size_t> length_of(std::string_view digits) {
@@ -131,17 +120,19 @@ std::string_view origin_form(std::string_view target) {
 bool read_request_line(std::string_view line, Head& head) {
   const std::size_t first = line.find(' ');
   const std::size_t last = line.rfind(' ');
-  if (first == std::string_view::npos || first == last || !line.substr(last + 1).starts_with("HTTP/1.")) {
+  if (first == std::string_view::npos || first == last || has_control(line)) {
     return false;
   }
+  const std::string_view version = line.substr(last + 1);
   head.method = line.substr(0, first);
   head.target = origin_form(line.substr(first + 1, last - first - 1));
-  head.takes_chunks = line.substr(last + 1) == "HTTP/1.1";
+  head.takes_chunks = version == "HTTP/1.1";
   head.keep_alive = head.takes_chunks;  // unless a header says otherwise
-  return !head.target.empty() && head.target.find(' ') == std::string::npos;
+  return (head.takes_chunks || version == "HTTP/1.0") && !head.target.empty() &&
+         head.target.find_first_of(" #") == std::string::npos;
 }
 
-Head judge(Head head, const Facts& facts, const HeadLimits& limits) {
+Head judge(Head head, const HeadLimits& limits) {
   if (!is_known_method(head.method)) {
     return refuse(std::move(head), 501, "This method is not known here.");
   }
@@ -149,18 +140,13 @@ Head judge(Head head, const Facts& facts, const HeadLimits& limits) {
     return refuse(std::move(head), 414,
                   "The path and query may have " + std::to_string(limits.target_bytes) + " bytes.");
   }
-  if (facts.count > limits.header_count) {
+  if (head.headers.size() > limits.header_count) {
     return refuse(std::move(head), 431,
                   "A request may have " + std::to_string(limits.header_count) + " headers.");
   }
-  if (facts.longest > kHeaderBytes) {
-    return refuse(std::move(head), 431, "A header may have " + std::to_string(kHeaderBytes) + " bytes.");
-  }
-  if (facts.malformed || facts.hosts > 1) {
+  const Facts facts = facts_of(head.headers);
+  if (facts.two_lengths || facts.hosts > 1) {
     return refuse(std::move(head), 400, "The headers are malformed.");
-  }
-  if (facts.empty_key) {
-    return refuse(std::move(head), 400, "An Idempotency-Key has 1 to 255 visible ASCII characters.");
   }
   if (facts.hosts == 0 && head.keep_alive) {
     return refuse(std::move(head), 400, "A request of HTTP/1.1 needs a Host.");
@@ -199,32 +185,12 @@ Head read_head(std::string_view head_text, const HeadLimits& limits) {
   if (!read_request_line(take_line(head_text), head)) {
     return refuse(std::move(head), 400, "The request line is malformed.");
   }
-  const Facts facts = read_headers(head_text);
-  head.origin = facts.origin;
-  return judge(std::move(head), facts, limits);
-}
-
-std::string cleaned_head(std::string_view head) {
-  static constexpr std::array<std::string_view, 7> kDropped{
-      "Range", "Expect", "REMOTE_ADDR", "REMOTE_PORT", "LOCAL_ADDR", "LOCAL_PORT", "If-Range"};
-  std::string cleaned;
-  cleaned.reserve(head.size());
-  const std::string_view request_line = take_line(head);
-  const std::size_t first = request_line.find(' ') + 1;
-  const std::size_t last = request_line.rfind(' ');
-  cleaned.append(request_line.substr(0, first)).append(origin_form(request_line.substr(first, last - first)));
-  cleaned.append(request_line.substr(last)).append(kLineEnd);
-  while (!head.empty()) {
-    const std::string_view line = take_line(head);
-    const std::string_view name = line.substr(0, line.find(':'));
-    const bool dropped = std::any_of(kDropped.begin(), kDropped.end(), [&](std::string_view other) {
-      return equal_ignoring_case(name, other);
-    });
-    if (!dropped) {
-      cleaned.append(line).append(kLineEnd);
-    }
+  std::optional<Fields> headers = read_headers(head_text);
+  if (!headers) {
+    return refuse(std::move(head), 400, "The headers are malformed.");
   }
-  return cleaned;
+  head.headers = *std::move(headers);
+  return judge(std::move(head), limits);
 }
 
 }  // namespace snapthrough::server::http

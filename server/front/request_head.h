@@ -1,12 +1,14 @@
 #pragma once
 /// @file
-/// What is decided about a request from its bytes alone, before any library parses it: how long it is, and
-/// whether it is refused. Pure functions.
+/// The head of a request from its bytes: what it says, how much follows, and whether it is refused. Pure
+/// functions; the only parser of requests.
 
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "server/resources/message.h"
 
 namespace snapthrough::server::http {
 
@@ -20,17 +22,17 @@ struct HeadLimits {
   std::size_t buffered_bytes = 64 * 1024 * 1024;
 };
 
-/// Why a request is refused before it is parsed.
+/// Why a request is refused before anything is asked.
 struct Refusal {
   int status = 400;
   std::string detail;
 };
 
-/// What the head of a request says about the bytes that follow.
+/// The head of a request, and what it says about the bytes that follow.
 struct Head {
   std::string method;
-  std::string target;
-  std::string origin;  ///< of the page that sends it; empty: not told
+  std::string target;  ///< path and query as they came
+  Fields headers;      ///< in order, their values without the blanks around
   std::size_t body_bytes = 0;
   bool keep_alive = false;         ///< the client may send another request on this connection
   bool takes_chunks = false;       ///< it speaks HTTP/1.1
@@ -44,11 +46,5 @@ struct Head {
 
 /// Whether the service knows a method, be it to say that a resource has it not.
 [[nodiscard]] bool is_known_method(std::string_view method);
-
-/// @brief The head, its target without scheme and host, and without the headers that the HTTP library would
-/// act on: ranges (they amplify), codings of the response (the library compresses slowly), expectations (met
-/// already), and the names it stores addresses under.
-/// @pre read_head() did not refuse it
-[[nodiscard]] std::string cleaned_head(std::string_view head);
 
 }  // namespace snapthrough::server::http

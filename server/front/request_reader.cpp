@@ -45,7 +45,6 @@ Received RequestReader::next() {
     return received;
   }
   received.kind = Received::Kind::request;
-  received.head_text = cleaned_head(std::string_view(buffer_).substr(0, head_size_));
   received.head = std::exchange(head_, {});
   if (buffer_.size() == total) {  // a large body is not there twice, and not kept while its answer waits
     received.body = std::exchange(buffer_, {});

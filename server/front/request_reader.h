@@ -19,7 +19,6 @@ struct Received {
     refused           ///< `head.refusal` says why; what follows can't be trusted
   } kind = Kind::head_incomplete;
   Head head;
-  std::string head_text;  ///< cleaned, up to and including the empty line
   std::string body;
 };
 

@@ -21,7 +21,7 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 struct Request {
   std::string method;
   std::string path;  ///< percent-decoded, without the query
-  Fields query;      ///< decoded, in order
+  Fields query;      ///< decoded, by name, those of one name in order
   Fields headers;    ///< in order
   std::string body;
   std::size_t body_bytes = 0;  ///< of the body as it came

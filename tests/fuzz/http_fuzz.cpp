@@ -27,7 +27,6 @@ struct Front {
   Routes routes{jobs, {}};
   KeyRing keys;
   Gateway gateway{routes, environment, log, keys, metrics};
-  RequestParser parser;
   HeadLimits limits;
 };
 
@@ -77,11 +76,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (int requests = 0; requests < 16; ++requests) {
     Received received = reader.next();
     if (received.kind == Received::Kind::request) {
-      if (auto request = front->parser.parse(received.head_text)) {
-        request->body = std::move(received.body);
-        if (cut % 8 != 0) make_local(*request);
-        check_response(front->gateway.serve(std::move(*request)));
-      }
+      Request request = request_of(std::move(received.head));
+      request.body = std::move(received.body);
+      if (cut % 8 != 0) make_local(request);
+      check_response(front->gateway.serve(std::move(request)));
     } else if (received.kind == Received::Kind::refused) {
       check_response(front->gateway.refuse(received.head, "fuzz"));
       return 0;

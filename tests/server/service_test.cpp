@@ -418,7 +418,14 @@ TEST_F(ServiceTest, WithoutKeysOnlyLocalNamesAndPagesOfItsOwnAreAnswered) {
 TEST_F(ServiceTest, ALongHeaderThatIsAllowedIsServed) {
   start(gated(std::make_shared<GatedSolver>()));
   EXPECT_EQ(get(port(), "/livez", {"X-Long: " + std::string(8000, 'x')}).status, 200);
-  EXPECT_EQ(get(port(), "/livez", {"X-Long: " + std::string(9000, 'x')}).status, 431);
+  EXPECT_EQ(get(port(), "/livez", {"X-Long: " + std::string(16'000, 'x')}).status, 200);
+  EXPECT_EQ(get(port(), "/livez", {"X-Long: " + std::string(17'000, 'x')}).status, 431);
+}
+
+TEST_F(ServiceTest, AnIdempotencyKeyThatIsEmptyIsRefused) {
+  start(gated(std::make_shared<GatedSolver>()));
+  const Headers empty{"Content-Type: application/json", "Idempotency-Key: "};
+  EXPECT_EQ(post(port(), "/v1/jobs", column_request(), empty).status, 400);
 }
 
 }  // namespace
