@@ -47,7 +47,7 @@ bool Outbox::closed() {
 Client::~Client() { close(); }
 
 std::size_t Client::held_bytes() const {
-  return reader.held() + output.size() + (rest ? rest->held_bytes() : 0);
+  return reader.held() + work_bytes + output.size() + (rest ? rest->held_bytes() : 0);
 }
 
 Client::Read Client::receive() {

@@ -21,6 +21,7 @@ enum class Phase {
   idle,       ///< the first byte of a request
   head,       ///< the rest of a head
   body,       ///< the rest of a body
+  in_row,     ///< its turn to be worked on
   deferred,   ///< what its response depends on
   sending,    ///< the client, to take the response
   streaming,  ///< events to send
@@ -89,8 +90,9 @@ struct Client {
   bool head_only = false;                ///< the request was HEAD
   bool chunked = false;                  ///< how a body with a rest is sent
   std::shared_ptr<BodySource> rest;      ///< what follows `output`
-  std::function<Response()> resume;      ///< makes a deferred response
-  std::uint64_t turn = 0;                ///< counts deferred responses
+  std::function<Response()> work;        ///< makes the response, in its turn
+  std::size_t work_bytes = 0;            ///< that it keeps
+  std::uint64_t deferral = 0;            ///< counts deferred responses
   std::shared_ptr<Outbox> outbox;        ///< of a stream
   std::shared_ptr<StreamSource> source;  ///< fills the outbox
 };

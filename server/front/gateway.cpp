@@ -33,10 +33,10 @@ std::string request_id(const Request& request, const Environment& environment) {
   return new_id(environment);
 }
 
+bool is_probe(std::string_view path) { return path == "/livez" || path == "/readyz"; }
+
 /// What tells nothing about anybody's jobs is answered without a key.
-bool is_public(std::string_view path) {
-  return path == "/livez" || path == "/readyz" || path == "/v1/openapi.json";
-}
+bool is_public(std::string_view path) { return is_probe(path) || path == "/v1/openapi.json"; }
 
 const char* problem_kind(int status) {
   switch (status) {
@@ -146,6 +146,8 @@ std::optional<Response> Gateway::without_resource(const Request& request, bool k
   }
   return std::nullopt;
 }
+
+bool Gateway::answers_at_once(const Request& request) { return is_probe(request.path); }
 
 Response Gateway::serve(Request request) {
   const double start = environment_.monotonic_seconds();

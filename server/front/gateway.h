@@ -30,6 +30,9 @@ class Gateway {
   /// Never throws for a request: what a resource throws is logged and becomes status 500 without particulars.
   /// A deferred response comes back deferred; what its `resume` gives is complete and was logged.
   [[nodiscard]] Response serve(Request request);
+  /// Whether serve() answers such a request from memory, in microseconds: what tells whether the service
+  /// lives.
+  [[nodiscard]] static bool answers_at_once(const Request& request);
   /// The response to a request that was refused from its bytes; what is known of it is in `head`.
   [[nodiscard]] Response refuse(const Head& head, const std::string& remote);
 

@@ -20,6 +20,7 @@
 #include "server/front/library.h"
 #include "server/front/response_bytes.h"
 #include "server/front/sockets.h"
+#include "server/front/turns.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -34,6 +35,8 @@ constexpr std::uint64_t kFirstClient = 2;
 constexpr int kFairSteps = 64;
 constexpr std::chrono::milliseconds kSweep{100};
 constexpr std::chrono::milliseconds kLinger{500};
+/// Threads beside those that work on requests: what is answered at once does not wait for them.
+constexpr int kAttending = 2;
 /// A response that is smaller is always sent.
 constexpr std::size_t kSmallResponse = 64 * 1024;
 constexpr std::string_view kTooMany =
@@ -45,7 +48,8 @@ constexpr std::string_view kTooMany =
 /// Something happened to a connection; a deferred response that was meant may be gone meanwhile.
 struct Wake {
   std::uint64_t client = 0;
-  std::uint64_t turn = 0;
+  std::uint64_t deferral = 0;
+  bool has_turn = false;  ///< to work, which it must pass on
 };
 
 }  // namespace
@@ -53,7 +57,10 @@ struct Wake {
 class Listener::Server final : public std::enable_shared_from_this<Listener::Server> {
  public:
   Server(ListenerOptions options, Gateway& gateway)
-      : options_(std::move(options)), gateway_(gateway), epoll_(::epoll_create1(EPOLL_CLOEXEC)) {
+      : options_(std::move(options)),
+        gateway_(gateway),
+        turns_(options_.threads),
+        epoll_(::epoll_create1(EPOLL_CLOEXEC)) {
     watch(wakes_ready_.get(), kWakes, EPOLLIN, EPOLL_CTL_ADD);
     watch(end_.get(), kEnd, EPOLLIN, EPOLL_CTL_ADD);
   }
@@ -74,6 +81,9 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   void read_and_serve(const ClientPointer& client);
   bool note_incomplete(Client& client, const Received& received);
   bool answer(const ClientPointer& client, Received received);
+  bool in_turn(const ClientPointer& client, std::function<Response()> work, std::size_t bytes);
+  bool work_on(const ClientPointer& client);
+  void pass_turn();
   bool refuse(const ClientPointer& client, const Head& head, bool linger);
   bool deliver(const ClientPointer& client, Response response);
   bool defer(const ClientPointer& client, Deferred deferred);
@@ -103,6 +113,7 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
 
   const ListenerOptions options_;
   Gateway& gateway_;
+  Turns turns_;  ///< to work on a request
   Descriptor epoll_;
   Descriptor listening_;
   Counter wakes_ready_{true};
@@ -131,7 +142,7 @@ Status Listener::Server::start() {
   }
   listening_ = std::move(listening).value();
   port_ = port_of(listening_.get());
-  for (int i = 0; i < options_.threads; ++i) {
+  for (int i = 0; i < options_.threads + kAttending; ++i) {
     threads_.emplace_back([this] { work(); });
   }
   keeper_ = std::thread([this] { keep(); });
@@ -244,7 +255,7 @@ void Listener::Server::sweep_one(const ClientPointer& client, Clock::time_point 
   const bool wants_room = client->phase == Phase::sending && client->output.empty();
   if (client->phase == Phase::deferred || wants_room) {
     client->deadline = Clock::time_point::max();
-    wake({client->id, client->turn});
+    wake({client->id, client->deferral});
   } else if (client->phase == Phase::streaming && !going) {
     client->outbox->put(": still there\n\n", false);
     pump(client);
@@ -277,8 +288,9 @@ void Listener::Server::attend(const ClientPointer& client, std::uint32_t events)
         return drop(*client);
       }
       return rearm(*client, EPOLLIN);
+    case Phase::in_row:
     case Phase::deferred:
-      return drop(*client);  // it is watched for its end only
+      return drop(*client);  // they are watched for their end only
     case Phase::closed:
       return;
   }
@@ -343,11 +355,49 @@ bool Listener::Server::answer(const ClientPointer& client, Received received) {
   request.body = std::move(received.body);
   request.remote = client->remote;
   client->head_only = request.method == "HEAD";
+  if (Gateway::answers_at_once(request)) {
+    return deliver(client, gateway_.serve(std::move(request)));
+  }
   const std::size_t size = request.body.size();
-  buffered_ += size;
-  Response response = gateway_.serve(std::move(request));
-  buffered_ -= size;
+  const auto kept = std::make_shared<Request>(std::move(request));
+  return in_turn(
+      client, [this, kept] { return gateway_.serve(std::move(*kept)); }, size);
+}
+
+/// Does what a response needs, now or when it has its turn.
+/// @param bytes that the work keeps
+bool Listener::Server::in_turn(const ClientPointer& client, std::function<Response()> work,
+                               std::size_t bytes) {
+  client->work = std::move(work);
+  client->work_bytes = bytes;
+  account(*client);
+  if (turns_.take(client->id)) {
+    return work_on(client);
+  }
+  client->phase = Phase::in_row;
+  client->deadline = Clock::time_point::max();
+  rearm(*client, EPOLLRDHUP);
+  return false;
+}
+
+/// Works, in its turn. True as of deliver().
+bool Listener::Server::work_on(const ClientPointer& client) {
+  Response response = std::exchange(client->work, nullptr)();
+  pass_turn();
+  client->work_bytes = 0;
+  account(*client);
   return deliver(client, std::move(response));
+}
+
+/// To the next in the row that is still there.
+void Listener::Server::pass_turn() {
+  std::optional<std::uint64_t> next = turns_.pass();
+  while (next && !find(*next)) {
+    next = turns_.pass();
+  }
+  if (next) {
+    wake({*next, 0, true});
+  }
 }
 
 /// Answers and ends the connection: what follows on it can't be trusted.
@@ -395,8 +445,8 @@ bool Listener::Server::begin_body(const ClientPointer& client, const Response& r
 bool Listener::Server::defer(const ClientPointer& client, Deferred deferred) {
   client->phase = Phase::deferred;
   client->deadline = Clock::now() + deferred.wait;
-  client->resume = std::move(deferred.resume);
-  deferred.arm([weak = weak_from_this(), wake = Wake{client->id, ++client->turn}] {
+  client->work = std::move(deferred.resume);
+  deferred.arm([weak = weak_from_this(), wake = Wake{client->id, ++client->deferral}] {
     if (const auto server = weak.lock()) {
       server->wake(wake);
     }
@@ -420,7 +470,7 @@ bool Listener::Server::begin_stream(const ClientPointer& client, const Response&
       [weak = weak_from_this(), id = client->id, outbox = client->outbox](std::string piece, bool last) {
         const bool taken = outbox->put(std::move(piece), last);
         if (const auto server = weak.lock()) {
-          server->wake({id, 0});
+          server->wake({id});
         }
         return taken;
       });
@@ -552,9 +602,18 @@ void Listener::Server::take_wake() {
 void Listener::Server::woken(const Wake& wake) {
   const ClientPointer client = find(wake.client);
   if (!client) {
-    return;
+    return wake.has_turn ? pass_turn() : void();
   }
   const std::lock_guard guard(client->mutex);
+  if (wake.has_turn) {
+    if (client->phase != Phase::in_row) {  // it left meanwhile
+      return pass_turn();
+    }
+    if (work_on(client)) {
+      read_and_serve(client);
+    }
+    return;
+  }
   if (client->phase == Phase::streaming) {
     return pump(client);
   }
@@ -564,11 +623,9 @@ void Listener::Server::woken(const Wake& wake) {
     }
     return;
   }
-  if (client->phase == Phase::deferred && client->turn == wake.turn) {
-    const std::function<Response()> resume = std::exchange(client->resume, nullptr);
-    if (deliver(client, resume())) {
-      read_and_serve(client);
-    }
+  if (client->phase == Phase::deferred && client->deferral == wake.deferral &&
+      in_turn(client, std::exchange(client->work, nullptr), 0)) {
+    read_and_serve(client);
   }
 }
 
@@ -585,7 +642,8 @@ void Listener::Server::drop(Client& client) {
   }
   client.source.reset();
   client.rest.reset();
-  client.resume = nullptr;
+  client.work = nullptr;
+  client.work_bytes = 0;
   buffered_ -= std::exchange(client.counted, 0);
   client.close();
   const std::lock_guard guard(table_mutex_);

@@ -422,6 +422,65 @@ TEST_F(ServiceTest, ALongHeaderThatIsAllowedIsServed) {
   EXPECT_EQ(get(port(), "/livez", {"X-Long: " + std::string(17'000, 'x')}).status, 431);
 }
 
+/// Numbers that are random once the test lets them be: requests without an identifier wait for theirs.
+struct GatedNumbers {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool open = true;
+  int asked = 0;
+
+  std::uint64_t operator()() {
+    std::unique_lock lock(mutex);
+    ++asked;
+    changed.notify_all();
+    changed.wait(lock, [&] { return open; });
+    return Environment::system().random_bits();
+  }
+  void set(bool is_open) {
+    const std::lock_guard guard(mutex);
+    open = is_open;
+    asked = 0;
+    changed.notify_all();
+  }
+  bool wait_asked() {
+    std::unique_lock lock(mutex);
+    return changed.wait_for(lock, std::chrono::seconds(20), [&] { return asked > 0; });
+  }
+};
+
+/// One request at a time is worked on here; it is stopped, and others wait behind it.
+TEST_F(ServiceTest, ProbesDoNotWaitForRequestsThatAreWorkedOn) {
+  const auto numbers = std::make_shared<GatedNumbers>();
+  Environment environment = Environment::system();
+  environment.random_bits = [numbers] { return (*numbers)(); };
+  ServiceConfig narrow = config();
+  narrow.listener.threads = 1;
+  service_ = std::make_unique<Service>(narrow, environment, local_runners(solved), log_);
+  ASSERT_TRUE(service_->start().ok());
+  const std::string list = "GET /v1/jobs HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  numbers->set(false);
+  Socket first(port());
+  first.send(list);
+  ASSERT_TRUE(numbers->wait_asked());
+  Socket second(port());
+  second.send(list);
+  {
+    Socket leaves(port());
+    leaves.send(list);
+    EXPECT_EQ(get(port(), "/livez", {"X-Request-Id: a"}).status, 200);
+  }
+  Socket last(port());
+  last.send(list);
+  for (const char* probe : {"/livez", "/readyz"}) {
+    EXPECT_EQ(get(port(), probe, {"X-Request-Id: a"}).status, 200) << probe;
+  }
+  numbers->set(true);
+  for (Socket* waiting : {&first, &second, &last}) {
+    EXPECT_EQ(waiting->receive().status, 200);
+  }
+  EXPECT_EQ(get(port(), "/v1/jobs").status, 200);  // the turn of the one that left was passed on
+}
+
 TEST_F(ServiceTest, AnIdempotencyKeyThatIsEmptyIsRefused) {
   start(gated(std::make_shared<GatedSolver>()));
   const Headers empty{"Content-Type: application/json", "Idempotency-Key: "};

@@ -11,6 +11,7 @@
 #include "server/authority.h"
 #include "server/config.h"
 #include "server/environment.h"
+#include "server/front/turns.h"
 #include "server/jobs/path_batch.h"
 #include "server/log/log.h"
 #include "server/resources/prefer.h"
@@ -98,6 +99,23 @@ http::Preferences preferences(std::vector<std::string> values) {
     request.headers.emplace_back("prefer", std::move(value));
   }
   return http::read_preferences(request);
+}
+
+TEST(Turns, GoToThoseWhoWaitInTheirOrder) {
+  http::Turns turns(2);
+  EXPECT_TRUE(turns.take(1));
+  EXPECT_TRUE(turns.take(2));
+  EXPECT_FALSE(turns.take(3));
+  EXPECT_FALSE(turns.take(4));
+  EXPECT_EQ(turns.pass(), 3U);
+  EXPECT_FALSE(turns.take(5));
+  EXPECT_EQ(turns.pass(), 4U);
+  EXPECT_EQ(turns.pass(), 5U);
+  EXPECT_EQ(turns.pass(), std::nullopt);
+  EXPECT_EQ(turns.pass(), std::nullopt);
+  EXPECT_TRUE(turns.take(6));
+  EXPECT_TRUE(turns.take(7));
+  EXPECT_FALSE(turns.take(8));
 }
 
 TEST(Authority, PortsAndLoopbackHosts) {
