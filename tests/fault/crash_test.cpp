@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -21,6 +22,7 @@
 
 #include "tests/server/support/client.h"
 #include "tests/server/support/killed_service.h"
+#include "tests/server/support/receiver.h"
 #include "tests/server/support/samples.h"
 
 namespace snapthrough::server::test {
@@ -32,13 +34,14 @@ using std::chrono::milliseconds;
 constexpr int kSweepPoints = 20;
 
 /// What clients were told.
-struct Told {
+struct Promises {
   std::mutex mutex;
   std::set<std::string> jobs;
   std::set<std::string> removed;
   std::map<std::string, std::string> results;  ///< body that was answered, by job
   std::map<std::string, std::string> keys;     ///< job, by idempotency key
   std::map<std::string, std::string> sweeps;   ///< idempotency key of each
+  std::set<std::string> callbacks;             ///< jobs and sweeps whose ends are to be told
   std::atomic<int> requests = 0;
 };
 
@@ -49,6 +52,15 @@ std::string sweep_of(const std::string& name, bool followed) {
 
 class Crash : public KilledServiceTest {
  protected:
+  Crash() {
+    std::ofstream(folder_.file("secret")) << "whsec_MfKQ9r8GKYqrTwjUPD8ILPZIo2LaLaSw\n";
+    more_arguments_ = {"--callback-hosts", receiver_.host(), "--callback-secret-file",
+                       folder_.file("secret")};
+  }
+  /// The document in an envelope with a callback.
+  [[nodiscard]] std::string with_callback(const std::string& member, const std::string& document) const {
+    return R"({"callback": ")" + receiver_.address() + R"(", ")" + member + R"(": )" + document + "}";
+  }
   /// The first number that a statement on the store gives; no service runs.
   std::int64_t query(const std::string& statement) const {
     sqlite3* database = nullptr;
@@ -95,7 +107,7 @@ class Crash : public KilledServiceTest {
 
   [[nodiscard]] Reply post_sweep(const std::string& name) const {
     const bool followed = name.size() % 2 == 0;
-    return post(port_, "/v1/sweeps", sweep_of(name, followed),
+    return post(port_, "/v1/sweeps", with_callback("sweep", sweep_of(name, followed)),
                 {"Content-Type: application/json", "Cache-Control: no-cache", "Idempotency-Key: " + name});
   }
   void submit_sweep(const std::string& name) {
@@ -103,6 +115,7 @@ class Crash : public KilledServiceTest {
     if (reply.status == 201) {
       const std::lock_guard guard(told_.mutex);
       told_.sweeps[reply.header("Location")] = name;
+      told_.callbacks.insert(reply.header("Location"));
     }
   }
 
@@ -114,7 +127,10 @@ class Crash : public KilledServiceTest {
     if (what == 2 || what == 7) {
       headers.push_back("Idempotency-Key: " + name);
     }
-    const Reply reply = post(port_, "/v1/jobs", column_request(name), headers);
+    const bool calls_back = what == 1 || what == 3 || what == 8;
+    const std::string request = column_request(name);
+    const Reply reply =
+        post(port_, "/v1/jobs", calls_back ? with_callback("request", request) : request, headers);
     ++told_.requests;
     const std::string job = reply.header("Location");
     if (reply.status != 200 && reply.status != 201) {
@@ -123,6 +139,9 @@ class Crash : public KilledServiceTest {
     {
       const std::lock_guard guard(told_.mutex);
       told_.jobs.insert(job);
+      if (calls_back) {
+        told_.callbacks.insert(job);
+      }
       if (reply.status == 200 && reply.whole && !reply.body.empty()) {
         told_.results[job] = reply.body;
       }
@@ -235,7 +254,30 @@ class Crash : public KilledServiceTest {
     }
   }
 
-  Told told_;
+  /// Each end is told, as it is now, and nothing else.
+  void check_callbacks() {
+    std::map<std::string, std::string> ends;  ///< status by path
+    std::size_t deliveries = 0;
+    for (int i = 0; i < 600 && ends.size() < told_.callbacks.size(); ++i) {
+      std::this_thread::sleep_for(milliseconds(i == 0 ? 0 : 100));
+      const std::vector<Told> told = receiver_.told();
+      for (; deliveries < told.size(); ++deliveries) {
+        const json document = json::parse(told[deliveries].body);
+        const std::string path =
+            (document.contains("counts") ? "/v1/sweeps/" : "/v1/jobs/") + document["id"].get<std::string>();
+        if (told_.callbacks.contains(path)) {  // others were acknowledged to a client that did not hear it
+          ends[path] = document["status"];
+        }
+      }
+    }
+    for (const std::string& path : told_.callbacks) {
+      EXPECT_EQ(ends[path], json::parse(get(port_, path).body)["status"]) << path;
+    }
+    std::printf("%zu ends were told, in %zu deliveries\n", ends.size(), deliveries);
+  }
+
+  Receiver receiver_;
+  Promises told_;
   std::map<std::string, int> completions_;
 };
 
@@ -271,6 +313,7 @@ TEST_F(Crash, EveryAcknowledgedJobIsThereAndEndsOnce) {
   check_sweeps();
   note_ends(service->err());
   check_promises();
+  check_callbacks();
   Process backup(folder_, {"backup", "--store", folder_.file("jobs.db"), folder_.file("copy.db")});
   EXPECT_EQ(backup.wait(), 0) << "integrity check: " << backup.err();
   EXPECT_LT(slowest, 1.0);
