@@ -125,11 +125,7 @@ Response Routes::with_sweep(const Request& request, const std::string& id,
 
 Response Routes::status_of_sweep(const Request& request, const std::string& id, int status) {
   return with_sweep(request, id, [&](const SweepRecord& sweep) {
-    Response response = json_response(status, sweep_status_document(sweep));
-    if (status == 201) {
-      response.headers.emplace_back("Location", sweep_path(id));
-    }
-    return response;
+    return json_response(status, sweep_status_document(sweep));
   });
 }
 
@@ -151,7 +147,10 @@ Response Routes::create_sweep(const Request& request, const std::string& /*id*/)
   if (std::optional<Response> refusal = refusal_of(request, submission, "sweeps")) {
     return *std::move(refusal);
   }
-  return status_of_sweep(request, submission.id, 201);
+  const bool is_new = submission.kind == Submission::Kind::stored;
+  Response response = status_of_sweep(request, submission.id, is_new ? 201 : 200);
+  response.headers.emplace_back("Location", sweep_path(submission.id));
+  return response;
 }
 
 Response Routes::list_sweeps(const Request& request, const std::string& /*id*/) {

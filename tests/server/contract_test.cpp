@@ -213,6 +213,7 @@ class ContractOverHttp : public ServiceTest {
     }
     use("POST", "/v1/sweeps", "/v1/sweeps", column_sweep(2), {"Content-Type: text/plain"});
     use("POST", "/v1/sweeps", "/v1/sweeps", column_sweep(3), headers);
+    use("POST", "/v1/sweeps", "/v1/sweeps", column_sweep(3), headers);  // known
     use("POST", "/v1/sweeps", "/v1/sweeps", column_sweep(4), headers);  // another document
     use("POST", "/v1/check", "/v1/check", column_sweep(3));
     EXPECT_TRUE(schemas_.valid(schemas_.named("SweepDocument"), json::parse(column_sweep(3))));

@@ -357,6 +357,16 @@ TEST_F(SweepService, WrongSweepsAreRefusedAtOnceWithPointers) {
   EXPECT_EQ(calls(), 0);
 }
 
+TEST_F(SweepService, AnIdempotencyKeyIsOneSweepAndTheSecondAnswerSaysSo) {
+  start_counting();
+  const Headers keyed{"Content-Type: application/json", "Idempotency-Key: one"};
+  const Reply first = post(port(), "/v1/sweeps", column_sweep(5), keyed);
+  EXPECT_EQ(first.status, 201);
+  const Reply second = post(port(), "/v1/sweeps", column_sweep(5), keyed);
+  EXPECT_EQ(second.status, 200);
+  EXPECT_EQ(second.header("Location"), first.header("Location"));
+}
+
 /// What a row's link leads to: the request of that point, and its whole result.
 TEST_F(SweepService, EveryRowOpensAsARequestAndAsAJob) {
   start_counting();
