@@ -164,26 +164,52 @@ std::string buckling_csv(const Json& result) {
   return rows.take();
 }
 
-std::string states_csv(const Json& result) {
-  const std::vector<std::string> series{
-      "s", "x0", "y0", "x", "y", "u", "v", "rotation", "axial_force", "shear_force", "bending_moment"};
+constexpr std::array kAlongMembers{
+    "s", "x0", "y0", "x", "y", "u", "v", "rotation", "axial_force", "shear_force", "bending_moment"};
+
+Rows rows_of_states() {
   std::vector<std::string> columns{"state", "branch", "load_factor", "member"};
-  columns.insert(columns.end(), series.begin(), series.end());
-  Rows rows(std::move(columns));
+  columns.insert(columns.end(), kAlongMembers.begin(), kAlongMembers.end());
+  return Rows(std::move(columns));
+}
+
+void add_state(const Json& state, std::size_t number, Rows& rows) {
+  for (const auto& [id, along] : member(state, "members").items()) {
+    for (std::size_t place = 0; place < member(along, "s").size(); ++place) {
+      rows.field(number).field(member(state, "branch")).field(member(state, "load_factor")).field(id);
+      for (const char* name : kAlongMembers) {
+        rows.field(element(member(along, name), place));
+      }
+      rows.end_row();
+    }
+  }
+}
+
+std::string states_csv(const Json& result) {
+  Rows rows = rows_of_states();
   rows.begin();
   const Json& states = member(result, "states");
   for (std::size_t i = 0; i < states.size(); ++i) {
-    for (const auto& [id, along] : member(states[i], "members").items()) {
-      for (std::size_t place = 0; place < member(along, "s").size(); ++place) {
-        rows.field(i).field(member(states[i], "branch")).field(member(states[i], "load_factor")).field(id);
-        for (const std::string& name : series) {
-          rows.field(element(member(along, name), place));
-        }
-        rows.end_row();
-      }
-    }
+    add_state(states[i], i, rows);
   }
   return rows.take();
+}
+
+/// The member of a result that has what the table needs.
+const char* source_of(ResultTable table) {
+  switch (table) {
+    case ResultTable::critical_points:
+      return "critical_points";
+    case ResultTable::static_rows:
+      return "static";
+    case ResultTable::buckling:
+      return "buckling";
+    case ResultTable::states:
+      return "states";
+    case ResultTable::points:
+      break;
+  }
+  throw std::invalid_argument("the points of paths are points_csv()'s");
 }
 
 }  // namespace
@@ -249,6 +275,33 @@ std::string points_csv(const std::vector<Branch>& branches) {
     }
   }
   return text;
+}
+
+ResultTableReader::ResultTableReader(ResultTable table)
+    : table_(table),
+      source_(source_of(table), table == ResultTable::states ? JsonPart::elements : JsonPart::value) {}
+
+void ResultTableReader::append(std::string_view piece, std::string& csv) {
+  source_.append(piece);
+  if (table_ != ResultTable::states) {
+    return;
+  }
+  Rows rows = rows_of_states();
+  if (!std::exchange(begun_, true)) {
+    rows.begin();
+  }
+  while (const std::optional<std::string> state = source_.next()) {
+    add_state(Json::parse(*state), states_++, rows);
+  }
+  csv += rows.take();
+}
+
+void ResultTableReader::end(std::string& csv) {
+  if (table_ == ResultTable::states) {
+    return;
+  }
+  const std::optional<std::string> value = source_.next();
+  csv += result_csv({{source_of(table_), value ? Json::parse(*value) : Json(nullptr)}}, table_);
 }
 
 std::string result_csv(const Json& result, ResultTable table) {

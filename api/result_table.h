@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/json_pieces.h"
 #include "solver/result.h"
 
 namespace snapthrough::api {
@@ -48,5 +49,25 @@ enum class ResultTable {
 /// load_factor, member, s, x0, y0, x, y, u, v, rotation, axial_force, shear_force, bending_moment.
 /// @pre table is not points (see points_csv())
 [[nodiscard]] std::string result_csv(const nlohmann::json& result, ResultTable table);
+
+/// @brief result_csv() of a document that comes in pieces: states one by one, of the others only what the
+/// table needs is in memory.
+/// @pre table is not points
+class ResultTableReader {
+ public:
+  explicit ResultTableReader(ResultTable table);
+  /// Appends what is known after the next piece of the document to `csv`.
+  void append(std::string_view piece, std::string& csv);
+  /// Appends what is left when the document has ended.
+  void end(std::string& csv);
+  /// Memory that is kept, about.
+  [[nodiscard]] std::size_t held_bytes() const { return source_.held_bytes(); }
+
+ private:
+  const ResultTable table_;
+  JsonPieces source_;
+  bool begun_ = false;
+  std::size_t states_ = 0;
+};
 
 }  // namespace snapthrough::api

@@ -90,6 +90,38 @@ class ResultSource final : public BodySource {
   std::size_t offset_ = 0;
 };
 
+/// A table of a result document.
+class ResultTableSource final : public BodySource {
+ public:
+  ResultTableSource(Store& store, const std::string& job, api::ResultTable table)
+      : document_(store, job), reader_(table) {}
+
+  StatusOr<bool> append_next(std::string& piece) override {
+    const std::size_t before = piece.size();
+    bool more = true;
+    while (more && piece.size() - before < kPieceBytes) {
+      std::string text;
+      const StatusOr<bool> read = document_.append_next(text);
+      if (!read.ok()) {
+        return read;
+      }
+      reader_.append(text, piece);
+      more = *read;
+    }
+    if (!more) {
+      reader_.end(piece);
+    }
+    return more;
+  }
+  [[nodiscard]] std::size_t held_bytes() const override {
+    return document_.held_bytes() + reader_.held_bytes();
+  }
+
+ private:
+  ResultSource document_;
+  api::ResultTableReader reader_;
+};
+
 }  // namespace
 
 std::shared_ptr<BodySource> table_source(SweepStore& store, const SweepRecord& sweep, api::TableWriter writer,
@@ -99,6 +131,11 @@ std::shared_ptr<BodySource> table_source(SweepStore& store, const SweepRecord& s
 
 std::shared_ptr<BodySource> result_source(Store& store, const std::string& job) {
   return std::make_shared<ResultSource>(store, job);
+}
+
+std::shared_ptr<BodySource> result_table_source(Store& store, const std::string& job,
+                                                api::ResultTable table) {
+  return std::make_shared<ResultTableSource>(store, job, table);
 }
 
 StatusOr<Response> begin_body(std::shared_ptr<BodySource> source) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "api/result_table.h"
 #include "api/sweep_table.h"
 #include "server/resources/message.h"
 #include "server/store/store.h"
@@ -22,6 +23,11 @@ namespace snapthrough::server::http {
 
 /// @brief The result document of a successful job. Fails with `conflict` when the job is removed meanwhile.
 [[nodiscard]] std::shared_ptr<BodySource> result_source(Store& store, const std::string& job);
+
+/// @brief A table of that document as CSV. Fails as result_source() does.
+/// @pre table is not points
+[[nodiscard]] std::shared_ptr<BodySource> result_table_source(Store& store, const std::string& job,
+                                                              api::ResultTable table);
 
 /// @brief The response (200) with this body: the whole of it when it is no more than a piece.
 /// What the source says when its first piece fails.

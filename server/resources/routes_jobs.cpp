@@ -96,6 +96,11 @@ std::optional<api::ResultTable> wanted_table(const std::optional<std::string>& n
   return table && std::find(tables.begin(), tables.end(), *table) != tables.end() ? table : std::nullopt;
 }
 
+/// A result that can't be read: removed meanwhile, or the store's trouble.
+Response trouble_of_result(const Request& request, const std::string& id, const Status& status) {
+  return status.code() == StatusCode::conflict ? job_missing(request, id) : store_trouble(request, status);
+}
+
 }  // namespace
 
 Response Routes::create_job(const Request& request, const std::string& /*id*/) {
@@ -262,8 +267,7 @@ Response Routes::result_of(const Request& request, const Job& job) {
   } else {
     StatusOr<Response> begun = begin_body(result_source(jobs_.store(), job.id));
     if (!begun.ok()) {
-      return begun.status().code() == StatusCode::conflict ? job_missing(request, job.id)
-                                                           : store_trouble(request, begun.status());
+      return trouble_of_result(request, job.id, begun.status());
     }
     response = std::move(begun).value();
     response.content_type = "application/json";
@@ -278,20 +282,20 @@ Response Routes::result_of(const Request& request, const Job& job) {
 
 Response Routes::table_of_result(const Request& request, const Job& job, api::ResultTable table) {
   Response response;
-  response.content_type = "text/csv; charset=utf-8; header=present";
   if (table == api::ResultTable::points) {
     const StatusOr<StoredPath> path = jobs_.store().path(job.id);
     if (!path.ok()) {
       return store_trouble(request, path.status());
     }
     response.body = api::points_csv(path->branches);
-    return response;
+  } else {
+    StatusOr<Response> begun = begin_body(result_table_source(jobs_.store(), job.id, table));
+    if (!begun.ok()) {
+      return trouble_of_result(request, job.id, begun.status());
+    }
+    response = std::move(begun).value();
   }
-  const StatusOr<std::optional<std::string>> document = jobs_.store().result(job.id);
-  if (!document.ok() || !document->has_value()) {
-    return document.ok() ? job_missing(request, job.id) : store_trouble(request, document.status());
-  }
-  response.body = api::result_csv(nlohmann::json::parse(**document), table);
+  response.content_type = "text/csv; charset=utf-8; header=present";
   return response;
 }
 

@@ -125,8 +125,6 @@ class Store {
 
   /// The request document; empty when there is no such job.
   virtual StatusOr<std::optional<std::string>> request(std::string_view id) = 0;
-  /// The result document; empty when there is no such job or it is not successful.
-  virtual StatusOr<std::optional<std::string>> result(std::string_view id) = 0;
   /// At most `most` bytes of the result document from there on: nothing when there is no such document or it
   /// is no longer than that. What is before them is not read into memory.
   virtual StatusOr<DocumentPiece> result_piece(std::string_view id, std::size_t offset, std::size_t most) = 0;

@@ -79,5 +79,62 @@ TEST(ResultTable, StatesAreRowsAlongTheMembers) {
       "0,0,2,n,0,,,,,,,,,,\r\n");
 }
 
+/// The values that are cut out of a document that comes in pieces of so many characters.
+std::vector<std::string> values_of(const std::string& document, const char* name, JsonPart part,
+                                   std::size_t size) {
+  JsonPieces pieces(name, part);
+  std::vector<std::string> values;
+  for (std::size_t i = 0; i < document.size(); i += size) {
+    pieces.append(std::string_view(document).substr(i, size));
+    while (std::optional<std::string> value = pieces.next()) {
+      values.push_back(*std::move(value));
+    }
+  }
+  return values;
+}
+
+TEST(JsonPieces, AreThoseOfTheWholeDocument) {
+  const json document = json::parse(R"({"first": {"list": [1, 2], "a": "list"}, "text": "list", "last": [],
+    "list": [{"b": "]},\"[{"}, [], [[1], 2], -1.5e3, "a, b", null, {"list": [7]}], "after": {"list": [9]}})");
+  for (const std::string& text : {document.dump(), document.dump(2)}) {
+    for (const std::size_t size : {1UL, 2UL, 7UL, text.size()}) {
+      for (const auto& [name, value] : document.items()) {
+        const std::vector<std::string> whole = values_of(text, name.c_str(), JsonPart::value, size);
+        ASSERT_EQ(whole.size(), 1U) << name;
+        EXPECT_EQ(json::parse(whole.front()), value) << name;
+      }
+      json list = json::array();
+      for (const std::string& element : values_of(text, "list", JsonPart::elements, size)) {
+        list.push_back(json::parse(element));
+      }
+      EXPECT_EQ(list, document["list"]) << size;
+      EXPECT_TRUE(values_of(text, "last", JsonPart::elements, size).empty());
+      EXPECT_TRUE(values_of(text, "none", JsonPart::value, size).empty());
+    }
+  }
+}
+
+TEST(ResultTable, OfADocumentInPiecesIsTheSame) {
+  const json result =
+      json::parse(R"({"critical_points": [{"branch": 0, "type": "limit_max", "monitors": {"m": 1}}],
+    "static": {"load_factor": [1, 2], "negative_eigenvalues": [0, 0], "state": [null, 0], "monitors": {"m": [3, 4]}},
+    "buckling": {"load_factors": [1, 2]},
+    "states": [{"branch": 0, "load_factor": 2, "members": {"m": {"s": [0, 1], "x": [0, 0.5]}}},
+               {"branch": 1, "load_factor": 3, "members": {"m": {"s": [0, 1], "x": [0, 0.25]}}}]})");
+  const std::string text = result.dump();
+  for (const ResultTable table :
+       {ResultTable::critical_points, ResultTable::static_rows, ResultTable::buckling, ResultTable::states}) {
+    for (const std::size_t size : {1UL, 50UL, text.size()}) {
+      ResultTableReader reader(table);
+      std::string csv;
+      for (std::size_t i = 0; i < text.size(); i += size) {
+        reader.append(std::string_view(text).substr(i, size), csv);
+      }
+      reader.end(csv);
+      EXPECT_EQ(csv, result_csv(result, table)) << size;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace snapthrough::api

@@ -23,6 +23,7 @@
 #include "server/store/sqlite/sqlite_store.h"
 #include "solver/solve.h"
 #include "tests/server/support/running_service.h"
+#include "tests/server/support/store_driver.h"
 
 namespace snapthrough::server::test {
 namespace {
@@ -144,7 +145,7 @@ class WriteFaults : public testing::Test {
     for (const std::string& id : submitted_) {
       const auto job = store_->get(id);
       ASSERT_TRUE(job.ok() && job->has_value()) << id << " was acknowledged";
-      EXPECT_EQ(store_->result(id)->has_value(), (*job)->state == JobState::successful) << id;
+      EXPECT_EQ(result_of(*store_, id).has_value(), (*job)->state == JobState::successful) << id;
     }
     for (const std::string& id : finished_) {
       EXPECT_EQ((*store_->get(id))->state, JobState::successful) << id;

@@ -132,9 +132,6 @@ class FuzzedStore final : public Store {
   StatusOr<std::optional<std::string>> request(std::string_view) override {
     return std::optional<std::string>(column_request());
   }
-  StatusOr<std::optional<std::string>> result(std::string_view) override {
-    return std::optional<std::string>(result_.document);
-  }
   StatusOr<DocumentPiece> result_piece(std::string_view, std::size_t offset, std::size_t most) override {
     return DocumentPiece{result_.document.substr(std::min(offset, result_.document.size()), most),
                          result_.document.size()};

@@ -53,7 +53,6 @@ class FailingStore final : public Store {
   StatusOr<std::optional<std::string>> request(std::string_view) override {
     throw std::runtime_error("secret");
   }
-  StatusOr<std::optional<std::string>> result(std::string_view) override { return status(); }
   StatusOr<DocumentPiece> result_piece(std::string_view, std::size_t, std::size_t) override {
     return status();
   }

@@ -80,7 +80,7 @@ TEST_P(StoreConformance, TextsAreKeptByteForByte) {
 
 TEST_P(StoreConformance, WhatIsNotThereIsEmptyNotAnError) {
   EXPECT_EQ(*store_->request("nothing"), std::nullopt);
-  EXPECT_EQ(*store_->result("nothing"), std::nullopt);
+  EXPECT_EQ(result_of(*store_, "nothing"), std::nullopt);
   EXPECT_FALSE(store_->get("nothing")->has_value());
   EXPECT_THAT(store_->path("nothing")->branches, IsEmpty());
   EXPECT_FALSE(store_->claim(kLease, at_second(1))->has_value());
@@ -105,13 +105,43 @@ TEST_P(StoreConformance, ClaimsGoInOrderOfArrival) {
   EXPECT_FALSE(store_->claim(kLease, at_second(9))->has_value());
 }
 
+/// Characters of several bytes stand across every border between pieces of a store.
+TEST_P(StoreConformance, ALongResultIsReadFromAnywhereAndGoesWithItsJob) {
+  JobResult result = sample_result();
+  result.document = "a";
+  while (result.document.size() < 3'500'000) {
+    result.document += "\xE2\x82\xAC\xC3\xA9" + std::to_string(result.document.size());
+  }
+  NewJob original = new_job(id_number(1), 100);
+  original.content_key = "content";
+  ASSERT_TRUE(store_->submit(original).ok());
+  ASSERT_TRUE(store_->finish(claim(), result, at_second(200)).ok());
+  EXPECT_EQ(result_of(*store_, id_number(1)), result.document);
+  for (const std::size_t offset : {0UL, 1'048'570UL, 1'048'576UL, 2'097'150UL, 3'499'990UL}) {
+    const DocumentPiece piece = *store_->result_piece(id_number(1), offset, 20);
+    EXPECT_FALSE(piece.bytes.empty()) << offset;
+    EXPECT_EQ(piece.bytes, result.document.substr(offset, piece.bytes.size())) << offset;
+    EXPECT_EQ(piece.size, result.document.size());
+  }
+  EXPECT_EQ(store_->result_piece(id_number(1), result.document.size(), 20)->bytes, "");
+  reopen();
+  NewJob copy = new_job(id_number(2), 300);
+  copy.content_key = "content";
+  copy.reuse = true;
+  copy.annotations.label = "mine";
+  EXPECT_EQ(store_->submit(copy)->kind, Submitted::Kind::copied);
+  ASSERT_TRUE(store_->remove(id_number(1)).ok());
+  EXPECT_EQ(result_of(*store_, id_number(1)), std::nullopt);
+  EXPECT_EQ(result_of(*store_, id_number(2)), result.document);
+}
+
 TEST_P(StoreConformance, AFinishedJobHasItsResultPathAndCriticalPoints) {
   submit(1);
   ASSERT_TRUE(finish(claim()).ok());
   EXPECT_EQ(job(1).state, JobState::successful);
   EXPECT_EQ(job(1).finished, at_second(200));
   const JobResult expected = sample_result();
-  EXPECT_EQ(*store_->result(id_number(1)), expected.document);
+  EXPECT_EQ(result_of(*store_, id_number(1)), expected.document);
   const DocumentPiece piece = *store_->result_piece(id_number(1), 2, 9);
   EXPECT_EQ(piece.bytes, expected.document.substr(2, 9));
   EXPECT_EQ(piece.size, expected.document.size());
@@ -167,7 +197,7 @@ TEST_P(StoreConformance, AFailedJobHasItsReasonAndWhatWasReached) {
   EXPECT_EQ(stored.failure->detail, "too small");
   EXPECT_EQ(stored.failure->reached, "{}");
   EXPECT_EQ(store_->path(id_number(1))->branches.size(), 2U);
-  EXPECT_EQ(*store_->result(id_number(1)), std::nullopt);
+  EXPECT_EQ(result_of(*store_, id_number(1)), std::nullopt);
 }
 
 TEST_P(StoreConformance, AResultThatCannotBeStoredLeavesNothingBehind) {
@@ -177,7 +207,7 @@ TEST_P(StoreConformance, AResultThatCannotBeStoredLeavesNothingBehind) {
   result.branches[1].id = 0;  // twice the same branch
   EXPECT_FALSE(store_->finish(held, result, at_second(3)).ok());
   EXPECT_EQ(job(1).state, JobState::running);
-  EXPECT_EQ(*store_->result(id_number(1)), std::nullopt);
+  EXPECT_EQ(result_of(*store_, id_number(1)), std::nullopt);
   EXPECT_THAT(store_->path(id_number(1))->branches, IsEmpty());
   EXPECT_TRUE(finish(held).ok());
 }
@@ -225,7 +255,7 @@ TEST_P(StoreConformance, FencedVerbsAreRefusedInEveryStateButRunning) {
   ASSERT_TRUE(fail(other).ok());
   EXPECT_EQ(finish(other).code(), StatusCode::conflict);
   EXPECT_EQ(job(2).state, JobState::failed);
-  EXPECT_EQ(*store_->result(id_number(2)), std::nullopt);
+  EXPECT_EQ(result_of(*store_, id_number(2)), std::nullopt);
 }
 
 TEST_P(StoreConformance, ListsNewestFirstInPages) {
@@ -318,7 +348,7 @@ TEST_P(StoreConformance, AResultIsCopiedForAJobThatIsAnnotatedOtherwise) {
   EXPECT_EQ(store_->submit(second)->kind, Submitted::Kind::copied);
   EXPECT_EQ(job(2).state, JobState::successful);
   EXPECT_EQ(job(2).finished, at_second(300));
-  EXPECT_EQ(*store_->result(id_number(2)), *store_->result(id_number(1)));
+  EXPECT_EQ(result_of(*store_, id_number(2)), result_of(*store_, id_number(1)));
   EXPECT_EQ(store_->path(id_number(2))->branches.size(), store_->path(id_number(1))->branches.size());
   EXPECT_EQ(store_->path(id_number(2))->critical_points.size(), 3U);
   second.id = id_number(3);
@@ -328,7 +358,7 @@ TEST_P(StoreConformance, AResultIsCopiedForAJobThatIsAnnotatedOtherwise) {
   second.annotations = {};
   EXPECT_EQ(store_->submit(second)->id, id_number(1));
   ASSERT_TRUE(*store_->remove(id_number(1)));
-  EXPECT_TRUE(store_->result(id_number(2))->has_value());
+  EXPECT_TRUE(result_of(*store_, id_number(2)).has_value());
 }
 
 TEST_P(StoreConformance, EverythingSurvivesReopening) {
@@ -337,7 +367,7 @@ TEST_P(StoreConformance, EverythingSurvivesReopening) {
   ASSERT_TRUE(finish(claim()).ok());
   reopen();
   EXPECT_EQ(job(1).state, JobState::successful);
-  EXPECT_EQ(*store_->result(id_number(1)), sample_result().document);
+  EXPECT_EQ(result_of(*store_, id_number(1)), sample_result().document);
   EXPECT_EQ(store_->path(id_number(1))->branches[0].load_factor, sample_result().branches[0].load_factor);
   EXPECT_EQ(claim().id, id_number(2));
 }
@@ -518,7 +548,7 @@ TEST_P(StoreConformance, RemovesAJobWithAllThatBelongsToIt) {
   EXPECT_FALSE(*store_->remove(id_number(1)));
   EXPECT_EQ(finish(running).code(), StatusCode::conflict);
   EXPECT_FALSE(store_->get(id_number(1))->has_value());
-  EXPECT_EQ(*store_->result(id_number(1)), std::nullopt);
+  EXPECT_EQ(result_of(*store_, id_number(1)), std::nullopt);
   EXPECT_THAT(store_->path(id_number(1))->branches, IsEmpty());
   EXPECT_THAT(ids({}), IsEmpty());
 }
@@ -689,7 +719,7 @@ class StoreModel : public StoreConformance {
       ASSERT_EQ(stored.state, model_[i].state) << i;
       ASSERT_EQ(stored.attempt, model_[i].attempt) << i;
       ASSERT_EQ(stored.crashes, model_[i].crashes) << i;
-      ASSERT_EQ(store_->result(stored.id)->has_value(), stored.state == JobState::successful) << i;
+      ASSERT_EQ(result_of(*store_, stored.id).has_value(), stored.state == JobState::successful) << i;
       ASSERT_EQ(stored.failure.has_value(), stored.state == JobState::failed) << i;
     }
   }

@@ -81,10 +81,14 @@ Statement& Statement::bind_null() {
   return *this;
 }
 
-Statement& Statement::bind_series(std::span<const double> values) {
-  const void* data = values.empty() ? static_cast<const void*>("") : values.data();
-  check(sqlite3_bind_blob64(statement_.get(), ++bound_, data, values.size_bytes(), SQLITE_TRANSIENT));
+Statement& Statement::bind_blob(std::string_view bytes) {
+  const void* data = bytes.empty() ? "" : bytes.data();
+  check(sqlite3_bind_blob64(statement_.get(), ++bound_, data, bytes.size(), SQLITE_TRANSIENT));
   return *this;
+}
+
+Statement& Statement::bind_series(std::span<const double> values) {
+  return bind_blob({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
 }
 
 bool Statement::step() {
@@ -188,7 +192,8 @@ std::string Connection::part(const char* table, const char* column, std::int64_t
     raise(handle_.get(), code);
   }
   size = static_cast<std::size_t>(sqlite3_blob_bytes(opened));
-  std::string bytes(std::min(most, size - std::min(offset, size)), '\0');
+  offset = std::min(offset, size);
+  std::string bytes(std::min(most, size - offset), '\0');
   code = sqlite3_blob_read(opened, bytes.data(), static_cast<int>(bytes.size()), static_cast<int>(offset));
   if (code != SQLITE_OK) {
     raise(handle_.get(), code);

@@ -60,6 +60,7 @@ class Statement {
   Statement& bind(std::string_view text);
   Statement& bind_null();
   /// Little-endian float64, one after the other.
+  Statement& bind_blob(std::string_view bytes);
   Statement& bind_series(std::span<const double> values);
   template <class T>
   Statement& bind(const std::optional<T>& value) {

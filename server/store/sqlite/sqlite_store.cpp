@@ -7,6 +7,7 @@
 #include "server/store/sqlite/deliveries.h"
 #include "server/store/sqlite/file_lock.h"
 #include "server/store/sqlite/list.h"
+#include "server/store/sqlite/long_document.h"
 #include "server/store/sqlite/quotas.h"
 #include "server/store/sqlite/rows.h"
 #include "server/store/sqlite/sweeps.h"
@@ -45,15 +46,12 @@ class SqliteStore final : public Store {
   StatusOr<std::optional<Job>> get(std::string_view id) override;
   StatusOr<JobPage> list(const ListQuery& query) override;
   StatusOr<std::optional<std::string>> request(std::string_view id) override;
-  StatusOr<std::optional<std::string>> result(std::string_view id) override;
   StatusOr<DocumentPiece> result_piece(std::string_view id, std::size_t offset, std::size_t most) override;
   StatusOr<StoredPath> path(std::string_view id) override;
   SweepStore& sweeps() override { return sweeps_; }
   DeliveryStore& deliveries() override { return deliveries_; }
 
  private:
-  StatusOr<std::optional<std::string>> document(const char* table, std::string_view id);
-
   FileLock lock_;
   Database database_;
   SqliteSweepStore sweeps_;
@@ -187,6 +185,8 @@ std::int64_t insert_copy(Connection& connection, NewJob job, std::int64_t origin
   for (const char* sql :
        {"INSERT INTO results SELECT ?, document, critical_load_factor, critical_type, termination,"
         " wall_time_s FROM results WHERE job = ?",
+        "INSERT INTO result_pieces (job, number, bytes) SELECT ?, number, bytes FROM result_pieces"
+        " WHERE job = ?",
         "INSERT INTO branches SELECT ?, branch, parent, points, load_factor, arc_length,"
         " negative_eigenvalues FROM branches WHERE job = ?",
         "INSERT INTO branch_series SELECT ?, branch, kind, number, id, samples FROM branch_series"
@@ -294,12 +294,13 @@ Status SqliteStore::finish(const Claim& claim, const JobResult& result, Time now
             "INSERT INTO results (job, document, critical_load_factor, critical_type, termination,"
             " wall_time_s) VALUES (?, ?, ?, ?, ?, ?)")
         .bind(*job)
-        .bind(result.document)
+        .bind(first_piece(result.document))
         .bind(critical ? summary.critical_load_factor : std::nullopt)
         .bind(critical ? std::optional(to_row(*summary.critical_type)) : std::nullopt)
         .bind(summary.termination)
         .bind(result.wall_time_s)
         .run();
+    insert_document_rest(connection, *job, result.document);
     insert_path(connection, *job, result.branches, result.critical_points);
     end_job(connection, *job, JobEvent::finish, now);
     return Status();
@@ -499,34 +500,21 @@ StatusOr<JobPage> SqliteStore::list(const ListQuery& query) {
   });
 }
 
-StatusOr<std::optional<std::string>> SqliteStore::document(const char* table, std::string_view id) {
+StatusOr<std::optional<std::string>> SqliteStore::request(std::string_view id) {
   return database_.read<std::optional<std::string>>(
       [&](const Connection& connection) -> std::optional<std::string> {
-        Statement row = connection.prepare("SELECT document FROM " + std::string(table) +
-                                           " JOIN jobs ON jobs.seq = job WHERE jobs.id = ?");
+        Statement row =
+            connection.prepare("SELECT document FROM requests JOIN jobs ON seq = job WHERE id = ?");
         row.bind(id);
         return row.step() ? std::optional(row.text(0)) : std::nullopt;
       });
-}
-
-StatusOr<std::optional<std::string>> SqliteStore::request(std::string_view id) {
-  return document("requests", id);
-}
-
-StatusOr<std::optional<std::string>> SqliteStore::result(std::string_view id) {
-  return document("results", id);
 }
 
 StatusOr<DocumentPiece> SqliteStore::result_piece(std::string_view id, std::size_t offset, std::size_t most) {
   return database_.read<DocumentPiece>([&](const Connection& connection) -> DocumentPiece {
     Statement row = connection.prepare("SELECT job FROM results JOIN jobs ON seq = job WHERE id = ?");
     row.bind(id);
-    DocumentPiece piece;
-    if (row.step()) {
-      const std::int64_t job = row.integer(0);
-      piece.bytes = connection.part("results", "document", job, offset, most, piece.size);
-    }
-    return piece;
+    return row.step() ? read_document_piece(connection, row.integer(0), offset, most) : DocumentPiece{};
   });
 }
 

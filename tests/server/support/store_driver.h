@@ -6,6 +6,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "server/store/store.h"
 #include "tests/server/support/temp_dir.h"
@@ -16,6 +18,18 @@ struct StoreDriver {
   const char* name;
   std::function<StatusOr<std::unique_ptr<Store>>(const TempDir&)> open;
 };
+
+/// The whole result document; nothing when there is none.
+inline std::optional<std::string> result_of(Store& store, std::string_view id) {
+  std::string document;
+  DocumentPiece piece = *store.result_piece(id, 0, std::string::npos);
+  while (!piece.bytes.empty()) {
+    document += piece.bytes;
+    piece = *store.result_piece(id, document.size(), std::string::npos);
+  }
+  EXPECT_EQ(document.size(), piece.size);
+  return piece.size == 0 ? std::nullopt : std::optional(document);
+}
 
 /// A fresh store of the driver that is the parameter.
 class StoreTest : public testing::TestWithParam<StoreDriver> {
