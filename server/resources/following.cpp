@@ -28,9 +28,9 @@ void Following::poll() {
   }
 }
 
-void Following::send_status(std::uint64_t number, const std::string& document) const {
-  // A client that was further already comes back to where it was.
-  push_("retry: 1000\n\n" + event_text(std::max(number, last_.load()), "status", document), false);
+void Following::send_status(std::uint64_t number, const std::string& document) {
+  last_ = std::max(number, last_.load());  // a client that was further already comes back to where it was
+  push_("retry: 1000\n\n" + event_text(last_, "status", document), false);
 }
 
 void Following::listen_for_end() {

@@ -31,8 +31,8 @@ class Following : public StreamSource {
 
   /// It has ended already, or is not there: poll() does the rest.
   void end_at_once() { *ended_ = true; }
-  /// Sends the status it has now.
-  void send_status(std::uint64_t number, const std::string& document) const;
+  /// Sends the status it has now, which tells all up to that number.
+  void send_status(std::uint64_t number, const std::string& document);
   /// From now on the announced end is seen.
   void listen_for_end();
   /// Whether the client lacks this event.

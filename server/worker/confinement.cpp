@@ -78,17 +78,36 @@ bool confine_process(int parent) {
 void confine_calls() {
   ::prctl(PR_SET_DUMPABLE, 0);  // from now on the files of /proc/self are not the user's any more
 #if !SNAPTHROUGH_OWN_RUNTIME && defined(__x86_64__)
-  static constexpr std::array kAllowed{
-      SYS_read,         SYS_write,          SYS_pread64,
-      SYS_sendmsg,      SYS_mmap,           SYS_munmap,
-      SYS_mprotect,     SYS_mremap,         SYS_brk,
-      SYS_madvise,      SYS_futex,          SYS_exit,
-      SYS_exit_group,   SYS_rt_sigreturn,   SYS_rt_sigprocmask,
-      SYS_rt_sigaction, SYS_clock_gettime,  SYS_clock_nanosleep,
-      SYS_getrusage,    SYS_prlimit64,      SYS_setrlimit,
-      SYS_getrlimit,    SYS_sched_yield,    SYS_getpid,
-      SYS_gettid,       SYS_tgkill,         SYS_restart_syscall,
-      SYS_rseq,         SYS_set_robust_list};  // these two are a new thread's first calls
+  static constexpr std::array kAllowed{SYS_read,
+                                       SYS_write,
+                                       SYS_pread64,
+                                       SYS_sendmsg,
+                                       SYS_close,
+                                       SYS_mmap,
+                                       SYS_munmap,
+                                       SYS_mprotect,
+                                       SYS_mremap,
+                                       SYS_brk,
+                                       SYS_madvise,
+                                       SYS_futex,
+                                       SYS_exit,
+                                       SYS_exit_group,
+                                       SYS_rt_sigreturn,
+                                       SYS_rt_sigprocmask,
+                                       SYS_rt_sigaction,
+                                       SYS_clock_gettime,
+                                       SYS_clock_nanosleep,
+                                       SYS_getrusage,
+                                       SYS_prlimit64,
+                                       SYS_setrlimit,
+                                       SYS_getrlimit,
+                                       SYS_sched_yield,
+                                       SYS_getpid,
+                                       SYS_gettid,
+                                       SYS_tgkill,
+                                       SYS_restart_syscall,
+                                       SYS_rseq,
+                                       SYS_set_robust_list};  // these two are a new thread's first calls
   std::vector<sock_filter> filter;
   const auto load = [&](std::size_t offset) {
     filter.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)));

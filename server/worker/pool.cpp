@@ -165,7 +165,10 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
     return;
   }
   if (const Status status = store_outcome(claim, outcome, context, stop); !status.ok()) {
-    return log_trouble(context.log, claim, status);
+    if (status.code() != StatusCode::conflict) {  // dismissed or removed meanwhile: nobody's trouble
+      log_trouble(context.log, claim, status);
+    }
+    return;
   }
   context.metrics.running.observe(context.environment.monotonic_seconds() - begun);
   context.metrics.job_ended(outcome.failure ? std::string_view(outcome.failure->code) : "successful");

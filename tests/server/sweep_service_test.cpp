@@ -277,6 +277,12 @@ TEST_F(SweepService, EventsTellHowFarItIs) {
   EXPECT_THAT(text, HasSubstr("event: progress\ndata: {\"points\":200"));
   EXPECT_THAT(text, HasSubstr("event: end\ndata: {\"id\""));
   EXPECT_THAT(text, HasSubstr("\"status\":\"successful\""));
+  std::vector<std::uint64_t> ids;
+  for (std::size_t at = text.find("id: "); at != std::string::npos; at = text.find("\nid: ", at + 1)) {
+    ids.push_back(std::stoull(text.substr(text.find_first_of("0123456789", at))));
+  }
+  EXPECT_GE(ids.size(), 3U);
+  EXPECT_EQ(std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()), ids.end()) << text;
 }
 
 /// EventSource comes back after the end of a stream, unless it is told not to.
