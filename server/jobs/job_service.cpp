@@ -5,6 +5,7 @@
 #include "api/api.h"
 #include "server/jobs/content_key.h"
 #include "server/jobs/envelope.h"
+#include "server/jobs/large_document.h"
 #include "server/jobs/least_memory.h"
 #include "server/jobs/repetition.h"
 
@@ -90,6 +91,7 @@ StatusOr<Submission> JobService::submit(const Order& order) {
   if (in_use.by_another()) {
     return Submission{Submission::Kind::key_in_use};
   }
+  const LargeDocument room(order.document.size());
   const Envelope envelope = open_envelope(order.document, "request", limits_.callback_hosts);
   if (envelope.malformed) {
     return Submission{Submission::Kind::malformed, envelope.findings};

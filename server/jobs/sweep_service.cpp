@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/jobs/envelope.h"
+#include "server/jobs/large_document.h"
 #include "server/jobs/repetition.h"
 
 namespace snapthrough::server {
@@ -23,6 +24,7 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
   if (Status status = world_.health.takes_work(); !status.ok()) {
     return status;
   }
+  const LargeDocument room(order.document.size());
   const Envelope envelope = open_envelope(order.document, "sweep", world_.limits.callback_hosts);
   if (envelope.malformed) {
     return Submission{Submission::Kind::malformed, envelope.findings};

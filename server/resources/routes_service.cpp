@@ -6,6 +6,7 @@
 #include "api/openapi/document.h"
 #include "api/sweep.h"
 #include "server/jobs/envelope.h"
+#include "server/jobs/large_document.h"
 #include "server/jobs/least_memory.h"
 #include "server/resources/embedded.h"
 #include "server/resources/routes.h"
@@ -81,6 +82,7 @@ Response Routes::check(const Request& request, const std::string& /*id*/) {
     return simple_problem(request, 415, "unsupported-media-type", "Unsupported media type",
                           "A request document has Content-Type: application/json.");
   }
+  const LargeDocument room(request.body.size());
   const Envelope envelope = opened(request.body, jobs_.limits().callback_hosts);
   if (envelope.malformed) {
     return problem_response({400, "malformed-json", "Malformed JSON", "The body is no acceptable JSON text.",

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "api/sweep_table.h"
+#include "server/jobs/large_document.h"
 #include "server/resources/body_sources.h"
 #include "server/resources/events.h"
 #include "server/resources/negotiation.h"
@@ -71,6 +72,7 @@ std::uint64_t most_rows(const SweepRecord& sweep, const PointQuery& query) {
 
 /// The sweep as it was handed in, or the response that says why not.
 struct ReadSweep {
+  LargeDocument room;
   std::optional<api::Sweep> sweep;
   Response trouble;
 };
@@ -78,17 +80,19 @@ struct ReadSweep {
 ReadSweep read_stored(const Request& request, SweepStore& store, const std::string& id) {
   const StatusOr<std::optional<std::string>> document = store.document(id);
   if (!document.ok()) {
-    return {std::nullopt, store_trouble(request, document.status())};
+    return {LargeDocument(0), std::nullopt, store_trouble(request, document.status())};
   }
   if (!document->has_value()) {
-    return {std::nullopt, sweep_missing(request, id)};
+    return {LargeDocument(0), std::nullopt, sweep_missing(request, id)};
   }
+  LargeDocument room((*document)->size());
   api::SweepOutcome read = api::read_sweep(**document);
   if (!read.sweep) {
-    return {std::nullopt, simple_problem(request, 500, "internal-error", "Internal error",
-                                         "This version does not accept the stored document any more.")};
+    return {std::move(room), std::nullopt,
+            simple_problem(request, 500, "internal-error", "Internal error",
+                           "This version does not accept the stored document any more.")};
   }
-  return {std::move(read.sweep), {}};
+  return {std::move(room), std::move(read.sweep), {}};
 }
 
 Response rows_of(const Request& request, SweepStore& store, const SweepRecord& record, api::TableForm form,

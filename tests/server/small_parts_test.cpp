@@ -4,14 +4,17 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include "server/authority.h"
 #include "server/config.h"
 #include "server/environment.h"
 #include "server/front/turns.h"
+#include "server/jobs/large_document.h"
 #include "server/jobs/path_batch.h"
 #include "server/log/log.h"
 #include "server/resources/prefer.h"
@@ -116,6 +119,26 @@ TEST(Turns, GoToThoseWhoWaitInTheirOrder) {
   EXPECT_TRUE(turns.take(6));
   EXPECT_TRUE(turns.take(7));
   EXPECT_FALSE(turns.take(8));
+}
+
+TEST(LargeDocument, WaitsForAnotherThreadsButNotForItsOwnAndSmallOnesDoNot) {
+  constexpr std::size_t kLarge = 1'000'000;
+  std::atomic<bool> second = false;
+  std::jthread other;
+  {
+    const LargeDocument first(kLarge);
+    const LargeDocument that_it_leads_to(kLarge);
+    other = std::jthread([&] {
+      const LargeDocument small(100);
+      const LargeDocument large(kLarge);
+      second = true;
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_FALSE(second);
+    std::jthread([] { const LargeDocument small(100); }).join();  // would hang
+  }
+  other.join();
+  EXPECT_TRUE(second);
 }
 
 TEST(Authority, PortsAndLoopbackHosts) {
