@@ -209,7 +209,7 @@ const char* source_of(ResultTable table) {
     case ResultTable::points:
       break;
   }
-  throw std::invalid_argument("the points of paths are points_csv()'s");
+  throw std::invalid_argument("the points of paths are a PointsTable");
 }
 
 }  // namespace
@@ -248,33 +248,58 @@ std::string table_names(std::span<const ResultTable> tables) {
   return names;
 }
 
-std::string points_csv(const std::vector<Branch>& branches) {
-  const std::vector<std::string> monitors = ids_of(branches, &Branch::monitors);
-  const std::vector<std::string> bases = ids_of(branches, &Branch::contact_fraction);
-  std::string text = "branch,point,load_factor,arc_length,negative_eigenvalues";
-  for (const std::string& id : monitors) {
-    append_csv_text(text += ',', id);
+PointsTable::PointsTable(std::vector<Branch> branches)
+    : branches_(std::move(branches)),
+      monitors_(ids_of(branches_, &Branch::monitors)),
+      bases_(ids_of(branches_, &Branch::contact_fraction)) {}
+
+void PointsTable::append_head(std::string& csv) const {
+  csv += "branch,point,load_factor,arc_length,negative_eigenvalues";
+  for (const std::string& id : monitors_) {
+    append_csv_text(csv += ',', id);
   }
-  for (const std::string& id : bases) {
-    append_csv_field(text += ',', "contact_fraction:" + id);
+  for (const std::string& id : bases_) {
+    append_csv_field(csv += ',', "contact_fraction:" + id);
   }
-  text += kLineEnd;
-  for (const Branch& branch : branches) {
-    for (std::size_t point = 0; point < branch.load_factor.size(); ++point) {
-      text += std::to_string(branch.id) + "," + std::to_string(point) + ",";
-      append(text, branch.load_factor[point]);
-      append(text += ',', branch.arc_length[point]);
-      text += "," + std::to_string(branch.negative_eigenvalues[point]);
-      for (const std::string& id : monitors) {
-        append_value(text, branch.monitors, id, point);
+  csv += kLineEnd;
+}
+
+void PointsTable::append_row(const Branch& branch, std::size_t point, std::string& csv) const {
+  csv += std::to_string(branch.id) + "," + std::to_string(point) + ",";
+  append(csv, branch.load_factor[point]);
+  append(csv += ',', branch.arc_length[point]);
+  csv += "," + std::to_string(branch.negative_eigenvalues[point]);
+  for (const std::string& id : monitors_) {
+    append_value(csv, branch.monitors, id, point);
+  }
+  for (const std::string& id : bases_) {
+    append_value(csv, branch.contact_fraction, id, point);
+  }
+  csv += kLineEnd;
+}
+
+bool PointsTable::append_rows(std::string& csv, std::size_t bytes) {
+  const std::size_t before = csv.size();
+  if (!std::exchange(begun_, true)) {
+    append_head(csv);
+  }
+  for (; branch_ < branches_.size(); ++branch_, point_ = 0) {
+    for (; point_ < branches_[branch_].load_factor.size(); ++point_) {
+      if (csv.size() - before >= bytes) {
+        return true;
       }
-      for (const std::string& id : bases) {
-        append_value(text, branch.contact_fraction, id, point);
-      }
-      text += kLineEnd;
+      append_row(branches_[branch_], point_, csv);
     }
   }
-  return text;
+  return false;
+}
+
+std::size_t PointsTable::held_bytes() const {
+  std::size_t numbers = 0;
+  for (const Branch& branch : branches_) {
+    numbers += branch.load_factor.size() * (3 + branch.monitors.size() + branch.contact_fraction.size());
+  }
+  return numbers * sizeof(double);
 }
 
 ResultTableReader::ResultTableReader(ResultTable table)
@@ -317,7 +342,7 @@ std::string result_csv(const Json& result, ResultTable table) {
     case ResultTable::points:
       break;
   }
-  throw std::invalid_argument("the points of paths are points_csv()'s");
+  throw std::invalid_argument("the points of paths are a PointsTable");
 }
 
 }  // namespace snapthrough::api

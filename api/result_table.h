@@ -39,7 +39,25 @@ enum class ResultTable {
 ///
 /// Columns: branch, point, load_factor, arc_length, negative_eigenvalues, one for each monitor (its id) and
 /// one for each base (contact_fraction:<id>).
-[[nodiscard]] std::string points_csv(const std::vector<Branch>& branches);
+class PointsTable {
+ public:
+  explicit PointsTable(std::vector<Branch> branches);
+  /// Appends the next rows until about so many bytes are added. @return whether there are more
+  bool append_rows(std::string& csv, std::size_t bytes);
+  /// Memory that is kept, about.
+  [[nodiscard]] std::size_t held_bytes() const;
+
+ private:
+  void append_head(std::string& csv) const;
+  void append_row(const Branch& branch, std::size_t point, std::string& csv) const;
+
+  const std::vector<Branch> branches_;
+  const std::vector<std::string> monitors_;
+  const std::vector<std::string> bases_;
+  bool begun_ = false;
+  std::size_t branch_ = 0;  ///< of the next row
+  std::size_t point_ = 0;
+};
 
 /// @brief A table of a result document.
 ///
@@ -47,7 +65,7 @@ enum class ResultTable {
 /// negative_after, multiplicity, state, monitors. static: load_factor, negative_eigenvalues, state, monitors,
 /// contact_fraction:<id>. buckling: mode (from 1), load_factor, error_estimate. states: state, branch,
 /// load_factor, member, s, x0, y0, x, y, u, v, rotation, axial_force, shear_force, bending_moment.
-/// @pre table is not points (see points_csv())
+/// @pre table is not points (see PointsTable)
 [[nodiscard]] std::string result_csv(const nlohmann::json& result, ResultTable table);
 
 /// @brief result_csv() of a document that comes in pieces: states one by one, of the others only what the

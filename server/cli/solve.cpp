@@ -71,7 +71,9 @@ std::optional<std::optional<api::ResultTable>> chosen_table(const api::Request& 
 void write(const api::Request& request, const Result& result, double seconds,
            const std::optional<api::ResultTable>& table, std::ostream& out) {
   if (table == api::ResultTable::points) {
-    out << api::points_csv(result.branches);
+    std::string csv;
+    api::PointsTable(result.branches).append_rows(csv, std::string::npos);
+    out << csv;
   } else if (const nlohmann::json document = api::write_result(request, result, seconds); table) {
     out << api::result_csv(document, *table);
   } else {

@@ -122,6 +122,18 @@ class ResultTableSource final : public BodySource {
   api::ResultTableReader reader_;
 };
 
+/// The points of a path.
+class PointsSource final : public BodySource {
+ public:
+  explicit PointsSource(std::vector<Branch> branches) : table_(std::move(branches)) {}
+
+  StatusOr<bool> append_next(std::string& piece) override { return table_.append_rows(piece, kPieceBytes); }
+  [[nodiscard]] std::size_t held_bytes() const override { return table_.held_bytes(); }
+
+ private:
+  api::PointsTable table_;
+};
+
 }  // namespace
 
 std::shared_ptr<BodySource> table_source(SweepStore& store, const SweepRecord& sweep, api::TableWriter writer,
@@ -133,9 +145,16 @@ std::shared_ptr<BodySource> result_source(Store& store, const std::string& job) 
   return std::make_shared<ResultSource>(store, job);
 }
 
-std::shared_ptr<BodySource> result_table_source(Store& store, const std::string& job,
-                                                api::ResultTable table) {
-  return std::make_shared<ResultTableSource>(store, job, table);
+StatusOr<std::shared_ptr<BodySource>> result_table_source(Store& store, const std::string& job,
+                                                          api::ResultTable table) {
+  if (table != api::ResultTable::points) {
+    return std::shared_ptr<BodySource>(std::make_shared<ResultTableSource>(store, job, table));
+  }
+  StatusOr<StoredPath> path = store.path(job);
+  if (!path.ok()) {
+    return path.status();
+  }
+  return std::shared_ptr<BodySource>(std::make_shared<PointsSource>(std::move(path).value().branches));
 }
 
 StatusOr<Response> begin_body(std::shared_ptr<BodySource> source) {

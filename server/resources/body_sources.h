@@ -24,10 +24,9 @@ namespace snapthrough::server::http {
 /// @brief The result document of a successful job. Fails with `conflict` when the job is removed meanwhile.
 [[nodiscard]] std::shared_ptr<BodySource> result_source(Store& store, const std::string& job);
 
-/// @brief A table of that document as CSV. Fails as result_source() does.
-/// @pre table is not points
-[[nodiscard]] std::shared_ptr<BodySource> result_table_source(Store& store, const std::string& job,
-                                                              api::ResultTable table);
+/// A table of that job's result as CSV. Fails as result_source() does.
+[[nodiscard]] StatusOr<std::shared_ptr<BodySource>> result_table_source(Store& store, const std::string& job,
+                                                                        api::ResultTable table);
 
 /// @brief The response (200) with this body: the whole of it when it is no more than a piece.
 /// What the source says when its first piece fails.

@@ -281,20 +281,15 @@ Response Routes::result_of(const Request& request, const Job& job) {
 }
 
 Response Routes::table_of_result(const Request& request, const Job& job, api::ResultTable table) {
-  Response response;
-  if (table == api::ResultTable::points) {
-    const StatusOr<StoredPath> path = jobs_.store().path(job.id);
-    if (!path.ok()) {
-      return store_trouble(request, path.status());
-    }
-    response.body = api::points_csv(path->branches);
-  } else {
-    StatusOr<Response> begun = begin_body(result_table_source(jobs_.store(), job.id, table));
-    if (!begun.ok()) {
-      return trouble_of_result(request, job.id, begun.status());
-    }
-    response = std::move(begun).value();
+  StatusOr<std::shared_ptr<BodySource>> source = result_table_source(jobs_.store(), job.id, table);
+  if (!source.ok()) {
+    return trouble_of_result(request, job.id, source.status());
   }
+  StatusOr<Response> begun = begin_body(std::move(source).value());
+  if (!begun.ok()) {
+    return trouble_of_result(request, job.id, begun.status());
+  }
+  Response response = std::move(begun).value();
   response.content_type = "text/csv; charset=utf-8; header=present";
   return response;
 }
