@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/authority.h"
+#include "server/resources/page.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -35,7 +36,7 @@ std::string request_id(const Request& request, const Environment& environment) {
 
 /// What tells nothing about anybody's jobs is answered without a key.
 bool is_public(std::string_view path) {
-  return path == "/livez" || path == "/readyz" || path == "/v1/openapi.json";
+  return path == "/livez" || path == "/readyz" || path == "/v1/openapi.json" || is_page_path(path);
 }
 
 const char* problem_kind(int status) {
