@@ -1,0 +1,14 @@
+// Everything that the page uses of the figures. Pure functions: data in, trees of shapes out.
+
+export * from "./shape";
+export * from "./numbers";
+export { drawingCaption, drawingFigure, drawingView, suggestedFactor } from "./drawing/drawing";
+export { locate, stateAt, type Located, type LocatedState } from "./drawing/locate";
+export { toModel, toPixel, zoomed, type DrawingInput, type View } from "./drawing/scene";
+export {
+  chosenShape, criticalNear, nearestOnPath, pathChart, pathFigure, type PathChart, type PathInput, type PathShadow,
+} from "./chart/path";
+export {
+  branchesOf, defaultQuantities, quantityLabel, rowsOfStates, stateNear, walk, type PathPoint, type PathQuantity,
+  type PathResult,
+} from "./chart/curves";
