@@ -36,11 +36,11 @@ const kBuriedPipe: Problem = {
   heading: "Buried flexible pipe",
   text: "The soil can only push. Above the limit load the crown snaps through, and how far depends on the soil.",
   sliders: [
-    { name: "Soil stiffness", unit: "kN/m²", targets: foundations(2, "stiffness"), min: 500, max: 50000, log: true },
-    wall(8e5, 20, 50),
+    { name: "Soil stiffness", unit: "kN/m²", targets: foundations(2, "stiffness"), min: 2000, max: 200000, log: true },
+    wall(8e5, 15, 40),
     { name: "Gap around the pipe", unit: "mm", targets: foundations(2, "gap", 1e-3), min: 0, max: 20, log: false, step: 0.5 },
   ],
-  choice: { kind: "along", branch: 0, share: 0.62 },
+  choice: { kind: "along", branch: 0, share: 0.7 },
   reference: { text: "Contact and its events", file: "docs/theory.md" },
 };
 

@@ -1,0 +1,1 @@
+export function JobView({ id }: { id: string }) { return <main class="plain">{id}</main>; }

@@ -1,0 +1,1 @@
+export function SweepView({ id }: { id: string }) { return <main class="plain">{id}</main>; }

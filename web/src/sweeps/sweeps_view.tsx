@@ -1,0 +1,1 @@
+export function SweepsView() { return <main class="plain"></main>; }

@@ -1,0 +1,245 @@
+// The equilibrium path: choose what is on the axes, walk along it by pointer or keys, play it.
+
+import type { ComponentChildren } from "preact";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import type { Branch, Model } from "../api/documents";
+import { shapeNode } from "../app/shape_view";
+import { useSize } from "../app/size";
+import { fileName, saveCsv, savePng, saveSvg } from "../export/files";
+import {
+  branchesOf, criticalNear, defaultQuantities, exactNumber, nearestOnPath, pathChart, pathFigure, quantityLabel, walk,
+  type PathInput, type PathPoint, type PathQuantity, type PathResult, type PathShadow, type Size,
+} from "../figures";
+import { lengthOf, rowOf, stationAt, stationFor, type Run } from "../model/run";
+import type { Choice } from "../model/gallery";
+import { Card, Menu, TableTwin } from "./card";
+
+const kPlayFrame = 70;  // ms that each state is shown for
+const kNoResult: PathResult = { branches: [], critical_points: [], contact_events: [] };
+
+export interface PathProps {
+  model: Model;
+  run: Run | null;
+  growing: Branch[] | null;
+  shadows: readonly PathShadow[];
+  choice: Choice;
+  onChoice: (choice: Choice) => void;
+  /** What is said of the chosen critical point. */
+  note: ComponentChildren;
+  onCritical: (number: number | null) => void;
+  class?: string;
+}
+
+function sameQuantity(a: PathQuantity, b: PathQuantity): boolean {
+  return a.kind === b.kind && (a.kind !== "monitor" || (b.kind === "monitor" && a.id === b.id));
+}
+
+function nameOf(quantity: PathQuantity): string {
+  return quantity.kind === "monitor" ? quantity.id : quantity.kind.replace("_", " ");
+}
+
+/** Every quantity that the result has, monitors turned as the default is. */
+function quantitiesOf(result: PathResult): PathQuantity[] {
+  const [branch] = branchesOf(result);
+  const monitors = Object.entries(branch?.monitors ?? {}).map(([id, values]): PathQuantity => {
+    const sum = values.reduce((total, value) => total + value, 0);
+    return { kind: "monitor", id, reversed: sum < 0 };
+  });
+  return [...monitors, { kind: "load_factor" }, { kind: "arc_length" }];
+}
+
+interface AxisProps {
+  label: string;
+  value: PathQuantity;
+  from: PathQuantity[];
+  onChange: (value: PathQuantity) => void;
+}
+
+function AxisChoice({ label, value, from, onChange }: AxisProps) {
+  return (
+    <label class="axis-choice">{label}
+      <select value={from.findIndex((one) => sameQuantity(one, value))}
+              onChange={(event) => {
+                const chosen = from[Number(event.currentTarget.value)];
+                if (chosen) onChange(chosen);
+              }}>
+        {from.map((one, i) => <option key={i} value={i}>{nameOf(one)}</option>)}
+      </select>
+    </label>
+  );
+}
+
+/** Choices of the axes that hold for as long as the result has them. */
+function useAxes(result: PathResult): { x: PathQuantity; y: PathQuantity; all: PathQuantity[];
+                                        setX: (x: PathQuantity) => void; setY: (y: PathQuantity) => void } {
+  const [wanted, setWanted] = useState<{ x: PathQuantity | null; y: PathQuantity | null }>({ x: null, y: null });
+  const all = quantitiesOf(result);
+  const usual = defaultQuantities(result);
+  const known = (quantity: PathQuantity | null): PathQuantity | undefined =>
+    quantity ? all.find((one) => sameQuantity(one, quantity)) : undefined;
+  return {
+    x: known(wanted.x) ?? usual.x, y: known(wanted.y) ?? usual.y, all,
+    setX: (x) => setWanted({ ...wanted, x }), setY: (y) => setWanted({ ...wanted, y }),
+  };
+}
+
+/** The rows of the table twin and of the CSV. */
+export function pathRows(result: PathResult, digits: (value: number) => string): string[][] {
+  const branches = branchesOf(result);
+  const ids = Object.keys(branches[0]?.monitors ?? {});
+  const head = ["branch", "load factor", ...ids, "arc length", "negative eigenvalues"];
+  const body = branches.flatMap((branch, number) => branch.load_factor.map((load, i) => [
+    String(number), digits(load), ...ids.map((id) => digits(branch.monitors[id]?.[i] ?? Number.NaN)),
+    digits(branch.arc_length[i] ?? Number.NaN), String(branch.negative_eigenvalues[i] ?? ""),
+  ]));
+  return [head, ...body];
+}
+
+interface ChartProps {
+  input: PathInput;
+  size: Size;
+  point: PathPoint | null;
+  onPoint: (point: PathPoint) => void;
+  onCritical: (number: number | null) => void;
+  onPlay: () => void;
+}
+
+/** Steps along the path that a key means. */
+function stepsOf(key: string): number | null {
+  const steps: Record<string, number> = {
+    ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10, Home: -1e9, End: 1e9,
+  };
+  return steps[key] ?? null;
+}
+
+function Chart({ input, size, point, onPoint, onCritical, onPlay }: ChartProps) {
+  const chart = useMemo(() => pathChart(input, size), [input, size]);
+  const figure = useMemo(() => shapeNode(pathFigure({ ...input, chosen: point }, size, chart)), [chart, point]);
+  const drag = useRef(false);
+  const pick = (event: PointerEvent): void => {
+    const box = (event.currentTarget as Element).getBoundingClientRect();
+    const at = { x: event.clientX - box.left, y: event.clientY - box.top };
+    const critical = event.type === "pointerdown" ? criticalNear(chart, at) : null;
+    if (critical) {
+      onCritical(critical.number);
+      return;
+    }
+    const near = nearestOnPath(chart, at);
+    if (near) onPoint({ branch: near.branch, index: near.index });
+  };
+  const press = (event: KeyboardEvent): void => {
+    const steps = stepsOf(event.key);
+    const branches = branchesOf(input.result);
+    if (event.key === " " || event.key === "p") onPlay();
+    else if (event.key === "b" && branches.length > 1) {
+      onPoint({ branch: ((point?.branch ?? 0) + 1) % branches.length, index: 1 });
+    } else if (steps !== null && point) onPoint(walk(input.result, point, steps));
+    else return;
+    event.preventDefault();
+  };
+  return (
+    <div class="picture walkable" tabIndex={0} role="group" onKeyDown={press}
+         aria-label="Equilibrium path. Arrow keys walk along it, b changes the branch, space plays."
+         onPointerDown={(event) => {
+           drag.current = true;
+           event.currentTarget.setPointerCapture(event.pointerId);
+           pick(event);
+         }}
+         onPointerMove={(event) => (drag.current ? pick(event) : undefined)} onPointerUp={() => (drag.current = false)}>
+      {figure}
+    </div>
+  );
+}
+
+/** Walks from state to state along a branch while it plays. */
+function usePlay(props: PathProps): [boolean, () => void] {
+  const [playing, setPlaying] = useState(false);
+  const now = useRef(props);
+  now.current = props;
+  useEffect(() => {
+    if (!playing) return undefined;
+    const timer = setInterval(() => {
+      const { run, choice, onChoice } = now.current;
+      if (!run) return;
+      const here = stationFor(run, choice);
+      const next = run.stations[here + 1];
+      const station = next && next.branch === run.stations[here]?.branch ? next : null;
+      const length = station ? lengthOf(branchesOf(run.result)[station.branch]) : 0;
+      if (station && length > 0) onChoice({ kind: "along", branch: station.branch, share: station.arc / length });
+      else setPlaying(false);
+    }, kPlayFrame);
+    return () => clearInterval(timer);
+  }, [playing]);
+  const toggle = (): void => {
+    const { run, choice, onChoice } = now.current;
+    const station = run?.stations[run ? stationFor(run, choice) : -1];
+    const atEnd = run && station && !run.stations.some((one) => one.branch === station.branch && one.arc > station.arc);
+    if (!playing && atEnd) onChoice({ kind: "along", branch: station.branch, share: 0 });
+    setPlaying(!playing);
+  };
+  return [playing, toggle];
+}
+
+export function PathCard(props: PathProps) {
+  const { model, run, growing, shadows, choice, onChoice, onCritical } = props;
+  const [place, size] = useSize<HTMLDivElement>();
+  const [twin, setTwin] = useState(false);
+  const result: PathResult = growing ? { ...kNoResult, branches: growing.filter(Boolean) } : run?.result ?? kNoResult;
+  const axes = useAxes(result);
+  const [playing, toggle] = usePlay(props);
+  const input = useMemo<PathInput>(
+    () => ({ result, x: axes.x, y: axes.y, shadows, monitors: run?.request.model.monitors ?? model.monitors, units: model.units }),
+    [result, nameOf(axes.x), nameOf(axes.y), shadows, model]);
+  const station = run && !growing ? run.stations[stationFor(run, choice)] : undefined;
+  const point = run && station ? rowOf(run, station) : null;
+  const choose = (to: PathPoint): void => {
+    if (!run) return;
+    const branch = branchesOf(run.result)[to.branch];
+    const length = lengthOf(branch);
+    onCritical(null);
+    const share = length > 0 ? (branch?.arc_length[to.index] ?? 0) / length : 0;
+    const target = run.stations[stationAt(run, to.branch, share * length)];
+    const same = target && station && target.arc === station.arc && target.branch === station.branch;
+    const onward = same ? nextStation(run, to, point) : null;
+    onChoice({ kind: "along", branch: to.branch, share: onward ?? share });
+  };
+  const name = fileName(model.title ?? "", "");
+  const take = (): ReturnType<typeof pathFigure> => pathFigure({ ...input, chosen: point }, size ?? { width: 640, height: 440 });
+  const paths = branchesOf(result).length > 0;
+  return (
+    <Card title="Equilibrium path" class={`path-card ${props.class ?? ""}`} tools={paths ? (
+      <>
+        <AxisChoice label="y" value={axes.y} from={axes.all} onChange={axes.setY} />
+        <AxisChoice label="x" value={axes.x} from={axes.all} onChange={axes.setX} />
+        <button type="button" aria-pressed={playing} onClick={toggle}>{playing ? "Stop" : "Play"}</button>
+        <Menu label="Export" items={[
+          { text: twin ? "Show the chart" : "Show as table", act: () => setTwin(!twin) },
+          { text: "SVG", act: () => saveSvg(`${name}-path.svg`, take()) },
+          { text: "PNG", act: () => void savePng(`${name}-path.png`, take()) },
+          { text: "CSV", act: () => saveCsv(`${name}-path.csv`, pathRows(result, exactNumber)) },
+        ]} />
+      </>
+    ) : null}>
+      {props.note}
+      <div class="fill" ref={place}>
+        {twin ? <TableTwin rows={pathRows(result, (value) => value.toPrecision(6))}
+                           caption={`${quantityLabel(axes.y)} against ${quantityLabel(axes.x)}`} />
+          : size && size.height > 20
+            ? <Chart input={input} size={size} point={point} onPoint={choose} onPlay={toggle} onCritical={onCritical} /> : null}
+      </div>
+    </Card>
+  );
+}
+
+/** The share of the way of the next state in the direction of a step that would stay at the same one. */
+function nextStation(run: Run, to: PathPoint, from: PathPoint | null): number | null {
+  if (!from || from.branch !== to.branch || Math.abs(to.index - from.index) !== 1) return null;
+  const branch = branchesOf(run.result)[to.branch];
+  const here = branch?.arc_length[from.index] ?? 0;
+  const ahead = to.index > from.index;
+  const along = run.stations.filter((one) => one.branch === to.branch &&
+    (ahead ? one.arc > here + 1e-9 * lengthOf(branch) : one.arc < here - 1e-9 * lengthOf(branch)));
+  const next = ahead ? along[0] : along[along.length - 1];
+  const length = lengthOf(branch);
+  return next && length > 0 ? next.arc / length : null;
+}
