@@ -88,21 +88,36 @@ export interface Frame {
   y: Scale;
   xLabel: string;
   yLabel: string;
+  /** Names at values, where an axis has names and not numbers. */
+  xNames?: readonly string[] | undefined;
+  yNames?: readonly string[] | undefined;
+  /** Values to write at, where there are few that mean something. */
+  xValues?: readonly number[] | undefined;
+  yValues?: readonly number[] | undefined;
+}
+
+/** Ticks of an axis with their texts: numbers, or names at 0, 1, 2, ... as many as find room. */
+function written(scale: Scale, names: readonly string[] | undefined, values: readonly number[] | undefined,
+                 spacing: number): { value: number; text: string }[] {
+  if (!names) return (values ?? ticks(scale, spacing)).map((value) => ({ value, text: formatNumber(value) }));
+  const room = Math.max(1, Math.floor(Math.abs(scale.end - scale.start) / Math.min(spacing, 60)));
+  const every = Math.max(1, Math.ceil(names.length / room));
+  return names.flatMap((text, value) => (value % every === 0 ? [{ value, text }] : []));
 }
 
 /** Grid, zero lines and numbers. */
 export function frameShapes(frame: Frame, size: Size): Shape {
   const { x, y } = frame;
   const shapes: Shape[] = [];
-  for (const value of ticks(x, 80)) {
+  for (const { value, text } of written(x, frame.xNames, frame.xValues, 80)) {
     const px = place(x, value);
-    shapes.push(line(value === 0 && !x.log ? "grid zero" : "grid", { x: px, y: y.start }, { x: px, y: y.end }),
-                label("tick", { x: px, y: y.start + 16 }, "middle", formatNumber(value)));
+    shapes.push(line(value === 0 && !x.log && !frame.xNames ? "grid zero" : "grid", { x: px, y: y.start }, { x: px, y: y.end }),
+                label("tick", { x: px, y: y.start + 16 }, "middle", text));
   }
-  for (const value of ticks(y, 50)) {
+  for (const { value, text } of written(y, frame.yNames, frame.yValues, 50)) {
     const py = place(y, value);
-    shapes.push(line(value === 0 && !y.log ? "grid zero" : "grid", { x: x.start, y: py }, { x: x.end, y: py }),
-                label("tick", { x: x.start - 8, y: py + 4 }, "end", formatNumber(value)));
+    shapes.push(line(value === 0 && !y.log && !frame.yNames ? "grid zero" : "grid", { x: x.start, y: py }, { x: x.end, y: py }),
+                label("tick", { x: x.start - 8, y: py + 4 }, "end", text));
   }
   const middle = (y.start + y.end) / 2;
   const upright = label("axis-label", { x: 12, y: middle }, "middle", frame.yLabel);

@@ -132,8 +132,8 @@ function criticalShapes(chart: PathChart, taken: Occupancy): { marks: Shape; lab
   for (const { pixel } of shown) {
     taken.addBox({ left: pixel.x - 4, right: pixel.x + 4, top: pixel.y - 5, bottom: pixel.y + 4 }, 60);
   }
-  const labels = () => group("mark-labels", ...shown.slice(0, kLabelled).map(({ item, pixel }) => placeLabel({
-    at: pixel, className: "mark-label", distance: 10,
+  const labels = () => group("mark-labels", ...shown.slice(0, kLabelled).map(({ item, pixel }, i) => placeLabel({
+    at: pixel, className: "mark-label", distance: 10, tolerance: i === 0 ? 400 : 80,
     prefer: item.point.type === "limit_min" ? 1 : 7,
     runs: [{ text: formatNumber(item.point.load_factor, 5), bold: true },
            { text: ` ${kMarkNames[item.point.type]}${item.point.confirmed ? "" : ", not confirmed"}`, className: "muted" }],
