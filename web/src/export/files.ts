@@ -23,14 +23,6 @@ export function saveJson(name: string, value: unknown): void {
   saveText(name, `${JSON.stringify(value, null, 2)}\n`, "application/json");
 }
 
-function csvField(text: string): string {
-  return /[",\n\r]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
-}
-
-export function saveCsv(name: string, rows: readonly (readonly string[])[]): void {
-  saveText(name, rows.map((row) => `${row.map(csvField).join(",")}\r\n`).join(""), "text/csv");
-}
-
 export function saveSvg(name: string, figure: Shape): void {
   saveText(name, figureFile(figure, looks), "image/svg+xml");
 }

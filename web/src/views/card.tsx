@@ -60,19 +60,3 @@ export function Menu({ label, items }: { label: string; items: MenuItem[] }) {
     </details>
   );
 }
-
-/** Rows of a table twin: the first is the head. */
-export function TableTwin({ rows, caption }: { rows: readonly (readonly string[])[]; caption: string }) {
-  const [head, ...body] = rows;
-  const shown = body.slice(0, 500);
-  return (
-    <div class="twin" tabIndex={0} role="region" aria-label={caption}>
-      <table>
-        <caption class="unseen">{caption}</caption>
-        <thead><tr>{head?.map((cell) => <th scope="col" key={cell}>{cell}</th>)}</tr></thead>
-        <tbody>{shown.map((row, i) => <tr key={i}>{row.map((cell, j) => <td key={j}>{cell}</td>)}</tr>)}</tbody>
-      </table>
-      {body.length > shown.length ? <p class="hint">The first {shown.length} of {body.length} rows; CSV has all.</p> : null}
-    </div>
-  );
-}

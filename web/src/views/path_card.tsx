@@ -5,14 +5,16 @@ import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { Branch, Model } from "../api/documents";
 import { shapeNode } from "../app/shape_view";
 import { useSize } from "../app/size";
-import { fileName, saveCsv, savePng, saveSvg } from "../export/files";
+import { fileName, savePng, saveSvg, saveText } from "../export/files";
 import {
-  branchesOf, criticalNear, defaultQuantities, exactNumber, nearestOnPath, pathChart, pathFigure, quantityLabel, walk,
+  branchesOf, bucklingFigure, criticalNear, defaultQuantities, nearestMode, nearestOnPath, pathChart, pathFigure, pathTable,
+  quantityLabel, tableCsv, walk,
   type PathInput, type PathPoint, type PathQuantity, type PathResult, type PathShadow, type Size,
 } from "../figures";
 import { lengthOf, rowOf, stationAt, stationFor, type Run } from "../model/run";
 import type { Choice } from "../model/gallery";
-import { Card, Menu, TableTwin } from "./card";
+import { Card, Menu } from "./card";
+import { LongTable } from "./long_table";
 
 const kPlayFrame = 70;  // ms that each state is shown for
 const kNoResult: PathResult = { branches: [], critical_points: [], contact_events: [] };
@@ -81,18 +83,6 @@ function useAxes(result: PathResult): { x: PathQuantity; y: PathQuantity; all: P
     x: known(wanted.x) ?? usual.x, y: known(wanted.y) ?? usual.y, all,
     setX: (x) => setWanted({ ...wanted, x }), setY: (y) => setWanted({ ...wanted, y }),
   };
-}
-
-/** The rows of the table twin and of the CSV. */
-export function pathRows(result: PathResult, digits: (value: number) => string): string[][] {
-  const branches = branchesOf(result);
-  const ids = Object.keys(branches[0]?.monitors ?? {});
-  const head = ["branch", "load factor", ...ids, "arc length", "negative eigenvalues"];
-  const body = branches.flatMap((branch, number) => branch.load_factor.map((load, i) => [
-    String(number), digits(load), ...ids.map((id) => digits(branch.monitors[id]?.[i] ?? Number.NaN)),
-    digits(branch.arc_length[i] ?? Number.NaN), String(branch.negative_eigenvalues[i] ?? ""),
-  ]));
-  return [head, ...body];
 }
 
 interface ChartProps {
@@ -180,6 +170,37 @@ function usePlay(props: PathProps): [boolean, () => void] {
   return [playing, toggle];
 }
 
+/** The loads of a buckling analysis; a click chooses the mode that is drawn. */
+export function BucklingCard({ run, mode, onMode }: { run: Run; mode: number; onMode: (mode: number) => void }) {
+  const [place, size] = useSize<HTMLDivElement>();
+  const buckling = run.result.buckling;
+  if (!buckling) return null;
+  const input = { buckling, chosen: mode };
+  const name = fileName(run.request.model.title ?? "", "-buckling");
+  const take = (): ReturnType<typeof bucklingFigure> => bucklingFigure(input, size ?? { width: 640, height: 440 });
+  const last = buckling.load_factors.length - 1;
+  return (
+    <Card title="Buckling loads" class="path-card" tools={<Menu label="Export" items={[
+      { text: "SVG", act: () => saveSvg(`${name}.svg`, take()) }, { text: "PNG", act: () => void savePng(`${name}.png`, take()) },
+    ]} />}>
+      <div class="fill" ref={place}>
+        {size ? (
+          <div class="picture walkable" tabIndex={0} role="group" aria-label="Buckling loads. Left and right choose a mode."
+               onKeyDown={(event) => {
+                 if (event.key === "ArrowRight") onMode(Math.min(last, mode + 1));
+                 if (event.key === "ArrowLeft") onMode(Math.max(0, mode - 1));
+               }}
+               onPointerDown={(event) => {
+                 const box = event.currentTarget.getBoundingClientRect();
+                 const near = nearestMode(input, size, { x: event.clientX - box.left, y: event.clientY - box.top });
+                 if (near !== null) onMode(near);
+               }}>{shapeNode(take())}</div>
+        ) : null}
+      </div>
+    </Card>
+  );
+}
+
 export function PathCard(props: PathProps) {
   const { model, run, growing, shadows, choice, onChoice, onCritical } = props;
   const [place, size] = useSize<HTMLDivElement>();
@@ -216,14 +237,13 @@ export function PathCard(props: PathProps) {
           { text: twin ? "Show the chart" : "Show as table", act: () => setTwin(!twin) },
           { text: "SVG", act: () => saveSvg(`${name}-path.svg`, take()) },
           { text: "PNG", act: () => void savePng(`${name}-path.png`, take()) },
-          { text: "CSV", act: () => saveCsv(`${name}-path.csv`, pathRows(result, exactNumber)) },
+          { text: "CSV", act: () => saveText(`${name}-path.csv`, tableCsv(pathTable(input)), "text/csv") },
         ]} />
       </>
     ) : null}>
       {props.note}
       <div class="fill" ref={place}>
-        {twin ? <TableTwin rows={pathRows(result, (value) => value.toPrecision(6))}
-                           caption={`${quantityLabel(axes.y)} against ${quantityLabel(axes.x)}`} />
+        {twin ? <LongTable table={pathTable(input)} caption={`${quantityLabel(axes.y)} against ${quantityLabel(axes.x)}`} />
           : size && size.height > 20
             ? <Chart input={input} size={size} point={point} onPoint={choose} onPlay={toggle} onCritical={onCritical} /> : null}
       </div>

@@ -7,7 +7,7 @@ import { formatNumber, type PathShadow } from "../figures";
 import type { Choice } from "../model/gallery";
 import { stationFor, type Run } from "../model/run";
 import { DrawingCard, type Pointed } from "./drawing_card";
-import { PathCard } from "./path_card";
+import { BucklingCard, PathCard } from "./path_card";
 import { SectionsCard } from "./sections_card";
 import { kindOf, TrustCard } from "./trust_card";
 
@@ -51,6 +51,7 @@ const kNothing: readonly State[] = [];
 
 export function ResultViews({ request, run, growing, shadows, choice, onChoice, onFollow }: ResultProps) {
   const [critical, setCritical] = useState<number | null>(null);
+  const [modeNumber, setModeNumber] = useState(0);
   const [cursor, setCursor] = useState<Pointed | null>(null);
   const station = run?.stations[run ? stationFor(run, choice) : -1];
   const point = critical === null ? undefined : run?.result.critical_points[critical];
@@ -58,7 +59,7 @@ export function ResultViews({ request, run, growing, shadows, choice, onChoice, 
   const buckling = run?.result.buckling;
   const state = pointState ?? station?.state ?? null;
   const room = useMemo(() => run?.stations.map((one) => one.state) ?? kNothing, [run]);
-  const mode = point?.mode ?? buckling?.modes[0] ?? null;
+  const mode = point?.mode ?? buckling?.modes[modeNumber] ?? buckling?.modes[0] ?? null;
   const model = run?.request.model ?? request.model;
   const note = run && critical !== null
     ? <CriticalNote run={run} number={critical} onFollow={onFollow} onClose={() => setCritical(null)} onChoice={(next) => {
@@ -69,9 +70,9 @@ export function ResultViews({ request, run, growing, shadows, choice, onChoice, 
   return (
     <>
       <DrawingCard model={model} state={state} mode={mode} room={room} cursor={cursor} onCursor={setCursor}
-                   loadFactor={buckling?.load_factors[0] ?? null} />
-      <PathCard model={model} run={run} growing={growing} shadows={shadows} choice={choice} onChoice={onChoice}
-                note={note} onCritical={setCritical} />
+                   loadFactor={buckling?.load_factors[modeNumber] ?? null} />
+      {run && buckling ? <BucklingCard run={run} mode={modeNumber} onMode={setModeNumber} /> : <PathCard model={model} run={run} growing={growing} shadows={shadows} choice={choice} onChoice={onChoice}
+                note={note} onCritical={setCritical} />}
       <SectionsCard model={model} state={state} cursor={cursor} onCursor={setCursor} />
       <TrustCard run={run} request={request} />
     </>

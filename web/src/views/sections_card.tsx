@@ -1,8 +1,16 @@
-// Section forces of the chosen state along the members.
+// Section forces of the chosen state along the members; pointing at them shows the place in the drawing, and the other way.
 
+import { useMemo, useState } from "preact/hooks";
 import type { Model, State } from "../api/documents";
-import { Card } from "./card";
+import { shapeNode } from "../app/shape_view";
+import { useSize } from "../app/size";
+import { fileName, savePng, saveSvg, saveText } from "../export/files";
+import {
+  sectionsChart, sectionsFigure, sectionsLocate, sectionTable, tableCsv, type SectionsInput, type Size,
+} from "../figures";
+import { Card, Menu } from "./card";
 import type { Pointed } from "./drawing_card";
+import { LongTable } from "./long_table";
 
 interface SectionsProps {
   model: Model;
@@ -12,6 +20,43 @@ interface SectionsProps {
   class?: string;
 }
 
-export function SectionsCard({ class: name = "" }: SectionsProps) {
-  return <Card title="Section forces" class={`sections-card ${name}`}><div class="fill" /></Card>;
+function Panels({ input, size, onCursor }: { input: SectionsInput; size: Size; onCursor: SectionsProps["onCursor"] }) {
+  const chart = useMemo(() => sectionsChart(input, size), [input.model, input.state, size]);
+  const figure = useMemo(() => shapeNode(sectionsFigure(input, size, chart)), [input, chart]);
+  return (
+    <div class="picture" onPointerLeave={() => onCursor(null)} onPointerMove={(event) => {
+      const box = event.currentTarget.getBoundingClientRect();
+      const place = sectionsLocate(chart, { x: event.clientX - box.left, y: event.clientY - box.top });
+      onCursor(place && { member: place.member, s: place.s });
+    }}>{figure}</div>
+  );
+}
+
+export function SectionsCard({ model, state, cursor, onCursor, class: name = "" }: SectionsProps) {
+  const [place, size] = useSize<HTMLDivElement>();
+  const [twin, setTwin] = useState(false);
+  const input = useMemo<SectionsInput | null>(() => (state ? { model, state, cursor } : null), [model, state, cursor]);
+  const file = fileName(model.title ?? "", "-sections");
+  const take = (): ReturnType<typeof sectionsFigure> | null =>
+    input && sectionsFigure({ ...input, cursor: null }, size ?? { width: 700, height: 160 });
+  const withFigure = (act: (figure: ReturnType<typeof sectionsFigure>) => void) => (): void => {
+    const figure = take();
+    if (figure) act(figure);
+  };
+  return (
+    <Card title="Section forces" class={`sections-card ${name}`} tools={input ? (
+      <Menu label="Export" items={[
+        { text: twin ? "Show the curves" : "Show as table", act: () => setTwin(!twin) },
+        { text: "SVG", act: withFigure((figure) => saveSvg(`${file}.svg`, figure)) },
+        { text: "PNG", act: withFigure((figure) => void savePng(`${file}.png`, figure)) },
+        { text: "CSV", act: () => saveText(`${file}.csv`, tableCsv(sectionTable(input)), "text/csv") },
+      ]} />
+    ) : null}>
+      <div class="fill" ref={place}>
+        {input && twin ? <LongTable table={sectionTable(input)} caption="Section forces of the chosen state" /> : null}
+        {input && !twin && size && size.height > 20 ? <Panels input={input} size={size} onCursor={onCursor} /> : null}
+        {input ? null : <p class="hint">No state: an analysis of a path gives some.</p>}
+      </div>
+    </Card>
+  );
 }
