@@ -146,19 +146,20 @@ const kBareArch: Problem = {
   reference: { text: "Reading a result", file: "docs/results.md" },
 };
 
-const kPressedPipe: Problem = {
-  example: "pipe_under_pressure",
-  heading: "Pipe under outer pressure",
-  text: "Even pressure presses the ring together without bending it, until it buckles in waves. Ground that holds it makes them " +
-    "shorter and the pressure higher.",
+const kModes: Problem = {
+  example: "frame_portal",
+  heading: "Buckling modes of a frame",
+  text: "The linearised buckling loads of a clamped portal and their modes. Choose a load to see its mode.",
   sliders: [
-    { name: "Stiffness of the ground", unit: "kN/m²", targets: foundations(2, "stiffness"), min: 1, max: 2000, log: true },
-    { name: "Bending stiffness EI", unit: "kN m²", targets: [{ pointer: "/model/sections/0/EI" }], min: 0.1, max: 10, log: true },
+    { name: "Second moment of area", unit: "cm⁴", targets: [{ pointer: "/model/sections/0/I", scale: 1e-8 }], min: 500, max: 20000,
+      log: true },
+    { name: "Height", unit: "m", min: 2, max: 8, log: false, step: 0.1,
+      targets: [{ pointer: "/model/nodes/1/y" }, { pointer: "/model/nodes/2/y" }] },
   ],
   choice: { kind: "critical" },
-  reference: { text: "A pipe under pressure", file: "docs/requests.md" },
+  reference: { text: "Three complete requests", file: "docs/requests.md" },
 };
 
 export const kProblems: readonly Problem[] = [
-  kBuriedPipe, kTunnelArch, kWalls, kPile, kPortal, kPipeline, kFilm, kBareArch, kPressedPipe,
+  kBuriedPipe, kTunnelArch, kWalls, kPile, kPortal, kPipeline, kFilm, kBareArch, kModes,
 ];

@@ -3,16 +3,16 @@
 import type { Branch, Model, RequestDocument, Result } from "../api/documents";
 
 const kPathPoints = 80;      // of each path, for a smooth curve
-const kLiveStates = 14;      // of a path while a slider is dragged
+const kLiveStates = 8;       // of a path while a slider is dragged
+const kModes = 6;            // of a buckling analysis
 const kStations = 24;        // of each path that can be walked to
-const kShapePoints = 1600;   // of all members together in one state
-const kMostPerMember = 81;
-const kLeastPerMember = 11;
+const kShapePoints = 96;     // of all members together in one state
+const kLivePoints = 50;
+const kLeastPoints = 15;     // of each member
 
 /** Points along each member, fewer where there are many members. */
-function pointsPerMember(model: Model, share: number): number {
-  const each = Math.round(share * kShapePoints / Math.max(1, model.members.length));
-  return Math.min(kMostPerMember, Math.max(kLeastPerMember, each));
+function pointsPerMember(model: Model, all: number): number {
+  return Math.max(kLeastPoints, Math.round(all / Math.max(1, model.members.length)));
 }
 
 /** A model without monitors gets one, so that there is something to draw the path against. */
@@ -25,23 +25,25 @@ function withMonitor(model: Model): Model {
 /**
  * The request with a smooth path and some states along it.
  * @param steps of the last answer, which says how many states "every" gives
+ * @param live fewer and coarser states, for an answer as soon as can be
  */
-export function forPictures(request: RequestDocument, steps: number | null): RequestDocument {
-  const output = { ...request.analysis.output, points_per_member: pointsPerMember(request.model, 0.05) };
+export function forPictures(request: RequestDocument, steps: number | null, live: boolean): RequestDocument {
+  const points = pointsPerMember(request.model, live ? kLivePoints : kShapePoints);
+  const output = { ...request.analysis.output, points_per_member: points };
   switch (request.analysis.type) {
     case "path": {
       const every = Math.max(1, Math.round((steps ?? kLiveStates) / kLiveStates));
-      const points = Math.max(kPathPoints, request.analysis.output?.path_points ?? 0);
+      const along = Math.max(kPathPoints, request.analysis.output?.path_points ?? 0);
       return {
         model: withMonitor(request.model),
-        analysis: { ...request.analysis, output: { ...output, states: { every }, path_points: points } },
+        analysis: { ...request.analysis, output: { ...output, states: { every }, path_points: along } },
       };
     }
     case "critical":
     case "static":
       return { model: withMonitor(request.model), analysis: { ...request.analysis, output: { ...output, states: "all" } } };
     case "buckling":
-      return { ...request, analysis: { ...request.analysis, output } };
+      return { ...request, analysis: { ...request.analysis, modes: Math.max(kModes, request.analysis.modes ?? 1), output } };
   }
 }
 
@@ -85,7 +87,7 @@ export function forWalking(request: RequestDocument, result: Result): RequestDoc
   const loads = loadsOfStations(result.branches);
   if (request.analysis.type !== "path" || loads.length === 0) return null;
   const output = {
-    ...request.analysis.output, states: { at_load_factors: loads }, points_per_member: pointsPerMember(request.model, 0.05),
+    ...request.analysis.output, states: { at_load_factors: loads }, points_per_member: pointsPerMember(request.model, kShapePoints),
   };
   return { model: withMonitor(request.model), analysis: { ...request.analysis, output } };
 }

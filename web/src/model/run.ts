@@ -122,13 +122,15 @@ export function stationsOf(model: Model, result: Result, states: readonly State[
   return stations.sort((a, b) => a.branch - b.branch || a.arc - b.arc);
 }
 
-/** The stations of both, those at the same place once. */
-export function merged(stations: readonly Station[], more: readonly Station[]): Station[] {
-  const all = [...stations, ...more].sort((a, b) => a.branch - b.branch || a.arc - b.arc);
-  return all.filter((one, i) => {
-    const before = all[i - 1];
-    return !before || before.branch !== one.branch || one.arc - before.arc > 1e-9 || stations.includes(one);
+/** The stations of a finer answer, and those of the run that are at critical points or where there are no finer ones. */
+export function merged(run: Run, finer: readonly Station[]): Station[] {
+  const critical = new Set(run.result.critical_points.map((point) => point.arc_length));
+  const ends = branchesOf(run.result).map((_, branch) => finer.filter((one) => one.branch === branch).map((one) => one.arc));
+  const kept = run.stations.filter((one) => {
+    const arcs = ends[one.branch] ?? [];
+    return critical.has(one.arc) || one.arc < Math.min(...arcs) || one.arc > Math.max(...arcs);
   });
+  return [...kept, ...finer].sort((a, b) => a.branch - b.branch || a.arc - b.arc);
 }
 
 export function lengthOf(branch: Branch | undefined): number {

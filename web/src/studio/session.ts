@@ -149,7 +149,7 @@ async function atRest(run: Run): Promise<void> {
     const now = studio.get().run;
     if (!answer.result || now !== run) return;
     const more = stationsOf(request.model, run.result, answer.result.states);
-    studio.change({ run: { ...run, stations: merged(run.stations, more) } });
+    studio.change({ run: { ...run, stations: merged(run, more) } });
   } catch (error) {
     if (error instanceof Refused) latest.discard(idOf(error.location ?? ""));
   }
@@ -159,7 +159,7 @@ function askFor(request: RequestDocument, live: boolean): void {
   dragStart ??= studio.get().run;
   studio.change({ request, busy: true });
   const steps = studio.get().run?.result.diagnostics.steps ?? null;
-  latest.ask({ request: forPictures(request, steps), live });
+  latest.ask({ request: forPictures(request, steps, live), live });
 }
 
 /** Another value of a slider. */

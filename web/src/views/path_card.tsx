@@ -230,7 +230,7 @@ export function PathCard(props: PathProps) {
   return (
     <Card title="Equilibrium path" class={`path-card ${props.class ?? ""}`} tools={paths ? (
       <>
-        <AxisChoice label="y" value={axes.y} from={axes.all} onChange={axes.setY} />
+        {axes.all.length > 3 ? <AxisChoice label="y" value={axes.y} from={axes.all} onChange={axes.setY} /> : null}
         <AxisChoice label="x" value={axes.x} from={axes.all} onChange={axes.setX} />
         <button type="button" aria-pressed={playing} onClick={toggle}>{playing ? "Stop" : "Play"}</button>
         <Menu label="Export" items={[

@@ -59,7 +59,8 @@ export function ResultViews({ request, run, growing, shadows, choice, onChoice, 
   const buckling = run?.result.buckling;
   const state = pointState ?? station?.state ?? null;
   const room = useMemo(() => run?.stations.map((one) => one.state) ?? kNothing, [run]);
-  const mode = point?.mode ?? buckling?.modes[modeNumber] ?? buckling?.modes[0] ?? null;
+  const first = request.analysis.type === "critical" ? run?.result.critical_points[0]?.mode : null;
+  const mode = point?.mode ?? first ?? buckling?.modes[modeNumber] ?? buckling?.modes[0] ?? null;
   const model = run?.request.model ?? request.model;
   const note = run && critical !== null
     ? <CriticalNote run={run} number={critical} onFollow={onFollow} onClose={() => setCritical(null)} onChoice={(next) => {

@@ -9,6 +9,7 @@ import { formatNumber } from "../figures";
 import type { Run } from "../model/run";
 import { Card } from "./card";
 
+const kNothing = 1e-12;  // smaller displacements are rounding
 const kKinds: Record<string, string> = {
   bifurcation: "bifurcation", limit_max: "limit point", limit_min: "limit point (least load)",
   broken_bifurcation: "broken bifurcation",
@@ -85,7 +86,7 @@ function rowsOf(run: Run): [string, string][] {
   const { result } = run;
   const rows: [string, string][] = [];
   const point = firstPoint(result);
-  for (const [id, value] of Object.entries(point?.monitors ?? {})) rows.push([`${id} there`, formatNumber(value, 4)]);
+  for (const [id, value] of Object.entries(point?.monitors ?? {})) rows.push([`${id} there`, formatNumber(Math.abs(value) < kNothing ? 0 : value, 4)]);
   if (point && result.critical_points.length > 0) rows.push(["Also on this path", othersText(result)]);
   rows.push(["Mesh", meshText(result)], ["Effort", effortText(run)]);
   const others = result.buckling?.load_factors.slice(1, 6) ?? [];
