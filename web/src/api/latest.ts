@@ -6,6 +6,7 @@ import type { RequestDocument } from "./documents";
 import { type Answer, service, solve } from "./client";
 
 const kInFlight = 2;
+const kMostUnwanted = 100;  // overtaken jobs that wait for a pause before they are removed
 const kWait = 1;  // seconds; an analysis that takes longer is followed by its events
 
 /** What is asked for; `live` while it is still being changed. */
@@ -69,14 +70,17 @@ export class Latest {
       const next = this.waiting;
       this.waiting = null;
       if (next) this.ask(next);
+      else void this.removeUnwanted();
     }
   }
 
+  /** Removes jobs while nothing is asked for, or when many have come together. */
   private async removeUnwanted(): Promise<void> {
     if (this.removing) return;
     this.removing = true;
-    for (let job = this.unwanted.shift(); job !== undefined; job = this.unwanted.shift()) {
-      await service.deleteJob(job).catch(() => undefined);
+    while (this.unwanted.length > (this.inFlight > 0 ? kMostUnwanted : 0)) {
+      const job = this.unwanted.shift();
+      if (job !== undefined) await service.deleteJob(job).catch(() => undefined);
     }
     this.removing = false;
   }
