@@ -56,7 +56,7 @@ export function bandLevels(low: number, high: number, log = false): number[] {
     const decades = Math.log10(high / low);
     const shares = decades <= 3 ? [1, 2, 5] : decades <= 5 ? [1, 3] : [1];
     const levels: number[] = [];
-    for (let p = Math.floor(Math.log10(low)); p <= Math.log10(high); ++p) levels.push(...shares.map((share) => share * 10 ** p));
+    for (let p = Math.floor(Math.log10(low)); p <= Math.log10(high); ++p) levels.push(...shares.map((share) => Number(`${share}e${p}`)));
     return levels.filter((level) => level > low && level < high).slice(0, kBands - 1);
   }
   const step = roundStep(high - low, 8);

@@ -3,10 +3,10 @@
 
 import { at, interpolate } from "../geometry";
 import { Occupancy } from "../labels";
-import { coordinate, figure, group, label, line, path, shape, type Pixel, type Shape, type Size } from "../shape";
+import { coordinate, figure, group, line, path, shape, type Pixel, type Shape, type Size } from "../shape";
 import { groundShapes, reactionShapes } from "./ground";
 import { loadShapes } from "./loads";
-import { dimensionShapes, sceneCaption, hingeShapes, monitorShapes } from "./notes";
+import { captionShape, dimensionShapes, sceneCaption, hingeShapes, monitorShapes } from "./notes";
 import {
   makeScene, placeOn, sceneView, toPixel, type DrawingInput, type DrawnMember, type Scene, type View,
 } from "./scene";
@@ -74,7 +74,7 @@ export function drawingFigure(input: DrawingInput, size: Size, view?: View): Sha
   const shown = view ?? sceneView(scene, size);
   const taken = new Occupancy(size);
   const text = sceneCaption(scene);
-  const caption = (input.caption ?? true) ? label("caption", { x: 0, y: 14 }, "start", text) : null;
+  const caption = (input.caption ?? true) ? captionShape(text, size) : null;
   if (caption) taken.addBox({ left: 0, top: 0, right: size.width, bottom: 18 });
   const dimensions = dimensionShapes(scene, shown, size, taken);
   const lines = memberShapes([...scene.members.values()], scene, shown, taken);

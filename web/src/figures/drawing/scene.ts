@@ -238,7 +238,8 @@ export function boxWithGround(scene: Scene): Scene["box"] {
 /** A view that shows the whole structure with its ground, loads, supports and dimensions. */
 export function sceneView(scene: Scene, size: Size): View {
   const box = boxWithGround(scene);
-  const margin = { left: 58, right: 40, top: (scene.input.caption ?? true) ? 72 : 54, bottom: 58 };
+  const sideways = (scene.input.model.loads ?? []).some((load) => load.type === "point" && load.force[0] !== 0);
+  const margin = { left: 58, right: sideways ? 58 : 40, top: (scene.input.caption ?? true) ? 72 : 54, bottom: 58 };
   const width = Math.max(20, size.width - margin.left - margin.right);
   const height = Math.max(20, size.height - margin.top - margin.bottom);
   const scale = Math.min(width / Math.max(box.right - box.left, 1e-9 * scene.extent),
