@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { figureFile, pathData, shape, toText } from "../../../web/src/figures/index";
+import { fileLooks, figureFile, pathData, shape, toText } from "../../../web/src/figures/index";
 import { styleSheet } from "./support";
 
 /** Whether a text is well-formed XML, as far as elements, attributes and entities go. */
@@ -39,12 +39,22 @@ test("characters that XML does not know are replaced", () => {
 });
 
 test("a file is well-formed, has its looks inside, and paper under the picture", () => {
-  const file = figureFile(shape("svg", { class: "figure" }, shape("path", { class: "member" })), styleSheet());
+  const file = figureFile(shape("svg", { class: "figure", width: 100, height: 50 }, shape("path", { class: "member" })), styleSheet());
   assert.ok(wellFormed(file.replace(/<style>[^]*<\/style>/, "<style/>")));
   assert.ok(file.startsWith("<?xml"));
+  assert.ok(file.includes("viewBox=\"-14 -14 128 78\""), "a margin around the picture");
   assert.ok(file.indexOf("<style>") < file.indexOf("class=\"paper\""));
   assert.ok(file.indexOf("class=\"paper\"") < file.indexOf("class=\"member\""));
   assert.ok(file.includes(".figure .member {"));
+});
+
+test("a file's looks are light and need no custom properties", () => {
+  const looks = fileLooks(styleSheet());
+  assert.ok(!/[@]|var\(|--/.test(looks), looks.match(/.*(?:[@]|var\(|--).*/)?.[0]);
+  assert.match(looks, /\.figure \.member \{ stroke: #1c2430; stroke-width: 4; \}/);
+  assert.match(looks, /\.figure \.paper \{ fill: #fff; \}/);
+  assert.equal(fileLooks(".a { --x: 1px; width: var(--x); } @media print { .b { c: d } } .e { f: g }").replace(/\s+/g, " "),
+               ".a { width: 1px; } .e { f: g }");
 });
 
 test("a path breaks where there is no number", () => {

@@ -137,7 +137,7 @@ function criticalShapes(chart: PathChart, taken: Occupancy): { marks: Shape; lab
     at: pixel, className: "mark-label", leader: true, distance: 14, tolerance: i === 0 ? 400 : 110,
     prefer: item.point.type === "limit_min" ? 1 : 7,
     runs: [{ text: formatNumber(item.point.load_factor, 5), bold: true },
-           { text: ` ${kMarkNames[item.point.type]}${item.point.confirmed ? "" : ", not confirmed"}`, className: "muted" }],
+           { text: `\u00a0${kMarkNames[item.point.type]}${item.point.confirmed ? "" : ", not confirmed"}`, className: "muted" }],
   }, taken)));
   return { marks: group("marks", ...shown.map(({ item, pixel }) => mark(item.point.type, pixel))), labels };
 }
@@ -188,7 +188,11 @@ function rowDots(chart: PathChart, input: PathInput): Shape | null {
     shape("circle", { class: "row", cx: coordinate(pixel.x), cy: coordinate(pixel.y), r: 2.5 })));
 }
 
-/** The equilibrium path. */
+/**
+ * The equilibrium path of a result: load factors without unit, monitors in the model's length or radians, as docs/results.md gives
+ * them (a reversed quantity shows minus its value, and its label says the sense). A piece is solid where no eigenvalue of the
+ * tangent stiffness is negative, else dashed; it changes at the critical point between the rows.
+ */
 export function pathFigure(input: PathInput, size: Size, chart: PathChart = pathChart(input, size)): Shape {
   const { frame } = chart;
   const taken = new Occupancy(size);

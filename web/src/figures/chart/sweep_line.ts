@@ -30,6 +30,8 @@ export interface SweepLineChart {
   frame: Frame;
   lines: { name: string; spots: Spot[] }[];
   failed: { row: number; x: number; error: RowError }[];
+  /** How many rows failed with which code; "" when none did. */
+  failures: string;
   size: Size;
 }
 
@@ -67,7 +69,8 @@ export function sweepLineChart(input: SweepLineInput, size: Size): SweepLineChar
   const y = columnOf(input.table, input.y.column);
   const errors = errorsOf(input.table);
   const lines = linesOf(input, x.values, y.values);
-  const top = 12 + (failureText(errors) === "" ? 0 : 18) + legendHeight(legendEntries(lines), size.width);
+  const failures = failureText(errors);
+  const top = 12 + (failures === "" ? 0 : 18) + legendHeight(legendEntries(lines), size.width);
   const frame = {
     x: scaleOf(x.values, x.names, input.x.log ?? false, 66, Math.max(90, size.width - 18), true),
     y: scaleOf(y.values, y.names, input.y.log ?? false, Math.max(60, size.height - 44), top, false),
@@ -80,7 +83,7 @@ export function sweepLineChart(input: SweepLineInput, size: Size): SweepLineChar
     const where = at(x.values, row);
     return error && Number.isFinite(where) ? [{ row, x: where, error }] : [];
   });
-  return { frame, lines, failed, size };
+  return { frame, lines, failed, failures, size };
 }
 
 function pixelOf(frame: Frame, spot: { x: number; y: number }): Pixel {
@@ -137,9 +140,12 @@ function legendEntries(lines: SweepLineChart["lines"]): LegendEntry[] {
   return lines.map(({ name }, i) => ({ text: name, line: "series-line", group: `series series-${i % kSeries}` }));
 }
 
-/** An output of a sweep against a parameter. */
+/**
+ * An output of a sweep against a parameter, both as the table has them (docs/sweeps.md): no unit is known. Rows are put in the
+ * order of the parameter; a row without a number breaks the line; one with an error is a cross on the axis.
+ */
 export function sweepLine(input: SweepLineInput, size: Size, chart: SweepLineChart = sweepLineChart(input, size)): Shape {
-  const failures = failureText(errorsOf(input.table));
+  const { failures } = chart;
   const chosen = chart.lines.flatMap((item) => item.spots).find((spot) => spot.row === input.chosen);
   const ring = chosen && pixelOf(chart.frame, chosen);
   const title = `${chart.frame.yLabel} against ${chart.frame.xLabel}`;

@@ -68,7 +68,12 @@ export function drawingView(input: DrawingInput, size: Size): View {
   return sceneView(makeScene(input), size);
 }
 
-/** The drawing of a model and a state. */
+/**
+ * The drawing of a model and a state of its result: lengths in the model's unit, x to the right, y up (docs/requests.md, Units,
+ * axes, signs). A member's left normal is its tangent turned by +90 degrees; ground lies on the `side` or along the `direction` of
+ * its foundation. Reactions stand on the deformed axis, into the medium where it pushes (positive), the largest 0.85 of the
+ * ground's depth. Loads are those of the state: proportional ones times its load factor, the head of each arrow on the structure.
+ */
 export function drawingFigure(input: DrawingInput, size: Size, view?: View): Shape {
   const scene = makeScene(input);
   const shown = view ?? sceneView(scene, size);
