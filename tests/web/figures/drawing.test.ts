@@ -275,6 +275,10 @@ test("a closed half is shown with its mirror image, and says so", () => {
   assert.ok(Math.abs(axis - (58 + (size.width - 98) / 2)) < 1, "the axis of symmetry is in the middle");
   assert.equal(must(withClass(picture, "mirror-image")[0]).attributes["transform"], `translate(${Math.round(200 * axis) / 100} 0) scale(-1 1)`);
   assert.equal(withClass(drawingFigure({ ...input, mirror: false }, size), "mirror-image").length, 0);
+  const member = must(input.state?.members["ring"]);
+  const image = toPixel(view, { x: -must(member.x[20]), y: must(member.y[20]) });
+  const found = must(locate(input, size, image));
+  assert.ok(Math.abs(found.s - must(member.s[20])) < 1e-6 && Math.abs(found.pixel.x - image.x) < 0.01, "the image answers as its half");
   for (const other of ["portal", "pipe", "arch_outside"]) {
     assert.equal(withClass(drawingFigure(inputOf(other), size), "mirror-image").length, 0, other);
   }

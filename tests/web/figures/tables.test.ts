@@ -54,6 +54,7 @@ test("CSV is exact, quoted where it must be, and no text is a formula", () => {
 });
 
 test("the table for reading rounds", () => {
-  assert.deepEqual(tableText({ columns: ["a"], rows: [[1 / 3], [null], ["x"], [1234567]] }), [["0.333333"], [""], ["x"], ["1.23457\u202f×\u202f10⁶"]]);
+  assert.deepEqual(tableText({ columns: ["a"], rows: [[1 / 3], [null], ["x"], [1234567]] }),
+                   [["0.333333"], [""], ["x"], ["1.23457\u202f×\u202f10⁶"]]);
   assert.deepEqual(tableText({ columns: ["a"], rows: [[2 / 3]] }, 2), [["0.67"]]);
 });

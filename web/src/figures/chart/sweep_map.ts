@@ -205,7 +205,10 @@ function contourShapes(chart: SweepMapChart, taken: Occupancy): Shape {
     lines.push(shape("path", { class: "contour", d: pieces.map((piece) => pathData(piece)).join("") }));
     const middle = pieces[Math.floor(pieces.length / 2)]?.[0];
     if (middle && pieces.length > 4) {
-      texts.push(placeLabel({ at: middle, className: onDark(number, chart.levels) ? "contour-text on-dark" : "contour-text", runs: [{ text: formatNumber(level) }], distance: 2 }, taken));
+      texts.push(placeLabel({
+        at: middle, className: onDark(number, chart.levels) ? "contour-text on-dark" : "contour-text", distance: 2,
+        runs: [{ text: formatNumber(level) }],
+      }, taken));
     }
   }
   return group("contours", ...lines, ...texts);
