@@ -55,7 +55,7 @@ test("the whole structure with its ground, loads and dimensions is inside every 
 
 test("the structure is in the middle of its room", () => {
   const view = drawingView({ model: beam({}) }, size);
-  assert.ok(Math.abs(toPixel(view, { x: 5, y: 0 }).y - (72 + (size.height - 72 - 58) / 2)) < 0.01);
+  assert.ok(Math.abs(toPixel(view, { x: 5, y: 0 }).y - (42 + (size.height - 42 - 58) / 2)) < 0.01);
   assert.ok(Math.abs(toPixel(view, { x: 5, y: 0 }).x - (58 + (size.width - 58 - 40) / 2)) < 0.01);
 });
 

@@ -87,7 +87,7 @@ export function drawingFigure(input: DrawingInput, size: Size, view?: View): Sha
   const loads = loadShapes(scene, shown, taken);
   const supports = supportShapes(scene, shown, taken);
   const reactions = reactionShapes(scene, shown, taken);
-  const own = [reactions.under, lines.still, springShapes(scene, shown), lines.moved, reactions.over,
+  const own = [reactions.under, lines.still, springShapes(scene, shown, taken), lines.moved, reactions.over,
                modeShapes(scene, shown), hingeShapes(scene, shown), loads.arrows];
   return figure("drawing", size, text, groundShapes(scene, shown, size), dimensions, ...mirrorShapes(scene, shown, own),
                 ...own.slice(0, 3), supports, ...own.slice(3), monitors.marks, cursorShape(scene, shown),

@@ -48,7 +48,7 @@ export function monitorShapes(scene: Scene, view: View, taken: Occupancy): { mar
     places.push({ monitor, tip });
   }
   const notes = () => group("monitor-notes", ...places.slice(0, 12).map(({ monitor, tip }) => placeLabel({
-    at: tip, runs: [{ text: monitorText(scene, monitor) }], className: "note monitor-text", distance: 8, prefer: 1, tolerance: 100,
+    at: tip, runs: [{ text: monitorText(scene, monitor) }], className: "note monitor-text", distance: 8, prefer: 1, tolerance: 100, leader: true,
   }, taken)));
   return { marks: group("monitors", ...marks), notes };
 }
