@@ -47,6 +47,16 @@ test("rows on both sides of a point tell stability, also where more eigenvalues 
   assert.ok(withClass(pathFigure(input, size), "branch").length > 0);
 });
 
+test("where nobody counted eigenvalues nothing is said to be stable", () => {
+  const input = inputOf("springs");
+  const table = must(input.result.static);
+  const counts = [0, 0, null, null];
+  const picture = pathFigure({ ...input, result: { ...input.result, static: { ...table, negative_eigenvalues: counts } } }, size);
+  const lines = withClass(picture, "path").filter((node) => node.name === "path").map((node) => node.attributes["class"]);
+  assert.deepEqual(lines, ["path stable", "path untold"]);
+  assert.ok(textsOf(picture).includes("stability not counted"));
+});
+
 test("axes show what they say: a reversed monitor, its sense and its unit; another monitor", () => {
   const { request } = readCase("arch_outside");
   const crown: PathQuantity = { kind: "monitor", id: "crown", reversed: true };

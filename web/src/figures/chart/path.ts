@@ -6,7 +6,7 @@ import { coordinate, figure, group, label, pathData, shape, type Pixel, type Sha
 import { frameShapes, makeScale, place, plotArea, widened, type Frame } from "./axes";
 import {
   branchesOf, contactMarks, criticalMarks, curveOf, quantityLabel, type CriticalMark, type Monitor, type PathCurve,
-  type PathPoint, type PathQuantity, type PathResult,
+  type PathPoint, type PathQuantity, type PathResult, type Stability,
 } from "./curves";
 import { legendHeight, legendShape, markEntries, type LegendEntry } from "./legend";
 import { kMarkNames, mark, type MarkKind } from "./marks";
@@ -83,18 +83,22 @@ function pixelOf(frame: Frame, point: { x: number; y: number }): Pixel {
 }
 
 /** Pieces of a curve of one stability as lines of pixels; neighbours share their end. */
-function pieces(curve: PathCurve, frame: Frame): { stable: boolean; points: Pixel[] }[] {
+function pieces(curve: PathCurve, frame: Frame): { stable: Stability; points: Pixel[] }[] {
   const all = curve.vertices.map((vertex) => pixelOf(frame, vertex));
-  const found: { stable: boolean; points: Pixel[] }[] = [];
+  const found: { stable: Stability; points: Pixel[] }[] = [];
   let begin = 0;
   for (let i = 1; i <= curve.stable.length; ++i) {
     if (i < curve.stable.length && curve.stable[i] === curve.stable[begin]) continue;
     const part = all.slice(begin, i + 1);
     const kept = thinned(part).flatMap((k) => part[k] ?? []);
-    found.push({ stable: curve.stable[begin] ?? true, points: kept });
+    found.push({ stable: curve.stable[begin] ?? null, points: kept });
     begin = i;
   }
   return found;
+}
+
+function stabilityClass(stable: Stability): string {
+  return stable === null ? "untold" : stable ? "stable" : "unstable";
 }
 
 function curveShapes(curves: readonly PathCurve[], frame: Frame, className: string, taken: Occupancy,
@@ -103,7 +107,7 @@ function curveShapes(curves: readonly PathCurve[], frame: Frame, className: stri
     const kind = curve.branch === 0 ? className : `${className} branch`;
     return pieces(curve, frame).map(({ stable, points }) => {
       taken.addLine(points, weight);
-      return shape("path", { class: `${kind} ${stable ? "stable" : "unstable"}`, d: pathData(points) });
+      return shape("path", { class: `${kind} ${stabilityClass(stable)}`, d: pathData(points) });
     });
   });
 }
@@ -165,6 +169,7 @@ function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEn
   const stable = new Set(curves.flatMap((curve) => [...new Set(curve.stable)]));
   if (stable.has(true)) entries.push({ text: "stable", line: "path stable" });
   if (stable.has(false)) entries.push({ text: "unstable", line: "path unstable" });
+  if (stable.has(null)) entries.push({ text: "stability not counted", line: "path untold" });
   if (curves.some((curve) => curve.branch !== 0)) entries.push({ text: "branch", line: "path branch stable" });
   return [...entries, ...markEntries(new Set<MarkKind>([...input.result.critical_points.map((point) => point.type),
                                                         ...input.result.contact_events.map((event) => event.type)]))];
