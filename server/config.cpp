@@ -1,6 +1,7 @@
 #include "server/config.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <thread>
 
 #include "api/sweep.h"
@@ -61,6 +62,9 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   require(jobs.job_memory >= kLeastJobMemory, "jobs.job_memory", "must be >= 1048576 bytes");
   require(jobs.keep_jobs.count() >= 0, "jobs.keep_jobs", "must be >= 0");
   require(jobs.keep_keys.count() >= 0, "jobs.keep_keys", "must be >= 0");
+  require(web == http::kEmbeddedPage || web == http::kNoPage ||
+              std::filesystem::is_regular_file(std::filesystem::path(web) / "index.html"),
+          "web", "must be built-in, none, or a folder with the index.html of the page");
   require(ballast_bytes >= 0, "ballast_bytes", "must be >= 0");
   require(least_free_bytes >= 0, "least_free_bytes", "must be >= 0");
   for (const std::string& origin : allowed_origins) {

@@ -175,6 +175,12 @@ std::vector<Setting> front_settings() {
          return std::nullopt;
        },
        [](const ServiceConfig& config) { return config.callback_secret_file; }},
+      {"web", "The page at /: built-in, none (as --no-web), or a folder that is read at every request",
+       [](ServiceConfig& config, const std::string& text) -> Mistake {
+         config.web = text;
+         return std::nullopt;
+       },
+       [](const ServiceConfig& config) { return config.web; }},
       log_level_setting(),
   };
 }

@@ -91,6 +91,10 @@ void add_serve_command(CLI::App& app, Arguments& arguments) {
         [&arguments, name = setting.name](const std::string& value) { arguments.settings[name] = value; },
         setting.help + " [" + setting.get(defaults) + "]");
   }
+  command
+      ->add_flag_callback(
+          "--no-web", [&arguments] { arguments.settings["web"] = http::kNoPage; }, "No page at /")
+      ->excludes("--web");
 }
 
 void add_backup_command(CLI::App& app, Arguments& arguments) {

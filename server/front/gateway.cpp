@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/authority.h"
+#include "server/resources/page.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -36,7 +37,9 @@ std::string request_id(const Request& request, const Environment& environment) {
 bool is_probe(std::string_view path) { return path == "/livez" || path == "/readyz"; }
 
 /// What tells nothing about anybody's jobs is answered without a key.
-bool is_public(std::string_view path) { return is_probe(path) || path == "/v1/openapi.json"; }
+bool is_public(std::string_view path) {
+  return is_probe(path) || path == "/v1/openapi.json" || is_page_path(path);
+}
 
 const char* problem_kind(int status) {
   switch (status) {

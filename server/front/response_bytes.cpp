@@ -9,33 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "server/resources/negotiation.h"
+
 namespace snapthrough::server::http {
 namespace {
 
 constexpr std::size_t kWorthCompressing = 1400;  // what fits in one packet is not made faster
-
-/// Whether a list of codings ("br;q=1.0, gzip;q=0.8") takes gzip.
-bool takes_gzip(std::string_view accepted) {
-  bool any = false;
-  for (const std::string_view part : split_list(accepted, ',')) {
-    const std::size_t semicolon = part.find(';');
-    const std::string_view coding = trimmed(part.substr(0, semicolon));
-    const bool named = equal_ignoring_case(coding, "gzip");
-    if (!named && coding != "*") {
-      continue;
-    }
-    const std::size_t quality = semicolon == part.npos ? part.npos : part.find("q=", semicolon);
-    double weight = 1.0;
-    if (quality != part.npos) {
-      std::from_chars(part.data() + quality + 2, part.data() + part.size(), weight);
-    }
-    if (named) {
-      return weight > 0.0;
-    }
-    any = weight > 0.0;
-  }
-  return any;
-}
 
 bool begin_gzip(z_stream& stream) {
   constexpr int kGzip = 15 + 16;
@@ -191,7 +170,8 @@ void append_chunk(std::string& bytes, std::string_view piece, bool last) {
 }
 
 void compress(Response& response, std::string_view accept_encoding) {
-  if (response.status != 200 || (response.body.size() < kWorthCompressing && !response.rest)) {
+  const bool small = response.body.size() < kWorthCompressing && !response.rest;
+  if (response.status != 200 || small || response.header("Content-Encoding")) {
     return;
   }
   response.headers.emplace_back("Vary", "Accept, Accept-Encoding");

@@ -159,6 +159,28 @@ Response event_stream(const Request& request, std::optional<std::uint64_t> end,
   return response;
 }
 
+bool takes_gzip(std::string_view accepted) {
+  bool any = false;
+  for (const std::string_view part : split_list(accepted, ',')) {
+    const std::size_t semicolon = part.find(';');
+    const std::string_view coding = trimmed(part.substr(0, semicolon));
+    const bool named = equal_ignoring_case(coding, "gzip");
+    if (!named && coding != "*") {
+      continue;
+    }
+    const std::size_t quality = semicolon == part.npos ? part.npos : part.find("q=", semicolon);
+    double weight = 1.0;
+    if (quality != part.npos) {
+      std::from_chars(part.data() + quality + 2, part.data() + part.size(), weight);
+    }
+    if (named) {
+      return weight > 0.0;
+    }
+    any = weight > 0.0;
+  }
+  return any;
+}
+
 bool matches_etag(const Request& request, const std::string& etag) {
   const std::optional<std::string_view> header = request.header("If-None-Match");
   if (!header) {

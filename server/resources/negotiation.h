@@ -51,6 +51,9 @@ inline constexpr int kLargestPage = 1000;
     const Request& request, std::optional<std::uint64_t> end,
     std::function<std::shared_ptr<StreamSource>(std::uint64_t, Stream::Push)> follow);
 
+/// Whether a list of codings ("br;q=1.0, gzip;q=0.8") takes gzip.
+[[nodiscard]] bool takes_gzip(std::string_view accepted);
+
 /// Whether If-None-Match names the tag, or the one of the same bytes compressed.
 [[nodiscard]] bool matches_etag(const Request& request, const std::string& etag);
 

@@ -131,7 +131,11 @@ Response Routes::respond(const Request& request) {
     response.route = route.pattern;
     return response;
   }
-  const std::string allowed = methods_at(request.path);
+  std::optional<Response> file = facts_.page.respond(request);
+  if (file && method == "GET") {
+    return *std::move(file);
+  }
+  const std::string allowed = file ? "GET, HEAD" : methods_at(request.path);
   if (allowed.empty()) {
     return simple_problem(request, 404, "not-found", "Not found", "There is nothing at this path.");
   }

@@ -14,6 +14,7 @@
 #include "server/jobs/job_service.h"
 #include "server/resources/documents.h"
 #include "server/resources/message.h"
+#include "server/resources/page.h"
 #include "server/resources/prefer.h"
 
 namespace snapthrough::server::http {
@@ -29,6 +30,7 @@ struct ServiceFacts {
   std::function<std::string()> metrics;                ///< text format of Prometheus
   std::function<std::string()> not_ready;              ///< why no work should be sent here; empty: it should
   std::vector<std::pair<std::string, double>> limits;  ///< name with unit, value
+  Page page;                                           ///< what people look at; by default none
 };
 
 /// @brief Answers every request, wrong ones with a problem. Thread-safe; never waits for a job: a response

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Builds the page: types from the interface's document, type check, bundle in web/dist, sizes.
+#   scripts/web.sh            writes web/dist, which is committed
+#   scripts/web.sh --check    builds it beside and compares every byte with web/dist
+#   scripts/web.sh --types    writes web/src/api/types.ts anew after a change of api/openapi/openapi.json
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# shellcheck source=scripts/lib/packages.sh
+source scripts/lib/packages.sh
+
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+  install_packages "${SCHEMA_PACKAGES[@]}"
+fi
+cd web
+# The lock file fixes every package by its hash.
+npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
+case "${1:-}" in
+  --types) npm run --silent types; exit ;;
+  --check | "") ;;
+  *) echo "usage: scripts/web.sh [--check | --types]" >&2; exit 1 ;;
+esac
+npm run --silent types -- --check
+npm run --silent check
+if [ "${1:-}" = --check ]; then
+  built="$(mktemp -d)"
+  trap 'rm -rf "$built"' EXIT
+  npm run --silent build -- "$built/dist"
+  diff -r "$built/dist" dist ||
+    { echo "web/dist is not what web/src gives: run scripts/web.sh and commit it." >&2; exit 1; }
+  echo "web/dist is what web/src gives."
+else
+  npm run --silent build
+fi

@@ -1,0 +1,150 @@
+#include "server/resources/page.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+#include "server/digest.h"
+#include "server/resources/negotiation.h"
+
+namespace snapthrough::server::http {
+namespace {
+
+constexpr std::string_view kAssets = "/assets/";
+// Scripts, styles and requests of the service itself only. A picture that is exported is drawn from a blob.
+constexpr const char* kContentSecurityPolicy =
+    "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
+    "object-src 'none'";
+
+const char* content_type(std::string_view path) {
+  static constexpr std::array<std::pair<std::string_view, const char*>, 4> kTypes{
+      {{".js", "text/javascript; charset=utf-8"},
+       {".css", "text/css; charset=utf-8"},
+       {".svg", "image/svg+xml"},
+       {".json", "application/json"}}};
+  const auto* found = std::find_if(kTypes.begin(), kTypes.end(),
+                                   [&](const auto& type) { return path.ends_with(type.first); });
+  return found == kTypes.end() ? "text/html; charset=utf-8" : found->second;
+}
+
+/// Names of assets change with their content: who has one never asks for it again.
+void add_headers(Response& response, std::string_view path, const std::string& etag, bool changes) {
+  response.content_type = content_type(path);
+  response.headers.emplace_back("ETag", etag);
+  response.headers.emplace_back("Cache-Control",
+                                path == "/" || changes ? "no-cache" : "public, max-age=31536000, immutable");
+  response.headers.emplace_back("Content-Security-Policy", kContentSecurityPolicy);
+  response.headers.emplace_back("Referrer-Policy", "no-referrer");
+}
+
+std::string unpacked(std::span<const unsigned char> packed) {
+  constexpr int kGzip = 15 + 16;
+  z_stream stream{};
+  if (::inflateInit2(&stream, kGzip) != Z_OK) {
+    throw std::bad_alloc();
+  }
+  stream.next_in = const_cast<Bytef*>(packed.data());  // zlib does not write to it
+  stream.avail_in = static_cast<uInt>(packed.size());
+  std::string text;
+  std::array<char, 16 * 1024> chunk;
+  int code = Z_OK;
+  while (code == Z_OK) {
+    stream.next_out = reinterpret_cast<Bytef*>(chunk.data());
+    stream.avail_out = chunk.size();
+    code = ::inflate(&stream, Z_NO_FLUSH);
+    text.append(chunk.data(), chunk.size() - stream.avail_out);
+  }
+  ::inflateEnd(&stream);
+  if (code != Z_STREAM_END) {
+    throw std::runtime_error("a file of the page is damaged");
+  }
+  return text;
+}
+
+Response not_modified(std::string_view path, const std::string& etag, bool changes) {
+  Response response;
+  add_headers(response, path, etag, changes);
+  response.status = 304;
+  response.content_type.clear();
+  return response;
+}
+
+std::optional<Response> built_in(const Request& request) {
+  const std::vector<PageFile>& files = embedded_page();
+  const auto file =
+      std::find_if(files.begin(), files.end(), [&](const PageFile& one) { return one.path == request.path; });
+  if (file == files.end()) {
+    return std::nullopt;
+  }
+  const std::string etag = "\"" + std::string(file->digest) + "\"";
+  if (matches_etag(request, etag)) {
+    return not_modified(file->path, etag, false);
+  }
+  Response response;
+  if (takes_gzip(request.header("Accept-Encoding").value_or(""))) {
+    add_headers(response, file->path, etag.substr(0, etag.size() - 1) + "-gzip\"", false);
+    response.headers.emplace_back("Vary", "Accept-Encoding");
+    response.headers.emplace_back("Content-Encoding", "gzip");
+    response.body.assign(file->packed.begin(), file->packed.end());
+  } else {
+    add_headers(response, file->path, etag, false);
+    response.body = unpacked(file->packed);
+  }
+  return response;
+}
+
+/// Letters, digits and single marks between them: no path leads out of the folder.
+bool is_file_name(std::string_view name) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_' || c == '.';
+  };
+  return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), allowed);
+}
+
+std::optional<Response> of_folder(const std::filesystem::path& folder, const Request& request) {
+  std::filesystem::path path = folder / "index.html";
+  if (request.path != "/") {
+    const std::string_view name = std::string_view(request.path).substr(kAssets.size());
+    if (!is_file_name(name)) {
+      return std::nullopt;
+    }
+    path = folder / "assets" / name;
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return std::nullopt;
+  }
+  Response response;
+  response.body.assign(std::istreambuf_iterator<char>(file), {});
+  const std::string etag = "\"" + sha256_hex(response.body) + "\"";
+  if (matches_etag(request, etag)) {
+    return not_modified(request.path, etag, true);
+  }
+  add_headers(response, request.path, etag, true);
+  return response;
+}
+
+}  // namespace
+
+bool is_page_path(std::string_view path) { return path == "/" || path.starts_with(kAssets); }
+
+std::optional<Response> Page::respond(const Request& request) const {
+  if (source_ == kNoPage || !is_page_path(request.path)) {
+    return std::nullopt;
+  }
+  std::optional<Response> response =
+      source_ == kEmbeddedPage ? built_in(request) : of_folder(source_, request);
+  if (response) {
+    response->route = request.path == "/" ? "/" : "/assets/{name}";
+  }
+  return response;
+}
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,46 @@
+#pragma once
+/// @file
+/// The page that people look at: its files at "/" and "/assets/NAME", built into the program or of a folder.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/resources/message.h"
+
+namespace snapthrough::server::http {
+
+/// A file of web/dist that is built into the program. Defined in a source generated at build time.
+struct PageFile {
+  std::string_view path;                  ///< in a request: "/", "/assets/app-1A2B3C4D.js"
+  std::string_view digest;                ///< SHA-256 of the content, hexadecimal
+  std::span<const unsigned char> packed;  ///< the content, gzip
+};
+
+[[nodiscard]] const std::vector<PageFile>& embedded_page();
+
+/// Where the page comes from unless a folder is named.
+inline constexpr std::string_view kEmbeddedPage = "built-in";
+inline constexpr std::string_view kNoPage = "none";
+
+/// Whether a path is one that only files of the page can have. They are the same for everybody and tell
+/// nothing of jobs, so they need no key.
+[[nodiscard]] bool is_page_path(std::string_view path);
+
+/// @brief Serves the files of the page. Thread-safe.
+class Page {
+ public:
+  Page() : source_(kNoPage) {}
+  /// @param source kEmbeddedPage, kNoPage, or a folder like web/dist, which is read at every request
+  explicit Page(std::string source) : source_(std::move(source)) {}
+
+  /// The response to a GET or HEAD, or nothing when the page has no such file.
+  [[nodiscard]] std::optional<Response> respond(const Request& request) const;
+
+ private:
+  std::string source_;
+};
+
+}  // namespace snapthrough::server::http

@@ -1,0 +1,251 @@
+// The equilibrium path: stable solid, unstable dashed, critical points and contact events as marks, other runs as shadows.
+
+import { Occupancy, placeLabel } from "../labels";
+import { formatNumber, type Units } from "../numbers";
+import { coordinate, figure, group, label, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
+import { frameShapes, makeScale, place, plotArea, widened, type Frame } from "./axes";
+import {
+  branchesOf, contactMarks, criticalMarks, curveOf, quantityLabel, type CriticalMark, type Monitor, type PathCurve,
+  type PathPoint, type PathQuantity, type PathResult, type Stability,
+} from "./curves";
+import { legendHeight, legendShape, markEntries, type LegendEntry } from "./legend";
+import { kMarkNames, mark, type MarkKind } from "./marks";
+import { thinned } from "./thin";
+
+/** A run that is shown for comparison. */
+export interface PathShadow {
+  label: string;
+  result: PathResult;
+  kind: "earlier" | "pinned";
+}
+
+/**
+ * What is drawn: a result's branches, one quantity against another. Load factors have no unit; monitors are in the model's
+ * length, or radians.
+ */
+export interface PathInput {
+  result: PathResult;
+  x: PathQuantity;
+  y: PathQuantity;
+  monitors?: readonly Monitor[] | undefined;
+  units?: Units | undefined;
+  /** The point that the drawing shows. */
+  chosen?: PathPoint | null | undefined;
+  shadows?: readonly PathShadow[] | undefined;
+  /** Ranges of both axes; what holds everything when left out. */
+  domain?: { x: readonly [number, number]; y: readonly [number, number] } | null | undefined;
+}
+
+/** The chart with its places in pixels: what hovering and walking need. */
+export interface PathChart {
+  frame: Frame;
+  curves: PathCurve[];
+  shadows: { shadow: PathShadow; curves: PathCurve[] }[];
+  marks: CriticalMark[];
+  size: Size;
+}
+
+function curvesOf(result: PathResult, input: PathInput): PathCurve[] {
+  return branchesOf(result).flatMap((branch, index) => curveOf(result, branch, index, input.x, input.y) ?? []);
+}
+
+function rangeOf(values: Iterable<number>): [number, number] {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const value of values) {
+    if (!Number.isFinite(value)) continue;
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  return widened(low, high);
+}
+
+/** Lays a path out. */
+export function pathChart(input: PathInput, size: Size): PathChart {
+  const curves = curvesOf(input.result, input);
+  const shadows = (input.shadows ?? []).map((shadow) => ({ shadow, curves: curvesOf(shadow.result, input) }));
+  const marks = criticalMarks(input.result, input.x, input.y);
+  const all = [...curves, ...shadows.flatMap((item) => item.curves)].flatMap((curve) => curve.vertices);
+  const every = curves.length === 0 ? [...all, ...marks, { x: 0, y: 0 }] : all;
+  const [x0, x1] = input.domain?.x ?? rangeOf(every.map((vertex) => vertex.x));
+  const [y0, y1] = input.domain?.y ?? rangeOf(every.map((vertex) => vertex.y));
+  const frame = {
+    x: makeScale(x0, x1, 62, Math.max(90, size.width - 14)),
+    y: makeScale(y0, y1, Math.max(60, size.height - 44), 14 + legendHeight(legendEntries(input, curves), size.width)),
+    xLabel: quantityLabel(input.x, input.monitors, input.units),
+    yLabel: quantityLabel(input.y, input.monitors, input.units),
+  };
+  return { frame, curves, shadows, marks, size };
+}
+
+function pixelOf(frame: Frame, point: { x: number; y: number }): Pixel {
+  return { x: place(frame.x, point.x), y: place(frame.y, point.y) };
+}
+
+/** Pieces of a curve of one stability as lines of pixels; neighbours share their end. */
+function pieces(curve: PathCurve, frame: Frame): { stable: Stability; points: Pixel[] }[] {
+  const all = curve.vertices.map((vertex) => pixelOf(frame, vertex));
+  const found: { stable: Stability; points: Pixel[] }[] = [];
+  let begin = 0;
+  for (let i = 1; i <= curve.stable.length; ++i) {
+    if (i < curve.stable.length && curve.stable[i] === curve.stable[begin]) continue;
+    const part = all.slice(begin, i + 1);
+    const kept = thinned(part).flatMap((k) => part[k] ?? []);
+    found.push({ stable: curve.stable[begin] ?? null, points: kept });
+    begin = i;
+  }
+  return found;
+}
+
+function stabilityClass(stable: Stability): string {
+  return stable === null ? "untold" : stable ? "stable" : "unstable";
+}
+
+function curveShapes(curves: readonly PathCurve[], frame: Frame, className: string, taken: Occupancy,
+                     weight: number): Shape[] {
+  return curves.flatMap((curve) => {
+    const kind = curve.branch === 0 ? className : `${className} branch`;
+    return pieces(curve, frame).map(({ stable, points }) => {
+      taken.addLine(points, weight);
+      return shape("path", { class: `${kind} ${stabilityClass(stable)}`, d: pathData(points) });
+    });
+  });
+}
+
+/** A part of a figure that shows nothing outside the plot: an inner SVG clips without an id. */
+function clipped(frame: Frame, className: string, ...children: Shape[]): Shape {
+  const { x, y } = frame;
+  const left = coordinate(x.start);
+  const top = coordinate(y.end);
+  const width = coordinate(x.end - x.start);
+  const height = coordinate(y.start - y.end);
+  return shape("svg", { class: className, x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}`,
+                        overflow: "hidden" }, ...children);
+}
+
+function inside(frame: Frame, pixel: Pixel): boolean {
+  return pixel.x >= frame.x.start - 1 && pixel.x <= frame.x.end + 1 && pixel.y >= frame.y.end - 1 &&
+    pixel.y <= frame.y.start + 1;
+}
+
+const kLabelled = 8;
+
+function criticalShapes(chart: PathChart, taken: Occupancy): { marks: Shape; labels: () => Shape } {
+  const shown = chart.marks.map((item) => ({ item, pixel: pixelOf(chart.frame, item) }))
+    .filter(({ pixel }) => inside(chart.frame, pixel));
+  for (const { pixel } of shown) {
+    taken.addBox({ left: pixel.x - 11, right: pixel.x + 11, top: pixel.y - 11, bottom: pixel.y + 11 }, 6);
+    taken.addBox({ left: pixel.x - 4, right: pixel.x + 4, top: pixel.y - 5, bottom: pixel.y + 4 }, 60);
+  }
+  const labels = () => group("mark-labels", ...shown.slice(0, kLabelled).map(({ item, pixel }, i) => placeLabel({
+    at: pixel, className: "mark-label", leader: true, distance: 14, tolerance: i === 0 ? 400 : 110,
+    prefer: item.point.type === "limit_min" ? 1 : 7,
+    runs: [{ text: formatNumber(item.point.load_factor, 5), bold: true },
+           { text: `\u00a0${kMarkNames[item.point.type]}${item.point.confirmed ? "" : ", not confirmed"}`, className: "muted" }],
+  }, taken)));
+  return { marks: group("marks", ...shown.map(({ item, pixel }) => mark(item.point.type, pixel))), labels };
+}
+
+function contactShapes(input: PathInput, frame: Frame): Shape {
+  const marks = contactMarks(input.result, input.x, input.y).map((item) => ({ item, pixel: pixelOf(frame, item) }));
+  return group("events", ...marks.filter(({ pixel }) => inside(frame, pixel))
+    .map(({ item, pixel }) => mark(item.event.type, pixel)));
+}
+
+function shadowLabels(chart: PathChart, taken: Occupancy): Shape[] {
+  return chart.shadows.flatMap(({ shadow, curves }) => {
+    const curve = curves[0];
+    if (!curve) return [];
+    const seen = curve.vertices.map((vertex) => pixelOf(chart.frame, vertex)).filter((p) => inside(chart.frame, p));
+    const spot = seen[Math.floor(0.7 * (seen.length - 1))] ?? seen[seen.length - 1];
+    const text = spot && placeLabel({ at: spot, className: `shadow-label ${shadow.kind}`, distance: 8,
+                                      runs: [{ text: shadow.label }], tolerance: 110 }, taken);
+    return text ? [text] : [];
+  });
+}
+
+function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEntry[] {
+  const entries: LegendEntry[] = [];
+  const stable = new Set(curves.flatMap((curve) => [...new Set(curve.stable)]));
+  if (stable.has(true)) entries.push({ text: "stable", line: "path stable" });
+  if (stable.has(false)) entries.push({ text: "unstable", line: "path unstable" });
+  if (stable.has(null)) entries.push({ text: "stability not counted", line: "path untold" });
+  if (curves.some((curve) => curve.branch !== 0)) entries.push({ text: "branch", line: "path branch stable" });
+  return [...entries, ...markEntries(new Set<MarkKind>([...input.result.critical_points.map((point) => point.type),
+                                                        ...input.result.contact_events.map((event) => event.type)]))];
+}
+
+/** The ring around the chosen point; drawn alone where only the choice changes. */
+export function chosenShape(chart: PathChart, chosen: PathPoint | null | undefined): Shape {
+  const curve = chosen && chart.curves.find((item) => item.branch === chosen.branch);
+  const vertex = curve && chosen && curve.vertices.find((item) => item.row === chosen.index);
+  const pixel = vertex && pixelOf(chart.frame, vertex);
+  if (!pixel || !inside(chart.frame, pixel)) return group("chosen");
+  return group("chosen", shape("circle", { class: "chosen-ring", cx: coordinate(pixel.x), cy: coordinate(pixel.y), r: 6.5 }));
+}
+
+/** The rows of a static analysis, or of a few steps, as dots. */
+function rowDots(chart: PathChart, input: PathInput): Shape | null {
+  if (input.result.branches.length > 0) return null;
+  const rows = chart.curves.flatMap((curve) => curve.vertices);
+  if (rows.length > 200) return null;
+  return group("rows", ...rows.map((row) => pixelOf(chart.frame, row)).map((pixel) =>
+    shape("circle", { class: "row", cx: coordinate(pixel.x), cy: coordinate(pixel.y), r: 2.5 })));
+}
+
+/**
+ * The equilibrium path of a result: load factors without unit, monitors in the model's length or radians, as docs/results.md gives
+ * them (a reversed quantity shows minus its value, and its label says the sense). A piece is solid where no eigenvalue of the
+ * tangent stiffness is negative, else dashed; it changes at the critical point between the rows.
+ */
+export function pathFigure(input: PathInput, size: Size, chart: PathChart = pathChart(input, size)): Shape {
+  const { frame } = chart;
+  const taken = new Occupancy(size);
+  taken.addBox({ left: 0, top: 0, right: size.width, bottom: frame.y.end - 4 });
+  taken.addBox({ left: 0, top: 0, right: frame.x.start - 4, bottom: size.height });
+  taken.addBox({ left: 0, top: frame.y.start + 4, right: size.width, bottom: size.height });
+  const shadows = chart.shadows.flatMap(({ shadow, curves }) =>
+    curveShapes(curves, frame, `shadow ${shadow.kind}`, taken, 4));
+  const lines = curveShapes(chart.curves, frame, "path", taken, 7);
+  const critical = criticalShapes(chart, taken);
+  const empty = chart.curves.length === 0
+    ? label("muted", { x: (frame.x.start + frame.x.end) / 2, y: (frame.y.start + frame.y.end) / 2 }, "middle",
+            "no path: an analysis of type path gives one")
+    : null;
+  const title = `${frame.yLabel} against ${frame.xLabel}`;
+  return figure("chart path-chart", size, title, plotArea(frame), frameShapes(frame, size),
+                clipped(frame, "plot-lines", ...shadows, ...lines), rowDots(chart, input), contactShapes(input, frame),
+                critical.marks, chosenShape(chart, input.chosen), critical.labels(), group("shadow-labels", ...shadowLabels(chart, taken)),
+                empty, legendShape(legendEntries(input, chart.curves), size.width));
+}
+
+/** The row of a path that is nearest to a pixel, and how far away it is; null when there is none. */
+export function nearestOnPath(chart: PathChart, to: Pixel): (PathPoint & { pixel: Pixel; distance: number }) | null {
+  let best: (PathPoint & { pixel: Pixel; distance: number }) | null = null;
+  for (const curve of chart.curves) {
+    for (const vertex of curve.vertices) {
+      if (vertex.row === null) continue;
+      const pixel = pixelOf(chart.frame, vertex);
+      const distance = Math.hypot(pixel.x - to.x, pixel.y - to.y);
+      if (best === null || distance < best.distance) {
+        best = { branch: curve.branch, index: vertex.row, pixel, distance };
+      }
+    }
+  }
+  return best;
+}
+
+/** The critical point within reach of a pixel; null when there is none. */
+export function criticalNear(chart: PathChart, to: Pixel, reach = 10): CriticalMark | null {
+  let best: CriticalMark | null = null;
+  let least = reach;
+  for (const item of chart.marks) {
+    const pixel = pixelOf(chart.frame, item);
+    const distance = Math.hypot(pixel.x - to.x, pixel.y - to.y);
+    if (distance <= least) {
+      least = distance;
+      best = item;
+    }
+  }
+  return best;
+}

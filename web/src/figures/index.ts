@@ -1,0 +1,22 @@
+// Everything that the page uses of the figures. Pure functions: data in, trees of shapes out.
+
+export * from "./shape";
+export * from "./numbers";
+export { drawingCaption, drawingFigure, drawingView, suggestedFactor } from "./drawing/drawing";
+export { locate, stateAt, type Located, type LocatedState } from "./drawing/locate";
+export { toModel, toPixel, zoomed, type DrawingInput, type View } from "./drawing/scene";
+export {
+  chosenShape, criticalNear, nearestOnPath, pathChart, pathFigure, type PathChart, type PathInput, type PathShadow,
+} from "./chart/path";
+export {
+  branchesOf, defaultQuantities, quantityLabel, rowsOfStates, stateNear, walk, type PathPoint, type PathQuantity,
+  type PathResult,
+} from "./chart/curves";
+export {
+  kSections, sectionsChart, sectionsFigure, sectionsLocate, type SectionQuantity, type SectionsChart, type SectionsInput,
+} from "./chart/sections";
+export { bucklingFigure, nearestMode, type BucklingInput } from "./chart/buckling";
+export { nearestInSweep, sweepLine, sweepLineChart, type SweepLineChart, type SweepLineInput } from "./chart/sweep_line";
+export { sweepMap, sweepMapChart, sweepMapLocate, type SweepMapChart, type SweepMapInput } from "./chart/sweep_map";
+export { columnLabel, errorsOf, failureText, type SweepAxis, type Table } from "./chart/sweep";
+export { pathTable, sectionTable, sweepTable, tableCsv, tableText, type Cell, type FigureTable } from "./tables";

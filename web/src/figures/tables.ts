@@ -1,0 +1,105 @@
+// The table twin of each figure, and its CSV: exact values in cells; `tableText` rounds them for reading.
+
+import { at } from "./geometry";
+import { exactNumber, formatNumber, unitOf, withUnit, type Units } from "./numbers";
+import type { PathInput } from "./chart/path";
+import { branchesOf, type Monitor } from "./chart/curves";
+import { kSections, sectionLines, type SectionQuantity, type SectionsInput } from "./chart/sections";
+import { columnLabel, type Table } from "./chart/sweep";
+
+export type Cell = string | number | null;
+
+export interface FigureTable {
+  columns: string[];
+  rows: Cell[][];
+}
+
+/** Cells as text for reading: numbers with so many significant digits, an empty text where there is nothing. */
+export function tableText(table: FigureTable, digits = 6): string[][] {
+  return table.rows.map((row) => row.map((cell) => {
+    if (cell === null) return "";
+    return typeof cell === "number" ? formatNumber(cell, digits) : cell;
+  }));
+}
+
+/** A cell that a spreadsheet would take for a formula is told to be a text. */
+function csvCell(cell: Cell): string {
+  if (cell === null) return "";
+  if (typeof cell === "number") return exactNumber(cell);
+  const text = /^[=+\-@\t\r]/.test(cell) ? `'${cell}` : cell;
+  return /[",\n\r]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
+}
+
+/** RFC 4180: a header, lines that end with CR LF, decimal points. */
+export function tableCsv(table: FigureTable): string {
+  return [table.columns, ...table.rows].map((row) => `${row.map(csvCell).join(",")}\r\n`).join("");
+}
+
+function monitorColumn(id: string, monitors: readonly Monitor[], units: Units | undefined): string {
+  const monitor = monitors.find((item) => item.id === id);
+  if (!monitor) return id;
+  return withUnit(`${id} ${monitor.component}`, unitOf(units, monitor.component === "rotation" ? "rotation" : "length"));
+}
+
+/** One row a point of every branch: branch, load factor, monitors as in the result, stability, contact. */
+export function pathTable(input: Pick<PathInput, "result" | "monitors" | "units">): FigureTable {
+  const branches = branchesOf(input.result);
+  const ids = [...new Set(branches.flatMap((branch) => Object.keys(branch.monitors)))];
+  const bases = [...new Set(branches.flatMap((branch) => Object.keys(branch.contact_fraction)))];
+  const columns = ["branch", "load factor", "arc length", ...ids.map((id) => monitorColumn(id, input.monitors ?? [], input.units)),
+                   "negative eigenvalues", ...bases.map((id) => `contact fraction ${id}`)];
+  const value = (list: readonly number[] | undefined, i: number): Cell => list?.[i] ?? null;
+  const counted = (count: number | undefined): Cell => (count === undefined || Number.isNaN(count) ? null : count);
+  const rows = branches.flatMap((branch) => branch.load_factor.map((load, i): Cell[] => [
+    branch.id, load, at(branch.arc_length, i), ...ids.map((id) => value(branch.monitors[id], i)),
+    counted(branch.negative_eigenvalues[i]), ...bases.map((id) => value(branch.contact_fraction[id], i)),
+  ]));
+  return { columns, rows };
+}
+
+const kColumns: readonly { list: "x" | "y" | "u" | "v"; name: string }[] = [
+  { list: "x", name: "x" }, { list: "y", name: "y" }, { list: "u", name: "displacement x" }, { list: "v", name: "displacement y" },
+];
+const kForces: readonly SectionQuantity[] = ["rotation", "N", "Q", "M"];
+
+/** One row a point of every member: place, displacements, internal forces, and the reactions of the bases along it. */
+export function sectionTable(input: SectionsInput): FigureTable {
+  const length = unitOf(input.model.units, "length");
+  const bases = (input.model.foundations ?? []).filter((item) => input.state.foundations[item.id]);
+  const columns = ["member", withUnit("s", length), ...kColumns.map(({ name }) => withUnit(name, length)),
+                   ...kForces.map((quantity) => withUnit(kSections[quantity].name, unitOf(input.model.units, kSections[quantity].unit))),
+                   ...bases.map((base) => withUnit(`reaction ${base.id}`, unitOf(input.model.units, "line_load")))];
+  const ids = input.members ?? input.model.members.map((member) => member.id);
+  const rows = ids.flatMap((id) => {
+    const state = input.state.members[id];
+    if (!state) return [];
+    const forces = kForces.map((quantity) => sectionLines(input, id, quantity)[0]?.values ?? []);
+    return state.s.map((s, i): Cell[] => [
+      id, s, ...kColumns.map(({ list }) => at(state[list], i)), ...forces.map((values) => at(values, i)),
+      ...bases.map((base) => (base.member === id ? reactionAt(input, base.id, s) : null)),
+    ]);
+  });
+  return { columns, rows };
+}
+
+/** The reaction at a place where the foundation has a value; null elsewhere. */
+function reactionAt(input: SectionsInput, id: string, s: number): Cell {
+  const state = input.state.foundations[id];
+  if (!state) return null;
+  const i = state.s.findIndex((value) => Math.abs(value - s) <= 1e-9 * Math.max(1, Math.abs(s)));
+  return i < 0 ? null : state.reaction[i] ?? null;
+}
+
+/** The rows of a sweep as they are, with the number of each point; errors as "code: detail". */
+export function sweepTable(table: Table, labels: Readonly<Record<string, string>> = {}): FigureTable {
+  const columns = ["point", ...table.columns.map((column) => columnLabel({ column, label: labels[column] }))];
+  const rows = table.rows.map((row, i) => [table.points[i] ?? i, ...row.map(cellOf)]);
+  return { columns, rows };
+}
+
+function cellOf(value: unknown): Cell {
+  if (value === null || value === undefined) return null;
+  if (typeof value === "number" || typeof value === "string") return value;
+  if (typeof value === "object" && "code" in value && "detail" in value) return `${String(value.code)}: ${String(value.detail)}`;
+  return JSON.stringify(value);
+}

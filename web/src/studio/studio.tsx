@@ -1,0 +1,164 @@
+// The studio: a model and its sliders at the left; its drawing, path, sections and trust at the right.
+
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { service } from "../api/client";
+import { go } from "../app/router";
+import { formatNumber, type PathShadow } from "../figures";
+import { kProblems } from "../model/gallery";
+import { sliderFor, valueOf } from "../model/sliders";
+import { withValue } from "../model/pointer";
+import { useStore } from "../store";
+import { Card } from "../views/card";
+import { ResultViews } from "../views/result_views";
+import { GalleryDialog } from "./gallery_dialog";
+import { JsonPanel } from "./json_panel";
+import { ModelForm } from "./model_form";
+import { keep, openAny, openFirst, openProblem, pin, setRequest, setSlider, setSliders, studio, unpin, type Studio } from "./session";
+import { SliderRow } from "./slider_row";
+import { SweepBuilder } from "../sweeps/sweep_builder";
+import { findingsOf, Trouble } from "./trouble";
+
+type Panel = "model" | "json" | "sweep";
+const kPanels: [Panel, string][] = [["model", "Model"], ["json", "JSON"], ["sweep", "Sweep"]];
+
+function Sliders({ state }: { state: Studio }) {
+  const { request, sliders, problem } = state;
+  if (!request) return null;
+  return (
+    <div class="sliders">
+      {sliders.map((slider, i) => (
+        <SliderRow key={slider.targets[0]?.pointer ?? i} slider={slider} request={request}
+                   onValue={(value) => setSlider(slider, value)}
+                   onRemove={problem?.sliders.includes(slider) ? null : () => setSliders(sliders.filter((one) => one !== slider))} />
+      ))}
+    </div>
+  );
+}
+
+/** Pinned runs, each of which can be taken off the chart. */
+function Pins({ state }: { state: Studio }) {
+  if (state.pins.length === 0) return null;
+  return (
+    <ul class="pins" aria-label="Pinned runs">
+      {state.pins.map((run) => (
+        <li key={run.job}><span>{run.label || "pinned run"}</span>
+          <button type="button" class="quiet" aria-label={`Unpin ${run.label}`} onClick={() => unpin(run)}>Remove</button></li>
+      ))}
+    </ul>
+  );
+}
+
+function Actions({ state }: { state: Studio }) {
+  const [said, say] = useState("");
+  const share = async (): Promise<void> => {
+    const { run } = studio.get();
+    if (!run) return;
+    keep();
+    const address = `${location.origin}/#/jobs/${run.job}`;
+    await navigator.clipboard.writeText(address).then(() => say("Address copied"), () => say(address));
+    setTimeout(() => say(""), 4000);
+  };
+  const ready = state.run !== null;
+  return (
+    <div class="buttons">
+      <button type="button" disabled={!ready} onClick={pin}>Pin this run</button>
+      <button type="button" disabled={!ready} onClick={() => void share()}>Share</button>
+      <span class="said" role="status">{said}</span>
+    </div>
+  );
+}
+
+function PanelOf({ panel, state }: { panel: Panel; state: Studio }) {
+  const { request, sliders, trouble } = state;
+  const slid = useMemo(() => new Set(sliders.flatMap((slider) => slider.targets.map((target) => target.pointer))), [sliders]);
+  if (!request) return null;
+  switch (panel) {
+    case "model":
+      return <ModelForm request={request} findings={findingsOf(trouble)} slid={slid} onChange={setRequest}
+                        onSlider={(pointer) => {
+                          const slider = sliderFor(request, pointer);
+                          if (slider) setSliders([...sliders, slider]);
+                        }} />;
+    case "json":
+      return <JsonPanel request={request} onChange={setRequest} />;
+    case "sweep":
+      return <SweepBuilder request={request} sliders={sliders} />;
+  }
+}
+
+function shadowsOf({ shadow, pins, run }: Studio): PathShadow[] {
+  const shadows: PathShadow[] = [];
+  const pinned = pins.filter((one) => one.job !== run?.job);
+  if (shadow && shadow.job !== run?.job && !pinned.some((one) => one.job === shadow.job)) {
+    shadows.push({ label: `before: ${shadow.label}`, result: shadow.result, kind: "earlier" });
+  }
+  return [...shadows, ...pinned.map((one): PathShadow => ({ label: `pinned: ${one.label}`, result: one.result, kind: "pinned" }))];
+}
+
+/** Which panel is open: the address says it for the model, so that it can be shared. */
+function usePanel(view: string): [Panel, (panel: Panel) => void] {
+  const [panel, setPanel] = useState<Panel>(view === "model" ? "json" : "model");
+  useEffect(() => {
+    if (view === "model") setPanel("json");
+  }, [view]);
+  return [panel, (next) => {
+    setPanel(next);
+    go(next === "json" ? "#/model" : "#/studio");
+  }];
+}
+
+export function StudioView({ view, query }: { view: string; query: URLSearchParams }) {
+  const state = useStore(studio);
+  const [gallery, setGallery] = useState(false);
+  const [panel, setPanel] = usePanel(view);
+  const wanted = query.get("problem");
+  const job = query.get("job");
+  useEffect(() => {
+    const problem = kProblems.find((one) => one.example === wanted);
+    if (problem && studio.get().problem !== problem) void openProblem(problem);
+    else if (job) void service.jobRequest(job).then(openAny, () => openFirst());
+    else openFirst();
+  }, [wanted, job]);
+  const shadows = useMemo(() => shadowsOf(state), [state.shadow, state.pins, state.run]);
+  const { request, problem } = state;
+  return (
+    <main id="main" tabIndex={-1} class={`studio ${panel === "json" ? "wide" : ""}`}>
+      <Card title="Model" class="controls" tools={<button type="button" onClick={() => setGallery(true)}>Gallery</button>}>
+        <div class="scroll">
+          <h1 class={problem ? "" : "long"}>{problem?.heading ?? request?.model.title ?? "Model"}</h1>
+          {problem ? <p class="text">{problem.text} <span class="reference">See {problem.reference.file}, {problem.reference.text}.</span></p> : null}
+          <Sliders state={state} />
+          <Trouble error={state.trouble} />
+          <div class="tabs" role="tablist" aria-label="Edit">
+            {kPanels.map(([name, text]) => (
+              <button type="button" role="tab" key={name} id={`tab-${name}`} aria-selected={panel === name} aria-controls="panel"
+                      onClick={() => setPanel(name)}>{text}</button>
+            ))}
+          </div>
+          <div id="panel" role="tabpanel" aria-labelledby={`tab-${panel}`}><PanelOf panel={panel} state={state} /></div>
+          <Pins state={state} />
+        </div>
+        <Actions state={state} />
+      </Card>
+      {request ? (
+        <ResultViews request={request} run={state.run} growing={state.growing} shadows={shadows} choice={state.choice}
+                     onChoice={(choice) => studio.change({ choice })}
+                     onFollow={request.analysis.type === "path"
+                       ? () => setRequest(withValue(request, "/analysis/branches/follow", "first")) : undefined} />
+      ) : <Card title="Drawing" class="drawing-card"><p class="hint">Loading…</p></Card>}
+      <GalleryDialog open={gallery} chosen={problem} onClose={() => setGallery(false)} onChoose={(next) => {
+        setGallery(false);
+        go(`#/studio?problem=${next.example}`);
+        if (studio.get().problem === next) void openProblem(next);
+      }} />
+    </main>
+  );
+}
+
+/** Values of the sliders in words, for the title of the tab. */
+export function titleOf({ problem, request, sliders }: Studio): string {
+  const first = sliders[0];
+  const value = first && request ? valueOf(first, request) : null;
+  const name = problem?.heading ?? request?.model.title ?? "";
+  return first && value !== null ? `${name}, ${first.name} ${formatNumber(value, 3)}` : name;
+}

@@ -1,0 +1,100 @@
+// A sweep from one or two sliders of the studio.
+
+import { useState } from "preact/hooks";
+import type { RequestDocument, SweepDocument } from "../api/documents";
+import { service } from "../api/client";
+import { go } from "../app/router";
+import { formatNumber } from "../figures";
+import { parameterOf, type Slider } from "../model/sliders";
+import { readNumber } from "../studio/slider_row";
+import { Trouble } from "../studio/trouble";
+
+interface Range {
+  slider: number;
+  from: string;
+  to: string;
+  count: string;
+}
+
+function rangeOf(sliders: readonly Slider[], index: number, count: number): Range {
+  const slider = sliders[index];
+  const plain = (value: number): string => String(Number(value.toPrecision(4)));
+  return { slider: index, from: plain(slider?.min ?? 0), to: plain(slider?.max ?? 1), count: String(count) };
+}
+
+/** Outputs that answer most questions, by what the analysis gives. */
+function outputsOf(request: RequestDocument): string[] {
+  if (request.analysis.type === "buckling") return ["/buckling/load_factors/0"];
+  const monitors = (request.model.monitors ?? []).slice(0, 3);
+  const places = request.analysis.type === "static" ? [] : monitors.map(({ id }) =>
+    `/critical_points/0/monitors/${id.replace(/~/g, "~0").replace(/\//g, "~1")}`);
+  return ["/summary/critical_load_factor", "/summary/critical_type", "/summary/error_estimate", ...places];
+}
+
+function parameters(sliders: readonly Slider[], ranges: readonly Range[]): SweepDocument["parameters"] | string {
+  const made: SweepDocument["parameters"] = [];
+  for (const range of ranges) {
+    const slider = sliders[range.slider];
+    const [from, to, count] = [range.from, range.to, range.count].map(readNumber);
+    if (!slider) return "Choose a slider.";
+    if (from == null || to == null || count == null) return `${slider.name}: from, to and count are numbers.`;
+    if (from === to || !Number.isInteger(count) || count < 2) return `${slider.name}: from and to differ, count is 2 or more.`;
+    made.push(parameterOf(slider, slider.unit === "" ? slider.name : `${slider.name} (${slider.unit})`, from, to, count));
+  }
+  return new Set(made.map((one) => one.name)).size < made.length ? "Choose two different sliders." : made;
+}
+
+function RangeFields({ sliders, range, label, onChange }: {
+  sliders: readonly Slider[]; range: Range; label: string; onChange: (range: Range) => void;
+}) {
+  const field = (name: "from" | "to" | "count") => (
+    <label>{name}<input type="text" inputMode="decimal" value={range[name]}
+                        onInput={(event) => onChange({ ...range, [name]: event.currentTarget.value })} /></label>
+  );
+  return (
+    <fieldset class="range">
+      <legend>{label}</legend>
+      <select aria-label={label} value={range.slider}
+              onChange={(event) => onChange(rangeOf(sliders, Number(event.currentTarget.value), Number(range.count) || 2))}>
+        {sliders.map((slider, i) => <option key={slider.name} value={i}>{slider.name}</option>)}
+      </select>
+      <div class="range-fields">{field("from")}{field("to")}{field("count")}</div>
+    </fieldset>
+  );
+}
+
+export function SweepBuilder({ request, sliders }: { request: RequestDocument; sliders: readonly Slider[] }) {
+  const [first, setFirst] = useState(() => rangeOf(sliders, 0, 41));
+  const [second, setSecond] = useState<Range | null>(null);
+  const [trouble, setTrouble] = useState<unknown>(null);
+  if (sliders.length === 0) return <p class="hint">Give a number of the model a slider first; a sweep goes where its slider goes.</p>;
+  const made = parameters(sliders, second ? [first, second] : [first]);
+  const points = [first, ...(second ? [second] : [])].reduce((product, range) => product * (readNumber(range.count) ?? 0), 1);
+  const submit = async (): Promise<void> => {
+    if (typeof made === "string") return;
+    const output = { states: "none" as const, points_per_member: 2 };
+    try {
+      const sweep = await service.submitSweep({
+        model: request.model, analysis: { ...request.analysis, output }, parameters: made, design: "grid", outputs: outputsOf(request),
+      });
+      go(`#/sweeps/${sweep.id}`);
+    } catch (error) {
+      setTrouble(error);
+    }
+  };
+  return (
+    <div class="sweep-builder">
+      <RangeFields sliders={sliders} range={first} label="Along" onChange={setFirst} />
+      {second ? <RangeFields sliders={sliders} range={second} label="And along" onChange={setSecond} /> : null}
+      {second ? <button type="button" onClick={() => setSecond(null)}>One parameter only</button>
+        : sliders.length > 1 ? <button type="button" onClick={() => {
+            setFirst({ ...first, count: "21" });
+            setSecond(rangeOf(sliders, first.slider === 0 ? 1 : 0, 21));
+          }}>Add a second parameter</button> : null}
+      <p class={typeof made === "string" ? "wrong" : "hint"}>
+        {typeof made === "string" ? made : `${formatNumber(points, 6)} analyses, each computed alone.`}</p>
+      <Trouble error={trouble} />
+      <button type="button" class="main" disabled={typeof made === "string"} onClick={() => void submit()}>Start the sweep</button>
+    </div>
+  );
+}

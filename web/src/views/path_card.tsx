@@ -1,0 +1,258 @@
+// The equilibrium path: choose what is on the axes, walk along it by pointer or keys, play it.
+
+import type { ComponentChildren } from "preact";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import type { Branch, Model } from "../api/documents";
+import { shapeNode } from "../app/shape_view";
+import { useSize } from "../app/size";
+import { fileName, savePng, saveSvg, saveText } from "../export/files";
+import {
+  branchesOf, bucklingFigure, chosenShape, criticalNear, defaultQuantities, nearestMode, nearestOnPath, pathChart, pathFigure, pathTable,
+  quantityLabel, tableCsv,
+  type PathInput, type PathPoint, type PathQuantity, type PathResult, type PathShadow, type Size,
+} from "../figures";
+import { choiceOf, lengthOf, rowOf, stationFor, type Run } from "../model/run";
+import type { Choice } from "../model/gallery";
+import { Card, Menu } from "./card";
+import { LongTable } from "./long_table";
+
+const kPlayFrame = 70;  // ms that each state is shown for
+const kNoResult: PathResult = { branches: [], critical_points: [], contact_events: [] };
+
+export interface PathProps {
+  model: Model;
+  run: Run | null;
+  growing: Branch[] | null;
+  shadows: readonly PathShadow[];
+  choice: Choice;
+  onChoice: (choice: Choice) => void;
+  /** What is said of the chosen critical point. */
+  note: ComponentChildren;
+  onCritical: (number: number | null) => void;
+  class?: string;
+}
+
+function sameQuantity(a: PathQuantity, b: PathQuantity): boolean {
+  return a.kind === b.kind && (a.kind !== "monitor" || (b.kind === "monitor" && a.id === b.id));
+}
+
+function nameOf(quantity: PathQuantity): string {
+  return quantity.kind === "monitor" ? quantity.id : quantity.kind.replace("_", " ");
+}
+
+/** Every quantity that the result has, monitors turned as the default is. */
+function quantitiesOf(result: PathResult): PathQuantity[] {
+  const [branch] = branchesOf(result);
+  const monitors = Object.entries(branch?.monitors ?? {}).map(([id, values]): PathQuantity => {
+    const sum = values.reduce((total, value) => total + value, 0);
+    return { kind: "monitor", id, reversed: sum < 0 };
+  });
+  return [...monitors, { kind: "load_factor" }, { kind: "arc_length" }];
+}
+
+interface AxisProps {
+  label: string;
+  value: PathQuantity;
+  from: PathQuantity[];
+  onChange: (value: PathQuantity) => void;
+}
+
+function AxisChoice({ label, value, from, onChange }: AxisProps) {
+  return (
+    <label class="axis-choice">{label}
+      <select value={from.findIndex((one) => sameQuantity(one, value))}
+              onChange={(event) => {
+                const chosen = from[Number(event.currentTarget.value)];
+                if (chosen) onChange(chosen);
+              }}>
+        {from.map((one, i) => <option key={i} value={i}>{nameOf(one)}</option>)}
+      </select>
+    </label>
+  );
+}
+
+/** Choices of the axes that hold for as long as the result has them. */
+function useAxes(result: PathResult): { x: PathQuantity; y: PathQuantity; all: PathQuantity[];
+                                        setX: (x: PathQuantity) => void; setY: (y: PathQuantity) => void } {
+  const [wanted, setWanted] = useState<{ x: PathQuantity | null; y: PathQuantity | null }>({ x: null, y: null });
+  const all = quantitiesOf(result);
+  const usual = defaultQuantities(result);
+  const known = (quantity: PathQuantity | null): PathQuantity | undefined =>
+    quantity ? all.find((one) => sameQuantity(one, quantity)) : undefined;
+  return {
+    x: known(wanted.x) ?? usual.x, y: known(wanted.y) ?? usual.y, all,
+    setX: (x) => setWanted({ ...wanted, x }), setY: (y) => setWanted({ ...wanted, y }),
+  };
+}
+
+interface ChartProps {
+  input: PathInput;
+  size: Size;
+  point: PathPoint | null;
+  onPoint: (point: PathPoint) => void;
+  /** So many states further along the branch. */
+  onStep: (steps: number) => void;
+  onCritical: (number: number | null) => void;
+  onPlay: () => void;
+}
+
+/** States along the path that a key means. */
+function stepsOf(key: string): number | null {
+  const steps: Record<string, number> = {
+    ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 5, PageDown: -5, Home: -1e9, End: 1e9,
+  };
+  return steps[key] ?? null;
+}
+
+function Chart({ input, size, point, onPoint, onStep, onCritical, onPlay }: ChartProps) {
+  const chart = useMemo(() => pathChart(input, size), [input, size]);
+  const figure = useMemo(() => shapeNode(pathFigure(input, size, chart)), [chart]);
+  const drag = useRef(false);
+  const pick = (event: PointerEvent): void => {
+    const box = (event.currentTarget as Element).getBoundingClientRect();
+    const at = { x: event.clientX - box.left, y: event.clientY - box.top };
+    const critical = event.type === "pointerdown" ? criticalNear(chart, at) : null;
+    if (critical) {
+      onCritical(critical.number);
+      return;
+    }
+    const near = nearestOnPath(chart, at);
+    if (near) onPoint({ branch: near.branch, index: near.index });
+  };
+  const press = (event: KeyboardEvent): void => {
+    const steps = stepsOf(event.key);
+    const branches = branchesOf(input.result);
+    if (event.key === " " || event.key === "p") onPlay();
+    else if (event.key === "b" && branches.length > 1) {
+      onPoint({ branch: ((point?.branch ?? 0) + 1) % branches.length, index: 1 });
+    } else if (steps !== null) onStep(steps);
+    else return;
+    event.preventDefault();
+  };
+  return (
+    <div class="picture walkable" tabIndex={0} role="group" onKeyDown={press}
+         aria-label="Equilibrium path. Arrow keys walk along it, b changes the branch, space plays."
+         onPointerDown={(event) => {
+           drag.current = true;
+           event.currentTarget.setPointerCapture(event.pointerId);
+           pick(event);
+         }}
+         onPointerMove={(event) => (drag.current ? pick(event) : undefined)} onPointerUp={() => (drag.current = false)}>
+      {figure}
+      <svg class="figure overlay" width={size.width} height={size.height} aria-hidden="true">{shapeNode(chosenShape(chart, point))}</svg>
+    </div>
+  );
+}
+
+/** Walks from state to state along a branch while it plays. */
+function usePlay(props: PathProps): [boolean, () => void] {
+  const [playing, setPlaying] = useState(false);
+  const now = useRef(props);
+  now.current = props;
+  useEffect(() => {
+    if (!playing) return undefined;
+    const timer = setInterval(() => {
+      const { run, choice, onChoice } = now.current;
+      if (!run) return;
+      const here = stationFor(run, choice);
+      const next = run.stations[here + 1];
+      const station = next && next.branch === run.stations[here]?.branch ? next : null;
+      const length = station ? lengthOf(branchesOf(run.result)[station.branch]) : 0;
+      if (station && length > 0) onChoice({ kind: "along", branch: station.branch, share: station.arc / length });
+      else setPlaying(false);
+    }, kPlayFrame);
+    return () => clearInterval(timer);
+  }, [playing]);
+  const toggle = (): void => {
+    const { run, choice, onChoice } = now.current;
+    const station = run?.stations[run ? stationFor(run, choice) : -1];
+    const atEnd = run && station && !run.stations.some((one) => one.branch === station.branch && one.arc > station.arc);
+    if (!playing && atEnd) onChoice({ kind: "along", branch: station.branch, share: 0 });
+    setPlaying(!playing);
+  };
+  return [playing, toggle];
+}
+
+/** The loads of a buckling analysis; a click chooses the mode that is drawn. */
+export function BucklingCard({ run, mode, onMode }: { run: Run; mode: number; onMode: (mode: number) => void }) {
+  const [place, size] = useSize<HTMLDivElement>();
+  const buckling = run.result.buckling;
+  if (!buckling) return null;
+  const input = { buckling, chosen: mode };
+  const name = fileName(run.request.model.title ?? "", "-buckling");
+  const take = (): ReturnType<typeof bucklingFigure> => bucklingFigure(input, size ?? { width: 640, height: 440 });
+  const last = buckling.load_factors.length - 1;
+  return (
+    <Card title="Buckling loads" class="path-card" tools={<Menu label="Export" items={[
+      { text: "SVG", act: () => saveSvg(`${name}.svg`, take()) }, { text: "PNG", act: () => void savePng(`${name}.png`, take()) },
+    ]} />}>
+      <div class="fill" ref={place}>
+        {size ? (
+          <div class="picture walkable" tabIndex={0} role="group" aria-label="Buckling loads. Left and right choose a mode."
+               onKeyDown={(event) => {
+                 if (event.key === "ArrowRight") onMode(Math.min(last, mode + 1));
+                 if (event.key === "ArrowLeft") onMode(Math.max(0, mode - 1));
+               }}
+               onPointerDown={(event) => {
+                 const box = event.currentTarget.getBoundingClientRect();
+                 const near = nearestMode(input, size, { x: event.clientX - box.left, y: event.clientY - box.top });
+                 if (near !== null) onMode(near);
+               }}>{shapeNode(take())}</div>
+        ) : null}
+      </div>
+    </Card>
+  );
+}
+
+export function PathCard(props: PathProps) {
+  const { model, run, growing, shadows, choice, onChoice, onCritical } = props;
+  const [place, size] = useSize<HTMLDivElement>();
+  const [twin, setTwin] = useState(false);
+  const result: PathResult = growing ? { ...kNoResult, branches: growing.filter(Boolean) } : run?.result ?? kNoResult;
+  const axes = useAxes(result);
+  const [playing, toggle] = usePlay(props);
+  const input = useMemo<PathInput>(
+    () => ({ result, x: axes.x, y: axes.y, shadows, monitors: run?.request.model.monitors ?? model.monitors, units: model.units }),
+    [result, nameOf(axes.x), nameOf(axes.y), shadows, model]);
+  const station = run && !growing ? run.stations[stationFor(run, choice)] : undefined;
+  const point = run && station ? rowOf(run, station) : null;
+  const choose = (to: PathPoint): void => {
+    if (!run) return;
+    const branch = branchesOf(run.result)[to.branch];
+    const length = lengthOf(branch);
+    onCritical(null);
+    onChoice({ kind: "along", branch: to.branch, share: length > 0 ? (branch?.arc_length[to.index] ?? 0) / length : 0 });
+  };
+  const step = (steps: number): void => {
+    if (!run || !station) return;
+    onCritical(null);
+    const along = run.stations.filter((one) => one.branch === station.branch);
+    const next = Math.min(along.length - 1, Math.max(0, along.indexOf(station) + steps));
+    onChoice(choiceOf(run, run.stations.indexOf(along[next] ?? station)));
+  };
+  const name = fileName(model.title ?? "", "");
+  const take = (): ReturnType<typeof pathFigure> => pathFigure({ ...input, chosen: point }, size ?? { width: 640, height: 440 });
+  const paths = branchesOf(result).length > 0;
+  return (
+    <Card title="Equilibrium path" class={`path-card ${props.class ?? ""}`} tools={paths ? (
+      <>
+        {axes.all.length > 3 ? <AxisChoice label="y" value={axes.y} from={axes.all} onChange={axes.setY} /> : null}
+        <AxisChoice label="x" value={axes.x} from={axes.all} onChange={axes.setX} />
+        <button type="button" aria-pressed={playing} onClick={toggle}>{playing ? "Stop" : "Play"}</button>
+        <Menu label="Export" items={[
+          { text: twin ? "Show the chart" : "Show as table", act: () => setTwin(!twin) },
+          { text: "SVG", act: () => saveSvg(`${name}-path.svg`, take()) },
+          { text: "PNG", act: () => void savePng(`${name}-path.png`, take()) },
+          { text: "CSV", act: () => saveText(`${name}-path.csv`, tableCsv(pathTable(input)), "text/csv") },
+        ]} />
+      </>
+    ) : null}>
+      {props.note}
+      <div class="fill" ref={place}>
+        {twin ? <LongTable table={pathTable(input)} caption={`${quantityLabel(axes.y)} against ${quantityLabel(axes.x)}`} />
+          : size && size.height > 20
+            ? <Chart input={input} size={size} point={point} onPoint={choose} onStep={step} onPlay={toggle} onCritical={onCritical} /> : null}
+      </div>
+    </Card>
+  );
+}

@@ -1,0 +1,81 @@
+// Everything that is shown of a run: drawing, path, sections, and how far it can be trusted. The studio and the page of a job
+// share it.
+
+import { useMemo, useState } from "preact/hooks";
+import type { Branch, RequestDocument, State } from "../api/documents";
+import { formatNumber, type PathShadow } from "../figures";
+import type { Choice } from "../model/gallery";
+import { stationFor, type Run } from "../model/run";
+import { DrawingCard, type Pointed } from "./drawing_card";
+import { BucklingCard, PathCard } from "./path_card";
+import { SectionsCard } from "./sections_card";
+import { kindOf, TrustCard } from "./trust_card";
+
+export interface ResultProps {
+  request: RequestDocument;
+  run: Run | null;
+  growing: Branch[] | null;
+  shadows: readonly PathShadow[];
+  choice: Choice;
+  onChoice: (choice: Choice) => void;
+  /** Asks for the branches of the first bifurcation as well; nothing where that can't be asked. */
+  onFollow?: (() => void) | undefined;
+}
+
+/** What a chosen critical point says, above the drawing. */
+function CriticalNote({ run, number, onFollow, onChoice, onClose }: {
+  run: Run; number: number; onFollow: (() => void) | undefined; onChoice: (choice: Choice) => void; onClose: () => void;
+}) {
+  const point = run.result.critical_points[number];
+  if (!point) return null;
+  const branches = run.result.branches.flatMap((branch, index) =>
+    branch.parent === run.result.branches[point.branch]?.id &&
+    Math.abs((branch.load_factor[0] ?? Infinity) - point.load_factor) < 1e-6 * Math.max(1, Math.abs(point.load_factor)) ? [index] : []);
+  return (
+    <div class="note" role="status">
+      <span><strong>{kindOf(point.type)}</strong> at {formatNumber(point.load_factor, 5)}
+        {point.mode ? ", with its mode in purple" : ""}</span>
+      {branches.map((index, i) => (
+        <button type="button" key={index} onClick={() => onChoice({ kind: "along", branch: index, share: 0.5 })}>
+          Go along branch {i + 1}
+        </button>
+      ))}
+      {point.type === "bifurcation" && branches.length === 0 && onFollow
+        ? <button type="button" onClick={onFollow}>Follow its branches</button> : null}
+      <button type="button" onClick={onClose}>Close</button>
+    </div>
+  );
+}
+
+const kNothing: readonly State[] = [];
+
+export function ResultViews({ request, run, growing, shadows, choice, onChoice, onFollow }: ResultProps) {
+  const [critical, setCritical] = useState<number | null>(null);
+  const [modeNumber, setModeNumber] = useState(0);
+  const [cursor, setCursor] = useState<Pointed | null>(null);
+  const station = run?.stations[run ? stationFor(run, choice) : -1];
+  const point = critical === null ? undefined : run?.result.critical_points[critical];
+  const pointState = point?.state == null ? undefined : run?.result.states[point.state];
+  const buckling = run?.result.buckling;
+  const state = pointState ?? station?.state ?? null;
+  const room = useMemo(() => run?.stations.map((one) => one.state) ?? kNothing, [run]);
+  const first = request.analysis.type === "critical" ? run?.result.critical_points[0]?.mode : null;
+  const mode = point?.mode ?? first ?? buckling?.modes[modeNumber] ?? buckling?.modes[0] ?? null;
+  const model = run?.request.model ?? request.model;
+  const note = run && critical !== null
+    ? <CriticalNote run={run} number={critical} onFollow={onFollow} onClose={() => setCritical(null)} onChoice={(next) => {
+        setCritical(null);
+        onChoice(next);
+      }} />
+    : null;
+  return (
+    <>
+      <DrawingCard model={model} state={state} mode={mode} room={room} cursor={cursor} onCursor={setCursor}
+                   loadFactor={buckling?.load_factors[modeNumber] ?? null} />
+      {run && buckling ? <BucklingCard run={run} mode={modeNumber} onMode={setModeNumber} /> : <PathCard model={model} run={run} growing={growing} shadows={shadows} choice={choice} onChoice={onChoice}
+                note={note} onCritical={setCritical} />}
+      <SectionsCard model={model} state={state} cursor={cursor} onCursor={setCursor} />
+      <TrustCard run={run} request={request} />
+    </>
+  );
+}

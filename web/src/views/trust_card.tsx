@@ -1,0 +1,138 @@
+// How far a critical load can be trusted: its kind, its estimated error, whether a finer mesh confirms it, and what was
+// left out; and ways to do the same without the page.
+
+import { useState } from "preact/hooks";
+import type { CriticalPoint, RequestDocument, Result } from "../api/documents";
+import { hasKey } from "../api/client";
+import { curlCommand, fileName, pythonProgram, saveJson } from "../export/files";
+import { formatNumber } from "../figures";
+import type { Run } from "../model/run";
+import { Card } from "./card";
+
+const kNothing = 1e-12;  // smaller displacements are rounding
+const kKinds: Record<string, string> = {
+  bifurcation: "bifurcation", limit_max: "limit point", limit_min: "limit point (least load)",
+  broken_bifurcation: "broken bifurcation",
+};
+
+export function kindOf(type: string): string {
+  return kKinds[type] ?? type;
+}
+
+function Badge({ good, children }: { good: boolean; children: string }) {
+  return <span class={good ? "badge good" : "badge warn"}>{children}</span>;
+}
+
+function errorText(result: Result): string {
+  const { error_estimate: estimate } = result.summary;
+  const { requested } = result.discretization.accuracy;
+  const asked = requested === null ? "on a given mesh" : `asked ${formatNumber(requested, 1)}`;
+  return estimate === null ? `no error estimate, ${asked}` : `error estimate ${formatNumber(estimate, 1)}, ${asked}`;
+}
+
+/** The critical point that the summary speaks of. */
+function firstPoint(result: Result): CriticalPoint | undefined {
+  return result.critical_points.find((one) => one.load_factor === result.summary.critical_load_factor);
+}
+
+function Headline({ result }: { result: Result }) {
+  const { critical_load_factor: load, critical_type: type } = result.summary;
+  const point = firstPoint(result);
+  const buckling = result.buckling?.load_factors[0];
+  if (load === null) {
+    return (
+      <>
+        <p class="headline"><strong>{buckling === undefined ? "–" : formatNumber(buckling, 5)}</strong>
+          {result.failure ? <Badge good={false}>{result.failure.code.replace(/_/g, " ")}</Badge> : null}</p>
+        <p class="hint">{result.failure ? result.failure.detail
+          : buckling === undefined ? "no loss of stability on this path" : "first buckling load"}</p>
+      </>
+    );
+  }
+  const confirmed = point?.confirmed ?? result.summary.error_estimate !== null;
+  const fixed = result.discretization.accuracy.requested === null;
+  return (
+    <>
+      <p class="headline"><strong>{formatNumber(load, 5)}</strong>
+        <Badge good={confirmed}>{confirmed ? "confirmed" : fixed ? "this mesh only" : "not confirmed"}</Badge></p>
+      <p class="hint">{kindOf(type ?? "")}, {errorText(result)}</p>
+    </>
+  );
+}
+
+function othersText(result: Result): string {
+  const first = firstPoint(result);
+  const counts = new Map<string, number>();
+  for (const point of result.critical_points) {
+    if (point !== first) counts.set(kindOf(point.type), (counts.get(kindOf(point.type)) ?? 0) + 1);
+  }
+  const texts = [...counts].map(([kind, count]) =>
+    `${count} ${count === 1 ? kind : kind.replace(/^(\S*(?: bifurcation| point|bifurcation))/, "$1s")}`);
+  return texts.length === 0 ? "no bifurcation, no other limit point" : texts.join(", ");
+}
+
+function meshText(result: Result): string {
+  const { elements, order, unknowns } = result.discretization;
+  return elements === null ? "none" : `${elements} elements of order ${order ?? 1}, ${unknowns ?? "?"} unknowns`;
+}
+
+function effortText(run: Run): string {
+  const { wall_time_s: seconds, steps } = run.result.diagnostics;
+  const time = run.cached ? "known before" : `${formatNumber(1000 * seconds, 2)} ms`;
+  return steps === null ? time : `${steps} steps, ${time}`;
+}
+
+function rowsOf(run: Run): [string, string][] {
+  const { result } = run;
+  const rows: [string, string][] = [];
+  const point = firstPoint(result);
+  for (const [id, value] of Object.entries(point?.monitors ?? {})) rows.push([`${id} there`, formatNumber(Math.abs(value) < kNothing ? 0 : value, 4)]);
+  if (point && result.critical_points.length > 0) rows.push(["Also on this path", othersText(result)]);
+  rows.push(["Mesh", meshText(result)], ["Effort", effortText(run)]);
+  const others = result.buckling?.load_factors.slice(1, 6) ?? [];
+  if (others.length > 0) rows.push(["Further loads", others.map((load) => formatNumber(load, 5)).join(", ")]);
+  return rows;
+}
+
+/** Copies a text, and says so for a moment. */
+export function CopyButton({ label, text }: { label: string; text: () => string }) {
+  const [said, say] = useState(false);
+  const copy = async (): Promise<void> => {
+    await navigator.clipboard.writeText(text()).catch(() => undefined);
+    say(true);
+    setTimeout(() => say(false), 1500);
+  };
+  return <button type="button" onClick={() => void copy()}>{said ? "Copied" : label}</button>;
+}
+
+interface TrustProps {
+  run: Run | null;
+  /** What the user asked for, without the output that pictures need. */
+  request: RequestDocument | null;
+  class?: string;
+}
+
+export function TrustCard({ run, request, class: name = "" }: TrustProps) {
+  if (!run || !request) return <Card title="First loss of stability" class={`trust-card ${name}`}><p class="hint">No result yet.</p></Card>;
+  const { result } = run;
+  const file = fileName(request.model.title ?? "", "");
+  return (
+    <Card title="First loss of stability" class={`trust-card ${name}`}>
+      <Headline result={result} />
+      <dl class="rows">
+        {rowsOf(run).map(([term, value]) => <div key={term}><dt>{term}</dt><dd>{value}</dd></div>)}
+      </dl>
+      {result.warnings.map((one, i) => <p class="warning" key={i}>{one.detail}</p>)}
+      {result.diagnostics.skipped.length > 0 ? (
+        <details class="skipped"><summary>Left out ({result.diagnostics.skipped.length})</summary>
+          <ul>{result.diagnostics.skipped.map((text) => <li key={text}>{text}</li>)}</ul></details>
+      ) : null}
+      <div class="buttons">
+        <CopyButton label="Copy curl" text={() => curlCommand(request, location.origin, hasKey())} />
+        <CopyButton label="Copy Python" text={() => pythonProgram(request, location.origin, hasKey())} />
+        <button type="button" onClick={() => saveJson(`${file}-request.json`, request)}>Request</button>
+        <button type="button" onClick={() => saveJson(`${file}-result.json`, result)}>Result</button>
+      </div>
+    </Card>
+  );
+}
