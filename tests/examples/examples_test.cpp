@@ -119,9 +119,9 @@ TEST(Examples, PortalFrameSwaysAtItsBucklingLoad) {
   EXPECT_EQ(result.at("buckling").at("modes").size(), 2U);
 }
 
-// Sway of a portal with pinned feet, columns of height h, and a beam of the same section and length L, members that
-// do not change their length: k h tan(k h) = 6 h / L = 4.8, P = k^2 EI. The columns' strain P / EA is 7e-4, and the
-// load is less by about that.
+// Sway of a portal with pinned feet, columns of height h, and a beam of the same section and length L,
+// members that do not change their length: k h tan(k h) = 6 h / L = 4.8, P = k^2 EI. The columns' strain P /
+// EA is 7e-4, and the load is less by about that.
 TEST(Examples, PortalWithPinnedFeetSways) {
   const json result = run_example("portal_sway.json");
   constexpr double kAngle = 1.30528284829434;
