@@ -173,7 +173,7 @@ TEST_F(ServiceTest, WhatIsNotThereIsAProblem) {
   start(solved);
   const std::string missing = "/v1/jobs/" + id_number(1);
   for (const std::string& path :
-       {std::string("/"), std::string("/v1"), std::string("/v1/jobs/"), missing, missing + "/result",
+       {std::string("/nothing"), std::string("/v1"), std::string("/v1/jobs/"), missing, missing + "/result",
         missing + "/request", missing + "/result/x", std::string("/v1/jobs/%2e%2e%2f"),
         std::string("/v1//jobs"), std::string("/livez/")}) {
     const Reply reply = get(port(), path);
