@@ -162,9 +162,9 @@ function splineCurve(points: readonly (readonly [number, number])[], start: Poin
   return (where) => ({ x: fx(where * whole), y: fy(where * whole) });
 }
 
-function intervalsOf(curve: Curve): number {
+function intervalsOf(curve: Curve, straight: boolean): number {
   switch (curve.type) {
-    case "line": return 32;
+    case "line": return straight ? 1 : 64;
     case "arc": return Math.max(32, Math.ceil(Math.abs(curve.sweep_degrees) / 2));
     case "parabola": return 64;
     case "sine": return Math.min(4000, 48 * (curve.half_waves ?? 1));
@@ -197,7 +197,8 @@ export function memberAxis(member: Member, nodes: ReadonlyMap<string, Point>,
   if (!start || !end || (start.x === end.x && start.y === end.y)) return null;
   const curve: Curve = member.curve ?? { type: "line" };
   const along = parametric(curve, start, end);
-  const count = intervalsOf(curve);
+  const offset = offsetOf(imperfections, member.id);
+  const count = intervalsOf(curve, offset === null);
   const axis: Axis = { s: [], x: [], y: [] };
   for (let i = 0; i <= count; ++i) {
     const point = along(i / count);
@@ -207,7 +208,7 @@ export function memberAxis(member: Member, nodes: ReadonlyMap<string, Point>,
     axis.x.push(point.x);
     axis.y.push(point.y);
   }
-  return withOffset(axis, offsetOf(imperfections, member.id));
+  return withOffset(axis, offset);
 }
 
 function withOffset(axis: Axis, offset: ((fraction: number) => number) | null): Axis {

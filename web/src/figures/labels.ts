@@ -1,7 +1,7 @@
 // Labels that never collide: each is tried around its anchor, and takes the place that covers least; one that finds
 // no free place is left out unless it must be there.
 
-import { label, shape, type Anchor, type Pixel, type Shape, type Size } from "./shape";
+import { group, label, line, shape, type Anchor, type Pixel, type Shape, type Size } from "./shape";
 
 export interface Box {
   left: number;
@@ -95,6 +95,8 @@ export interface LabelRequest {
   size?: number;
   /** Where it goes when everything is free: 0 right, then clockwise by eighths of a turn; 7 is above on the right. */
   prefer?: number;
+  /** Whether a line leads to a label that finds its place far away. */
+  leader?: boolean;
   /** Cells that it may cover; labels that cover more are left out. */
   tolerance?: number;
 }
@@ -108,6 +110,19 @@ interface Candidate {
   text: Pixel;
   anchor: Anchor;
   cost: number;
+  far: boolean;
+}
+
+/** From the anchor's free distance to the nearest point of the label's box. */
+function leaderShape(request: LabelRequest, box: Box): Shape {
+  const end = {
+    x: Math.min(box.right, Math.max(box.left, request.at.x)),
+    y: Math.min(box.bottom, Math.max(box.top, request.at.y)),
+  };
+  const length = Math.hypot(end.x - request.at.x, end.y - request.at.y) || 1;
+  const share = Math.min(1, 7 / length);
+  const begin = { x: request.at.x + share * (end.x - request.at.x), y: request.at.y + share * (end.y - request.at.y) };
+  return line("leader", begin, end);
 }
 
 function candidate(request: LabelRequest, eighth: number, ring: number, width: number, taken: Occupancy): Candidate {
@@ -124,7 +139,8 @@ function candidate(request: LabelRequest, eighth: number, ring: number, width: n
     box,
     text: { x, y: middle + size * 0.36 },
     anchor: dx > 0 ? "start" : dx < 0 ? "end" : "middle",
-    cost: taken.cost(box) + turn * 1.5 + ring * 9,
+    far: ring > 0,
+    cost: taken.cost(box) + turn * 1.5 + ring * 22,
   };
 }
 
@@ -141,7 +157,8 @@ export function placeLabel(request: LabelRequest, taken: Occupancy): Shape | nul
   }
   if (best === null || !(best.cost <= (request.tolerance ?? 60))) return null;
   taken.addBox(best.box);
-  return label(request.className, best.text, best.anchor, ...request.runs.map(runShape));
+  const text = label(request.className, best.text, best.anchor, ...request.runs.map(runShape));
+  return request.leader && best.far ? group("led", leaderShape(request, best.box), text) : text;
 }
 
 /** Runs as the children of a text. */

@@ -105,10 +105,36 @@ export function toText(node: Shape): string {
   return `<${node.name}${attributes}>${inside}</${node.name}>`;
 }
 
-/** A file of its own: the figure on paper, with the looks of `css` (the text of figures.css) inside. */
+/** A style sheet without its @ blocks. */
+function withoutBlocks(css: string): string {
+  const at = css.indexOf("@");
+  if (at < 0) return css;
+  let depth = 0;
+  for (let i = css.indexOf("{", at); i >= 0 && i < css.length; ++i) {
+    if (css[i] === "{") ++depth;
+    else if (css[i] === "}" && --depth === 0) return css.slice(0, at) + withoutBlocks(css.slice(i + 1));
+  }
+  return css.slice(0, at);
+}
+
+/** The looks of a file: light, with the values of custom properties written in, since few programs but browsers know those. */
+export function fileLooks(css: string): string {
+  const plain = withoutBlocks(css.replace(/\/\*[^]*?\*\//g, ""));
+  const values = new Map([...plain.matchAll(/(--[\w-]+):\s*([^;}]+)/g)].map(([, name = "", value = ""]) => [name, value.trim()]));
+  return plain
+    .replace(/--[\w-]+:[^;}]+;?\s*/g, "")
+    .replace(/var\((--[\w-]+)\)/g, (whole, name: string) => values.get(name) ?? whole);
+}
+
+const kFileMargin = 14;
+
+/** A file of its own: the figure on white paper, with the looks of `css` (the text of figures.css) inside. */
 export function figureFile(node: Shape, css: string): string {
-  const paper = shape("rect", { class: "paper", width: "100%", height: "100%" });
-  const looks = shape("style", {}, css);
-  const file = { ...node, children: [looks, paper, ...node.children] };
+  const width = Number(node.attributes["width"] ?? 0) + 2 * kFileMargin;
+  const height = Number(node.attributes["height"] ?? 0) + 2 * kFileMargin;
+  const paper = shape("rect", { class: "paper", x: -kFileMargin, y: -kFileMargin, width, height });
+  const looks = shape("style", {}, fileLooks(css));
+  const attributes = { ...node.attributes, width, height, viewBox: `${-kFileMargin} ${-kFileMargin} ${width} ${height}` };
+  const file = { ...node, attributes, children: [looks, paper, ...node.children] };
   return `<?xml version="1.0" encoding="UTF-8"?>\n${toText(file)}\n`;
 }

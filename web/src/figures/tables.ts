@@ -49,9 +49,10 @@ export function pathTable(input: Pick<PathInput, "result" | "monitors" | "units"
   const columns = ["branch", "load factor", "arc length", ...ids.map((id) => monitorColumn(id, input.monitors ?? [], input.units)),
                    "negative eigenvalues", ...bases.map((id) => `contact fraction ${id}`)];
   const value = (list: readonly number[] | undefined, i: number): Cell => list?.[i] ?? null;
+  const counted = (count: number | undefined): Cell => (count === undefined || Number.isNaN(count) ? null : count);
   const rows = branches.flatMap((branch) => branch.load_factor.map((load, i): Cell[] => [
     branch.id, load, at(branch.arc_length, i), ...ids.map((id) => value(branch.monitors[id], i)),
-    value(branch.negative_eigenvalues, i), ...bases.map((id) => value(branch.contact_fraction[id], i)),
+    counted(branch.negative_eigenvalues[i]), ...bases.map((id) => value(branch.contact_fraction[id], i)),
   ]));
   return { columns, rows };
 }

@@ -62,7 +62,7 @@ function logTicks(low: number, high: number, count: number): number[] {
   for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); ++power) {
     if (power % every !== 0) continue;
     for (const share of shares) {
-      const value = share * 10 ** power;
+      const value = Number(`${share}e${power}`);
       if (value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9)) values.push(value);
     }
   }

@@ -27,13 +27,13 @@ export interface PathPoint {
   index: number;
 }
 
-/** The branches, or the table of a static analysis as one. */
+/** The branches, or the table of a static analysis as one; eigenvalues that were not counted are NaN. */
 export function branchesOf(result: PathResult): Branch[] {
   const table = result.static;
   if (result.branches.length > 0 || !table) return result.branches;
   return [{
     id: 0, parent: null, load_factor: table.load_factor, arc_length: table.load_factor.map((_, i) => i),
-    monitors: table.monitors, negative_eigenvalues: table.negative_eigenvalues.map((n) => n ?? 0),
+    monitors: table.monitors, negative_eigenvalues: table.negative_eigenvalues.map((n) => n ?? Number.NaN),
     contact_fraction: table.contact_fraction, termination: "load_factors",
   }];
 }
@@ -62,11 +62,13 @@ export interface Vertex {
   negative: number | null;
 }
 
+export type Stability = boolean | null;
+
 export interface PathCurve {
   branch: number;
   vertices: Vertex[];
-  /** For each vertex but the last: whether the line to the next one is stable. */
-  stable: boolean[];
+  /** For each vertex but the last: whether the line to the next one is stable; null where nobody counted. */
+  stable: Stability[];
 }
 
 function insertCritical(vertices: Vertex[], point: CriticalPoint, x: number, y: number): void {
@@ -79,12 +81,13 @@ function insertCritical(vertices: Vertex[], point: CriticalPoint, x: number, y: 
 }
 
 /** Stability of each piece from the rows at its ends; between two critical points it is that of the piece before. */
-function stabilityOf(vertices: readonly Vertex[]): boolean[] {
-  const stable: boolean[] = [];
+function stabilityOf(vertices: readonly Vertex[]): Stability[] {
+  const stable: Stability[] = [];
   for (let i = 0; i + 1 < vertices.length; ++i) {
     const here = vertices[i]?.negative ?? null;
     const next = vertices[i + 1]?.negative ?? null;
-    if (here === null && next === null) stable.push(stable[i - 1] ?? true);
+    if (here === null && next === null) stable.push(i === 0 ? true : stable[i - 1] ?? null);
+    else if (Number.isNaN(here) || Number.isNaN(next)) stable.push(null);
     else stable.push(Math.max(here ?? 0, next ?? 0) === 0);
   }
   return stable;

@@ -1,13 +1,14 @@
 // The equilibrium path: stable solid, unstable dashed, critical points and contact events as marks, other runs as shadows.
 
-import { Occupancy, placeLabel, textWidth } from "../labels";
+import { Occupancy, placeLabel } from "../labels";
 import { formatNumber, type Units } from "../numbers";
-import { coordinate, figure, group, label, line, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
+import { coordinate, figure, group, label, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
 import { frameShapes, makeScale, place, plotArea, widened, type Frame } from "./axes";
 import {
   branchesOf, contactMarks, criticalMarks, curveOf, quantityLabel, type CriticalMark, type Monitor, type PathCurve,
-  type PathPoint, type PathQuantity, type PathResult,
+  type PathPoint, type PathQuantity, type PathResult, type Stability,
 } from "./curves";
+import { legendHeight, legendShape, markEntries, type LegendEntry } from "./legend";
 import { kMarkNames, mark, type MarkKind } from "./marks";
 import { thinned } from "./thin";
 
@@ -68,10 +69,9 @@ export function pathChart(input: PathInput, size: Size): PathChart {
   const every = curves.length === 0 ? [...all, ...marks, { x: 0, y: 0 }] : all;
   const [x0, x1] = input.domain?.x ?? rangeOf(every.map((vertex) => vertex.x));
   const [y0, y1] = input.domain?.y ?? rangeOf(every.map((vertex) => vertex.y));
-  const legendRows = legendLayout(legendEntries(input, curves), size.width).rows;
   const frame = {
     x: makeScale(x0, x1, 62, Math.max(90, size.width - 14)),
-    y: makeScale(y0, y1, Math.max(60, size.height - 44), 14 + 18 * legendRows),
+    y: makeScale(y0, y1, Math.max(60, size.height - 44), 14 + legendHeight(legendEntries(input, curves), size.width)),
     xLabel: quantityLabel(input.x, input.monitors, input.units),
     yLabel: quantityLabel(input.y, input.monitors, input.units),
   };
@@ -83,18 +83,22 @@ function pixelOf(frame: Frame, point: { x: number; y: number }): Pixel {
 }
 
 /** Pieces of a curve of one stability as lines of pixels; neighbours share their end. */
-function pieces(curve: PathCurve, frame: Frame): { stable: boolean; points: Pixel[] }[] {
+function pieces(curve: PathCurve, frame: Frame): { stable: Stability; points: Pixel[] }[] {
   const all = curve.vertices.map((vertex) => pixelOf(frame, vertex));
-  const found: { stable: boolean; points: Pixel[] }[] = [];
+  const found: { stable: Stability; points: Pixel[] }[] = [];
   let begin = 0;
   for (let i = 1; i <= curve.stable.length; ++i) {
     if (i < curve.stable.length && curve.stable[i] === curve.stable[begin]) continue;
     const part = all.slice(begin, i + 1);
     const kept = thinned(part).flatMap((k) => part[k] ?? []);
-    found.push({ stable: curve.stable[begin] ?? true, points: kept });
+    found.push({ stable: curve.stable[begin] ?? null, points: kept });
     begin = i;
   }
   return found;
+}
+
+function stabilityClass(stable: Stability): string {
+  return stable === null ? "untold" : stable ? "stable" : "unstable";
 }
 
 function curveShapes(curves: readonly PathCurve[], frame: Frame, className: string, taken: Occupancy,
@@ -103,7 +107,7 @@ function curveShapes(curves: readonly PathCurve[], frame: Frame, className: stri
     const kind = curve.branch === 0 ? className : `${className} branch`;
     return pieces(curve, frame).map(({ stable, points }) => {
       taken.addLine(points, weight);
-      return shape("path", { class: `${kind} ${stable ? "stable" : "unstable"}`, d: pathData(points) });
+      return shape("path", { class: `${kind} ${stabilityClass(stable)}`, d: pathData(points) });
     });
   });
 }
@@ -130,13 +134,14 @@ function criticalShapes(chart: PathChart, taken: Occupancy): { marks: Shape; lab
   const shown = chart.marks.map((item) => ({ item, pixel: pixelOf(chart.frame, item) }))
     .filter(({ pixel }) => inside(chart.frame, pixel));
   for (const { pixel } of shown) {
+    taken.addBox({ left: pixel.x - 11, right: pixel.x + 11, top: pixel.y - 11, bottom: pixel.y + 11 }, 6);
     taken.addBox({ left: pixel.x - 4, right: pixel.x + 4, top: pixel.y - 5, bottom: pixel.y + 4 }, 60);
   }
   const labels = () => group("mark-labels", ...shown.slice(0, kLabelled).map(({ item, pixel }, i) => placeLabel({
-    at: pixel, className: "mark-label", distance: 10, tolerance: i === 0 ? 400 : 80,
+    at: pixel, className: "mark-label", leader: true, distance: 14, tolerance: i === 0 ? 400 : 110,
     prefer: item.point.type === "limit_min" ? 1 : 7,
     runs: [{ text: formatNumber(item.point.load_factor, 5), bold: true },
-           { text: ` ${kMarkNames[item.point.type]}${item.point.confirmed ? "" : ", not confirmed"}`, className: "muted" }],
+           { text: `\u00a0${kMarkNames[item.point.type]}${item.point.confirmed ? "" : ", not confirmed"}`, className: "muted" }],
   }, taken)));
   return { marks: group("marks", ...shown.map(({ item, pixel }) => mark(item.point.type, pixel))), labels };
 }
@@ -159,48 +164,15 @@ function shadowLabels(chart: PathChart, taken: Occupancy): Shape[] {
   });
 }
 
-type LegendEntry = { text: string } & ({ line: string } | { mark: MarkKind });
-
 function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEntry[] {
   const entries: LegendEntry[] = [];
   const stable = new Set(curves.flatMap((curve) => [...new Set(curve.stable)]));
   if (stable.has(true)) entries.push({ text: "stable", line: "path stable" });
   if (stable.has(false)) entries.push({ text: "unstable", line: "path unstable" });
+  if (stable.has(null)) entries.push({ text: "stability not counted", line: "path untold" });
   if (curves.some((curve) => curve.branch !== 0)) entries.push({ text: "branch", line: "path branch stable" });
-  const kinds = new Set<MarkKind>([...input.result.critical_points.map((point) => point.type),
-                                   ...input.result.contact_events.map((event) => event.type)]);
-  for (const kind of Object.keys(kMarkNames) as MarkKind[]) {
-    if (kinds.has(kind)) entries.push({ text: kMarkNames[kind], mark: kind });
-  }
-  return entries;
-}
-
-function legendLayout(entries: readonly LegendEntry[], width: number): { places: Pixel[]; rows: number } {
-  const places: Pixel[] = [];
-  let x = 62;
-  let row = 0;
-  for (const entry of entries) {
-    const wide = ("line" in entry ? 30 : 18) + textWidth(entry.text) + 16;
-    if (x > 62 && x + wide > width) {
-      x = 62;
-      ++row;
-    }
-    places.push({ x, y: 10 + 18 * row });
-    x += wide;
-  }
-  return { places, rows: entries.length === 0 ? 0 : row + 1 };
-}
-
-function legendShape(input: PathInput, curves: readonly PathCurve[], size: Size): Shape {
-  const entries = legendEntries(input, curves);
-  const { places } = legendLayout(entries, size.width);
-  return group("legend", ...entries.flatMap((entry, i) => {
-    const at = places[i];
-    if (!at) return [];
-    const sample = "line" in entry ? line(entry.line, at, { x: at.x + 24, y: at.y })
-                                   : mark(entry.mark, { x: at.x + 6, y: at.y });
-    return [sample, label("legend-text", { x: at.x + ("line" in entry ? 30 : 18), y: at.y + 4 }, "start", entry.text)];
-  }));
+  return [...entries, ...markEntries(new Set<MarkKind>([...input.result.critical_points.map((point) => point.type),
+                                                        ...input.result.contact_events.map((event) => event.type)]))];
 }
 
 /** The ring around the chosen point; drawn alone where only the choice changes. */
@@ -221,7 +193,11 @@ function rowDots(chart: PathChart, input: PathInput): Shape | null {
     shape("circle", { class: "row", cx: coordinate(pixel.x), cy: coordinate(pixel.y), r: 2.5 })));
 }
 
-/** The equilibrium path. */
+/**
+ * The equilibrium path of a result: load factors without unit, monitors in the model's length or radians, as docs/results.md gives
+ * them (a reversed quantity shows minus its value, and its label says the sense). A piece is solid where no eigenvalue of the
+ * tangent stiffness is negative, else dashed; it changes at the critical point between the rows.
+ */
 export function pathFigure(input: PathInput, size: Size, chart: PathChart = pathChart(input, size)): Shape {
   const { frame } = chart;
   const taken = new Occupancy(size);
@@ -230,7 +206,7 @@ export function pathFigure(input: PathInput, size: Size, chart: PathChart = path
   taken.addBox({ left: 0, top: frame.y.start + 4, right: size.width, bottom: size.height });
   const shadows = chart.shadows.flatMap(({ shadow, curves }) =>
     curveShapes(curves, frame, `shadow ${shadow.kind}`, taken, 4));
-  const lines = curveShapes(chart.curves, frame, "path", taken, 14);
+  const lines = curveShapes(chart.curves, frame, "path", taken, 7);
   const critical = criticalShapes(chart, taken);
   const empty = chart.curves.length === 0
     ? label("muted", { x: (frame.x.start + frame.x.end) / 2, y: (frame.y.start + frame.y.end) / 2 }, "middle",
@@ -240,7 +216,7 @@ export function pathFigure(input: PathInput, size: Size, chart: PathChart = path
   return figure("chart path-chart", size, title, plotArea(frame), frameShapes(frame, size),
                 clipped(frame, "plot-lines", ...shadows, ...lines), rowDots(chart, input), contactShapes(input, frame),
                 critical.marks, chosenShape(chart, input.chosen), critical.labels(), group("shadow-labels", ...shadowLabels(chart, taken)),
-                empty, legendShape(input, chart.curves, size));
+                empty, legendShape(legendEntries(input, chart.curves), size.width));
 }
 
 /** The row of a path that is nearest to a pixel, and how far away it is; null when there is none. */

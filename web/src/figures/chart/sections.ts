@@ -262,7 +262,7 @@ function panelShape(chart: SectionsChart, input: SectionsInput, panel: SectionPa
   const { name, unit } = kSections[panel.quantity];
   const label0 = unitOf(input.model.units, unit);
   const top = titleTop(panel);
-  const runs = [shape("tspan", { class: "strong" }, name), label0 === "" ? null : shape("tspan", { class: "muted" }, ` ${label0}`)];
+  const runs = [shape("tspan", { class: "strong" }, name), label0 === "" ? null : shape("tspan", { class: "muted" }, `\u00a0${label0}`)];
   const title = label("section-title", { x: panel.x.start, y: top + 13 }, "start", ...runs);
   taken.addBox({ left: 0, right: panel.x.start - 4, top: 0, bottom: chart.size.height });
   taken.addBox({ left: panel.x.end + 4, right: chart.size.width, top: 0, bottom: chart.size.height });
@@ -287,7 +287,11 @@ function titleTop(panel: SectionPanel): number {
   return panel.y.end - kTitle - (panel.y.to > 0 ? kHead : 6);
 }
 
-/** N, Q, M, rotation and base reaction along the members. */
+/**
+ * N, Q, M, rotation and base reaction over the undeformed arc length s, one member after another, in the model's units. Positive
+ * values upwards: N tension, Q along the left normal (of the part beyond on the part before), M turning the member to its left as
+ * s grows, rotation counter-clockwise, reaction pushing on the structure (docs/results.md and docs/results.svg).
+ */
 export function sectionsFigure(input: SectionsInput, size: Size, chart: SectionsChart = sectionsChart(input, size)): Shape {
   const title = `Section forces along the members at load factor ${formatNumber(input.state.load_factor)}`;
   return figure("chart sections", size, title, ...chart.panels.map((panel) => panelShape(chart, input, panel)));

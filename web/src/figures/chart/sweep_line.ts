@@ -2,10 +2,10 @@
 // on the axis, with why.
 
 import { at } from "../geometry";
-import { Occupancy, placeLabel } from "../labels";
 import { formatNumber } from "../numbers";
 import { coordinate, figure, group, label, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
 import { frameShapes, makeScale, place, plotArea, widened, type Frame, type Scale } from "./axes";
+import { legendHeight, legendShape, type LegendEntry } from "./legend";
 import { columnLabel, columnOf, errorsOf, extentOf, failureText, type RowError, type SweepAxis, type Table } from "./sweep";
 import { thinned } from "./thin";
 
@@ -30,6 +30,8 @@ export interface SweepLineChart {
   frame: Frame;
   lines: { name: string; spots: Spot[] }[];
   failed: { row: number; x: number; error: RowError }[];
+  /** How many rows failed with which code; "" when none did. */
+  failures: string;
   size: Size;
 }
 
@@ -65,7 +67,10 @@ function scaleOf(values: readonly number[], names: readonly string[] | null, log
 export function sweepLineChart(input: SweepLineInput, size: Size): SweepLineChart {
   const x = columnOf(input.table, input.x.column);
   const y = columnOf(input.table, input.y.column);
-  const top = failureText(errorsOf(input.table)) === "" ? 12 : 28;
+  const errors = errorsOf(input.table);
+  const lines = linesOf(input, x.values, y.values);
+  const failures = failureText(errors);
+  const top = 12 + (failures === "" ? 0 : 18) + legendHeight(legendEntries(lines), size.width);
   const frame = {
     x: scaleOf(x.values, x.names, input.x.log ?? false, 66, Math.max(90, size.width - 18), true),
     y: scaleOf(y.values, y.names, input.y.log ?? false, Math.max(60, size.height - 44), top, false),
@@ -74,11 +79,11 @@ export function sweepLineChart(input: SweepLineInput, size: Size): SweepLineChar
     xNames: x.names ?? undefined,
     yNames: y.names ?? undefined,
   };
-  const failed = errorsOf(input.table).flatMap((error, row) => {
+  const failed = errors.flatMap((error, row) => {
     const where = at(x.values, row);
     return error && Number.isFinite(where) ? [{ row, x: where, error }] : [];
   });
-  return { frame, lines: linesOf(input, x.values, y.values), failed, size };
+  return { frame, lines, failed, failures, size };
 }
 
 function pixelOf(frame: Frame, spot: { x: number; y: number }): Pixel {
@@ -119,37 +124,36 @@ function failedShapes(chart: SweepLineChart): Shape {
   return group("failed-points", ...crosses);
 }
 
-function seriesShapes(chart: SweepLineChart, taken: Occupancy): { lines: Shape; labels: () => Shape } {
-  const many = chart.lines.length > 1 && chart.lines.length <= kNamed;
-  const drawn = chart.lines.map((item, i) => {
+function seriesShapes(chart: SweepLineChart): Shape {
+  return group("all-series", ...chart.lines.map((item, i) => {
     const points = item.spots.map((spot) => pixelOf(chart.frame, spot));
     const seen = points.filter((p) => Number.isFinite(p.x + p.y));
-    taken.addLine(seen, 14);
     const dots = seen.length > 80 ? [] : seen.map((p) =>
       shape("circle", { class: "series-dot", cx: coordinate(p.x), cy: coordinate(p.y), r: 2.4 }));
-    const line = shape("path", { class: "series-line", d: lineData(points) });
-    return { shape: group(`series series-${i % kSeries}`, line, ...dots), name: item.name, end: seen[seen.length - 1] };
-  });
-  const labels = () => group("series-labels", ...drawn.map(({ name, end }, i) => (many && end ? placeLabel({
-    at: end, className: `series-label series-${i % kSeries}`, runs: [{ text: name }], prefer: 4, tolerance: 400,
-  }, taken) : null)));
-  return { lines: group("all-series", ...drawn.map((item) => item.shape)), labels };
+    return group(`series series-${i % kSeries}`, shape("path", { class: "series-line", d: lineData(points) }), ...dots);
+  }));
 }
 
-/** An output of a sweep against a parameter. */
+/** Names of the lines, where there are several and not too many. */
+function legendEntries(lines: SweepLineChart["lines"]): LegendEntry[] {
+  if (lines.length < 2 || lines.length > kNamed) return [];
+  return lines.map(({ name }, i) => ({ text: name, line: "series-line", group: `series series-${i % kSeries}` }));
+}
+
+/**
+ * An output of a sweep against a parameter, both as the table has them (docs/sweeps.md): no unit is known. Rows are put in the
+ * order of the parameter; a row without a number breaks the line; one with an error is a cross on the axis.
+ */
 export function sweepLine(input: SweepLineInput, size: Size, chart: SweepLineChart = sweepLineChart(input, size)): Shape {
-  const taken = new Occupancy(size);
-  taken.addBox({ left: 0, top: 0, right: chart.frame.x.start - 4, bottom: size.height });
-  const series = seriesShapes(chart, taken);
-  const failures = failureText(errorsOf(input.table));
+  const { failures } = chart;
   const chosen = chart.lines.flatMap((item) => item.spots).find((spot) => spot.row === input.chosen);
   const ring = chosen && pixelOf(chart.frame, chosen);
   const title = `${chart.frame.yLabel} against ${chart.frame.xLabel}`;
-  return figure("chart sweep-line", size, title, plotArea(chart.frame), frameShapes(chart.frame, size), series.lines,
+  return figure("chart sweep-line", size, title, plotArea(chart.frame), frameShapes(chart.frame, size), seriesShapes(chart),
                 failedShapes(chart),
                 ring && Number.isFinite(ring.x + ring.y)
                   ? shape("circle", { class: "chosen-ring", cx: coordinate(ring.x), cy: coordinate(ring.y), r: 6.5 }) : null,
-                series.labels(),
+                legendShape(legendEntries(chart.lines), size.width, failures === "" ? 0 : 18),
                 failures === "" ? null : cross("mark failed", { x: 70, y: 10 }, failures),
                 failures === "" ? null : label("muted", { x: 80, y: 14 }, "start", failures));
 }

@@ -56,7 +56,7 @@ export function bandLevels(low: number, high: number, log = false): number[] {
     const decades = Math.log10(high / low);
     const shares = decades <= 3 ? [1, 2, 5] : decades <= 5 ? [1, 3] : [1];
     const levels: number[] = [];
-    for (let p = Math.floor(Math.log10(low)); p <= Math.log10(high); ++p) levels.push(...shares.map((share) => share * 10 ** p));
+    for (let p = Math.floor(Math.log10(low)); p <= Math.log10(high); ++p) levels.push(...shares.map((share) => Number(`${share}e${p}`)));
     return levels.filter((level) => level > low && level < high).slice(0, kBands - 1);
   }
   const step = roundStep(high - low, 8);
@@ -184,6 +184,11 @@ function dotShapes(chart: SweepMapChart): Shape[] {
   }));
 }
 
+/** Whether the bands on both sides of a level are dark. */
+function onDark(level: number, levels: readonly number[]): boolean {
+  return (level / levels.length) * (kBands - 1) > 5.5;
+}
+
 function contourShapes(chart: SweepMapChart, taken: Occupancy): Shape {
   if (chart.cells.length === 0 || chart.xs.length < 3 || chart.ys.length < 3) return group("contours");
   const grid = {
@@ -200,7 +205,10 @@ function contourShapes(chart: SweepMapChart, taken: Occupancy): Shape {
     lines.push(shape("path", { class: "contour", d: pieces.map((piece) => pathData(piece)).join("") }));
     const middle = pieces[Math.floor(pieces.length / 2)]?.[0];
     if (middle && pieces.length > 4) {
-      texts.push(placeLabel({ at: middle, className: "contour-text", runs: [{ text: formatNumber(level) }], distance: 2 }, taken));
+      texts.push(placeLabel({
+        at: middle, className: onDark(number, chart.levels) ? "contour-text on-dark" : "contour-text", distance: 2,
+        runs: [{ text: formatNumber(level) }],
+      }, taken));
     }
   }
   return group("contours", ...lines, ...texts);
@@ -239,7 +247,10 @@ function barShape(chart: SweepMapChart, name: string): Shape {
   return group("bar", ...shapes, upright);
 }
 
-/** A map of an output over two parameters. */
+/**
+ * A map of an output over two parameters, as the table has them (docs/sweeps.md): cells of a grid that reach half way to their
+ * neighbours, or dots where the points are no grid. Contour lines are linear between the centres of cells.
+ */
 export function sweepMap(input: SweepMapInput, size: Size, chart: SweepMapChart = sweepMapChart(input, size)): Shape {
   const taken = new Occupancy(size);
   taken.addBox({ left: 0, top: 0, right: chart.frame.x.start, bottom: size.height });

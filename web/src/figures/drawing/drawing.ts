@@ -3,10 +3,10 @@
 
 import { at, interpolate } from "../geometry";
 import { Occupancy } from "../labels";
-import { coordinate, figure, group, label, line, path, shape, type Pixel, type Shape, type Size } from "../shape";
+import { coordinate, figure, group, line, path, shape, type Pixel, type Shape, type Size } from "../shape";
 import { groundShapes, reactionShapes } from "./ground";
 import { loadShapes } from "./loads";
-import { dimensionShapes, sceneCaption, hingeShapes, monitorShapes } from "./notes";
+import { captionShape, dimensionShapes, sceneCaption, hingeShapes, monitorShapes } from "./notes";
 import {
   makeScene, placeOn, sceneView, toPixel, type DrawingInput, type DrawnMember, type Scene, type View,
 } from "./scene";
@@ -68,13 +68,18 @@ export function drawingView(input: DrawingInput, size: Size): View {
   return sceneView(makeScene(input), size);
 }
 
-/** The drawing of a model and a state. */
+/**
+ * The drawing of a model and a state of its result: lengths in the model's unit, x to the right, y up (docs/requests.md, Units,
+ * axes, signs). A member's left normal is its tangent turned by +90 degrees; ground lies on the `side` or along the `direction` of
+ * its foundation. Reactions stand on the deformed axis, into the medium where it pushes (positive), the largest 0.85 of the
+ * ground's depth. Loads are those of the state: proportional ones times its load factor, the head of each arrow on the structure.
+ */
 export function drawingFigure(input: DrawingInput, size: Size, view?: View): Shape {
   const scene = makeScene(input);
   const shown = view ?? sceneView(scene, size);
   const taken = new Occupancy(size);
   const text = sceneCaption(scene);
-  const caption = (input.caption ?? true) ? label("caption", { x: 0, y: 14 }, "start", text) : null;
+  const caption = (input.caption ?? true) ? captionShape(text, size) : null;
   if (caption) taken.addBox({ left: 0, top: 0, right: size.width, bottom: 18 });
   const dimensions = dimensionShapes(scene, shown, size, taken);
   const lines = memberShapes([...scene.members.values()], scene, shown, taken);
@@ -82,7 +87,7 @@ export function drawingFigure(input: DrawingInput, size: Size, view?: View): Sha
   const loads = loadShapes(scene, shown, taken);
   const supports = supportShapes(scene, shown, taken);
   const reactions = reactionShapes(scene, shown, taken);
-  const own = [reactions.under, lines.still, springShapes(scene, shown), lines.moved, reactions.over,
+  const own = [reactions.under, lines.still, springShapes(scene, shown, taken), lines.moved, reactions.over,
                modeShapes(scene, shown), hingeShapes(scene, shown), loads.arrows];
   return figure("drawing", size, text, groundShapes(scene, shown, size), dimensions, ...mirrorShapes(scene, shown, own),
                 ...own.slice(0, 3), supports, ...own.slice(3), monitors.marks, cursorShape(scene, shown),

@@ -211,7 +211,7 @@ export function reactionShapes(scene: Scene, view: View, taken: Occupancy): { un
   const text = peaks.slice(0, 1).map(({ at: tip, value }) => placeLabel({
     at: { x: coordinate(tip.x), y: coordinate(tip.y) },
     runs: [{ text: `r = ${formatWithUnit(value, unit, 3)}`, bold: true }],
-    className: "note contact-text",
+    className: "note contact-text", tolerance: 140, leader: true,
   }, taken));
   return { under: group("reactions", ...under), over: group("contacts", ...over), text: group("reaction-notes", ...text) };
 }

@@ -176,6 +176,10 @@ export function loadShapes(scene: Scene, view: View, taken: Occupancy): { arrows
     else strainNote(load, scene, view, arrows);
   }
   for (const arrow of arrows.drawn) taken.addLine(arrow, 20);
+  if (scene.mirror !== null) {
+    const twice = 2 * toPixel(view, { x: scene.mirror, y: 0 }).x;
+    for (const arrow of arrows.drawn) taken.addLine(arrow.map((p) => ({ x: twice - p.x, y: p.y })), 20);
+  }
   const drawn = group("loads", shape("path", { class: "load", d: arrows.lines }),
                       shape("path", { class: "load-head", d: arrows.heads }));
   return { arrows: drawn, notes: () => group("load-notes", ...notesOf(arrows, taken)) };

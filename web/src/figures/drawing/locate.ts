@@ -1,9 +1,8 @@
 // What the state says at the nearest point of the structure.
 
 import { at, interpolate, last } from "../geometry";
-import type { Pixel } from "../shape";
 import { makeScene, sceneView, toPixel, type DrawingInput, type DrawnMember, type Scene, type View } from "./scene";
-import type { Size } from "../shape";
+import type { Pixel, Size } from "../shape";
 
 /** Signs and units as docs/results.md: N tension positive, Q along the left normal, M turning to the left positive. */
 export interface Located {
@@ -85,16 +84,27 @@ export function stateAt(scene: Scene, member: string, s: number): LocatedState |
   };
 }
 
-/** The nearest point of the drawn structure; null when nothing is drawn. */
+function nearestIn(scene: Scene, view: View, to: Pixel): Nearest | null {
+  let best: Nearest | null = null;
+  for (const member of scene.members.values()) {
+    const next = nearestOn(member, view, to);
+    if (next && (best === null || next.distance < best.distance)) best = next;
+  }
+  return best;
+}
+
+/** The nearest point of the drawn structure, its mirror image included; null when nothing is drawn. */
 export function locate(input: DrawingInput, size: Size, to: Pixel, view?: View): Located | null {
   const scene = makeScene(input);
   const shown = view ?? sceneView(scene, size);
-  let best: Nearest | null = null;
-  for (const member of scene.members.values()) {
-    const next = nearestOn(member, shown, to);
-    if (next && (best === null || next.distance < best.distance)) best = next;
+  const own = nearestIn(scene, shown, to);
+  if (own === null) return null;
+  let best = own;
+  if (scene.mirror !== null) {
+    const twice = 2 * toPixel(shown, { x: scene.mirror, y: 0 }).x;
+    const image = nearestIn(scene, shown, { x: twice - to.x, y: to.y });
+    if (image && image.distance < own.distance) best = { ...image, pixel: { x: twice - image.pixel.x, y: image.pixel.y } };
   }
-  if (best === null) return null;
   const { member, s, pixel, distance } = best;
   return { member: member.id, s, length: last(member.s), pixel, distance, state: stateAt(scene, member.id, s) };
 }

@@ -48,7 +48,7 @@ export function monitorShapes(scene: Scene, view: View, taken: Occupancy): { mar
     places.push({ monitor, tip });
   }
   const notes = () => group("monitor-notes", ...places.slice(0, 12).map(({ monitor, tip }) => placeLabel({
-    at: tip, runs: [{ text: monitorText(scene, monitor) }], className: "note monitor-text", distance: 8, prefer: 1,
+    at: tip, runs: [{ text: monitorText(scene, monitor) }], className: "note monitor-text", distance: 8, prefer: 1, tolerance: 100, leader: true,
   }, taken)));
   return { marks: group("monitors", ...marks), notes };
 }
@@ -133,7 +133,13 @@ function dimensionLine(a: Pixel, b: Pixel): Shape {
 
 /** What is drawn, as a sentence; the scale of displacements is always said, and a mirror image too. */
 export function sceneCaption(scene: Scene): string {
-  return captionOf(scene.input) + (scene.mirror === null ? "" : ", half and mirror image");
+  return captionOf(scene.input) + (scene.mirror === null ? "" : ", half mirrored");
+}
+
+/** The caption, without its first words where it is wider than the figure. */
+export function captionShape(text: string, size: Size): Shape {
+  const fits = textWidth(text, 12, true) <= size.width;
+  return label("caption", { x: 0, y: 14 }, "start", fits ? text : text.replace("Deformed shape at load", "Load"));
 }
 
 function captionOf(input: Scene["input"]): string {

@@ -235,10 +235,19 @@ export function boxWithGround(scene: Scene): Scene["box"] {
   return mirrored(box, scene.mirror);
 }
 
+/** Room around the structure and its ground for caption, arrows, symbols and dimensions, in pixels. */
+function marginOf(scene: Scene): { left: number; right: number; top: number; bottom: number } {
+  const loads = scene.input.model.loads ?? [];
+  const points = loads.some((load) => load.type === "point");
+  const sideways = loads.some((load) => load.type === "point" && load.force[0] !== 0);
+  const above = points ? 54 : loads.length > 0 ? 36 : 24;
+  return { left: 58, right: sideways ? 58 : 40, top: above + ((scene.input.caption ?? true) ? 18 : 0), bottom: 58 };
+}
+
 /** A view that shows the whole structure with its ground, loads, supports and dimensions. */
 export function sceneView(scene: Scene, size: Size): View {
   const box = boxWithGround(scene);
-  const margin = { left: 58, right: 40, top: (scene.input.caption ?? true) ? 72 : 54, bottom: 58 };
+  const margin = marginOf(scene);
   const width = Math.max(20, size.width - margin.left - margin.right);
   const height = Math.max(20, size.height - margin.top - margin.bottom);
   const scale = Math.min(width / Math.max(box.right - box.left, 1e-9 * scene.extent),

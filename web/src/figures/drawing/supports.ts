@@ -104,7 +104,7 @@ export function supportShapes(scene: Scene, view: View, taken: Occupancy): Shape
 const kSpringLength = 34;
 
 /** A spring from the structure into the medium: a zigzag that ends in ground, with its gap; a spiral for rotation. */
-function springShape(spring: Spring, scene: Scene, view: View): Shape | null {
+function springShape(spring: Spring, scene: Scene, view: View, taken: Occupancy): Shape | null {
   const place = placeOf(scene, spring.at);
   if (!place) return null;
   const state = scene.input.state?.springs[spring.id];
@@ -122,6 +122,8 @@ function springShape(spring: Spring, scene: Scene, view: View): Shape | null {
   const near = touches ? Math.min(moved, gap + kSpringLength - 8) : gap;
   const far = gap + kSpringLength;
   const drawn = touches ? { ...f, at: { x: tip.x - moved * f.out.x, y: tip.y - moved * f.out.y } } : f;
+  const middle = [near + 6, far];
+  for (const along of [-6, 0, 6]) taken.addLine(middle.map((out) => offset(drawn, out, along)), 30);
   const plate = oneSided ? path(className, [offset(drawn, near, -5), offset(drawn, near, 5)]) : null;
   return group("spring-symbol", path(className, zigzag(drawn, near, far)), plate, ...groundLine(drawn, far, 9));
 }
@@ -146,6 +148,7 @@ function spiral(centre: Pixel, className: string): Shape {
   return group("spring-symbol", path(className, points), ...groundLine(frame(end, 0), 0, 7));
 }
 
-export function springShapes(scene: Scene, view: View): Shape {
-  return group("springs", ...(scene.input.model.springs ?? []).map((spring) => springShape(spring, scene, view)));
+/** Symbols of all springs. */
+export function springShapes(scene: Scene, view: View, taken: Occupancy): Shape {
+  return group("springs", ...(scene.input.model.springs ?? []).map((spring) => springShape(spring, scene, view, taken)));
 }

@@ -1,0 +1,110 @@
+// Stored requests and results of the command line, and questions about trees of shapes.
+
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import type { components } from "../../../web/src/api/types";
+import { textWidth } from "../../../web/src/figures/labels";
+import type { Pixel, Shape } from "../../../web/src/figures/index";
+
+declare const CASES: string;  // folders, written in by run.mjs
+declare const FIGURES: string;
+
+type Schemas = components["schemas"];
+export type Request = Schemas["Request"];
+export type Result = Schemas["Result"];
+
+export interface Case {
+  name: string;
+  request: Request;
+  result: Result;
+}
+
+function stored<T>(file: string): T {
+  return JSON.parse(readFileSync(join(CASES, file), "utf8")) as T;
+}
+
+export function readCase(name: string): Case {
+  return { name, request: stored<Request>(`${name}.request.json`), result: stored<Result>(`${name}.result.json`) };
+}
+
+export function readTable(name: string): Schemas["Table"] {
+  return stored<Schemas["Table"]>(`${name}.table.json`);
+}
+
+export function styleSheet(): string {
+  return readFileSync(join(FIGURES, "figures.css"), "utf8");
+}
+
+export const kCases = ["arch_branches", "arch_outside", "curves", "pile", "pipe", "portal", "ring", "springs"] as const;
+
+/** A value that must be there. */
+export function must<T>(value: T | null | undefined, what = "value"): T {
+  if (value === null || value === undefined) throw new Error(`no ${what}`);
+  return value;
+}
+
+/** All shapes of a tree, the outer one first. */
+export function* shapesOf(node: Shape): Generator<Shape> {
+  yield node;
+  for (const child of node.children) if (typeof child !== "string") yield* shapesOf(child);
+}
+
+export function classesOf(node: Shape): string[] {
+  return String(node.attributes["class"] ?? "").split(" ").filter((name) => name !== "");
+}
+
+/** Shapes with all of some classes. */
+export function withClass(root: Shape, classes: string): Shape[] {
+  const wanted = classes.split(" ");
+  return [...shapesOf(root)].filter((node) => wanted.every((name) => classesOf(node).includes(name)));
+}
+
+/** All text inside a shape. */
+export function textOf(node: Shape): string {
+  return node.children.map((child) => (typeof child === "string" ? child : textOf(child))).join("");
+}
+
+export function textsOf(root: Shape): string[] {
+  return [...shapesOf(root)].filter((node) => node.name === "text").map(textOf);
+}
+
+/** The corners of a path, piece by piece. */
+export function piecesOf(node: Shape): Pixel[][] {
+  const pieces: Pixel[][] = [];
+  const pattern = /([MLHV])(-?[\d.e-]+)(?: (-?[\d.e-]+))?/g;
+  for (const [, command, first, second] of String(node.attributes["d"]).matchAll(pattern)) {
+    if (command === "M") pieces.push([]);
+    const piece = must(pieces[pieces.length - 1]);
+    const before = piece[piece.length - 1] ?? { x: 0, y: 0 };
+    if (command === "H") piece.push({ x: Number(first), y: before.y });
+    else if (command === "V") piece.push({ x: before.x, y: Number(first) });
+    else piece.push({ x: Number(first), y: Number(second) });
+  }
+  return pieces;
+}
+
+export function pointsOf(node: Shape): Pixel[] {
+  return piecesOf(node).flat();
+}
+
+/** Where a text is, from its anchor and its estimated width; y is that of its base line. */
+export function boxOf(node: Shape): { left: number; right: number; y: number } {
+  const wide = textWidth(textOf(node), 12);
+  const x = Number(node.attributes["x"]);
+  const anchor = node.attributes["text-anchor"];
+  const left = anchor === "start" ? x : anchor === "end" ? x - wide : x - wide / 2;
+  return { left, right: left + wide, y: Number(node.attributes["y"]) };
+}
+
+/** Distance of a point from a line through points. */
+export function distanceTo(points: readonly Pixel[], to: Pixel): number {
+  let least = Infinity;
+  for (let i = 0; i < points.length; ++i) {
+    const a = must(points[Math.max(0, i - 1)]);
+    const b = must(points[i]);
+    const square = (b.x - a.x) ** 2 + (b.y - a.y) ** 2;
+    const t = square > 0 ? Math.min(1, Math.max(0, ((to.x - a.x) * (b.x - a.x) + (to.y - a.y) * (b.y - a.y)) / square)) : 0;
+    least = Math.min(least, Math.hypot(to.x - a.x - t * (b.x - a.x), to.y - a.y - t * (b.y - a.y)));
+  }
+  return least;
+}
