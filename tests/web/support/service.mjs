@@ -7,13 +7,16 @@ import { createInterface } from 'node:readline';
 
 const executable = process.env.SERVICE_EXECUTABLE;
 
+// PAGE_FOLDER: a folder in place of the page that is built in, while working on it.
+const page = process.env.PAGE_FOLDER ? ['--web', process.env.PAGE_FOLDER] : [];
+
 /** Starts a service; `options` are flags of `snapthrough serve`. @returns its address, and how to stop or kill it. */
 export async function startService(options = [], { port = 0, folder = null } = {}) {
   if (!executable) {
     throw new Error('SERVICE_EXECUTABLE names no snapthrough');
   }
   const own = folder ?? await mkdtemp(join(tmpdir(), 'snapthrough-page-'));
-  const child = spawn(executable, ['serve', '--listen', `127.0.0.1:${port}`, '--store', join(own, 'store.db'), ...options],
+  const child = spawn(executable, ['serve', '--listen', `127.0.0.1:${port}`, '--store', join(own, 'store.db'), ...page, ...options],
                       { stdio: ['ignore', 'ignore', 'pipe'] });
   const log = createInterface({ input: child.stderr });
   const taken = await new Promise((resolve, reject) => {

@@ -2,7 +2,7 @@
 // that come meanwhile the last one waits and the others are never asked for. An answer that is older than the one that is
 // shown is dropped. Jobs that were overtaken are dismissed or removed, so that a thousand moves don't leave a thousand jobs.
 
-import type { RequestDocument } from "./documents";
+import type { RequestDocument, Result } from "./documents";
 import { type Answer, service, solve } from "./client";
 
 const kInFlight = 2;
@@ -41,6 +41,19 @@ export class Latest {
     void this.send(question);
   }
 
+  /** Asks for something else while nothing is asked for; nothing otherwise. Its job is removed. */
+  async aside(request: RequestDocument, wait: number): Promise<Result | null> {
+    if (this.inFlight > 0) return null;
+    this.inFlight += 1;
+    try {
+      const answer = await solve(request, wait);
+      this.discard(answer.job);
+      return answer.result;
+    } finally {
+      this.ended();
+    }
+  }
+
   /** Removes a job that nobody needs any more. */
   discard(job: string): void {
     if (job !== "") this.unwanted.push(job);
@@ -66,12 +79,16 @@ export class Latest {
         this.takers.failed(question, error);
       }
     } finally {
-      this.inFlight -= 1;
-      const next = this.waiting;
-      this.waiting = null;
-      if (next) this.ask(next);
-      else void this.removeUnwanted();
+      this.ended();
     }
+  }
+
+  private ended(): void {
+    this.inFlight -= 1;
+    const next = this.waiting;
+    this.waiting = null;
+    if (next) this.ask(next);
+    else void this.removeUnwanted();
   }
 
   /** Removes jobs while nothing is asked for, or when many have come together. */

@@ -41,6 +41,9 @@ const looks = EditorView.theme({
   "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "var(--strong) !important" },
   ".cm-tooltip": { backgroundColor: "var(--paper)", color: "var(--ink)", border: "1px solid var(--strong)", borderRadius: "6px" },
   ".cm-tooltip-autocomplete ul li[aria-selected]": { backgroundColor: "var(--accent)", color: "var(--paper)" },
+  // The marks of @codemirror/lint are data: images, which the content security policy refuses.
+  ".cm-lintRange-error": { backgroundImage: "none", textDecoration: "underline wavy var(--bad)" },
+  ".cm-lint-marker-error": { content: "normal", width: "8px", height: "8px", margin: "5px 3px", borderRadius: "50%", backgroundColor: "var(--bad)" },
   ".cm-diagnostic-error": { borderLeftColor: "var(--bad)" },
 });
 
@@ -123,6 +126,7 @@ export function makeEditor(place: HTMLElement, parts: EditorParts): Editor {
       ],
     }),
   });
+  view.scrollDOM.tabIndex = 0;  // what scrolls can be reached by keys
   return {
     setText: (text) => {
       silent = true;

@@ -1,7 +1,9 @@
 // Files that people take away: pictures, tables, requests, results, and commands that do the same.
 
+import { render } from "preact";
 import type { RequestDocument } from "../api/documents";
-import { figureFile, type Shape } from "../figures";
+import { shapeNode } from "../app/shape_view";
+import { figureFile, toText, type Shape } from "../figures";
 import looks from "../figures/figures.css?text";
 
 const kScale = 2;  // pixels of a PNG for one of the figure
@@ -27,8 +29,40 @@ export function saveSvg(name: string, figure: Shape): void {
   saveText(name, figureFile(figure, looks), "image/svg+xml");
 }
 
+/** What a style sheet says of a shape and can be said by attributes. */
+const kLooks = [
+  "display", "fill", "fill-opacity", "stroke", "stroke-width", "stroke-opacity", "stroke-dasharray", "stroke-linecap", "stroke-linejoin",
+  "opacity", "paint-order", "font-family", "font-size", "font-weight", "font-style", "text-anchor", "dominant-baseline",
+];
+
+/** The shape with the looks of the page as attributes: an image from a blob may not have a style sheet of its own here. */
+function withLooks(shape: Shape, element: Element): Shape {
+  const style = getComputedStyle(element);
+  const looks = Object.fromEntries(kLooks.map((name) => [name, style.getPropertyValue(name)]).filter(([, value]) => value !== ""));
+  let next = 0;
+  const children = shape.children.map((child) => {
+    const below = typeof child === "string" ? undefined : element.children[next++];
+    return typeof child === "string" || !below ? child : withLooks(child, below);
+  });
+  return { name: shape.name, attributes: { ...shape.attributes, ...looks }, children };
+}
+
+function standalone(figure: Shape): Shape {
+  const paper: Shape = { name: "rect", attributes: { class: "paper", width: "100%", height: "100%" }, children: [] };
+  const whole = { ...figure, children: [paper, ...figure.children] };
+  const place = document.createElement("div");
+  place.className = "unseen";
+  document.body.append(place);
+  render(shapeNode(whole), place);
+  const root = place.firstElementChild;
+  const result = root ? withLooks(whole, root) : whole;
+  render(null, place);
+  place.remove();
+  return result;
+}
+
 export async function savePng(name: string, figure: Shape): Promise<void> {
-  const address = URL.createObjectURL(new Blob([figureFile(figure, looks)], { type: "image/svg+xml" }));
+  const address = URL.createObjectURL(new Blob([toText(standalone(figure))], { type: "image/svg+xml" }));
   try {
     const image = new Image();
     image.src = address;

@@ -8,7 +8,7 @@ import { go } from "../app/router";
 import { badgeOf, duration } from "../app/words";
 import type { Choice } from "../model/gallery";
 import { stationsOf, type Run } from "../model/run";
-import { addPoints, openRequest } from "../studio/session";
+import { addPoints, openAny } from "../studio/session";
 import { Trouble } from "../studio/trouble";
 import { Card } from "../views/card";
 import { ResultViews } from "../views/result_views";
@@ -88,7 +88,7 @@ export function JobView({ id }: { id: string }) {
     <main class="studio">
       <Card title="Job" class="controls">
         <div class="scroll">
-          <h1>{job && job.title !== "" ? job.title : "Job"}</h1>
+          <h1 class="long">{job && job.title !== "" ? job.title : "Job"}</h1>
           <p class="headline">{job ? <span class={badgeOf(job.status)}>{job.status}</span> : null}</p>
           <p class="text">{job?.message ?? (trouble ? "" : "Loading…")}</p>
           <Trouble error={trouble} />
@@ -96,8 +96,7 @@ export function JobView({ id }: { id: string }) {
         </div>
         <div class="buttons">
           {request ? <button type="button" class="main" onClick={() => {
-            openRequest(request, null);
-            go("#/studio");
+            void openAny(request).then(() => go("#/studio"));
           }}>Open in the studio</button> : null}
           {busy ? <button type="button" onClick={() => void service.dismissJob(id).then(again, again)}>Dismiss</button> : null}
           {job && !busy ? <button type="button" onClick={() => void service.deleteJob(id).then(() => go("#/jobs"), again)}>Delete</button> : null}

@@ -181,9 +181,3 @@ export function rowOf(run: Run, station: Station): { branch: number; index: numb
   });
   return { branch: station.branch, index };
 }
-
-/** The station that is nearest to a point of a path. */
-export function stationAt(run: Run, branch: number, arc: number): number {
-  const length = lengthOf(branchesOf(run.result)[branch]);
-  return stationFor(run, { kind: "along", branch, share: length > 0 ? arc / length : 0 });
-}

@@ -125,7 +125,7 @@ function Item({ list, index, ...form }: FormProps & { list: string; index: numbe
     typeof valueAt(form.request, one.pointer) !== "number"));
   return (
     <div class="item">
-      <h4>{titleOf(fields, index)}</h4>
+      <p class="item-name">{titleOf(fields, index)}</p>
       {own.map((one) => <p class="wrong" key={one.pointer}>{one.detail}</p>)}
       {numbersIn(item).map(({ pointer }) => (
         <NumberField key={pointer} {...form} pointer={at + pointer} name={fieldName(at + pointer, 3)} />

@@ -1,7 +1,7 @@
 // What the studio holds: the request, its sliders, the run that answers it, and what else is on the chart.
 
 import type { Branch, PathPointsEvent, RequestDocument, Result } from "../api/documents";
-import { connection, idOf, isAbort, Refused, service, solve, type Answer } from "../api/client";
+import { connection, idOf, isAbort, Refused, service, type Answer } from "../api/client";
 import { follow } from "../api/events";
 import { Latest, type Question } from "../api/latest";
 import { kProblems, type Choice, type Problem } from "../model/gallery";
@@ -11,6 +11,7 @@ import { fits, valueOf, withSlider, type Slider } from "../model/sliders";
 import { formatNumber } from "../figures/numbers";
 import { makeStore } from "../store";
 
+const kWalkWait = 10;  // seconds
 const kRest = 250;  // ms without a change after which states to walk through are asked for
 
 export interface Studio {
@@ -144,12 +145,10 @@ async function atRest(run: Run): Promise<void> {
   const request = forWalking(run.request, run.result);
   if (!request || studio.get().run !== run) return;
   try {
-    const answer = await solve(request, 10);
-    latest.discard(answer.job);
-    const now = studio.get().run;
-    if (!answer.result || now !== run) return;
-    const more = stationsOf(request.model, run.result, answer.result.states);
-    studio.change({ run: { ...run, stations: merged(run, more) } });
+    const result = await latest.aside(request, kWalkWait);
+    if (!result || studio.get().run !== run) return;
+    const finer = stationsOf(request.model, run.result, result.states);
+    studio.change({ run: { ...run, stations: merged(run, finer) } });
   } catch (error) {
     if (error instanceof Refused) latest.discard(idOf(error.location ?? ""));
   }
@@ -217,6 +216,16 @@ export function loadExamples(): Promise<Map<string, RequestDocument>> {
     examples = null;
   });
   return examples;
+}
+
+/** Opens a request from elsewhere, with the sliders of the gallery's problem that it is a variation of. */
+export async function openAny(request: RequestDocument): Promise<void> {
+  const known = await loadExamples().catch(() => null);
+  const same = kProblems.find(({ example }) => {
+    const title = known?.get(example)?.model.title;
+    return title !== undefined && title === request.model.title;
+  });
+  openRequest(request, same ?? null);
 }
 
 export async function openProblem(problem: Problem): Promise<void> {

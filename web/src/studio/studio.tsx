@@ -13,7 +13,7 @@ import { ResultViews } from "../views/result_views";
 import { GalleryDialog } from "./gallery_dialog";
 import { JsonPanel } from "./json_panel";
 import { ModelForm } from "./model_form";
-import { keep, openFirst, openProblem, pin, setRequest, setSlider, setSliders, studio, unpin, type Studio } from "./session";
+import { keep, openAny, openFirst, openProblem, pin, setRequest, setSlider, setSliders, studio, unpin, type Studio } from "./session";
 import { SliderRow } from "./slider_row";
 import { SweepBuilder } from "../sweeps/sweep_builder";
 import { findingsOf, Trouble } from "./trouble";
@@ -116,7 +116,7 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
   useEffect(() => {
     const problem = kProblems.find((one) => one.example === wanted);
     if (problem && studio.get().problem !== problem) void openProblem(problem);
-    else if (job) void service.jobRequest(job).then(setRequest, () => openFirst());
+    else if (job) void service.jobRequest(job).then(openAny, () => openFirst());
     else openFirst();
   }, [wanted, job]);
   const shadows = useMemo(() => shadowsOf(state), [state.shadow, state.pins, state.run]);
@@ -125,7 +125,7 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
     <main class={`studio ${panel === "json" ? "wide" : ""}`}>
       <Card title="Model" class="controls" tools={<button type="button" onClick={() => setGallery(true)}>Gallery</button>}>
         <div class="scroll">
-          <h1>{problem?.heading ?? request?.model.title ?? "Model"}</h1>
+          <h1 class={problem ? "" : "long"}>{problem?.heading ?? request?.model.title ?? "Model"}</h1>
           {problem ? <p class="text">{problem.text} <span class="reference">See {problem.reference.file}, {problem.reference.text}.</span></p> : null}
           <Sliders state={state} />
           <Trouble error={state.trouble} />

@@ -3,8 +3,10 @@
 import type { Finding } from "../api/documents";
 import { Refused, Unreachable } from "../api/client";
 
+/** The mistakes of a document, with pointers into it and not into the envelope that it was sent in. */
 export function findingsOf(error: unknown): readonly Finding[] {
-  return error instanceof Refused ? error.problem.errors ?? [] : [];
+  const errors = error instanceof Refused ? error.problem.errors ?? [] : [];
+  return errors.map((one) => ({ ...one, pointer: one.pointer.replace(/^\/request(?=\/|$)/, "") }));
 }
 
 const kSeveral = 6;

@@ -13,7 +13,7 @@ import {
   columnLabel, errorsOf, formatNumber, nearestInSweep, sweepLine, sweepLineChart, sweepMap, sweepMapChart, sweepMapLocate,
   sweepTable, type Pixel, type Shape, type Size, type SweepAxis,
 } from "../figures";
-import { openRequest } from "../studio/session";
+import { openAny } from "../studio/session";
 import { Trouble } from "../studio/trouble";
 import { Card, Menu } from "../views/card";
 import { LongTable } from "../views/long_table";
@@ -171,8 +171,7 @@ function ChartCard({ id, sweep, document, table }: { id: string; sweep: Sweep; d
   const name = fileName(sweep.title, "-sweep");
   const open = (row: number): void => {
     void service.pointRequest(id, table.points[row] ?? row).then((request) => {
-      openRequest({ ...request, analysis: { ...request.analysis, output: {} } }, null);
-      go("#/studio");
+      void openAny({ ...request, analysis: { ...request.analysis, output: {} } }).then(() => go("#/studio"));
     });
   };
   const take = (): Shape => pictureOf(document, table, output, null, map, { width: 800, height: 520 }).shape;
@@ -199,7 +198,7 @@ function ChartCard({ id, sweep, document, table }: { id: string; sweep: Sweep; d
       }>
         {table.rows.length > kMostMarks && !map ? <p class="hint">{formatNumber(table.rows.length, 6)} rows</p> : null}
         <Chart document={document} table={table} output={output} map={map} chosen={chosen} onChosen={setChosen} onOpen={open} />
-        <RowNote table={table} row={chosen} onOpen={open} />
+        <div class="row-note"><RowNote table={table} row={chosen} onOpen={open} /></div>
       </Card>
       <Card title={`Table of ${formatNumber(table.rows.length, 6)} rows`} class="table-card">
         <div class="fill"><LongTable table={sweepTable(table)} caption="Rows of the sweep" onRow={open} /></div>

@@ -8,10 +8,10 @@ import { useSize } from "../app/size";
 import { fileName, savePng, saveSvg, saveText } from "../export/files";
 import {
   branchesOf, bucklingFigure, criticalNear, defaultQuantities, nearestMode, nearestOnPath, pathChart, pathFigure, pathTable,
-  quantityLabel, tableCsv, walk,
+  quantityLabel, tableCsv,
   type PathInput, type PathPoint, type PathQuantity, type PathResult, type PathShadow, type Size,
 } from "../figures";
-import { lengthOf, rowOf, stationAt, stationFor, type Run } from "../model/run";
+import { choiceOf, lengthOf, rowOf, stationFor, type Run } from "../model/run";
 import type { Choice } from "../model/gallery";
 import { Card, Menu } from "./card";
 import { LongTable } from "./long_table";
@@ -90,19 +90,21 @@ interface ChartProps {
   size: Size;
   point: PathPoint | null;
   onPoint: (point: PathPoint) => void;
+  /** So many states further along the branch. */
+  onStep: (steps: number) => void;
   onCritical: (number: number | null) => void;
   onPlay: () => void;
 }
 
-/** Steps along the path that a key means. */
+/** States along the path that a key means. */
 function stepsOf(key: string): number | null {
   const steps: Record<string, number> = {
-    ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10, Home: -1e9, End: 1e9,
+    ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 5, PageDown: -5, Home: -1e9, End: 1e9,
   };
   return steps[key] ?? null;
 }
 
-function Chart({ input, size, point, onPoint, onCritical, onPlay }: ChartProps) {
+function Chart({ input, size, point, onPoint, onStep, onCritical, onPlay }: ChartProps) {
   const chart = useMemo(() => pathChart(input, size), [input, size]);
   const figure = useMemo(() => shapeNode(pathFigure({ ...input, chosen: point }, size, chart)), [chart, point]);
   const drag = useRef(false);
@@ -123,7 +125,7 @@ function Chart({ input, size, point, onPoint, onCritical, onPlay }: ChartProps) 
     if (event.key === " " || event.key === "p") onPlay();
     else if (event.key === "b" && branches.length > 1) {
       onPoint({ branch: ((point?.branch ?? 0) + 1) % branches.length, index: 1 });
-    } else if (steps !== null && point) onPoint(walk(input.result, point, steps));
+    } else if (steps !== null) onStep(steps);
     else return;
     event.preventDefault();
   };
@@ -218,11 +220,14 @@ export function PathCard(props: PathProps) {
     const branch = branchesOf(run.result)[to.branch];
     const length = lengthOf(branch);
     onCritical(null);
-    const share = length > 0 ? (branch?.arc_length[to.index] ?? 0) / length : 0;
-    const target = run.stations[stationAt(run, to.branch, share * length)];
-    const same = target && station && target.arc === station.arc && target.branch === station.branch;
-    const onward = same ? nextStation(run, to, point) : null;
-    onChoice({ kind: "along", branch: to.branch, share: onward ?? share });
+    onChoice({ kind: "along", branch: to.branch, share: length > 0 ? (branch?.arc_length[to.index] ?? 0) / length : 0 });
+  };
+  const step = (steps: number): void => {
+    if (!run || !station) return;
+    onCritical(null);
+    const along = run.stations.filter((one) => one.branch === station.branch);
+    const next = Math.min(along.length - 1, Math.max(0, along.indexOf(station) + steps));
+    onChoice(choiceOf(run, run.stations.indexOf(along[next] ?? station)));
   };
   const name = fileName(model.title ?? "", "");
   const take = (): ReturnType<typeof pathFigure> => pathFigure({ ...input, chosen: point }, size ?? { width: 640, height: 440 });
@@ -245,21 +250,8 @@ export function PathCard(props: PathProps) {
       <div class="fill" ref={place}>
         {twin ? <LongTable table={pathTable(input)} caption={`${quantityLabel(axes.y)} against ${quantityLabel(axes.x)}`} />
           : size && size.height > 20
-            ? <Chart input={input} size={size} point={point} onPoint={choose} onPlay={toggle} onCritical={onCritical} /> : null}
+            ? <Chart input={input} size={size} point={point} onPoint={choose} onStep={step} onPlay={toggle} onCritical={onCritical} /> : null}
       </div>
     </Card>
   );
-}
-
-/** The share of the way of the next state in the direction of a step that would stay at the same one. */
-function nextStation(run: Run, to: PathPoint, from: PathPoint | null): number | null {
-  if (!from || from.branch !== to.branch || Math.abs(to.index - from.index) !== 1) return null;
-  const branch = branchesOf(run.result)[to.branch];
-  const here = branch?.arc_length[from.index] ?? 0;
-  const ahead = to.index > from.index;
-  const along = run.stations.filter((one) => one.branch === to.branch &&
-    (ahead ? one.arc > here + 1e-9 * lengthOf(branch) : one.arc < here - 1e-9 * lengthOf(branch)));
-  const next = ahead ? along[0] : along[along.length - 1];
-  const length = lengthOf(branch);
-  return next && length > 0 ? next.arc / length : null;
 }

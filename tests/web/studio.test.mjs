@@ -1,0 +1,229 @@
+// The studio against the real service: sliders, walking, gallery, exports, mistakes.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { downloaded, drawnPath, openPage, settled, slide, startBrowser } from './support/browser.mjs';
+import { startService } from './support/service.mjs';
+
+let service;
+let browser;
+
+before(async () => {
+  service = await startService();
+  browser = await startBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await service?.stop();
+});
+
+const studio = (problem = 'buried_pipe') => openPage(browser, `${service.url}/#/studio?problem=${problem}`);
+
+async function close(page) {
+  assert.deepEqual(page.troubles, []);
+  await page.context().close();
+}
+
+test('the first problem is drawn with its path, its sections and its critical load', async () => {
+  const page = await openPage(browser, service.url);
+  await settled(page);
+  assert.equal(await page.getByRole('heading', { level: 1 }).innerText(), 'Buried flexible pipe');
+  assert.match(await page.locator('.trust-card .headline').innerText(), /^6\.8234\s+confirmed$/);
+  assert.ok((await page.locator('.drawing-card svg path.contact').count()) > 0);
+  assert.ok((await page.locator('.sections-card svg path').count()) > 2);
+  assert.match(await drawnPath(page), /^M/);
+  await close(page);
+});
+
+test('the latest value of a slider wins, with at most two requests in flight and no jobs left behind', async () => {
+  const page = await studio();
+  await settled(page);
+  let inFlight = 0;
+  let most = 0;
+  const isSolve = (request) => request.method() === 'POST' && request.url().endsWith('/v1/jobs');
+  page.on('request', (request) => {
+    if (isSolve(request)) {
+      inFlight += 1;
+      most = Math.max(most, inFlight);
+    }
+  });
+  const ended = (request) => {
+    inFlight -= isSolve(request) ? 1 : 0;
+  };
+  page.on('requestfinished', ended);
+  page.on('requestfailed', ended);
+  await page.waitForTimeout(600);  // states to walk through were asked for
+  most = 0;
+  const start = await drawnPath(page);
+  const places = Array.from({ length: 61 }, (_, i) => 300 + 10 * i);
+  for (let i = 0; i < places.length; i += 6) {
+    await slide(page, 'Soil stiffness', ...places.slice(i, i + 6));
+  }
+  await slide(page, 'Soil stiffness', 900);
+  await settled(page);
+  assert.equal(most, 2);
+  assert.notEqual(await drawnPath(page), start);
+  await page.waitForTimeout(1500);
+  const value = await page.getByLabel('Soil stiffness, value in kN/m²').inputValue();
+  assert.equal(value.replace(/\s/g, ''), '126000');  // 2000 (200000 / 2000)^0.9
+  const { jobs } = await (await fetch(`${service.url}/v1/jobs?label=studio`)).json();
+  assert.ok(jobs.length <= 3, `${jobs.length} jobs are left`);
+  await close(page);
+});
+
+test('the path before the last change stays as a shadow, and pinned ones until they are removed', async () => {
+  const page = await studio('tunnel_arch');
+  await settled(page);
+  await page.getByRole('button', { name: 'Pin this run' }).click();
+  await slide(page, 'Ground stiffness', 300);
+  await settled(page);
+  await page.locator('.path-card svg path.pinned').first().waitFor({ state: 'attached' });
+  await page.waitForTimeout(600);
+  await slide(page, 'Ground stiffness', 600);
+  await settled(page);
+  await page.locator('.path-card svg path.earlier').first().waitFor({ state: 'attached' });
+  await page.getByRole('button', { name: /^Unpin/ }).click();
+  assert.equal(await page.locator('.path-card svg path.pinned').count(), 0);
+  await close(page);
+});
+
+test('a value can be typed, and the path can be walked with the keyboard alone', async () => {
+  const page = await studio('tunnel_arch');
+  await settled(page);
+  const field = page.getByLabel("Ground stiffness, value in K R⁴/EI");
+  await field.focus();
+  await page.keyboard.type('1e6');
+  await page.keyboard.press('Enter');
+  await page.locator('.trust-card .headline', { hasText: /^7[0-9]/ }).waitFor();
+  await page.waitForTimeout(1000);
+  const caption = page.locator('.drawing-card svg .caption');
+  await page.locator('.path-card .walkable').focus();
+  await page.keyboard.press('Home');
+  const first = await caption.textContent();
+  const seen = new Set([first]);
+  for (let i = 0; i < 8; ++i) {
+    await page.keyboard.press('ArrowRight');
+    seen.add(await caption.textContent());
+  }
+  assert.equal(seen.size, 9, 'each key goes on to another state');
+  await page.keyboard.press('Home');
+  assert.equal(await caption.textContent(), first);
+  await close(page);
+});
+
+test('every problem of the gallery opens and is drawn', async () => {
+  const page = await openPage(browser, service.url);
+  await settled(page);
+  await page.getByRole('button', { name: 'Gallery' }).click();
+  const names = await page.locator('.gallery li strong').allInnerTexts();
+  assert.ok(names.length >= 8);
+  await page.keyboard.press('Escape');
+  for (const name of names) {
+    await page.getByRole('button', { name: 'Gallery' }).click();
+    await page.locator('.gallery li button', { hasText: name }).click();
+    await page.getByRole('heading', { level: 1, name }).waitFor();
+    await settled(page);
+    assert.ok((await page.getByRole('slider').count()) >= 2, name);
+    assert.ok((await page.locator('.drawing-card svg path').count()) > 1, name);
+    assert.ok((await page.locator('.path-card svg path, .path-card svg line').count()) > 4, name);
+    assert.equal(await page.locator('.trouble').count(), 0, name);
+    assert.doesNotMatch(await page.locator('.trust-card').innerText(), /not confirmed|NaN|undefined/, name);
+  }
+  await close(page);
+});
+
+test('a bifurcation shows its mode and leads along its branch', async () => {
+  const page = await studio('arch_no_base');
+  await settled(page);
+  const mark = page.locator('.path-card svg .mark.bifurcation').first();
+  const box = await mark.boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  await page.locator('.note', { hasText: 'bifurcation at 66.263' }).waitFor();
+  await page.locator('.drawing-card svg path.mode').waitFor({ state: 'attached' });
+  await page.getByRole('button', { name: 'Follow its branches' }).click();
+  await page.locator('.path-card svg path.branch').first().waitFor({ state: 'attached' });
+  await close(page);
+});
+
+test('pictures, tables, request and result can be taken away', async () => {
+  const page = await studio();
+  await settled(page);
+  const blank = await page.context().newPage();  // its documents have no content security policy
+  const take = (card, text) => downloaded(page, async () => {
+    await page.locator(`${card} summary`, { hasText: 'Export' }).click();
+    await page.locator(`${card} .menu-items button`, { hasText: text }).click();
+  });
+  for (const card of ['.drawing-card', '.path-card', '.sections-card']) {
+    const svg = (await take(card, 'SVG')).bytes.toString();
+    const sound = await blank.evaluate((text) => {
+      const root = new DOMParser().parseFromString(text, 'image/svg+xml').documentElement;
+      return root.tagName === 'svg' && root.querySelector('style') !== null && root.querySelectorAll('path').length > 1;
+    }, svg);
+    assert.ok(sound, card);
+    const png = (await take(card, 'PNG')).bytes;
+    assert.equal(png.subarray(1, 4).toString(), 'PNG');
+    assert.ok(png.length > 5000);
+  }
+  const csv = (await take('.path-card', 'CSV')).bytes.toString().trim().split('\r\n');
+  assert.match(csv[0], /^branch,load factor,arc length,/);
+  assert.ok(csv.length > 60);
+  const request = JSON.parse((await downloaded(page, () => page.getByRole('button', { name: 'Request' }).click())).bytes);
+  const { examples } = await (await fetch(`${service.url}/v1/examples`)).json();
+  assert.deepEqual(request, examples.find((one) => one.name === 'buried_pipe').request);
+  const result = JSON.parse((await downloaded(page, () => page.getByRole('button', { name: 'Result' }).click())).bytes);
+  assert.ok(Math.abs(result.summary.critical_load_factor - 6.8234) < 1e-3);
+  await close(page);
+});
+
+test('each of three mistakes in the JSON is told at its place, and a right text is solved', async () => {
+  const page = await openPage(browser, `${service.url}/#/model`);
+  await settled(page);
+  const editor = page.locator('.cm-content');
+  await editor.waitFor();
+  const text = JSON.stringify({
+    model: {
+      nodes: [{ id: 'a', x: 0, y: 0 }, { id: 'b', x: 1, y: 0 }],
+      sections: [{ id: 's', EA: 1e6, EI: -1 }],
+      members: [{ id: 'm', start: 'a', end: 'c', section: 's', curv: 1 }],
+      supports: [{ node: 'a', fixed: ['x', 'y'] }, { node: 'b', fixed: ['y'] }],
+      loads: [{ type: 'point', at: { node: 'b' }, force: [-1, 0] }],
+    },
+    analysis: { type: 'buckling' },
+  });
+  const write = async (value) => {
+    await editor.click();
+    await page.keyboard.press('Control+a');
+    await page.keyboard.insertText(value);
+  };
+  await write(text);
+  await page.locator('.json .findings li').nth(2).waitFor();
+  const findings = await page.locator('.json .findings').innerText();
+  for (const pointer of ['/model/sections/0/EI', '/model/members/0/end', '/model/members/0/curv']) {
+    assert.ok(findings.includes(pointer), pointer);
+  }
+  assert.ok((await page.locator('.cm-lintRange-error').count()) >= 3, 'each is marked in the text');
+  await write(text.replace('-1}', '1}').replace('"c"', '"b"').replace(',"curv":1', ''));
+  await page.locator('.trust-card .headline', { hasText: '9.8696' }).waitFor();  // pi^2 EI / L^2
+  await close(page);
+});
+
+test('a mistake that the form makes is told at its field', async () => {
+  const page = await studio();
+  await settled(page);
+  await page.locator('.model-form summary', { hasText: 'Sections' }).click();
+  const field = page.locator('[id="field/model/sections/0/EI"]');
+  await field.fill('-2');
+  await field.press('Enter');
+  await page.locator('.model-form .wrong', { hasText: 'EI must be positive' }).waitFor();
+  assert.equal(await field.getAttribute('aria-invalid'), 'true');
+  await close(page);
+});
+
+test('any number of the model can be given a slider', async () => {
+  const page = await studio('arch_no_base');
+  await settled(page);
+  const before = await page.getByRole('slider').count();
+  await page.locator('.model-form summary', { hasText: 'Loads' }).click();
+  await page.getByRole('button', { name: 'Give force y a slider' }).click();
+  assert.equal(await page.getByRole('slider').count(), before + 1);
+  await close(page);
+});

@@ -1,0 +1,64 @@
+// Chromium of the system, driven by playwright-core.
+import { existsSync } from 'node:fs';
+import { chromium } from 'playwright-core';
+
+const kPlaces = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
+
+export async function startBrowser() {
+  const executablePath = kPlaces.find((path) => path && existsSync(path));
+  if (!executablePath) {
+    throw new Error('no Chromium: apt-get install chromium, or name it in CHROMIUM');
+  }
+  return chromium.launch({ executablePath, args: ['--no-sandbox'] });
+}
+
+/**
+ * A page of its own context. `page.troubles` collects what must not happen: exceptions, and everything the content security
+ * policy refused.
+ */
+export async function openPage(browser, url, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, acceptDownloads: true, ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(15_000);
+  page.troubles = [];
+  page.on('pageerror', (error) => page.troubles.push(error.message));
+  page.on('console', (message) => {
+    if (message.type() === 'error' && /Content Security Policy/.test(message.text())) {
+      page.troubles.push(message.text());
+    }
+  });
+  await page.goto(url);
+  return page;
+}
+
+/** Waits until the studio has an answer and nothing is asked for. */
+export async function settled(page) {
+  await page.locator('.trust-card .headline').waitFor();
+  await page.locator('.dot.there').waitFor();
+}
+
+/** The path that is drawn, as text: changes when another one is drawn. */
+export function drawnPath(page) {
+  return page.locator('.path-card svg path.path').evaluateAll((paths) => paths.map((path) => path.getAttribute('d')).join());
+}
+
+/** Moves a range input over places of its way, as dragging does. */
+export async function slide(page, name, ...places) {
+  await page.getByRole('slider', { name }).evaluate((input, values) => {
+    const set = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value').set;
+    for (const value of values) {
+      set.call(input, String(value));
+      input.dispatchEvent(new Event('input', { bubbles: true }));
+    }
+  }, places);
+}
+
+/** What a click makes the browser download: its name and bytes. */
+export async function downloaded(page, click) {
+  const [download] = await Promise.all([page.waitForEvent('download'), click()]);
+  const chunks = [];
+  for await (const chunk of await download.createReadStream()) {
+    chunks.push(chunk);
+  }
+  return { name: download.suggestedFilename(), bytes: Buffer.concat(chunks) };
+}
