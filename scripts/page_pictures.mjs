@@ -121,13 +121,17 @@ const kViews = {
   },
   'mode-of-bifurcation': async ({ page, url }) => {
     await openStudio(page, url, 'arch_no_base');
-    const box = await page.locator('.path-card svg .mark.bifurcation').first().boundingBox();
+    const mark = page.locator('.path-card svg .mark.bifurcation').first();
+    await mark.scrollIntoViewIfNeeded();
+    const box = await mark.boundingBox();
     await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
     await page.locator('div.note').waitFor();
   },
   pointed: async ({ page, url }) => {
     await openStudio(page, url, 'tunnel_arch');
-    const box = await page.locator('.drawing-card svg path.member').first().boundingBox();
+    const member = page.locator('.drawing-card svg path.member').first();
+    await member.scrollIntoViewIfNeeded();
+    const box = await member.boundingBox();
     await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.3 * box.height);
     await page.waitForTimeout(200);
   },
@@ -174,7 +178,9 @@ const kViews = {
     await page.goto(`${url}/#/sweeps/${ids.map}`);
     await page.locator('.sweep-chart svg').waitFor();
     await page.waitForTimeout(kRest);
-    const box = await page.locator('.sweep-chart .walkable').boundingBox();
+    const chart = page.locator('.sweep-chart .walkable');
+    await chart.scrollIntoViewIfNeeded();
+    const box = await chart.boundingBox();
     await page.mouse.move(box.x + 0.6 * box.width, box.y + 0.4 * box.height);
     await page.waitForTimeout(200);
   },
