@@ -19,7 +19,7 @@ export function textWidth(text: string, size = 12, bold = false): number {
     else if (/[A-Z]/.test(character)) em += 0.7;
     else em += 0.585;
   }
-  return em * size * (bold ? 1.07 : 1);
+  return em * size * (bold ? 1.15 : 1);
 }
 
 const kCell = 4;

@@ -137,7 +137,7 @@ function criticalShapes(chart: PathChart, taken: Occupancy): { marks: Shape; lab
   const shown = chart.marks.map((item) => ({ item, pixel: pixelOf(chart.frame, item) }))
     .filter(({ pixel }) => inside(chart.frame, pixel));
   for (const { pixel } of shown) {
-    taken.addBox({ left: pixel.x - 11, right: pixel.x + 11, top: pixel.y - 11, bottom: pixel.y + 11 }, 6);
+    taken.addBox({ left: pixel.x - 11, right: pixel.x + 11, top: pixel.y - 11, bottom: pixel.y + 11 }, 14);
     taken.addBox({ left: pixel.x - 4, right: pixel.x + 4, top: pixel.y - 5, bottom: pixel.y + 4 }, 60);
   }
   const labels = () => group("mark-labels", ...shown.slice(0, kLabelled).map(({ item, pixel }, i) => placeLabel({

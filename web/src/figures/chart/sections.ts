@@ -128,7 +128,7 @@ const kFoot = 20;
 const kBelow = 16;  // for a value below the lowest point
 const kLeastWidth = 84;
 const kRowGap = 10;
-const kGap = 22;
+const kGap = 16;
 const kSide = 4;
 
 /** Columns of panels: as many as leave each wide enough to be read. */
@@ -264,7 +264,7 @@ function panelShape(chart: SectionsChart, input: SectionsInput, panel: SectionPa
   const taken = new Occupancy(chart.size);
   const { unit } = kSections[panel.quantity];
   const label0 = unitOf(input.model.units, unit);
-  const name = fittedName(panel, label0);
+  const name = fittedName(chart, input.model.units, panel.quantity);
   const top = titleTop(panel);
   const runs = [shape("tspan", { class: "strong" }, name), label0 === "" ? null : shape("tspan", { class: "muted" }, `\u00a0${label0}`)];
   const title = label("section-title", { x: panel.x.start, y: top + 13 }, "start", ...runs);
@@ -297,10 +297,14 @@ function titleWidth(name: string, unit: string): number {
   return textWidth(name, 12, true) + textWidth(` ${unit}`);
 }
 
-/** The name of a quantity, or its symbol alone where a panel is too narrow. */
-function fittedName(panel: SectionPanel, unit: string): string {
-  const { name } = kSections[panel.quantity];
-  return titleWidth(name, unit) <= panel.x.end - panel.x.start + 2 * kSide ? name : name.slice(name.lastIndexOf(" ") + 1);
+/** The name of a quantity, or its symbol alone where a panel is too narrow for its name. */
+function fittedName(chart: SectionsChart, units: Units | undefined, quantity: SectionQuantity): string {
+  const fits = chart.panels.every((panel) => {
+    const { name, unit } = kSections[panel.quantity];
+    return titleWidth(name, unitOf(units, unit)) <= panel.x.end - panel.x.start + 2 * kSide;
+  });
+  const { name } = kSections[quantity];
+  return fits ? name : name.slice(name.lastIndexOf(" ") + 1);
 }
 
 function titleTop(panel: SectionPanel): number {

@@ -82,7 +82,7 @@ export function drawingFigure(input: DrawingInput, size: Size, view?: View): Sha
   const text = sceneCaption(scene);
   const caption = (input.caption ?? true) ? captionShape(text, size) : null;
   if (caption) taken.addBox({ left: 0, top: 0, right: size.width, bottom: 18 });
-  const dimensions = dimensionShapes(scene, shown, size, taken);
+  const dimensions = (input.dimensions ?? true) ? dimensionShapes(scene, shown, size, taken) : null;
   const lines = memberShapes([...scene.members.values()], scene, shown, taken);
   const monitors = monitorShapes(scene, shown, taken);
   const loads = loadShapes(scene, shown, taken);

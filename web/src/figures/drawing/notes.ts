@@ -115,7 +115,7 @@ function withPeaks(values: readonly number[]): number[] {
   for (let i = 1; i + 1 < values.length; ++i) {
     const before = at(values, i - 1) - at(values, i);
     const after = at(values, i + 1) - at(values, i);
-    if (before * after > 0) all.push(at(values, i) - (after - before) ** 2 / (8 * (after + before)));
+    if (before * after >= 0 && before !== after) all.push(at(values, i) - (after - before) ** 2 / (8 * (after + before)));
   }
   return all;
 }
