@@ -93,6 +93,7 @@ print_result() {
          "Kind            " + (.summary.critical_type | tostring),
          "Run time        " + ((.diagnostics.wall_time_s * 1e4 | round) / 10 | tostring) + " ms"' "$result"
   echo "Stored result   $result_url"
+  echo "Page            $url"
   echo
 }
 

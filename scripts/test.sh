@@ -36,6 +36,10 @@ ctest --test-dir "build/$preset" --parallel "$jobs" --output-on-failure --no-tes
 echo "== schema, generated client, responses"
 bash scripts/schema.sh "build/$preset/snapthrough"
 
+echo "== page: types, bundle byte for byte, figures, in Chromium"
+bash scripts/web.sh --check
+bash scripts/web_test.sh "build/$preset/snapthrough"
+
 echo "== thesis examples"
 python3 scripts/report.py --self-test
 python3 scripts/report.py "build/$preset/snapthrough" --check

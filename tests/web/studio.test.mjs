@@ -37,18 +37,16 @@ test('the first problem is drawn with its path, its sections and its critical lo
 test('the latest value of a slider wins, with at most two requests in flight and no jobs left behind', async () => {
   const page = await studio();
   await settled(page);
-  let inFlight = 0;
+  const inFlight = new Set();
   let most = 0;
   const isSolve = (request) => request.method() === 'POST' && request.url().endsWith('/v1/jobs');
   page.on('request', (request) => {
     if (isSolve(request)) {
-      inFlight += 1;
-      most = Math.max(most, inFlight);
+      inFlight.add(request);
+      most = Math.max(most, inFlight.size);
     }
   });
-  const ended = (request) => {
-    inFlight -= isSolve(request) ? 1 : 0;
-  };
+  const ended = (request) => inFlight.delete(request);
   page.on('requestfinished', ended);
   page.on('requestfailed', ended);
   await page.waitForTimeout(600);  // states to walk through were asked for

@@ -13,6 +13,8 @@ const kWait = 1;  // seconds; an analysis that takes longer is followed by its e
 export interface Question {
   request: RequestDocument;
   live: boolean;
+  /** Counts the models that were opened: an answer to a question about another one is dropped. */
+  model: number;
 }
 
 export interface Takers {

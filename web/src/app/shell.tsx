@@ -82,7 +82,7 @@ function View({ route }: { route: Route }) {
     case "sweeps": return route.id ? <SweepView key={route.id} id={route.id} /> : <SweepsView />;
     case "studio":
     case "model": return <StudioView view={route.view} query={route.query} />;
-    default: return <main class="plain"><section class="card"><h1>There is nothing at this address</h1><p><a href="#/studio">Go to the studio</a></p></section></main>;
+    default: return <main id="main" tabIndex={-1} class="plain"><section class="card"><h1>There is nothing at this address</h1><p><a href="#/studio">Go to the studio</a></p></section></main>;
   }
 }
 
@@ -95,9 +95,9 @@ export function Shell() {
   }, [route, state.problem, state.request]);
   return (
     <>
-      <a class="skip" href="#panel" onClick={(event) => {
+      <a class="skip" href="#main" onClick={(event) => {
         event.preventDefault();
-        document.querySelector<HTMLElement>("main")?.querySelector<HTMLElement>("input, button, a")?.focus();
+        document.getElementById("main")?.focus();
       }}>Skip to the content</a>
       <Header route={route} />
       <Gone />

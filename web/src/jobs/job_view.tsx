@@ -85,7 +85,7 @@ export function JobView({ id }: { id: string }) {
   const [choice, setChoice] = useState<Choice>({ kind: "critical" });
   const busy = job?.status === "accepted" || job?.status === "running";
   return (
-    <main class="studio">
+    <main id="main" tabIndex={-1} class="studio">
       <Card title="Job" class="controls">
         <div class="scroll">
           <h1 class="long">{job && job.title !== "" ? job.title : "Job"}</h1>

@@ -103,7 +103,7 @@ export function JobsView() {
   const next = list?.links.find((link) => link.rel === "next");
   const nextCursor = next ? new URL(next.href, location.href).searchParams.get("cursor") : null;
   return (
-    <main class="plain">
+    <main id="main" tabIndex={-1} class="plain">
       <section class="card" aria-labelledby="jobs-title">
         <h1 id="jobs-title">Jobs</h1>
         <div class="filters">

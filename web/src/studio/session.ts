@@ -36,6 +36,7 @@ export const studio = makeStore<Studio>({
 
 const latest = new Latest({ answered, failed });
 let rest: ReturnType<typeof setTimeout> | undefined;
+let opened = 0;  // models
 let dragStart: Run | null = null;  // what the chart showed before the first of a series of changes
 let following: AbortController | null = null;
 
@@ -77,7 +78,9 @@ function show(run: Run): void {
 }
 
 function answered(question: Question, answer: Answer, milliseconds: number): void {
-  if (answer.result) {
+  if (question.model !== opened) {
+    latest.discard(answer.job);
+  } else if (answer.result) {
     show(makeRun(question, answer.job, answer.result, milliseconds, answer.cached));
   } else {
     void followJob(question, answer.job);
@@ -86,7 +89,7 @@ function answered(question: Question, answer: Answer, milliseconds: number): voi
 
 /** What a failed analysis reached is shown as well. */
 function failed(question: Question, error: unknown): void {
-  if (isAbort(error)) return;
+  if (isAbort(error) || question.model !== opened) return;
   const before = studio.get().run;
   studio.change({ busy: false, trouble: error, growing: null });
   if (!(error instanceof Refused) || !error.problem.reached) return;
@@ -158,7 +161,7 @@ function askFor(request: RequestDocument, live: boolean): void {
   dragStart ??= studio.get().run;
   studio.change({ request, busy: true });
   const steps = studio.get().run?.result.diagnostics.steps ?? null;
-  latest.ask({ request: forPictures(request, steps, live), live });
+  latest.ask({ request: forPictures(request, steps, live), live, model: opened });
 }
 
 /** Another value of a slider. */
@@ -181,13 +184,15 @@ export function setSliders(sliders: Slider[]): void {
 /** Opens a request that has nothing to do with what was there. */
 export function openRequest(request: RequestDocument, problem: Problem | null): void {
   const { run: shown, shadow, pins } = studio.get();
+  opened += 1;
   dragStart = null;
   following?.abort();
   studio.change({
     request, problem, sliders: (problem?.sliders ?? []).filter((slider) => fits(slider, request)), run: null, shadow: null,
     pins: [], choice: problem?.choice ?? { kind: "critical" }, growing: null, trouble: null,
   });
-  for (const old of [shown, shadow, ...pins]) release(old);
+  const jobs = new Map([shown, shadow, ...pins].map((one) => [one?.job, one]));
+  for (const old of jobs.values()) release(old);
   askFor(request, false);
 }
 

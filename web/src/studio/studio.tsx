@@ -122,7 +122,7 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
   const shadows = useMemo(() => shadowsOf(state), [state.shadow, state.pins, state.run]);
   const { request, problem } = state;
   return (
-    <main class={`studio ${panel === "json" ? "wide" : ""}`}>
+    <main id="main" tabIndex={-1} class={`studio ${panel === "json" ? "wide" : ""}`}>
       <Card title="Model" class="controls" tools={<button type="button" onClick={() => setGallery(true)}>Gallery</button>}>
         <div class="scroll">
           <h1 class={problem ? "" : "long"}>{problem?.heading ?? request?.model.title ?? "Model"}</h1>

@@ -211,7 +211,7 @@ export function SweepView({ id }: { id: string }) {
   const [{ sweep, document, table, trouble }, again] = useSweep(id);
   const busy = sweep?.status === "accepted" || sweep?.status === "running";
   return (
-    <main class="plain">
+    <main id="main" tabIndex={-1} class="plain">
       <section class="card" aria-labelledby="sweep-title">
         <h1 id="sweep-title">{sweep && sweep.title !== "" ? sweep.title : "Sweep"}</h1>
         <Trouble error={trouble} />

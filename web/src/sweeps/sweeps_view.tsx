@@ -38,7 +38,7 @@ export function SweepsView() {
   const query = new URLSearchParams({ limit: String(kPage), ...(status === "" ? {} : { status }) }).toString();
   const [list, trouble, again] = usePolled(() => service.sweeps(query), query, kEvery);
   return (
-    <main class="plain">
+    <main id="main" tabIndex={-1} class="plain">
       <section class="card" aria-labelledby="sweeps-title">
         <h1 id="sweeps-title">Sweeps</h1>
         <div class="filters">

@@ -12,8 +12,19 @@ import { Card, Menu } from "./card";
 import type { Pointed } from "./drawing_card";
 import { LongTable } from "./long_table";
 
-const kForces: readonly SectionQuantity[] = ["N", "Q", "M"];
-const kOthers: readonly SectionQuantity[] = ["rotation", "reaction"];
+type Group = readonly SectionQuantity[];
+
+/** What is shown together where there is no room for everything; the first group is shown first. */
+const kWideGroups: readonly Group[] = [["N", "Q", "M"], ["rotation", "reaction"]];
+const kNarrowGroups: readonly Group[] = [["N", "M"], ["Q", "rotation"], ["reaction"]];
+const kNarrow = 480;  // px
+const kRoomy = 300;   // px of height that have room for everything
+const kAll: Group = ["N", "Q", "M", "rotation", "reaction"];
+
+function groupsFor(size: Size | null): readonly Group[] {
+  if (size !== null && size.height > kRoomy) return [kAll];
+  return size !== null && size.width < kNarrow ? kNarrowGroups : kWideGroups;
+}
 
 interface SectionsProps {
   model: Model;
@@ -38,11 +49,11 @@ function Panels({ input, size, onCursor }: { input: SectionsInput; size: Size; o
 export function SectionsCard({ model, state, cursor, onCursor, class: name = "" }: SectionsProps) {
   const [place, size] = useSize<HTMLDivElement>();
   const [twin, setTwin] = useState(false);
-  const [others, setOthers] = useState(false);
-  const input = useMemo<SectionsInput | null>(() => {
-    const roomy = size !== null && size.height > 300;
-    return state ? { model, state, cursor, ...(roomy ? {} : { quantities: others ? kOthers : kForces }) } : null;
-  }, [model, state, cursor, others, size]);
+  const [chosen, setChosen] = useState(0);
+  const groups = groupsFor(size);
+  const quantities = groups[Math.min(chosen, groups.length - 1)];
+  const input = useMemo<SectionsInput | null>(() => (state ? { model, state, cursor, quantities } : null),
+                                              [model, state, cursor, quantities]);
   const file = fileName(model.title ?? "", "-sections");
   const take = (): ReturnType<typeof sectionsFigure> | null =>
     input && sectionsFigure({ ...input, cursor: null }, size ?? { width: 700, height: 160 });
@@ -53,8 +64,11 @@ export function SectionsCard({ model, state, cursor, onCursor, class: name = "" 
   return (
     <Card title="Section forces" class={`sections-card ${name}`} tools={input ? (
       <>
-      {size && size.height <= 300 && !twin
-        ? <button type="button" onClick={() => setOthers(!others)}>{others ? "N, Q, M" : "Rotation, reaction"}</button> : null}
+      {groups.length > 1 && !twin ? (
+        <select aria-label="What is shown" value={chosen} onChange={(event) => setChosen(Number(event.currentTarget.value))}>
+          {groups.map((group, i) => <option key={i} value={i}>{group.join(", ")}</option>)}
+        </select>
+      ) : null}
       <Menu label="Export" items={[
         { text: twin ? "Show the curves" : "Show as table", act: () => setTwin(!twin) },
         { text: "SVG", act: withFigure((figure) => saveSvg(`${file}.svg`, figure)) },

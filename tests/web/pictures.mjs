@@ -1,16 +1,16 @@
 // Pictures of every view of the page, taken from the running executable.
-//   node scripts/page_pictures.mjs               writes docs/page/: all views wide and light, some of them narrower and dark
-//   node scripts/page_pictures.mjs --all FOLDER  every view at every size, light and dark
-//   node scripts/page_pictures.mjs --all FOLDER NAME...   these views only
-// SERVICE_EXECUTABLE names the executable; PAGE_FOLDER a page in place of the one that is built in.
+//   node tests/web/pictures.mjs               writes docs/page/: all views wide and light, some of them narrower and dark
+//   node tests/web/pictures.mjs --all FOLDER  every view at every size, light and dark
+//   node tests/web/pictures.mjs --all FOLDER NAME...   these views only
+// scripts/web_pictures.sh runs it. SERVICE_EXECUTABLE names the executable; PAGE_FOLDER a page in place of the one that is built in.
 import { createHash } from 'node:crypto';
 import { mkdir, rm, stat, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { openPage, settled, slide, startBrowser } from '../tests/web/support/browser.mjs';
-import { startService } from '../tests/web/support/service.mjs';
+import { openPage, settled, slide, startBrowser } from './support/browser.mjs';
+import { startService } from './support/service.mjs';
 
-const root = fileURLToPath(new URL('..', import.meta.url));
+const root = fileURLToPath(new URL('../..', import.meta.url));
 const kMost = 6_000_000;  // bytes of all pictures in docs/page
 const kRest = 900;        // ms in which the studio has asked for the states to walk through
 const kKey = 'the key of the pictures';
@@ -34,15 +34,14 @@ async function openStudio(page, url, problem) {
   await still(page);
 }
 
-/** Soil that was made stiffer, an earlier path and a pinned one. */
+/** Soil that was made stiffer, with the run before and a pinned one. */
 async function changedStudio(page, url) {
   await openStudio(page, url, 'buried_pipe');
   await page.getByRole('button', { name: 'Pin this run' }).click();
-  for (const place of [470, 500, 530, 560]) {
+  for (const place of [350, 800]) {
     await slide(page, 'Soil stiffness', place);
-    await page.waitForTimeout(60);
+    await still(page);
   }
-  await still(page);
 }
 
 /** A model with three mistakes, in the editor. */
