@@ -43,7 +43,7 @@ function Pins({ state }: { state: Studio }) {
     <ul class="pins" aria-label="Pinned runs">
       {state.pins.map((run) => (
         <li key={run.job}><span>{run.label || "pinned run"}</span>
-          <button type="button" class="quiet" aria-label={`Unpin ${run.label}`} onClick={() => unpin(run)}>Remove</button></li>
+          <button type="button" class="quiet" aria-label={`Unpin ${run.label}`} onClick={() => unpin(run)}>Unpin</button></li>
       ))}
     </ul>
   );
