@@ -1,6 +1,6 @@
 // One sweep: its rows as a chart over one parameter, as a map over two, and as a table.
 
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useEffect, useMemo, useState } from "preact/hooks";
 import type { Sweep, SweepDocument, Table } from "../api/documents";
 import { call, isAbort, service } from "../api/client";
 import { follow } from "../api/events";
@@ -13,6 +13,7 @@ import {
   columnLabel, errorsOf, formatNumber, nearestInSweep, sweepLine, sweepLineChart, sweepMap, sweepMapChart, sweepMapLocate,
   sweepTable, type Pixel, type Shape, type Size, type SweepAxis,
 } from "../figures";
+import { place } from "../figures/chart/axes";
 import { openAny } from "../studio/session";
 import { Trouble } from "../studio/trouble";
 import { Card, Menu } from "../views/card";
@@ -75,22 +76,35 @@ interface Picture {
   shape: Shape;
   /** The row at a pixel. */
   rowAt: (pixel: Pixel) => number | null;
+  /** Where a row is. */
+  placeOf: (row: number) => Pixel | null;
+}
+
+function pixelOf(frame: { x: Parameters<typeof place>[0]; y: Parameters<typeof place>[0] }, spot: Pixel | undefined): Pixel | null {
+  const pixel = spot && { x: place(frame.x, spot.x), y: place(frame.y, spot.y) };
+  return pixel && Number.isFinite(pixel.x + pixel.y) ? pixel : null;
 }
 
 /** A chart over the first parameter, or a map over the first two. */
-function pictureOf(document: SweepDocument, table: Table, output: string, chosen: number | null, map: boolean, size: Size): Picture {
+function pictureOf(document: SweepDocument, table: Table, output: string, map: boolean, size: Size): Picture {
   const [first, second] = document.parameters;
   const x = axisOf(document, first?.name ?? "");
   const value = { column: output };
   if (map && second) {
-    const input = { table, x, y: axisOf(document, second.name), value, chosen };
+    const input = { table, x, y: axisOf(document, second.name), value };
     const chart = sweepMapChart(input, size);
-    return { shape: sweepMap(input, size, chart), rowAt: (pixel) => sweepMapLocate(chart, pixel)?.row ?? null };
+    const spots = new Map(chart.spots.map((spot) => [spot.row, spot]));
+    return {
+      shape: sweepMap(input, size, chart), rowAt: (pixel) => sweepMapLocate(chart, pixel)?.row ?? null,
+      placeOf: (row) => pixelOf(chart.frame, spots.get(row)),
+    };
   }
-  const input = { table, x, y: value, chosen, ...(second ? { series: second.name } : {}) };
+  const input = { table, x, y: value, ...(second ? { series: second.name } : {}) };
   const chart = sweepLineChart(input, size);
+  const spots = new Map(chart.lines.flatMap((line) => line.spots).map((spot) => [spot.row, spot]));
   return {
     shape: sweepLine(input, size, chart),
+    placeOf: (row) => pixelOf(chart.frame, spots.get(row)),
     rowAt: (pixel) => {
       const near = nearestInSweep(chart, pixel);
       return near && near.distance < 40 ? near.row : null;
@@ -127,9 +141,9 @@ interface ChartProps {
 }
 
 function Chart({ document: sweep, table, output, map, chosen, onChosen, onOpen }: ChartProps) {
-  const [place, size] = useSize<HTMLDivElement>();
-  const picture = useMemo(() => (size ? pictureOf(sweep, table, output, chosen, map, size) : null),
-                          [sweep, table, output, chosen, map, size]);
+  const [frame, size] = useSize<HTMLDivElement>();
+  const picture = useMemo(() => (size ? pictureOf(sweep, table, output, map, size) : null), [sweep, table, output, map, size]);
+  const ring = chosen === null ? null : picture?.placeOf(chosen) ?? null;
   const node = useMemo(() => (picture ? shapeNode(picture.shape) : null), [picture]);
   const at = (event: PointerEvent): number | null => {
     const box = (event.currentTarget as Element).getBoundingClientRect();
@@ -143,7 +157,7 @@ function Chart({ document: sweep, table, output, map, chosen, onChosen, onOpen }
     event.preventDefault();
   };
   return (
-    <div class="fill" ref={place}>
+    <div class="fill" ref={frame}>
       <div class="picture walkable" tabIndex={0} role="group" aria-label="Chart of the sweep. Left and right go from point to point, Enter opens one."
            onKeyDown={step} onPointerMove={(event) => {
              const row = at(event);
@@ -151,7 +165,14 @@ function Chart({ document: sweep, table, output, map, chosen, onChosen, onOpen }
            }} onClick={(event) => {
              const row = at(event as unknown as PointerEvent);
              if (row !== null) onOpen(row);
-           }}>{node}</div>
+           }}>
+        {node}
+        {size && ring ? (
+          <svg class="figure overlay" width={size.width} height={size.height} aria-hidden="true">
+            <circle class="chosen-ring" cx={ring.x} cy={ring.y} r={6.5} />
+          </svg>
+        ) : null}
+      </div>
     </div>
   );
 }
@@ -164,7 +185,6 @@ function ChartCard({ id, sweep, document, table }: { id: string; sweep: Sweep; d
   const [wanted, setWanted] = useState<string | null>(null);
   const [flat, setFlat] = useState(false);
   const [chosen, setChosen] = useState<number | null>(null);
-  const frame = useRef<HTMLDivElement>(null);
   const output = wanted !== null && numeric.includes(wanted) ? wanted : numeric[0] ?? document.outputs[0] ?? "";
   const two = document.parameters.length > 1;
   const map = two && !flat && document.design === "grid";
@@ -174,13 +194,14 @@ function ChartCard({ id, sweep, document, table }: { id: string; sweep: Sweep; d
       void openAny({ ...request, analysis: { ...request.analysis, output: {} } }).then(() => go("#/studio"));
     });
   };
-  const take = (): Shape => pictureOf(document, table, output, null, map, { width: 800, height: 520 }).shape;
+  const rows = useMemo(() => <LongTable table={sweepTable(table)} caption="Rows of the sweep" onRow={open} />, [table, id]);
+  const take = (): Shape => pictureOf(document, table, output, map, { width: 800, height: 520 }).shape;
   const csv = async (): Promise<void> => {
     const text = await (await call(`/v1/sweeps/${id}/table?format=csv`)).text();
     saveText(`${name}.csv`, text, "text/csv");
   };
   return (
-    <div class="sweep-chart" ref={frame}>
+    <div class="sweep-chart">
       <Card title={columnLabel({ column: output })} class="path-card" tools={
         <>
           {numeric.length > 1 ? (
@@ -201,7 +222,7 @@ function ChartCard({ id, sweep, document, table }: { id: string; sweep: Sweep; d
         <div class="row-note"><RowNote table={table} row={chosen} onOpen={open} /></div>
       </Card>
       <Card title={`Table of ${formatNumber(table.rows.length, 6)} rows`} class="table-card">
-        <div class="fill"><LongTable table={sweepTable(table)} caption="Rows of the sweep" onRow={open} /></div>
+        <div class="fill">{rows}</div>
       </Card>
     </div>
   );

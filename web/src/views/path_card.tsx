@@ -7,7 +7,7 @@ import { shapeNode } from "../app/shape_view";
 import { useSize } from "../app/size";
 import { fileName, savePng, saveSvg, saveText } from "../export/files";
 import {
-  branchesOf, bucklingFigure, criticalNear, defaultQuantities, nearestMode, nearestOnPath, pathChart, pathFigure, pathTable,
+  branchesOf, bucklingFigure, chosenShape, criticalNear, defaultQuantities, nearestMode, nearestOnPath, pathChart, pathFigure, pathTable,
   quantityLabel, tableCsv,
   type PathInput, type PathPoint, type PathQuantity, type PathResult, type PathShadow, type Size,
 } from "../figures";
@@ -106,7 +106,7 @@ function stepsOf(key: string): number | null {
 
 function Chart({ input, size, point, onPoint, onStep, onCritical, onPlay }: ChartProps) {
   const chart = useMemo(() => pathChart(input, size), [input, size]);
-  const figure = useMemo(() => shapeNode(pathFigure({ ...input, chosen: point }, size, chart)), [chart, point]);
+  const figure = useMemo(() => shapeNode(pathFigure(input, size, chart)), [chart]);
   const drag = useRef(false);
   const pick = (event: PointerEvent): void => {
     const box = (event.currentTarget as Element).getBoundingClientRect();
@@ -139,6 +139,7 @@ function Chart({ input, size, point, onPoint, onStep, onCritical, onPlay }: Char
          }}
          onPointerMove={(event) => (drag.current ? pick(event) : undefined)} onPointerUp={() => (drag.current = false)}>
       {figure}
+      <svg class="figure overlay" width={size.width} height={size.height} aria-hidden="true">{shapeNode(chosenShape(chart, point))}</svg>
     </div>
   );
 }
