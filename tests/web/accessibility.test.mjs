@@ -50,7 +50,7 @@ async function hostileSweep() {
   const request = await example('tunnel_arch');
   request.model.title = kHostile;
   return post('/v1/sweeps', {
-    ...request, label: kHostile, analysis: { type: 'critical' }, design: 'grid', outputs: ['/summary/critical_load_factor'],
+    ...request, analysis: { type: 'critical' }, design: 'grid', outputs: ['/summary/critical_load_factor'],
     parameters: [{ name: kHostile, targets: [{ pointer: '/model/foundations/0/stiffness' }], range: { from: 0.01, to: 1, count: 4 } }],
   });
 }

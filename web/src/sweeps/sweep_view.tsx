@@ -169,7 +169,7 @@ function Chart({ document: sweep, table, output, map, chosen, onChosen, onOpen }
         {node}
         {size && ring ? (
           <svg class="figure overlay" width={size.width} height={size.height} aria-hidden="true">
-            <circle class="chosen-ring" cx={ring.x} cy={ring.y} r={6.5} />
+            <circle class="chosen-ring open" cx={ring.x} cy={ring.y} r={6.5} />
           </svg>
         ) : null}
       </div>
