@@ -3,7 +3,7 @@
 // shown is dropped. Jobs that were overtaken are dismissed or removed, so that a thousand moves don't leave a thousand jobs.
 
 import type { RequestDocument, Result } from "./documents";
-import { type Answer, service, solve } from "./client";
+import { type Answer, Refused, service, solve } from "./client";
 
 const kInFlight = 2;
 const kMostUnwanted = 100;  // overtaken jobs that wait for a pause before they are removed
@@ -21,6 +21,22 @@ export interface Takers {
   /** A question's answer: its result, or the job that will have it. `milliseconds` from asking to having it. */
   answered(question: Question, answer: Answer, milliseconds: number): void;
   failed(question: Question, error: unknown): void;
+  /** Whether a job is shown, or may be: a question that was asked before is answered with the job of that time. */
+  isWanted(job: string): boolean;
+}
+
+/** The answer was a stored one whose job was removed at the same time: asked again, it is computed. */
+function wasRemoved(error: unknown): boolean {
+  return (error instanceof Refused && error.kind === "no-such-job") || error instanceof TypeError;
+}
+
+async function solveAgain(request: RequestDocument, wait: number): Promise<Answer> {
+  try {
+    return await solve(request, wait);
+  } catch (error) {
+    if (!wasRemoved(error)) throw error;
+    return solve(request, wait);
+  }
 }
 
 export class Latest {
@@ -58,7 +74,7 @@ export class Latest {
 
   /** Removes a job that nobody needs any more. */
   discard(job: string): void {
-    if (job !== "") this.unwanted.push(job);
+    if (job !== "" && !this.unwanted.includes(job)) this.unwanted.push(job);
     void this.removeUnwanted();
   }
 
@@ -68,7 +84,7 @@ export class Latest {
     this.most = Math.max(this.most, this.inFlight);
     const start = performance.now();
     try {
-      const answer = await solve(question.request, kWait);
+      const answer = await solveAgain(question.request, kWait);
       if (number < this.shown) {
         this.discard(answer.job);
       } else {
@@ -99,7 +115,7 @@ export class Latest {
     this.removing = true;
     while (this.unwanted.length > (this.inFlight > 0 ? kMostUnwanted : 0)) {
       const job = this.unwanted.shift();
-      if (job !== undefined) await service.deleteJob(job).catch(() => undefined);
+      if (job !== undefined && !this.takers.isWanted(job)) await service.deleteJob(job).catch(() => undefined);
     }
     this.removing = false;
   }

@@ -34,7 +34,8 @@ export const studio = makeStore<Studio>({
   growing: null, busy: false, trouble: null,
 });
 
-const latest = new Latest({ answered, failed });
+const latest = new Latest({ answered, failed, isWanted });
+let leaving: Run[] = [];  // runs of the model before, until the next one is shown
 let rest: ReturnType<typeof setTimeout> | undefined;
 let opened = 0;  // models
 let dragStart: Run | null = null;  // what the chart showed before the first of a series of changes
@@ -60,19 +61,22 @@ function makeRun(question: Question, job: string, result: Result, milliseconds: 
   };
 }
 
+function isWanted(job: string): boolean {
+  const { run, shadow, pins } = studio.get();
+  return [run, shadow, ...pins].some((one) => one?.job === job);
+}
+
 /** Removes the job of a run that is not on the chart any more. */
 function release(run: Run | null): void {
-  const { run: shown, shadow, pins } = studio.get();
-  const used = [shown, shadow, ...pins].some((one) => one?.job === run?.job);
-  if (run && !run.kept && !used) latest.discard(run.job);
+  if (run && !run.kept && !isWanted(run.job)) latest.discard(run.job);
 }
 
 function show(run: Run): void {
   const before = studio.get();
   following?.abort();
   studio.change({ run, growing: null, busy: false, trouble: null, shadow: dragStart ?? before.shadow });
-  release(before.run);
-  release(before.shadow);
+  for (const old of [before.run, before.shadow, ...leaving]) release(old);
+  leaving = [];
   clearTimeout(rest);
   rest = setTimeout(() => void atRest(run), kRest);
 }
@@ -185,14 +189,13 @@ export function setSliders(sliders: Slider[]): void {
 export function openRequest(request: RequestDocument, problem: Problem | null): void {
   const { run: shown, shadow, pins } = studio.get();
   opened += 1;
+  leaving = [...leaving, shown, shadow, ...pins].filter((one): one is Run => one !== null);
   dragStart = null;
   following?.abort();
   studio.change({
     request, problem, sliders: (problem?.sliders ?? []).filter((slider) => fits(slider, request)), run: null, shadow: null,
     pins: [], choice: problem?.choice ?? { kind: "critical" }, growing: null, trouble: null,
   });
-  const jobs = new Map([shown, shadow, ...pins].map((one) => [one?.job, one]));
-  for (const old of jobs.values()) release(old);
   askFor(request, false);
 }
 
