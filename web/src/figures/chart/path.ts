@@ -159,10 +159,10 @@ function contactShapes(input: PathInput, frame: Frame): Shape {
 const kShadowTries: readonly (readonly [number, number])[] =
   [[0.7, 14], [0.85, 14], [0.5, 14], [1, 14], [0.3, 14], [0.7, 30], [0.85, 30], [0.5, 30], [1, 30], [0.3, 30], [0.7, 110]];
 
-function shadowLabels(chart: PathChart, taken: Occupancy): Shape[] {
+function shadowLabels(input: PathInput, chart: PathChart, taken: Occupancy): Shape[] {
   return chart.shadows.flatMap(({ shadow, curves }) => {
     const curve = curves[0];
-    if (!curve) return [];
+    if (!curve || isOnly(input, shadow.kind)) return [];
     const seen = curve.vertices.map((vertex) => pixelOf(chart.frame, vertex)).filter((p) => inside(chart.frame, p));
     for (const [share, tolerance] of kShadowTries) {
       const spot = seen[Math.round(share * (seen.length - 1))];
@@ -174,6 +174,11 @@ function shadowLabels(chart: PathChart, taken: Occupancy): Shape[] {
   });
 }
 
+/** Whether a kind of shadow has one run only: then the legend names it, else each has its label beside it. */
+function isOnly(input: PathInput, kind: PathShadow["kind"]): boolean {
+  return (input.shadows ?? []).filter((shadow) => shadow.kind === kind).length === 1;
+}
+
 function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEntry[] {
   const entries: LegendEntry[] = [];
   const stable = new Set(curves.flatMap((curve) => [...new Set(curve.stable)]));
@@ -181,6 +186,9 @@ function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEn
   if (stable.has(false)) entries.push({ text: "unstable", line: "path unstable" });
   if (stable.has(null)) entries.push({ text: "stability not counted", line: "path untold" });
   if (curves.some((curve) => curve.branch !== 0)) entries.push({ text: "branch", line: "path branch stable" });
+  for (const { label: text, kind } of input.shadows ?? []) {
+    if (isOnly(input, kind)) entries.push({ text, line: `shadow ${kind}` });
+  }
   return [...entries, ...markEntries(new Set<MarkKind>([...input.result.critical_points.map((point) => point.type),
                                                         ...input.result.contact_events.map((event) => event.type)]))];
 }
@@ -237,7 +245,7 @@ export function pathFigure(input: PathInput, size: Size, chart: PathChart = path
   const title = `${frame.yLabel} against ${frame.xLabel}`;
   return figure("chart path-chart", size, title, plotArea(frame), frameShapes(frame, size),
                 clipped(frame, "plot-lines", ...shadows, ...lines), rowDots(chart, input), contactShapes(input, frame),
-                critical.marks, critical.labels(), group("shadow-labels", ...shadowLabels(chart, taken)),
+                critical.marks, critical.labels(), group("shadow-labels", ...shadowLabels(input, chart, taken)),
                 chosenShape(chart, input.chosen), empty, legendShape(legendEntries(input, chart.curves), size.width));
 }
 

@@ -280,7 +280,7 @@ function panelShape(chart: SectionsChart, input: SectionsInput, panel: SectionPa
   const cursor = panel.zero ? [] : cursorShapes(chart, input, panel, taken);
   const extremes = panel.zero ? [] : extremesOf(chart, input, panel).flatMap(({ at: spot, value }) => [
     shape("circle", { class: "section-dot", cx: coordinate(spot.x), cy: coordinate(spot.y), r: 2.8 }),
-    placeLabel({ at: spot, className: "section-value", prefer: value > 0 ? 6 : 2, distance: 3, tolerance: 900, rings: 1,
+    placeLabel({ at: spot, className: "section-value", prefer: value > 0 ? 6 : 2, distance: 5, tolerance: 900, rings: 1,
                  runs: [{ text: formatNumber(value), bold: true }] }, taken),
   ]);
   return group(`section section-${panel.quantity}`, title, ...curves,
