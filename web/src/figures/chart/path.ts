@@ -186,11 +186,10 @@ function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEn
   if (stable.has(false)) entries.push({ text: "unstable", line: "path unstable" });
   if (stable.has(null)) entries.push({ text: "stability not counted", line: "path untold" });
   if (curves.some((curve) => curve.branch !== 0)) entries.push({ text: "branch", line: "path branch stable" });
-  for (const { label: text, kind } of input.shadows ?? []) {
-    if (isOnly(input, kind)) entries.push({ text, line: `shadow ${kind}` });
-  }
+  const runs = (input.shadows ?? []).filter(({ kind }) => isOnly(input, kind))
+    .map(({ label: text, kind }) => ({ text, line: `shadow ${kind}` }));
   return [...entries, ...markEntries(new Set<MarkKind>([...input.result.critical_points.map((point) => point.type),
-                                                        ...input.result.contact_events.map((event) => event.type)]))];
+                                                        ...input.result.contact_events.map((event) => event.type)])), ...runs];
 }
 
 /** The place of a curve at an arc length. */
