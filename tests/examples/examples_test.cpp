@@ -119,6 +119,30 @@ TEST(Examples, PortalFrameSwaysAtItsBucklingLoad) {
   EXPECT_EQ(result.at("buckling").at("modes").size(), 2U);
 }
 
+// Sway of a portal with pinned feet, columns of height h, and a beam of the same section and length L,
+// members that do not change their length: k h tan(k h) = 6 h / L = 4.8, P = k^2 EI. The columns' strain P /
+// EA is 7e-4, and the load is less by about that.
+TEST(Examples, PortalWithPinnedFeetSways) {
+  const json result = run_example("portal_sway.json");
+  constexpr double kAngle = 1.30528284829434;
+  expect_relative(critical_load_factor(result), kAngle * kAngle * 7749.0 / 16.0, 2e-3);
+  EXPECT_EQ(result.at("branches").size(), 3U) << "it sways to either side";
+}
+
+// A long film on a bilateral base wrinkles at P = 2 (K EI)^0.5 (Hetenyi, Beams on Elastic Foundation, 1946).
+// Its length of 12 takes 6.04 of the waves of length 2 pi (EI/K)^0.25, so that a whole number of them fits
+// but for 2e-4 of the load.
+TEST(Examples, FilmWrinkles) {
+  const json result = run_example("film_on_substrate.json");
+  expect_relative(critical_load_factor(result), 2.0, 1e-3);
+  EXPECT_EQ(result.at("summary").at("critical_type"), "bifurcation");
+}
+
+// The first limit load of thesis table 4.5 at k = 1e7, converged: 93.117814. Asked for are 1e-3.
+TEST(Examples, TunnelArchSnapsAtItsFirstLimitLoad) {
+  expect_relative(critical_load_factor(run_example("tunnel_arch.json")), 93.117814, 1e-4);
+}
+
 // One-sided bases on both sides are one that is bilateral (P = pi^2 + K / pi^2, Hetenyi 1946), springs on
 // both sides of the middle make two half waves of one (4 pi^2). Axial strain takes P / EA; the default
 // accuracy is 1e-3.

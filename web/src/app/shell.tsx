@@ -60,7 +60,10 @@ function KeyDialog() {
         setText("");
       }}>
         <h2 id="key-title">This service needs a key</h2>
-        <p class="hint">{hasKey() ? "The key that was given is not known here. " : ""}It is kept until this tab is closed, and sent to this service only.</p>
+        <p class="hint">
+          {hasKey() ? "The key that was given is not known here. " : ""}It is kept until this tab is closed, and sent to this
+          service only.
+        </p>
         <input type="password" autocomplete="off" aria-label="Key" required value={text}
                onInput={(event) => setText(event.currentTarget.value)} />
         <button type="submit" class="main">Go on</button>
@@ -72,8 +75,20 @@ function KeyDialog() {
 function Gone() {
   const { state } = useStore(connection);
   return state === "gone"
-    ? <div class="gone-banner" role="alert">The service does not answer. This page asks again every second and goes on when it is back.</div>
+    ? (
+      <div class="gone-banner" role="alert">
+        The service does not answer. This page asks again every second and goes on when it is back.
+      </div>
+    )
     : null;
+}
+
+function Nowhere() {
+  return (
+    <main id="main" tabIndex={-1} class="plain">
+      <section class="card"><h1>There is nothing at this address</h1><p><a href="#/studio">Go to the studio</a></p></section>
+    </main>
+  );
 }
 
 function View({ route }: { route: Route }) {
@@ -82,7 +97,7 @@ function View({ route }: { route: Route }) {
     case "sweeps": return route.id ? <SweepView key={route.id} id={route.id} /> : <SweepsView />;
     case "studio":
     case "model": return <StudioView view={route.view} query={route.query} />;
-    default: return <main id="main" tabIndex={-1} class="plain"><section class="card"><h1>There is nothing at this address</h1><p><a href="#/studio">Go to the studio</a></p></section></main>;
+    default: return <Nowhere />;
   }
 }
 

@@ -9,7 +9,7 @@ export {
   chosenShape, criticalNear, nearestOnPath, pathChart, pathFigure, type PathChart, type PathInput, type PathShadow,
 } from "./chart/path";
 export {
-  branchesOf, defaultQuantities, quantityLabel, rowsOfStates, stateNear, walk, type PathPoint, type PathQuantity,
+  branchesOf, defaultQuantities, isReversed, quantityLabel, rowsOfStates, stateNear, walk, type PathPoint, type PathQuantity,
   type PathResult,
 } from "./chart/curves";
 export {

@@ -81,8 +81,11 @@ function Row({ job, onChanged }: { job: Job; onChanged: () => void }) {
       <td>{duration(job.started, job.finished)}</td>
       <td>{ago(job.created)}</td>
       <td>
-        {busy ? <button type="button" class="quiet" aria-label={`Dismiss ${job.title}`} onClick={() => act(service.dismissJob(job.id))}>Dismiss</button>
-          : <button type="button" class="quiet" aria-label={`Delete ${job.title}`} onClick={() => act(service.deleteJob(job.id))}>Delete</button>}
+        {busy
+          ? <button type="button" class="quiet" aria-label={`Dismiss ${job.title}`}
+                    onClick={() => act(service.dismissJob(job.id))}>Dismiss</button>
+          : <button type="button" class="quiet" aria-label={`Delete ${job.title}`}
+                    onClick={() => act(service.deleteJob(job.id))}>Delete</button>}
       </td>
     </tr>
   );
@@ -122,10 +125,12 @@ export function JobsView() {
             <tbody>{list?.jobs.map((job) => <Row key={job.id} job={job} onChanged={again} />)}</tbody>
           </table>
         </div>
-        {list && list.jobs.length === 0 ? <p class="hint">No jobs. Change a slider in the <a href="#/studio">studio</a>, or send one with curl.</p> : null}
+        {list && list.jobs.length === 0
+          ? <p class="hint">No jobs. Change a slider in the <a href="#/studio">studio</a>, or send one with curl.</p> : null}
         <div class="buttons">
           <button type="button" disabled={cursors.length === 0} onClick={() => setCursors(cursors.slice(0, -1))}>Newer</button>
-          <button type="button" disabled={nextCursor === null} onClick={() => nextCursor !== null && setCursors([...cursors, nextCursor])}>Older</button>
+          <button type="button" disabled={nextCursor === null}
+                  onClick={() => nextCursor !== null && setCursors([...cursors, nextCursor])}>Older</button>
         </div>
       </section>
     </main>

@@ -26,8 +26,11 @@ function Row({ sweep, onChanged }: { sweep: Sweep; onChanged: () => void }) {
       <td>{counts.failed > 0 ? formatNumber(counts.failed, 6) : ""}</td>
       <td>{ago(sweep.created)}</td>
       <td>
-        {busy ? <button type="button" class="quiet" aria-label={`Dismiss ${sweep.title}`} onClick={() => act(service.dismissSweep(sweep.id))}>Dismiss</button>
-          : <button type="button" class="quiet" aria-label={`Delete ${sweep.title}`} onClick={() => act(service.deleteSweep(sweep.id))}>Delete</button>}
+        {busy
+          ? <button type="button" class="quiet" aria-label={`Dismiss ${sweep.title}`}
+                    onClick={() => act(service.dismissSweep(sweep.id))}>Dismiss</button>
+          : <button type="button" class="quiet" aria-label={`Delete ${sweep.title}`}
+                    onClick={() => act(service.deleteSweep(sweep.id))}>Delete</button>}
       </td>
     </tr>
   );

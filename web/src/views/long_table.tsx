@@ -32,13 +32,21 @@ export function LongTable({ table, caption, onRow }: LongTableProps) {
          onScroll={(event) => setView({ top: event.currentTarget.scrollTop, height: event.currentTarget.clientHeight })}>
       <table aria-rowcount={table.rows.length + 1}>
         <caption class="unseen">{caption}</caption>
-        <thead><tr>{table.columns.map((name) => <th scope="col" key={name}>{name}</th>)}{onRow ? <th scope="col">open</th> : null}</tr></thead>
+        <thead>
+          <tr>
+            {table.columns.map((name) => <th scope="col" key={name}>{name}</th>)}
+            {onRow ? <th scope="col">open</th> : null}
+          </tr>
+        </thead>
         <tbody>
           <tr ref={above} aria-hidden="true" />
           {rows.map((cells, i) => (
             <tr key={first + i} aria-rowindex={first + i + 2}>
               {cells.map((cell, j) => <td key={j}>{cell}</td>)}
-              {onRow ? <td><button type="button" class="quiet" aria-label={`Open row ${first + i + 1}`} onClick={() => onRow(first + i)}>open</button></td> : null}
+              {onRow ? (
+                <td><button type="button" class="quiet" aria-label={`Open row ${first + i + 1}`}
+                            onClick={() => onRow(first + i)}>open</button></td>
+              ) : null}
             </tr>
           ))}
           <tr ref={below} aria-hidden="true" />

@@ -7,7 +7,8 @@ import { shapeNode } from "../app/shape_view";
 import { useSize } from "../app/size";
 import { fileName, savePng, saveSvg, saveText } from "../export/files";
 import {
-  branchesOf, bucklingFigure, chosenShape, criticalNear, defaultQuantities, nearestMode, nearestOnPath, pathChart, pathFigure, pathTable,
+  branchesOf, bucklingFigure, chosenShape, criticalNear, defaultQuantities, isReversed,
+  nearestMode, nearestOnPath, pathChart, pathFigure, pathTable,
   quantityLabel, tableCsv,
   type PathInput, type PathPoint, type PathQuantity, type PathResult, type PathShadow, type Size,
 } from "../figures";
@@ -43,10 +44,8 @@ function nameOf(quantity: PathQuantity): string {
 /** Every quantity that the result has, monitors turned as the default is. */
 function quantitiesOf(result: PathResult): PathQuantity[] {
   const [branch] = branchesOf(result);
-  const monitors = Object.entries(branch?.monitors ?? {}).map(([id, values]): PathQuantity => {
-    const sum = values.reduce((total, value) => total + value, 0);
-    return { kind: "monitor", id, reversed: sum < 0 };
-  });
+  const monitors = Object.keys(branch?.monitors ?? {}).map((id): PathQuantity =>
+    ({ kind: "monitor", id, reversed: isReversed(result, id) }));
   return [...monitors, { kind: "load_factor" }, { kind: "arc_length" }];
 }
 

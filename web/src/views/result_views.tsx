@@ -72,8 +72,9 @@ export function ResultViews({ request, run, growing, shadows, choice, onChoice, 
     <>
       <DrawingCard model={model} state={state} mode={mode} room={room} cursor={cursor} onCursor={setCursor}
                    loadFactor={buckling?.load_factors[modeNumber] ?? null} />
-      {run && buckling ? <BucklingCard run={run} mode={modeNumber} onMode={setModeNumber} /> : <PathCard model={model} run={run} growing={growing} shadows={shadows} choice={choice} onChoice={onChoice}
-                note={note} onCritical={setCritical} />}
+      {run && buckling ? <BucklingCard run={run} mode={modeNumber} onMode={setModeNumber} />
+        : <PathCard model={model} run={run} growing={growing} shadows={shadows} choice={choice} onChoice={onChoice}
+                    note={note} onCritical={setCritical} />}
       <SectionsCard model={model} state={state} cursor={cursor} onCursor={setCursor} />
       <TrustCard run={run} request={request} />
     </>

@@ -64,7 +64,7 @@ export function SectionsCard({ model, state, cursor, onCursor, class: name = "" 
     if (figure) act(figure);
   };
   return (
-    <Card title="Section forces" class={`sections-card ${name}`} tools={input ? (
+    <Card title="Section forces" class={`sections-card ${input ? "" : "empty"} ${name}`} tools={input ? (
       <>
       {groups.length > 1 && !twin ? (
         <select aria-label="What is shown" value={chosen} onChange={(event) => setChosen(Number(event.currentTarget.value))}>

@@ -161,15 +161,26 @@ export function quantityLabel(quantity: PathQuantity, monitors: readonly Monitor
   return withUnit(`${quantity.id}, ${kSenses[monitor.component][quantity.reversed ? 1 : 0]}`, unit);
 }
 
+/**
+ * Whether a monitor is shown with minus its value: it is negative along the primary path by more than rounding, which is what a
+ * displacement has there that only branches give values to.
+ */
+export function isReversed(result: PathResult, id: string): boolean {
+  const branches = branchesOf(result);
+  const values = branches[0]?.monitors[id] ?? [result.critical_points[0]?.monitors[id] ?? 0];
+  let largest = 0;
+  for (const branch of branches) for (const value of branch.monitors[id] ?? []) largest = Math.max(largest, Math.abs(value));
+  const mean = values.reduce((total, value) => total + value, 0) / Math.max(1, values.length);
+  return mean < -1e-9 * largest;
+}
+
 /** Load factor against the first monitor, turned so that the path begins to the right; against arc length without one. */
 export function defaultQuantities(result: PathResult): { x: PathQuantity; y: PathQuantity } {
   const y: PathQuantity = { kind: "load_factor" };
   const first = branchesOf(result)[0];
   const id = Object.keys(first?.monitors ?? result.critical_points[0]?.monitors ?? {})[0];
   if (id === undefined) return { x: { kind: "arc_length" }, y };
-  const values = first?.monitors[id] ?? [result.critical_points[0]?.monitors[id] ?? 0];
-  const sum = values.reduce((total, value) => total + value, 0);
-  return { x: { kind: "monitor", id, reversed: sum < 0 }, y };
+  return { x: { kind: "monitor", id, reversed: isReversed(result, id) }, y };
 }
 
 /** The row of each state: by its load factor, in order along its branch; that of a critical point by its arc length. */
