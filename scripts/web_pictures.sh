@@ -13,4 +13,5 @@ SERVICE_EXECUTABLE="$(realpath "${1:-build/release/snapthrough}")"
 export SERVICE_EXECUTABLE
 cd tests/web
 npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
-node pictures.mjs ../../docs/page
+rm -f ../../docs/page/*.png
+node pictures.mjs

@@ -1,12 +1,10 @@
 // Each view by axe-core, light and dark; and what the page's own source must not have.
 import assert from 'node:assert/strict';
 import { readdir, readFile } from 'node:fs/promises';
-import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
+import { violations } from './support/axe.mjs';
 import { openPage, settled, startBrowser } from './support/browser.mjs';
 import { startService } from './support/service.mjs';
-
-const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 let service;
 let browser;
@@ -19,12 +17,6 @@ after(async () => {
   await browser?.close();
   await service?.stop();
 });
-
-async function violations(page) {
-  await page.evaluate(axe);
-  const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
-  return found.violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map((node) => node.html.slice(0, 160)).join(' | ')}`);
-}
 
 async function aJob() {
   const { examples } = await (await fetch(`${service.url}/v1/examples`)).json();

@@ -1,7 +1,7 @@
 // The size of an element, kept up to date.
 
 import { type RefObject } from "preact";
-import { useLayoutEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Size } from "../figures";
 
 export function useSize<T extends Element>(): [RefObject<T>, Size | null] {
@@ -21,4 +21,18 @@ export function useSize<T extends Element>(): [RefObject<T>, Size | null] {
     return () => observer.disconnect();
   }, []);
   return [place, size];
+}
+
+const kNarrow = "(max-width: 820px)";  // where page.css puts the cards below one another
+
+/** Whether the window has room for one column only. */
+export function useNarrow(): boolean {
+  const [narrow, setNarrow] = useState(() => matchMedia(kNarrow).matches);
+  useEffect(() => {
+    const query = matchMedia(kNarrow);
+    const changed = (): void => setNarrow(query.matches);
+    query.addEventListener("change", changed);
+    return () => query.removeEventListener("change", changed);
+  }, []);
+  return narrow;
 }

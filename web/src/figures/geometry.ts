@@ -56,11 +56,20 @@ export function leftNormals(x: readonly number[], y: readonly number[]): Point[]
   return x.map((_, i) => {
     const a = Math.max(0, i - 1);
     const b = Math.min(n - 1, i + 1);
-    const dx = at(x, b) - at(x, a);
-    const dy = at(y, b) - at(y, a);
+    const dx = a === i || b === i ? endSlope(x, i) : at(x, b) - at(x, a);
+    const dy = a === i || b === i ? endSlope(y, i) : at(y, b) - at(y, a);
     const length = Math.hypot(dx, dy);
     return length > 0 ? { x: -dy / length, y: dx / length } : { x: 0, y: 1 };
   });
+}
+
+/** Three-point difference at an end of evenly spaced values, so that a curve's normal there is as good as between. */
+function endSlope(values: readonly number[], end: number): number {
+  const n = values.length;
+  const way = end === 0 ? 1 : -1;
+  const next = at(values, end + way);
+  if (n < 3) return way * (next - at(values, end));
+  return way * (4 * next - 3 * at(values, end) - at(values, end + 2 * way));
 }
 
 /** Second derivatives of the C2 cubic spline through (t, f), not-a-knot at its ends (docs/requests.md, curves). */

@@ -19,7 +19,7 @@ export function textWidth(text: string, size = 12, bold = false): number {
     else if (/[A-Z]/.test(character)) em += 0.7;
     else em += 0.585;
   }
-  return em * size * (bold ? 1.07 : 1);
+  return em * size * (bold ? 1.15 : 1);
 }
 
 const kCell = 4;
@@ -97,6 +97,8 @@ export interface LabelRequest {
   prefer?: number;
   /** Whether a line leads to a label that finds its place far away. */
   leader?: boolean;
+  /** How many rings around the anchor are tried, 4 when left out; 1 keeps a label beside its anchor. */
+  rings?: number;
   /** Cells that it may cover; labels that cover more are left out. */
   tolerance?: number;
 }
@@ -149,7 +151,7 @@ export function placeLabel(request: LabelRequest, taken: Occupancy): Shape | nul
   const size = request.size ?? 12;
   const width = request.runs.reduce((sum, run) => sum + textWidth(run.text, size, run.bold), 0);
   let best: Candidate | null = null;
-  for (let ring = 0; ring < 4; ++ring) {
+  for (let ring = 0; ring < (request.rings ?? 4); ++ring) {
     for (let eighth = 0; eighth < 8; ++eighth) {
       const next = candidate(request, eighth, ring, width, taken);
       if (best === null || next.cost < best.cost) best = next;

@@ -90,7 +90,7 @@ export function JobView({ id }: { id: string }) {
         <div class="scroll">
           <h1 class="long">{job && job.title !== "" ? job.title : "Job"}</h1>
           <p class="headline">{job ? <span class={badgeOf(job.status)}>{job.status}</span> : null}</p>
-          <p class="text">{job?.message ?? (trouble ? "" : "Loading…")}</p>
+          {trouble ? null : <p class="text">{job?.message ?? "Loading…"}</p>}
           <Trouble error={trouble} />
           {job ? <Facts job={job} /> : null}
         </div>

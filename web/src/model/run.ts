@@ -173,11 +173,11 @@ export function choiceOf(run: Run, index: number): Choice {
 }
 
 /** The row of its branch that is nearest to a station, as figures name points of a path. */
-export function rowOf(run: Run, station: Station): { branch: number; index: number } {
+export function rowOf(run: Run, station: Station): { branch: number; index: number; arc: number } {
   const arcs = branchesOf(run.result)[station.branch]?.arc_length ?? [];
   let index = 0;
   arcs.forEach((arc, i) => {
     if (Math.abs(arc - station.arc) < Math.abs((arcs[index] ?? 0) - station.arc)) index = i;
   });
-  return { branch: station.branch, index };
+  return { branch: station.branch, index, arc: station.arc };
 }

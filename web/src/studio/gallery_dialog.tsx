@@ -7,14 +7,14 @@ import { drawingFigure } from "../figures";
 import { kProblems, type Problem } from "../model/gallery";
 import { loadExamples } from "./session";
 
-const kThumb = { width: 400, height: 230 };  // scaled down by the style sheet
+const kThumb = { width: 320, height: 170 };  // scaled down by the style sheet
 
 function Thumb({ request }: { request: RequestDocument | undefined }) {
   const picture = useMemo(() => {
     if (!request) return null;
     const { nodes, sections, members, supports = [], springs = [], foundations = [] } = request.model;
     const bare = { nodes, sections, members, supports, springs, foundations };
-    return shapeNode(drawingFigure({ model: bare, caption: false }, kThumb));
+    return shapeNode(drawingFigure({ model: bare, caption: false, dimensions: false }, kThumb));
   }, [request]);
   return <div class="thumb" aria-hidden="true">{picture}</div>;
 }

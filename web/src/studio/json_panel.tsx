@@ -79,13 +79,13 @@ export function JsonPanel({ request, onChange }: JsonProps) {
       event.preventDefault();
       void readFile(event.dataTransfer?.files[0], editor.current, (text) => void check(text));
     }}>
-      <div class="editor" ref={place} />
       {trouble ? <p class="wrong">{trouble}</p> : null}
       <p class={findings.length > 0 ? "wrong" : "hint"} role="status">
         {findings.length === 0 ? "No mistakes. What is typed is solved at once; a file can be dropped here."
           : `${findings.length} ${findings.length === 1 ? "mistake" : "mistakes"}, each marked at its place.`}</p>
       {findings.length > 0
         ? <ul class="findings">{findings.slice(0, 8).map((one, i) => <li key={i}><code>{one.pointer || "/"}</code> {one.detail}</li>)}</ul> : null}
+      <div class="editor" ref={place} />
       <div class="buttons"><button type="button" onClick={() => saveJson("request.json", request)}>Save as a file</button></div>
     </div>
   );

@@ -3,6 +3,7 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { service } from "../api/client";
 import { go } from "../app/router";
+import { useNarrow } from "../app/size";
 import { formatNumber, type PathShadow } from "../figures";
 import { kProblems } from "../model/gallery";
 import { sliderFor, valueOf } from "../model/sliders";
@@ -42,7 +43,7 @@ function Pins({ state }: { state: Studio }) {
     <ul class="pins" aria-label="Pinned runs">
       {state.pins.map((run) => (
         <li key={run.job}><span>{run.label || "pinned run"}</span>
-          <button type="button" class="quiet" aria-label={`Unpin ${run.label}`} onClick={() => unpin(run)}>Remove</button></li>
+          <button type="button" class="quiet" aria-label={`Unpin ${run.label}`} onClick={() => unpin(run)}>Unpin</button></li>
       ))}
     </ul>
   );
@@ -86,6 +87,20 @@ function PanelOf({ panel, state }: { panel: Panel; state: Studio }) {
   }
 }
 
+function Editing({ panel, onPanel, state }: { panel: Panel; onPanel: (panel: Panel) => void; state: Studio }) {
+  return (
+    <>
+      <div class="tabs" role="tablist" aria-label="Edit">
+        {kPanels.map(([name, text]) => (
+          <button type="button" role="tab" key={name} id={`tab-${name}`} aria-selected={panel === name} aria-controls="panel"
+                  onClick={() => onPanel(name)}>{text}</button>
+        ))}
+      </div>
+      <div id="panel" role="tabpanel" aria-labelledby={`tab-${panel}`}><PanelOf panel={panel} state={state} /></div>
+    </>
+  );
+}
+
 function shadowsOf({ shadow, pins, run }: Studio): PathShadow[] {
   const shadows: PathShadow[] = [];
   const pinned = pins.filter((one) => one.job !== run?.job);
@@ -121,6 +136,8 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
   }, [wanted, job]);
   const shadows = useMemo(() => shadowsOf(state), [state.shadow, state.pins, state.run]);
   const { request, problem } = state;
+  const narrow = useNarrow();
+  const editing = <Editing panel={panel} onPanel={setPanel} state={state} />;
   return (
     <main id="main" tabIndex={-1} class={`studio ${panel === "json" ? "wide" : ""}`}>
       <Card title="Model" class="controls" tools={<button type="button" onClick={() => setGallery(true)}>Gallery</button>}>
@@ -129,13 +146,7 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
           {problem ? <p class="text">{problem.text} <span class="reference">See {problem.reference.file}, {problem.reference.text}.</span></p> : null}
           <Sliders state={state} />
           <Trouble error={state.trouble} />
-          <div class="tabs" role="tablist" aria-label="Edit">
-            {kPanels.map(([name, text]) => (
-              <button type="button" role="tab" key={name} id={`tab-${name}`} aria-selected={panel === name} aria-controls="panel"
-                      onClick={() => setPanel(name)}>{text}</button>
-            ))}
-          </div>
-          <div id="panel" role="tabpanel" aria-labelledby={`tab-${panel}`}><PanelOf panel={panel} state={state} /></div>
+          {narrow ? null : editing}
           <Pins state={state} />
         </div>
         <Actions state={state} />
@@ -146,6 +157,7 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
                      onFollow={request.analysis.type === "path"
                        ? () => setRequest(withValue(request, "/analysis/branches/follow", "first")) : undefined} />
       ) : <Card title="Drawing" class="drawing-card"><p class="hint">Loading…</p></Card>}
+      {narrow ? <Card title="Edit" class="editing">{editing}</Card> : null}
       <GalleryDialog open={gallery} chosen={problem} onClose={() => setGallery(false)} onChoose={(next) => {
         setGallery(false);
         go(`#/studio?problem=${next.example}`);

@@ -18,6 +18,7 @@ import { openAny } from "../studio/session";
 import { Trouble } from "../studio/trouble";
 import { Card, Menu } from "../views/card";
 import { LongTable } from "../views/long_table";
+import { kindOf } from "../views/trust_card";
 
 const kReadAgain = 700;  // ms between readings of the table while rows come
 const kMostMarks = 4000;
@@ -122,7 +123,7 @@ function RowNote({ table, row, onOpen }: { table: Table; row: number | null; onO
       {table.columns.map((column, i) => {
         const cell = cells[i];
         if (column === "error" || cell === null || cell === undefined || typeof cell === "object") return null;
-        return <span key={column}>{columnLabel({ column })} <strong>{typeof cell === "number" ? formatNumber(cell, 5) : String(cell)}</strong></span>;
+        return <span key={column}>{columnLabel({ column })} <strong>{typeof cell === "number" ? formatNumber(cell, 5) : kindOf(String(cell))}</strong></span>;
       })}
       {error ? <span class="wrong">{error.code.replace(/_/g, " ")}: {error.detail}</span> : null}
       <button type="button" onClick={() => onOpen(row)}>Open this analysis</button>
@@ -169,7 +170,7 @@ function Chart({ document: sweep, table, output, map, chosen, onChosen, onOpen }
         {node}
         {size && ring ? (
           <svg class="figure overlay" width={size.width} height={size.height} aria-hidden="true">
-            <circle class="chosen-ring" cx={ring.x} cy={ring.y} r={6.5} />
+            <circle class="chosen-ring open" cx={ring.x} cy={ring.y} r={6.5} />
           </svg>
         ) : null}
       </div>

@@ -47,7 +47,7 @@ function Told({ place, model, size }: { place: Located; model: Model; size: Size
       rows.push([one.contact ? "reaction" : "no contact", formatWithUnit(one.reaction, unitOf(units, "line_load"))]);
     }
   }
-  const corner = `told ${place.pixel.x > size.width / 2 ? "left" : "right"} ${place.pixel.y > size.height / 2 ? "top" : "bottom"}`;
+  const corner = `told ${place.pixel.x > size.width / 2 ? "at-left" : "at-right"} ${place.pixel.y > size.height / 2 ? "at-top" : "at-bottom"}`;
   return (
     <dl class={corner}>
       <div class="told-name">{place.member}</div>

@@ -38,7 +38,7 @@ function sameQuantity(a: PathQuantity, b: PathQuantity): boolean {
 }
 
 function nameOf(quantity: PathQuantity): string {
-  return quantity.kind === "monitor" ? quantity.id : quantity.kind.replace("_", " ");
+  return quantity.kind === "monitor" ? quantity.id : { load_factor: "load", arc_length: "arc length" }[quantity.kind];
 }
 
 /** Every quantity that the result has, monitors turned as the default is. */

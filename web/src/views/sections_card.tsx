@@ -21,9 +21,11 @@ const kNarrow = 480;  // px
 const kRoomy = 300;   // px of height that have room for everything
 const kAll: Group = ["N", "Q", "M", "rotation", "reaction"];
 
-function groupsFor(size: Size | null): readonly Group[] {
-  if (size !== null && size.height > kRoomy) return [kAll];
-  return size !== null && size.width < kNarrow ? kNarrowGroups : kWideGroups;
+/** Without foundations there is no reaction to show. */
+function groupsFor(size: Size | null, model: Model): readonly Group[] {
+  const all = size !== null && size.height > kRoomy ? [kAll] : size !== null && size.width < kNarrow ? kNarrowGroups : kWideGroups;
+  if ((model.foundations ?? []).length > 0) return all;
+  return all.map((group) => group.filter((quantity) => quantity !== "reaction")).filter((group) => group.length > 0);
 }
 
 interface SectionsProps {
@@ -50,7 +52,7 @@ export function SectionsCard({ model, state, cursor, onCursor, class: name = "" 
   const [place, size] = useSize<HTMLDivElement>();
   const [twin, setTwin] = useState(false);
   const [chosen, setChosen] = useState(0);
-  const groups = groupsFor(size);
+  const groups = useMemo(() => groupsFor(size, model), [size, model]);
   const quantities = groups[Math.min(chosen, groups.length - 1)];
   const input = useMemo<SectionsInput | null>(() => (state ? { model, state, cursor, quantities } : null),
                                               [model, state, cursor, quantities]);

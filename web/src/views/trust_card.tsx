@@ -42,7 +42,7 @@ function Headline({ result }: { result: Result }) {
   if (load === null) {
     return (
       <>
-        <p class="headline"><strong>{buckling === undefined ? "–" : formatNumber(buckling, 5)}</strong>
+        <p class="headline">{result.failure ? null : <strong>{buckling === undefined ? "none" : formatNumber(buckling, 5)}</strong>}
           {result.failure ? <Badge good={false}>{result.failure.code.replace(/_/g, " ")}</Badge> : null}</p>
         <p class="hint">{result.failure ? result.failure.detail
           : buckling === undefined ? "no loss of stability on this path" : "first buckling load"}</p>
@@ -68,7 +68,7 @@ function othersText(result: Result): string {
   }
   const texts = [...counts].map(([kind, count]) =>
     `${count} ${count === 1 ? kind : kind.replace(/^(\S*(?: bifurcation| point|bifurcation))/, "$1s")}`);
-  return texts.length === 0 ? "no bifurcation, no other limit point" : texts.join(", ");
+  return texts.length === 0 ? "no other critical point" : texts.join(", ");
 }
 
 function meshText(result: Result): string {
@@ -79,7 +79,7 @@ function meshText(result: Result): string {
 function effortText(run: Run): string {
   const { wall_time_s: seconds, steps } = run.result.diagnostics;
   const time = run.cached ? "known before" : `${formatNumber(1000 * seconds, 2)} ms`;
-  return steps === null ? time : `${steps} steps, ${time}`;
+  return steps === null || steps === 0 ? time : `${steps} steps, ${time}`;
 }
 
 function rowsOf(run: Run): [string, string][] {

@@ -7,7 +7,8 @@ import { kMarkNames, mark, type MarkKind } from "./marks";
 /** A line with its classes, or a mark; `group` is the class of a group around a line that has one. */
 export type LegendEntry = { text: string } & ({ line: string; group?: string } | { mark: MarkKind });
 
-const kLeft = 62;
+const kLeft = 62;    // where the plot begins
+const kNarrow = 420;  // narrower figures use all their width
 const kRow = 18;
 
 function sampleWidth(entry: LegendEntry): number {
@@ -16,12 +17,13 @@ function sampleWidth(entry: LegendEntry): number {
 
 function layout(entries: readonly LegendEntry[], width: number): { places: Pixel[]; rows: number } {
   const places: Pixel[] = [];
-  let x = kLeft;
+  const left = width < kNarrow ? 4 : kLeft;
+  let x = left;
   let row = 0;
   for (const entry of entries) {
     const wide = sampleWidth(entry) + textWidth(entry.text) + 16;
-    if (x > kLeft && x + wide > width) {
-      x = kLeft;
+    if (x > left && x + wide > width) {
+      x = left;
       ++row;
     }
     places.push({ x, y: 10 + kRow * row });

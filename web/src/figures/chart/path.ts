@@ -19,6 +19,9 @@ export interface PathShadow {
   kind: "earlier" | "pinned";
 }
 
+/** A row of a path; with `arc` the place at that arc length, which need not be a row. */
+export type ChosenPoint = PathPoint & { arc?: number };
+
 /**
  * What is drawn: a result's branches, one quantity against another. Load factors have no unit; monitors are in the model's
  * length, or radians.
@@ -29,8 +32,8 @@ export interface PathInput {
   y: PathQuantity;
   monitors?: readonly Monitor[] | undefined;
   units?: Units | undefined;
-  /** The point that the drawing shows. */
-  chosen?: PathPoint | null | undefined;
+  /** The point that the drawing shows: a row, or between rows the place at an arc length. */
+  chosen?: ChosenPoint | null | undefined;
   shadows?: readonly PathShadow[] | undefined;
   /** Ranges of both axes; what holds everything when left out. */
   domain?: { x: readonly [number, number]; y: readonly [number, number] } | null | undefined;
@@ -134,7 +137,7 @@ function criticalShapes(chart: PathChart, taken: Occupancy): { marks: Shape; lab
   const shown = chart.marks.map((item) => ({ item, pixel: pixelOf(chart.frame, item) }))
     .filter(({ pixel }) => inside(chart.frame, pixel));
   for (const { pixel } of shown) {
-    taken.addBox({ left: pixel.x - 11, right: pixel.x + 11, top: pixel.y - 11, bottom: pixel.y + 11 }, 6);
+    taken.addBox({ left: pixel.x - 11, right: pixel.x + 11, top: pixel.y - 11, bottom: pixel.y + 11 }, 14);
     taken.addBox({ left: pixel.x - 4, right: pixel.x + 4, top: pixel.y - 5, bottom: pixel.y + 4 }, 60);
   }
   const labels = () => group("mark-labels", ...shown.slice(0, kLabelled).map(({ item, pixel }, i) => placeLabel({
@@ -152,16 +155,28 @@ function contactShapes(input: PathInput, frame: Frame): Shape {
     .map(({ item, pixel }) => mark(item.event.type, pixel)));
 }
 
-function shadowLabels(chart: PathChart, taken: Occupancy): Shape[] {
+/** Where along its path a label is tried, and what it may cover there: first where it covers no line. */
+const kShadowTries: readonly (readonly [number, number])[] =
+  [[0.7, 14], [0.85, 14], [0.5, 14], [1, 14], [0.3, 14], [0.7, 30], [0.85, 30], [0.5, 30], [1, 30], [0.3, 30], [0.7, 110]];
+
+function shadowLabels(input: PathInput, chart: PathChart, taken: Occupancy): Shape[] {
   return chart.shadows.flatMap(({ shadow, curves }) => {
     const curve = curves[0];
-    if (!curve) return [];
+    if (!curve || isOnly(input, shadow.kind)) return [];
     const seen = curve.vertices.map((vertex) => pixelOf(chart.frame, vertex)).filter((p) => inside(chart.frame, p));
-    const spot = seen[Math.floor(0.7 * (seen.length - 1))] ?? seen[seen.length - 1];
-    const text = spot && placeLabel({ at: spot, className: `shadow-label ${shadow.kind}`, distance: 8,
-                                      runs: [{ text: shadow.label }], tolerance: 110 }, taken);
-    return text ? [text] : [];
+    for (const [share, tolerance] of kShadowTries) {
+      const spot = seen[Math.round(share * (seen.length - 1))];
+      const text = spot && placeLabel({ at: spot, className: `shadow-label ${shadow.kind}`, distance: 8, leader: true,
+                                        runs: [{ text: shadow.label }], tolerance }, taken);
+      if (text) return [text];
+    }
+    return [];
   });
+}
+
+/** Whether a kind of shadow has one run only: then the legend names it, else each has its label beside it. */
+function isOnly(input: PathInput, kind: PathShadow["kind"]): boolean {
+  return (input.shadows ?? []).filter((shadow) => shadow.kind === kind).length === 1;
 }
 
 function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEntry[] {
@@ -171,14 +186,28 @@ function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEn
   if (stable.has(false)) entries.push({ text: "unstable", line: "path unstable" });
   if (stable.has(null)) entries.push({ text: "stability not counted", line: "path untold" });
   if (curves.some((curve) => curve.branch !== 0)) entries.push({ text: "branch", line: "path branch stable" });
+  const runs = (input.shadows ?? []).filter(({ kind }) => isOnly(input, kind))
+    .map(({ label: text, kind }) => ({ text, line: `shadow ${kind}` }));
   return [...entries, ...markEntries(new Set<MarkKind>([...input.result.critical_points.map((point) => point.type),
-                                                        ...input.result.contact_events.map((event) => event.type)]))];
+                                                        ...input.result.contact_events.map((event) => event.type)])), ...runs];
+}
+
+/** The place of a curve at an arc length. */
+function placeAlong(curve: PathCurve, arc: number): { x: number; y: number } | undefined {
+  const { vertices } = curve;
+  const found = vertices.findIndex((vertex) => vertex.arc >= arc);
+  const after = vertices[found < 0 ? vertices.length - 1 : found];
+  const before = found > 0 ? vertices[found - 1] : after;
+  if (!after || !before) return undefined;
+  const share = after.arc > before.arc ? Math.min(1, (arc - before.arc) / (after.arc - before.arc)) : 1;
+  return { x: before.x + share * (after.x - before.x), y: before.y + share * (after.y - before.y) };
 }
 
 /** The ring around the chosen point; drawn alone where only the choice changes. */
-export function chosenShape(chart: PathChart, chosen: PathPoint | null | undefined): Shape {
+export function chosenShape(chart: PathChart, chosen: ChosenPoint | null | undefined): Shape {
   const curve = chosen && chart.curves.find((item) => item.branch === chosen.branch);
-  const vertex = curve && chosen && curve.vertices.find((item) => item.row === chosen.index);
+  const vertex = curve && chosen &&
+    (chosen.arc === undefined ? curve.vertices.find((item) => item.row === chosen.index) : placeAlong(curve, chosen.arc));
   const pixel = vertex && pixelOf(chart.frame, vertex);
   if (!pixel || !inside(chart.frame, pixel)) return group("chosen");
   return group("chosen", shape("circle", { class: "chosen-ring", cx: coordinate(pixel.x), cy: coordinate(pixel.y), r: 6.5 }));
@@ -215,8 +244,8 @@ export function pathFigure(input: PathInput, size: Size, chart: PathChart = path
   const title = `${frame.yLabel} against ${frame.xLabel}`;
   return figure("chart path-chart", size, title, plotArea(frame), frameShapes(frame, size),
                 clipped(frame, "plot-lines", ...shadows, ...lines), rowDots(chart, input), contactShapes(input, frame),
-                critical.marks, chosenShape(chart, input.chosen), critical.labels(), group("shadow-labels", ...shadowLabels(chart, taken)),
-                empty, legendShape(legendEntries(input, chart.curves), size.width));
+                critical.marks, critical.labels(), group("shadow-labels", ...shadowLabels(input, chart, taken)),
+                chosenShape(chart, input.chosen), empty, legendShape(legendEntries(input, chart.curves), size.width));
 }
 
 /** The row of a path that is nearest to a pixel, and how far away it is; null when there is none. */

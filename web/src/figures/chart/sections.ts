@@ -121,11 +121,14 @@ function extentOf(input: SectionsInput, ids: readonly string[], quantity: Sectio
 }
 
 const kNegligible = 1e-6;
+const kAlike = 0.02;  // extremes that differ by less are one
 const kTitle = 20;
 const kHead = 20;  // for a value above the highest point
 const kFoot = 20;
+const kBelow = 16;  // for a value below the lowest point
+const kLeastWidth = 84;
 const kRowGap = 10;
-const kGap = 22;
+const kGap = 16;
 const kSide = 4;
 
 /** Columns of panels: as many as leave each wide enough to be read. */
@@ -135,9 +138,9 @@ function columnsOf(count: number, size: Size): number {
   for (let columns = 1; columns <= count; ++columns) {
     const rows = Math.ceil(count / columns);
     const width = (size.width - kGap * (columns - 1)) / columns;
-    const height = (size.height - kRowGap * (rows - 1)) / rows - kTitle - kFoot;
+    const height = (size.height - kRowGap * (rows - 1)) / rows - kTitle - kHead - kBelow - kFoot;
     const readable = Math.min(width, 3.2 * height);
-    if (width >= 120 && readable > most + 1) {
+    if (width >= kLeastWidth && readable > most + 1) {
       most = readable;
       best = columns;
     }
@@ -161,11 +164,10 @@ export function sectionsChart(input: SectionsInput, size: Size): SectionsChart {
     const [least, most] = extentOf(input, ids, quantity);
     const zero = Math.max(-least, most) <= negligible(input, ids, quantity, length);
     const [low, high] = zero ? [-1, 1] : [least, most];
-    const room = 0.1 * (high - low);
     return {
       quantity,
       x: makeScale(0, length, left + kSide, left + width - kSide),
-      y: makeScale(low - (low < 0 ? room : 0), high, top + height - kFoot, top + kTitle + (high > 0 ? kHead : 6)),
+      y: makeScale(low, high, top + height - kFoot - (low < 0 ? kBelow : 0), top + kTitle + (high > 0 ? kHead : 6)),
       zero,
     };
   });
@@ -177,7 +179,7 @@ interface Extreme {
   value: number;
 }
 
-/** The largest and the smallest value of a panel, where they differ and are not small beside one another. */
+/** The largest and the smallest value of a panel, where they differ well and are not small beside one another. */
 function extremesOf(chart: SectionsChart, input: SectionsInput, panel: SectionPanel): Extreme[] {
   let low: Extreme = { at: { x: 0, y: 0 }, value: Infinity };
   let high: Extreme = { at: { x: 0, y: 0 }, value: -Infinity };
@@ -190,8 +192,9 @@ function extremesOf(chart: SectionsChart, input: SectionsInput, panel: SectionPa
       });
     }
   }
-  const both = formatNumber(high.value) === formatNumber(low.value) ? [high] : [high, low];
   const largest = Math.max(Math.abs(high.value), Math.abs(low.value));
+  const alike = high.value - low.value < kAlike * largest;
+  const both = !alike ? [high, low] : Math.abs(low.value) > Math.abs(high.value) ? [low] : [high];
   return both.filter((item) => Number.isFinite(item.value) && Math.abs(item.value) > 0.03 * largest);
 }
 
@@ -218,9 +221,9 @@ function memberMarks(chart: SectionsChart, panel: SectionPanel): Shape[] {
     const from = place(panel.x, member.from);
     const to = place(panel.x, member.from + member.length);
     const shapes: Shape[] = [];
-    if (i > 0) shapes.push(line("section-joint", { x: from, y: panel.y.start }, { x: from, y: panel.y.end }));
+    if (i > 0) shapes.push(line("section-joint", { x: from, y: footTop(panel) }, { x: from, y: panel.y.end }));
     if (many && textWidth(member.id) < to - from - 4) {
-      shapes.push(label("tick", { x: (from + to) / 2, y: panel.y.start + 14 }, "middle", member.id));
+      shapes.push(label("tick", { x: (from + to) / 2, y: footTop(panel) + 14 }, "middle", member.id));
     }
     return shapes;
   });
@@ -234,8 +237,8 @@ function lengthTicks(chart: SectionsChart, panel: SectionPanel, units: Units | u
     const x = place(panel.x, value);
     const anchor = x - panel.x.start < 12 ? "start" : panel.x.end - x < 24 ? "end" : "middle";
     const text = i === marks.length - 1 ? formatWithUnit(value, unitOf(units, "length")) : formatNumber(value);
-    return group("section-tick", line("axis", { x, y: panel.y.start }, { x, y: panel.y.start + 3 }),
-                 label("tick", { x, y: panel.y.start + 15 }, anchor, i === 0 && value === 0 ? "s = 0" : text));
+    return group("section-tick", line("axis", { x, y: footTop(panel) }, { x, y: footTop(panel) + 3 }),
+                 label("tick", { x, y: footTop(panel) + 15 }, anchor, i === 0 && value === 0 ? "s = 0" : text));
   });
 }
 
@@ -259,28 +262,49 @@ function cursorShapes(chart: SectionsChart, input: SectionsInput, panel: Section
 
 function panelShape(chart: SectionsChart, input: SectionsInput, panel: SectionPanel): Shape {
   const taken = new Occupancy(chart.size);
-  const { name, unit } = kSections[panel.quantity];
+  const { unit } = kSections[panel.quantity];
   const label0 = unitOf(input.model.units, unit);
+  const name = fittedName(chart, input.model.units, panel.quantity);
   const top = titleTop(panel);
   const runs = [shape("tspan", { class: "strong" }, name), label0 === "" ? null : shape("tspan", { class: "muted" }, `\u00a0${label0}`)];
   const title = label("section-title", { x: panel.x.start, y: top + 13 }, "start", ...runs);
   taken.addBox({ left: 0, right: panel.x.start - 4, top: 0, bottom: chart.size.height });
   taken.addBox({ left: panel.x.end + 4, right: chart.size.width, top: 0, bottom: chart.size.height });
-  taken.addBox({ left: panel.x.start, top: top - 2, right: panel.x.start + textWidth(`${name} ${label0}`, 12, true) + 8, bottom: top + 15 });
-  taken.addBox({ left: panel.x.start, top: panel.y.start + 3, right: panel.x.end, bottom: panel.y.start + kFoot });
+  taken.addBox({ left: panel.x.start, top: top - 2, right: panel.x.start + titleWidth(name, label0) + 8, bottom: top + 15 });
+  taken.addBox({ left: panel.x.start, top: footTop(panel) + 3, right: panel.x.end, bottom: footTop(panel) + kFoot });
   taken.addBox({ left: 0, top: 0, right: chart.size.width, bottom: Math.max(0, top - 4) });
+  taken.addBox({ left: 0, top: footTop(panel) + kFoot, right: chart.size.width, bottom: chart.size.height });
   const curves = panel.zero ? [] : curveShapes(chart, input, panel, taken);
   const zero = place(panel.y, 0);
   if (panel.zero) curves.push(label("muted", { x: panel.x.start, y: zero - 5 }, "start", "zero"));
   const cursor = panel.zero ? [] : cursorShapes(chart, input, panel, taken);
   const extremes = panel.zero ? [] : extremesOf(chart, input, panel).flatMap(({ at: spot, value }) => [
     shape("circle", { class: "section-dot", cx: coordinate(spot.x), cy: coordinate(spot.y), r: 2.8 }),
-    placeLabel({ at: spot, className: "section-value", prefer: value > 0 ? 6 : 2, distance: 3, tolerance: 500,
+    placeLabel({ at: spot, className: "section-value", prefer: value > 0 ? 6 : 2, distance: 5, tolerance: 900, rings: 1,
                  runs: [{ text: formatNumber(value), bold: true }] }, taken),
   ]);
   return group(`section section-${panel.quantity}`, title, ...curves,
                line("axis", { x: panel.x.start, y: zero }, { x: panel.x.end, y: zero }), ...memberMarks(chart, panel),
                ...lengthTicks(chart, panel, input.model.units), ...cursor, ...extremes);
+}
+
+/** Where the names of members, or the lengths, begin: below the room for the lowest value. */
+function footTop(panel: SectionPanel): number {
+  return panel.y.start + (panel.y.from < 0 ? kBelow : 0);
+}
+
+function titleWidth(name: string, unit: string): number {
+  return textWidth(name, 12, true) + textWidth(` ${unit}`);
+}
+
+/** The name of a quantity, or its symbol alone where a panel is too narrow for its name. */
+function fittedName(chart: SectionsChart, units: Units | undefined, quantity: SectionQuantity): string {
+  const fits = chart.panels.every((panel) => {
+    const { name, unit } = kSections[panel.quantity];
+    return titleWidth(name, unitOf(units, unit)) <= panel.x.end - panel.x.start + 2 * kSide;
+  });
+  const { name } = kSections[quantity];
+  return fits ? name : name.slice(name.lastIndexOf(" ") + 1);
 }
 
 function titleTop(panel: SectionPanel): number {
@@ -300,7 +324,7 @@ export function sectionsFigure(input: SectionsInput, size: Size, chart: Sections
 /** The place on a member at a pixel of a panel; null outside of all panels. */
 export function sectionsLocate(chart: SectionsChart, pixel: Pixel): { member: string; s: number; quantity: SectionQuantity } | null {
   const panel = chart.panels.find(({ x, y }) =>
-    pixel.x >= x.start && pixel.x <= x.end && pixel.y >= y.end - kTitle - kHead && pixel.y <= y.start + kFoot);
+    pixel.x >= x.start && pixel.x <= x.end && pixel.y >= y.end - kTitle - kHead && pixel.y <= y.start + kBelow + kFoot);
   if (!panel) return null;
   const along = valueAt(panel.x, pixel.x);
   const member = chart.members.find((item) => along <= item.from + item.length) ?? chart.members[chart.members.length - 1];

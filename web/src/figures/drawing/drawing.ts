@@ -18,7 +18,7 @@ function pixels(x: readonly number[], y: readonly number[], view: View): Pixel[]
   return x.map((value, i) => toPixel(view, { x: value, y: at(y, i) }));
 }
 
-function modeShapes(scene: Scene, view: View): Shape | null {
+function modeShapes(scene: Scene, view: View, taken: Occupancy): Shape | null {
   const mode = scene.input.mode;
   if (!mode) return null;
   const amplitude = kModeShare * scene.extent;
@@ -29,6 +29,7 @@ function modeShapes(scene: Scene, view: View): Shape | null {
       x: interpolate(member.s, member.x, s) + amplitude * at(shapeOfMember.u, i),
       y: interpolate(member.s, member.y, s) + amplitude * at(shapeOfMember.v, i),
     }));
+    taken.addLine(points, 30);
     return path("mode", points);
   });
   return group("modes", ...lines);
@@ -81,14 +82,14 @@ export function drawingFigure(input: DrawingInput, size: Size, view?: View): Sha
   const text = sceneCaption(scene);
   const caption = (input.caption ?? true) ? captionShape(text, size) : null;
   if (caption) taken.addBox({ left: 0, top: 0, right: size.width, bottom: 18 });
-  const dimensions = dimensionShapes(scene, shown, size, taken);
+  const dimensions = (input.dimensions ?? true) ? dimensionShapes(scene, shown, size, taken) : null;
   const lines = memberShapes([...scene.members.values()], scene, shown, taken);
   const monitors = monitorShapes(scene, shown, taken);
   const loads = loadShapes(scene, shown, taken);
   const supports = supportShapes(scene, shown, taken);
   const reactions = reactionShapes(scene, shown, taken);
   const own = [reactions.under, lines.still, springShapes(scene, shown, taken), lines.moved, reactions.over,
-               modeShapes(scene, shown), hingeShapes(scene, shown), loads.arrows];
+               modeShapes(scene, shown, taken), hingeShapes(scene, shown), loads.arrows];
   return figure("drawing", size, text, groundShapes(scene, shown, size), dimensions, ...mirrorShapes(scene, shown, own),
                 ...own.slice(0, 3), supports, ...own.slice(3), monitors.marks, cursorShape(scene, shown),
                 reactions.text, monitors.notes(), loads.notes(), caption);

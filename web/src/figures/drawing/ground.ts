@@ -132,12 +132,17 @@ export function groundShapes(scene: Scene, view: View, size: Size): Shape {
   );
 }
 
-/** The reaction that is drawn as the ground's depth: the largest, but no less than a fiftieth of the line loads. */
+const kRounding = 1e-6;  // of the largest axial force over the structure's size
+
+/** The reaction that is drawn as the ground's depth: the largest, but no less than a fiftieth of the line loads or rounding. */
 function referenceReaction(scene: Scene): number {
   let largest = 0;
   for (const load of scene.input.model.loads ?? []) {
     const size = load.type === "distributed" ? Math.hypot(...load.force) : load.type === "pressure" ? load.value : 0;
     largest = Math.max(largest, 0.02 * Math.abs(size * drawnLoadFactor(scene)));
+  }
+  for (const { axial_force: forces } of Object.values(scene.input.state?.members ?? {})) {
+    for (const force of forces) largest = Math.max(largest, (kRounding * Math.abs(force)) / scene.extent);
   }
   for (const state of Object.values(scene.input.state?.foundations ?? {})) {
     for (const value of state.reaction) largest = Math.max(largest, Math.abs(value));

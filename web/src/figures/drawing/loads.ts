@@ -87,6 +87,14 @@ function addMoment(centre: Pixel, counterClockwise: boolean, arrows: Arrows): vo
   if (tail && tip) arrows.add(tail, tip);
 }
 
+/** Supports between members, whose symbols an arrow of a line load would cover. */
+function heldPlaces(scene: Scene, view: View): Pixel[] {
+  return (scene.input.model.supports ?? []).flatMap(({ node }) => {
+    const joint = scene.joints.get(node);
+    return joint && joint.leaving.length > 1 ? [toPixel(view, joint)] : [];
+  });
+}
+
 /** Arrows along a member; `pull` gives the load at a place, in model axes, 1 for the largest. */
 function lineArrows(range: readonly [number, number], member: string, scene: Scene, view: View,
                     pull: (s: number) => Point, arrows: Arrows): Pixel | null {
@@ -96,6 +104,7 @@ function lineArrows(range: readonly [number, number], member: string, scene: Sce
   const [from, to] = range;
   const pixels = (to - from) * length * view.scale;
   const count = Math.min(60, Math.max(2, Math.round(pixels / kLineSpacing)));
+  const symbols = heldPlaces(scene, view);
   let highest: Pixel | null = null;
   for (let i = 0; i <= count; ++i) {
     const s = (from + ((to - from) * i) / count) * length;
@@ -103,6 +112,7 @@ function lineArrows(range: readonly [number, number], member: string, scene: Sce
     const q = pull(s);
     const tip = toPixel(view, place.moved);
     const tail = { x: tip.x - kLineArrow * q.x, y: tip.y + kLineArrow * q.y };
+    if (symbols.some((at) => Math.hypot(at.x - tip.x, at.y - tip.y) < 0.4 * kLineSpacing)) continue;
     arrows.add(tail, { x: tip.x - 2.5 * q.x, y: tip.y + 2.5 * q.y });
     if (highest === null || tail.y < highest.y) highest = tail;
   }

@@ -1,7 +1,7 @@
 // Monitors with their values, overall dimensions, and the sentence that says what is drawn.
 
 import type { components } from "../../api/types";
-import { interpolate } from "../geometry";
+import { at, interpolate } from "../geometry";
 import { placeLabel, textWidth, type Occupancy } from "../labels";
 import { formatNumber, formatWithUnit, unitOf } from "../numbers";
 import { coordinate, group, label, line, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
@@ -109,16 +109,27 @@ export function dimensionShapes(scene: Scene, view: View, size: Size, taken: Occ
   return group("dimensions", ...shapes);
 }
 
+/** Values along a curve, and its peaks between them by parabolas, so that a ring of diameter 1 measures 1. */
+function withPeaks(values: readonly number[]): number[] {
+  const all = [...values];
+  for (let i = 1; i + 1 < values.length; ++i) {
+    const before = at(values, i - 1) - at(values, i);
+    const after = at(values, i + 1) - at(values, i);
+    if (before * after >= 0 && before !== after) all.push(at(values, i) - (after - before) ** 2 / (8 * (after + before)));
+  }
+  return all;
+}
+
 /** The box of the undeformed axes, mirror image included. */
 function stillBox(scene: Scene): Scene["box"] {
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
   for (const member of scene.members.values()) {
-    for (const x of member.x0) {
+    for (const x of withPeaks(member.x0)) {
       const other = scene.mirror === null ? x : 2 * scene.mirror - x;
       box.left = Math.min(box.left, x, other);
       box.right = Math.max(box.right, x, other);
     }
-    for (const y of member.y0) {
+    for (const y of withPeaks(member.y0)) {
       box.bottom = Math.min(box.bottom, y);
       box.top = Math.max(box.top, y);
     }

@@ -32,6 +32,8 @@ export interface DrawingInput {
   cursor?: { member: string; s: number } | null | undefined;
   /** Whether to draw the mirror image of a half structure as well; when left out, where `symmetryLine` finds a closed half. */
   mirror?: boolean | undefined;
+  /** Whether to draw overall dimensions; true when left out. */
+  dimensions?: boolean | undefined;
   /** Whether to say in the figure what it shows; true when left out. */
   caption?: boolean | undefined;
 }
@@ -241,6 +243,7 @@ function marginOf(scene: Scene): { left: number; right: number; top: number; bot
   const points = loads.some((load) => load.type === "point");
   const sideways = loads.some((load) => load.type === "point" && load.force[0] !== 0);
   const above = points ? 54 : loads.length > 0 ? 36 : 24;
+  if (scene.input.dimensions === false) return { left: 24, right: sideways ? 58 : 24, top: above, bottom: 24 };
   return { left: 58, right: sideways ? 58 : 40, top: above + ((scene.input.caption ?? true) ? 18 : 0), bottom: 58 };
 }
 
