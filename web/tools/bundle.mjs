@@ -1,7 +1,7 @@
 // Bundles src/main.tsx into dist/ (index.html and assets/), and fails when the page is larger than it may be.
-//   node build/bundle.mjs             writes dist/
-//   node build/bundle.mjs FOLDER      writes FOLDER instead
-//   node build/bundle.mjs --watch     writes dist/ again whenever a source changes
+//   node tools/bundle.mjs             writes dist/
+//   node tools/bundle.mjs FOLDER      writes FOLDER instead
+//   node tools/bundle.mjs --watch     writes dist/ again whenever a source changes
 import { mkdir, readFile, rm, writeFile } from 'node:fs/promises';
 import { basename, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';

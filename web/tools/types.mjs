@@ -4,7 +4,7 @@ import openapiTS, { astToString } from 'openapi-typescript';
 
 const source = new URL('../../api/openapi/openapi.json', import.meta.url);
 const target = new URL('../src/api/types.ts', import.meta.url);
-const head = '// Made by build/types.mjs from api/openapi/openapi.json. Do not edit.\n';
+const head = '// Made by tools/types.mjs from api/openapi/openapi.json. Do not edit.\n';
 const text = head + astToString(await openapiTS(source, { defaultNonNullable: false }));
 
 if (!process.argv.includes('--check')) {

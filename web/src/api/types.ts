@@ -1,4 +1,4 @@
-// Made by build/types.mjs from api/openapi/openapi.json. Do not edit.
+// Made by tools/types.mjs from api/openapi/openapi.json. Do not edit.
 export interface paths {
     "/v1/jobs": {
         parameters: {

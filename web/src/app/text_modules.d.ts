@@ -1,4 +1,4 @@
-// figures.css as text, for exported files (build/bundle.mjs).
+// figures.css as text, for exported files (tools/bundle.mjs).
 declare module "*.css?text" {
   const text: string;
   export default text;
