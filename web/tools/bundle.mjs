@@ -3,7 +3,7 @@
 //   node tools/bundle.mjs FOLDER      writes FOLDER instead
 //   node tools/bundle.mjs --watch     writes dist/ again whenever a source changes
 import { mkdir, readFile, rm, writeFile } from 'node:fs/promises';
-import { basename, join, resolve } from 'node:path';
+import { basename, join, relative, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import esbuild from 'esbuild';
@@ -70,14 +70,14 @@ async function write(result) {
   return report(files, loaded);
 }
 
-/** `import text from "x.css?text"`: the style sheet, minified, as a string. */
+/** `import text from "x.css?text"`: the style sheet, minified, as a string. Its path is part of names: relative. */
 const styleText = {
   name: 'style-text',
   setup(build) {
     build.onResolve({ filter: /\.css\?text$/ }, ({ path, resolveDir }) =>
-      ({ path: resolve(resolveDir, path.replace('?text', '')), namespace: 'style-text' }));
+      ({ path: relative(root, resolve(resolveDir, path.replace('?text', ''))), namespace: 'style-text' }));
     build.onLoad({ filter: /.*/, namespace: 'style-text' }, async ({ path }) => {
-      const { code } = await esbuild.transform(await readFile(path, 'utf8'), { loader: 'css', minify: true });
+      const { code } = await esbuild.transform(await readFile(join(root, path), 'utf8'), { loader: 'css', minify: true });
       return { contents: code, loader: 'text' };
     });
   },
