@@ -117,16 +117,23 @@ Response Routes::submit_job(const Request& request, std::string_view document) {
     return *std::move(refusal);
   }
   const bool waits = wait_of(read_preferences(request)).count() > 0;
-  StatusOr<Submission> outcome =
-      jobs_.submit({document, request.id, request.owner, key, waits, !wants_fresh(request)});
-  if (!outcome.ok()) {
-    return store_trouble(request, outcome.status());
+  Order order{document, request.id, request.owner, key, waits, !wants_fresh(request)};
+  for (;;) {
+    StatusOr<Submission> outcome = jobs_.submit(order);
+    if (!outcome.ok()) {
+      return store_trouble(request, outcome.status());
+    }
+    Submission submission = std::move(outcome).value();
+    if (std::optional<Response> refusal = refusal_of(request, submission, "jobs")) {
+      return *std::move(refusal);
+    }
+    Response response = created(request, submission);
+    const bool deleted_meanwhile = submission.kind == Submission::Kind::reused && response.status == 404;
+    if (!deleted_meanwhile) {
+      return response;
+    }
+    order.reuse = false;  // so this happens once
   }
-  Submission submission = std::move(outcome).value();
-  if (std::optional<Response> refusal = refusal_of(request, submission, "jobs")) {
-    return *std::move(refusal);
-  }
-  return created(request, submission);
 }
 
 /// How long a submission waits for its outcome: a job is there at once, a result is waited for.

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// A store of which each verb that HTTP uses fails as it is told to.
-class FailingStore final : public Store {
+class FailingStore : public Store {
  public:
   explicit FailingStore(StatusCode code) : code_(code) {}
 
@@ -67,13 +67,37 @@ class FailingStore final : public Store {
   test::FailingDeliveryStore deliveries_{code_};
 };
 
+/// A store whose one result is deleted by somebody as soon as it was found.
+class StoreOfADeletedResult final : public FailingStore {
+ public:
+  using FailingStore::FailingStore;
+
+  StatusOr<std::optional<std::string>> find_result(std::string_view, std::string_view) override {
+    return std::optional<std::string>("deleted");
+  }
+  StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) override {
+    queued();
+    return Submitted{job.reuse ? Submitted::Kind::reused : Submitted::Kind::created,
+                     job.reuse ? "deleted" : job.id};
+  }
+  StatusOr<std::optional<Job>> get(std::string_view id) override {
+    if (id == "deleted") {
+      return std::optional<Job>();
+    }
+    Job job;
+    job.id = id;
+    return std::optional<Job>(job);
+  }
+};
+
+template <class StoreType = FailingStore>
 struct Bench {
   explicit Bench(StatusCode code) : store(code) {}
   Response serve(const std::string& method, const std::string& path) {
     Request request;
     request.method = method;
     request.path = path;
-    request.headers = {{"Content-Type", "application/json"}};
+    request.headers = {{"Content-Type", "application/json"}, {"Prefer", "respond-async"}};
     request.body = test::column_request();
     return gateway.serve(request);
   }
@@ -82,7 +106,7 @@ struct Bench {
   Environment environment = world.environment();
   std::ostringstream log_text;
   Log log{LogLevel::debug, environment.now, log_text};
-  FailingStore store;
+  StoreType store;
   JobService jobs{store, environment, log};
   Routes routes{jobs, {}};
   RequestMetrics metrics;
@@ -91,7 +115,7 @@ struct Bench {
 };
 
 TEST(Gateway, AStoreThatIsUnavailableIs503) {
-  Bench bench(StatusCode::unavailable);
+  Bench<> bench(StatusCode::unavailable);
   for (const auto& [method, path] : {std::pair("POST", "/v1/jobs"), std::pair("GET", "/v1/jobs"),
                                      std::pair("GET", "/v1/jobs/x"), std::pair("GET", "/v1/jobs/x/result")}) {
     const Response response = bench.serve(method, path);
@@ -101,7 +125,7 @@ TEST(Gateway, AStoreThatIsUnavailableIs503) {
 }
 
 TEST(Gateway, AStoreThatIsBrokenIs500WithoutParticulars) {
-  Bench bench(StatusCode::io_error);
+  Bench<> bench(StatusCode::io_error);
   const Response response = bench.serve("GET", "/v1/jobs");
   EXPECT_EQ(response.status, 500);
   EXPECT_THAT(response.body, Not(HasSubstr("secret")));
@@ -109,12 +133,19 @@ TEST(Gateway, AStoreThatIsBrokenIs500WithoutParticulars) {
 }
 
 TEST(Gateway, AnExceptionIs500AndItsTextIsInTheLogOnly) {
-  Bench bench(StatusCode::io_error);
+  Bench<> bench(StatusCode::io_error);
   const Response response = bench.serve("GET", "/v1/jobs/there/request");
   EXPECT_EQ(response.status, 500);
   EXPECT_THAT(response.body, Not(HasSubstr("secret")));
   EXPECT_THAT(bench.log_text.str(), HasSubstr("secret"));
   EXPECT_EQ(nlohmann::json::parse(response.body)["type"], "urn:snapthrough:problem:internal-error");
+}
+
+TEST(Gateway, AnalysesAgainWhatIsDeletedAsItIsReused) {
+  Bench<StoreOfADeletedResult> bench(StatusCode::io_error);
+  const Response response = bench.serve("POST", "/v1/jobs");
+  EXPECT_EQ(response.status, 201) << response.body;
+  EXPECT_THAT(response.headers, testing::Contains(testing::Pair("X-Cache", "miss")));
 }
 
 }  // namespace
