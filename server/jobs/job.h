@@ -41,7 +41,7 @@ struct Job {
   Time created;
   std::optional<Time> started;        ///< of the latest claim
   std::optional<Time> finished;       ///< exactly in a final state
-  std::optional<JobFailure> failure;  ///< exactly when failed; get() fills it, list() leaves it out
+  std::optional<JobFailure> failure;  ///< exactly when failed; list() leaves out what was reached
   Annotations annotations;
 };
 

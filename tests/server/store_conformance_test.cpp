@@ -196,6 +196,11 @@ TEST_P(StoreConformance, AFailedJobHasItsReasonAndWhatWasReached) {
   EXPECT_EQ(stored.failure->code, "step_underflow");
   EXPECT_EQ(stored.failure->detail, "too small");
   EXPECT_EQ(stored.failure->reached, "{}");
+  const Job listed = store_->list({})->jobs.front();
+  ASSERT_TRUE(listed.failure.has_value());
+  EXPECT_EQ(listed.failure->code, "step_underflow");
+  EXPECT_EQ(listed.failure->detail, "too small");
+  EXPECT_EQ(listed.failure->reached, "") << "as large as a result";
   EXPECT_EQ(store_->path(id_number(1))->branches.size(), 2U);
   EXPECT_EQ(result_of(*store_, id_number(1)), std::nullopt);
 }

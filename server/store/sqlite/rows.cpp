@@ -96,7 +96,9 @@ std::vector<NamedSeries> read_series(const Connection& connection, std::int64_t 
 
 const char* const kJobColumns =
     "jobs.id, jobs.status, jobs.attempt, jobs.crashes, jobs.title, jobs.analysis_type, jobs.created_us,"
-    " jobs.started_us, jobs.finished_us, jobs.owner, jobs.label, jobs.metadata, jobs.callback";
+    " jobs.started_us, jobs.finished_us, jobs.owner, jobs.label, jobs.metadata, jobs.callback,"
+    " (SELECT code FROM failures WHERE failures.job = jobs.seq),"
+    " (SELECT detail FROM failures WHERE failures.job = jobs.seq)";
 
 std::int64_t to_row(Time time) { return time.time_since_epoch().count(); }
 
@@ -154,6 +156,9 @@ Job read_job(const Statement& row) {
   job.finished = optional_time_in(row, 8);
   job.owner = row.text(9);
   job.annotations = annotations_in(row, 10);
+  if (!row.is_null(13)) {
+    job.failure = JobFailure{row.text(13), row.text(14), ""};
+  }
   return job;
 }
 

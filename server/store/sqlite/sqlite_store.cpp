@@ -478,16 +478,15 @@ StatusOr<std::optional<Time>> SqliteStore::oldest_waiting() {
 StatusOr<std::optional<Job>> SqliteStore::get(std::string_view id) {
   return database_.read<std::optional<Job>>([&](const Connection& connection) -> std::optional<Job> {
     Statement row = connection.prepare("SELECT " + std::string(kJobColumns) +
-                                       ", failures.code, failures.detail, failures.reached FROM jobs"
-                                       " LEFT JOIN failures ON failures.job = jobs.seq WHERE jobs.id = ?");
+                                       ", (SELECT reached FROM failures WHERE failures.job = jobs.seq)"
+                                       " FROM jobs WHERE jobs.id = ?");
     row.bind(id);
     if (!row.step()) {
       return std::nullopt;
     }
     Job job = read_job(row);
-    if (!row.is_null(kJobColumnCount)) {
-      job.failure =
-          JobFailure{row.text(kJobColumnCount), row.text(kJobColumnCount + 1), row.text(kJobColumnCount + 2)};
+    if (job.failure) {
+      job.failure->reached = row.text(kJobColumnCount);
     }
     return job;
   });
