@@ -9,9 +9,27 @@ source scripts/lib/packages.sh
 preset="${PRESET:-release}"
 jobs="${JOBS:-$(nproc)}"
 
+# step NAME: what follows is this step; told at the end with the seconds that each took.
+steps=()
+step() {
+  steps+=("$SECONDS $1")
+  echo "== $1"
+}
+tell_steps() {
+  local i next
+  steps+=("$SECONDS end")
+  echo "== where the time went"
+  for ((i = 0; i + 1 < ${#steps[@]}; i++)); do
+    next="${steps[i + 1]%% *}"
+    printf '%6d s  %s\n' $((next - ${steps[i]%% *})) "${steps[i]#* }"
+  done
+}
+trap tell_steps EXIT
+
+step "packages"
 install_packages "${BUILD_PACKAGES[@]}" "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 
-echo "== shape, includes, links, format"
+step "shape, includes, links, format"
 python3 scripts/check_shape.py --self-test
 python3 scripts/check_shape.py
 python3 scripts/check_includes.py --self-test
@@ -20,7 +38,7 @@ python3 scripts/check_links.py --self-test
 python3 scripts/check_links.py
 bash scripts/format.sh --check
 
-echo "== build ($preset)"
+step "build ($preset)"
 mkdir -p "build/$preset"
 log="build/$preset/configure.log"
 options=(-DBUILD_TESTING=ON)
@@ -30,16 +48,17 @@ fi
 cmake --preset "$preset" "${options[@]}" >"$log" 2>&1 || { cat "$log"; exit 1; }
 cmake --build "build/$preset" --parallel "$jobs"
 
-echo "== tests"
+step "tests"
 ctest --test-dir "build/$preset" --parallel "$jobs" --output-on-failure --no-tests=error
 
-echo "== schema, generated client, responses"
+step "schema, generated client, responses"
 bash scripts/schema.sh "build/$preset/snapthrough"
 
-echo "== page: types, bundle byte for byte, figures, in Chromium"
+step "page: types, shape, bundle byte for byte"
 bash scripts/web.sh --check
+step "page: figures, and in Chromium"
 bash scripts/web_test.sh "build/$preset/snapthrough"
 
-echo "== thesis examples"
+step "thesis examples"
 python3 scripts/report.py --self-test
 python3 scripts/report.py "build/$preset/snapthrough" --check

@@ -12,7 +12,7 @@ TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev valgrind clang-format 
 # What scripts/schema.sh needs; not installed where another installation of node and npm is there.
 SCHEMA_PACKAGES=(nodejs npm)
 # What scripts/web_test.sh and scripts/web_pictures.sh need besides, where no other Chromium is there.
-PAGE_PACKAGES=(chromium)
+PAGE_PACKAGES=(chromium fonts-dejavu-core)
 # What scripts/report.sh and scripts/bench.sh need besides, to draw plots (fonts for what their labels measure).
 REPORT_PACKAGES=(python3 gnuplot-nox fonts-dejavu-core)
 
