@@ -1,18 +1,17 @@
-# Turns web/dist (index.html and assets/*) into one C++ source that defines what page.h declares: each file gzip'd, with
-# the digest of its content.
-function(embed_page dist output)
-  file(GLOB files CONFIGURE_DEPENDS ${dist}/index.html ${dist}/assets/*)
+# Turns web/dist (index.html and assets/*) and the documents for users (docs/*, with the thesis and the performance) into one
+# C++ source that defines what page.h declares: each file gzip'd, with the digest of its content.
+function(embed_page dist docs output)
+  file(GLOB files CONFIGURE_DEPENDS ${dist}/index.html ${dist}/assets/* ${docs}/*.md ${docs}/*.svg ${docs}/thesis/*.md
+       ${docs}/thesis/*.svg ${docs}/performance/*.md ${docs}/performance/*.svg)
   list(SORT files)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
   set(arrays "")
   set(rows "")
   set(number 0)
   foreach(file IN LISTS files)
-    get_filename_component(name ${file} NAME)
-    set(path "/assets/${name}")
-    if(name STREQUAL index.html)
-      set(path "/")
-    endif()
+    string(REPLACE ${docs}/ /docs/ path ${file})
+    string(REPLACE ${dist}/ / path ${path})
+    string(REGEX REPLACE "^/index.html$" / path ${path})
     file(SHA256 ${file} digest)
     file(ARCHIVE_CREATE OUTPUT ${output}.gz PATHS ${file} FORMAT raw COMPRESSION GZip COMPRESSION_LEVEL 9
          MTIME "2000-01-01 00:00:00 UTC")

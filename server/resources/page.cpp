@@ -17,14 +17,16 @@ namespace snapthrough::server::http {
 namespace {
 
 constexpr std::string_view kAssets = "/assets/";
+constexpr std::string_view kDocuments = "/docs/";
 // Scripts, styles and requests of the service itself only. A picture that is exported is drawn from a blob.
 constexpr const char* kContentSecurityPolicy =
     "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
     "object-src 'none'";
 
 const char* content_type(std::string_view path) {
-  static constexpr std::array<std::pair<std::string_view, const char*>, 4> kTypes{
+  static constexpr std::array<std::pair<std::string_view, const char*>, 5> kTypes{
       {{".js", "text/javascript; charset=utf-8"},
+       {".md", "text/markdown; charset=utf-8"},
        {".css", "text/css; charset=utf-8"},
        {".svg", "image/svg+xml"},
        {".json", "application/json"}}};
@@ -37,8 +39,9 @@ const char* content_type(std::string_view path) {
 void add_headers(Response& response, std::string_view path, const std::string& etag, bool changes) {
   response.content_type = content_type(path);
   response.headers.emplace_back("ETag", etag);
-  response.headers.emplace_back("Cache-Control",
-                                path == "/" || changes ? "no-cache" : "public, max-age=31536000, immutable");
+  response.headers.emplace_back("Cache-Control", path.starts_with(kAssets) && !changes
+                                                     ? "public, max-age=31536000, immutable"
+                                                     : "no-cache");
   response.headers.emplace_back("Content-Security-Policy", kContentSecurityPolicy);
   response.headers.emplace_back("Referrer-Policy", "no-referrer");
 }
@@ -133,16 +136,19 @@ std::optional<Response> of_folder(const std::filesystem::path& folder, const Req
 
 }  // namespace
 
-bool is_page_path(std::string_view path) { return path == "/" || path.starts_with(kAssets); }
+bool is_page_path(std::string_view path) {
+  return path == "/" || path.starts_with(kAssets) || path.starts_with(kDocuments);
+}
 
 std::optional<Response> Page::respond(const Request& request) const {
   if (source_ == kNoPage || !is_page_path(request.path)) {
     return std::nullopt;
   }
+  const bool document = request.path.starts_with(kDocuments);
   std::optional<Response> response =
-      source_ == kEmbeddedPage ? built_in(request) : of_folder(source_, request);
+      document || source_ == kEmbeddedPage ? built_in(request) : of_folder(source_, request);
   if (response) {
-    response->route = request.path == "/" ? "/" : "/assets/{name}";
+    response->route = request.path == "/" ? "/" : document ? "/docs/{name}" : "/assets/{name}";
   }
   return response;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// The page that people look at: its files at "/" and "/assets/NAME", built into the program or of a folder.
+/// The page that people look at: its files at "/" and "/assets/NAME", built into the program or of a folder,
+/// and the documents that it shows at "/docs/NAME", built in.
 
 #include <optional>
 #include <span>
@@ -12,9 +13,9 @@
 
 namespace snapthrough::server::http {
 
-/// A file of web/dist that is built into the program. Defined in a source generated at build time.
+/// A file of web/dist or docs that is built into the program. Defined in a source generated at build time.
 struct PageFile {
-  std::string_view path;                  ///< in a request: "/", "/assets/app-1A2B3C4D.js"
+  std::string_view path;                  ///< in a request: "/", "/assets/app-1A2B3C4D.js", "/docs/theory.md"
   std::string_view digest;                ///< SHA-256 of the content, hexadecimal
   std::span<const unsigned char> packed;  ///< the content, gzip
 };

@@ -122,6 +122,7 @@ TEST_F(PageTest, WithoutAPageItsPathsHaveNothing) {
   serve(std::string(http::kNoPage));
   EXPECT_EQ(get(port(), "/").status, 404);
   EXPECT_EQ(get(port(), std::string(http::embedded_page().back().path)).status, 404);
+  EXPECT_EQ(get(port(), "/docs/theory.md").status, 404);
   EXPECT_EQ(get(port(), "/livez").status, 200);
 }
 
@@ -133,6 +134,20 @@ TEST_F(PageTest, ThePageNeedsNoKeyAndTellsNothingThatNeedsOne) {
   EXPECT_EQ(get(port(), "/v1/jobs").status, 401);
   EXPECT_EQ(get(port(), "/v1/examples").status, 401);
   EXPECT_EQ(get(port(), "/assetsx").status, 401);
+}
+
+TEST_F(PageTest, TheDocumentsComeWithIt) {
+  serve(std::string(http::kEmbeddedPage), {{"ann", sha256_hex("key of ann")}});
+  const Reply document = get(port(), "/docs/theory.md");
+  EXPECT_EQ(document.status, 200);
+  EXPECT_EQ(document.header("Content-Type"), "text/markdown; charset=utf-8");
+  EXPECT_EQ(document.header("Cache-Control"), "no-cache");
+  EXPECT_THAT(document.body, StartsWith("# Theory"));
+  EXPECT_EQ(get(port(), "/docs/thesis/figure_4_2.svg").header("Content-Type"), "image/svg+xml");
+  for (const char* path :
+       {"/docs", "/docs/", "/docs/none.md", "/docs/page/README.md", "/docs/../README.md"}) {
+    EXPECT_THAT(get(port(), path).status, testing::AnyOf(401, 404)) << path;
+  }
 }
 
 TEST_F(PageTest, AFolderIsReadAtEveryRequestAndNeverLeft) {

@@ -59,6 +59,9 @@ for (const colorScheme of ['light', 'dark']) {
     await visit(`#/jobs/${job}`, '.trust-card .headline');
     await visit('#/sweeps', 'tbody tr');
     await visit(`#/sweeps/${sweep}`, '.sweep-chart svg');
+    await visit('#/docs', '.contents dt');
+    await visit('#/docs/requests', '.document h1');
+    await visit('#/docs/theory', '.document h1');
     await visit('#/nowhere', 'h1');
     await page.context().close();
   });
@@ -66,7 +69,7 @@ for (const colorScheme of ['light', 'dark']) {
 
 test('nothing of the page scrolls sideways on a phone', async () => {
   const page = await openPage(browser, service.url, { viewport: { width: 390, height: 844 }, hasTouch: true });
-  for (const hash of ['#/studio', '#/model', '#/jobs', '#/sweeps']) {
+  for (const hash of ['#/studio', '#/model', '#/jobs', '#/sweeps', '#/docs', '#/docs/requests']) {
     await page.goto(`${service.url}/${hash}`);
     await page.waitForTimeout(700);
     const { wide, room } = await page.evaluate(() => ({ wide: document.documentElement.scrollWidth, room: innerWidth }));

@@ -68,6 +68,23 @@ test('the latest value of a slider wins, with at most two requests in flight and
   await close(page);
 });
 
+test('the jobs of a tab go with it', async () => {
+  const page = await studio('tunnel_arch');
+  await slide(page, 'Ground stiffness', 300);
+  await settled(page);
+  await page.getByRole('button', { name: 'Pin this run' }).click();
+  const left = async () => (await (await fetch(`${service.url}/v1/jobs?label=studio`)).json()).jobs.map(({ id }) => id);
+  const before = new Set(await left());
+  await slide(page, 'Ground stiffness', 600, 900);
+  await settled(page);
+  await page.waitForTimeout(1000);
+  assert.ok((await left()).some((id) => !before.has(id)));
+  await page.close({ runBeforeUnload: true });
+  await new Promise((resolve) => setTimeout(resolve, 1000));
+  assert.deepEqual((await left()).filter((id) => !before.has(id)), []);
+  await page.context().close();
+});
+
 test('the path before the last change stays as a shadow, and pinned ones until they are removed', async () => {
   const page = await studio('tunnel_arch');
   await settled(page);

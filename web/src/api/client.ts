@@ -105,6 +105,10 @@ async function read<T>(path: string, init?: RequestInit): Promise<T> {
   }
 }
 
+async function readText(path: string): Promise<string> {
+  return (await call(path)).text();
+}
+
 function post(body: unknown, headers: Record<string, string> = {}): RequestInit {
   return { method: "POST", headers: { ...kJson, ...headers }, body: JSON.stringify(body) };
 }
@@ -131,6 +135,7 @@ export const service = {
   check: (text: string, signal?: AbortSignal) =>
     read<Check>("/v1/check", { method: "POST", headers: kJson, body: text, ...(signal ? { signal } : {}) }),
   limits: () => read<Limits>("/v1/limits"),
+  document: (name: string) => readText(`/docs/${name}.md`),
   description: () => read<Description>("/v1/openapi.json"),
   examples: () => read<{ examples: { name: string; request: RequestDocument }[] }>("/v1/examples"),
   jobs: (query: string) => read<JobList>(`/v1/jobs?${query}`),
@@ -138,7 +143,8 @@ export const service = {
   jobRequest: (id: string) => read<RequestDocument>(`/v1/jobs/${id}/request`),
   jobResult: (id: string) => read<Result>(`/v1/jobs/${id}/result`),
   dismissJob: (id: string) => read<Job>(`/v1/jobs/${id}/dismiss`, { method: "POST", body: "" }),
-  deleteJob: (id: string) => call(`/v1/jobs/${id}`, { method: "DELETE" }),
+  /** `leaving`: the page is being left, and nobody waits for the answer. */
+  deleteJob: (id: string, leaving = false) => call(`/v1/jobs/${id}`, { method: "DELETE", keepalive: leaving }),
   submitJob: (request: RequestDocument, label: string) =>
     read<Job>("/v1/jobs", post({ label, request }, { Prefer: "return=minimal" })),
   sweeps: (query: string) => read<SweepList>(`/v1/sweeps?${query}`),

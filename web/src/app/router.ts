@@ -1,4 +1,4 @@
-// Addresses: #/studio, #/model, #/jobs, #/jobs/ID, #/sweeps, #/sweeps/ID.
+// Addresses: #/studio, #/model, #/jobs, #/jobs/ID, #/sweeps, #/sweeps/ID, #/docs, #/docs/NAME.
 
 import { useEffect, useState } from "preact/hooks";
 
@@ -10,8 +10,9 @@ export interface Route {
 
 export function readRoute(hash: string): Route {
   const [path = "", query = ""] = hash.replace(/^#\/?/, "").split("?");
-  const [view = "", id] = path.split("/");
-  return { view: view === "" ? "studio" : view, id: id ? decodeURIComponent(id) : null, query: new URLSearchParams(query) };
+  const [view = "", ...rest] = path.split("/");
+  const id = rest.map(decodeURIComponent).join("/");
+  return { view: view === "" ? "studio" : view, id: id === "" ? null : id, query: new URLSearchParams(query) };
 }
 
 export function useRoute(): Route {

@@ -2,6 +2,7 @@
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import { connection, forgetKey, hasKey, setKey } from "../api/client";
+import { DocsView } from "../docs/docs_view";
 import { formatNumber } from "../figures";
 import { JobView } from "../jobs/job_view";
 import { JobsView } from "../jobs/jobs_view";
@@ -12,7 +13,7 @@ import { SweepView } from "../sweeps/sweep_view";
 import { SweepsView } from "../sweeps/sweeps_view";
 import { useRoute, type Route } from "./router";
 
-const kViews: [string, string][] = [["studio", "Studio"], ["sweeps", "Sweeps"], ["jobs", "Jobs"]];
+const kViews: [string, string][] = [["studio", "Studio"], ["sweeps", "Sweeps"], ["jobs", "Jobs"], ["docs", "Documents"]];
 
 function ServiceState() {
   const { state } = useStore(connection);
@@ -35,7 +36,6 @@ function Header({ route }: { route: Route }) {
         {kViews.map(([view, text]) => (
           <a key={view} href={`#/${view}`} aria-current={here === view ? "page" : undefined}>{text}</a>
         ))}
-        <a href="/v1/openapi.json">Interface</a>
       </nav>
       {hasKey() ? <button type="button" class="quiet" onClick={forgetKey}>Forget key</button> : null}
       <ServiceState />
@@ -95,6 +95,7 @@ function View({ route }: { route: Route }) {
   switch (route.view) {
     case "jobs": return route.id ? <JobView key={route.id} id={route.id} /> : <JobsView />;
     case "sweeps": return route.id ? <SweepView key={route.id} id={route.id} /> : <SweepsView />;
+    case "docs": return <DocsView name={route.id} section={route.query.get("at") ?? ""} />;
     case "studio":
     case "model": return <StudioView view={route.view} query={route.query} />;
     default: return <Nowhere />;

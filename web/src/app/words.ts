@@ -1,4 +1,6 @@
-// Times and states in words.
+// Times, states and numbers in words.
+
+import { formatNumber } from "../figures/numbers";
 
 const kSecond = 1000;
 
@@ -23,3 +25,8 @@ export function badgeOf(status: string): string {
 }
 
 export const kStatuses = ["accepted", "running", "successful", "failed", "dismissed"] as const;
+
+/** A sentence of the service with its numbers as the page writes them. */
+export function withShortNumbers(text: string): string {
+  return text.replace(/-?\d+\.\d{5,}(?:e[-+]?\d+)?/g, (number) => formatNumber(Number(number), 5));
+}

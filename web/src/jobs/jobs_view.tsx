@@ -60,7 +60,7 @@ function CriticalCells({ job }: { job: Job }) {
   return (
     <>
       <td>{critical?.load == null ? "" : formatNumber(critical.load, 5)}</td>
-      <td class="left">{critical?.load == null ? "" : kindOf(critical.kind)}</td>
+      <td class="left minor">{critical?.load == null ? "" : kindOf(critical.kind)}</td>
     </>
   );
 }
@@ -75,12 +75,12 @@ function Row({ job, onChanged }: { job: Job; onChanged: () => void }) {
       <td><span class={badgeOf(job.status)}>{job.status}</span></td>
       <td class="left wide"><a href={`#/jobs/${job.id}`}>{job.title === "" ? job.id : job.title}</a>
         {job.error ? <span class="wrong">{job.error.code.replace(/_/g, " ")}</span> : null}</td>
-      <td class="left">{job.label ?? ""}</td>
-      <td class="left">{job.analysis}</td>
+      <td class="left minor">{job.label ?? ""}</td>
+      <td class="left minor">{job.analysis}</td>
       <CriticalCells job={job} />
-      <td>{duration(job.started, job.finished)}</td>
-      <td>{ago(job.created)}</td>
-      <td>
+      <td class="minor">{duration(job.started, job.finished)}</td>
+      <td class="minor">{ago(job.created)}</td>
+      <td class="minor">
         {busy
           ? <button type="button" class="quiet" aria-label={`Dismiss ${job.title}`}
                     onClick={() => act(service.dismissJob(job.id))}>Dismiss</button>
@@ -119,9 +119,9 @@ export function JobsView() {
         <Trouble error={trouble} />
         <div class="scroller" tabIndex={0} role="region" aria-label="Table of jobs">
           <table class="list">
-            <thead><tr><th scope="col">State</th><th scope="col" class="left">Model</th><th scope="col" class="left">Label</th>
-              <th scope="col" class="left">Analysis</th><th scope="col">Critical load</th><th scope="col" class="left">Kind</th>
-              <th scope="col">Time</th><th scope="col">Handed in</th><th scope="col"><span class="unseen">Actions</span></th></tr></thead>
+            <thead><tr><th scope="col">State</th><th scope="col" class="left">Model</th><th scope="col" class="left minor">Label</th>
+              <th scope="col" class="left minor">Analysis</th><th scope="col">Critical load</th><th scope="col" class="left minor">Kind</th>
+              <th scope="col" class="minor">Time</th><th scope="col" class="minor">Handed in</th><th scope="col" class="minor"><span class="unseen">Actions</span></th></tr></thead>
             <tbody>{list?.jobs.map((job) => <Row key={job.id} job={job} onChanged={again} />)}</tbody>
           </table>
         </div>

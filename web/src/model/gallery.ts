@@ -7,13 +7,12 @@ export type Choice = { kind: "critical" } | { kind: "along"; branch: number; sha
 
 export interface Problem {
   example: string;
+  /** Also that of its section in docs/gallery.md. */
   heading: string;
   /** What is seen, in two sentences. */
   text: string;
   sliders: Slider[];
   choice: Choice;
-  /** The page of the docs that it belongs to. */
-  reference: { text: string; file: string };
 }
 
 function foundations(count: number, field: string, scale = 1): { pointer: string; scale: number }[] {
@@ -41,7 +40,6 @@ const kBuriedPipe: Problem = {
     { name: "Gap around the pipe", unit: "mm", targets: foundations(2, "gap", 1e-3), min: 0, max: 20, log: false, step: 0.5 },
   ],
   choice: { kind: "along", branch: 0, share: 0.7 },
-  reference: { text: "Contact and its events", file: "docs/theory.md" },
 };
 
 const kTunnelArch: Problem = {
@@ -56,7 +54,6 @@ const kTunnelArch: Problem = {
       min: 3e5, max: 3e7, log: true },
   ],
   choice: { kind: "along", branch: 0, share: 0.2 },
-  reference: { text: "Two commands", file: "README.md" },
 };
 
 const kPile: Problem = {
@@ -72,7 +69,6 @@ const kPile: Problem = {
       log: true },
   ],
   choice: { kind: "along", branch: 0, share: 0.9 },
-  reference: { text: "A pile in soil", file: "docs/requests.md" },
 };
 
 const kWalls: Problem = {
@@ -86,7 +82,6 @@ const kWalls: Problem = {
       min: 0.2, max: 10, log: true },
   ],
   choice: { kind: "along", branch: 0, share: 0.8 },
-  reference: { text: "Supports that touch", file: "docs/theory.md" },
 };
 
 const kPortal: Problem = {
@@ -99,7 +94,6 @@ const kPortal: Problem = {
       targets: [{ pointer: "/model/nodes/2/x" }, { pointer: "/model/nodes/3/x" }] },
   ],
   choice: { kind: "along", branch: 1, share: 0.55 },
-  reference: { text: "A frame", file: "docs/requests.md" },
 };
 
 const kPipeline: Problem = {
@@ -116,7 +110,6 @@ const kPipeline: Problem = {
     { name: "Stiffness of the seabed", unit: "kN/m²", targets: foundations(1, "stiffness"), min: 200, max: 20000, log: true },
   ],
   choice: { kind: "along", branch: 0, share: 0.7 },
-  reference: { text: "Loads", file: "docs/requests.md" },
 };
 
 const kFilm: Problem = {
@@ -129,7 +122,6 @@ const kFilm: Problem = {
     { name: "Length of the film", unit: "", targets: [{ pointer: "/model/nodes/1/x" }], min: 6, max: 20, log: false, step: 0.1 },
   ],
   choice: { kind: "along", branch: 1, share: 0.9 },
-  reference: { text: "Bifurcations and branches", file: "docs/theory.md" },
 };
 
 const kBareArch: Problem = {
@@ -143,7 +135,6 @@ const kBareArch: Problem = {
     { name: "Bending stiffness EI", unit: "", targets: [{ pointer: "/model/sections/0/EI" }], min: 0.5, max: 5, log: true },
   ],
   choice: { kind: "critical" },
-  reference: { text: "Reading a result", file: "docs/results.md" },
 };
 
 const kModes: Problem = {
@@ -157,7 +148,6 @@ const kModes: Problem = {
       targets: [{ pointer: "/model/nodes/1/y" }, { pointer: "/model/nodes/2/y" }] },
   ],
   choice: { kind: "critical" },
-  reference: { text: "Three complete requests", file: "docs/requests.md" },
 };
 
 export const kProblems: readonly Problem[] = [

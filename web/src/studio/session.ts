@@ -236,19 +236,33 @@ export async function openAny(request: RequestDocument): Promise<void> {
   openRequest(request, same ?? null);
 }
 
-export async function openProblem(problem: Problem): Promise<void> {
+/** Opens an example of the service, with the sliders of the gallery where it is there. */
+export async function openExample(name: string): Promise<void> {
   try {
-    const request = (await loadExamples()).get(problem.example);
-    if (request) openRequest(request, problem);
+    const request = (await loadExamples()).get(name);
+    if (request) openRequest(request, kProblems.find(({ example }) => example === name) ?? null);
+    else openFirst();
   } catch (error) {
     studio.change({ trouble: error });
   }
+}
+
+export async function openProblem(problem: Problem): Promise<void> {
+  await openExample(problem.example);
 }
 
 export function openFirst(): void {
   const [first] = kProblems;
   if (first && !studio.get().request) void openProblem(first);
 }
+
+// The runs of a tab go with it, but for those that were shared.
+addEventListener("pagehide", ({ persisted }) => {
+  if (persisted) return;
+  const { run, shadow, pins } = studio.get();
+  const jobs = new Set([run, shadow, ...pins, ...leaving].flatMap((one) => (one && !one.kept ? [one.job] : [])));
+  for (const job of jobs) void service.deleteJob(job, true).catch(() => undefined);
+});
 
 let visits = 0;
 connection.subscribe(() => {

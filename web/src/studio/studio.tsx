@@ -4,6 +4,7 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import { service } from "../api/client";
 import { go } from "../app/router";
 import { useNarrow } from "../app/size";
+import { documentAddress, sectionName } from "../docs/contents";
 import { formatNumber, type PathShadow } from "../figures";
 import { kProblems } from "../model/gallery";
 import { sliderFor, valueOf } from "../model/sliders";
@@ -14,7 +15,7 @@ import { ResultViews } from "../views/result_views";
 import { GalleryDialog } from "./gallery_dialog";
 import { JsonPanel } from "./json_panel";
 import { ModelForm } from "./model_form";
-import { keep, openAny, openFirst, openProblem, pin, setRequest, setSlider, setSliders, studio, unpin, type Studio } from "./session";
+import { keep, openAny, openExample, openFirst, openProblem, pin, setRequest, setSlider, setSliders, studio, unpin, type Studio } from "./session";
 import { SliderRow } from "./slider_row";
 import { SweepBuilder } from "../sweeps/sweep_builder";
 import { findingsOf, Trouble } from "./trouble";
@@ -127,13 +128,15 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
   const [gallery, setGallery] = useState(false);
   const [panel, setPanel] = usePanel(view);
   const wanted = query.get("problem");
+  const example = query.get("example");
   const job = query.get("job");
   useEffect(() => {
     const problem = kProblems.find((one) => one.example === wanted);
     if (problem && studio.get().problem !== problem) void openProblem(problem);
     else if (job) void service.jobRequest(job).then(openAny, () => openFirst());
+    else if (example) void openExample(example);
     else openFirst();
-  }, [wanted, job]);
+  }, [wanted, job, example]);
   const shadows = useMemo(() => shadowsOf(state), [state.shadow, state.pins, state.run]);
   const { request, problem } = state;
   const narrow = useNarrow();
@@ -143,7 +146,7 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
       <Card title="Model" class="controls" tools={<button type="button" onClick={() => setGallery(true)}>Gallery</button>}>
         <div class="scroll">
           <h1 class={problem ? "" : "long"}>{problem?.heading ?? request?.model.title ?? "Model"}</h1>
-          {problem ? <p class="text">{problem.text} <span class="reference">See {problem.reference.file}, {problem.reference.text}.</span></p> : null}
+          {problem ? <p class="text">{problem.text} <a href={documentAddress("gallery", sectionName(problem.heading))}>More about it</a></p> : null}
           <Sliders state={state} />
           <Trouble error={state.trouble} />
           {narrow ? null : editing}

@@ -2,6 +2,7 @@
 
 import type { Finding } from "../api/documents";
 import { Refused, Unreachable } from "../api/client";
+import { withShortNumbers } from "../app/words";
 
 /** The mistakes of a document, with pointers into it and not into the envelope that it was sent in. */
 export function findingsOf(error: unknown): readonly Finding[] {
@@ -24,7 +25,7 @@ export function Trouble({ error }: { error: unknown }) {
   return (
     <div class="trouble" role="alert">
       <strong>{code ? code.replace(/_/g, " ") : title}</strong>{" "}
-      {findings.length === 0 ? detail : `${findings.length} ${findings.length === 1 ? "mistake" : "mistakes"} in the model:`}
+      {findings.length === 0 ? withShortNumbers(detail) : `${findings.length} ${findings.length === 1 ? "mistake" : "mistakes"} in the model:`}
       {findings.length > 0 ? (
         <ul>{findings.slice(0, kSeveral).map((one, i) => <li key={i}><code>{one.pointer || "/"}</code> {one.detail}</li>)}</ul>
       ) : null}

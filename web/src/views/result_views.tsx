@@ -70,12 +70,12 @@ export function ResultViews({ request, run, growing, shadows, choice, onChoice, 
     : null;
   return (
     <>
-      <DrawingCard model={model} state={state} mode={mode} room={room} cursor={cursor} onCursor={setCursor}
+      <DrawingCard class={buckling ? "alone" : ""} model={model} state={state} mode={mode} room={room} cursor={cursor} onCursor={setCursor}
                    loadFactor={buckling?.load_factors[modeNumber] ?? null} />
       {run && buckling ? <BucklingCard run={run} mode={modeNumber} onMode={setModeNumber} />
         : <PathCard model={model} run={run} growing={growing} shadows={shadows} choice={choice} onChoice={onChoice}
                     note={note} onCritical={setCritical} />}
-      <SectionsCard model={model} state={state} cursor={cursor} onCursor={setCursor} />
+      {buckling ? null : <SectionsCard model={model} state={state} cursor={cursor} onCursor={setCursor} />}
       <TrustCard run={run} request={request} />
     </>
   );

@@ -4,6 +4,7 @@
 import { useState } from "preact/hooks";
 import type { CriticalPoint, RequestDocument, Result } from "../api/documents";
 import { hasKey } from "../api/client";
+import { withShortNumbers } from "../app/words";
 import { curlCommand, fileName, pythonProgram, saveJson } from "../export/files";
 import { formatNumber } from "../figures";
 import type { Run } from "../model/run";
@@ -44,7 +45,7 @@ function Headline({ result }: { result: Result }) {
       <>
         <p class="headline">{result.failure ? null : <strong>{buckling === undefined ? "none" : formatNumber(buckling, 5)}</strong>}
           {result.failure ? <Badge good={false}>{result.failure.code.replace(/_/g, " ")}</Badge> : null}</p>
-        <p class="hint">{result.failure ? result.failure.detail
+        <p class="hint">{result.failure ? withShortNumbers(result.failure.detail)
           : buckling === undefined ? "no loss of stability on this path" : "first buckling load"}</p>
       </>
     );
