@@ -35,7 +35,9 @@ export interface SweepLineChart {
   size: Size;
 }
 
-const kNamed = 16;  // more lines than these are not named
+const kNamed = 16;  // more lines than these are crowded: not named, without dots
+const kTolerance = 0.25;  // px that a thinned line may be off
+const kCrowdedTolerance = 0.75;
 const kSeries = 6;  // colours; further lines begin again
 
 function linesOf(input: SweepLineInput, xs: readonly number[], ys: readonly number[]): SweepLineChart["lines"] {
@@ -47,8 +49,9 @@ function linesOf(input: SweepLineInput, xs: readonly number[], ys: readonly numb
     spots.push({ row, x: at(xs, row), y: at(ys, row) });
     groups.set(key, spots);
   }
+  const named = series !== null && groups.size <= kNamed;
   return [...groups].map(([key, spots]) => ({
-    name: series === null ? "" : `${input.series} = ${series.names?.[key] ?? formatNumber(key)}`,
+    name: named ? `${input.series} = ${series.names?.[key] ?? formatNumber(key)}` : "",
     spots: spots.filter((spot) => Number.isFinite(spot.x)).sort((a, b) => a.x - b.x),
   }));
 }
@@ -91,11 +94,11 @@ function pixelOf(frame: Frame, spot: { x: number; y: number }): Pixel {
 }
 
 /** A line with its gaps, thinned between them. */
-function lineData(points: readonly Pixel[]): string {
+function lineData(points: readonly Pixel[], tolerance: number): string {
   let text = "";
   let part: Pixel[] = [];
   const finish = () => {
-    text += pathData(thinned(part).flatMap((i) => part[i] ?? []));
+    text += pathData(thinned(part, tolerance).flatMap((i) => part[i] ?? []));
     part = [];
   };
   for (const point of points) {
@@ -125,12 +128,14 @@ function failedShapes(chart: SweepLineChart): Shape {
 }
 
 function seriesShapes(chart: SweepLineChart): Shape {
+  const crowded = chart.lines.length > kNamed;
   return group("all-series", ...chart.lines.map((item, i) => {
     const points = item.spots.map((spot) => pixelOf(chart.frame, spot));
-    const seen = points.filter((p) => Number.isFinite(p.x + p.y));
+    const seen = crowded ? [] : points.filter((p) => Number.isFinite(p.x + p.y));
     const dots = seen.length > 80 ? [] : seen.map((p) =>
       shape("circle", { class: "series-dot", cx: coordinate(p.x), cy: coordinate(p.y), r: 2.4 }));
-    return group(`series series-${i % kSeries}`, shape("path", { class: "series-line", d: lineData(points) }), ...dots);
+    const d = lineData(points, crowded ? kCrowdedTolerance : kTolerance);
+    return group(`series series-${i % kSeries}`, shape("path", { class: "series-line", d }), ...dots);
   }));
 }
 
