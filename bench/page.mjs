@@ -279,6 +279,12 @@ async function longSweep(browser, url, count) {
   });
   addTimes(`sweep of ${side * side} rows: pointer to paint`, await timeInputs(page, '.sweep-chart .walkable', 'pointAt'), 100);
   addTimes(`sweep of ${side * side} rows: scroll to paint`, await timeInputs(page, '.sweep-chart .twin', 'scrollOn'), 100);
+  await page.evaluate(() => {
+    window.pressOn = (element) => element.click();
+  });
+  addTimes(`sweep of ${side * side} rows: click "As lines" to paint`, await timeInputs(page, '.sweep-chart button[aria-pressed]', 'pressOn'), 100);
+  if (await page.locator('.sweep-chart button[aria-pressed="false"]').count() > 0) await page.locator('.sweep-chart button[aria-pressed]').click();
+  addTimes(`sweep of ${side * side} rows, lines: pointer to paint`, await timeInputs(page, '.sweep-chart .walkable', 'pointAt'), 100);
   await page.context().close();
 }
 
