@@ -29,6 +29,9 @@ class ListPlan : public testing::Test {
       const std::string step = plan.text(3);
       EXPECT_THAT(step, Not(HasSubstr("SCAN")));
       EXPECT_THAT(step, Not(HasSubstr("TEMP B-TREE")));  // a sort of all that match
+      if (step == "SEARCH failures USING INTEGER PRIMARY KEY (rowid=?)") {
+        continue;  // why a job that is listed failed
+      }
       if (step.starts_with("SEARCH")) {
         ++runs;
         EXPECT_THAT(step, HasSubstr(filters));

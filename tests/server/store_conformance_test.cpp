@@ -21,6 +21,7 @@
 namespace snapthrough::server::test {
 namespace {
 
+using std::string_literals::operator""s;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -71,7 +72,7 @@ TEST_P(StoreConformance, ASubmittedJobIsAcceptedAndKeepsItsRequest) {
 
 TEST_P(StoreConformance, TextsAreKeptByteForByte) {
   NewJob job = new_job(id_number(1));
-  job.title = std::string("a\0b'\"; DROP TABLE jobs; -- \xc3\xa4", 31);
+  job.title = "a\0b'\"; DROP TABLE jobs; -- \xc3\xa4"s;
   job.document = "";
   ASSERT_TRUE(store_->submit(job).ok());
   EXPECT_EQ((*store_->get(id_number(1)))->title, job.title);
