@@ -24,6 +24,7 @@
 #include "tests/server/support/killed_service.h"
 #include "tests/server/support/receiver.h"
 #include "tests/server/support/samples.h"
+#include "tests/server/support/sanitizer.h"
 
 namespace snapthrough::server::test {
 namespace {
@@ -198,7 +199,7 @@ class Crash : public KilledServiceTest {
   }
 
   void wait_until_all_ended() {
-    for (int i = 0; i < 1200; ++i) {
+    for (int i = 0; i < static_cast<int>(1200 * kSlowdown); ++i) {
       const bool waiting =
           !json::parse(get(port_, "/v1/jobs?status=accepted&limit=1").body)["jobs"].empty() ||
           !json::parse(get(port_, "/v1/jobs?status=running&limit=1").body)["jobs"].empty();

@@ -59,7 +59,7 @@ function Span({ token, from }: { token: Token; from: string }): VNode | null {
 function Table({ token, from }: { token: Tokens.Table; from: string }) {
   const side = (i: number): string => (token.align[i] === "right" ? "right" : "left");
   return (
-    <div class="scroller" tabIndex={0} role="region" aria-label="Table">
+    <div class="scroller" tabIndex={0} role="group" aria-label="Table">
       <table>
         <thead><tr>{token.header.map((cell, i) => <th key={i} class={side(i)}>{spans(cell.tokens, from)}</th>)}</tr></thead>
         <tbody>

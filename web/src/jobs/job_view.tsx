@@ -73,7 +73,7 @@ function useJob(id: string): [Shown, () => void] {
 
 function Facts({ job }: { job: Job }) {
   const rows: [string, string][] = [
-    ["Analysis", job.analysis], ["Handed in", new Date(job.created).toLocaleString()], ["Time", duration(job.started, job.finished)],
+    ["Analysis", job.analysis], ["Submitted", new Date(job.created).toLocaleString()], ["Time", duration(job.started, job.finished)],
     ["Attempt", String(job.attempt)], ["Label", job.label ?? ""], ...Object.entries(job.metadata ?? {}),
   ];
   return <dl class="rows">{rows.filter(([, value]) => value !== "").map(([term, value]) => (

@@ -121,7 +121,7 @@ export function JobsView() {
           <table class="list">
             <thead><tr><th scope="col">State</th><th scope="col" class="left">Model</th><th scope="col" class="left minor">Label</th>
               <th scope="col" class="left minor">Analysis</th><th scope="col">Critical load</th><th scope="col" class="left minor">Kind</th>
-              <th scope="col" class="minor">Time</th><th scope="col" class="minor">Handed in</th><th scope="col" class="minor"><span class="unseen">Actions</span></th></tr></thead>
+              <th scope="col" class="minor">Time</th><th scope="col" class="minor">Submitted</th><th scope="col" class="minor"><span class="unseen">Actions</span></th></tr></thead>
             <tbody>{list?.jobs.map((job) => <Row key={job.id} job={job} onChanged={again} />)}</tbody>
           </table>
         </div>

@@ -33,13 +33,13 @@ function wall(modulus: number, min: number, max: number): Slider {
 const kBuriedPipe: Problem = {
   example: "buried_pipe",
   heading: "Buried flexible pipe",
-  text: "The soil can only push. Above the limit load the crown snaps through, and how far depends on the soil.",
+  text: "The soil can only push, and the ground above presses with 10 kN/m² times the load factor. At the limit load the crown snaps through.",
   sliders: [
     { name: "Soil stiffness", unit: "kN/m²", targets: foundations(2, "stiffness"), min: 2000, max: 200000, log: true },
     wall(8e5, 15, 40),
     { name: "Gap around the pipe", unit: "mm", targets: foundations(2, "gap", 1e-3), min: 0, max: 20, log: false, step: 0.5 },
   ],
-  choice: { kind: "along", branch: 0, share: 0.7 },
+  choice: { kind: "critical" },
 };
 
 const kTunnelArch: Problem = {

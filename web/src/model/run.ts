@@ -25,6 +25,16 @@ export interface Run {
   kept: boolean;
 }
 
+/** Whether a state that was reached on a path has negative eigenvalues there; a critical point itself is neither. */
+export function isUnstable(run: Run, station: Station): boolean {
+  const branch = run.result.branches[station.branch];
+  const critical = run.result.critical_points.some((point) =>
+    Math.abs(point.load_factor - station.load) <= 1e-6 * Math.abs(station.load));
+  if (!branch || critical) return false;
+  const spans = branch.arc_length.map((arc) => Math.abs(arc - station.arc));
+  return (branch.negative_eigenvalues[spans.indexOf(Math.min(...spans))] ?? 0) > 0;
+}
+
 function interpolated(s: readonly number[], values: readonly number[], at: number): number {
   const next = Math.max(1, s.findIndex((value) => value >= at));
   const from = s[next - 1] ?? 0;

@@ -82,7 +82,7 @@ export function JsonPanel({ request, onChange }: JsonProps) {
       {trouble ? <p class="wrong">{trouble}</p> : null}
       <p class={findings.length > 0 ? "wrong" : "hint"} role="status">
         {findings.length === 0 ? "No mistakes. What is typed is solved at once; a file can be dropped here."
-          : `${findings.length} ${findings.length === 1 ? "mistake" : "mistakes"}, each marked at its place.`}</p>
+          : `${findings.length} ${findings.length === 1 ? "mistake, marked at its place." : "mistakes, each marked at its place."}`}</p>
       {findings.length > 0
         ? <ul class="findings">{findings.slice(0, 8).map((one, i) => <li key={i}><code>{one.pointer || "/"}</code> {one.detail}</li>)}</ul> : null}
       <div class="editor" ref={place} />

@@ -65,7 +65,7 @@ function NumberField({ request, findings, slid, onChange, onSlider, pointer, nam
     <div class="field">
       <label for={id}>{name}</label>
       <button type="button" class="quiet" disabled={slid.has(pointer)} onClick={() => onSlider(pointer)}
-              aria-label={`Give ${name} a slider`}>slider</button>
+              aria-label={`Give ${name} a slider`}>+ slider</button>
       <input id={id} type="text" inputMode="decimal" value={shown} aria-invalid={wrong.length > 0}
              aria-describedby={wrong.length > 0 ? `${id}-wrong` : undefined}
              onInput={(event) => setTyped(event.currentTarget.value)} onBlur={accept}

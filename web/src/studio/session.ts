@@ -146,9 +146,29 @@ export function addPoints(branches: Branch[], points: PathPointsEvent): void {
   });
 }
 
+const kKept = "snapthrough-studio";
+
+/** What a tab works on outlives its reloading. */
+function remember(): void {
+  const { request, problem, sliders } = studio.get();
+  sessionStorage.setItem(kKept, JSON.stringify({ request, problem: problem?.example ?? null, sliders }));
+}
+
+/** Opens what the tab worked on before it was loaded again; false when that was nothing, or another problem. */
+export function restore(wanted: Problem | null): boolean {
+  const text = sessionStorage.getItem(kKept);
+  if (text === null) return false;
+  const { request, problem, sliders } = JSON.parse(text) as { request: RequestDocument; problem: string | null; sliders: Slider[] };
+  if (wanted !== null && wanted.example !== problem) return false;
+  openRequest(request, kProblems.find(({ example }) => example === problem) ?? null);
+  setSliders(studio.get().sliders.concat(sliders.slice(studio.get().sliders.length)));
+  return true;
+}
+
 /** The sliders rest: asks for states all along the paths, so that they can be walked. */
 async function atRest(run: Run): Promise<void> {
   dragStart = null;
+  remember();
   const request = forWalking(run.request, run.result);
   if (!request || studio.get().run !== run) return;
   try {

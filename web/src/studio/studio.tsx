@@ -7,7 +7,8 @@ import { useNarrow } from "../app/size";
 import { documentAddress, sectionName } from "../docs/contents";
 import { formatNumber, type PathShadow } from "../figures";
 import { kProblems } from "../model/gallery";
-import { sliderFor, valueOf } from "../model/sliders";
+import type { Run } from "../model/run";
+import { sliderFor, valueOf, type Slider } from "../model/sliders";
 import { withValue } from "../model/pointer";
 import { useStore } from "../store";
 import { Card } from "../views/card";
@@ -15,7 +16,7 @@ import { ResultViews } from "../views/result_views";
 import { GalleryDialog } from "./gallery_dialog";
 import { JsonPanel } from "./json_panel";
 import { ModelForm } from "./model_form";
-import { keep, openAny, openExample, openFirst, openProblem, pin, setRequest, setSlider, setSliders, studio, unpin, type Studio } from "./session";
+import { keep, openAny, openExample, openFirst, openProblem, pin, restore, setRequest, setSlider, setSliders, studio, unpin, type Studio } from "./session";
 import { SliderRow } from "./slider_row";
 import { SweepBuilder } from "../sweeps/sweep_builder";
 import { findingsOf, Trouble } from "./trouble";
@@ -57,10 +58,11 @@ function Actions({ state }: { state: Studio }) {
     if (!run) return;
     keep();
     const address = `${location.origin}/#/jobs/${run.job}`;
-    await navigator.clipboard.writeText(address).then(() => say("Address copied"), () => say(address));
+    const here = /^(localhost|127\.|\[::1\])/.test(location.hostname) ? ", for this computer only: others need the request" : "";
+    await navigator.clipboard.writeText(address).then(() => say(`Address copied${here}`), () => say(`${address}${here}`));
     setTimeout(() => say(""), 4000);
   };
-  const ready = state.run !== null;
+  const ready = state.run !== null && findingsOf(state.trouble).length === 0;
   return (
     <div class="buttons">
       <button type="button" disabled={!ready} onClick={pin}>Pin this run</button>
@@ -102,13 +104,25 @@ function Editing({ panel, onPanel, state }: { panel: Panel; onPanel: (panel: Pan
   );
 }
 
-function shadowsOf({ shadow, pins, run }: Studio): PathShadow[] {
+/** How a run differs from the one that is shown: values of the sliders, and its critical load. */
+function differenceOf(one: Run, shown: Run | null, sliders: readonly Slider[]): string {
+  const values = sliders.flatMap((slider) => {
+    const value = valueOf(slider, one.request);
+    const same = shown !== null && value === valueOf(slider, shown.request);
+    return value === null || same ? [] : [`${slider.name} ${formatNumber(value, 3)}`];
+  });
+  const other = shown && JSON.stringify(one.request.model) !== JSON.stringify(shown.request.model) ? "another model" : one.label;
+  const load = one.result.summary.critical_load_factor;
+  return `${values.length > 0 ? values.join(", ") : other}${load === null ? "" : `: ${formatNumber(load)}`}`;
+}
+
+function shadowsOf({ shadow, pins, run, sliders }: Studio): PathShadow[] {
   const shadows: PathShadow[] = [];
   const pinned = pins.filter((one) => one.job !== run?.job);
   if (shadow && shadow.job !== run?.job && !pinned.some((one) => one.job === shadow.job)) {
-    shadows.push({ label: `before: ${shadow.label}`, result: shadow.result, kind: "earlier" });
+    shadows.push({ label: `before: ${differenceOf(shadow, run, sliders)}`, result: shadow.result, kind: "earlier" });
   }
-  return [...shadows, ...pinned.map((one): PathShadow => ({ label: `pinned: ${one.label}`, result: one.result, kind: "pinned" }))];
+  return [...shadows, ...pinned.map((one): PathShadow => ({ label: `pinned: ${differenceOf(one, run, sliders)}`, result: one.result, kind: "pinned" }))];
 }
 
 /** Which panel is open: the address says it for the model, so that it can be shared. */
@@ -132,17 +146,18 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
   const job = query.get("job");
   useEffect(() => {
     const problem = kProblems.find((one) => one.example === wanted);
+    if (studio.get().request === null && !job && !example && restore(problem ?? null)) return;
     if (problem && studio.get().problem !== problem) void openProblem(problem);
     else if (job) void service.jobRequest(job).then(openAny, () => openFirst());
     else if (example) void openExample(example);
     else openFirst();
   }, [wanted, job, example]);
-  const shadows = useMemo(() => shadowsOf(state), [state.shadow, state.pins, state.run]);
+  const shadows = useMemo(() => shadowsOf(state), [state.shadow, state.pins, state.run, state.sliders]);
   const { request, problem } = state;
   const narrow = useNarrow();
   const editing = <Editing panel={panel} onPanel={setPanel} state={state} />;
   return (
-    <main id="main" tabIndex={-1} class={`studio ${panel === "json" ? "wide" : ""}`}>
+    <main id="main" tabIndex={-1} class={`studio ${panel === "json" ? "wide" : ""} ${findingsOf(state.trouble).length > 0 ? "stale" : ""}`}>
       <Card title="Model" class="controls" tools={<button type="button" onClick={() => setGallery(true)}>Gallery</button>}>
         <div class="scroll">
           <h1 class={problem ? "" : "long"}>{problem?.heading ?? request?.model.title ?? "Model"}</h1>
@@ -156,7 +171,7 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
       </Card>
       {request ? (
         <ResultViews request={request} run={state.run} growing={state.growing} shadows={shadows} choice={state.choice}
-                     onChoice={(choice) => studio.change({ choice })}
+                     stale={findingsOf(state.trouble).length > 0} onChoice={(choice) => studio.change({ choice })}
                      onFollow={request.analysis.type === "path"
                        ? () => setRequest(withValue(request, "/analysis/branches/follow", "first")) : undefined} />
       ) : <Card title="Drawing" class="drawing-card"><p class="hint">Loading…</p></Card>}

@@ -21,6 +21,7 @@ interface DrawingProps {
   state: State | null;
   mode: Mode | null;
   loadFactor: number | null;
+  unstable: boolean;
   room: readonly State[];
   cursor: Pointed | null;
   onCursor: (cursor: Pointed | null) => void;
@@ -117,10 +118,10 @@ function Picture({ input, size, onCursor }: { input: DrawingInput; size: Size; o
 export function DrawingCard(props: DrawingProps) {
   const [place, size] = useSize<HTMLDivElement>();
   const [enlarged, setEnlarged] = useState(false);
-  const { model, state, mode, loadFactor, room, cursor } = props;
+  const { model, state, mode, loadFactor, unstable, room, cursor } = props;
   const factor = enlarged && state ? suggestedFactor({ model, state }) : 1;
-  const input = useMemo<DrawingInput>(() => ({ model, state, mode, loadFactor, room, cursor, factor }),
-                                      [model, state, mode, loadFactor, room, cursor, factor]);
+  const input = useMemo<DrawingInput>(() => ({ model, state, mode, loadFactor, unstable, room, cursor, factor }),
+                                      [model, state, mode, loadFactor, unstable, room, cursor, factor]);
   const small = state !== null && suggestedFactor({ model, state }) > 1;
   const name = fileName(model.title ?? "", "");
   const take = (): ReturnType<typeof drawingFigure> => drawingFigure({ ...input, cursor: null }, size ?? { width: 600, height: 500 });

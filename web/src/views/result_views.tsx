@@ -5,7 +5,7 @@ import { useMemo, useState } from "preact/hooks";
 import type { Branch, RequestDocument, State } from "../api/documents";
 import { formatNumber, type PathShadow } from "../figures";
 import type { Choice } from "../model/gallery";
-import { stationFor, type Run } from "../model/run";
+import { isUnstable, stationFor, type Run } from "../model/run";
 import { DrawingCard, type Pointed } from "./drawing_card";
 import { BucklingCard, PathCard } from "./path_card";
 import { SectionsCard } from "./sections_card";
@@ -18,6 +18,8 @@ export interface ResultProps {
   shadows: readonly PathShadow[];
   choice: Choice;
   onChoice: (choice: Choice) => void;
+  /** The request has mistakes: what is shown is of the last one without. */
+  stale?: boolean | undefined;
   /** Asks for the branches of the first bifurcation as well; nothing where that can't be asked. */
   onFollow?: (() => void) | undefined;
 }
@@ -49,7 +51,7 @@ function CriticalNote({ run, number, onFollow, onChoice, onClose }: {
 
 const kNothing: readonly State[] = [];
 
-export function ResultViews({ request, run, growing, shadows, choice, onChoice, onFollow }: ResultProps) {
+export function ResultViews({ request, run, growing, shadows, choice, onChoice, onFollow, stale = false }: ResultProps) {
   const [critical, setCritical] = useState<number | null>(null);
   const [modeNumber, setModeNumber] = useState(0);
   const [cursor, setCursor] = useState<Pointed | null>(null);
@@ -71,12 +73,13 @@ export function ResultViews({ request, run, growing, shadows, choice, onChoice, 
   return (
     <>
       <DrawingCard class={buckling ? "alone" : ""} model={model} state={state} mode={mode} room={room} cursor={cursor} onCursor={setCursor}
+                   unstable={run !== null && station !== undefined && !pointState && isUnstable(run, station)}
                    loadFactor={buckling?.load_factors[modeNumber] ?? null} />
       {run && buckling ? <BucklingCard run={run} mode={modeNumber} onMode={setModeNumber} />
         : <PathCard model={model} run={run} growing={growing} shadows={shadows} choice={choice} onChoice={onChoice}
                     note={note} onCritical={setCritical} />}
       {buckling ? null : <SectionsCard model={model} state={state} cursor={cursor} onCursor={setCursor} />}
-      <TrustCard run={run} request={request} />
+      <TrustCard run={run} request={request} stale={stale} />
     </>
   );
 }

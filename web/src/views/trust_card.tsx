@@ -2,11 +2,11 @@
 // left out; and ways to do the same without the page.
 
 import { useState } from "preact/hooks";
-import type { CriticalPoint, RequestDocument, Result } from "../api/documents";
+import type { CriticalPoint, Model, RequestDocument, Result } from "../api/documents";
 import { hasKey } from "../api/client";
 import { withShortNumbers } from "../app/words";
 import { curlCommand, fileName, pythonProgram, saveJson } from "../export/files";
-import { formatNumber } from "../figures";
+import { formatNumber, formatWithUnit, unitOf, type Quantity } from "../figures";
 import type { Run } from "../model/run";
 import { Card } from "./card";
 
@@ -27,8 +27,8 @@ function Badge({ good, children }: { good: boolean; children: string }) {
 function errorText(result: Result): string {
   const { error_estimate: estimate } = result.summary;
   const { requested } = result.discretization.accuracy;
-  const asked = requested === null ? "on a given mesh" : `asked ${formatNumber(requested, 1)}`;
-  return estimate === null ? `no error estimate, ${asked}` : `error estimate ${formatNumber(estimate, 1)}, ${asked}`;
+  const asked = requested === null ? "on a given mesh" : `${formatNumber(requested, 1)} was asked`;
+  return estimate === null ? `no error estimate, ${asked}` : `relative error about ${formatNumber(estimate, 1)}, ${asked}`;
 }
 
 /** The critical point that the summary speaks of. */
@@ -36,7 +36,7 @@ function firstPoint(result: Result): CriticalPoint | undefined {
   return result.critical_points.find((one) => one.load_factor === result.summary.critical_load_factor);
 }
 
-function Headline({ result }: { result: Result }) {
+function Headline({ result, stale }: { result: Result; stale: boolean }) {
   const { critical_load_factor: load, critical_type: type } = result.summary;
   const point = firstPoint(result);
   const buckling = result.buckling?.load_factors[0];
@@ -55,7 +55,7 @@ function Headline({ result }: { result: Result }) {
   return (
     <>
       <p class="headline"><strong>{formatNumber(load, 5)}</strong>
-        <Badge good={confirmed}>{confirmed ? "confirmed" : fixed ? "this mesh only" : "not confirmed"}</Badge></p>
+        <Badge good={confirmed && !stale}>{stale ? "of the last valid model" : confirmed ? "confirmed" : fixed ? "this mesh only" : "not confirmed"}</Badge></p>
       <p class="hint">{kindOf(type ?? "")}, {errorText(result)}</p>
     </>
   );
@@ -72,6 +72,25 @@ function othersText(result: Result): string {
   return texts.length === 0 ? "no other critical point" : texts.join(", ");
 }
 
+/** What the load factor multiplies, where all proportional loads are of one kind and one size; else "". */
+function loadText(model: Model, factor: number): string {
+  const sizes = (model.loads ?? []).flatMap((load): [number, Quantity][] => {
+    if (!("pattern" in load) || load.pattern !== "constant") {
+      switch (load.type) {
+        case "point": return (load.moment ?? 0) === 0 ? [[Math.hypot(...(load.force ?? [0, 0])), "force"]] : [[Number.NaN, "moment"]];
+        case "distributed": return [[Math.hypot(...load.force), "line_load"]];
+        case "pressure": return [[Math.abs(load.value), "line_load"]];
+        case "initial_strain": return [[Number.NaN, "none"]];
+      }
+    }
+    return [];
+  });
+  const [first] = sizes;
+  if (!first || !sizes.every(([size, kind]) => size === first[0] && kind === first[1])) return "";
+  const unit = unitOf(model.units, first[1]);
+  return unit === "" ? "" : `${formatNumber(factor, 5)} × ${formatWithUnit(first[0], unit)} = ${formatWithUnit(factor * first[0], unit)}`;
+}
+
 function meshText(result: Result): string {
   const { elements, order, unknowns } = result.discretization;
   return elements === null ? "none" : `${elements} elements of order ${order ?? 1}, ${unknowns ?? "?"} unknowns`;
@@ -79,7 +98,7 @@ function meshText(result: Result): string {
 
 function effortText(run: Run): string {
   const { wall_time_s: seconds, steps } = run.result.diagnostics;
-  const time = run.cached ? "known before" : `${formatNumber(1000 * seconds, 2)} ms`;
+  const time = run.cached ? "stored earlier" : `${formatNumber(1000 * seconds, 2)} ms`;
   return steps === null || steps === 0 ? time : `${steps} steps, ${time}`;
 }
 
@@ -87,7 +106,14 @@ function rowsOf(run: Run): [string, string][] {
   const { result } = run;
   const rows: [string, string][] = [];
   const point = firstPoint(result);
-  for (const [id, value] of Object.entries(point?.monitors ?? {})) rows.push([`${id} there`, formatNumber(Math.abs(value) < kNothing ? 0 : value, 4)]);
+  const load = point ? loadText(run.request.model, point.load_factor) : "";
+  if (load !== "") rows.push(["Load there", load]);
+  for (const { id, component } of run.request.model.monitors ?? []) {
+    const value = point?.monitors[id];
+    if (value === undefined) continue;
+    const unit = unitOf(run.request.model.units, component === "rotation" ? "rotation" : "length");
+    rows.push([`${id} there`, formatWithUnit(Math.abs(value) < kNothing ? 0 : value, unit)]);
+  }
   if (point && result.critical_points.length > 0) rows.push(["Also on this path", othersText(result)]);
   rows.push(["Mesh", meshText(result)], ["Effort", effortText(run)]);
   const others = result.buckling?.load_factors.slice(1, 6) ?? [];
@@ -96,30 +122,32 @@ function rowsOf(run: Run): [string, string][] {
 }
 
 /** Copies a text, and says so for a moment. */
-export function CopyButton({ label, text }: { label: string; text: () => string }) {
+export function CopyButton({ label, text, disabled = false }: { label: string; text: () => string; disabled?: boolean }) {
   const [said, say] = useState(false);
   const copy = async (): Promise<void> => {
     await navigator.clipboard.writeText(text()).catch(() => undefined);
     say(true);
     setTimeout(() => say(false), 1500);
   };
-  return <button type="button" onClick={() => void copy()}>{said ? "Copied" : label}</button>;
+  return <button type="button" disabled={disabled} onClick={() => void copy()}>{said ? "Copied" : label}</button>;
 }
 
 interface TrustProps {
   run: Run | null;
   /** What the user asked for, without the output that pictures need. */
   request: RequestDocument | null;
+  /** The request has mistakes, and the run is of another one. */
+  stale?: boolean;
   class?: string;
 }
 
-export function TrustCard({ run, request, class: name = "" }: TrustProps) {
+export function TrustCard({ run, request, stale = false, class: name = "" }: TrustProps) {
   if (!run || !request) return <Card title="First loss of stability" class={`trust-card ${name}`}><p class="hint">No result yet.</p></Card>;
   const { result } = run;
   const file = fileName(request.model.title ?? "", "");
   return (
     <Card title="First loss of stability" class={`trust-card ${name}`}>
-      <Headline result={result} />
+      <Headline result={result} stale={stale} />
       <dl class="rows">
         {rowsOf(run).map(([term, value]) => <div key={term}><dt>{term}</dt><dd>{value}</dd></div>)}
       </dl>
@@ -129,10 +157,10 @@ export function TrustCard({ run, request, class: name = "" }: TrustProps) {
           <ul>{result.diagnostics.skipped.map((text) => <li key={text}>{text}</li>)}</ul></details>
       ) : null}
       <div class="buttons">
-        <CopyButton label="Copy curl" text={() => curlCommand(request, location.origin, hasKey())} />
-        <CopyButton label="Copy Python" text={() => pythonProgram(request, location.origin, hasKey())} />
-        <button type="button" onClick={() => saveJson(`${file}-request.json`, request)}>Request</button>
-        <button type="button" onClick={() => saveJson(`${file}-result.json`, result)}>Result</button>
+        <CopyButton label="Copy curl" disabled={stale} text={() => curlCommand(request, location.origin, hasKey())} />
+        <CopyButton label="Copy Python" disabled={stale} text={() => pythonProgram(request, location.origin, hasKey())} />
+        <button type="button" disabled={stale} onClick={() => saveJson(`${file}-request.json`, request)}>Request</button>
+        <button type="button" disabled={stale} onClick={() => saveJson(`${file}-result.json`, result)}>Result</button>
       </div>
     </Card>
   );

@@ -75,7 +75,7 @@ export function sweepLineChart(input: SweepLineInput, size: Size): SweepLineChar
   const failures = failureText(errors);
   const top = 12 + (failures === "" ? 0 : 18) + legendHeight(legendEntries(lines), size.width);
   const frame = {
-    x: scaleOf(x.values, x.names, input.x.log ?? false, 66, Math.max(90, size.width - 18), true),
+    x: scaleOf(x.values, x.names, input.x.log ?? false, 66, Math.max(90, size.width - 28), true),
     y: scaleOf(y.values, y.names, input.y.log ?? false, Math.max(60, size.height - 44), top, false),
     xLabel: columnLabel(input.x),
     yLabel: columnLabel(input.y),

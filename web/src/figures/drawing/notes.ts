@@ -159,5 +159,5 @@ function captionOf(input: Scene["input"]): string {
   const load = input.state?.load_factor ?? input.loadFactor ?? null;
   const at = load === null ? "" : ` at load factor ${formatNumber(load)}`;
   if (input.mode) return `Mode${at}, size without meaning${input.state && factor !== 1 ? `, ${scale}` : ""}`;
-  return input.state ? `Deformed shape${at}, ${scale}` : "Model, undeformed, its own loads";
+  return input.state ? `Deformed shape${at}${input.unstable ? " (unstable)" : ""}, ${scale}` : "Model, undeformed, its own loads";
 }

@@ -30,6 +30,8 @@ export interface DrawingInput {
   room?: readonly State[] | undefined;
   /** A place that is pointed at. */
   cursor?: { member: string; s: number } | null | undefined;
+  /** Whether the state is known to be unstable; the caption says so. */
+  unstable?: boolean | undefined;
   /** Whether to draw the mirror image of a half structure as well; when left out, where `symmetryLine` finds a closed half. */
   mirror?: boolean | undefined;
   /** Whether to draw overall dimensions; true when left out. */
