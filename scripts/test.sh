@@ -47,6 +47,7 @@ if [ "$preset" = release ] || [ "$preset" = dev ]; then
 fi
 cmake --preset "$preset" "${options[@]}" >"$log" 2>&1 || { cat "$log"; exit 1; }
 cmake --build "build/$preset" --parallel "$jobs"
+cmake --build "build/$preset" --parallel "$jobs" --target all_verify_interface_header_sets
 
 step "tests"
 ctest --test-dir "build/$preset" --parallel "$jobs" --output-on-failure --no-tests=error
