@@ -33,7 +33,8 @@ Model arch_in_ground() {
 
 int main() {
   const Model model = arch_in_ground();
-  const Analysis analysis{.type = AnalysisType::critical};
+  Analysis analysis;
+  analysis.type = AnalysisType::critical;
   for (const Finding& finding : check(model, analysis)) {
     std::cerr << finding.pointer << ": " << finding.detail << '\n';
   }
