@@ -232,7 +232,7 @@ TEST_F(Callback, ItIsGivenUpAfterTheLastPauseAndRedirectsAreNotFollowed) {
   EXPECT_EQ(metric("callbacks_waiting", 0), 0);
   EXPECT_EQ(receiver.told().size(), 3U);
   EXPECT_EQ(elsewhere.told().size(), 0U);
-  EXPECT_THAT(log_text_.str(), HasSubstr("\"outcome\":\"given_up\""));
+  EXPECT_THAT(log_text_.text(), HasSubstr("\"outcome\":\"given_up\""));
 }
 
 TEST_F(Callback, WhatWaitsSurvivesARestart) {

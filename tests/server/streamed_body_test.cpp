@@ -167,7 +167,7 @@ TEST_F(StreamedBody, ATableOfASweepThatIsTriedAgainMeanwhileIsSeenToBeIncomplete
   const Reply reply = client->receive();
   EXPECT_EQ(reply.header("X-Complete"), "true");
   EXPECT_FALSE(reply.whole);
-  EXPECT_TRUE(eventually([&] { return log_text_.str().find("tried again while") != std::string::npos; }));
+  EXPECT_TRUE(eventually([&] { return log_text_.text().find("tried again while") != std::string::npos; }));
 }
 
 TEST_F(StreamedBody, LargeAnswersAreRefusedWhileTooMuchIsBeingSentAndSmallOnesAreNot) {

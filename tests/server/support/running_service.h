@@ -7,7 +7,8 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
-#include <sstream>
+#include <ostream>
+#include <streambuf>
 #include <string>
 
 #include "server/service.h"
@@ -71,6 +72,30 @@ inline SolveFunction gated(std::shared_ptr<GatedSolver> solver) {
   };
 }
 
+/// What was written to a stream, to be read while others write. Thread-safe.
+class SharedText final : public std::streambuf {
+ public:
+  [[nodiscard]] std::string text() const {
+    const std::lock_guard guard(mutex_);
+    return text_;
+  }
+
+ protected:
+  std::streamsize xsputn(const char* piece, std::streamsize count) override {
+    const std::lock_guard guard(mutex_);
+    text_.append(piece, static_cast<std::size_t>(count));
+    return count;
+  }
+  int overflow(int letter) override {
+    const char piece = static_cast<char>(letter);
+    return xsputn(&piece, 1) == 1 ? letter : traits_type::eof();
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::string text_;
+};
+
 class ServiceTest : public testing::Test {
  protected:
   void start(SolveFunction solver) {
@@ -114,8 +139,9 @@ class ServiceTest : public testing::Test {
 
   TempDir folder_;
   int workers_ = 2;
-  std::ostringstream log_text_;
-  Log log_{LogLevel::debug, Environment::system().now, log_text_};
+  SharedText log_text_;
+  std::ostream log_stream_{&log_text_};
+  Log log_{LogLevel::debug, Environment::system().now, log_stream_};
   std::unique_ptr<Service> service_;
 };
 
