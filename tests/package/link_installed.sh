@@ -11,8 +11,12 @@ cmake --install "$build" --prefix "$root/usr" >/dev/null
 cp -r "$source/examples/library" "$root/program"  # no header of the sources is beside it
 cmake -S "$root/program" -B "$root/build" -DCMAKE_PREFIX_PATH="$root/usr" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" >/dev/null
 cmake --build "$root/build" >/dev/null
-grep -qE -- '-march|mold|Werror|Eigen' "$root"/usr/lib*/cmake/snapthrough/*.cmake "$root"/usr/lib*/*/cmake/snapthrough/*.cmake 2>/dev/null &&
-  { echo "the package passes on what is this build's own"; exit 1; }
+files="$(find "$root/usr" -name '*.cmake')"
+[ -n "$files" ]
+if grep -E -- '-march|mold|Werror|Eigen' $files; then
+  echo "the package passes on what is this build's own"
+  exit 1
+fi
 answer="$("$root/build/arch_in_ground")"
 echo "$answer"
 awk '{ error = ($1 - 93.117814) / 93.117814; exit error * error > 1e-6 }' <<<"$answer"

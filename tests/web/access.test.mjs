@@ -1,26 +1,13 @@
 // Each view by axe-core, light and dark; and what the page's own source must not have.
 import assert from 'node:assert/strict';
 import { readdir, readFile } from 'node:fs/promises';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { violations } from './support/axe.mjs';
-import { openPage, settled, startBrowser } from './support/browser.mjs';
-import { startService } from './support/service.mjs';
-
-let service;
-let browser;
-
-before(async () => {
-  service = await startService();
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+import { openPage, settled } from './support/browser.mjs';
+import { browser, example, service } from './support/stage.mjs';
 
 async function aJob() {
-  const { examples } = await (await fetch(`${service.url}/v1/examples`)).json();
-  const request = { ...examples.find((one) => one.name === 'tunnel_arch').request };
+  const request = await example('tunnel_arch');
   const post = (path, body) => fetch(service.url + path, {
     method: 'POST', headers: { 'Content-Type': 'application/json', Prefer: 'wait=20' }, body: JSON.stringify(body),
   });

@@ -4,34 +4,13 @@ import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
 import { writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { violations } from './support/axe.mjs';
-import { downloaded, drawnPath, openPage, settled, slide, startBrowser } from './support/browser.mjs';
+import { downloaded, drawnPath, openPage, settled, slide } from './support/browser.mjs';
 import { startService } from './support/service.mjs';
+import { browser, close, example, service } from './support/stage.mjs';
 
 const kHostile = '<script>alert(1)</script>';
-
-let service;
-let browser;
-
-before(async () => {
-  service = await startService();
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
-
-async function close(page) {
-  assert.deepEqual(page.troubles, []);
-  await page.context().close();
-}
-
-async function example(name) {
-  const { examples } = await (await fetch(`${service.url}/v1/examples`)).json();
-  return structuredClone(examples.find((one) => one.name === name).request);
-}
 
 async function post(path, body) {
   const answer = await fetch(service.url + path, {

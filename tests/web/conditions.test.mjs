@@ -1,25 +1,8 @@
 // The page where things are not as usual: no network, a result of many members, paper.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { downloaded, drawnPath, openPage, settled, slide, startBrowser } from './support/browser.mjs';
-import { startService } from './support/service.mjs';
-
-let service;
-let browser;
-
-before(async () => {
-  service = await startService();
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
-
-async function close(page) {
-  assert.deepEqual(page.troubles, []);
-  await page.context().close();
-}
+import { test } from 'node:test';
+import { downloaded, drawnPath, openPage, settled, slide } from './support/browser.mjs';
+import { browser, close, service } from './support/stage.mjs';
 
 test('without a network what was drawn stays and can be taken away, and the page goes on by itself', async () => {
   const page = await openPage(browser, `${service.url}/#/studio?problem=tunnel_arch`);

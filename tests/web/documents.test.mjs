@@ -1,25 +1,8 @@
 // The documents inside the page.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { openPage, startBrowser } from './support/browser.mjs';
-import { startService } from './support/service.mjs';
-
-let service;
-let browser;
-
-before(async () => {
-  service = await startService();
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
-
-async function close(page) {
-  assert.deepEqual(page.troubles, []);
-  await page.context().close();
-}
+import { test } from 'node:test';
+import { openPage } from './support/browser.mjs';
+import { browser, close, service } from './support/stage.mjs';
 
 /** Goes to a place in the documents and says what is there. */
 async function read(page, address) {

@@ -19,7 +19,7 @@ const kCompared = [
   ['sweep-line', 'wide', 'light'], ['sweep-map', 'wide', 'dark'], ['job-failed', 'wide', 'light'], ['documents', 'wide', 'light'],
 ];
 /** Where times stand. */
-const kTimes = '.state, .rows dd, .job-facts dd, .hint, input, .cm-cursor';
+const kTimes = '.state, .rows dd, .cm-cursor';
 const kBlock = 24;     // px: a picture is compared block by block, so that a line that is missing counts
 const kLevel = 60;     // of 255: two colours that are not the same, whatever the edges of letters look like
 const kShare = 0.06;   // of a block that may differ

@@ -4,31 +4,10 @@ import { createHash } from 'node:crypto';
 import { mkdtemp, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { drawnPath, openPage, settled, slide, startBrowser } from './support/browser.mjs';
+import { test } from 'node:test';
+import { drawnPath, openPage, settled, slide } from './support/browser.mjs';
 import { startService } from './support/service.mjs';
-
-let service;
-let browser;
-
-before(async () => {
-  service = await startService();
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
-
-async function close(page) {
-  assert.deepEqual(page.troubles, []);
-  await page.context().close();
-}
-
-async function example(name) {
-  const { examples } = await (await fetch(`${service.url}/v1/examples`)).json();
-  return examples.find((one) => one.name === name).request;
-}
+import { browser, close, example, service } from './support/stage.mjs';
 
 async function submit(request, prefer = 'wait=20') {
   const answer = await fetch(`${service.url}/v1/jobs`, {

@@ -1,27 +1,10 @@
 // The studio against the real service: sliders, walking, gallery, exports, mistakes.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { downloaded, drawnPath, openPage, settled, slide, startBrowser } from './support/browser.mjs';
-import { startService } from './support/service.mjs';
-
-let service;
-let browser;
-
-before(async () => {
-  service = await startService();
-  browser = await startBrowser();
-});
-after(async () => {
-  await browser?.close();
-  await service?.stop();
-});
+import { test } from 'node:test';
+import { downloaded, drawnPath, openPage, settled, slide } from './support/browser.mjs';
+import { browser, close, service } from './support/stage.mjs';
 
 const studio = (problem = 'buried_pipe') => openPage(browser, `${service.url}/#/studio?problem=${problem}`);
-
-async function close(page) {
-  assert.deepEqual(page.troubles, []);
-  await page.context().close();
-}
 
 test('the first problem is drawn with its path, its sections and its critical load', async () => {
   const page = await openPage(browser, service.url);
@@ -239,7 +222,7 @@ test('while the model has a mistake, the answer before is not passed off as its 
   await page.locator('.model-form summary', { hasText: 'Sections' }).click();
   await page.getByLabel('EI', { exact: true }).fill('-1');
   await page.keyboard.press('Enter');
-  await page.locator('.trust-card .headline', { hasText: 'of the last valid model' }).waitFor();
+  await page.locator('.trust-card .headline', { hasText: 'of an earlier model' }).waitFor();
   for (const name of ['Request', 'Result', 'Copy curl', 'Share', 'Pin this run']) {
     assert.equal(await page.getByRole('button', { name, exact: true }).isDisabled(), true, name);
   }

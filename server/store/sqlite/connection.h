@@ -59,8 +59,8 @@ class Statement {
   Statement& bind(double value);
   Statement& bind(std::string_view text);
   Statement& bind_null();
-  /// Little-endian float64, one after the other.
   Statement& bind_blob(std::string_view bytes);
+  /// Little-endian float64, one after the other.
   Statement& bind_series(std::span<const double> values);
   template <class T>
   Statement& bind(const std::optional<T>& value) {

@@ -44,3 +44,9 @@ export async function startService(options = [], { port = 0, folder = null } = {
     },
   };
 }
+
+/** The request of an example that a service has, to be changed at will. */
+export async function exampleOf(url, name) {
+  const { examples } = await (await fetch(`${url}/v1/examples`)).json();
+  return examples.find((one) => one.name === name).request;
+}

@@ -3,7 +3,7 @@ import { createHash } from 'node:crypto';
 import { rm, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { openPage, settled, slide } from './browser.mjs';
-import { startService } from './service.mjs';
+import { exampleOf, startService } from './service.mjs';
 
 const kRest = 900;        // ms in which the studio has asked for the states to walk through
 const kKey = 'the key of the pictures';
@@ -46,11 +46,6 @@ async function writeMistakes(page, url) {
   await page.keyboard.insertText(JSON.stringify(request, null, 2));
   await page.locator('.json .findings li').first().waitFor();
   await page.waitForTimeout(kRest);
-}
-
-async function exampleOf(url, name) {
-  const { examples } = await (await fetch(`${url}/v1/examples`)).json();
-  return structuredClone(examples.find((one) => one.name === name).request);
 }
 
 async function post(url, path, body) {

@@ -3,7 +3,7 @@
 // shown is dropped. Jobs that were overtaken are dismissed or removed, so that a thousand moves don't leave a thousand jobs.
 
 import type { RequestDocument, Result } from "./documents";
-import { type Answer, Refused, service, solve } from "./client";
+import { type Answer, service, solve } from "./client";
 
 const kInFlight = 2;
 const kMostUnwanted = 100;  // overtaken jobs that wait for a pause before they are removed
@@ -11,6 +11,9 @@ const kWait = 1;  // seconds; an analysis that takes longer is followed by its e
 
 /** What is asked for; `live` while it is still being changed. */
 export interface Question {
+  /** What the user asks. */
+  asked: RequestDocument;
+  /** The same with the output that pictures need. */
   request: RequestDocument;
   live: boolean;
   /** Counts the models that were opened: an answer to a question about another one is dropped. */
@@ -25,16 +28,12 @@ export interface Takers {
   isWanted(job: string): boolean;
 }
 
-/** The answer was a stored one whose job was removed at the same time: asked again, it is computed. */
-function wasRemoved(error: unknown): boolean {
-  return (error instanceof Refused && error.kind === "no-such-job") || error instanceof TypeError;
-}
-
+/** A stored answer whose job is removed while it is sent breaks off: asked again, it is computed. */
 async function solveAgain(request: RequestDocument, wait: number): Promise<Answer> {
   try {
     return await solve(request, wait);
   } catch (error) {
-    if (!wasRemoved(error)) throw error;
+    if (!(error instanceof TypeError)) throw error;
     return solve(request, wait);
   }
 }

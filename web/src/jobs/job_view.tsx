@@ -25,7 +25,7 @@ const kNothing: Shown = { job: null, request: null, run: null, growing: null, tr
 
 function makeRun(id: string, request: RequestDocument, result: Result): Run {
   return {
-    job: id, request, result, stations: stationsOf(request.model, result), label: "",
+    job: id, asked: request, request, result, stations: stationsOf(request.model, result), label: "",
     milliseconds: 1000 * result.diagnostics.wall_time_s, cached: false, kept: true,
   };
 }

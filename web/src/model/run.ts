@@ -14,6 +14,9 @@ export interface Station {
 
 export interface Run {
   job: string;
+  /** What the user asked. */
+  asked: RequestDocument;
+  /** The same with the output that pictures need. */
   request: RequestDocument;
   result: Result;
   stations: Station[];

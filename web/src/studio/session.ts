@@ -41,6 +41,11 @@ let opened = 0;  // models
 let dragStart: Run | null = null;  // what the chart showed before the first of a series of changes
 let following: AbortController | null = null;
 
+/** Whether what is shown is not of the request, and no answer to that will come. */
+export function isStale({ request, run, trouble }: Studio): boolean {
+  return trouble !== null && run !== null && run.asked !== request;
+}
+
 /** The most requests that were ever in flight, for tests. */
 export function mostInFlight(): number {
   return latest.most;
@@ -54,9 +59,9 @@ function labelOf(request: RequestDocument, sliders: readonly Slider[]): string {
 }
 
 function makeRun(question: Question, job: string, result: Result, milliseconds: number, cached: boolean): Run {
-  const { request } = question;
+  const { asked, request } = question;
   return {
-    job, request, result, stations: stationsOf(request.model, result), label: labelOf(request, studio.get().sliders),
+    job, asked, request, result, stations: stationsOf(request.model, result), label: labelOf(request, studio.get().sliders),
     milliseconds, cached, kept: false,
   };
 }
@@ -161,7 +166,8 @@ export function restore(wanted: Problem | null): boolean {
   const { request, problem, sliders } = JSON.parse(text) as { request: RequestDocument; problem: string | null; sliders: Slider[] };
   if (wanted !== null && wanted.example !== problem) return false;
   openRequest(request, kProblems.find(({ example }) => example === problem) ?? null);
-  setSliders(studio.get().sliders.concat(sliders.slice(studio.get().sliders.length)));
+  const own = studio.get().sliders;  // those of the gallery, which can't be taken away
+  setSliders([...own, ...sliders.slice(own.length)]);
   return true;
 }
 
@@ -185,7 +191,7 @@ function askFor(request: RequestDocument, live: boolean): void {
   dragStart ??= studio.get().run;
   studio.change({ request, busy: true });
   const steps = studio.get().run?.result.diagnostics.steps ?? null;
-  latest.ask({ request: forPictures(request, steps, live), live, model: opened });
+  latest.ask({ asked: request, request: forPictures(request, steps, live), live, model: opened });
 }
 
 /** Another value of a slider. */

@@ -16,7 +16,7 @@ import { ResultViews } from "../views/result_views";
 import { GalleryDialog } from "./gallery_dialog";
 import { JsonPanel } from "./json_panel";
 import { ModelForm } from "./model_form";
-import { keep, openAny, openExample, openFirst, openProblem, pin, restore, setRequest, setSlider, setSliders, studio, unpin, type Studio } from "./session";
+import { isStale, keep, openAny, openExample, openFirst, openProblem, pin, restore, setRequest, setSlider, setSliders, studio, unpin, type Studio } from "./session";
 import { SliderRow } from "./slider_row";
 import { SweepBuilder } from "../sweeps/sweep_builder";
 import { findingsOf, Trouble } from "./trouble";
@@ -62,7 +62,7 @@ function Actions({ state }: { state: Studio }) {
     await navigator.clipboard.writeText(address).then(() => say(`Address copied${here}`), () => say(`${address}${here}`));
     setTimeout(() => say(""), 4000);
   };
-  const ready = state.run !== null && findingsOf(state.trouble).length === 0;
+  const ready = state.run !== null && !isStale(state);
   return (
     <div class="buttons">
       <button type="button" disabled={!ready} onClick={pin}>Pin this run</button>
@@ -157,7 +157,7 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
   const narrow = useNarrow();
   const editing = <Editing panel={panel} onPanel={setPanel} state={state} />;
   return (
-    <main id="main" tabIndex={-1} class={`studio ${panel === "json" ? "wide" : ""} ${findingsOf(state.trouble).length > 0 ? "stale" : ""}`}>
+    <main id="main" tabIndex={-1} class={`studio ${panel === "json" ? "wide" : ""} ${isStale(state) ? "stale" : ""}`}>
       <Card title="Model" class="controls" tools={<button type="button" onClick={() => setGallery(true)}>Gallery</button>}>
         <div class="scroll">
           <h1 class={problem ? "" : "long"}>{problem?.heading ?? request?.model.title ?? "Model"}</h1>
@@ -171,7 +171,7 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
       </Card>
       {request ? (
         <ResultViews request={request} run={state.run} growing={state.growing} shadows={shadows} choice={state.choice}
-                     stale={findingsOf(state.trouble).length > 0} onChoice={(choice) => studio.change({ choice })}
+                     stale={isStale(state)} onChoice={(choice) => studio.change({ choice })}
                      onFollow={request.analysis.type === "path"
                        ? () => setRequest(withValue(request, "/analysis/branches/follow", "first")) : undefined} />
       ) : <Card title="Drawing" class="drawing-card"><p class="hint">Loading…</p></Card>}

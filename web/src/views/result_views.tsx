@@ -18,7 +18,7 @@ export interface ResultProps {
   shadows: readonly PathShadow[];
   choice: Choice;
   onChoice: (choice: Choice) => void;
-  /** The request has mistakes: what is shown is of the last one without. */
+  /** The request got no answer: what is shown is of an earlier one. */
   stale?: boolean | undefined;
   /** Asks for the branches of the first bifurcation as well; nothing where that can't be asked. */
   onFollow?: (() => void) | undefined;

@@ -40,11 +40,12 @@ function Headline({ result, stale }: { result: Result; stale: boolean }) {
   const { critical_load_factor: load, critical_type: type } = result.summary;
   const point = firstPoint(result);
   const buckling = result.buckling?.load_factors[0];
+  const earlier = stale ? <Badge good={false}>of an earlier model</Badge> : null;
   if (load === null) {
     return (
       <>
         <p class="headline">{result.failure ? null : <strong>{buckling === undefined ? "none" : formatNumber(buckling, 5)}</strong>}
-          {result.failure ? <Badge good={false}>{result.failure.code.replace(/_/g, " ")}</Badge> : null}</p>
+          {earlier ?? (result.failure ? <Badge good={false}>{result.failure.code.replace(/_/g, " ")}</Badge> : null)}</p>
         <p class="hint">{result.failure ? withShortNumbers(result.failure.detail)
           : buckling === undefined ? "no loss of stability on this path" : "first buckling load"}</p>
       </>
@@ -55,7 +56,7 @@ function Headline({ result, stale }: { result: Result; stale: boolean }) {
   return (
     <>
       <p class="headline"><strong>{formatNumber(load, 5)}</strong>
-        <Badge good={confirmed && !stale}>{stale ? "of the last valid model" : confirmed ? "confirmed" : fixed ? "this mesh only" : "not confirmed"}</Badge></p>
+        {earlier ?? <Badge good={confirmed}>{confirmed ? "confirmed" : fixed ? "this mesh only" : "not confirmed"}</Badge>}</p>
       <p class="hint">{kindOf(type ?? "")}, {errorText(result)}</p>
     </>
   );
@@ -136,7 +137,7 @@ interface TrustProps {
   run: Run | null;
   /** What the user asked for, without the output that pictures need. */
   request: RequestDocument | null;
-  /** The request has mistakes, and the run is of another one. */
+  /** The request got no answer, and the run is of an earlier one. */
   stale?: boolean;
   class?: string;
 }
