@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "solver/check/check.h"
 #include "solver/model/analysis.h"
-#include "solver/model/check.h"
 #include "solver/model/model.h"
 #include "solver/result.h"
 

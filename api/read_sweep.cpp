@@ -11,7 +11,7 @@
 #include "api/sweep.h"
 #include "api/sweep_data.h"
 #include "api/value.h"
-#include "solver/model/check_place.h"
+#include "solver/check/check_place.h"
 
 namespace snapthrough::api {
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/model/check.h"
+#include "solver/check/check.h"
 #include "solver/model/pointer.h"
 
 namespace snapthrough::api {

@@ -9,7 +9,7 @@
 
 #include "server/resources/message.h"
 #include "server/store/store.h"
-#include "solver/model/check.h"
+#include "solver/check/check.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server::http {

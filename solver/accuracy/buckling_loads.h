@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "solver/assembly/structure.h"
+#include "solver/discrete/structure.h"
+#include "solver/events/buckling.h"
 #include "solver/model/analysis.h"
-#include "solver/stability/buckling.h"
 
 namespace snapthrough {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "solver/accuracy/transfer.h"
-#include "solver/stability/newton_event.h"
+#include "solver/discrete/transfer.h"
+#include "solver/events/newton_event.h"
 
 namespace snapthrough {
 namespace {

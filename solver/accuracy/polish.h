@@ -4,10 +4,10 @@
 
 #include <optional>
 
-#include "solver/assembly/structural_problem.h"
-#include "solver/assembly/structure.h"
+#include "solver/discrete/structure.h"
+#include "solver/events/locate.h"
 #include "solver/path/continuation.h"
-#include "solver/stability/locate.h"
+#include "solver/problem/structural_problem.h"
 
 namespace snapthrough {
 

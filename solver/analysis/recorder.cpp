@@ -6,8 +6,11 @@
 #include <utility>
 
 #include "solver/analysis/analyses.h"
-#include "solver/assembly/structure.h"
-#include "solver/post/state.h"
+#include "solver/discrete/structure.h"
+#include "solver/hooks.h"
+#include "solver/numeric/number_text.h"
+#include "solver/report/result_parts.h"
+#include "solver/report/state.h"
 
 namespace snapthrough {
 

@@ -11,12 +11,15 @@
 
 #include "solver/accuracy/buckling_loads.h"
 #include "solver/analysis/analyses.h"
-#include "solver/analysis/touching.h"
-#include "solver/assembly/joined_supports.h"
-#include "solver/assembly/mechanism.h"
-#include "solver/post/mode.h"
-#include "solver/post/neutral_motion.h"
-#include "solver/stability/buckling.h"
+#include "solver/discrete/mechanism.h"
+#include "solver/events/buckling.h"
+#include "solver/events/touching.h"
+#include "solver/model/id_index.h"
+#include "solver/numeric/number_text.h"
+#include "solver/report/mode.h"
+#include "solver/report/neutral_motion.h"
+#include "solver/report/result_parts.h"
+#include "solver/support/joined_supports.h"
 
 namespace snapthrough {
 namespace {

@@ -9,13 +9,16 @@
 
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/observer.h"
-#include "solver/analysis/touching.h"
-#include "solver/cancelled.h"
+#include "solver/events/locate.h"
+#include "solver/events/touching.h"
+#include "solver/hooks.h"
 #include "solver/newton/contact_state.h"
-#include "solver/path/trace.h"
-#include "solver/post/neutral_motion.h"
-#include "solver/post/state.h"
-#include "solver/stability/locate.h"
+#include "solver/numeric/cancelled.h"
+#include "solver/numeric/number_text.h"
+#include "solver/report/neutral_motion.h"
+#include "solver/report/result_parts.h"
+#include "solver/report/state.h"
+#include "solver/trace/trace.h"
 
 namespace snapthrough {
 namespace {

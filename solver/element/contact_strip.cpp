@@ -7,7 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "solver/element/chebyshev_series.h"
+#include "solver/numeric/chebyshev_series.h"
+#include "solver/numeric/max_order.h"
 
 namespace snapthrough {
 namespace {

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "solver/element/chebyshev_series.h"
-#include "solver/element/gauss_rule.h"
-#include "solver/model/axis_curve.h"
+#include "solver/geometry/axis_curve.h"
+#include "solver/numeric/chebyshev_series.h"
+#include "solver/numeric/gauss_rule.h"
 
 namespace snapthrough {
 

@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "solver/element/contact_strip.h"
-#include "solver/element/gauss_rule.h"
+#include "solver/numeric/gauss_rule.h"
 
 namespace snapthrough {
 

@@ -2,13 +2,11 @@
 /// @file
 /// Members cut into elements.
 
-#include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "solver/geometry/axes.h"
 #include "solver/model/analysis.h"
-#include "solver/model/axis_curve.h"
 #include "solver/model/model.h"
 
 namespace snapthrough {
@@ -27,10 +25,6 @@ struct Mesh {
   std::vector<MeshElement> elements;
   std::vector<int> first;  ///< first element of each member; one entry more than there are members
 };
-
-/// Axes of all members, in the model's units, relative to the first node.
-using Axes = std::vector<std::shared_ptr<const AxisCurve>>;
-[[nodiscard]] Axes make_axes(const Model& model);
 
 /// What a mesh that the solver chooses is for.
 enum class MeshUse {
@@ -54,13 +48,5 @@ enum class MeshUse {
 /// the same elements is no witness where an element is too long for what it carries: both err together.)
 /// @return empty when it would have too many elements
 [[nodiscard]] std::optional<Mesh> finer_mesh(const Mesh& mesh);
-
-/// @brief Index of the thing with this id; -1 when there is none.
-template <typename T>
-[[nodiscard]] int index_of(const std::vector<T>& things, const std::string& id) {
-  for (std::size_t i = 0; i < things.size(); ++i)
-    if (things[i].id == id) return static_cast<int>(i);
-  return -1;
-}
 
 }  // namespace snapthrough

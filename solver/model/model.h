@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// The structure as its user describes it. Plain data, in the user's own consistent units, one field for each
-/// field of the request document. Nothing here is checked: see solver/model/check.h.
+/// field of the request document. Nothing here is checked: see solver/check/check.h.
 ///
 /// Axes: x to the right, y up, rotation counter-clockwise. A member runs from `start` to `end`; its tangent
 /// is t and its left normal n is t turned by +90 degrees. Fractions are of the member's undeformed length.

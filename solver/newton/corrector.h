@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/path/equilibrium_problem.h"
+#include "solver/problem/equilibrium_problem.h"
 
 namespace snapthrough {
 

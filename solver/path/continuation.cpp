@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "solver/linalg/pseudo_random.h"
-#include "solver/path/hermite.h"
+#include "solver/numeric/hermite.h"
+#include "solver/numeric/pseudo_random.h"
 
 namespace snapthrough {
 

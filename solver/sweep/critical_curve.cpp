@@ -11,10 +11,11 @@
 #include <utility>
 
 #include "solver/analysis/analyses.h"
-#include "solver/analysis/touching.h"
-#include "solver/assembly/mechanism.h"
-#include "solver/cancelled.h"
-#include "solver/path/trace.h"
+#include "solver/discrete/mechanism.h"
+#include "solver/events/touching.h"
+#include "solver/numeric/cancelled.h"
+#include "solver/numeric/number_text.h"
+#include "solver/trace/trace.h"
 
 namespace snapthrough {
 namespace {

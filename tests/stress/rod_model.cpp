@@ -1,4 +1,5 @@
 #include "tests/stress/rod_model.h"
+#include "solver/model/id_index.h"
 
 #include <Eigen/QR>
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include <thread>
 #include <variant>
 
-#include "solver/assembly/mechanism.h"
+#include "solver/discrete/mechanism.h"
 #include "solver/solve.h"
 #include "tests/stress/broad_model.h"
 #include "tests/stress/random_model.h"

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "solver/assembly/structural_problem.h"
+#include "solver/problem/structural_problem.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <utility>
 
-#include "solver/path/equilibrium_problem.h"
+#include "solver/problem/equilibrium_problem.h"
 
 namespace snapthrough::testing {
 
