@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "solver/discrete/structure.h"
-#include "solver/model/model.h"
+#include "solver/support/law.h"
 
 namespace snapthrough {
 
@@ -16,28 +16,26 @@ namespace snapthrough {
 [[nodiscard]] Station station_at(const Structure& structure, int element, double xi,
                                  std::array<double, 3> row);
 
-/// @brief Unit direction of the penetration at a place of an element: into the medium; against it for a base
-/// that only pulls.
-[[nodiscard]] std::array<double, 2> base_direction(const Structure& structure, const Foundation& base,
-                                                   int element, double xi);
+/// The perfect axis at a place of an element, in the model's units.
+[[nodiscard]] AxisPoint axis_point(const Structure& structure, int element, double xi);
 
 /// @brief The base's Winkler springs on part of an element: Gauss points, or Lobatto's where the mesh lumps
 /// it.
 ///
 /// A one-sided base under the consistent rule acts on its contact intervals: see contact_stations().
 /// @param range of the element
-[[nodiscard]] std::vector<Station> winkler_stations(const Structure& structure, const Foundation& base,
+[[nodiscard]] std::vector<Station> winkler_stations(const Structure& structure, const FoundationLaw& base,
                                                     int element, std::array<double, 2> range);
 
 /// @brief Gauss points of an interval on which a one-sided base touches, acting there, with the base's gap.
-[[nodiscard]] std::vector<Station> contact_stations(const Structure& structure, const Foundation& base,
+[[nodiscard]] std::vector<Station> contact_stations(const Structure& structure, const FoundationLaw& base,
                                                     int element, ContactStrip::Interval interval);
 
 /// @brief The shear layer's energy 1/2 G (dw/ds)^2 at Gauss points of part of an element.
 ///
 /// w' = u'.n - kappa u.t along the initial normal n. The layer ends where the range ends, with a free edge:
 /// no force from ground beyond.
-[[nodiscard]] std::vector<Station> shear_layer_stations(const Structure& structure, const Foundation& base,
+[[nodiscard]] std::vector<Station> shear_layer_stations(const Structure& structure, const FoundationLaw& base,
                                                         int element, std::array<double, 2> range);
 
 }  // namespace snapthrough

@@ -41,7 +41,7 @@ class Builder {
   void add_base(int element, int index);
   void add_strips(int element, int index);
   [[nodiscard]] Touch touch_of_spring(std::size_t index) const;
-  [[nodiscard]] ContactStrip make_strip(int element, const Foundation& base, int index,
+  [[nodiscard]] ContactStrip make_strip(int element, const FoundationLaw& base, int index,
                                         std::array<double, 2> range) const;
   void add_point_spring(int element, std::size_t index);
   void add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const;
@@ -69,15 +69,6 @@ class Builder {
   std::vector<ElementPressure> pressures_;
   double strain_size_ = 0.0;  ///< forces that the proportional initial strains would need
 };
-
-/// Part of an element, in its own [0, 1], that a range of member fractions covers; empty range when none.
-std::array<double, 2> overlap(const MeshElement& e, std::array<double, 2> range) {
-  const double width = e.to - e.from;
-  const double lo = std::clamp((range[0] - e.from) / width, 0.0, 1.0);
-  const double hi = std::clamp((range[1] - e.from) / width, 0.0, 1.0);
-  const double snap = 1e-7;
-  return {lo < snap ? 0.0 : lo, hi > 1.0 - snap ? 1.0 : hi};
-}
 
 ElementShape shape_on(const Structure& out, const Model& model, int element, const StressFreeAxis& axis) {
   const MeshElement& e = out.mesh.elements[element];
@@ -116,6 +107,8 @@ void Builder::set_scales() {
     bending = std::max(bending, model_.sections[index_of(model_.sections, member.section)].EI);
   out_.scales.length = length;
   out_.scales.force = bending / (length * length);
+  for (const Foundation& base : model_.foundations) out_.foundation_laws.push_back(law_of(base, out_.scales));
+  for (const Spring& spring : model_.springs) out_.spring_laws.push_back(law_of(spring, out_.scales));
 }
 
 void Builder::number_unknowns() {
@@ -155,56 +148,50 @@ void Builder::number_unknowns() {
   out_.constant_load = Eigen::VectorXd::Zero(out_.size);
 }
 
-ContactStrip Builder::make_strip(int element, const Foundation& base, int index,
+ContactStrip Builder::make_strip(int element, const FoundationLaw& base, int index,
                                  std::array<double, 2> range) const {
   const MeshElement& e = out_.mesh.elements[element];
-  const double modulus = base.stiffness * out_.scales.length * out_.scales.length / out_.scales.force;
-  ContactStrip::Direction direction;
-  if (base.direction) {
-    direction.fixed = base_direction(out_, base, element, 0.0);
-  } else {
-    direction.axis = out_.axes[e.member];
-    direction.sign = (base.side == Side::left) != (base.reaction == Reaction::tension_only) ? 1.0 : -1.0;
-    direction.s0 = e.from * direction.axis->length();
-    direction.ds = (e.to - e.from) * direction.axis->length();
-  }
-  return ContactStrip(out_.mesh.order, direction, range, modulus * element_length(element),
-                      base.gap / out_.scales.length, index);
+  const std::shared_ptr<const AxisCurve>& axis = out_.axes[e.member];
+  Law law = base.law;
+  law.stiffness *= element_length(element);
+  return ContactStrip(out_.mesh.order, base.direction,
+                      {axis, e.from * axis->length(), (e.to - e.from) * axis->length()}, range, law, index);
 }
 
 /// A foundation of the model: where it lies, as results are read from it.
 void Builder::add_foundation(int element, int index) {
   const Foundation& base = model_.foundations[index];
-  const auto range = overlap(out_.mesh.elements[element], base.range);
+  const auto range = part_of(out_.mesh.elements[element], base.range);
   if (range[1] <= range[0]) return;
   out_.foundation_parts.push_back({index, element, range, std::nullopt});
-  if (base.stiffness > 0.0 && base.reaction != Reaction::bilateral)
-    out_.foundation_parts.back().strip = make_strip(element, base, index, range);
+  if (is_one_sided(base))
+    out_.foundation_parts.back().strip = make_strip(element, out_.foundation_laws[index], index, range);
 }
 
 /// A base as it acts in the equations.
 void Builder::add_base(int element, int index) {
   const Foundation& base = laws_.foundations[index];
-  const auto range = overlap(out_.mesh.elements[element], base.range);
+  const auto range = part_of(out_.mesh.elements[element], base.range);
   if (range[1] <= range[0]) return;
-  if (base.shear_stiffness > 0.0)
-    for (const Station& station : shear_layer_stations(out_, base, element, range))
+  const FoundationLaw law = law_of(base, out_.scales);
+  if (law.shear > 0.0)
+    for (const Station& station : shear_layer_stations(out_, law, element, range))
       out_.elements->add_station(station);
-  if (base.stiffness == 0.0) return;
-  if (base.reaction != Reaction::bilateral && out_.mesh.foundation == FoundationRule::consistent)
+  if (law.law.stiffness == 0.0) return;
+  if (law.law.one_sided && out_.mesh.foundation == FoundationRule::consistent)
     add_strips(element, index);
   else
-    for (const Station& station : winkler_stations(out_, base, element, range))
+    for (const Station& station : winkler_stations(out_, law, element, range))
       out_.elements->add_station(station);
 }
 
 /// A one-sided base on an element: the parts that touch without pressure apart from the rest.
 void Builder::add_strips(int element, int index) {
   const Foundation& base = laws_.foundations[index];
+  const FoundationLaw law = law_of(base, out_.scales);
   const auto add = [&](std::array<double, 2> fractions, Touch touch) {
-    const auto range = overlap(out_.mesh.elements[element], fractions);
-    if (range[1] > range[0])
-      out_.elements->add_strip(element, make_strip(element, base, index, range), touch);
+    const auto range = part_of(out_.mesh.elements[element], fractions);
+    if (range[1] > range[0]) out_.elements->add_strip(element, make_strip(element, law, index, range), touch);
   };
   double from = base.range[0];
   for (const TouchingSupports::BasePart& part : out_.touching.bases) {
@@ -226,23 +213,9 @@ void Builder::add_point_spring(int element, std::size_t index) {
   const Spring& spring = laws_.springs[index];
   const MeshPlace place = place_of(out_.mesh, out_.mesh.elements[element].member, spring.at.fraction);
   if (place.element != element || spring.stiffness == 0.0) return;
-  const double L = out_.scales.length;
-  const double F = out_.scales.force;
-  Vec3 row{0.0, 0.0, 1.0};
-  double unit = F * L;
-  double travel = 1.0;
-  const double sign = spring.reaction == Reaction::tension_only ? -1.0 : 1.0;
-  if (spring.direction) {
-    const double size = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
-    row = {(*spring.direction)[0] / size, (*spring.direction)[1] / size, 0.0};
-    unit = F / L;
-    travel = L;
-  }
-  for (double& r : row) r *= sign;
-  Station station = station_at(out_, element, place.xi, row);
-  station.stiffness = spring.stiffness / unit;
-  station.gap = spring.reaction == Reaction::bilateral ? 0.0 : spring.gap / travel;
-  station.one_sided = spring.reaction != Reaction::bilateral;
+  const SpringLaw law = law_of(spring, out_.scales);
+  Station station = station_at(out_, element, place.xi, law.row);
+  station.law = law.law;
   station.touch = touch_of_spring(index);
   station.spring = static_cast<int>(index);
   out_.elements->add_station(station);
@@ -280,26 +253,17 @@ void Builder::add_supports() {
     joint.angle = support.angle_degrees * std::numbers::pi / 180.0;
     if (!support.displacement) continue;
     const auto& d = *support.displacement;
-    const Vec3 value{d.x / out_.scales.length, d.y / out_.scales.length, d.rotation};
+    const Vec3 value{out_.scales.scaled_length(d.x), out_.scales.scaled_length(d.y), d.rotation};
     (d.pattern == Pattern::proportional ? joint.proportional : joint.constant) = value;
   }
   for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
     const Spring& spring = laws_.springs[i];
     if (spring.at.node.empty() || spring.stiffness == 0.0) continue;
+    const SpringLaw law = law_of(spring, out_.scales);
     JointSpring js;
     js.joint = index_of(model_.nodes, spring.at.node);
-    const double sign = spring.reaction == Reaction::tension_only ? -1.0 : 1.0;
-    js.row = {0.0, 0.0, sign};
-    js.stiffness = spring.stiffness / (out_.scales.force * out_.scales.length);
-    js.gap = spring.gap;
-    if (spring.direction) {
-      const double size = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
-      js.row = {sign * (*spring.direction)[0] / size, sign * (*spring.direction)[1] / size, 0.0};
-      js.stiffness = spring.stiffness * out_.scales.length / out_.scales.force;
-      js.gap = spring.gap / out_.scales.length;
-    }
-    js.one_sided = spring.reaction != Reaction::bilateral;
-    if (!js.one_sided) js.gap = 0.0;
+    js.row = law.row;
+    js.law = law.law;
     js.touch = touch_of_spring(i);
     js.spring = static_cast<int>(i);
     out_.joint_springs.push_back(js);
@@ -320,15 +284,14 @@ void Builder::add_distributed(const DistributedLoad& load) {
   const int member = index_of(model_.members, load.member);
   const AxisCurve& axis = *out_.axes[member];
   const Quadrature gauss = gauss_legendre(out_.mesh.order + 1);
-  const double unit = out_.scales.force / out_.scales.length;
   for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
     const MeshElement& cell = out_.mesh.elements[e];
-    const auto range = overlap(cell, load.range);
+    const auto range = part_of(cell, load.range);
     if (range[1] <= range[0]) continue;
     const double width = range[1] - range[0];
     for (std::size_t i = 0; i < gauss.points.size(); ++i) {
       const double xi = range[0] + width * gauss.points[i];
-      double w = element_length(e) * width * gauss.weights[i] / unit;
+      double w = element_length(e) * width * out_.scales.scaled_line_load(gauss.weights[i]);
       const double angle = axis.at(axis.length() * (cell.from + xi * (cell.to - cell.from))).angle;
       if (load.per == LoadMeasure::horizontal) w *= std::abs(std::cos(angle));
       if (load.per == LoadMeasure::vertical) w *= std::abs(std::sin(angle));
@@ -338,10 +301,11 @@ void Builder::add_distributed(const DistributedLoad& load) {
 }
 
 void Builder::add_loads(std::optional<double> load_scale) {
-  const double F = out_.scales.force;
+  const Scales& scales = out_.scales;
   for (const Load& load : model_.loads) {
     if (const auto* point = std::get_if<PointLoad>(&load)) {
-      const Vec3 action{point->force[0] / F, point->force[1] / F, point->moment / (F * out_.scales.length)};
+      const Vec3 action{scales.scaled_force(point->force[0]), scales.scaled_force(point->force[1]),
+                        scales.scaled_moment(point->moment)};
       if (point->at.member.empty()) {
         const int joint = index_of(model_.nodes, point->at.node);
         for (int c = 0; c < 3; ++c) pattern(point->pattern)[3 * joint + c] += action[c];
@@ -364,8 +328,7 @@ void Builder::add_loads(std::optional<double> load_scale) {
 void Builder::add_pressure(const PressureLoad& load) {
   const int member = index_of(model_.members, load.member);
   // a medium on the left pushes along the right normal
-  const double value =
-      (load.side == Side::left ? 1.0 : -1.0) * load.value * out_.scales.length / out_.scales.force;
+  const double value = (load.side == Side::left ? 1.0 : -1.0) * out_.scales.scaled_line_load(load.value);
   const bool proportional = load.pattern == Pattern::proportional;
   for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e)
     pressures_.push_back({e, proportional ? value : 0.0, proportional ? 0.0 : value});
@@ -374,11 +337,11 @@ void Builder::add_pressure(const PressureLoad& load) {
 void Builder::add_initial_strain(const InitialStrain& load) {
   const int member = index_of(model_.members, load.member);
   const int p = out_.mesh.order;
-  const double curvature = load.curvature * out_.scales.length;
+  const double curvature = out_.scales.scaled_curvature(load.curvature);
   const Section& section = model_.sections[index_of(model_.sections, model_.members[member].section)];
   if (load.pattern == Pattern::proportional)
-    strain_size_ += std::abs(load.axial) * section.EA / out_.scales.force +
-                    std::abs(load.curvature) * section.EI / (out_.scales.force * out_.scales.length);
+    strain_size_ += out_.scales.scaled_force(std::abs(load.axial) * section.EA) +
+                    out_.scales.scaled_moment(std::abs(load.curvature) * section.EI);
   for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
     const CollocationRule& rule = CollocationRule::of(p);
     const ElementShape shape = shape_of_element(out_, model_, e);
@@ -492,10 +455,12 @@ double length_of_element(const Structure& structure, int element) {
 
 MeshPlace place_of(const Mesh& mesh, int member, double fraction) {
   int e = mesh.first[member];
-  while (e + 1 < mesh.first[member + 1] && mesh.elements[e + 1].from <= fraction + 1e-9) ++e;
+  while (e + 1 < mesh.first[member + 1] && mesh.elements[e + 1].from <= fraction + kOnePlace) ++e;
   const MeshElement& cell = mesh.elements[e];
-  const double xi = std::clamp((fraction - cell.from) / (cell.to - cell.from), 0.0, 1.0);
-  return {e, xi < 1e-7 ? 0.0 : (xi > 1.0 - 1e-7 ? 1.0 : xi)};
+  const double width = cell.to - cell.from;
+  const double one = kOnePlace / width;
+  const double xi = std::clamp((fraction - cell.from) / width, 0.0, 1.0);
+  return {e, xi < one ? 0.0 : (xi > 1.0 - one ? 1.0 : xi)};
 }
 
 SparseRow displacement_row(const Structure& structure, const Model& model, const Location& at, Vec3 row) {
@@ -537,10 +502,9 @@ void fill(const Model& model, std::optional<double> load_scale, Structure& out) 
   builder.add_loads(load_scale);
   builder.set_metric();
   builder.add_monitors();
-  for (const Foundation& base : laws.foundations)
-    out.one_sided = out.one_sided || (base.reaction != Reaction::bilateral && base.stiffness > 0.0);
-  for (const Spring& spring : laws.springs)
-    out.one_sided = out.one_sided || (spring.reaction != Reaction::bilateral && spring.stiffness > 0.0);
+  const auto one_sided = [](const auto& support) { return is_one_sided(support); };
+  out.one_sided = std::any_of(laws.foundations.begin(), laws.foundations.end(), one_sided) ||
+                  std::any_of(laws.springs.begin(), laws.springs.end(), one_sided);
   for (const Load& load : model.loads)
     out.has_constant =
         out.has_constant || std::visit([](const auto& l) { return l.pattern == Pattern::constant; }, load);

@@ -18,16 +18,10 @@
 #include "solver/mesh/mesh.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
+#include "solver/model/scales.h"
+#include "solver/support/law.h"
 
 namespace snapthrough {
-
-/// The solver works with lengths over `length`, forces over `force` = EI / length^2, and the load factor
-/// times `load`, so that every quantity is of order one whatever the units of the model.
-struct Scales {
-  double length = 1.0;
-  double force = 1.0;
-  double load = 1.0;
-};
 
 /// Support of a node. Components 0, 1 are along axes turned by `angle`, 2 is the rotation.
 struct JointSupport {
@@ -41,9 +35,7 @@ struct JointSupport {
 struct JointSpring {
   int joint = 0;
   std::array<double, 3> row{};
-  double stiffness = 0.0;
-  double gap = 0.0;
-  bool one_sided = false;
+  Law law;
   Touch touch = Touch::none;
   int spring = -1;  ///< its number among the springs
 };
@@ -107,7 +99,10 @@ struct Structure {
   std::vector<ElementDofs> dofs;       ///< of each element
   std::vector<JointSupport> supports;  ///< of each node
   std::vector<JointSpring> joint_springs;
-  Eigen::VectorXd proportional_load;  ///< by unit scaled load factor
+  std::vector<FoundationLaw>
+      foundation_laws;                 ///< of each foundation of the model, as results are read from it
+  std::vector<SpringLaw> spring_laws;  ///< of each spring of the model
+  Eigen::VectorXd proportional_load;   ///< by unit scaled load factor
   Eigen::VectorXd constant_load;
   Eigen::VectorXd metric;
   std::vector<MonitorRow> monitors;

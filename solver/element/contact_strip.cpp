@@ -18,15 +18,15 @@ constexpr int kLeastSamples = 13;
 
 }  // namespace
 
-ContactStrip::ContactStrip(int order, Direction direction, std::array<double, 2> range, double modulus,
-                           double gap, int foundation)
+ContactStrip::ContactStrip(int order, const Direction& direction, Place place, std::array<double, 2> range,
+                           const Law& law, int foundation)
     : rule_(&CollocationRule::of(order)),
-      direction_(std::move(direction)),
+      direction_(direction),
+      place_(std::move(place)),
       range_(range),
-      modulus_(modulus),
-      gap_(gap),
+      law_(law),
       foundation_(foundation) {
-  count_ = std::max(2 * order + 3, direction_.axis ? kLeastSamples : 0);
+  count_ = std::max(2 * order + 3, direction_.turns ? kLeastSamples : 0);
   blocks_ = (count_ + kLanes - 1) / kLanes;
   samples_.assign(static_cast<std::size_t>(blocks_) * (2 + order), Lanes::Zero());
   for (int i = 0; i < count_; ++i) {
@@ -39,7 +39,7 @@ ContactStrip::ContactStrip(int order, Direction direction, std::array<double, 2>
     for (int c = 0; c < 2; ++c) block[c][i % kLanes] = d[c];
     for (int r = 0; r < order; ++r) block[2 + r][i % kLanes] = a[r];
   }
-  exact_ = !direction_.axis || resolved();
+  exact_ = !direction_.turns || resolved();
 }
 
 /// Whether the samples resolve the direction times what displacements of the element's degree add.
@@ -63,17 +63,13 @@ bool ContactStrip::resolved() const {
 
 ContactStrip ContactStrip::with_gap(double gap) const {
   ContactStrip other = *this;
-  other.gap_ = gap;
+  other.law_.gap = gap;
   return other;
 }
 
-std::array<double, 2> ContactStrip::along(double angle) const {
-  return {-direction_.sign * std::sin(angle), direction_.sign * std::cos(angle)};
-}
-
 std::array<double, 2> ContactStrip::direction_at(double xi) const {
-  if (!direction_.axis) return direction_.fixed;
-  return along(direction_.axis->at(direction_.s0 + xi * direction_.ds).angle);
+  if (!direction_.turns) return direction_.fixed;
+  return direction_.at(place_.axis->at(place_.s0 + xi * place_.ds).angle);
 }
 
 namespace {
@@ -96,7 +92,7 @@ double ContactStrip::penetration(double xi, std::array<double, 2> ua, std::span<
   rule_->integrals_at(xi, std::span(a).first(dx.size()));
   const auto u = combined(ua, a, dx, dy);
   const auto d = direction_at(xi);
-  return u[0] * d[0] + u[1] * d[1] - gap_;
+  return u[0] * d[0] + u[1] * d[1] - law_.gap;
 }
 
 double ContactStrip::penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
@@ -104,13 +100,13 @@ double ContactStrip::penetration_slope(double xi, std::array<double, 2> ua, std:
   std::array<double, kMaxOrder> l{};
   rule_->values_at(xi, std::span(l).first(dx.size()));
   const auto du = combined({0.0, 0.0}, l, dx, dy);
-  if (!direction_.axis) return du[0] * direction_.fixed[0] + du[1] * direction_.fixed[1];
+  if (!direction_.turns) return du[0] * direction_.fixed[0] + du[1] * direction_.fixed[1];
   std::array<double, kMaxOrder> a{};
   rule_->integrals_at(xi, std::span(a).first(dx.size()));
   const auto u = combined(ua, a, dx, dy);
-  const AxisPoint axis = direction_.axis->at(direction_.s0 + xi * direction_.ds);
-  const auto d = along(axis.angle);
-  const double turn = direction_.ds * axis.curvature;
+  const AxisPoint axis = place_.axis->at(place_.s0 + xi * place_.ds);
+  const auto d = direction_.at(axis.angle);
+  const double turn = place_.ds * axis.curvature;
   return du[0] * d[0] + du[1] * d[1] + turn * (u[1] * d[0] - u[0] * d[1]);
 }
 
@@ -162,13 +158,13 @@ class ExactGap {
 };
 
 /// A place of the range, from 0 to 1, with the penetration there.
-struct Place {
+struct Sample {
   double z = 0.0;
   double g = 0.0;
 };
 
 template <class Gap>
-double root_between(const Gap& gap, Place lo, Place hi) {
+double root_between(const Gap& gap, Sample lo, Sample hi) {
   // Illinois' variant of false position: keeps the bracket, converges faster than linearly
   int last = 0;
   for (int it = 0; it < 60; ++it) {
@@ -201,7 +197,7 @@ std::optional<double> least_of_cubic(double f0, double m0, double f1, double m1)
 
 /// A place between two where g has not the given sign, as it has at both, if it turns back there.
 template <class Gap>
-std::optional<Place> dip_between(const Gap& gap, Place left, Place right, double sign) {
+std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, double sign) {
   constexpr int kMostTrials = 20;
   double fall = sign * gap.slope(left.z);
   double rise = sign * gap.slope(right.z);
@@ -209,7 +205,7 @@ std::optional<Place> dip_between(const Gap& gap, Place left, Place right, double
   // beside a clamped end, where g and its slope are zero, it is not convex
   if (const auto t = least_of_cubic(sign * left.g, fall * whole, sign * right.g, rise * whole)) {
     const double z = left.z + *t * whole;
-    if (const Place least{z, gap.value(z)}; sign * least.g < 0.0) return least;
+    if (const Sample least{z, gap.value(z)}; sign * least.g < 0.0) return least;
   }
   for (int n = 0; n < kMostTrials && fall < 0.0 && rise > 0.0; ++n) {
     // what is convex stays above both tangents
@@ -218,7 +214,7 @@ std::optional<Place> dip_between(const Gap& gap, Place left, Place right, double
     if (sign * left.g + fall * meet > 0.0) break;
     const double share = std::clamp(-fall / (rise - fall), 0.1, 0.9);
     const double z = left.z + share * width;
-    const Place middle{z, gap.value(z)};
+    const Sample middle{z, gap.value(z)};
     if (sign * middle.g <= 0.0) return middle;
     const double slope = sign * gap.slope(z);
     (slope < 0.0 ? left : right) = middle;
@@ -230,12 +226,12 @@ std::optional<Place> dip_between(const Gap& gap, Place left, Place right, double
 /// The change of sign between two places. Beside a held node g is zero but for rounding, whose sign says
 /// nothing of what happens on the way there.
 template <class Gap>
-double change_between(const Gap& gap, const Place& left, const Place& right) {
+double change_between(const Gap& gap, const Sample& left, const Sample& right) {
   constexpr double kRounding = 1e-10;
   const bool to_zero = std::abs(right.g) < kRounding * std::abs(left.g);
   const bool from_zero = std::abs(left.g) < kRounding * std::abs(right.g);
   if (!to_zero && !from_zero) return root_between(gap, left, right);
-  const Place& far = to_zero ? left : right;
+  const Sample& far = to_zero ? left : right;
   const auto dip = dip_between(gap, left, right, far.g > 0.0 ? 1.0 : -1.0);
   if (!dip) return to_zero ? right.z : left.z;
   return to_zero ? root_between(gap, left, *dip) : root_between(gap, *dip, right);
@@ -243,7 +239,7 @@ double change_between(const Gap& gap, const Place& left, const Place& right) {
 
 /// Tells `cross(place, whether contact begins there)` of the changes of sign between two places.
 template <class Gap, class Cross>
-void search_part(const Gap& gap, const Place& left, const Place& right, const Cross& cross) {
+void search_part(const Gap& gap, const Sample& left, const Sample& right, const Cross& cross) {
   const bool inside = left.g > 0.0;
   if (inside != (right.g > 0.0)) {
     cross(change_between(gap, left, right), !inside);
@@ -264,15 +260,15 @@ bool may_cross(double left, double right, double movement) {
 /// As search_part, between two samples, where zones smaller than the sampling may begin and end.
 /// @param before, after how far g moves on the parts next to these ends
 template <class Gap, class Cross>
-void search_cell(const Gap& gap, const Place& left, const Place& right, double before, double after,
+void search_cell(const Gap& gap, const Sample& left, const Sample& right, double before, double after,
                  const Cross& cross) {
   constexpr int kParts = 4;
   const double width = right.z - left.z;
   const Eigen::Array4d z =
       left.z + width * Eigen::Array4d(1.0 / kParts, 2.0 / kParts, 3.0 / kParts, 4.0 / kParts);
   const Eigen::Array4d inner = gap.values(z);
-  std::array<Place, kParts + 1> places{left, Place{z[0], inner[0]}, Place{z[1], inner[1]},
-                                       Place{z[2], inner[2]}, right};
+  std::array<Sample, kParts + 1> places{left, Sample{z[0], inner[0]}, Sample{z[1], inner[1]},
+                                        Sample{z[2], inner[2]}, right};
   std::array<double, kParts + 2> moves{before};
   for (int i = 0; i < kParts; ++i) moves[i + 1] = std::abs(places[i + 1].g - places[i].g);
   moves[kParts + 1] = after;
@@ -303,7 +299,7 @@ void ContactStrip::penetrations(std::array<double, 2> ua, std::span<const double
 bool ContactStrip::is_near(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                            double distance) const {
   Values g;
-  penetrations(ua, dx, dy, gap_, g);
+  penetrations(ua, dx, dy, law_.gap, g);
   return std::all_of(g.begin(), g.begin() + count_, [distance](double w) { return std::abs(w) <= distance; });
 }
 
@@ -326,7 +322,7 @@ void ContactStrip::search(const Gap& gap, const Values& g, std::vector<Interval>
   for (int i = 0; i + 1 < n; ++i) {
     const double width = z_[i + 1] - z_[i];
     if (!may_cross(g[i], g[i + 1], width * std::max({rate[i], rate[i + 1], rate[i + 2]}))) continue;
-    search_cell(gap, Place{z_[i], g[i]}, Place{z_[i + 1], g[i + 1]}, rate[i] * width / kParts,
+    search_cell(gap, Sample{z_[i], g[i]}, Sample{z_[i + 1], g[i + 1]}, rate[i] * width / kParts,
                 rate[i + 2] * width / kParts, cross);
   }
   if (g[n - 1] > 0.0) out.push_back({from, range_[1]});
@@ -337,7 +333,7 @@ void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const d
                                      double depth) const {
   out.clear();
   Values g;
-  penetrations(ua, dx, dy, gap_ + depth, g);
+  penetrations(ua, dx, dy, law_.gap + depth, g);
   if (exact_)
     search(SampledGap(std::span<const double>(g).first(count_)), g, out);
   else

@@ -13,6 +13,7 @@
 #include "solver/geometry/axis_curve.h"
 #include "solver/numeric/chebyshev_series.h"
 #include "solver/numeric/gauss_rule.h"
+#include "solver/support/law.h"
 
 namespace snapthrough {
 
@@ -23,13 +24,11 @@ namespace snapthrough {
 /// moving contact edge needs no event and gives no false limit points. Immutable, thread safe.
 class ContactStrip {
  public:
-  /// Direction into the medium at a place of the element: along +-normal of the initial axis or fixed.
-  struct Direction {
-    std::shared_ptr<const AxisCurve> axis;  ///< set: the initial left normal times `sign`
-    double sign = 1.0;
-    double s0 = 0.0;                ///< arc length of the element's start, in the axis' own units
-    double ds = 0.0;                ///< arc length over the element, same units
-    std::array<double, 2> fixed{};  ///< used when `axis` is empty
+  /// Where the element lies on its member's initial axis.
+  struct Place {
+    std::shared_ptr<const AxisCurve> axis;  ///< empty where the direction does not turn with it
+    double s0 = 0.0;                        ///< arc length of the element's start, in the axis' own units
+    double ds = 0.0;                        ///< arc length over the element, same units
   };
   struct Interval {
     double from = 0.0;
@@ -37,16 +36,16 @@ class ContactStrip {
   };
 
   /// @param range part of the element, in [0, 1]
-  /// @param modulus K times the element's length (a sum of weights times modulus integrates K ds)
-  ContactStrip(int order, Direction direction, std::array<double, 2> range, double modulus, double gap,
-               int foundation);
+  /// @param law its stiffness K times the element's length (a sum of weights times it integrates K ds)
+  /// @pre place.axis where the direction turns
+  ContactStrip(int order, const Direction& direction, Place place, std::array<double, 2> range,
+               const Law& law, int foundation);
 
   /// Rule for integrals over a contact interval.
   [[nodiscard]] static Quadrature quadrature(int order) { return gauss_legendre(std::max(order + 2, 5)); }
   /// The same strip with another gap.
   [[nodiscard]] ContactStrip with_gap(double gap) const;
-  [[nodiscard]] double modulus() const { return modulus_; }
-  [[nodiscard]] double gap() const { return gap_; }
+  [[nodiscard]] const Law& law() const { return law_; }
   [[nodiscard]] int foundation() const { return foundation_; }
   [[nodiscard]] std::array<double, 2> range() const { return range_; }
   [[nodiscard]] std::array<double, 2> direction_at(double xi) const;
@@ -75,16 +74,14 @@ class ContactStrip {
   void penetrations(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                     double gap, Values& g) const;
   [[nodiscard]] bool resolved() const;
-  /// The direction where the axis has an angle.
-  [[nodiscard]] std::array<double, 2> along(double angle) const;
   template <class Gap>
   void search(const Gap& gap, const Values& g, std::vector<Interval>& out) const;
 
   const CollocationRule* rule_;
-  Direction direction_;
+  Direction direction_;  ///< into the medium
+  Place place_;
   std::array<double, 2> range_;
-  double modulus_;
-  double gap_;
+  Law law_;
   int foundation_;
   int count_ = 0;               ///< samples: Chebyshev's points of the range
   int blocks_ = 0;              ///< of them

@@ -30,6 +30,7 @@
 
 #include "solver/element/contact_strip.h"
 #include "solver/numeric/gauss_rule.h"
+#include "solver/support/law.h"
 
 namespace snapthrough {
 
@@ -63,9 +64,7 @@ inline constexpr double kTouchBand = 1e-7;
 /// it.
 struct Station {
   int element = 0;
-  double stiffness = 0.0;
-  double gap = 0.0;
-  bool one_sided = false;  ///< reacts with stiffness * max(w - gap, 0) instead of stiffness * w
+  Law law;
   Touch touch = Touch::none;
   int spring = -1;  ///< its number among the springs; none: part of a base
   std::array<double, 3> a{};

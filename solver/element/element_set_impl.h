@@ -92,9 +92,7 @@ class ElementSetOf final : public ElementSet {
     int factor = 0;                                  ///< in stiff_ or in shearable_
   };
   struct Functional {
-    double stiffness = 0.0;
-    double gap = 0.0;
-    bool one_sided = false;
+    Law law;
     Touch touch = Touch::none;
     int spring = -1;
     std::array<double, 3> a{};
@@ -253,9 +251,7 @@ void ElementSetOf<P>::add(const ElementShape& in, const ElementDofs& dofs) {
 template <int P>
 void ElementSetOf<P>::add_station(const Station& station) {
   Functional f;
-  f.stiffness = station.stiffness;
-  f.gap = station.gap;
-  f.one_sided = station.one_sided;
+  f.law = station.law;
   f.touch = station.touch;
   f.spring = station.spring;
   f.a = station.a;
@@ -484,7 +480,7 @@ void ElementSetOf<P>::collect_rows(int element, const Kinematics& kin, const dou
   for (const Functional& f : acting_) {
     StrainRow& out = rows_.emplace_back();
     to_strain_row(f, shape, t, out.row);
-    out.stiffness = f.stiffness;
+    out.stiffness = f.law.stiffness;
   }
 }
 
@@ -746,7 +742,7 @@ template <int P>
 void ElementSetOf<P>::add_acting_product(const ElementDofs& dofs, const double* direction,
                                          double* out) const {
   for (const Functional& f : acting_) {
-    const double force = f.stiffness * value(f, dofs, direction);
+    const double force = f.law.stiffness * value(f, dofs, direction);
     for (int k = 0; k < 3; ++k) {
       out[dofs.a[k]] += force * f.a[k];
       for (int q = 0; q < P; ++q) out[dofs.v + k * P + q] += force * f.v[k][q];

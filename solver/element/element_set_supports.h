@@ -32,9 +32,9 @@ void ElementSetOf<P>::collect_strip(std::size_t index, const double* y, const El
   else
     strip.contact_intervals(u.start, u.dx, u.dy, intervals_);
   for (const auto& interval : intervals_)
-    add_interval(index, shape, interval, softness_ * strip.modulus(), bonded_ ? 0.0 : strip.gap());
+    add_interval(index, shape, interval, softness_ * strip.law().stiffness, bonded_ ? 0.0 : strip.law().gap);
   if (grip_ > 0.0)
-    add_interval(index, shape, {strip.range()[0], strip.range()[1]}, grip_ * strip.modulus(), 0.0);
+    add_interval(index, shape, {strip.range()[0], strip.range()[1]}, grip_ * strip.law().stiffness, 0.0);
 }
 
 /// The penetration at a place of a strip, with neither stiffness nor gap.
@@ -66,17 +66,16 @@ void ElementSetOf<P>::add_interval(std::size_t index, const Shape& shape,
       acting_.push_back(whole_strips_[index][i]);
     else
       acting_.push_back(functional_at(strip, shape.h, interval.from + width * strip_quadrature_.points[i]));
-    acting_.back().stiffness = modulus * width * strip_quadrature_.weights[i];
-    acting_.back().gap = gap;
+    acting_.back().law = {modulus * width * strip_quadrature_.weights[i], gap, true};
   }
 }
 
 template <int P>
 bool ElementSetOf<P>::acts(const Functional& f, std::size_t station, const ElementDofs& dofs,
                            const double* y) const {
-  if (!f.one_sided || bonded_) return true;
+  if (!f.law.one_sided || bonded_) return true;
   if (frozen_) return frozen_stations_[station] != 0;
-  const double w = value(f, dofs, y) - f.gap;
+  const double w = value(f, dofs, y) - f.law.gap;
   return f.touch != Touch::none && std::abs(w) <= kTouchBand ? f.touch == Touch::acts : w > 0.0;
 }
 
@@ -88,15 +87,15 @@ void ElementSetOf<P>::add_support_residual(int element, const double* y, double*
   for (int i = 0; i < shape.strip_count; ++i) collect_strip(shape.first_strip + i, y, dofs, shape);
   for (int i = 0; i < shape.station_count; ++i) {
     const std::size_t station = shape.first_station + i;
-    if (grip_ > 0.0 && stations_[station].one_sided) {
+    if (grip_ > 0.0 && stations_[station].law.one_sided) {
       acting_.push_back(stations_[station]);
-      acting_.back().stiffness *= grip_;
-      acting_.back().gap = 0.0;
+      acting_.back().law.stiffness *= grip_;
+      acting_.back().law.gap = 0.0;
     }
     if (!acts(stations_[station], station, dofs, y)) continue;
     acting_.push_back(stations_[station]);
-    if (stations_[station].one_sided) acting_.back().stiffness *= softness_;
-    if (bonded_) acting_.back().gap = 0.0;
+    if (stations_[station].law.one_sided) acting_.back().law.stiffness *= softness_;
+    if (bonded_) acting_.back().law.gap = 0.0;
   }
   std::array<double, kStrains> v;  // apart from y and the residual, so that loops over them need no order
   std::array<double, kStrains> forces{};
@@ -104,14 +103,14 @@ void ElementSetOf<P>::add_support_residual(int element, const double* y, double*
   for (int i = 0; i < kStrains; ++i) v[i] = y[dofs.v + i];
   double rounding = 0.0;
   for (const Functional& f : acting_) {
-    double size = f.gap;
+    double size = f.law.gap;
     for (int c = 0; c < 3; ++c) size += std::abs(f.a[c] * y[dofs.a[c]]);
-    rounding += f.stiffness * size * std::numeric_limits<double>::epsilon();
-    double w = -f.gap;
+    rounding += f.law.stiffness * size * std::numeric_limits<double>::epsilon();
+    double w = -f.law.gap;
     for (int c = 0; c < 3; ++c) w += f.a[c] * y[dofs.a[c]];
     const double* row = f.v[0].data();
     for (int i = 0; i < kStrains; ++i) w += row[i] * v[i];
-    const double force = f.stiffness * w;
+    const double force = f.law.stiffness * w;
     for (int c = 0; c < 3; ++c) at_start[c] += force * f.a[c];
     for (int i = 0; i < kStrains; ++i) forces[i] += force * row[i];
   }
@@ -133,7 +132,7 @@ void ElementSetOf<P>::freeze_contact(const Eigen::VectorXd& y, double tolerance)
     for (int i = shape.first_strip; i < shape.first_strip + shape.strip_count; ++i)
       strips_[i].contact_intervals(u.start, u.dx, u.dy, frozen_intervals_[i], -tolerance);
     for (int i = shape.first_station; i < shape.first_station + shape.station_count; ++i)
-      frozen_stations_[i] = value(stations_[i], dofs, y.data()) > stations_[i].gap - tolerance;
+      frozen_stations_[i] = value(stations_[i], dofs, y.data()) > stations_[i].law.gap - tolerance;
   }
   frozen_ = true;
   mark_touching(y, tolerance);
@@ -149,8 +148,8 @@ void ElementSetOf<P>::mark_touching(const Eigen::VectorXd& y, double tolerance) 
     for (int i = shape.first_strip; i < shape.first_strip + shape.strip_count; ++i)
       touching_strips_[i] = strips_[i].is_near(u.start, u.dx, u.dy, tolerance);
     for (int i = shape.first_station; i < shape.first_station + shape.station_count; ++i)
-      touching_stations_[i] = stations_[i].one_sided && std::abs(value(stations_[i], dofs_[e], y.data()) -
-                                                                 stations_[i].gap) <= tolerance;
+      touching_stations_[i] = stations_[i].law.one_sided && std::abs(value(stations_[i], dofs_[e], y.data()) -
+                                                                     stations_[i].law.gap) <= tolerance;
   }
 }
 
@@ -185,7 +184,7 @@ void ElementSetOf<P>::set_touching(const Eigen::VectorXd& mode, std::span<const 
       frozen_intervals_[i].assign(1, {strips_[i].range()[0], strips_[i].range()[1]});
       if (mode.size() == 0) continue;
       const StripMovement u = movement_of(shapes_[e], dofs_[e], mode.data());
-      strips_[i].contact_intervals(u.start, u.dx, u.dy, frozen_intervals_[i], -strips_[i].gap());
+      strips_[i].contact_intervals(u.start, u.dx, u.dy, frozen_intervals_[i], -strips_[i].law().gap);
     }
   }
 }
@@ -283,7 +282,7 @@ void ElementSetOf<P>::collect_pressure(const Shape& shape, double pressure) {
         f.a[c] = 1.0;
         for (int r = 0; r < P; ++r) f.v[c][r] = shape.h * a_[q][r];
         f.v[1 - c][q] = sign;
-        f.stiffness = (c == 0 ? -0.25 : 0.25) * sign * pressure * shape.hb[q];
+        f.law.stiffness = (c == 0 ? -0.25 : 0.25) * sign * pressure * shape.hb[q];
         acting_.push_back(f);
       }
     }

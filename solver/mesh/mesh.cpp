@@ -12,8 +12,6 @@
 namespace snapthrough {
 namespace {
 
-constexpr double kTouching = 1e-9;  ///< fractions closer than this are one place
-
 /// Fractions where elements must end, 0 and 1 included, ascending.
 std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& axis) {
   const std::string& id = model.members[member].id;
@@ -34,7 +32,7 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
   std::sort(at.begin(), at.end());
   std::vector<double> unique;
   for (const double fraction : at)
-    if (unique.empty() || fraction - unique.back() > kTouching) unique.push_back(fraction);
+    if (unique.empty() || fraction - unique.back() > kOnePlace) unique.push_back(fraction);
   unique.back() = 1.0;
   return unique;
 }
@@ -122,6 +120,14 @@ void add_elements(Mesh& mesh, int member, const std::vector<double>& breaks, con
 }
 
 }  // namespace
+
+std::array<double, 2> part_of(const MeshElement& element, std::array<double, 2> range) {
+  const double width = element.to - element.from;
+  const double one = kOnePlace / width;
+  const double lo = std::clamp((range[0] - element.from) / width, 0.0, 1.0);
+  const double hi = std::clamp((range[1] - element.from) / width, 0.0, 1.0);
+  return {lo < one ? 0.0 : lo, hi > 1.0 - one ? 1.0 : hi};
+}
 
 Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes, MeshUse use) {
   const ChosenMesh& rule = use == MeshUse::first ? kFirst : use == MeshUse::path ? kPath : kFinal;

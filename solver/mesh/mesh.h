@@ -2,6 +2,7 @@
 /// @file
 /// Members cut into elements.
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct Mesh {
   std::vector<MeshElement> elements;
   std::vector<int> first;  ///< first element of each member; one entry more than there are members
 };
+
+/// @brief Part of an element, in its own [0, 1], that a range of its member's fractions covers; from 0 or to
+/// 1 where it ends at one place with the element. The range is empty where there is none.
+[[nodiscard]] std::array<double, 2> part_of(const MeshElement& element, std::array<double, 2> range);
 
 /// What a mesh that the solver chooses is for.
 enum class MeshUse {

@@ -26,6 +26,9 @@ enum class LoadMeasure { length, horizontal, vertical };
 /// A displacement component; `normal` is along the initial left normal and needs a location on a member.
 enum class Component { x, y, rotation, normal };
 
+/// Fractions of a member's length that are no further apart are one place.
+inline constexpr double kOnePlace = 1e-9;
+
 /// A place on the structure: a node, or a point of a member. Exactly one of `node`, `member` is not empty.
 struct Location {
   std::string node;

@@ -73,13 +73,13 @@ void StructuralProblem::add_joint_springs(const VectorXd& y, VectorXd& f) {
     const JointSpring& spring = structure_.joint_springs[i];
     double w = 0.0;
     for (int c = 0; c < 3; ++c) w += spring.row[c] * y[3 * spring.joint + c];
-    const double gap = bonded_ ? 0.0 : spring.gap;
+    const double gap = bonded_ ? 0.0 : spring.law.gap;
     const bool known = spring.touch != Touch::none && std::abs(w - gap) <= kTouchBand;
     const bool acts = known ? spring.touch == Touch::acts : w > gap;
-    if (!frozen_) spring_active_[i] = bonded_ || !spring.one_sided || acts;
-    double force = spring_active_[i] ? spring.stiffness * (w - gap) : 0.0;
-    if (spring.one_sided) force *= softness_;
-    if (spring.one_sided) force += grip_ * spring.stiffness * w;
+    if (!frozen_) spring_active_[i] = bonded_ || !spring.law.one_sided || acts;
+    double force = spring_active_[i] ? spring.law.stiffness * (w - gap) : 0.0;
+    if (spring.law.one_sided) force *= softness_;
+    if (spring.law.one_sided) force += grip_ * spring.law.stiffness * w;
     for (int c = 0; c < 3; ++c) f[3 * spring.joint + c] += force * spring.row[c];
   }
 }
@@ -130,9 +130,9 @@ void StructuralProblem::add_holds(const VectorXd& y, VectorXd& f) const {
 }
 
 double StructuralProblem::acting_stiffness(std::size_t spring) const {
-  const JointSpring& s = structure_.joint_springs[spring];
-  if (!s.one_sided) return s.stiffness;
-  return s.stiffness * ((spring_active_[spring] ? softness_ : 0.0) + grip_);
+  const Law& law = structure_.joint_springs[spring].law;
+  if (!law.one_sided) return law.stiffness;
+  return law.stiffness * ((spring_active_[spring] ? softness_ : 0.0) + grip_);
 }
 
 /// Turns the rows of nodes into the axes of their supports.
@@ -365,7 +365,7 @@ void StructuralProblem::freeze_contact(const VectorXd& y, double tolerance) {
   structure_.elements->freeze_contact(y, tolerance);
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
     const JointSpring& spring = structure_.joint_springs[i];
-    spring_active_[i] = !spring.one_sided || penetration(spring, y, spring.gap) > -tolerance;
+    spring_active_[i] = !spring.law.one_sided || penetration(spring, y, spring.law.gap) > -tolerance;
   }
   frozen_ = true;
   mark_touching(y, tolerance);
@@ -375,7 +375,8 @@ void StructuralProblem::mark_touching(const VectorXd& y, double tolerance) {
   structure_.elements->mark_touching(y, tolerance);
   spring_touches_.clear();
   for (const JointSpring& spring : structure_.joint_springs)
-    spring_touches_.push_back(spring.one_sided && std::abs(penetration(spring, y, spring.gap)) <= tolerance);
+    spring_touches_.push_back(spring.law.one_sided &&
+                              std::abs(penetration(spring, y, spring.law.gap)) <= tolerance);
 }
 
 std::size_t StructuralProblem::touching_springs() const {
@@ -479,7 +480,7 @@ double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) co
     const JointSpring& spring = structure_.joint_springs[i];
     const double stiffness = acting_stiffness(i);
     if (stiffness == 0.0) continue;
-    double size = spring.gap;
+    double size = spring.law.gap;
     for (int c = 0; c < 3; ++c) size += std::abs(spring.row[c] * y[3 * spring.joint + c]);
     largest = std::max(largest, stiffness * size * std::numeric_limits<double>::epsilon());
   }

@@ -56,16 +56,15 @@ std::vector<std::array<double, 2>> contact_intervals(const Structure& structure,
 ContactZones::ContactZones(const Structure& structure, const Model& model)
     : structure_(structure), model_(model) {
   for (std::size_t i = 0; i < model.foundations.size(); ++i) {
-    const Foundation& base = model.foundations[i];
-    if (base.reaction == Reaction::bilateral || base.stiffness == 0.0) continue;
+    if (!is_one_sided(model.foundations[i])) continue;
     foundations_.push_back(static_cast<int>(i));
-    ids_.push_back(base.id);
+    ids_.push_back(model.foundations[i].id);
   }
-  for (const Spring& spring : model.springs) {
-    if (spring.reaction == Reaction::bilateral || spring.stiffness == 0.0) continue;
-    const double gap = spring.direction ? spring.gap / structure.scales.length : spring.gap;
-    springs_.push_back({displacement_row(structure, model, spring.at, spring_direction(spring)), gap,
-                        spring.reaction == Reaction::compression_only ? 1.0 : -1.0});
+  for (std::size_t i = 0; i < model.springs.size(); ++i) {
+    const Spring& spring = model.springs[i];
+    if (!is_one_sided(spring)) continue;
+    const SpringLaw& law = structure.spring_laws[i];
+    springs_.push_back({displacement_row(structure, model, spring.at, law.row), law.law.gap});
     ids_.push_back(spring.id);
   }
 }
@@ -74,8 +73,7 @@ void ContactZones::count(const Eigen::VectorXd& y, std::vector<int>& zones) cons
   zones.clear();
   for (const int foundation : foundations_)
     zones.push_back(static_cast<int>(contact_intervals(structure_, model_, y, foundation, kNoDepth).size()));
-  for (const SpringRow& spring : springs_)
-    zones.push_back(spring.sign * spring.row.dot(y) > spring.gap + kNoDepth ? 1 : 0);
+  for (const SpringRow& spring : springs_) zones.push_back(spring.row.dot(y) > spring.gap + kNoDepth ? 1 : 0);
 }
 
 }  // namespace snapthrough

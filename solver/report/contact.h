@@ -35,9 +35,8 @@ class ContactZones {
 
  private:
   struct SpringRow {
-    SparseRow row;
+    SparseRow row;  ///< acts where it exceeds the gap
     double gap = 0.0;
-    double sign = 1.0;  ///< acts where sign * w exceeds the gap
   };
   const Structure& structure_;
   const Model& model_;

@@ -12,13 +12,6 @@ namespace {
 
 using Vec2 = std::array<double, 2>;
 
-/// Part of an element that a range of member fractions covers, in the element's own [0, 1].
-Vec2 part_of(const MeshElement& cell, Vec2 range) {
-  const double width = cell.to - cell.from;
-  return {std::clamp((range[0] - cell.from) / width, 0.0, 1.0),
-          std::clamp((range[1] - cell.from) / width, 0.0, 1.0)};
-}
-
 }  // namespace
 
 SectionForces::SectionForces(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
@@ -63,42 +56,34 @@ void SectionForces::add_loads(double proportional, double constant) {
 
 void SectionForces::add_load(const Load& load, double factor) {
   const std::string& member = model_.members[cell_.member].id;
-  const double F = structure_.scales.force;
-  const double L = structure_.scales.length;
+  const Scales& scales = structure_.scales;
   if (const auto* point = std::get_if<PointLoad>(&load); point != nullptr && point->at.member == member) {
     const MeshPlace place = place_of(structure_.mesh, cell_.member, point->at.fraction);
     if (place.element == element_)
       points_.push_back(
           {place.xi,
-           {factor * point->force[0] / F, factor * point->force[1] / F, factor * point->moment / (F * L)}});
+           {scales.scaled_force(factor * point->force[0]), scales.scaled_force(factor * point->force[1]),
+            scales.scaled_moment(factor * point->moment)}});
   }
   if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == member) {
     const Vec2 range = part_of(cell_, d->range);
     if (range[1] > range[0])
-      dead_.push_back({{factor * d->force[0] * L / F, factor * d->force[1] * L / F}, d->per, range});
+      dead_.push_back(
+          {{scales.scaled_line_load(factor * d->force[0]), scales.scaled_line_load(factor * d->force[1])},
+           d->per,
+           range});
   }
   if (const auto* p = std::get_if<PressureLoad>(&load); p != nullptr && p->member == member)
-    pressure_ += (p->side == Side::left ? 1.0 : -1.0) * factor * p->value * L / F;
+    pressure_ += (p->side == Side::left ? 1.0 : -1.0) * scales.scaled_line_load(factor * p->value);
 }
 
 void SectionForces::add_bases() {
   for (const FoundationPart& part : structure_.foundation_parts) {
     if (part.element != element_) continue;
-    const Foundation& base = model_.foundations[part.foundation];
-    const double L = structure_.scales.length;
-    const double modulus = base.stiffness * L * L / structure_.scales.force;
-    const bool one_sided = base.reaction != Reaction::bilateral;
-    Base out{part.foundation,
-             modulus,
-             base.shear_stiffness / structure_.scales.force,
-             one_sided ? base.gap / L : 0.0,
-             one_sided,
-             part.range,
-             {{part.range[0], part.range[1]}}};
-    if (structure_.mesh.foundation == FoundationRule::lumped) {
-      add_lumped(base, part.foundation, part.range, modulus);
-      out.modulus = 0.0;
-    }
+    const FoundationLaw& law = structure_.foundation_laws[part.foundation];
+    const bool lumped = structure_.mesh.foundation == FoundationRule::lumped;
+    if (lumped) add_lumped(law, part.range);
+    Base out{&law, lumped, part.range, {{part.range[0], part.range[1]}}};
     if (part.strip)
       part.strip->contact_intervals({reader_.start()[0], reader_.start()[1]}, reader_.gradient(0),
                                     reader_.gradient(1), out.contact);
@@ -106,42 +91,28 @@ void SectionForces::add_bases() {
   }
 }
 
-void SectionForces::add_lumped(const Foundation& base, int index, Vec2 range, double modulus) {
+void SectionForces::add_lumped(const FoundationLaw& base, Vec2 range) {
   const Quadrature lobatto = gauss_lobatto(structure_.mesh.order + 1);
   for (std::size_t i = 0; i < lobatto.points.size(); ++i) {
     const double xi = lobatto.points[i];
     if (xi < range[0] - 1e-9 || xi > range[1] + 1e-9) continue;
-    const Vec2 n = base_normal(index, xi);
-    const auto u = reader_.displacement(xi);
-    double w = u[0] * n[0] + u[1] * n[1];
-    if (base.reaction != Reaction::bilateral) w = std::max(w - base.gap / structure_.scales.length, 0.0);
-    const double force = -modulus * reader_.length() * lobatto.weights[i] * w;
+    const Vec2 n = base_normal(base, xi);
+    const double force = -reader_.length() * lobatto.weights[i] * base.law.reaction(penetration(base, xi));
     points_.push_back({xi, {force * n[0], force * n[1], 0.0}});
   }
 }
 
 void SectionForces::add_springs() {
-  const double F = structure_.scales.force;
-  const double L = structure_.scales.length;
-  for (const Spring& spring : model_.springs) {
-    if (spring.at.member != model_.members[cell_.member].id) continue;
-    const MeshPlace place = place_of(structure_.mesh, cell_.member, spring.at.fraction);
+  for (std::size_t i = 0; i < model_.springs.size(); ++i) {
+    const Location& at = model_.springs[i].at;
+    if (at.member != model_.members[cell_.member].id) continue;
+    const MeshPlace place = place_of(structure_.mesh, cell_.member, at.fraction);
     if (place.element != element_) continue;
+    const SpringLaw& spring = structure_.spring_laws[i];
     const auto u = reader_.displacement(place.xi);
-    const double sign = spring.reaction == Reaction::tension_only ? -1.0 : 1.0;
-    std::array<double, 3> row{0.0, 0.0, sign};
-    double stiffness = spring.stiffness / (F * L);
-    double gap = spring.gap;
-    if (spring.direction) {
-      const double size = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
-      row = {sign * (*spring.direction)[0] / size, sign * (*spring.direction)[1] / size, 0.0};
-      stiffness = spring.stiffness * L / F;
-      gap = spring.gap / L;
-    }
-    double w = row[0] * u[0] + row[1] * u[1] + row[2] * u[2];
-    if (spring.reaction != Reaction::bilateral) w = std::max(w - gap, 0.0);
-    points_.push_back(
-        {place.xi, {-stiffness * w * row[0], -stiffness * w * row[1], -stiffness * w * row[2]}});
+    const auto& row = spring.row;
+    const double force = -spring.law.reaction(row[0] * u[0] + row[1] * u[1] + row[2] * u[2]);
+    points_.push_back({place.xi, {force * row[0], force * row[1], force * row[2]}});
   }
 }
 
@@ -163,16 +134,10 @@ Vec2 SectionForces::position(double xi) const {
   return {x + u[0], y + u[1]};
 }
 
-Vec2 SectionForces::base_normal(int foundation, double xi) const {
-  const Foundation& base = model_.foundations[foundation];
-  const double pull = base.reaction == Reaction::tension_only ? -1.0 : 1.0;
-  if (base.direction) {
-    const double size = std::hypot((*base.direction)[0], (*base.direction)[1]);
-    return {pull * (*base.direction)[0] / size, pull * (*base.direction)[1] / size};
-  }
-  const double sign = pull * (base.side == Side::left ? 1.0 : -1.0);
-  const double angle = axis_at(xi).angle;
-  return {-sign * std::sin(angle), sign * std::cos(angle)};
+double SectionForces::penetration(const FoundationLaw& base, double xi) const {
+  const Vec2 n = base_normal(base, xi);
+  const auto u = reader_.displacement(xi);
+  return u[0] * n[0] + u[1] * n[1];
 }
 
 Vec2 SectionForces::density(double xi) const {
@@ -184,53 +149,41 @@ Vec2 SectionForces::density(double xi) const {
     if (load.per == LoadMeasure::vertical) measure = std::abs(std::sin(axis_at(xi).angle));
     for (int c = 0; c < 2; ++c) f[c] += measure * load.force[c];
   }
-  const auto u = reader_.displacement(xi);
   for (const Base& base : bases_) {
-    if (base.modulus == 0.0 || xi < base.range[0] || xi > base.range[1]) continue;
-    const Vec2 n = base_normal(base.foundation, xi);
-    double w = u[0] * n[0] + u[1] * n[1];
-    if (base.one_sided) w = std::max(w - base.gap, 0.0);
-    for (int c = 0; c < 2; ++c) f[c] -= base.modulus * w * n[c];
+    if (base.lumped || xi < base.range[0] || xi > base.range[1]) continue;
+    const Vec2 n = base_normal(*base.law, xi);
+    const double reaction = base.law->law.reaction(penetration(*base.law, xi));
+    for (int c = 0; c < 2; ++c) f[c] -= reaction * n[c];
   }
   return f;
 }
 
 /// G w' of a shear layer.
-double SectionForces::shear_layer(const Base& base, double xi) const {
-  const Vec2 n = base_normal(base.foundation, xi);
+double SectionForces::shear_layer(const FoundationLaw& base, double xi) const {
+  const Vec2 n = base_normal(base, xi);
+  const Vec2 dn = base_normal_rate(base, xi);
   const auto u = reader_.displacement(xi);
   const auto du = reader_.derivative(xi);
-  double slope = du[0] * n[0] + du[1] * n[1];
-  if (!model_.foundations[base.foundation].direction) {
-    const AxisPoint& at = axis_at(xi);
-    const double turn = at.curvature * structure_.scales.length;
-    const double sign = model_.foundations[base.foundation].side == Side::left ? 1.0 : -1.0;
-    slope -= sign * turn * (u[0] * std::cos(at.angle) + u[1] * std::sin(at.angle));
-  }
-  return base.shear * slope;
+  return base.shear * (du[0] * n[0] + du[1] * n[1] + u[0] * dn[0] + u[1] * dn[1]);
 }
 
 /// Shear layers on [from, to] of the part beyond xi: by virtual work of its rigid motions, -int G w' dw' ds.
 void SectionForces::add_shear_layers(double xi, double from, double to, std::array<double, 3>& sum) const {
   const Vec2 x0 = position(xi);
   for (const Base& base : bases_) {
-    if (base.shear == 0.0) continue;
+    if (base.law->shear == 0.0) continue;
     const double lo = std::max(from, base.range[0]);
     const double hi = std::min(to, base.range[1]);
     for (std::size_t i = 0; lo < hi && i < gauss_.points.size(); ++i) {
       const double at = lo + (hi - lo) * gauss_.points[i];
-      const double force = shear_layer(base, at) * gauss_.weights[i] * (hi - lo) * reader_.length();
-      const Vec2 n = base_normal(base.foundation, at);
-      const AxisPoint p = axis_at(at);
-      const double side = model_.foundations[base.foundation].direction
-                              ? 0.0
-                              : (model_.foundations[base.foundation].side == Side::left ? 1.0 : -1.0);
-      const double turn = -side * p.curvature * structure_.scales.length;
-      const Vec2 dn{turn * std::cos(p.angle), turn * std::sin(p.angle)};
+      const double force = shear_layer(*base.law, at) * gauss_.weights[i] * (hi - lo) * reader_.length();
+      const Vec2 n = base_normal(*base.law, at);
+      const Vec2 dn = base_normal_rate(*base.law, at);
+      const double angle = axis_at(at).angle;
       const Vec2 x = position(at);
       const auto du =
           structure_.geometry == Geometry::linear ? std::array{0.0, 0.0, 0.0} : reader_.derivative(at);
-      const Vec2 slope{std::cos(p.angle) + du[0], std::sin(p.angle) + du[1]};
+      const Vec2 slope{std::cos(angle) + du[0], std::sin(angle) + du[1]};
       sum[0] -= force * dn[0];
       sum[1] -= force * dn[1];
       sum[2] -=
@@ -292,9 +245,9 @@ std::array<double, 3> SectionForces::at(double xi) const {
     add_shear_layers(xi, breaks[b], breaks[b + 1], sum);
   }
   for (const Base& base : bases_) {
-    if (base.shear == 0.0 || xi < base.range[0] || xi > base.range[1]) continue;
-    const Vec2 n = base_normal(base.foundation, xi);
-    const double cut = shear_layer(base, xi);
+    if (base.law->shear == 0.0 || xi < base.range[0] || xi > base.range[1]) continue;
+    const Vec2 n = base_normal(*base.law, xi);
+    const double cut = shear_layer(*base.law, xi);
     sum[0] -= cut * n[0];
     sum[1] -= cut * n[1];
   }

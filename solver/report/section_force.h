@@ -38,11 +38,8 @@ class SectionForces {
     Vec2 range;  ///< of the element
   };
   struct Base {
-    int foundation;
-    double modulus;
-    double shear;
-    double gap;
-    bool one_sided;
+    const FoundationLaw* law;
+    bool lumped;  ///< its reaction is that of point actions
     Vec2 range;
     std::vector<ContactStrip::Interval> contact;
   };
@@ -56,14 +53,22 @@ class SectionForces {
   void release_end_of_pressure(const Eigen::VectorXd& y);
   void add_bases();
   void add_springs();
-  void add_lumped(const Foundation& base, int index, Vec2 range, double modulus);
+  void add_lumped(const FoundationLaw& base, Vec2 range);
   /// The perfect axis at xi; the last place asked for is kept, it is asked for several times.
   [[nodiscard]] const AxisPoint& axis_at(double xi) const;
   [[nodiscard]] Vec2 position(double xi) const;
-  [[nodiscard]] Vec2 base_normal(int foundation, double xi) const;
+  /// Into the base's medium, and d/ds of it.
+  [[nodiscard]] Vec2 base_normal(const FoundationLaw& base, double xi) const {
+    return base.direction.at(axis_at(xi).angle);
+  }
+  [[nodiscard]] Vec2 base_normal_rate(const FoundationLaw& base, double xi) const {
+    return base.direction.rate(axis_at(xi).angle, structure_.scales.scaled_curvature(axis_at(xi).curvature));
+  }
+  /// Displacement into the base's medium.
+  [[nodiscard]] double penetration(const FoundationLaw& base, double xi) const;
   /// Density of forces at a section: everything continuous but the shear layer.
   [[nodiscard]] Vec2 density(double xi) const;
-  [[nodiscard]] double shear_layer(const Base& base, double xi) const;
+  [[nodiscard]] double shear_layer(const FoundationLaw& base, double xi) const;
   void add_shear_layers(double xi, double from, double to, std::array<double, 3>& sum) const;
   [[nodiscard]] std::vector<double> breaks_beyond(double xi) const;
 

@@ -61,6 +61,7 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
   const Foundation& base = model.foundations[index];
   const int member = index_of(model.members, base.member);
   const AxisCurve& axis = *structure.axes[member];
+  const FoundationLaw& law = structure.foundation_laws[index];
   FoundationState out;
   out.id = base.id;
   for (int i = 0; i < points; ++i) {
@@ -68,21 +69,13 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     const MeshPlace place = place_of(structure.mesh, member, fraction);
     const auto u = ElementReader(structure, y, place.element).displacement(place.xi);
     const double angle = axis.at(fraction * axis.length()).angle;
-    std::array<double, 2> d{-std::sin(angle), std::cos(angle)};
-    if (base.direction) {
-      const double size = std::hypot((*base.direction)[0], (*base.direction)[1]);
-      d = {(*base.direction)[0] / size, (*base.direction)[1] / size};
-    } else if (base.side == Side::right) {
-      d = {-d[0], -d[1]};
-    }
-    // w towards the medium; a pushing medium has a positive reaction, a pulling one a negative
-    const double w = structure.scales.length * (u[0] * d[0] + u[1] * d[1]);
-    double r = base.stiffness * w;
-    if (base.reaction == Reaction::compression_only) r = base.stiffness * std::max(w - base.gap, 0.0);
-    if (base.reaction == Reaction::tension_only) r = base.stiffness * std::min(w + base.gap, 0.0);
+    // results are in the user's sense: a medium that pushes has a positive reaction, one that pulls a
+    // negative
+    const auto d = law.direction.at(angle);
+    const double w = u[0] * d[0] + u[1] * d[1];
     out.s.push_back(fraction * axis.length());
-    out.reaction.push_back(r);
-    out.displacement.push_back(w);
+    out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * law.law.reaction(w)));
+    out.displacement.push_back(in_users_sense(law.sense, structure.scales.length * w));
   }
   out.contact = contact_intervals(structure, model, y, index);
   return out;

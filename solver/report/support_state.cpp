@@ -26,30 +26,23 @@ struct Bearing {
 
 /// A spring in a state, scaled.
 struct SpringForce {
-  SparseRow row;              ///< displacement along its direction
+  SparseRow row;              ///< displacement into its medium
   double displacement = 0.0;  ///< its value
-  double force = 0.0;         ///< on the structure against the direction
+  double force = 0.0;         ///< on the structure against it
   bool closed = false;
   double rounding = 0.0;  ///< of the force
 };
 
-SpringForce force_of(const Structure& structure, const Model& model, const Spring& spring,
-                     const VectorXd& y) {
-  const double L = structure.scales.length;
-  const double F = structure.scales.force;
-  const double stiffness = spring.direction ? spring.stiffness * L / F : spring.stiffness / (F * L);
-  const double gap = spring.direction ? spring.gap / L : spring.gap;
+SpringForce force_of(const Structure& structure, const Model& model, std::size_t index, const VectorXd& y) {
+  const SpringLaw& spring = structure.spring_laws[index];
   SpringForce out;
-  out.row = displacement_row(structure, model, spring.at, spring_direction(spring));
+  out.row = displacement_row(structure, model, model.springs[index].at, spring.row);
   out.displacement = out.row.dot(y);
-  double acting = out.displacement;
-  if (spring.reaction == Reaction::compression_only) acting = std::max(out.displacement - gap, 0.0);
-  if (spring.reaction == Reaction::tension_only) acting = std::min(out.displacement + gap, 0.0);
-  out.force = stiffness * acting;
-  double size = gap;
-  for (const auto& [index, weight] : out.row.entries) size += std::abs(weight * y[index]);
-  if (acting != 0.0) out.rounding = stiffness * size * std::numeric_limits<double>::epsilon();
-  out.closed = spring.stiffness > 0.0 && (spring.reaction == Reaction::bilateral || acting != 0.0);
+  out.force = spring.law.reaction(out.displacement);
+  out.closed = spring.law.acts(out.displacement);
+  double size = spring.law.gap;
+  for (const auto& [at, weight] : out.row.entries) size += std::abs(weight * y[at]);
+  if (out.force != 0.0) out.rounding = spring.law.stiffness * size * std::numeric_limits<double>::epsilon();
   return out;
 }
 
@@ -57,8 +50,10 @@ SpringForce force_of(const Structure& structure, const Model& model, const Sprin
 VectorXd add_springs(const Structure& structure, const Model& model, const VectorXd& y,
                      const RigidMotions& rigid, State& state, std::vector<Bearing>& bearings) {
   VectorXd on_nodes = VectorXd::Zero(3 * structure.joints);
-  for (const Spring& spring : model.springs) {
-    const SpringForce at = force_of(structure, model, spring, y);
+  for (std::size_t i = 0; i < model.springs.size(); ++i) {
+    const Spring& spring = model.springs[i];
+    const SpringForce at = force_of(structure, model, i, y);
+    const double sense = structure.spring_laws[i].sense;
     const double L = structure.scales.length;
     const double F = structure.scales.force;
     Bearing& bearing = bearings.emplace_back();
@@ -66,8 +61,8 @@ VectorXd add_springs(const Structure& structure, const Model& model, const Vecto
     for (double& component : bearing.wrench) component *= -at.force;
     bearing.rounding = at.rounding;
     state.springs.push_back({spring.id,
-                             at.force * (spring.direction ? F : F * L),
-                             at.displacement * (spring.direction ? L : 1.0),
+                             in_users_sense(sense, at.force * (spring.direction ? F : F * L)),
+                             in_users_sense(sense, at.displacement * (spring.direction ? L : 1.0)),
                              at.closed,
                              {}});
     if (spring.at.node.empty()) continue;
@@ -106,7 +101,7 @@ VectorXd add_supports(const Structure& structure, const Model& model, const Vect
 }
 
 /// The springs of a base that act on one element.
-std::vector<Station> acting_stations(const Structure& structure, const Foundation& base,
+std::vector<Station> acting_stations(const Structure& structure, const FoundationLaw& base,
                                      const FoundationPart& part, const VectorXd& y) {
   if (!part.strip || structure.mesh.foundation == FoundationRule::lumped)
     return winkler_stations(structure, base, part.element, part.range);
@@ -125,11 +120,11 @@ void add_stations(const std::vector<Station>& stations, const VectorXd& y, const
                   Bearing& sum) {
   for (const Station& station : stations) {
     const auto [value, size] = rigid.value(station, y);
-    const double w = value - station.gap;
-    if (station.one_sided && w <= 0.0) continue;
+    const double w = value - station.law.gap;
+    if (station.law.one_sided && w <= 0.0) continue;
     const Wrench unit = rigid.work(station);
-    for (int c = 0; c < 3; ++c) sum.wrench[c] -= station.stiffness * w * unit[c];
-    sum.rounding += station.stiffness * (size + station.gap) * std::numeric_limits<double>::epsilon();
+    for (int c = 0; c < 3; ++c) sum.wrench[c] -= station.law.stiffness * w * unit[c];
+    sum.rounding += station.law.stiffness * (size + station.law.gap) * std::numeric_limits<double>::epsilon();
   }
 }
 
@@ -138,11 +133,11 @@ void add_foundations(const Structure& structure, const Model& model, const Vecto
   const std::size_t first = bearings.size();
   bearings.resize(first + model.foundations.size());
   for (const FoundationPart& part : structure.foundation_parts) {
-    const Foundation& base = model.foundations[part.foundation];
+    const FoundationLaw& base = structure.foundation_laws[part.foundation];
     Bearing& sum = bearings[first + static_cast<std::size_t>(part.foundation)];
-    if (base.shear_stiffness > 0.0)
+    if (base.shear > 0.0)
       add_stations(shear_layer_stations(structure, base, part.element, part.range), y, rigid, sum);
-    if (base.stiffness > 0.0) add_stations(acting_stations(structure, base, part, y), y, rigid, sum);
+    if (base.law.stiffness > 0.0) add_stations(acting_stations(structure, base, part, y), y, rigid, sum);
   }
 }
 
@@ -178,12 +173,6 @@ void balance(const Wrench& others, double largest, std::vector<Bearing>& bearing
 }
 
 }  // namespace
-
-std::array<double, 3> spring_direction(const Spring& spring) {
-  if (!spring.direction) return {0.0, 0.0, 1.0};
-  const double size = std::hypot((*spring.direction)[0], (*spring.direction)[1]);
-  return {(*spring.direction)[0] / size, (*spring.direction)[1] / size, 0.0};
-}
 
 void add_forces_on_structure(const Structure& structure, const Model& model, const VectorXd& y, double lambda,
                              State& state) {

@@ -3,7 +3,6 @@
 /// What a state's supports, springs, bases and loads put on the structure.
 
 #include <Eigen/Core>
-#include <array>
 
 #include "solver/discrete/structure.h"
 #include "solver/model/model.h"
@@ -20,8 +19,5 @@ namespace snapthrough {
 /// @param state its foundations are those of the model, in that order
 void add_forces_on_structure(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
                              double lambda, State& state);
-
-/// @brief Row (x, y, rotation) of a spring's displacement: its unit direction, or the rotation.
-[[nodiscard]] std::array<double, 3> spring_direction(const Spring& spring);
 
 }  // namespace snapthrough

@@ -12,6 +12,7 @@
 
 #include "solver/geometry/axes.h"
 #include "solver/model/id_index.h"
+#include "solver/support/law.h"
 
 namespace snapthrough {
 namespace {
@@ -19,55 +20,39 @@ namespace {
 using Vec2 = std::array<double, 2>;
 
 constexpr double kOneLine = 1e-12;  ///< sine between two lines of action below which they are one
-constexpr double kOnePlace = 1e-9;  ///< fractions closer than this are one place, as on a mesh
-
-/// Where a support reacts: along a unit vector, or along what turns with the place (a rotation, the normal of
-/// a curved axis), in the positive sense or against it. The reaction is that to movement in this sense.
-struct Action {
-  bool fixed = false;
-  Vec2 along{};
-  double sign = 1.0;
-};
 
 /// 1 where both react to the same movement, -1 where they oppose one another, else 0.
-double agreement(const Action& a, const Action& b) {
-  if (a.fixed != b.fixed) return 0.0;
-  if (!a.fixed) return a.sign * b.sign;
-  if (std::abs(a.along[0] * b.along[1] - a.along[1] * b.along[0]) > kOneLine) return 0.0;
-  return a.along[0] * b.along[0] + a.along[1] * b.along[1] > 0.0 ? 1.0 : -1.0;
+double agreement(const Direction& a, const Direction& b) {
+  if (a.turns != b.turns) return 0.0;
+  if (a.turns) return a.sign * b.sign;
+  if (std::abs(a.fixed[0] * b.fixed[1] - a.fixed[1] * b.fixed[0]) > kOneLine) return 0.0;
+  return a.fixed[0] * b.fixed[0] + a.fixed[1] * b.fixed[1] > 0.0 ? 1.0 : -1.0;
 }
 
-Action along(const Vec2& direction, double sign) {
-  const double size = std::hypot(direction[0], direction[1]);
-  return {true, {sign * direction[0] / size, sign * direction[1] / size}, 1.0};
-}
-
-double sense_of(Reaction reaction) { return reaction == Reaction::tension_only ? -1.0 : 1.0; }
-
-Action action_of(const Spring& spring) {
+/// A rotation is a direction that turns with its place, too.
+Direction action_of(const Spring& spring) {
   const double sense = sense_of(spring.reaction);
-  return spring.direction ? along(*spring.direction, sense) : Action{false, {}, sense};
+  return spring.direction ? fixed_direction(*spring.direction, sense) : Direction{true, {}, sense};
 }
 
-Action action_of(const Model& model, const Member& member, const Foundation& base) {
-  const double sense = sense_of(base.reaction);
-  if (base.direction) return along(*base.direction, sense);
-  const double sign = base.side == Side::left ? sense : -sense;
-  if (!std::holds_alternative<LineCurve>(member.curve)) return {false, {}, sign};
+/// The normal of a straight axis is fixed: a base with a direction may lie on the same line.
+Direction action_of(const Model& model, const Member& member, const Foundation& base) {
+  const Direction direction = direction_of(base);
+  if (!direction.turns || !std::holds_alternative<LineCurve>(member.curve)) return direction;
   const Node& a = model.nodes[index_of(model.nodes, member.start)];
   const Node& b = model.nodes[index_of(model.nodes, member.end)];
-  return along({-(b.y - a.y), b.x - a.x}, sign);
+  return fixed_direction({-(b.y - a.y), b.x - a.x}, direction.sign);
 }
 
 /// A one-sided support, by its number in the model, that touches when nothing has moved.
 struct Touching {
   std::size_t number = 0;
   double stiffness = 0.0;
-  Action action;
+  Direction action;
 };
 
 /// Supports of one place and one line of action, summed.
-struct Law {
+struct JoinedLaw {
   std::vector<std::size_t> members;  ///< positions in the list that was summed
   std::size_t against = 0;           ///< position of the first that reacts the other way
   double with_first = 0.0;
@@ -84,12 +69,12 @@ struct Law {
   [[nodiscard]] std::size_t stiffer() const { return with_first > against_first ? members.front() : against; }
 };
 
-std::vector<Law> laws_of(const std::vector<Touching>& supports) {
-  std::vector<Law> out;
+std::vector<JoinedLaw> laws_of(const std::vector<Touching>& supports) {
+  std::vector<JoinedLaw> out;
   std::vector<char> taken(supports.size(), 0);
   for (std::size_t i = 0; i < supports.size(); ++i) {
     if (taken[i] != 0) continue;
-    Law law;
+    JoinedLaw law;
     for (std::size_t j = i; j < supports.size(); ++j) {
       const double sense = taken[j] != 0 ? 0.0 : agreement(supports[i].action, supports[j].action);
       if (sense == 0.0) continue;
@@ -143,7 +128,7 @@ class Joiner {
  private:
   template <class Support>
   [[nodiscard]] bool touches(const Support& support, double unit) const {
-    return support.reaction != Reaction::bilateral && support.stiffness > 0.0 && support.gap <= kNoGap * unit;
+    return is_one_sided(support) && support.gap <= kNoGap * unit;
   }
   void join_springs();
   void join_springs_at(const std::vector<Touching>& place);
@@ -199,7 +184,7 @@ void Joiner::join_springs() {
 }
 
 void Joiner::join_springs_at(const std::vector<Touching>& place) {
-  for (const Law& law : laws_of(place)) {
+  for (const JoinedLaw& law : laws_of(place)) {
     if (!law.is_joined()) continue;
     joined_ = true;
     for (const std::size_t i : law.members) replaced_springs_[place[i].number] = true;
@@ -245,7 +230,7 @@ bool Joiner::join_bases_on(std::array<double, 2> range, const std::vector<Touchi
     out.back().range = range;
   };
   bool any = false;
-  for (const Law& law : laws_of(here)) {
+  for (const JoinedLaw& law : laws_of(here)) {
     any = any || law.is_joined();
     if (law.is_joined()) {
       put(law.members.front(), law.glued(), true);

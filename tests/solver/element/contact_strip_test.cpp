@@ -27,11 +27,13 @@ Drawn draw(std::mt19937& random, int order) {
   return out;
 }
 
-ContactStrip::Direction direction(bool curved) {
-  if (!curved) return {nullptr, 1.0, 0.0, 0.0, {0.6, 0.8}};
+/// A strip of stiffness 1 without gap under part of an element.
+ContactStrip strip_on(int order, bool curved, std::array<double, 2> range) {
   const auto axis =
       std::make_shared<const AxisCurve>(ArcCurve{120.0}, std::array{0.0, 0.0}, std::array{2.0, 0.0});
-  return {axis, -1.0, 0.2 * axis->length(), 0.3 * axis->length(), {}};
+  const Direction direction = curved ? Direction{true, {}, -1.0} : Direction{false, {0.6, 0.8}, 1.0};
+  return ContactStrip(order, direction, {axis, 0.2 * axis->length(), 0.3 * axis->length()}, range,
+                      {1.0, 0.0, true}, 0);
 }
 
 double contact_at(const std::vector<ContactStrip::Interval>& zones, double xi) {
@@ -60,7 +62,7 @@ void expect_zones_found(bool curved) {
   for (int order = 2; order <= 8; ++order)
     for (int n = 0; n < 100; ++n) {
       const Drawn u = draw(random, order);
-      const ContactStrip strip(order, direction(curved), {0.0, 1.0}, 1.0, 0.0, 0);
+      const ContactStrip strip = strip_on(order, curved, {0.0, 1.0});
       for (const double at : extrema(strip, u))
         for (const double depth : {1e-3, 1e-6, -1e-3, -1e-6}) {
           const double gap = strip.penetration(at, u.ua, u.dx, u.dy) - depth;
@@ -86,9 +88,9 @@ TEST(ContactStrip, EndsOfContactAreRootsOfThePenetration) {
   std::mt19937 random(3);
   for (int order = 1; order <= 8; ++order) {
     const Drawn u = draw(random, order);
-    const ContactStrip strip = ContactStrip(order, direction(true), {0.1, 0.9}, 1.0, 0.0, 0)
-                                   .with_gap(ContactStrip(order, direction(true), {0.1, 0.9}, 1.0, 0.0, 0)
-                                                 .penetration(0.37, u.ua, u.dx, u.dy));
+    const ContactStrip strip =
+        strip_on(order, true, {0.1, 0.9})
+            .with_gap(strip_on(order, true, {0.1, 0.9}).penetration(0.37, u.ua, u.dx, u.dy));
     std::vector<ContactStrip::Interval> zones;
     strip.contact_intervals(u.ua, u.dx, u.dy, zones);
     ASSERT_FALSE(zones.empty());
@@ -109,7 +111,8 @@ TEST(ContactStrip, EndsOfContactAreRootsWhereSamplesDoNotResolveTheAxis) {
   for (int n = 0; n < 200; ++n) {
     const int order = 1 + n % 8;
     const Drawn u = draw(random, order);
-    const ContactStrip strip(order, {axis, 1.0, 0.0, axis->length(), {}}, {0.05, 1.0}, 1.0, 0.02, 0);
+    const ContactStrip strip(order, {true, {}, 1.0}, {axis, 0.0, axis->length()}, {0.05, 1.0},
+                             {1.0, 0.02, true}, 0);
     std::vector<ContactStrip::Interval> zones;
     strip.contact_intervals(u.ua, u.dx, u.dy, zones);
     for (const auto& zone : zones)
@@ -126,7 +129,7 @@ TEST(ContactStrip, SlopeIsTheDerivativeOfThePenetration) {
   std::mt19937 random(5);
   for (const bool curved : {false, true}) {
     const Drawn u = draw(random, 5);
-    const ContactStrip strip(5, direction(curved), {0.0, 1.0}, 1.0, 0.1, 0);
+    const ContactStrip strip = strip_on(5, curved, {0.0, 1.0}).with_gap(0.1);
     constexpr double kStep = 1e-4;
     for (const double at : {0.13, 0.5, 0.88}) {
       const double difference = (strip.penetration(at + kStep, u.ua, u.dx, u.dy) -
@@ -152,7 +155,7 @@ TEST(ContactStrip, FindsZonesBesideAClampedEnd) {
         }
         u.ua = {0.0, at_start ? 0.0 : sign * (c - 1.0)};
         for (const double rounding : {0.0, 1e-19, -1e-19}) {
-          const ContactStrip strip(3, {nullptr, 1.0, 0.0, 0.0, {0.0, 1.0}}, {0.0, 1.0}, 1.0, rounding, 0);
+          const ContactStrip strip(3, {false, {0.0, 1.0}, 1.0}, {}, {0.0, 1.0}, {1.0, rounding, true}, 0);
           std::vector<ContactStrip::Interval> zones;
           strip.contact_intervals(u.ua, u.dx, u.dy, zones);
           const auto place = [at_start](double t) { return at_start ? t : 1.0 - t; };
