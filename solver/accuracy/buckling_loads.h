@@ -14,7 +14,7 @@ namespace snapthrough {
 
 /// Buckling loads on the coarsest mesh that is fine enough for all of them.
 struct BucklingLoads {
-  std::shared_ptr<const Structure> structure;  ///< with the contact frozen, as linear_buckling() leaves it
+  std::shared_ptr<const Structure> structure;
   LinearBuckling buckling;
   std::vector<std::optional<double>>
       errors;              ///< relative, one a load; empty: the next mesh has another count

@@ -27,7 +27,7 @@ namespace {
 using Eigen::VectorXd;
 
 /// Which one-sided bases count as glued, in words.
-std::string contact_text(const Structure& structure, const Model& model) {
+std::string contact_text(const Structure& structure, const Model& model, const FrozenContact& contact) {
   const std::optional<Model> joined = with_joined_supports(model);
   const Model& laws = joined ? *joined : model;
   struct Share {
@@ -43,7 +43,7 @@ std::string contact_text(const Structure& structure, const Model& model) {
     share.all += (base.range[1] - base.range[0]) * structure.axes[member]->length() / structure.scales.length;
     for (int e = structure.mesh.first[member]; e < structure.mesh.first[member + 1]; ++e)
       share.glued +=
-          length_of_element(structure, e) * structure.elements->frozen_share(e, static_cast<int>(i));
+          length_of_element(structure, e) * structure.elements->frozen_share(contact, e, static_cast<int>(i));
   }
   std::string text = joined ? "; one-sided supports that oppose one another act as bilateral ones" : "";
   for (const auto& [id, share] : shares)
@@ -125,7 +125,7 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   }
   report_buckling(analysis, std::move(found), result);
   warn_of_touching(structure, buckling.piece, result);
-  result.summary.message += contact_text(structure, model);
+  result.summary.message += contact_text(structure, model, buckling.contact);
   report_errors(analysis, loads, result);
 }
 

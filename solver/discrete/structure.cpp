@@ -28,12 +28,14 @@ class Builder {
 
   void set_scales();
   void number_unknowns();
-  void add_elements(Geometry geometry);
+  void add_elements();
   void add_supports();
   /// @param load_scale of another mesh of the model; empty: from the loads themselves
   void add_loads(std::optional<double> load_scale);
   void set_metric();
   void add_monitors();
+  /// The elements are complete.
+  void finish() { out_.elements = std::move(elements_); }
 
  private:
   void add_element_supports(int element);
@@ -66,6 +68,7 @@ class Builder {
   const Model& model_;
   const Model& laws_;
   Structure& out_;
+  std::unique_ptr<ElementSet> elements_;
   std::vector<ElementPressure> pressures_;
   double strain_size_ = 0.0;  ///< forces that the proportional initial strains would need
 };
@@ -176,13 +179,13 @@ void Builder::add_base(int element, int index) {
   const FoundationLaw law = law_of(base, out_.scales);
   if (law.shear > 0.0)
     for (const Station& station : shear_layer_stations(out_, law, element, range))
-      out_.elements->add_station(station);
+      elements_->add_station(station);
   if (law.law.stiffness == 0.0) return;
   if (law.law.one_sided && out_.mesh.foundation == FoundationRule::consistent)
     add_strips(element, index);
   else
     for (const Station& station : winkler_stations(out_, law, element, range))
-      out_.elements->add_station(station);
+      elements_->add_station(station);
 }
 
 /// A one-sided base on an element: the parts that touch without pressure apart from the rest.
@@ -191,7 +194,7 @@ void Builder::add_strips(int element, int index) {
   const FoundationLaw law = law_of(base, out_.scales);
   const auto add = [&](std::array<double, 2> fractions, Touch touch) {
     const auto range = part_of(out_.mesh.elements[element], fractions);
-    if (range[1] > range[0]) out_.elements->add_strip(element, make_strip(element, law, index, range), touch);
+    if (range[1] > range[0]) elements_->add_strip(element, make_strip(element, law, index, range), touch);
   };
   double from = base.range[0];
   for (const TouchingSupports::BasePart& part : out_.touching.bases) {
@@ -218,7 +221,7 @@ void Builder::add_point_spring(int element, std::size_t index) {
   station.law = law.law;
   station.touch = touch_of_spring(index);
   station.spring = static_cast<int>(index);
-  out_.elements->add_station(station);
+  elements_->add_station(station);
 }
 
 void Builder::add_element_supports(int element) {
@@ -231,14 +234,13 @@ void Builder::add_element_supports(int element) {
     if (laws_.springs[i].at.member == member) add_point_spring(element, i);
 }
 
-void Builder::add_elements(Geometry geometry) {
-  out_.elements = make_element_set(out_.mesh.order);
-  out_.elements->reserve(static_cast<int>(out_.mesh.elements.size()));
-  out_.elements->set_linear_geometry(geometry == Geometry::linear);
+void Builder::add_elements() {
+  elements_ = make_element_set(out_.mesh.order);
+  elements_->reserve(static_cast<int>(out_.mesh.elements.size()));
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
     const StressFreeAxis& axis = *out_.stress_free[m];
     for (int e = out_.mesh.first[m]; e < out_.mesh.first[m + 1]; ++e) {
-      out_.elements->add(shape_on(out_, model_, e, axis), out_.dofs[e]);
+      elements_->add(shape_on(out_, model_, e, axis), out_.dofs[e]);
       add_element_supports(e);
     }
   }
@@ -370,7 +372,7 @@ void Builder::scale_loads(std::optional<double> load_scale) {
   for (JointSupport& support : out_.supports)
     for (double& value : support.proportional) value /= total;
   for (const ElementPressure& p : pressures_)
-    out_.elements->set_pressure(p.element, p.proportional / total, p.constant);
+    elements_->set_pressure(p.element, p.proportional / total, p.constant);
   find_follower_ends(total);
 }
 
@@ -497,11 +499,12 @@ void fill(const Model& model, std::optional<double> load_scale, Structure& out) 
   Builder builder(model, laws, out);
   builder.set_scales();
   builder.number_unknowns();
-  builder.add_elements(out.geometry);
+  builder.add_elements();
   builder.add_supports();
   builder.add_loads(load_scale);
   builder.set_metric();
   builder.add_monitors();
+  builder.finish();
   const auto one_sided = [](const auto& support) { return is_one_sided(support); };
   out.one_sided = std::any_of(laws.foundations.begin(), laws.foundations.end(), one_sided) ||
                   std::any_of(laws.springs.begin(), laws.springs.end(), one_sided);

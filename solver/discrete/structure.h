@@ -83,7 +83,7 @@ struct FoundationPart {
   std::optional<ContactStrip> strip;      ///< of a one-sided foundation, also where the mesh lumps it
 };
 
-/// @brief Everything that assembly needs, built once for a model and a mesh.
+/// @brief Everything that assembly needs, built once for a model and a mesh; const from then on.
 struct Structure {
   Scales scales;
   Mesh mesh;
@@ -95,7 +95,7 @@ struct Structure {
   int free_displacements = 0;  ///< of them, free displacement unknowns (interiors included, releases counted)
   int joints = 0;
   int releases = 0;  ///< scalar rotations of released member ends, after the joints' unknowns
-  std::unique_ptr<ElementSet> elements;
+  std::unique_ptr<const ElementSet> elements;
   std::vector<ElementDofs> dofs;       ///< of each element
   std::vector<JointSupport> supports;  ///< of each node
   std::vector<JointSpring> joint_springs;

@@ -14,6 +14,7 @@
 #include "solver/numeric/chebyshev_series.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/support/law.h"
+#include "solver/support/regime.h"
 
 namespace snapthrough {
 
@@ -30,10 +31,7 @@ class ContactStrip {
     double s0 = 0.0;                        ///< arc length of the element's start, in the axis' own units
     double ds = 0.0;                        ///< arc length over the element, same units
   };
-  struct Interval {
-    double from = 0.0;
-    double to = 0.0;
-  };
+  using Interval = ElementPart;
 
   /// @param range part of the element, in [0, 1]
   /// @param law its stiffness K times the element's length (a sum of weights times it integrates K ds)

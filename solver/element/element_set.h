@@ -19,7 +19,7 @@
 /// iteration of Magisano, Leonetti and Garcea (2017).
 ///
 /// Element interiors (v, s) are eliminated element by element in terms of the strains, see
-/// element_set_impl.h.
+/// element_work.h.
 
 #include <Eigen/Core>
 #include <array>
@@ -31,6 +31,7 @@
 #include "solver/element/contact_strip.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/support/law.h"
+#include "solver/support/regime.h"
 
 namespace snapthrough {
 
@@ -82,7 +83,7 @@ struct TouchingStrip {
   int element = 0;
   int base = 0;
   std::array<double, 2> range{};  ///< of the element
-  std::vector<ContactStrip::Interval> acting;
+  std::vector<ElementPart> acting;
 };
 
 /// What remains of an element once its interior is eliminated; with rows for (u_a, m):
@@ -94,10 +95,47 @@ struct CondensedElement {
   double log_det = 0.0;  ///< log |det| of the interior
 };
 
-/// @brief All elements of one mesh, of one order.
+/// @brief What is computed of elements: forces, and their tangent eliminated down to the elements' ends.
 ///
-/// Not thread safe: it keeps the factors of the last linearise(). All vectors are in the problem's scaled
-/// units and have the layout that the ElementDofs name.
+/// Not thread safe: it keeps the factors of the last linearise(), and scratch. All vectors are in the
+/// problem's scaled units and have the layout that the ElementDofs name.
+class ElementWork {
+ public:
+  ElementWork() = default;
+  ElementWork(const ElementWork&) = delete;
+  ElementWork& operator=(const ElementWork&) = delete;
+  ElementWork(ElementWork&&) = delete;
+  ElementWork& operator=(ElementWork&&) = delete;
+  virtual ~ElementWork() = default;
+
+  /// @brief Adds the internal forces and compatibility residuals at y to `residual`.
+  /// @param factors on follower pressures
+  virtual void add_residual(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                            Eigen::VectorXd& residual) = 0;
+  /// @brief As add_residual, and eliminates all interiors: `condensed` (one an element) gets K, X, F,
+  /// negative, log_det.
+  virtual void linearise(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                         Eigen::VectorXd& residual, std::span<CondensedElement> condensed) = 0;
+  /// @brief Interior part of a right-hand side: fills ra and rm of `condensed`.
+  virtual void reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) = 0;
+  /// @brief Replaces the interior rows of `x` (a right-hand side on entry) by the solution, from the solution
+  /// at the ends and the multipliers that `x` already holds.
+  virtual void recover(Eigen::VectorXd& x) = 0;
+  /// Adds the second derivative of the energy times `directions`, column by column, to `out`.
+  virtual void add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors,
+                                    const Regime& regime, const Eigen::Ref<const Eigen::MatrixXd>& directions,
+                                    Eigen::MatrixXd& out) = 0;
+  /// @brief Adds the follower forces at y to `out` (a load: minus a residual).
+  virtual void add_pressure_load(const Eigen::VectorXd& y, const LoadFactors& factors,
+                                 bool small_displacements, Eigen::VectorXd& out) = 0;
+  /// @brief Rounding of the forces of bases and springs at the last residual or linearisation, the largest of
+  /// an element: stiffness times the rounding of the displacements that their penetrations are differences
+  /// of.
+  [[nodiscard]] virtual double support_rounding() const = 0;
+};
+
+/// @brief All elements of one mesh, of one order, with the supports on them: data alone, which nothing
+/// changes once a structure is made.
 class ElementSet {
  public:
   ElementSet() = default;
@@ -114,60 +152,33 @@ class ElementSet {
   virtual void add(const ElementShape& shape, const ElementDofs& dofs) = 0;
   virtual void add_station(const Station& station) = 0;
   virtual void add_strip(int element, ContactStrip strip, Touch touch) = 0;
-  /// Uses small displacements: strains linearised about the stress-free axis.
-  virtual void set_linear_geometry(bool linear) = 0;
-  /// Treats one-sided supports as glued and without gap, as long as it is set.
-  virtual void set_bonded(bool bonded) = 0;
-  /// One-sided supports also react in both directions, without gap, with this share of their stiffness.
-  virtual void set_grip(double share) = 0;
-  /// One-sided supports have this share of their stiffness only, in (0, 1].
-  virtual void set_softness(double share) = 0;
-  /// @brief From now on one-sided supports are glued where they touch at y (penetration above `-tolerance`)
-  /// and absent elsewhere, whatever the displacements.
-  virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance) = 0;
-  /// @brief Finds the one-sided supports that touch without pressure at y: those no further from touching
-  /// than `tolerance`, strips on all of their range. freeze_contact() does so, too.
-  virtual void mark_touching(const Eigen::VectorXd& y, double tolerance) = 0;
-  [[nodiscard]] virtual bool strips_touch() const = 0;
-  /// In the order of the two functions below.
-  [[nodiscard]] virtual std::vector<TouchingStation> touching_stations() const = 0;
-  /// Appends the movement of each touching station into its medium.
-  virtual void touching_movements(const Eigen::VectorXd& mode, std::vector<double>& out) const = 0;
-  /// @brief Where the contact is frozen: of the supports that touch these stations act, and strips where
-  /// `mode` moves into their medium; with an empty mode they act on all of their range.
-  virtual void set_touching(const Eigen::VectorXd& mode, std::span<const char> stations) = 0;
-  /// As set_touching() left them.
-  [[nodiscard]] virtual std::vector<TouchingStrip> touching_strips() const = 0;
-  /// Share of an element on which a foundation's frozen contact acts.
-  [[nodiscard]] virtual double frozen_share(int element, int foundation) const = 0;
   /// @brief Follower pressure of an element: force per deformed length, along its deformed right normal (so a
   /// medium on the left pushes), proportional to the load factor and constant.
   virtual void set_pressure(int element, double proportional, double constant) = 0;
-  /// Factors on the pressures, used by everything below until they are set again.
-  virtual void set_load_factors(double proportional, double constant) = 0;
-  /// @brief Adds the follower forces at y, by unit factors given, to `out` (a load: minus a residual).
-  virtual void add_pressure_load(const Eigen::VectorXd& y, double proportional, double constant,
-                                 Eigen::VectorXd& out) const = 0;
+  /// @brief Room to compute in; refers to this set, which must outlive it.
+  [[nodiscard]] virtual std::unique_ptr<ElementWork> make_work() const = 0;
 
-  /// @brief Adds the internal forces and compatibility residuals at y to `residual`.
-  virtual void add_residual(const Eigen::VectorXd& y, Eigen::VectorXd& residual) = 0;
-  /// @brief As add_residual, and eliminates all interiors: `condensed` (size()) gets K, X, F, negative,
-  /// log_det.
-  virtual void linearise(const Eigen::VectorXd& y, Eigen::VectorXd& residual,
-                         std::span<CondensedElement> condensed) = 0;
-  /// @brief Interior part of a right-hand side: fills ra and rm of `condensed`.
-  virtual void reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) = 0;
-  /// @brief Replaces the interior rows of `x` (a right-hand side on entry) by the solution, from the solution
-  /// at the ends and the multipliers that `x` already holds.
-  virtual void recover(Eigen::VectorXd& x) = 0;
-  /// @brief Rounding of the forces of bases and springs at the last residual or linearisation, the largest of
-  /// an element: stiffness times the rounding of the displacements that their penetrations are differences
-  /// of.
-  [[nodiscard]] virtual double support_rounding() const = 0;
-  /// Adds the second derivative of the energy times `directions`, column by column, to `out`.
-  virtual void add_tangent_products(const Eigen::VectorXd& y,
-                                    const Eigen::Ref<const Eigen::MatrixXd>& directions,
-                                    Eigen::MatrixXd& out) = 0;
+  /// @brief Where one-sided supports touch at y (penetration above `-tolerance`): sets strips and stations.
+  virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const = 0;
+  /// @brief The one-sided supports that touch without pressure at y: those no further from touching than
+  /// `tolerance`, strips on all of their range. Sets strips and stations.
+  virtual void mark_touching(const Eigen::VectorXd& y, double tolerance, TouchingMarks& out) const = 0;
+  /// In the order of the two functions below. @param frozen null: none acts
+  [[nodiscard]] virtual std::vector<TouchingStation> touching_stations(const TouchingMarks& marks,
+                                                                       const FrozenContact* frozen) const = 0;
+  /// Appends the movement of each touching station into its medium.
+  virtual void touching_movements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
+                                  std::vector<double>& out) const = 0;
+  /// @brief Of the supports that touch these stations act, and strips where `mode` moves into their medium;
+  /// with an empty mode they act on all of their range.
+  virtual void set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode,
+                            std::span<const char> stations, FrozenContact& out) const = 0;
+  /// As set_touching() left them. @param frozen null: none acts
+  [[nodiscard]] virtual std::vector<TouchingStrip> touching_strips(const TouchingMarks& marks,
+                                                                   const FrozenContact* frozen) const = 0;
+  /// Share of an element on which a foundation acts.
+  [[nodiscard]] virtual double frozen_share(const FrozenContact& frozen, int element,
+                                            int foundation) const = 0;
 };
 
 /// @brief An empty set for elements of an order in 1..kMaxOrder.

@@ -30,7 +30,7 @@ class Pencil {
   void solve(VectorXd& x) { problem_.solve(x); }
   [[nodiscard]] VectorXd geometric(const VectorXd& x);
   [[nodiscard]] VectorXd product(double lambda, const VectorXd& x) {
-    return problem_.tangent_product(stress(lambda), lambda, x);
+    return problem_.tangent_product(stress(lambda), lambda, x, regime());
   }
   /// Rayleigh's quotient of a motion, from the tangent itself and not its factors.
   [[nodiscard]] double quotient(const VectorXd& x) { return -x.dot(product(0.0, x)) / x.dot(geometric(x)); }
@@ -39,9 +39,14 @@ class Pencil {
   /// Whether what is held carries nothing at a load factor.
   [[nodiscard]] bool holds_are_idle(double lambda);
   [[nodiscard]] const SharedHolds& holds() const { return holds_; }
+  [[nodiscard]] const TouchingMarks& marks() const { return marks_; }
+  /// Where one-sided supports act; what is changed here counts from then on.
+  [[nodiscard]] FrozenContact& contact() { return contact_; }
 
  private:
-  [[nodiscard]] VectorXd linear_response(StructuralProblem::Stage stage, double lambda);
+  [[nodiscard]] Regime regime() const;
+  [[nodiscard]] VectorXd linear_response(StructuralProblem::Stage stage, double lambda, Regime regime);
+  void freeze_contact(double reference);
   [[nodiscard]] VectorXd stress(double lambda) const;
 
   const Structure& structure_;
@@ -49,15 +54,27 @@ class Pencil {
   VectorXd constant_;
   VectorXd proportional_;
   SharedHolds holds_;  ///< motions that nothing resists
+  TouchingMarks marks_;
+  FrozenContact contact_;
   int factorizations_ = 0;
 };
 
-/// Small displacements under the actions of a stage, from the unloaded state; contact frozen or not.
-VectorXd Pencil::linear_response(StructuralProblem::Stage stage, double lambda) {
+/// The contact of the reference load, once it is known.
+Regime Pencil::regime() const {
+  Regime regime;
+  if (!structure_.one_sided) return regime;
+  regime.contact = Regime::Contact::frozen;
+  regime.frozen = &contact_;
+  return regime;
+}
+
+/// Small displacements under the actions of a stage, from the unloaded state.
+VectorXd Pencil::linear_response(StructuralProblem::Stage stage, double lambda, Regime regime) {
+  regime.small_displacements = true;
   problem_.set_stage(stage);
   VectorXd y = VectorXd::Zero(problem_.size());
   VectorXd residual;
-  problem_.linearise(y, 0.0, residual);
+  problem_.linearise(y, 0.0, residual, regime);
   ++factorizations_;
   VectorXd response;
   problem_.load(y, 0.0, response);
@@ -72,43 +89,48 @@ bool Pencil::holds_are_idle(double lambda) {
   constexpr double kIdle = 1e-6;
   ++factorizations_;
   const double bound = kIdle * std::max(1.0, std::abs(lambda));
-  const MotionStiffness held = motion_stiffness(problem_, holds_, stress(lambda), lambda);
+  const MotionStiffness held = motion_stiffness(problem_, holds_, stress(lambda), lambda, regime());
   const VectorXd moved =
       holds_->motions.transpose() * (constant_ + lambda * proportional_).head(holds_->motions.rows());
   return held.stiffness.lpNorm<Eigen::Infinity>() <= bound && moved.lpNorm<Eigen::Infinity>() <= bound;
 }
 
+/// Equilibrium under both kinds of actions with unilateral contact, from the glued one.
+void Pencil::freeze_contact(double reference) {
+  Regime glued;
+  glued.contact = Regime::Contact::bilateral;
+  VectorXd y = linear_response(StructuralProblem::Stage::constant, 1.0, glued) +
+               linear_response(StructuralProblem::Stage::proportional, reference, glued);
+  const PathMetric metric{&structure_.metric, 0.0};
+  const double size = metric.norm(y, 0.0);
+  if (size > 0.0) {
+    CorrectorOptions options;
+    options.max_iterations = 60;
+    options.largest_correction = std::numeric_limits<double>::infinity();
+    options.regime.small_displacements = true;
+    Workspace work;
+    double lambda = reference;
+    factorizations_ += correct(problem_, metric, {}, size, options, y, lambda, work).factorisations;
+  }
+  constexpr double kTouching = 1e-9;
+  const double tolerance = kTouching * y.head(3 * structure_.joints).lpNorm<Eigen::Infinity>() + 1e-14;
+  contact_ = problem_.frozen_contact(y, tolerance);
+  marks_ = problem_.marks_at(y, tolerance);
+}
+
 void Pencil::set_prestress(double reference) {
-  structure_.elements->set_linear_geometry(true);
   const SharedHolds soft = held_softly(problem_);
   problem_.set_holds(soft);
-  if (structure_.one_sided) {
-    // equilibrium under both kinds of actions with unilateral contact, from the glued one
-    problem_.set_bonded(true);
-    VectorXd y = linear_response(StructuralProblem::Stage::constant, 1.0) +
-                 linear_response(StructuralProblem::Stage::proportional, reference);
-    problem_.set_bonded(false);
-    const PathMetric metric{&structure_.metric, 0.0};
-    const double size = metric.norm(y, 0.0);
-    if (size > 0.0) {
-      CorrectorOptions options;
-      options.max_iterations = 60;
-      options.largest_correction = std::numeric_limits<double>::infinity();
-      Workspace work;
-      double lambda = reference;
-      factorizations_ += correct(problem_, metric, {}, size, options, y, lambda, work).factorisations;
-    }
-    constexpr double kTouching = 1e-9;
-    problem_.freeze_contact(y, kTouching * y.head(3 * structure_.joints).lpNorm<Eigen::Infinity>() + 1e-14);
-  }
+  if (structure_.one_sided) freeze_contact(reference);
   if (soft) {
-    holds_ = softly_held(problem_, soft, VectorXd::Zero(problem_.size()), 0.0).neutral;
+    Regime small = regime();
+    small.small_displacements = true;
+    holds_ = softly_held(problem_, soft, VectorXd::Zero(problem_.size()), 0.0, small).neutral;
     ++factorizations_;
     problem_.set_holds(holds_);
   }
-  constant_ = linear_response(StructuralProblem::Stage::constant, 1.0);
-  proportional_ = linear_response(StructuralProblem::Stage::proportional, 1.0);
-  structure_.elements->set_linear_geometry(false);
+  constant_ = linear_response(StructuralProblem::Stage::constant, 1.0, regime());
+  proportional_ = linear_response(StructuralProblem::Stage::proportional, 1.0, regime());
 }
 
 VectorXd Pencil::stress(double lambda) const {
@@ -123,7 +145,7 @@ VectorXd Pencil::stress(double lambda) const {
 int Pencil::count(double lambda) {
   VectorXd residual;
   ++factorizations_;
-  return problem_.linearise(stress(lambda), lambda, residual).negative;
+  return problem_.linearise(stress(lambda), lambda, residual, regime()).negative;
 }
 
 VectorXd Pencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }
@@ -350,14 +372,17 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
   Pencil pencil(structure, problem);
   pencil.set_prestress(reference);
   out.holds = pencil.holds();
+  out.contact = pencil.contact();
   out.is_mechanism = !pencil.holds_are_idle(reference);
   if (out.is_mechanism) return out;
-  const bool held_without = structure.free_motions.cols() == 0;
-  out.touches =
-      structure.one_sided && held_without && (problem.bases_touch() || problem.touching_springs() > 0);
-  if (out.touches) out.piece = set_least_piece(problem, solver_of(pencil, problem.size()), near);
+  const TouchingMarks& marks = pencil.marks();
+  out.touches = structure.one_sided && structure.free_motions.cols() == 0 && has_any(marks);
+  if (out.touches)
+    out.piece = set_least_piece(problem, solver_of(pencil, problem.size()), marks, near, pencil.contact());
   find_loads(pencil, problem.size(), count, out);
   out.factorizations = pencil.factorizations();
+  out.marks = marks;
+  out.contact = std::move(pencil.contact());
   return out;
 }
 

@@ -21,8 +21,10 @@ struct LinearBuckling {
   /// no reference state to linearise about. No loads then.
   bool is_mechanism = false;
   int factorizations = 0;
-  bool touches = false;  ///< some one-sided supports touch without pressure under the reference load
-  LeastPiece piece;      ///< what was found for them
+  bool touches = false;   ///< some one-sided supports touch without pressure under the reference load
+  LeastPiece piece;       ///< what was found for them
+  TouchingMarks marks;    ///< of them
+  FrozenContact contact;  ///< that the loads are of
 };
 
 /// @brief The lowest `count` buckling loads of a structure.
@@ -33,7 +35,7 @@ struct LinearBuckling {
 /// absent where they are left. Those that touch without pressure act in the piece that becomes unstable first
 /// (set_least_piece()): the first load is the critical one, the others are those of the same piece. Where
 /// nothing else holds the structure they are glued.
-/// @param structure not linear in its geometry; its contact state is frozen on return
+/// @param structure not linear in its geometry
 /// @param reference scaled load factor of the reference load
 /// @param near the first mode on a coarser mesh, where supports touch without pressure; empty: not known
 [[nodiscard]] LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem,

@@ -22,7 +22,9 @@ constexpr int kMostSprings = 30;
 
 class Search {
  public:
-  Search(StructuralProblem& problem, const PieceSolver& solver) : problem_(problem), solver_(solver) {}
+  Search(const StructuralProblem& problem, const PieceSolver& solver, const TouchingMarks& marks,
+         FrozenContact& contact)
+      : problem_(problem), solver_(solver), marks_(marks), contact_(contact) {}
 
   [[nodiscard]] LeastPiece over_springs();
   [[nodiscard]] LeastPiece by_descent(const VectorXd& near);
@@ -47,34 +49,36 @@ class Search {
   /// Follows the quotient down from a motion; sets `least_` when it ends lower.
   void descend(VectorXd motion);
 
-  StructuralProblem& problem_;
+  const StructuralProblem& problem_;
   const PieceSolver& solver_;
+  const TouchingMarks& marks_;
+  FrozenContact& contact_;
   std::vector<double> movements_;
   std::vector<char> acting_;
   Piece least_{std::numeric_limits<double>::infinity(), {}};
 };
 
 void Search::set_springs(unsigned springs) {
-  acting_.resize(problem_.touching_springs());
+  acting_.resize(problem_.touching_springs(marks_));
   for (std::size_t i = 0; i < acting_.size(); ++i) acting_[i] = (springs >> i) % 2 != 0;
-  problem_.set_touching(VectorXd::Zero(problem_.size()), acting_);
+  problem_.set_touching(marks_, VectorXd::Zero(problem_.size()), acting_, contact_);
 }
 
 void Search::set_all(bool acting) {
-  acting_.assign(problem_.touching_springs(), acting ? 1 : 0);
-  problem_.set_touching(acting ? VectorXd() : VectorXd::Zero(problem_.size()), acting_);
+  acting_.assign(problem_.touching_springs(marks_), acting ? 1 : 0);
+  problem_.set_touching(marks_, acting ? VectorXd() : VectorXd::Zero(problem_.size()), acting_, contact_);
 }
 
 void Search::set_cone_of(const VectorXd& motion) {
-  problem_.touching_movements(motion, movements_);
+  problem_.touching_movements(marks_, motion, movements_);
   acting_.resize(movements_.size());
   for (std::size_t i = 0; i < acting_.size(); ++i) acting_[i] = movements_[i] > 0.0;
-  problem_.set_touching(motion, acting_);
+  problem_.set_touching(marks_, motion, acting_, contact_);
 }
 
 /// Whether the mode, one way or the other, moves into the springs that act and into no other.
 bool Search::fits(const VectorXd& mode, unsigned springs) {
-  problem_.touching_movements(mode, movements_);
+  problem_.touching_movements(marks_, mode, movements_);
   bool one_way = true;
   bool other_way = true;
   for (std::size_t i = 0; i < movements_.size(); ++i) {
@@ -93,7 +97,7 @@ Search::Node Search::visit(unsigned springs, std::size_t next) {
 }
 
 LeastPiece Search::over_springs() {
-  const std::size_t count = problem_.touching_springs();
+  const std::size_t count = problem_.touching_springs(marks_);
   std::priority_queue<Node> queue;
   queue.push(visit(0U, 0));
   for (int pieces = 1; !queue.empty();) {
@@ -165,9 +169,11 @@ LeastPiece Search::by_descent(const VectorXd& near) {
 
 }  // namespace
 
-LeastPiece set_least_piece(StructuralProblem& problem, const PieceSolver& solver, const VectorXd& near) {
-  Search search(problem, solver);
-  if (!problem.bases_touch() && problem.touching_springs() <= kMostSprings)
+LeastPiece set_least_piece(const StructuralProblem& problem, const PieceSolver& solver,
+                           const TouchingMarks& marks, const VectorXd& near, FrozenContact& contact) {
+  Search search(problem, solver, marks, contact);
+  const bool bases = std::find(marks.strips.begin(), marks.strips.end(), 1) != marks.strips.end();
+  if (!bases && problem.touching_springs(marks) <= kMostSprings)
     if (const LeastPiece least = search.over_springs(); least.found) return least;
   return search.by_descent(near);
 }

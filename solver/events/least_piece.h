@@ -32,7 +32,7 @@ struct LeastPiece {
   Eigen::VectorXd motion = {};
 };
 
-/// @brief Sets the touching supports of a problem to the piece that becomes unstable first.
+/// @brief Sets the touching supports in a frozen contact to the piece that becomes unstable first.
 ///
 /// Each touching support resists motions v into it and no others, so the second variation of the energy,
 ///
@@ -48,8 +48,10 @@ struct LeastPiece {
 /// its cone. That one is the least, with certainty. Bases: Rayleigh's quotient of Q falls from the modes of
 /// the free and of the glued structure, both ways, each step towards the lowest mode of the piece at hand.
 /// @param near the critical motion of a coarser mesh, from which alone it falls then; empty: not known
-/// @pre problem.freeze_contact() was called, at the prestress that `solver` uses
-[[nodiscard]] LeastPiece set_least_piece(StructuralProblem& problem, const PieceSolver& solver,
-                                         const Eigen::VectorXd& near);
+/// @param contact of the prestress that `solver` uses; the solver computes with what is set here
+/// @param marks of the same prestress
+[[nodiscard]] LeastPiece set_least_piece(const StructuralProblem& problem, const PieceSolver& solver,
+                                         const TouchingMarks& marks, const Eigen::VectorXd& near,
+                                         FrozenContact& contact);
 
 }  // namespace snapthrough

@@ -16,13 +16,16 @@ using Eigen::VectorXd;
 
 constexpr double kOnTheWay = 0.5;  ///< share of a load on the way to which supports must go on touching
 
-/// Marks the supports that touch at a state; whether there are any.
-bool mark_touching(const Structure& structure, StructuralProblem& problem, const VectorXd& y) {
+/// The supports that touch at a state.
+TouchingMarks marks_at(const Structure& structure, const StructuralProblem& problem, const VectorXd& y) {
   constexpr double kTouching = 1e-9;
   constexpr double kRounding = 1e-14;
   const double largest = y.head(3 * structure.joints).lpNorm<Eigen::Infinity>();
-  problem.mark_touching(y, kTouching * largest + kRounding);
-  return problem.bases_touch() || problem.touching_springs() > 0;
+  return problem.marks_at(y, kTouching * largest + kRounding);
+}
+
+bool any_touch(const Structure& structure, const StructuralProblem& problem, const VectorXd& y) {
+  return has_any(marks_at(structure, problem, y));
 }
 
 /// Lengths of bases (in fractions) and number of springs.
@@ -45,8 +48,10 @@ bool still_touch(const Structure& structure, const VectorXd& from, double lambda
   problem.solve(movement);
   VectorXd y = from + lambda * movement;
   const auto outcome = correct(problem, metric, {}, lambda * metric.norm(movement, 0.0), {}, y, lambda, work);
-  if (outcome.status != CorrectorStatus::converged || !mark_touching(structure, problem, y)) return false;
-  return std::abs(amount(problem.touching()) - amount(structure.touching)) <= kAll;
+  if (outcome.status != CorrectorStatus::converged) return false;
+  const TouchingMarks marks = marks_at(structure, problem, y);
+  return has_any(marks) &&
+         std::abs(amount(problem.touching(marks, nullptr)) - amount(structure.touching)) <= kAll;
 }
 
 bool is_known(const TouchingSupports& touching) {
@@ -56,11 +61,11 @@ bool is_known(const TouchingSupports& touching) {
 /// What the supports do that touch under a reference load; empty: nothing is known.
 TouchingSupports least_piece(const Model& model, const Structure& structure, double reference,
                              const VectorXd& near, LinearBuckling& buckling) {
-  const Structure frozen = with_touching(structure, model, {});  // its contact stays frozen
-  StructuralProblem problem(frozen);
-  buckling = linear_buckling(frozen, problem, 1, reference, near);
+  const Structure unknown = with_touching(structure, model, {});
+  StructuralProblem problem(unknown);
+  buckling = linear_buckling(unknown, problem, 1, reference, near);
   if (!buckling.piece.found || buckling.loads.empty()) return {};
-  TouchingSupports out = problem.touching();
+  TouchingSupports out = problem.touching(buckling.marks, &buckling.contact);
   out.motion = buckling.piece.motion;
   out.reference = reference;
   return out;
@@ -75,12 +80,12 @@ bool glued_touches(const Structure& structure, StructuralProblem& problem) {
   const VectorXd zero = VectorXd::Zero(structure.size);
   VectorXd residual;
   VectorXd response;
-  problem.set_bonded(true);
-  problem.linearise(zero, 0.0, residual);
-  problem.set_bonded(false);
+  Regime glued;
+  glued.contact = Regime::Contact::bilateral;
+  problem.linearise(zero, 0.0, residual, glued);
   problem.load(zero, 0.0, response);
   problem.solve(response);
-  return mark_touching(structure, problem, structure.scales.load * response);
+  return any_touch(structure, problem, structure.scales.load * response);
 }
 
 }  // namespace
@@ -94,7 +99,7 @@ std::optional<Structure> with_least_piece(const Model& model, const Structure& s
                                                                    : structure.scales.load;
   if (start) {
     const VectorXd linear = start->y + (ahead / start->tangent_lambda) * start->tangent;
-    if (!mark_touching(structure, problem, linear) &&
+    if (!any_touch(structure, problem, linear) &&
         !(continuation.loosening() > kLoose && glued_touches(structure, problem)))
       return std::nullopt;
   }

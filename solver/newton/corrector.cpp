@@ -57,7 +57,8 @@ constexpr int kLeastIterations = 3;
 /// Share of the correction at which the forces do no work on it any more. At a given load and small
 /// displacements one-sided supports have a convex energy, of which this is the least along the correction:
 /// so Newton's method can't cycle between contact patterns.
-double least_energy(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lambda, Workspace& work) {
+double least_energy(EquilibriumProblem& problem, const Regime& regime, const Eigen::VectorXd& y,
+                    double lambda, Workspace& work) {
   constexpr int kMostTrials = 12;
   constexpr double kWorkLeft = 0.1;
   constexpr double kEnough = 0.5;
@@ -66,7 +67,7 @@ double least_energy(EquilibriumProblem& problem, const Eigen::VectorXd& y, doubl
   if (!(at_start < 0.0)) return 1.0;
   const auto work_at = [&](double share) {
     work.trial = y + share * work.correction;
-    problem.residual(work.trial, lambda, work.residual);
+    problem.residual(work.trial, lambda, work.residual, regime);
     return work.residual.dot(work.correction);
   };
   double low = 0.0;
@@ -102,7 +103,7 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
                Workspace& work) {
   work.trial = y + work.correction;
   if (exact || problem.one_sided()) {
-    problem.residual(work.trial, lambda + dlambda, work.residual);
+    problem.residual(work.trial, lambda + dlambda, work.residual, options.regime);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
     const double rounding =
         std::max(options.residual_floor, problem.residual_rounding(work.trial, lambda + dlambda));
@@ -177,9 +178,9 @@ class Progress {
 };
 
 /// Whether what the corrections left is what the supports' rounding leaves anyway.
-bool settled_to_rounding(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lambda,
-                         CorrectorOutcome& out, Workspace& work) {
-  problem.residual(y, lambda, work.residual);
+bool settled_to_rounding(EquilibriumProblem& problem, const Regime& regime, const Eigen::VectorXd& y,
+                         double lambda, CorrectorOutcome& out, Workspace& work) {
+  problem.residual(y, lambda, work.residual, regime);
   const double size = problem.relative_residual(work.residual, y, lambda);
   if (!(size <= problem.residual_rounding(y, lambda))) return false;
   out.relative_residual = size;
@@ -194,7 +195,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
   CorrectorOutcome out;
   Progress progress(options, scale);
   for (int it = 0; it < options.max_iterations; ++it) {
-    out.tangent = problem.linearise(y, lambda, work.residual);
+    out.tangent = problem.linearise(y, lambda, work.residual, options.regime);
     ++out.factorisations;
     const double residual = problem.relative_residual(work.residual, y, lambda);
     out.relative_residual = residual;
@@ -219,14 +220,15 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
       out.status = CorrectorStatus::converged;
       return out;
     }
-    const double share = options.least_energy ? least_energy(problem, y, lambda, work) : 1.0;
+    const double share = options.least_energy ? least_energy(problem, options.regime, y, lambda, work) : 1.0;
     y += share * work.correction;
     lambda += share * dlambda;
     if (size > options.largest_correction * scale) return out;
     if (!progress.goes_on(size, share, residual)) break;
   }
-  out.status = settled_to_rounding(problem, y, lambda, out, work) ? CorrectorStatus::converged
-                                                                  : CorrectorStatus::too_many_iterations;
+  out.status = settled_to_rounding(problem, options.regime, y, lambda, out, work)
+                   ? CorrectorStatus::converged
+                   : CorrectorStatus::too_many_iterations;
   return out;
 }
 

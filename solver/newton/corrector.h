@@ -48,6 +48,7 @@ struct CorrectorOptions {
   double largest_correction = 2.0;  ///< a correction beyond this many steps ends the iteration as diverged
   double largest_first = std::numeric_limits<double>::infinity();   ///< the same for the first
   double largest_growth = std::numeric_limits<double>::infinity();  ///< from one correction to the next
+  Regime regime;                                                    ///< how supports are taken
   bool least_energy = false;         ///< shortens corrections to where the energy is least, see correct()
   double residual_floor = 2e-13;     ///< relative residual that rounding allows; the iteration stops there
   double stagnant_residual = 1e-11;  ///< below it, one that no longer falls is rounding's, too

@@ -105,11 +105,11 @@ void Continuation::count(const CorrectorOutcome& outcome) {
   statistics_.iterations += outcome.factorisations;
 }
 
-bool Continuation::unit_response(const VectorXd& at, double lambda, bool bonded, VectorXd& response,
-                                 TangentReport& report) {
-  problem_.set_bonded(bonded);
-  report = problem_.linearise(at, lambda, work_.residual);
-  problem_.set_bonded(false);
+bool Continuation::unit_response(const VectorXd& at, double lambda, Regime::Contact contact,
+                                 VectorXd& response, TangentReport& report) {
+  Regime regime;
+  regime.contact = contact;
+  report = problem_.linearise(at, lambda, work_.residual, regime);
   ++statistics_.factorizations;
   problem_.load(at, lambda, response);
   problem_.solve(response);
@@ -125,9 +125,9 @@ bool Continuation::is_loose() {
   problem_.solve(motion);
   const double size = metric_.norm(motion, 0.0);
   if (size < kSingularResponse) return false;
-  problem_.set_bonded(true);
-  problem_.linearise(VectorXd::Zero(problem_.size()), 0.0, work_.residual);
-  problem_.set_bonded(false);
+  Regime glued;
+  glued.contact = Regime::Contact::bilateral;
+  problem_.linearise(VectorXd::Zero(problem_.size()), 0.0, work_.residual, glued);
   ++statistics_.factorizations;
   problem_.solve(held);
   if (size < kSingularResponse * metric_.norm(held, 0.0)) return false;
@@ -146,7 +146,7 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
   VectorXd response;
   TangentReport report;
   const VectorXd zero = VectorXd::Zero(problem_.size());
-  if (!unit_response(zero, 0.0, true, response, report)) return std::nullopt;
+  if (!unit_response(zero, 0.0, Regime::Contact::bilateral, response, report)) return std::nullopt;
   const double norm = metric_.norm(response, 0.0);
   if (norm == 0.0) return first_point(zero, 0.0, response, direction, report);
   // small in both: a thin column hardly moves before it buckles
@@ -184,7 +184,7 @@ std::optional<PathPoint> Continuation::start_at_rest(PathPoint rest, double dire
   VectorXd response;
   TangentReport report;
   if (outcome.status != CorrectorStatus::converged ||
-      !unit_response(rest.y, rest.lambda, false, response, report))
+      !unit_response(rest.y, rest.lambda, Regime::Contact::unilateral, response, report))
     return std::nullopt;
   return first_point(rest.y, rest.lambda, response, direction, report);
 }
@@ -295,7 +295,7 @@ bool Continuation::hold_neutral(const PathPoint& from, PathPoint& at) {
   if (!held.holds || held.holds->motions.cols() <= before || !settle_with(held.holds, held)) return false;
   VectorXd response;
   TangentReport report;
-  if (!unit_response(held.y, held.lambda, false, response, report)) return false;
+  if (!unit_response(held.y, held.lambda, Regime::Contact::unilateral, response, report)) return false;
   const double norm = metric_.norm(response, 1.0);
   const double sign = metric_.inner(response, 1.0, at.tangent, at.tangent_lambda) < 0.0 ? -1.0 : 1.0;
   held.tangent = (sign / norm) * response;
@@ -335,7 +335,7 @@ std::optional<PathPoint> Continuation::start_at(const VectorXd& y, double direct
   metric_.load_weight = 0.0;
   VectorXd response;
   TangentReport report;
-  if (!unit_response(y, 0.0, false, response, report)) return std::nullopt;
+  if (!unit_response(y, 0.0, Regime::Contact::unilateral, response, report)) return std::nullopt;
   PathPoint start = first_point(y, 0.0, response, direction, report);
   start.holds = holds;
   return start;
@@ -431,7 +431,8 @@ std::optional<PathPoint> Continuation::beyond_corner(const PathPoint& from, doub
   beyond.lambda += depth * from.tangent_lambda;
   VectorXd response;
   TangentReport report;
-  if (!unit_response(beyond.y, beyond.lambda, false, response, report)) return std::nullopt;
+  if (!unit_response(beyond.y, beyond.lambda, Regime::Contact::unilateral, response, report))
+    return std::nullopt;
   beyond.negative = count_next_to(from.negative, report);
   const double norm = metric_.norm(response, 1.0);
   beyond.tangent = response / norm;

@@ -177,7 +177,7 @@ class Continuation {
   [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
 
  private:
-  [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, double lambda, bool bonded,
+  [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, double lambda, Regime::Contact contact,
                                    Eigen::VectorXd& response, TangentReport& report);
   [[nodiscard]] std::optional<PathPoint> one_sided_start(double direction);
   [[nodiscard]] std::optional<PathPoint> softly_held_start(const SharedHolds& soft, double direction,

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "solver/problem/holds.h"
+#include "solver/support/regime.h"
 
 namespace snapthrough {
 
@@ -34,9 +35,14 @@ class EquilibriumProblem {
   /// displacement.
   [[nodiscard]] virtual const Eigen::VectorXd& metric() const = 0;
   /// @brief F(y, lambda); overwritten.
-  virtual void residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) = 0;
+  void residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f, const Regime& regime = {}) {
+    find_residual(y, lambda, regime, f);
+  }
   /// @brief F as residual(), and factorises J(y, lambda).
-  virtual TangentReport linearise(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) = 0;
+  TangentReport linearise(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f,
+                          const Regime& regime = {}) {
+    return factorise(y, lambda, regime, f);
+  }
   /// @brief -dF/dlambda at (y, lambda): the load by unit load factor.
   virtual void load(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& out) = 0;
   /// @brief x := J^-1 x with the last factorised J.
@@ -44,12 +50,6 @@ class EquilibriumProblem {
   /// Whether some support can act on one side only, so that the response need not be differentiable at zero
   /// load.
   [[nodiscard]] virtual bool one_sided() const { return false; }
-  /// Treats one-sided supports as glued, without gap, as long as it is set.
-  virtual void set_bonded(bool) {}
-  /// One-sided supports also react in both directions, without gap, with this share of their stiffness.
-  virtual void set_grip(double) {}
-  /// One-sided supports have this share of their stiffness only, in (0, 1].
-  virtual void set_softness(double) {}
   /// @brief Motions that nothing but one-sided supports can resist: orthonormal columns over the first
   /// unknowns; without columns where there are none.
   [[nodiscard]] virtual const Eigen::MatrixXd& free_motions() const;
@@ -61,11 +61,14 @@ class EquilibriumProblem {
     out.head(motion.size()) = motion;
   }
   /// @brief J(y, lambda) times motions, column by column, in the rows of linearise(); the factors stay.
-  [[nodiscard]] virtual Eigen::MatrixXd tangent_products(
-      const Eigen::VectorXd& y, double lambda, const Eigen::Ref<const Eigen::MatrixXd>& motions) = 0;
+  [[nodiscard]] Eigen::MatrixXd tangent_products(const Eigen::VectorXd& y, double lambda,
+                                                 const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                                                 const Regime& regime = {}) {
+    return find_products(y, lambda, regime, motions);
+  }
   [[nodiscard]] Eigen::VectorXd tangent_product(const Eigen::VectorXd& y, double lambda,
-                                                const Eigen::VectorXd& motion) {
-    return tangent_products(y, lambda, motion);
+                                                const Eigen::VectorXd& motion, const Regime& regime = {}) {
+    return tangent_products(y, lambda, motion, regime);
   }
   /// @brief Right-hand side of solve() for the forces W x, W the metric: none on what is fixed; overwritten.
   virtual void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
@@ -87,6 +90,16 @@ class EquilibriumProblem {
   /// @brief Relative residual that the rounding of stiff supports' forces leaves at y, where residual() or
   /// linearise() was called last; corrections that gain no more need not get below.
   [[nodiscard]] virtual double residual_rounding(const Eigen::VectorXd&, double) const { return 0.0; }
+
+ protected:
+  /// What the functions of the same purpose above do.
+  virtual void find_residual(const Eigen::VectorXd& y, double lambda, const Regime& regime,
+                             Eigen::VectorXd& f) = 0;
+  virtual TangentReport factorise(const Eigen::VectorXd& y, double lambda, const Regime& regime,
+                                  Eigen::VectorXd& f) = 0;
+  [[nodiscard]] virtual Eigen::MatrixXd find_products(const Eigen::VectorXd& y, double lambda,
+                                                      const Regime& regime,
+                                                      const Eigen::Ref<const Eigen::MatrixXd>& motions) = 0;
 };
 
 inline const Eigen::MatrixXd& EquilibriumProblem::free_motions() const {

@@ -14,11 +14,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 MotionStiffness motion_stiffness(EquilibriumProblem& problem, const SharedHolds& holds, const VectorXd& y,
-                                 double lambda) {
+                                 double lambda, const Regime& regime) {
   const MatrixXd& H = holds->motions;
   problem.set_holds(holds);
   VectorXd residual;
-  problem.linearise(y, lambda, residual);
+  problem.linearise(y, lambda, residual, regime);
   MatrixXd S(H.cols(), H.cols());
   VectorXd x;
   for (Index i = 0; i < H.cols(); ++i) {
@@ -62,9 +62,9 @@ SharedHolds held_softly(const EquilibriumProblem& problem) {
   return std::make_shared<const Holds>(Holds{motions, VectorXd::Zero(motions.cols()), kSoft});
 }
 
-SoftlyHeld softly_held(EquilibriumProblem& problem, const SharedHolds& soft, const VectorXd& y,
-                       double lambda) {
-  const MotionStiffness met = motion_stiffness(problem, soft, y, lambda);
+SoftlyHeld softly_held(EquilibriumProblem& problem, const SharedHolds& soft, const VectorXd& y, double lambda,
+                       const Regime& regime) {
+  const MotionStiffness met = motion_stiffness(problem, soft, y, lambda, regime);
   return {neutral_of(met, y, kShareOfSoft * soft->stiffness, kShareOfLoad * std::abs(lambda)),
           met.stiffness.minCoeff() >= kFirm * soft->stiffness};
 }

@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "solver/support/regime.h"
+
 namespace snapthrough {
 
 /// @brief Linear springs against motions without stiffness: forces k H (H^T u - at), u the first unknowns.
@@ -35,7 +37,8 @@ struct MotionStiffness {
 /// with S = H^T J^-1 H of the held tangent J it is S^-1 - k.
 /// @pre holds has motions
 [[nodiscard]] MotionStiffness motion_stiffness(EquilibriumProblem& problem, const SharedHolds& holds,
-                                               const Eigen::VectorXd& y, double lambda);
+                                               const Eigen::VectorXd& y, double lambda,
+                                               const Regime& regime = {});
 
 /// @brief All free motions of the problem held so softly that what resists them decides where they go; null
 /// when it has none.
@@ -47,7 +50,7 @@ struct SoftlyHeld {
 };
 /// @brief What the motions of held_softly() met at (y, lambda), an equilibrium with them.
 [[nodiscard]] SoftlyHeld softly_held(EquilibriumProblem& problem, const SharedHolds& soft,
-                                     const Eigen::VectorXd& y, double lambda);
+                                     const Eigen::VectorXd& y, double lambda, const Regime& regime = {});
 
 /// @brief The motions of `holds` that nothing resists at (y, lambda): neither stiffness nor a force on them.
 /// @param stiffness largest that counts as none

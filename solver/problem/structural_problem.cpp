@@ -23,7 +23,8 @@ StructuralProblem::StructuralProblem(const Structure& structure)
       follower_ends_(structure.follower_ends) {
   condensed_.resize(structure.dofs.size());
   chains_.resize(members_);
-  spring_active_.assign(structure.joint_springs.size(), 0);
+  elements_ = structure.elements->make_work();
+  spring_stiffness_.assign(structure.joint_springs.size(), 0.0);
   // a node's rotation is nobody's when every member there is released and neither support nor spring turns
   // with it
   free_rotation_.assign(static_cast<std::size_t>(structure.joints), 1);
@@ -68,18 +69,23 @@ double StructuralProblem::penetration(const JointSpring& spring, const VectorXd&
   return w;
 }
 
-void StructuralProblem::add_joint_springs(const VectorXd& y, VectorXd& f) {
+void StructuralProblem::add_joint_springs(const VectorXd& y, const Regime& regime, VectorXd& f) {
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
     const JointSpring& spring = structure_.joint_springs[i];
-    double w = 0.0;
-    for (int c = 0; c < 3; ++c) w += spring.row[c] * y[3 * spring.joint + c];
-    const double gap = bonded_ ? 0.0 : spring.law.gap;
+    const double stiffness = spring.law.stiffness;
+    const double w = penetration(spring, y, 0.0);
+    const double gap = regime.bilateral() ? 0.0 : spring.law.gap;
     const bool known = spring.touch != Touch::none && std::abs(w - gap) <= kTouchBand;
-    const bool acts = known ? spring.touch == Touch::acts : w > gap;
-    if (!frozen_) spring_active_[i] = bonded_ || !spring.law.one_sided || acts;
-    double force = spring_active_[i] ? spring.law.stiffness * (w - gap) : 0.0;
-    if (spring.law.one_sided) force *= softness_;
-    if (spring.law.one_sided) force += grip_ * spring.law.stiffness * w;
+    bool acts = known ? spring.touch == Touch::acts : w > gap;
+    if (regime.bilateral() || !spring.law.one_sided) acts = true;
+    if (regime.is_frozen()) acts = regime.frozen->springs[i] != 0;
+    double force = acts ? stiffness * (w - gap) : 0.0;
+    spring_stiffness_[i] = acts ? stiffness : 0.0;
+    if (spring.law.one_sided) {
+      force *= regime.softness;
+      force += regime.grip * stiffness * w;
+      spring_stiffness_[i] = stiffness * ((acts ? regime.softness : 0.0) + regime.grip);
+    }
     for (int c = 0; c < 3; ++c) f[3 * spring.joint + c] += force * spring.row[c];
   }
 }
@@ -129,12 +135,6 @@ void StructuralProblem::add_holds(const VectorXd& y, VectorXd& f) const {
   f.head(rows) += holds_->stiffness * (holds_->motions * moved);
 }
 
-double StructuralProblem::acting_stiffness(std::size_t spring) const {
-  const Law& law = structure_.joint_springs[spring].law;
-  if (!law.one_sided) return law.stiffness;
-  return law.stiffness * ((spring_active_[spring] ? softness_ : 0.0) + grip_);
-}
-
 /// Turns the rows of nodes into the axes of their supports.
 void StructuralProblem::turn_to_supports(Eigen::Ref<VectorXd> f) const {
   for (int j = 0; j < structure_.joints; ++j) {
@@ -160,18 +160,24 @@ void StructuralProblem::constrain_residual(const VectorXd& y, double lambda, Vec
   }
 }
 
-/// Minus the dead loads; tells the elements the factors on follower pressures.
+/// Minus the dead loads.
 void StructuralProblem::start_residual(double lambda, VectorXd& f) const {
   const auto [proportional, constant] = factors(lambda);
   f = -proportional * structure_.proportional_load - constant * structure_.constant_load;
-  structure_.elements->set_load_factors(proportional, constant);
 }
 
-void StructuralProblem::residual(const VectorXd& y, double lambda, VectorXd& f) {
+Regime StructuralProblem::regime_of(const Regime& asked) const {
+  Regime regime = asked;
+  regime.small_displacements = asked.small_displacements || structure_.geometry == Geometry::linear;
+  return regime;
+}
+
+void StructuralProblem::find_residual(const VectorXd& y, double lambda, const Regime& asked, VectorXd& f) {
   end_if_asked(stop_);
+  const Regime regime = regime_of(asked);
   start_residual(lambda, f);
-  structure_.elements->add_residual(y, f);
-  add_joint_springs(y, f);
+  elements_->add_residual(y, factors(lambda), regime, f);
+  add_joint_springs(y, regime, f);
   add_holds(y, f);
   constrain_residual(y, lambda, f);
 }
@@ -179,7 +185,8 @@ void StructuralProblem::residual(const VectorXd& y, double lambda, VectorXd& f) 
 void StructuralProblem::load(const VectorXd& y, double, VectorXd& out) {
   const bool constant = stage_ == Stage::constant;
   out = constant ? structure_.constant_load : structure_.proportional_load;
-  structure_.elements->add_pressure_load(y, constant ? 0.0 : 1.0, constant ? 1.0 : 0.0, out);
+  elements_->add_pressure_load(y, {constant ? 0.0 : 1.0, constant ? 1.0 : 0.0},
+                               structure_.geometry == Geometry::linear, out);
   turn_to_supports(out);
   for (int j = 0; j < structure_.joints; ++j) {
     const JointSupport& support = structure_.supports[j];
@@ -236,7 +243,7 @@ void StructuralProblem::assemble_joints() {
     const std::array<int, 3> dofs{3 * spring.joint, 3 * spring.joint + 1, 3 * spring.joint + 2};
     const Eigen::Vector3d row =
         axes_of(dofs).transpose() * Eigen::Vector3d(spring.row[0], spring.row[1], spring.row[2]);
-    joint_blocks_[members_ + i] = acting_stiffness(i) * row * row.transpose();
+    joint_blocks_[members_ + i] = spring_stiffness_[i] * row * row.transpose();
   }
   const std::size_t first_hold = members_ + structure_.joint_springs.size();
   for (std::size_t i = first_hold; i < joint_blocks_.size(); ++i) {
@@ -250,11 +257,13 @@ void StructuralProblem::assemble_joints() {
   factor_.factorise(joint_blocks_);
 }
 
-TangentReport StructuralProblem::linearise(const VectorXd& y, double lambda, VectorXd& f) {
+TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, const Regime& asked,
+                                           VectorXd& f) {
   end_if_asked(stop_);
+  const Regime regime = regime_of(asked);
   start_residual(lambda, f);
-  structure_.elements->linearise(y, f, condensed_);
-  add_joint_springs(y, f);
+  elements_->linearise(y, factors(lambda), regime, f, condensed_);
+  add_joint_springs(y, regime, f);
   add_holds(y, f);
   TangentReport report;
   for (std::size_t m = 0; m < members_; ++m) {
@@ -306,7 +315,7 @@ void StructuralProblem::subtract_fixed(const VectorXd& rhs, VectorXd& reduced) c
 }
 
 void StructuralProblem::solve_symmetric(VectorXd& x) {
-  structure_.elements->reduce(x, condensed_);
+  elements_->reduce(x, condensed_);
   VectorXd& rhs = joint_rhs_;
   rhs.setZero(multiplier(members_));
   rhs.head(3 * structure_.joints + structure_.releases) = x.head(3 * structure_.joints + structure_.releases);
@@ -343,71 +352,58 @@ void StructuralProblem::solve_symmetric(VectorXd& x) {
     chains_[m].recover(std::span(condensed_).subspan(first, count),
                        std::span(structure_.dofs).subspan(first, count), x);
   }
-  structure_.elements->recover(x);
+  elements_->recover(x);
 }
 
-void StructuralProblem::set_bonded(bool bonded) {
-  bonded_ = bonded;
-  structure_.elements->set_bonded(bonded);
-}
-
-void StructuralProblem::set_grip(double share) {
-  grip_ = share;
-  structure_.elements->set_grip(share);
-}
-
-void StructuralProblem::set_softness(double share) {
-  softness_ = share;
-  structure_.elements->set_softness(share);
-}
-
-void StructuralProblem::freeze_contact(const VectorXd& y, double tolerance) {
-  structure_.elements->freeze_contact(y, tolerance);
-  for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
-    const JointSpring& spring = structure_.joint_springs[i];
-    spring_active_[i] = !spring.law.one_sided || penetration(spring, y, spring.law.gap) > -tolerance;
-  }
-  frozen_ = true;
-  mark_touching(y, tolerance);
-}
-
-void StructuralProblem::mark_touching(const VectorXd& y, double tolerance) {
-  structure_.elements->mark_touching(y, tolerance);
-  spring_touches_.clear();
+FrozenContact StructuralProblem::frozen_contact(const VectorXd& y, double tolerance) const {
+  FrozenContact out;
+  structure_.elements->freeze_contact(y, tolerance, out);
   for (const JointSpring& spring : structure_.joint_springs)
-    spring_touches_.push_back(spring.law.one_sided &&
-                              std::abs(penetration(spring, y, spring.law.gap)) <= tolerance);
+    out.springs.push_back(!spring.law.one_sided || penetration(spring, y, spring.law.gap) > -tolerance);
+  return out;
 }
 
-std::size_t StructuralProblem::touching_springs() const {
-  return static_cast<std::size_t>(std::count(spring_touches_.begin(), spring_touches_.end(), 1)) +
-         structure_.elements->touching_stations().size();
+TouchingMarks StructuralProblem::marks_at(const VectorXd& y, double tolerance) const {
+  TouchingMarks out;
+  structure_.elements->mark_touching(y, tolerance, out);
+  for (const JointSpring& spring : structure_.joint_springs)
+    out.springs.push_back(spring.law.one_sided &&
+                          std::abs(penetration(spring, y, spring.law.gap)) <= tolerance);
+  return out;
 }
 
-void StructuralProblem::touching_movements(const VectorXd& mode, std::vector<double>& out) const {
+std::size_t StructuralProblem::touching_springs(const TouchingMarks& marks) const {
+  return static_cast<std::size_t>(std::count(marks.springs.begin(), marks.springs.end(), 1) +
+                                  std::count(marks.stations.begin(), marks.stations.end(), 1));
+}
+
+void StructuralProblem::touching_movements(const TouchingMarks& marks, const VectorXd& mode,
+                                           std::vector<double>& out) const {
   out.clear();
-  for (std::size_t i = 0; i < spring_touches_.size(); ++i)
-    if (spring_touches_[i] != 0) out.push_back(penetration(structure_.joint_springs[i], mode, 0.0));
-  structure_.elements->touching_movements(mode, out);
+  for (std::size_t i = 0; i < marks.springs.size(); ++i)
+    if (marks.springs[i] != 0) out.push_back(penetration(structure_.joint_springs[i], mode, 0.0));
+  structure_.elements->touching_movements(marks, mode, out);
 }
 
-void StructuralProblem::set_touching(const VectorXd& mode, std::span<const char> springs) {
+void StructuralProblem::set_touching(const TouchingMarks& marks, const VectorXd& mode,
+                                     std::span<const char> springs, FrozenContact& out) const {
   std::size_t next = 0;
-  for (std::size_t i = 0; i < spring_touches_.size(); ++i)
-    if (spring_touches_[i] != 0) spring_active_[i] = springs[next++];
-  structure_.elements->set_touching(mode, springs.subspan(next));
+  for (std::size_t i = 0; i < marks.springs.size(); ++i)
+    if (marks.springs[i] != 0) out.springs[i] = springs[next++];
+  structure_.elements->set_touching(marks, mode, springs.subspan(next), out);
 }
 
-TouchingSupports StructuralProblem::touching() const {
+TouchingSupports StructuralProblem::touching(const TouchingMarks& marks, const FrozenContact* frozen) const {
   constexpr double kNoPart = 1e-9;  // of an element
   const auto touch = [](bool acts) { return acts ? Touch::acts : Touch::absent; };
   TouchingSupports out;
-  for (std::size_t i = 0; i < spring_touches_.size(); ++i)
-    if (spring_touches_[i] != 0)
-      out.springs.push_back({structure_.joint_springs[i].spring, touch(spring_active_[i] != 0)});
-  for (const TouchingStation& station : structure_.elements->touching_stations())
+  for (std::size_t i = 0; i < marks.springs.size(); ++i)
+    if (marks.springs[i] != 0)
+      out.springs.push_back(
+          {structure_.joint_springs[i].spring, touch(frozen != nullptr && frozen->springs[i] != 0)});
+  for (const TouchingStation& station : structure_.elements->touching_stations(marks, frozen))
     if (station.spring >= 0) out.springs.push_back({station.spring, touch(station.acts)});
-  for (const TouchingStrip& strip : structure_.elements->touching_strips()) {
+  for (const TouchingStrip& strip : structure_.elements->touching_strips(marks, frozen)) {
     const MeshElement& cell = structure_.mesh.elements[strip.element];
     const auto add = [&](double from, double to, bool acts) {
       const double width = cell.to - cell.from;
@@ -415,7 +411,7 @@ TouchingSupports StructuralProblem::touching() const {
         out.bases.push_back({strip.base, {cell.from + from * width, cell.from + to * width}, touch(acts)});
     };
     double from = strip.range[0];
-    for (const ContactStrip::Interval& interval : strip.acting) {
+    for (const ElementPart& interval : strip.acting) {
       add(from, interval.from, false);
       add(interval.from, interval.to, true);
       from = interval.to;
@@ -475,10 +471,10 @@ double StructuralProblem::largest_force(const VectorXd& y, double lambda) const 
 double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) const {
   constexpr double kRoundings = 0.5;  // half a unit in the last place; signs vary over the places of a base
   constexpr double kMostRounding = 1e-7;  // beyond, supports are too stiff for this arithmetic
-  double largest = structure_.elements->support_rounding();
+  double largest = elements_->support_rounding();
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
     const JointSpring& spring = structure_.joint_springs[i];
-    const double stiffness = acting_stiffness(i);
+    const double stiffness = spring_stiffness_[i];
     if (stiffness == 0.0) continue;
     double size = spring.law.gap;
     for (int c = 0; c < 3; ++c) size += std::abs(spring.row[c] * y[3 * spring.joint + c]);
@@ -501,14 +497,14 @@ double StructuralProblem::relative_residual(const VectorXd& f, const VectorXd& y
   return std::max(force > 0.0 ? forces / force : forces, gaps / displacement);
 }
 
-Eigen::MatrixXd StructuralProblem::tangent_products(const VectorXd& y, double lambda,
-                                                    const Eigen::Ref<const Eigen::MatrixXd>& directions) {
+Eigen::MatrixXd StructuralProblem::find_products(const VectorXd& y, double lambda, const Regime& asked,
+                                                 const Eigen::Ref<const Eigen::MatrixXd>& directions) {
   end_if_asked(stop_);
-  VectorXd scratch;
-  start_residual(lambda, scratch);  // tells the elements the factors on pressures
+  const Regime regime = regime_of(asked);
+  VectorXd scratch = VectorXd::Zero(y.size());
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(y.size(), directions.cols());
-  structure_.elements->add_tangent_products(y, directions, products);
-  add_joint_springs(y, scratch);
+  elements_->add_tangent_products(y, factors(lambda), regime, directions, products);
+  add_joint_springs(y, regime, scratch);
   for (Index i = 0; i < directions.cols(); ++i)
     add_joint_products(lambda, directions.col(i), products.col(i));
   return products;
@@ -520,7 +516,7 @@ void StructuralProblem::add_joint_products(double lambda, const Eigen::Ref<const
   const auto [proportional, constant] = factors(lambda);
   follower_ends_.add_product(proportional, constant, direction, out);
   for (std::size_t i = 0; i < structure_.joint_springs.size(); ++i) {
-    const double stiffness = acting_stiffness(i);
+    const double stiffness = spring_stiffness_[i];
     if (stiffness == 0.0) continue;
     const JointSpring& spring = structure_.joint_springs[i];
     double w = 0.0;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -40,8 +41,6 @@ class StructuralProblem final : public EquilibriumProblem {
 
   [[nodiscard]] Eigen::Index size() const override { return structure_.size; }
   [[nodiscard]] const Eigen::VectorXd& metric() const override { return structure_.metric; }
-  void residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) override;
-  TangentReport linearise(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) override;
   void load(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& out) override;
   void solve(Eigen::VectorXd& x) override;
   [[nodiscard]] double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd& y,
@@ -52,9 +51,6 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] const Eigen::MatrixXd& free_motions() const override { return structure_.free_motions; }
   void set_holds(const SharedHolds& holds) override;
   void force_along(const Eigen::VectorXd& motion, Eigen::VectorXd& out) const override;
-  void set_bonded(bool bonded) override;
-  void set_grip(double share) override;
-  void set_softness(double share) override;
   /// Euler's load of the most compressed member: pi^2 EI / (N l^2).
   [[nodiscard]] double critical_load_scale(const Eigen::VectorXd& unit_response) const override;
   [[nodiscard]] double largest_critical_load_scale(const Eigen::VectorXd& unit_response) const override;
@@ -63,27 +59,34 @@ class StructuralProblem final : public EquilibriumProblem {
   /// on, the constant ones alone.
   enum class Stage { proportional, constant };
   void set_stage(Stage stage) { stage_ = stage; }
-  /// J times a vector, with J's rows as linearise() uses them; independent of the factorisation.
-  [[nodiscard]] Eigen::MatrixXd tangent_products(
-      const Eigen::VectorXd& y, double lambda, const Eigen::Ref<const Eigen::MatrixXd>& directions) override;
   void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const override;
   [[nodiscard]] double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const override;
-  /// @brief From now on one-sided supports are glued where they touch at y, and absent elsewhere.
-  void freeze_contact(const Eigen::VectorXd& y, double tolerance);
-  /// @brief Finds the one-sided supports that touch without pressure at y: no further from touching than
-  /// `tolerance`, bases on all of their part of an element. freeze_contact() does so, too.
-  void mark_touching(const Eigen::VectorXd& y, double tolerance);
-  [[nodiscard]] bool bases_touch() const { return structure_.elements->strips_touch(); }
-  [[nodiscard]] std::size_t touching_springs() const;
+  /// @brief One-sided supports glued where they touch at y (penetration above `-tolerance`), absent
+  /// elsewhere.
+  [[nodiscard]] FrozenContact frozen_contact(const Eigen::VectorXd& y, double tolerance) const;
+  /// @brief The one-sided supports that touch without pressure at y: no further from touching than
+  /// `tolerance`, bases on all of their part of an element.
+  [[nodiscard]] TouchingMarks marks_at(const Eigen::VectorXd& y, double tolerance) const;
   /// @brief Movement of each touching spring into its medium.
-  void touching_movements(const Eigen::VectorXd& mode, std::vector<double>& out) const;
-  /// @brief Where the contact is frozen: of the supports that touch these springs act, and bases where `mode`
-  /// moves into them.
+  void touching_movements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
+                          std::vector<double>& out) const;
+  /// @brief Of the supports that touch these springs act, and bases where `mode` moves into them.
   /// @param mode empty: bases act wherever they touch
   /// @param springs one a touching spring
-  void set_touching(const Eigen::VectorXd& mode, std::span<const char> springs);
-  /// As set_touching() left them.
-  [[nodiscard]] TouchingSupports touching() const;
+  void set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode, std::span<const char> springs,
+                    FrozenContact& out) const;
+  /// As set_touching() left them. @param frozen null: none acts
+  [[nodiscard]] TouchingSupports touching(const TouchingMarks& marks, const FrozenContact* frozen) const;
+  [[nodiscard]] std::size_t touching_springs(const TouchingMarks& marks) const;
+
+ protected:
+  /// Small displacements where the regime or the structure says so.
+  void find_residual(const Eigen::VectorXd& y, double lambda, const Regime& regime,
+                     Eigen::VectorXd& f) override;
+  TangentReport factorise(const Eigen::VectorXd& y, double lambda, const Regime& regime,
+                          Eigen::VectorXd& f) override;
+  [[nodiscard]] Eigen::MatrixXd find_products(const Eigen::VectorXd& y, double lambda, const Regime& regime,
+                                              const Eigen::Ref<const Eigen::MatrixXd>& directions) override;
 
  private:
   [[nodiscard]] double largest_axial_force(std::size_t member, const Eigen::VectorXd& response) const;
@@ -91,18 +94,17 @@ class StructuralProblem final : public EquilibriumProblem {
   void solve_symmetric(Eigen::VectorXd& x);
   void add_follower_ends(double lambda, TangentReport& report);
   /// Factors on the proportional and the constant actions at a load factor.
-  [[nodiscard]] std::array<double, 2> factors(double lambda) const {
-    return stage_ == Stage::proportional ? std::array{lambda, 1.0} : std::array{0.0, lambda};
+  [[nodiscard]] LoadFactors factors(double lambda) const {
+    return stage_ == Stage::proportional ? LoadFactors{lambda, 1.0} : LoadFactors{0.0, lambda};
   }
+  [[nodiscard]] Regime regime_of(const Regime& asked) const;
   void start_residual(double lambda, Eigen::VectorXd& f) const;
   void turn_to_supports(Eigen::Ref<Eigen::VectorXd> f) const;
   void add_joint_products(double lambda, const Eigen::Ref<const Eigen::VectorXd>& direction,
                           Eigen::Ref<Eigen::VectorXd> out) const;
   [[nodiscard]] double penetration(const JointSpring& spring, const Eigen::VectorXd& y, double gap) const;
-  void add_joint_springs(const Eigen::VectorXd& y, Eigen::VectorXd& f);
+  void add_joint_springs(const Eigen::VectorXd& y, const Regime& regime, Eigen::VectorXd& f);
   void add_holds(const Eigen::VectorXd& y, Eigen::VectorXd& f) const;
-  /// Stiffness of a joint spring in the tangent, as add_joint_springs() last found it.
-  [[nodiscard]] double acting_stiffness(std::size_t spring) const;
   /// Of the loads and of the members' ends.
   /// The largest of the rows that are forces or moments; the others are displacements and strains.
   [[nodiscard]] double force_norm(const Eigen::VectorXd& f) const;
@@ -135,16 +137,12 @@ class StructuralProblem final : public EquilibriumProblem {
   SymmetricIndefinite factor_;
   Eigen::VectorXd joint_rhs_, free_rhs_;  ///< scratch of solve
   FollowerEnds follower_ends_;
-  std::vector<char> spring_active_;
-  std::vector<char> spring_touches_;  ///< as mark_touching() found them
+  std::unique_ptr<ElementWork> elements_;
+  std::vector<double> spring_stiffness_;  ///< of each spring at a node, as add_joint_springs() found it last
   SharedHolds holds_;
   Eigen::MatrixXd hold_rows_;  ///< sqrt(k) H in the axes of the supports
   Stage stage_ = Stage::proportional;
-  bool bonded_ = false;
   double largest_load_ = 0.0;  ///< of the forces and moments of the unit load: imposed strains are none
-  double grip_ = 0.0;
-  double softness_ = 1.0;
-  bool frozen_ = false;  ///< spring_active_ and the elements' contact stay as they are
 };
 
 }  // namespace snapthrough

@@ -29,7 +29,7 @@ SectionForces::SectionForces(const Structure& structure, const Model& model, con
   add_springs();
 }
 
-/// The multiplier goes with the area formula of the pressure (element/element_set_supports.h), which puts a
+/// The multiplier goes with the area formula of the pressure (element/element_work_supports.h), which puts a
 /// force on the node and its opposite on the element's end: take the latter back, so that end_ is what the
 /// section carries.
 void SectionForces::release_end_of_pressure(const Eigen::VectorXd& y) {

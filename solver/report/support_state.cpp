@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -72,10 +73,12 @@ VectorXd add_springs(const Structure& structure, const Model& model, const Vecto
 }
 
 /// Forces and moments on the nodes that nothing but supports can put there, in global axes.
-VectorXd held_forces(const Structure& structure, const VectorXd& y, double lambda, const VectorXd& springs) {
+VectorXd held_forces(const Structure& structure, ElementWork& elements, const VectorXd& y, double lambda,
+                     const VectorXd& springs) {
   VectorXd f = -lambda * structure.proportional_load - structure.constant_load;
-  structure.elements->set_load_factors(lambda, 1.0);
-  structure.elements->add_residual(y, f);
+  Regime regime;
+  regime.small_displacements = structure.geometry == Geometry::linear;
+  elements.add_residual(y, {lambda, 1.0}, regime, f);
   return f.head(3 * structure.joints) - springs;
 }
 
@@ -177,13 +180,14 @@ void balance(const Wrench& others, double largest, std::vector<Bearing>& bearing
 void add_forces_on_structure(const Structure& structure, const Model& model, const VectorXd& y, double lambda,
                              State& state) {
   const RigidMotions rigid(structure, model, y);
+  const std::unique_ptr<ElementWork> elements = structure.elements->make_work();
   std::vector<Bearing> bearings;  // springs, then foundations
   const VectorXd springs = add_springs(structure, model, y, rigid, state, bearings);
   const VectorXd reactions =
-      add_supports(structure, model, held_forces(structure, y, lambda, springs), state);
+      add_supports(structure, model, held_forces(structure, *elements, y, lambda, springs), state);
   add_foundations(structure, model, y, rigid, bearings);
   VectorXd loads = lambda * structure.proportional_load + structure.constant_load;
-  structure.elements->add_pressure_load(y, lambda, 1.0, loads);
+  elements->add_pressure_load(y, {lambda, 1.0}, structure.geometry == Geometry::linear, loads);
   state.loads = rigid.unscaled(rigid.work(loads));
   loads += reactions;
   balance(rigid.work(loads), largest_force(structure, y, reactions), bearings);

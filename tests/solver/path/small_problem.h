@@ -27,24 +27,27 @@ class SmallProblem final : public EquilibriumProblem {
   [[nodiscard]] Eigen::Index size() const override { return load_.size(); }
   [[nodiscard]] const Eigen::VectorXd& metric() const override { return metric_; }
   [[nodiscard]] bool one_sided() const override { return one_sided_; }
-  void residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) override {
+  void load(const Eigen::VectorXd&, double, Eigen::VectorXd& out) override { out = load_; }
+  void solve(Eigen::VectorXd& x) override { x = tangent_.fullPivLu().solve(x).eval(); }
+  [[nodiscard]] double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd&,
+                                         double lambda) override {
+    return f.norm() / std::max(std::abs(lambda) * load_.norm(), 1e-300);
+  }
+
+ protected:
+  void find_residual(const Eigen::VectorXd& y, double lambda, const Regime&, Eigen::VectorXd& f) override {
     f = gradient_(y) - lambda * load_;
   }
-  TangentReport linearise(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) override {
-    residual(y, lambda, f);
+  TangentReport factorise(const Eigen::VectorXd& y, double lambda, const Regime& regime,
+                          Eigen::VectorXd& f) override {
+    find_residual(y, lambda, regime, f);
     tangent_ = hessian_(y);
     const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(tangent_).eigenvalues();
     return {static_cast<int>((values.array() < 0.0).count()), values.array().abs().log().sum()};
   }
-  void load(const Eigen::VectorXd&, double, Eigen::VectorXd& out) override { out = load_; }
-  void solve(Eigen::VectorXd& x) override { x = tangent_.fullPivLu().solve(x).eval(); }
-  [[nodiscard]] Eigen::MatrixXd tangent_products(const Eigen::VectorXd& y, double,
-                                                 const Eigen::Ref<const Eigen::MatrixXd>& motions) override {
+  [[nodiscard]] Eigen::MatrixXd find_products(const Eigen::VectorXd& y, double, const Regime&,
+                                              const Eigen::Ref<const Eigen::MatrixXd>& motions) override {
     return hessian_(y) * motions;
-  }
-  [[nodiscard]] double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd&,
-                                         double lambda) override {
-    return f.norm() / std::max(std::abs(lambda) * load_.norm(), 1e-300);
   }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// ElementSet for one order P. Included only by the files that instantiate it.
+/// ElementWork for one order P. Included only by the files that instantiate it.
 ///
 /// The interior of an element is written in its strains. With R_q = [d1 d2] the rotation at Gauss point q, E
 /// = x'.d1, G = x'.d2 and p_q = -G d1 + E d2 (x' turned by +90 degrees),
@@ -23,81 +23,44 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "solver/element/augmented_factor.h"
-#include "solver/element/element_set.h"
+#include "solver/element/element_data.h"
 
 namespace snapthrough {
 
 template <int P>
-class ElementSetOf final : public ElementSet {
+class ElementWorkOf final : public ElementWork {
  public:
-  ElementSetOf();
-  [[nodiscard]] int size() const override { return static_cast<int>(shapes_.size()); }
-  void reserve(int elements) override {
-    shapes_.reserve(elements);
-    dofs_.reserve(elements);
-    tangents_.reserve(elements);
-  }
-  void add(const ElementShape& shape, const ElementDofs& dofs) override;
-  void add_station(const Station& station) override;
-  void add_strip(int element, ContactStrip strip, Touch touch) override;
-  void set_linear_geometry(bool linear) override { linear_ = linear; }
-  void set_bonded(bool bonded) override { bonded_ = bonded; }
-  void set_grip(double share) override { grip_ = share; }
-  void set_softness(double share) override { softness_ = share; }
+  explicit ElementWorkOf(const ElementData<P>& data);
   [[nodiscard]] double support_rounding() const override { return support_rounding_; }
-  void freeze_contact(const Eigen::VectorXd& y, double tolerance) override;
-  void mark_touching(const Eigen::VectorXd& y, double tolerance) override;
-  [[nodiscard]] bool strips_touch() const override;
-  [[nodiscard]] std::vector<TouchingStation> touching_stations() const override;
-  void touching_movements(const Eigen::VectorXd& mode, std::vector<double>& out) const override;
-  void set_touching(const Eigen::VectorXd& mode, std::span<const char> stations) override;
-  [[nodiscard]] std::vector<TouchingStrip> touching_strips() const override;
-  [[nodiscard]] double frozen_share(int element, int foundation) const override;
-  void set_pressure(int element, double proportional, double constant) override;
-  void set_load_factors(double proportional, double constant) override {
-    proportional_ = proportional;
-    constant_ = constant;
-  }
-  void add_pressure_load(const Eigen::VectorXd& y, double proportional, double constant,
-                         Eigen::VectorXd& out) const override;
-  void add_residual(const Eigen::VectorXd& y, Eigen::VectorXd& residual) override;
-  void linearise(const Eigen::VectorXd& y, Eigen::VectorXd& residual,
-                 std::span<CondensedElement> condensed) override;
+  void add_pressure_load(const Eigen::VectorXd& y, const LoadFactors& factors, bool small_displacements,
+                         Eigen::VectorXd& out) override;
+  void add_residual(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                    Eigen::VectorXd& residual) override;
+  void linearise(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                 Eigen::VectorXd& residual, std::span<CondensedElement> condensed) override;
   void reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) override;
   void recover(Eigen::VectorXd& x) override;
-  void add_tangent_products(const Eigen::VectorXd& y, const Eigen::Ref<const Eigen::MatrixXd>& directions,
+  void add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                            const Eigen::Ref<const Eigen::MatrixXd>& directions,
                             Eigen::MatrixXd& out) override;
 
  private:
-  static constexpr int kStrains = 3 * P;
+  using Data = ElementData<P>;
+  using Shape = typename Data::Shape;
+  using Functional = typename Data::Functional;
+  using StripMovement = typename Data::StripMovement;
+  static constexpr int kStrains = Data::kStrains;
   static constexpr int kZeta = 3 * P + 3;
-  using Gauss = std::array<double, P>;
+  using Gauss = typename Data::Gauss;
   static constexpr int kRow = padded(kZeta);  ///< whole blocks; what is beyond kZeta is zero
   using ZetaVector = Eigen::Matrix<double, kRow, 1>;
 
-  struct Shape {
-    double h = 0.0;
-    bool shearable = false;
-    Gauss cos0{}, sin0{}, tx{}, ty{}, e0{}, g0{}, hb{};
-    std::array<double, kStrains> compliance{};
-    std::array<double, kStrains> root{};  ///< sqrt of the compliance
-    int first_station = 0, station_count = 0;
-    int first_strip = 0, strip_count = 0;
-    double pressure = 0.0, constant_pressure = 0.0;  ///< along the deformed right normal
-    int factor = 0;                                  ///< in stiff_ or in shearable_
-  };
-  struct Functional {
-    Law law;
-    Touch touch = Touch::none;
-    int spring = -1;
-    std::array<double, 3> a{};
-    std::array<Gauss, 3> v{};
-  };
   /// Rotations and axis derivatives at the Gauss points.
   struct Kinematics {
     Gauss c, s, xp, yp, E, G, px, py;
@@ -128,10 +91,8 @@ class ElementSetOf final : public ElementSet {
                           const double* direction, double* out) const;
   void add_support_residual(int element, const double* y, double* residual, bool keep);
   void collect_strip(std::size_t index, const double* y, const ElementDofs& dofs, const Shape& shape);
-  [[nodiscard]] Functional functional_at(const ContactStrip& strip, double h, double xi) const;
   void add_interval(std::size_t index, const Shape& shape, const ContactStrip::Interval& interval,
                     double modulus, double gap);
-  [[nodiscard]] double value(const Functional& f, const ElementDofs& dofs, const double* y) const;
   void to_strain_row(const Functional& f, const Shape& shape, const Tangent& t, ZetaVector& row) const;
   template <int N>
   void add_end_columns(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const;
@@ -141,7 +102,7 @@ class ElementSetOf final : public ElementSet {
   void add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S);
   void collect_rows(int element, const Kinematics& kin, const double* y, double* residual);
   [[nodiscard]] double pressure_of(const Shape& shape) const {
-    return proportional_ * shape.pressure + constant_ * shape.constant_pressure;
+    return factors_.proportional * shape.pressure + factors_.constant * shape.constant_pressure;
   }
   void add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, double pressure,
                     const double* y, double* load) const;
@@ -166,41 +127,23 @@ class ElementSetOf final : public ElementSet {
     return N == kStrains || i < P ? i : i + P;
   }
 
-  /// Displacement at an element's start and h times u'_x, u'_y at the Gauss points, as strips read them.
-  struct StripMovement {
-    std::array<double, 2> start;
-    Gauss dx, dy;
-  };
-  [[nodiscard]] StripMovement movement_of(const Shape& shape, const ElementDofs& dofs, const double* y) const;
+  [[nodiscard]] int size() const { return static_cast<int>(shapes_.size()); }
+  void begin(const LoadFactors& factors, const Regime& regime);
 
-  const CollocationRule* rule_;
-  Gauss b_{};
-  std::array<Gauss, P> a_{};  ///< A_qr
-  bool linear_ = false;
-  bool bonded_ = false;
-  double grip_ = 0.0;
-  double softness_ = 1.0;
+  const Data& data_;
+  const std::array<Gauss, P>& a_;  ///< of data_, as the following
+  const std::vector<Shape>& shapes_;
+  const std::vector<ElementDofs>& dofs_;
+  const std::vector<Functional>& stations_;
+  const std::vector<ContactStrip>& strips_;
+  Regime regime_;        ///< of the call that is being answered
+  bool linear_ = false;  ///< it is of small displacements
+  LoadFactors factors_;  ///< on the pressures, in that call
   double support_rounding_ = 0.0;
-  double proportional_ = 0.0;  ///< factors on the pressures
-  double constant_ = 0.0;
-  bool frozen_ = false;  ///< contact is as in frozen_intervals_ and frozen_stations_
-  std::vector<std::vector<ContactStrip::Interval>> frozen_intervals_;
-  std::vector<char> frozen_stations_;
-  std::vector<char> touching_strips_;  ///< as mark_touching() found them
-  std::vector<char> touching_stations_;
-  /// On contact intervals: exact for straight axes, and near enough for turning normals that the energy's
-  /// edge terms vanish as they must (the tangent then is the derivative of the residual).
-  Quadrature strip_quadrature_;
-  std::vector<Shape> shapes_;
-  std::vector<ElementDofs> dofs_;
   std::vector<Tangent> tangents_;
   std::vector<StrainRow> rows_;         ///< of all elements, from the last linearisation
-  std::vector<Interior<2 * P>> stiff_;  ///< of unshearable elements
+  std::vector<Interior<2 * P>> stiff_;  ///< of unshearable elements; made with the first linearisation
   std::vector<Interior<3 * P>> shearable_;
-  std::vector<Functional> stations_;
-  std::vector<ContactStrip> strips_;
-  std::vector<Touch> strip_touch_;
-  std::vector<std::vector<Functional>> whole_strips_;  ///< Gauss points of each strip's whole range
   // scratch
   std::vector<Functional> acting_;  ///< supports of the current element that act
   std::vector<typename AugmentedMatrix<2 * P>::Weighted> stiff_rows_;  ///< of the current element, scaled
@@ -209,71 +152,23 @@ class ElementSetOf final : public ElementSet {
 };
 
 template <int P>
-ElementSetOf<P>::ElementSetOf()
-    : rule_(&CollocationRule::of(P)), strip_quadrature_(ContactStrip::quadrature(P)) {
-  for (int q = 0; q < P; ++q) {
-    b_[q] = rule_->weight(q);
-    for (int r = 0; r < P; ++r) a_[q][r] = rule_->integral(q, r);
-  }
+ElementWorkOf<P>::ElementWorkOf(const ElementData<P>& data)
+    : data_(data),
+      a_(data.a),
+      shapes_(data.shapes),
+      dofs_(data.dofs),
+      stations_(data.stations),
+      strips_(data.strips) {}
+
+template <int P>
+void ElementWorkOf<P>::begin(const LoadFactors& factors, const Regime& regime) {
+  regime_ = regime;
+  linear_ = regime.small_displacements;
+  factors_ = factors;
 }
 
 template <int P>
-void ElementSetOf<P>::add(const ElementShape& in, const ElementDofs& dofs) {
-  Shape shape;
-  shape.h = in.length;
-  for (int q = 0; q < P; ++q) {
-    shape.cos0[q] = std::cos(in.angle[q]);
-    shape.sin0[q] = std::sin(in.angle[q]);
-    shape.tx[q] = in.t[q][0];
-    shape.ty[q] = in.t[q][1];
-    shape.e0[q] = in.t[q][0] * shape.cos0[q] + in.t[q][1] * shape.sin0[q];
-    shape.g0[q] = -in.t[q][0] * shape.sin0[q] + in.t[q][1] * shape.cos0[q];
-    shape.hb[q] = in.length * b_[q];
-    shape.compliance[q] = in.axial_compliance[q];
-    shape.compliance[P + q] = in.shear_compliance[q];
-    shape.compliance[2 * P + q] = in.bending_compliance[q];
-    shape.shearable = shape.shearable || in.shear_compliance[q] > 0.0;
-  }
-  for (int i = 0; i < kStrains; ++i) shape.root[i] = std::sqrt(shape.compliance[i]);
-  shape.first_station = static_cast<int>(stations_.size());
-  shape.first_strip = static_cast<int>(strips_.size());
-  shape.factor = static_cast<int>(shape.shearable ? shearable_.size() : stiff_.size());
-  if (shape.shearable)
-    shearable_.emplace_back();
-  else
-    stiff_.emplace_back();
-  shapes_.push_back(shape);
-  dofs_.push_back(dofs);
-  tangents_.emplace_back();
-}
-
-/// Stations and strips belong to the element added last, so that each element's are contiguous.
-template <int P>
-void ElementSetOf<P>::add_station(const Station& station) {
-  Functional f;
-  f.law = station.law;
-  f.touch = station.touch;
-  f.spring = station.spring;
-  f.a = station.a;
-  for (int q = 0; q < P; ++q)
-    for (int c = 0; c < 3; ++c) f.v[c][q] = station.v[q][c];
-  stations_.push_back(f);
-  ++shapes_[station.element].station_count;
-}
-
-template <int P>
-void ElementSetOf<P>::add_strip(int element, ContactStrip strip, Touch touch) {
-  strip_touch_.push_back(touch);
-  std::vector<Functional>& whole = whole_strips_.emplace_back();
-  const auto [from, to] = strip.range();
-  for (const double point : strip_quadrature_.points)
-    whole.push_back(functional_at(strip, shapes_[element].h, from + (to - from) * point));
-  strips_.push_back(std::move(strip));
-  ++shapes_[element].strip_count;
-}
-
-template <int P>
-auto ElementSetOf<P>::kinematics(const Shape& shape, const ElementDofs& dofs, const double* y) const
+auto ElementWorkOf<P>::kinematics(const Shape& shape, const ElementDofs& dofs, const double* y) const
     -> Kinematics {
   Kinematics kin;
   const double* v = y + dofs.v;
@@ -308,8 +203,8 @@ auto ElementSetOf<P>::kinematics(const Shape& shape, const ElementDofs& dofs, co
 }
 
 template <int P>
-void ElementSetOf<P>::add_strain_residual(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
-                                          const double* y, double* residual) const {
+void ElementWorkOf<P>::add_strain_residual(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
+                                           const double* y, double* residual) const {
   const double* v = y + dofs.v;
   const double* s = y + dofs.s;
   const double* m = y + dofs.m;
@@ -345,17 +240,8 @@ void ElementSetOf<P>::add_strain_residual(const Shape& shape, const ElementDofs&
 }
 
 template <int P>
-double ElementSetOf<P>::value(const Functional& f, const ElementDofs& dofs, const double* y) const {
-  double w = f.a[0] * y[dofs.a[0]] + f.a[1] * y[dofs.a[1]] + f.a[2] * y[dofs.a[2]];
-  const double* v = y + dofs.v;
-  for (int c = 0; c < 3; ++c)
-    for (int q = 0; q < P; ++q) w += f.v[c][q] * v[c * P + q];
-  return w;
-}
-
-template <int P>
-void ElementSetOf<P>::to_strain_row(const Functional& f, const Shape& shape, const Tangent& t,
-                                    ZetaVector& row) const {
+void ElementWorkOf<P>::to_strain_row(const Functional& f, const Shape& shape, const Tangent& t,
+                                     ZetaVector& row) const {
   Gauss turn;
   Gauss bend = f.v[2];
   double turn_a = f.a[2];
@@ -380,7 +266,7 @@ void ElementSetOf<P>::to_strain_row(const Functional& f, const Shape& shape, con
 /// The columns of m beside S and u_a: minus the rows of u_b, which are those of an end's displacement.
 template <int P>
 template <int N>
-void ElementSetOf<P>::add_end_columns(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const {
+void ElementWorkOf<P>::add_end_columns(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const {
   constexpr int K = N - P;  // first curvature
   constexpr int A = N;      // u_a
   constexpr int M = N + 3;
@@ -421,7 +307,7 @@ void ElementSetOf<P>::add_end_columns(const Shape& shape, const Tangent& t, Augm
 
 template <int P>
 template <int N>
-void ElementSetOf<P>::add_geometric(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const {
+void ElementWorkOf<P>::add_geometric(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const {
   constexpr int K = N - P;
   using Weighted = typename AugmentedMatrix<N>::Weighted;
   std::array<Weighted, P> turn;  // db_q
@@ -443,7 +329,7 @@ void ElementSetOf<P>::add_geometric(const Shape& shape, const Tangent& t, Augmen
 /// Adds the rows of supports and pressure, scaled.
 template <int P>
 template <int N>
-void ElementSetOf<P>::add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) {
+void ElementWorkOf<P>::add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) {
   auto& scaled = [this]() -> auto& {
     if constexpr (N == kStrains)
       return shearable_rows_;
@@ -466,7 +352,7 @@ void ElementSetOf<P>::add_rows(const Shape& shape, const Tangent& t, AugmentedMa
 
 /// The supports and the pressure that act at y, as rows in strains, and their forces.
 template <int P>
-void ElementSetOf<P>::collect_rows(int element, const Kinematics& kin, const double* y, double* residual) {
+void ElementWorkOf<P>::collect_rows(int element, const Kinematics& kin, const double* y, double* residual) {
   const Shape& shape = shapes_[element];
   acting_.clear();
   if (shape.station_count > 0 || shape.strip_count > 0) add_support_residual(element, y, residual, true);
@@ -486,8 +372,8 @@ void ElementSetOf<P>::collect_rows(int element, const Kinematics& kin, const dou
 
 template <int P>
 template <int N>
-void ElementSetOf<P>::linearise_element(int element, const double* y, double* residual, Interior<N>& interior,
-                                        CondensedElement& out) {
+void ElementWorkOf<P>::linearise_element(int element, const double* y, double* residual,
+                                         Interior<N>& interior, CondensedElement& out) {
   const Shape& shape = shapes_[element];
   const ElementDofs& dofs = dofs_[element];
   const Kinematics kin = kinematics(shape, dofs, y);
@@ -527,7 +413,9 @@ void ElementSetOf<P>::linearise_element(int element, const double* y, double* re
 }
 
 template <int P>
-void ElementSetOf<P>::add_residual(const Eigen::VectorXd& y, Eigen::VectorXd& residual) {
+void ElementWorkOf<P>::add_residual(const Eigen::VectorXd& y, const LoadFactors& factors,
+                                    const Regime& regime, Eigen::VectorXd& residual) {
+  begin(factors, regime);
   support_rounding_ = 0.0;
   for (int e = 0; e < size(); ++e) {
     const Kinematics kin = kinematics(shapes_[e], dofs_[e], y.data());
@@ -540,9 +428,13 @@ void ElementSetOf<P>::add_residual(const Eigen::VectorXd& y, Eigen::VectorXd& re
 }
 
 template <int P>
-void ElementSetOf<P>::linearise(const Eigen::VectorXd& y, Eigen::VectorXd& residual,
-                                std::span<CondensedElement> condensed) {
+void ElementWorkOf<P>::linearise(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                                 Eigen::VectorXd& residual, std::span<CondensedElement> condensed) {
+  begin(factors, regime);
   support_rounding_ = 0.0;
+  tangents_.resize(shapes_.size());
+  stiff_.resize(static_cast<std::size_t>(data_.stiff));
+  shearable_.resize(static_cast<std::size_t>(data_.shearable));
   rows_.clear();
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
@@ -555,8 +447,8 @@ void ElementSetOf<P>::linearise(const Eigen::VectorXd& y, Eigen::VectorXd& resid
 
 /// What given strains d leave of the right-hand sides of the strains, tau - H d, and of m, rm + U d.
 template <int P>
-void ElementSetOf<P>::subtract_strains(const Shape& shape, const Tangent& t, const ZetaVector& d,
-                                       ZetaVector& tau, Eigen::Vector3d& rm) const {
+void ElementWorkOf<P>::subtract_strains(const Shape& shape, const Tangent& t, const ZetaVector& d,
+                                        ZetaVector& tau, Eigen::Vector3d& rm) const {
   for (int q = 0; q < P; ++q) {
     const double e = d[q];
     const double g = d[P + q];
@@ -581,8 +473,8 @@ void ElementSetOf<P>::subtract_strains(const Shape& shape, const Tangent& t, con
 
 template <int P>
 template <int N>
-void ElementSetOf<P>::reduce_element(int element, const double* rhs, Interior<N>& interior,
-                                     CondensedElement& out) const {
+void ElementWorkOf<P>::reduce_element(int element, const double* rhs, Interior<N>& interior,
+                                      CondensedElement& out) const {
   const Shape& shape = shapes_[element];
   const ElementDofs& dofs = dofs_[element];
   Functional row;
@@ -607,7 +499,7 @@ void ElementSetOf<P>::reduce_element(int element, const double* rhs, Interior<N>
 }
 
 template <int P>
-void ElementSetOf<P>::reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) {
+void ElementWorkOf<P>::reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) {
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
     if (shape.shearable)
@@ -619,7 +511,7 @@ void ElementSetOf<P>::reduce(const Eigen::VectorXd& rhs, std::span<CondensedElem
 
 template <int P>
 template <int N>
-void ElementSetOf<P>::recover_element(int element, const Interior<N>& interior, double* x) const {
+void ElementWorkOf<P>::recover_element(int element, const Interior<N>& interior, double* x) const {
   const Shape& shape = shapes_[element];
   const ElementDofs& dofs = dofs_[element];
   const Tangent& t = tangents_[element];
@@ -662,7 +554,7 @@ void ElementSetOf<P>::recover_element(int element, const Interior<N>& interior, 
 }
 
 template <int P>
-void ElementSetOf<P>::recover(Eigen::VectorXd& x) {
+void ElementWorkOf<P>::recover(Eigen::VectorXd& x) {
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
     if (shape.shearable)
@@ -674,8 +566,8 @@ void ElementSetOf<P>::recover(Eigen::VectorXd& x) {
 
 /// The beam's part of the tangent as an operator.
 template <int P>
-void ElementSetOf<P>::add_strain_product(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
-                                         const double* y, const double* direction, double* out) const {
+void ElementWorkOf<P>::add_strain_product(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
+                                          const double* y, const double* direction, double* out) const {
   const double* s = y + dofs.s;
   const double* dv = direction + dofs.v;
   const double* ds = direction + dofs.s;
@@ -718,9 +610,11 @@ void ElementSetOf<P>::add_strain_product(const Shape& shape, const ElementDofs& 
 /// The tangent as an operator, written from the second derivative of the mixed functional itself (not from
 /// the eliminated form), so that the two can be held against one another.
 template <int P>
-void ElementSetOf<P>::add_tangent_products(const Eigen::VectorXd& y,
-                                           const Eigen::Ref<const Eigen::MatrixXd>& directions,
-                                           Eigen::MatrixXd& out) {
+void ElementWorkOf<P>::add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors,
+                                            const Regime& regime,
+                                            const Eigen::Ref<const Eigen::MatrixXd>& directions,
+                                            Eigen::MatrixXd& out) {
+  begin(factors, regime);
   Eigen::VectorXd unused = Eigen::VectorXd::Zero(y.size());
   for (int e = 0; e < size(); ++e) {
     const ElementDofs& dofs = dofs_[e];
@@ -739,10 +633,10 @@ void ElementSetOf<P>::add_tangent_products(const Eigen::VectorXd& y,
 
 /// The acting supports' part, as add_support_residual() left them.
 template <int P>
-void ElementSetOf<P>::add_acting_product(const ElementDofs& dofs, const double* direction,
-                                         double* out) const {
+void ElementWorkOf<P>::add_acting_product(const ElementDofs& dofs, const double* direction,
+                                          double* out) const {
   for (const Functional& f : acting_) {
-    const double force = f.law.stiffness * value(f, dofs, direction);
+    const double force = f.law.stiffness * data_.value(f, dofs, direction);
     for (int k = 0; k < 3; ++k) {
       out[dofs.a[k]] += force * f.a[k];
       for (int q = 0; q < P; ++q) out[dofs.v + k * P + q] += force * f.v[k][q];
@@ -750,6 +644,11 @@ void ElementSetOf<P>::add_acting_product(const ElementDofs& dofs, const double* 
   }
 }
 
+template <int P>
+std::unique_ptr<ElementWork> ElementSetOf<P>::make_work() const {
+  return std::make_unique<ElementWorkOf<P>>(data_);
+}
+
 }  // namespace snapthrough
 
-#include "solver/element/element_set_supports.h"
+#include "solver/element/element_work_supports.h"
