@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "solver/column/column_frame.h"
-#include "solver/numeric/load_bracket.h"
+#include "solver/numeric/bracket.h"
 
 namespace snapthrough {
 namespace {
@@ -24,7 +24,7 @@ class LoadSearch {
     return count_below(line_, lambda);
   }
   [[nodiscard]] bool enclose(LoadBracket& bracket);
-  void isolate(const LoadBracket& bracket);
+  [[nodiscard]] bool take(const LoadBracket& bracket);
   [[nodiscard]] double root(const LoadBracket& bracket);
   [[nodiscard]] bool confirm(double load, int below);
 
@@ -60,31 +60,21 @@ bool LoadSearch::enclose(LoadBracket& bracket) {
   return bracket.below_hi - bracket.below_lo >= wanted_;
 }
 
-/// Splits a bracket until each part holds one load, or equal ones.
-void LoadSearch::isolate(const LoadBracket& bracket) {
+/// Takes a bracket that holds one load, or equal ones.
+bool LoadSearch::take(const LoadBracket& bracket) {
   constexpr double kEqual = 1e-14;
-  const int at_start = out_.negative_at_start;
-  if (bracket.below_hi <= bracket.below_lo || bracket.below_lo - at_start >= wanted_) return;
   // loads that many times below Euler's are those of a mechanism
   constexpr double kNone = 1e-25;
   lost_ = lost_ || bracket.hi <= kNone * scale_;
-  if (lost_) return;
-  const double middle = 0.5 * (bracket.lo + bracket.hi);
-  if (bracket.below_hi - bracket.below_lo == 1) {
-    out_.loads.push_back(root(bracket));
-    below_.push_back(bracket.below_lo);
-    return;
+  if (lost_) return true;
+  const bool equal = bracket.hi - bracket.lo <= kEqual * bracket.hi;
+  if (!bracket.is_single() && !equal) return false;
+  const double load = bracket.is_single() ? root(bracket) : 0.5 * (bracket.lo + bracket.hi);
+  for (int below = bracket.below_lo; below < bracket.below_hi; ++below) {
+    out_.loads.push_back(load);
+    below_.push_back(below);
   }
-  if (bracket.hi - bracket.lo <= kEqual * bracket.hi) {
-    for (int below = bracket.below_lo; below < bracket.below_hi; ++below) {
-      out_.loads.push_back(middle);
-      below_.push_back(below);
-    }
-    return;
-  }
-  const int below = std::clamp(count(middle).negative, bracket.below_lo, bracket.below_hi);
-  isolate({bracket.lo, middle, bracket.below_lo, below});
-  isolate({middle, bracket.hi, below, bracket.below_hi});
+  return true;
 }
 
 /// a over b.
@@ -106,37 +96,14 @@ double LoadSearch::root(const LoadBracket& bracket) {
     return above ? size : -size;
   };
   bool above = false;
-  double a = bracket.hi;
-  double fa = 1.0;
-  double b = bracket.lo;
-  double fb = value(b, above);
-  double c = a;
-  double fc = fa;
-  double share = 0.5;
+  SignBracket at(bracket.hi, 1.0, bracket.lo, value(bracket.lo, above));
   for (int i = 0; i < kMost; ++i) {
-    const double best = std::abs(fa) < std::abs(fb) ? a : b;
-    const double width = std::abs(b - a);
-    if (width <= kDigits * std::max(a, b) || fa == 0.0 || fb == 0.0) return best;
-    const double least = 0.5 * kDigits * std::max(a, b) / width;
-    const double x = a + std::clamp(share, least, 1.0 - least) * (b - a);
-    const double fx = value(x, above);
-    c = a;
-    fc = fa;
-    if ((fx > 0.0) != (fa > 0.0)) {
-      c = b;
-      fc = fb;
-      b = a;
-      fb = fa;
-    }
-    a = x;
-    fa = fx;
-    const double xi = (a - b) / (c - b);
-    const double phi = (fa - fb) / (fc - fb);
-    share = 0.5;
-    if (phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)
-      share = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb);
+    const double least = kDigits * at.largest();
+    if (at.width() <= least || at.is_exact()) return at.best();
+    const double x = at.next(0.5 * least / at.width());
+    at.take(x, value(x, above));
   }
-  return 0.5 * (a + b);
+  return at.middle();
 }
 
 /// Counts on both sides, of pieces cut otherwise.
@@ -157,7 +124,9 @@ bool LoadSearch::confirm(double load, int below) {
 std::optional<ColumnBuckling> LoadSearch::run() {
   LoadBracket all;
   if (!enclose(all)) return std::nullopt;
-  isolate(all);
+  isolate_loads(
+      all, out_.negative_at_start + wanted_, [this](double load) { return count(load).negative; },
+      [this](const LoadBracket& bracket) { return take(bracket); });
   if (lost_) return std::nullopt;
   if (static_cast<int>(out_.loads.size()) > wanted_) out_.loads.resize(static_cast<std::size_t>(wanted_));
   for (std::size_t i = 0; i < out_.loads.size(); ++i)

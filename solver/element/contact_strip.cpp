@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solver/numeric/chebyshev_series.h"
+#include "solver/numeric/cubic.h"
 #include "solver/numeric/max_order.h"
 
 namespace snapthrough {
@@ -185,16 +186,6 @@ double root_between(const Gap& gap, Sample lo, Sample hi) {
   return std::clamp(hi.z - hi.g * (hi.z - lo.z) / (hi.g - lo.g), lo.z, hi.z);
 }
 
-/// Where the cubic with values f and slopes m at 0 and 1 is least between them; empty when at an end.
-std::optional<double> least_of_cubic(double f0, double m0, double f1, double m1) {
-  const double a = 3.0 * (2.0 * (f0 - f1) + m0 + m1);
-  const double b =
-      3.0 * (f1 - f0) - 2.0 * m0 - m1;  // a t^2 + 2 b t + m0: its slope, rising where it is least
-  const double root = std::sqrt(std::max(b * b - a * m0, 0.0));
-  const double t = b > 0.0 ? -m0 / (b + root) : (root - b) / a;
-  return t > 0.0 && t < 1.0 ? std::optional(t) : std::nullopt;
-}
-
 /// A place between two where g has not the given sign, as it has at both, if it turns back there.
 template <class Gap>
 std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, double sign) {
@@ -203,7 +194,7 @@ std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, dou
   double rise = sign * gap.slope(right.z);
   const double whole = right.z - left.z;
   // beside a clamped end, where g and its slope are zero, it is not convex
-  if (const auto t = least_of_cubic(sign * left.g, fall * whole, sign * right.g, rise * whole)) {
+  if (const auto t = Cubic{sign * left.g, fall * whole, sign * right.g, rise * whole}.minimum()) {
     const double z = left.z + *t * whole;
     if (const Sample least{z, gap.value(z)}; sign * least.g < 0.0) return least;
   }

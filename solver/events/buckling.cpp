@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "solver/newton/corrector.h"
-#include "solver/numeric/load_bracket.h"
+#include "solver/numeric/bracket.h"
 #include "solver/numeric/pseudo_random.h"
 
 namespace snapthrough {
@@ -154,16 +154,15 @@ VectorXd Pencil::geometric(const VectorXd& x) { return product(1.0, x) - product
 /// iteration or more.
 constexpr double kShort = 1e-2;
 
-/// Splits (lo, hi) until each bracket holds one eigenvalue and is short, or a cluster that is narrow,
-/// ascending.
-void isolate(Pencil& pencil, const LoadBracket& bracket, int wanted, std::vector<LoadBracket>& out) {
+/// Brackets of one eigenvalue each that are short, or of a cluster that is narrow, ascending.
+std::vector<LoadBracket> isolated(Pencil& pencil, const LoadBracket& all, int wanted) {
   constexpr double kNarrow = 1e-4;
-  if (bracket.below_hi <= bracket.below_lo || bracket.below_lo >= wanted) return;
-  const bool single = bracket.below_hi - bracket.below_lo == 1;
-  // the only load that is wanted may have a wide bracket: there is no other beside it to be mixed up with
-  const bool only = single && out.empty() && bracket.below_hi == wanted;
-  const bool narrow = only || bracket.hi - bracket.lo <= (single ? kShort : kNarrow) * bracket.hi;
-  if (narrow) {
+  std::vector<LoadBracket> out;
+  const auto take = [&](const LoadBracket& bracket) {
+    const bool single = bracket.is_single();
+    // the only load that is wanted may have a wide bracket: there is no other beside it to be mixed up with
+    const bool only = single && out.empty() && bracket.below_hi == wanted;
+    if (!only && bracket.hi - bracket.lo > (single ? kShort : kNarrow) * bracket.hi) return false;
     // eigenvalues on both sides of a common end are one cluster
     if (!out.empty() && out.back().hi == bracket.lo) {
       out.back().hi = bracket.hi;
@@ -171,13 +170,11 @@ void isolate(Pencil& pencil, const LoadBracket& bracket, int wanted, std::vector
     } else {
       out.push_back(bracket);
     }
-    return;
-  }
-  const double middle = 0.5 * (bracket.lo + bracket.hi);
-  // a count that lost its digits must not say more than its neighbours
-  const int below = std::clamp(pencil.count(middle), bracket.below_lo, bracket.below_hi);
-  isolate(pencil, {bracket.lo, middle, bracket.below_lo, below}, wanted, out);
-  isolate(pencil, {middle, bracket.hi, below, bracket.below_hi}, wanted, out);
+    return true;
+  };
+  isolate_loads(
+      all, wanted, [&](double load) { return pencil.count(load); }, take);
+  return out;
 }
 
 struct EigenPair {
@@ -286,23 +283,13 @@ std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, Index size) 
   return pairs;
 }
 
-/// The place in (lo, hi) where the count of eigenvalues passes `below`, by bisection to the last digits.
-double bisect(Pencil& pencil, double lo, double hi, int below) {
-  constexpr double kDigits = 1e-13;
-  while (hi - lo > kDigits * hi) {
-    const double middle = 0.5 * (lo + hi);
-    if (middle <= lo || middle >= hi) break;
-    (pencil.count(middle) > below ? hi : lo) = middle;
-  }
-  return 0.5 * (lo + hi);
-}
-
 /// Holds each value of a bracket against the counts just beside it. Where they disagree, the counts have lost
 /// their digits next to a double load, if the value is in the bracket and the mode's quotient is the same; or
 /// elimination was poor at the shift (a single element held at one end buckles near it), and the value is
 /// taken from the counts, which need signs only.
 void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>& pairs) {
   constexpr double kBeside = 1e-9;
+  constexpr double kDigits = 1e-13;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const int below = bracket.below_lo + static_cast<int>(i);
     const double load = pairs[i].load;
@@ -312,7 +299,9 @@ void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>&
       return load >= bracket.lo && load <= bracket.hi &&
              std::abs(pencil.quotient(pairs[i].mode) - load) <= kBeside * load;
     };
-    if (!right && !exact()) pairs[i].load = bisect(pencil, bracket.lo, bracket.hi, below);
+    if (!right && !exact())
+      pairs[i].load = bisect(bracket.lo, bracket.hi, kDigits * bracket.hi,
+                             [&](double at) { return pencil.count(at) > below; });
   }
 }
 
@@ -338,9 +327,7 @@ void find_loads(Pencil& pencil, Index size, int count, LinearBuckling& out) {
   out.modes.clear();
   out.negative_at_start = pencil.count(0.0);
   const LoadBracket all = enclose(pencil, count, out.negative_at_start);
-  std::vector<LoadBracket> brackets;
-  isolate(pencil, all, out.negative_at_start + count, brackets);
-  for (LoadBracket& bracket : brackets) {
+  for (LoadBracket& bracket : isolated(pencil, all, out.negative_at_start + count)) {
     auto pairs = refine(pencil, bracket, size);
     confirm(pencil, bracket, pairs);
     for (EigenPair& pair : pairs) {

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/numeric/bracket.h"
+
 namespace snapthrough {
 namespace {
 
-constexpr int kHalvings = 40;
 constexpr int kMostCorrections = 25;
 constexpr int kMostChanges = 200;  ///< on one step
 
@@ -20,17 +21,13 @@ struct Bracket {
 /// Share of the bracket at which the interpolated path leaves the old counts.
 double predicted_share(const Continuation& continuation, const Chord& chord, const Bracket& bracket,
                        const ZoneCounter& count, const std::vector<int>& old) {
-  double lo = 0.0;
-  double hi = 1.0;
   std::vector<int> zones;
   PathPoint at;
-  for (int i = 0; i < kHalvings && hi - lo > 1e-9; ++i) {
-    const double middle = 0.5 * (lo + hi);
-    continuation.interpolate(chord, bracket.before, bracket.after, middle, at);
+  return bisect(0.0, 1.0, 1e-9, [&](double share) {
+    continuation.interpolate(chord, bracket.before, bracket.after, share, at);
     count(at.y, zones);
-    (zones == old ? lo : hi) = middle;
-  }
-  return 0.5 * (lo + hi);
+    return zones != old;
+  });
 }
 
 /// Whether the counts change at the start of the bracket itself, so that they are others at once beyond it:

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "solver/events/newton_event.h"
+#include "solver/numeric/bracket.h"
+#include "solver/numeric/cubic.h"
 
 namespace snapthrough {
 
@@ -225,38 +227,31 @@ void search_between(Search& search, const PathPoint& a, const PathPoint& b, int 
   if (search.out.same_path) search_between(search, *middle, b, depth + 1);
 }
 
-/// Whether the cubic through both ends' loads and load rates turns inside although it does not turn at the
-/// ends.
-bool may_hide_two_limits(const Continuation& continuation, const Chord& chord, const PathPoint& a,
-                         const PathPoint& b, double& share) {
+/// Where the cubic through both ends' loads and load rates turns although it does not turn at the ends.
+std::optional<double> hidden_turn(const Continuation& continuation, const Chord& chord, const PathPoint& a,
+                                  const PathPoint& b) {
   const double length = continuation.distance(a, b);
-  const double ra = continuation.load_rate(chord, a);
-  const double rb = continuation.load_rate(chord, b);
-  const double mean = (b.lambda - a.lambda) / length;
-  // rate(t) = ra + 2 (3 mean - 2 ra - rb) t + 3 (ra + rb - 2 mean) t^2
-  const double linear = 2.0 * (3.0 * mean - 2.0 * ra - rb);
-  const double square = 3.0 * (ra + rb - 2.0 * mean);
-  if (square == 0.0) return false;
-  const double t = -0.5 * linear / square;
-  if (t <= 0.0 || t >= 1.0) return false;
-  share = t;
-  const double rate = ra + 0.5 * linear * t;
-  return (rate > 0.0) != (ra > 0.0);
+  const Cubic load{a.lambda, length * continuation.load_rate(chord, a), b.lambda,
+                   length * continuation.load_rate(chord, b)};
+  const auto at = load.inflection();
+  return at && (load.slope(*at) > 0.0) != (load.m0 > 0.0) ? at : std::nullopt;
 }
 
 }  // namespace
 
 namespace {
 
-/// Share of the bracket at which to look next: just beyond the secant's estimate, seen from the nearer end.
-double next_share(double va, double vb) {
-  double share = va / (va - vb);
-  if (!(share > 0.0 && share < 1.0)) return 0.5;
-  if (share < 0.1)
-    share *= 2.0;
-  else if (share > 0.9)
-    share = 1.0 - 2.0 * (1.0 - share);
-  return std::clamp(share, 1e-5, 1.0 - 1e-5);
+constexpr double kLeastShare = 1e-5;  ///< of a bracket that a place is from its ends
+constexpr double kOtherShare = 0.37;  ///< where to look when no point was found
+
+/// As far beyond an estimate near an end of a bracket as it is from there, so that the bracket closes from
+/// both sides.
+double just_beyond(double place, double from, double to) {
+  constexpr double kNear = 0.1;
+  const double share = (place - from) / (to - from);
+  if (share < kNear) return from + 2.0 * (place - from);
+  if (share > 1.0 - kNear) return to - 2.0 * (to - place);
+  return place;
 }
 
 }  // namespace
@@ -266,28 +261,28 @@ LocatedRoot find_root(Continuation& continuation, const Chord& chord, const Path
                       const std::function<double(const PathPoint&)>& value,
                       const std::function<bool(const PathPoint&, const PathPoint&, double)>& done) {
   LocatedRoot out{a, b, a, value_a, value_b};
-  double va = value_a;
-  double vb = value_b;
-  double length = continuation.distance_in(chord, a, b);
-  bool halve = false;
+  SignBracket bracket(0.0, value_a, 1.0, value_b);
+  double from = 0.0;  // share of the way from a to b at which the bracket begins
+  double to = 1.0;
   for (int it = 0; it < kMaxEvaluations && !apart(continuation, chord, out.before, out.after); ++it) {
-    const double best = std::min(std::abs(va), std::abs(vb));
+    const double best = std::min(std::abs(out.value_before), std::abs(out.value_after));
     out.found = best == 0.0 || done(out.before, out.after, best);
     if (out.found) break;
-    auto point = continuation.between(chord, out.before, out.after, halve ? 0.5 : next_share(va, vb));
-    if (!point) point = continuation.between(chord, out.before, out.after, 0.37);
+    const auto point_at = [&](double place) {
+      return continuation.between(chord, out.before, out.after, (place - from) / (to - from));
+    };
+    double place = just_beyond(bracket.next(kLeastShare), from, to);
+    auto point = point_at(place);
+    if (!point) point = point_at(place = from + kOtherShare * (to - from));
     if (!point) break;
     const double v = value(*point);
+    bracket.take(place, v);
     const bool at_start = (v > 0.0) == (value_a > 0.0);
-    (at_start ? va : vb) = v;
+    (at_start ? from : to) = place;
+    (at_start ? out.value_before : out.value_after) = v;
     (at_start ? out.before : out.after) = std::move(*point);
-    const double shorter = continuation.distance_along(chord, out.before, out.after);
-    halve = !halve && shorter > 0.5 * length;
-    length = shorter;
   }
-  out.root = std::abs(va) <= std::abs(vb) ? out.before : out.after;
-  out.value_before = va;
-  out.value_after = vb;
+  out.root = std::abs(out.value_before) <= std::abs(out.value_after) ? out.before : out.after;
   return out;
 }
 
@@ -351,10 +346,9 @@ LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint
   Search search{continuation, continuation.chord(a, b),        a.log_abs_det, options,
                 out,          std::max(softest(a), softest(b))};
   const double tolerance = options.tolerance;
-  double share = 0.0;
   const bool turns = (a.tangent_lambda > 0.0) != (b.tangent_lambda > 0.0);
-  if (!turns && may_hide_two_limits(continuation, search.chord, a, b, share)) {
-    if (const auto inside = look(search, a, b, share)) {
+  if (const auto share = turns ? std::nullopt : hidden_turn(continuation, search.chord, a, b)) {
+    if (const auto inside = look(search, a, b, *share)) {
       search_between(search, a, *inside, 0);
       if (out.same_path) search_between(search, *inside, b, 0);
       merge_events(continuation, tolerance, out.events);

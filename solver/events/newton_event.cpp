@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "solver/events/critical_system.h"
-#include "solver/numeric/hermite.h"
+#include "solver/numeric/cubic.h"
 #include "solver/path/soft_mode.h"
 
 namespace snapthrough {
@@ -200,20 +200,11 @@ Index crossing_mode(const SoftModes& modes, double sign, double sense) {
 double predicted_share(const PathMetric& metric, const SoftModes& a, Index i, const SoftModes& b, Index j,
                        double length) {
   constexpr double kSame = 0.9;
-  constexpr int kHalvings = 40;
   const double from_a = a.distance_to_zero(i, 1.0) / length;
   const double from_b = b.distance_to_zero(j, -1.0) / length;
   if (std::abs(metric.inner(a.motions.col(i), 0.0, b.motions.col(j), 0.0)) < kSame)
     return from_a < from_b ? from_a : 1.0 - from_b;
-  double lo = 0.0;
-  double hi = 1.0;
-  for (int n = 0; n < kHalvings; ++n) {
-    const double t = 0.5 * (lo + hi);
-    const Hermite h(t * length, length);
-    const double value = h.a * a.stiffness[i] + h.da * a.rate[i] + h.b * b.stiffness[j] + h.db * b.rate[j];
-    ((value > 0.0) == (a.stiffness[i] > 0.0) ? lo : hi) = t;
-  }
-  return 0.5 * (lo + hi);
+  return Cubic{a.stiffness[i], length * a.rate[i], b.stiffness[j], length * b.rate[j]}.zero();
 }
 
 CriticalEvent limit_event(const Continuation& continuation, const CriticalSolution& found,

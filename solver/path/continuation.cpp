@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/numeric/hermite.h"
+#include "solver/numeric/cubic.h"
 #include "solver/numeric/pseudo_random.h"
 
 namespace snapthrough {
@@ -360,11 +360,12 @@ void Continuation::extrapolate(const PathPoint& before, const PathPoint& from) {
   if (!(chord > 0.0)) return;
   const double half = 0.5 * angle_between(before, from);
   const double d = half > 0.0 ? chord * half / std::sin(half) : chord;
-  const double along = (from.lambda - before.lambda) / d;
-  bend_.y2 = ((2.0 * before.tangent + 4.0 * from.tangent) - (6.0 / d) * (from.y - before.y)) / d;
-  bend_.y3 = (6.0 * (before.tangent + from.tangent) - (12.0 / d) * (from.y - before.y)) / (d * d);
-  bend_.lambda2 = (2.0 * before.tangent_lambda + 4.0 * from.tangent_lambda - 6.0 * along) / d;
-  bend_.lambda3 = (6.0 * (before.tangent_lambda + from.tangent_lambda) - 12.0 * along) / (d * d);
+  const VectorXd rise = from.y - before.y;
+  const double rise_lambda = from.lambda - before.lambda;
+  bend_.y2 = second_derivative_at_end(rise, before.tangent, from.tangent, d);
+  bend_.y3 = third_derivative(rise, before.tangent, from.tangent, d);
+  bend_.lambda2 = second_derivative_at_end(rise_lambda, before.tangent_lambda, from.tangent_lambda, d);
+  bend_.lambda3 = third_derivative(rise_lambda, before.tangent_lambda, from.tangent_lambda, d);
 }
 
 void Continuation::predict(const PathPoint& from, double step, PathPoint& to) const {
@@ -677,7 +678,7 @@ void Continuation::interpolate(const Chord& chord, const PathPoint& lo, const Pa
   const double rate_lo = metric_.inner(lo.tangent, lo.tangent_lambda, chord.y, chord.lambda);
   const double rate_hi = metric_.inner(hi.tangent, hi.tangent_lambda, chord.y, chord.lambda);
   if (rate_lo > kSmoothRate && rate_hi > kSmoothRate) {
-    const Hermite h(share * length, length);
+    const CubicWeights h(share * length, length);
     at.y = h.a * lo.y + (h.da / rate_lo) * lo.tangent + h.b * hi.y + (h.db / rate_hi) * hi.tangent;
     at.lambda = h.a * lo.lambda + h.da / rate_lo * lo.tangent_lambda + h.b * hi.lambda +
                 h.db / rate_hi * hi.tangent_lambda;
