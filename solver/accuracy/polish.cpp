@@ -84,8 +84,8 @@ std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const Pat
   for (int n = 0; n < kMostSteps; ++n) {
     const StepOutcome outcome = continuation_.step(*from, size, to);
     if (outcome == StepOutcome::step_underflow) return std::nullopt;
-    const LocatedEvents located = outcome == StepOutcome::turned
-                                      ? locate_at_turn(continuation_, *from, to, size.taken, {tolerance_})
+    const LocatedEvents located = outcome == StepOutcome::kinked
+                                      ? locate_at_kink(continuation_, *from, to, size.taken, {tolerance_})
                                       : locate_critical_points(continuation_, *from, to, {tolerance_});
     if (!located.same_path) {
       continuation_.reject(size);
@@ -109,7 +109,7 @@ std::optional<CriticalEvent> FineMesh::by_newton(const Structure& from, const Cr
                                                  const PathPoint& at) {
   Eigen::MatrixXd null(structure_.size, known.null.cols());
   for (Eigen::Index i = 0; i < null.cols(); ++i) null.col(i) = transfer(from, known.null.col(i), structure_);
-  const double reach = kReach * kWidening * continuation_.way_to(at);
+  const double reach = kReach * kWidening * continuation_.path_length_to(at);
   return critical_point_near(continuation_, known, at, std::move(null), reach, tolerance_);
 }
 
@@ -120,7 +120,7 @@ std::optional<CriticalEvent> FineMesh::bifurcation(const Structure& from, const 
 std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEvent& known,
                                          const Structure& base, const PathPoint& before) {
   const PathPoint at = transferred(from, known.point);
-  const double path = continuation_.way_to(at);
+  const double path = continuation_.path_length_to(at);
   if (!(path > 0.0)) return std::nullopt;
   if (known.null.size() > 0)
     if (const auto event = by_newton(from, known, at)) return FoundPoint{*event, event->point};

@@ -34,7 +34,8 @@ void Recorder::start_branch(std::optional<int> parent) {
   branch.id = branch_;
   branch.parent = parent;
   for (const MonitorRow& monitor : structure_.monitors) branch.monitors.push_back({monitor.id, {}});
-  for (const Foundation& base : model_.foundations) branch.contact_fraction.push_back({base.id, {}});
+  for (const Foundation& foundation : model_.foundations)
+    branch.contact_fraction.push_back({foundation.id, {}});
   result_.branches.push_back(std::move(branch));
 }
 

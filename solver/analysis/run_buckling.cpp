@@ -26,7 +26,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Which one-sided bases count as glued, in words.
+/// Which one-sided foundations count as glued, in words.
 std::string contact_text(const Structure& structure, const Model& model, const FrozenContact& contact) {
   const std::optional<Model> joined = with_joined_supports(model);
   const Model& laws = joined ? *joined : model;
@@ -34,13 +34,14 @@ std::string contact_text(const Structure& structure, const Model& model, const F
     double glued = 0.0;
     double all = 0.0;
   };
-  std::map<std::string, Share> shares;  // of bases that were cut into parts, too
+  std::map<std::string, Share> shares;  // of foundations that were cut into parts, too
   for (std::size_t i = 0; i < laws.foundations.size(); ++i) {
-    const Foundation& base = laws.foundations[i];
-    if (base.reaction == Reaction::bilateral || base.stiffness == 0.0) continue;
-    const int member = index_of(laws.members, base.member);
-    Share& share = shares[base.id];
-    share.all += (base.range[1] - base.range[0]) * structure.axes[member]->length() / structure.scales.length;
+    const Foundation& foundation = laws.foundations[i];
+    if (foundation.reaction == Reaction::bilateral || foundation.stiffness == 0.0) continue;
+    const int member = index_of(laws.members, foundation.member);
+    Share& share = shares[foundation.id];
+    share.all += (foundation.range[1] - foundation.range[0]) * structure.axes[member]->length() /
+                 structure.scales.length;
     for (int e = structure.mesh.first[member]; e < structure.mesh.first[member + 1]; ++e)
       share.glued +=
           length_of_element(structure, e) * structure.elements->frozen_share(contact, e, static_cast<int>(i));

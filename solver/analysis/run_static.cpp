@@ -86,7 +86,8 @@ void StaticRows::set(std::size_t index, const VectorXd& y, int negative) {
 void StaticRows::move_to(Result& result) {
   StaticTable& table = result.static_table.emplace();
   for (const MonitorRow& monitor : structure_.monitors) table.monitors.push_back({monitor.id, {}});
-  for (const Foundation& base : model_.foundations) table.contact_fraction.push_back({base.id, {}});
+  for (const Foundation& foundation : model_.foundations)
+    table.contact_fraction.push_back({foundation.id, {}});
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!rows_[i]) {
       result.not_reached.push_back(analysis_.load_factors[i]);

@@ -38,9 +38,10 @@ void find_linear_path(const Place& root, const Model&, const Analysis& analysis,
 }
 
 void find_one_sided_shear_layer(const Place& root, const Model& model, const Analysis&, const char* what) {
-  report_items(root, "foundations", model.foundations, "shear_stiffness", what, [](const Foundation& base) {
-    return base.shear_stiffness > 0.0 && base.reaction != Reaction::bilateral;
-  });
+  report_items(root, "foundations", model.foundations, "shear_stiffness", what,
+               [](const Foundation& foundation) {
+                 return foundation.shear_stiffness > 0.0 && foundation.reaction != Reaction::bilateral;
+               });
 }
 
 constexpr Feature kNotYet[] = {

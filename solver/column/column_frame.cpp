@@ -76,7 +76,7 @@ double largest_exponent(double q, double r) {
 }
 
 double pieces_of(const ColumnSpan& span, double q) {
-  return std::max(1.0, std::ceil(largest_exponent(q, span.base / span.EI) * span.length / kLongest));
+  return std::max(1.0, std::ceil(largest_exponent(q, span.foundation / span.EI) * span.length / kLongest));
 }
 
 double coefficient_q(const ColumnSpan& span, double lambda) {
@@ -279,7 +279,7 @@ ColumnCount count_below(const ColumnLine& line, double lambda, bool cut_finer) {
     if (i > 0) walk.pass(line.joints[i]);
     const double q = coefficient_q(span, lambda);
     const int pieces = static_cast<int>(pieces_of(span, q)) + (cut_finer ? 1 : 0);
-    const Transfer transfer(q, span.base / span.EI, span.EI, span.length / pieces);
+    const Transfer transfer(q, span.foundation / span.EI, span.EI, span.length / pieces);
     for (int k = 0; k < pieces; ++k) {
       walk.advance(transfer);
       walk.orthonormalise();
@@ -299,14 +299,14 @@ std::vector<ColumnPiece> pieces_at(const ColumnLine& line, double lambda) {
     const double q = coefficient_q(span, lambda);
     const int pieces = static_cast<int>(pieces_of(span, q));
     const double h = span.length / pieces;
-    const Transfer transfer(q, span.base / span.EI, span.EI, h);
+    const Transfer transfer(q, span.foundation / span.EI, span.EI, h);
     walk.forget_joint();
     if (i > 0) walk.pass(line.joints[i]);
     walk.settle_joint();
     for (int k = 0; k < pieces; ++k) {
       if (!out.empty()) out.back().end_from_next = walk.joint_map();
       walk.forget_joint();
-      ColumnPiece piece{static_cast<int>(i), k * h, h,  q, span.base / span.EI, span.EI,
+      ColumnPiece piece{static_cast<int>(i), k * h, h,  q, span.foundation / span.EI, span.EI,
                         walk.frame(),        {},    {}, {}};
       walk.advance(transfer);
       piece.start_from_end = walk.orthonormalise();

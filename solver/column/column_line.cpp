@@ -60,7 +60,7 @@ class LineReader {
   [[nodiscard]] bool add_supports();
   [[nodiscard]] bool add_support(const Support& support, int joint);
   [[nodiscard]] bool add_springs();
-  [[nodiscard]] bool add_bases();
+  [[nodiscard]] bool add_foundations();
   [[nodiscard]] bool add_loads();
   [[nodiscard]] bool add_point_load(const PointLoad& load);
   [[nodiscard]] bool add_prestress();
@@ -95,8 +95,9 @@ bool LineReader::is_simple() const {
       return false;
   for (const Spring& spring : model_.springs)
     if (spring.stiffness > 0.0 && spring.reaction != Reaction::bilateral) return false;
-  for (const Foundation& base : model_.foundations)
-    if (base.stiffness + base.shear_stiffness > 0.0 && base.reaction != Reaction::bilateral) return false;
+  for (const Foundation& foundation : model_.foundations)
+    if (foundation.stiffness + foundation.shear_stiffness > 0.0 && foundation.reaction != Reaction::bilateral)
+      return false;
   return true;
 }
 
@@ -158,10 +159,10 @@ void LineReader::cut(Link& link) const {
   const auto add = [&](double fraction) { cuts.push_back(link.backwards ? 1.0 - fraction : fraction); };
   for (const Spring& spring : model_.springs)
     if (spring.at.member == id && spring.stiffness > 0.0) add(spring.at.fraction);
-  for (const Foundation& base : model_.foundations) {
-    if (base.member != id || base.stiffness + base.shear_stiffness == 0.0) continue;
-    add(base.range[0]);
-    add(base.range[1]);
+  for (const Foundation& foundation : model_.foundations) {
+    if (foundation.member != id || foundation.stiffness + foundation.shear_stiffness == 0.0) continue;
+    add(foundation.range[0]);
+    add(foundation.range[1]);
   }
   for (const Load& load : model_.loads)
     if (const auto* point = std::get_if<PointLoad>(&load); point && point->at.member == id)
@@ -306,17 +307,17 @@ bool LineReader::add_springs() {
   return true;
 }
 
-bool LineReader::add_bases() {
+bool LineReader::add_foundations() {
   const double unit = line_.stiffness / (line_.length * line_.length);
-  for (const Foundation& base : model_.foundations) {
-    if (base.stiffness + base.shear_stiffness == 0.0) continue;
-    if (base.direction && way_of(*base.direction) != Way::across) return false;
-    const Link& link = link_of(base.member);
-    const int one = joint_at(link, base.range[0]);
-    const int other = joint_at(link, base.range[1]);
+  for (const Foundation& foundation : model_.foundations) {
+    if (foundation.stiffness + foundation.shear_stiffness == 0.0) continue;
+    if (foundation.direction && way_of(*foundation.direction) != Way::across) return false;
+    const Link& link = link_of(foundation.member);
+    const int one = joint_at(link, foundation.range[0]);
+    const int other = joint_at(link, foundation.range[1]);
     for (int i = std::min(one, other); i < std::max(one, other); ++i) {
-      line_.spans[i].base += base.stiffness * line_.length * line_.length / unit;
-      line_.spans[i].layer += base.shear_stiffness / unit;
+      line_.spans[i].foundation += foundation.stiffness * line_.length * line_.length / unit;
+      line_.spans[i].layer += foundation.shear_stiffness / unit;
     }
   }
   return true;
@@ -402,7 +403,7 @@ bool LineReader::read() {
   line_.stiffness = 0.0;
   if (!order_members()) return false;
   add_spans();
-  return add_supports() && add_springs() && add_bases() && add_loads() && add_prestress();
+  return add_supports() && add_springs() && add_foundations() && add_loads() && add_prestress();
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace snapthrough {
 struct ColumnSpan {
   double length = 0.0;
   double EI = 1.0;
-  double base = 0.0;          ///< K, sum of the bases
+  double foundation = 0.0;    ///< K, sum of the foundations
   double layer = 0.0;         ///< G, sum of their shear layers
   double constant = 0.0;      ///< compression by the constant actions
   double proportional = 0.0;  ///< by unit load factor
@@ -52,7 +52,7 @@ struct ColumnLine {
 };
 
 /// @brief Reads a model as a column: members in one straight line, one after another, unshearable and
-/// perfect, with bilateral lateral bases, springs and supports along or across it, and actions that
+/// perfect, with bilateral lateral foundations, springs and supports along or across it, and actions that
 /// compress or stretch it only, by forces that are constant between places.
 ///
 /// Two or more elastic springs along the line, or one beside supports, are not among these.

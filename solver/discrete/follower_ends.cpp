@@ -12,8 +12,8 @@ VectorXd FollowerEnds::weighted(const VectorXd& x) const {
   VectorXd out(2 * static_cast<Index>(ends_.size()));
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     const Index row = 2 * static_cast<Index>(i);
-    out[row] = -c_[i] * x[3 * ends_[i].joint + 1];
-    out[row + 1] = c_[i] * x[3 * ends_[i].joint];
+    out[row] = -c_[i] * x[3 * ends_[i].node + 1];
+    out[row + 1] = c_[i] * x[3 * ends_[i].node];
   }
   return out;
 }
@@ -28,7 +28,7 @@ double FollowerEnds::prepare(double proportional, double constant, Index size,
   Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n);
   VectorXd column;
   for (Index j = 0; j < n; ++j) {
-    column = VectorXd::Unit(size, 3 * ends_[static_cast<std::size_t>(j / 2)].joint + j % 2);
+    column = VectorXd::Unit(size, 3 * ends_[static_cast<std::size_t>(j / 2)].node + j % 2);
     solve(column);
     W_.col(j) = column;
     M.col(j) += weighted(column);
@@ -43,8 +43,8 @@ void FollowerEnds::add_product(double proportional, double constant,
                                const Eigen::Ref<const VectorXd>& direction, Eigen::Ref<VectorXd> out) const {
   for (const FollowerEnd& end : ends_) {
     const double c = proportional * end.proportional + constant * end.constant;
-    out[3 * end.joint] -= c * direction[3 * end.joint + 1];
-    out[3 * end.joint + 1] += c * direction[3 * end.joint];
+    out[3 * end.node] -= c * direction[3 * end.node + 1];
+    out[3 * end.node + 1] += c * direction[3 * end.node];
   }
 }
 

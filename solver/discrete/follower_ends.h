@@ -12,7 +12,7 @@ namespace snapthrough {
 /// the derivative  -c [0 1; -1 0]  by its displacement (x, y) beyond the symmetric tangent, with c the
 /// factors' sum of these, half the pressure that ends there.
 struct FollowerEnd {
-  int joint = 0;
+  int node = 0;
   double proportional = 0.0;
   double constant = 0.0;
 };

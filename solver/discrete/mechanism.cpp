@@ -30,7 +30,7 @@ constexpr double kOneDirection = 1e-6;
 
 using Row = RigidParts::Row;
 
-/// What the supports, springs and bases of a model hold: their stiffnesses say nothing of what can move
+/// What the supports, springs and foundations of a model hold: their stiffnesses say nothing of what can move
 /// without strain.
 class Holding {
  public:
@@ -39,8 +39,8 @@ class Holding {
     for (const Support& support : parts.model().supports) add(support);
     for (const Spring& spring : parts.model().springs)
       if (is_there(spring)) add(spring);
-    for (const Foundation& base : parts.model().foundations)
-      if (is_there(base)) add(base);
+    for (const Foundation& foundation : parts.model().foundations)
+      if (is_there(foundation)) add(foundation);
   }
 
   /// Rows that are zero in a motion that meets no support.
@@ -55,7 +55,7 @@ class Holding {
   }
   void add(const Support& support);
   void add(const Spring& spring);
-  void add(const Foundation& base);
+  void add(const Foundation& foundation);
   void hold(const Row& rotation, double radius);
   void hold(int node, double x, double y);
   void hold(int member, RigidParts::Point at, double x, double y);
@@ -108,20 +108,21 @@ void Holding::add(const Spring& spring) {
     hold(parts_.rotation(member), parts_.radius(member));
 }
 
-/// A base holds every point of its range; on a straight axis two points tell of all. The shear layer holds
-/// the derivative of the displacement n.u along the axis: n'.u and the rotation of its direction.
-void Holding::add(const Foundation& base) {
-  const int member = parts_.member(base.member);
+/// A foundation holds every point of its range; on a straight axis two points tell of all. The shear layer
+/// holds the derivative of the displacement n.u along the axis: n'.u and the rotation of its direction.
+void Holding::add(const Foundation& foundation) {
+  const int member = parts_.member(foundation.member);
   const bool straight = parts_.axes()[static_cast<std::size_t>(member)]->straight();
   const Quadrature points = gauss_legendre(straight ? 2 : 6);
   for (const double point : points.points) {
-    const AxisPoint at = parts_.place(member, base.range[0] + point * (base.range[1] - base.range[0]));
+    const AxisPoint at =
+        parts_.place(member, foundation.range[0] + point * (foundation.range[1] - foundation.range[0]));
     const double c = std::cos(at.angle);
     const double s = std::sin(at.angle);
-    const auto [x, y] = base.direction.value_or(RigidParts::Point{-s, c});
+    const auto [x, y] = foundation.direction.value_or(RigidParts::Point{-s, c});
     hold(member, {at.x, at.y}, x, y);
-    if (!(base.shear_stiffness > 0.0)) continue;
-    const double turn = base.direction ? 0.0 : -at.curvature;
+    if (!(foundation.shear_stiffness > 0.0)) continue;
+    const double turn = foundation.direction ? 0.0 : -at.curvature;
     Row row = parts_.displacement(member, {at.x, at.y}, {turn * c, turn * s});
     for (const auto& [unknown, weight] : parts_.rotation(member))
       row.emplace_back(unknown, weight * (y * c - x * s) / std::hypot(x, y) * parts_.radius(member));
@@ -289,7 +290,7 @@ class Mechanism {
   [[nodiscard]] const std::vector<Eigen::VectorXd>& motions() const { return motions_; }
   /// Whether the parts are connected in too many ways to tell.
   [[nodiscard]] bool unknown() const { return unknown_; }
-  /// Displacements of the joints (x, y, rotation each).
+  /// Displacements of the nodes (x, y, rotation each).
   [[nodiscard]] Eigen::VectorXd of_joints(const Eigen::VectorXd& motion) const;
   /// The node that moves most.
   [[nodiscard]] std::size_t node_of(const Eigen::VectorXd& motion) const;
@@ -365,12 +366,11 @@ Eigen::MatrixXd free_motions(const Model& model) {
   const Mechanism mechanism(joined ? *joined : model, false);
   if (mechanism.motions().empty()) return {};
   const auto count = static_cast<Eigen::Index>(mechanism.motions().size());
-  Eigen::MatrixXd joints(3 * static_cast<Eigen::Index>(model.nodes.size()), count);
+  Eigen::MatrixXd nodes(3 * static_cast<Eigen::Index>(model.nodes.size()), count);
   for (Eigen::Index i = 0; i < count; ++i)
-    joints.col(i) = mechanism.of_joints(mechanism.motions()[static_cast<std::size_t>(i)]);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> orthonormal(joints);
-  const Eigen::MatrixXd motions =
-      orthonormal.householderQ() * Eigen::MatrixXd::Identity(joints.rows(), count);
+    nodes.col(i) = mechanism.of_joints(mechanism.motions()[static_cast<std::size_t>(i)]);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> orthonormal(nodes);
+  const Eigen::MatrixXd motions = orthonormal.householderQ() * Eigen::MatrixXd::Identity(nodes.rows(), count);
   // what rounding left where nothing moves would couple parts that have nothing to do with one another
   constexpr double kRounding = 1e-14;
   return (motions.array().abs() > kRounding).select(motions, 0.0);
@@ -387,16 +387,16 @@ std::vector<Finding> find_mechanism(const Model& model) {
   if (mechanism.motions().empty()) return {};
   if (mechanism.motions().size() == kMostMotions)
     return {{"/model/supports", "mechanism",
-             "supports and bases leave at least " + std::to_string(kMostMotions) +
+             "supports and foundations leave at least " + std::to_string(kMostMotions) +
                  " motions without strain: more than an analysis can hold"}};
   std::optional<Eigen::VectorXd> motion = mechanism.driven_by(Pattern::proportional);
   if (!motion) motion = mechanism.driven_by(Pattern::constant);
   if (!motion) return {};
-  return {
-      {"/model/supports", "mechanism",
-       "the loads can move the structure without strain (supports and bases do not hold it; the motion is "
-       "largest near node \"" +
-           model.nodes[mechanism.node_of(*motion)].id + "\")"}};
+  return {{"/model/supports", "mechanism",
+           "the loads can move the structure without strain (supports and foundations do not hold it; the "
+           "motion is "
+           "largest near node \"" +
+               model.nodes[mechanism.node_of(*motion)].id + "\")"}};
 }
 
 }  // namespace snapthrough

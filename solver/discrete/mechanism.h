@@ -21,7 +21,7 @@ namespace snapthrough {
 /// @pre the model passed all other checks
 [[nodiscard]] bool can_move(const Model& model);
 
-/// @brief Motions without strain of the structure without its one-sided supports: displacements of the joints
+/// @brief Motions without strain of the structure without its one-sided supports: displacements of the nodes
 /// (x, y over the longest member's length, rotation), orthonormal columns; without columns when there are
 /// none.
 /// @pre the model passed all other checks

@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include "solver/discrete/base_stations.h"
+#include "solver/discrete/foundation_springs.h"
 #include "solver/geometry/axes.h"
 #include "solver/geometry/stress_free_axis.h"
 #include "solver/model/id_index.h"
@@ -40,11 +40,11 @@ class Builder {
  private:
   void add_element_supports(int element);
   void add_foundation(int element, int index);
-  void add_base(int element, int index);
-  void add_strips(int element, int index);
+  void add_foundation_law(int element, int index);
+  void add_contacts(int element, int index);
   [[nodiscard]] Touch touch_of_spring(std::size_t index) const;
-  [[nodiscard]] ContactStrip make_strip(int element, const FoundationLaw& base, int index,
-                                        std::array<double, 2> range) const;
+  [[nodiscard]] FoundationContact make_contact(int element, const FoundationLaw& foundation, int index,
+                                               std::array<double, 2> range) const;
   void add_point_spring(int element, std::size_t index);
   void add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const;
   void add_distributed(const DistributedLoad& load);
@@ -110,7 +110,8 @@ void Builder::set_scales() {
     bending = std::max(bending, model_.sections[index_of(model_.sections, member.section)].EI);
   out_.scales.length = length;
   out_.scales.force = bending / (length * length);
-  for (const Foundation& base : model_.foundations) out_.foundation_laws.push_back(law_of(base, out_.scales));
+  for (const Foundation& foundation : model_.foundations)
+    out_.foundation_laws.push_back(law_of(foundation, out_.scales));
   for (const Spring& spring : model_.springs) out_.spring_laws.push_back(law_of(spring, out_.scales));
 }
 
@@ -118,14 +119,14 @@ void Builder::number_unknowns() {
   const Mesh& mesh = out_.mesh;
   const int p = mesh.order;
   out_.dofs.reserve(mesh.elements.size());
-  out_.joints = static_cast<int>(model_.nodes.size());
-  int next = 3 * out_.joints;
+  out_.nodes = static_cast<int>(model_.nodes.size());
+  int next = 3 * out_.nodes;
   std::vector<std::array<int, 2>> released(model_.members.size(), {-1, -1});
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
     if (model_.members[m].release_start_rotation) released[m][0] = next++;
     if (model_.members[m].release_end_rotation) released[m][1] = next++;
   }
-  out_.releases = next - 3 * out_.joints;
+  out_.releases = next - 3 * out_.nodes;
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
     const int start = index_of(model_.nodes, model_.members[m].start);
     const int end = index_of(model_.nodes, model_.members[m].end);
@@ -151,59 +152,60 @@ void Builder::number_unknowns() {
   out_.constant_load = Eigen::VectorXd::Zero(out_.size);
 }
 
-ContactStrip Builder::make_strip(int element, const FoundationLaw& base, int index,
-                                 std::array<double, 2> range) const {
+FoundationContact Builder::make_contact(int element, const FoundationLaw& foundation, int index,
+                                        std::array<double, 2> range) const {
   const MeshElement& e = out_.mesh.elements[element];
   const std::shared_ptr<const AxisCurve>& axis = out_.axes[e.member];
-  Law law = base.law;
+  Law law = foundation.law;
   law.stiffness *= element_length(element);
-  return ContactStrip(out_.mesh.order, base.direction,
-                      {axis, e.from * axis->length(), (e.to - e.from) * axis->length()}, range, law, index);
+  return FoundationContact(out_.mesh.order, foundation.direction,
+                           {axis, e.from * axis->length(), (e.to - e.from) * axis->length()}, range, law,
+                           index);
 }
 
 /// A foundation of the model: where it lies, as results are read from it.
 void Builder::add_foundation(int element, int index) {
-  const Foundation& base = model_.foundations[index];
-  const auto range = part_of(out_.mesh.elements[element], base.range);
+  const Foundation& foundation = model_.foundations[index];
+  const auto range = part_of(out_.mesh.elements[element], foundation.range);
   if (range[1] <= range[0]) return;
   out_.foundation_parts.push_back({index, element, range, std::nullopt});
-  if (is_one_sided(base))
-    out_.foundation_parts.back().strip = make_strip(element, out_.foundation_laws[index], index, range);
+  if (is_one_sided(foundation))
+    out_.foundation_parts.back().contact = make_contact(element, out_.foundation_laws[index], index, range);
 }
 
-/// A base as it acts in the equations.
-void Builder::add_base(int element, int index) {
-  const Foundation& base = laws_.foundations[index];
-  const auto range = part_of(out_.mesh.elements[element], base.range);
+/// A foundation as it acts in the equations.
+void Builder::add_foundation_law(int element, int index) {
+  const Foundation& foundation = laws_.foundations[index];
+  const auto range = part_of(out_.mesh.elements[element], foundation.range);
   if (range[1] <= range[0]) return;
-  const FoundationLaw law = law_of(base, out_.scales);
+  const FoundationLaw law = law_of(foundation, out_.scales);
   if (law.shear > 0.0)
-    for (const Station& station : shear_layer_stations(out_, law, element, range))
-      elements_->add_station(station);
+    for (const SupportSpring& support : shear_layer_springs(out_, law, element, range))
+      elements_->add_spring(support);
   if (law.law.stiffness == 0.0) return;
   if (law.law.one_sided && out_.mesh.foundation == FoundationRule::consistent)
-    add_strips(element, index);
+    add_contacts(element, index);
   else
-    for (const Station& station : winkler_stations(out_, law, element, range))
-      elements_->add_station(station);
+    for (const SupportSpring& support : winkler_springs(out_, law, element, range))
+      elements_->add_spring(support);
 }
 
-/// A one-sided base on an element: the parts that touch without pressure apart from the rest.
-void Builder::add_strips(int element, int index) {
-  const Foundation& base = laws_.foundations[index];
-  const FoundationLaw law = law_of(base, out_.scales);
+/// A one-sided foundation on an element: the parts that touch without pressure apart from the rest.
+void Builder::add_contacts(int element, int index) {
+  const Foundation& foundation = laws_.foundations[index];
+  const FoundationLaw law = law_of(foundation, out_.scales);
   const auto add = [&](std::array<double, 2> fractions, Touch touch) {
     const auto range = part_of(out_.mesh.elements[element], fractions);
-    if (range[1] > range[0]) elements_->add_strip(element, make_strip(element, law, index, range), touch);
+    if (range[1] > range[0]) elements_->add_contact(element, make_contact(element, law, index, range), touch);
   };
-  double from = base.range[0];
-  for (const TouchingSupports::BasePart& part : out_.touching.bases) {
-    if (part.base != index) continue;
+  double from = foundation.range[0];
+  for (const TouchingSupports::FoundationRange& part : out_.touching.foundations) {
+    if (part.foundation != index) continue;
     add({from, part.range[0]}, Touch::none);
     add(part.range, part.touch);
     from = part.range[1];
   }
-  add({from, base.range[1]}, Touch::none);
+  add({from, foundation.range[1]}, Touch::none);
 }
 
 Touch Builder::touch_of_spring(std::size_t index) const {
@@ -217,11 +219,11 @@ void Builder::add_point_spring(int element, std::size_t index) {
   const MeshPlace place = place_of(out_.mesh, out_.mesh.elements[element].member, spring.at.fraction);
   if (place.element != element || spring.stiffness == 0.0) return;
   const SpringLaw law = law_of(spring, out_.scales);
-  Station station = station_at(out_, element, place.xi, law.row);
-  station.law = law.law;
-  station.touch = touch_of_spring(index);
-  station.spring = static_cast<int>(index);
-  elements_->add_station(station);
+  SupportSpring support = support_at(out_, element, place.xi, law.row);
+  support.law = law.law;
+  support.touch = touch_of_spring(index);
+  support.spring = static_cast<int>(index);
+  elements_->add_spring(support);
 }
 
 void Builder::add_element_supports(int element) {
@@ -229,7 +231,7 @@ void Builder::add_element_supports(int element) {
   for (std::size_t i = 0; i < model_.foundations.size(); ++i)
     if (model_.foundations[i].member == member) add_foundation(element, static_cast<int>(i));
   for (std::size_t i = 0; i < laws_.foundations.size(); ++i)
-    if (laws_.foundations[i].member == member) add_base(element, static_cast<int>(i));
+    if (laws_.foundations[i].member == member) add_foundation_law(element, static_cast<int>(i));
   for (std::size_t i = 0; i < laws_.springs.size(); ++i)
     if (laws_.springs[i].at.member == member) add_point_spring(element, i);
 }
@@ -250,35 +252,35 @@ void Builder::add_elements() {
 void Builder::add_supports() {
   out_.supports.assign(model_.nodes.size(), {});
   for (const Support& support : model_.supports) {
-    JointSupport& joint = out_.supports[index_of(model_.nodes, support.node)];
-    joint.fixed = {support.x, support.y, support.rotation};
-    joint.angle = support.angle_degrees * std::numbers::pi / 180.0;
+    NodeSupport& node = out_.supports[index_of(model_.nodes, support.node)];
+    node.fixed = {support.x, support.y, support.rotation};
+    node.angle = support.angle_degrees * std::numbers::pi / 180.0;
     if (!support.displacement) continue;
     const auto& d = *support.displacement;
     const Vec3 value{out_.scales.scaled_length(d.x), out_.scales.scaled_length(d.y), d.rotation};
-    (d.pattern == Pattern::proportional ? joint.proportional : joint.constant) = value;
+    (d.pattern == Pattern::proportional ? node.proportional : node.constant) = value;
   }
   for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
     const Spring& spring = laws_.springs[i];
     if (spring.at.node.empty() || spring.stiffness == 0.0) continue;
     const SpringLaw law = law_of(spring, out_.scales);
-    JointSpring js;
-    js.joint = index_of(model_.nodes, spring.at.node);
+    NodeSpring js;
+    js.node = index_of(model_.nodes, spring.at.node);
     js.row = law.row;
     js.law = law.law;
     js.touch = touch_of_spring(i);
     js.spring = static_cast<int>(i);
-    out_.joint_springs.push_back(js);
+    out_.node_springs.push_back(js);
   }
 }
 
 void Builder::add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const {
-  const Station station = station_at(out_, element, xi, action);
+  const SupportSpring support = support_at(out_, element, xi, action);
   const ElementDofs& dofs = out_.dofs[element];
   const int p = out_.mesh.order;
   for (int c = 0; c < 3; ++c) {
-    load[dofs.a[c]] += station.a[c];
-    for (int q = 0; q < p; ++q) load[dofs.v + c * p + q] += station.v[q][c];
+    load[dofs.a[c]] += support.a[c];
+    for (int q = 0; q < p; ++q) load[dofs.v + c * p + q] += support.v[q][c];
   }
 }
 
@@ -309,8 +311,8 @@ void Builder::add_loads(std::optional<double> load_scale) {
       const Vec3 action{scales.scaled_force(point->force[0]), scales.scaled_force(point->force[1]),
                         scales.scaled_moment(point->moment)};
       if (point->at.member.empty()) {
-        const int joint = index_of(model_.nodes, point->at.node);
-        for (int c = 0; c < 3; ++c) pattern(point->pattern)[3 * joint + c] += action[c];
+        const int node = index_of(model_.nodes, point->at.node);
+        for (int c = 0; c < 3; ++c) pattern(point->pattern)[3 * node + c] += action[c];
       } else {
         const MeshPlace place =
             place_of(out_.mesh, index_of(model_.members, point->at.member), point->at.fraction);
@@ -358,18 +360,18 @@ void Builder::add_initial_strain(const InitialStrain& load) {
 /// Scales the load factor so that the actions by unit scaled factor add up to the order of one.
 void Builder::scale_loads(std::optional<double> load_scale) {
   double total = strain_size_;
-  for (int j = 0; j < 3 * out_.joints + out_.releases; ++j) total += std::abs(out_.proportional_load[j]);
+  for (int j = 0; j < 3 * out_.nodes + out_.releases; ++j) total += std::abs(out_.proportional_load[j]);
   for (const ElementDofs& dofs : out_.dofs)
-    if (dofs.a[0] >= 3 * out_.joints)
+    if (dofs.a[0] >= 3 * out_.nodes)
       for (const int i : dofs.a) total += std::abs(out_.proportional_load[i]);
-  for (const JointSupport& support : out_.supports)
+  for (const NodeSupport& support : out_.supports)
     for (const double value : support.proportional) total += std::abs(value);
   for (const ElementPressure& p : pressures_) total += std::abs(p.proportional) * element_length(p.element);
   if (total == 0.0) total = 1.0;
   if (load_scale) total = *load_scale;
   out_.scales.load = total;
   out_.proportional_load /= total;
-  for (JointSupport& support : out_.supports)
+  for (NodeSupport& support : out_.supports)
     for (double& value : support.proportional) value /= total;
   for (const ElementPressure& p : pressures_)
     elements_->set_pressure(p.element, p.proportional / total, p.constant);
@@ -378,19 +380,19 @@ void Builder::scale_loads(std::optional<double> load_scale) {
 
 /// Nodes that are free to move where the pressures of the lines that meet don't cancel.
 void Builder::find_follower_ends(double load_scale) {
-  std::vector<FollowerEnd> sums(static_cast<std::size_t>(out_.joints));
+  std::vector<FollowerEnd> sums(static_cast<std::size_t>(out_.nodes));
   for (const ElementPressure& p : pressures_) {
     const ElementDofs& dofs = out_.dofs[p.element];
     for (const auto& [node, half] : {std::pair{dofs.a, -0.5}, std::pair{dofs.b, 0.5}}) {
-      if (node[0] >= 3 * out_.joints) continue;
+      if (node[0] >= 3 * out_.nodes) continue;
       FollowerEnd& end = sums[node[0] / 3];
       end.proportional += half * p.proportional / load_scale;
       end.constant += half * p.constant;
     }
   }
-  for (int j = 0; j < out_.joints && out_.geometry == Geometry::nonlinear; ++j) {
-    const JointSupport& support = out_.supports[j];
-    sums[j].joint = j;
+  for (int j = 0; j < out_.nodes && out_.geometry == Geometry::nonlinear; ++j) {
+    const NodeSupport& support = out_.supports[j];
+    sums[j].node = j;
     if (!support.fixed[0] && !support.fixed[1] && (sums[j].proportional != 0.0 || sums[j].constant != 0.0))
       out_.follower_ends.push_back(sums[j]);
   }
@@ -438,8 +440,8 @@ void Builder::add_monitors() {
 
 std::vector<std::string> without_stiffness(const Model& model) {
   std::vector<std::string> out;
-  for (const Foundation& base : model.foundations)
-    if (base.stiffness == 0.0) out.push_back("foundation " + base.id + ": stiffness 0");
+  for (const Foundation& foundation : model.foundations)
+    if (foundation.stiffness == 0.0) out.push_back("foundation " + foundation.id + ": stiffness 0");
   for (const Spring& spring : model.springs)
     if (spring.stiffness == 0.0) out.push_back("spring " + spring.id + ": stiffness 0");
   return out;
@@ -471,8 +473,8 @@ SparseRow displacement_row(const Structure& structure, const Model& model, const
     if (weight != 0.0) out.entries.emplace_back(index, weight);
   };
   if (at.member.empty()) {
-    const int joint = index_of(model.nodes, at.node);
-    for (int c = 0; c < 3; ++c) add(3 * joint + c, row[c]);
+    const int node = index_of(model.nodes, at.node);
+    for (int c = 0; c < 3; ++c) add(3 * node + c, row[c]);
     return out;
   }
   const int member = index_of(model.members, at.member);
@@ -519,15 +521,15 @@ void fill(const Model& model, std::optional<double> load_scale, Structure& out) 
     const double length = out.axes[m]->length();
     out.euler_loads.push_back(std::numbers::pi * std::numbers::pi * EI /
                               (length * length * out.scales.force));
-    double base_load = 0.0;
-    for (const Foundation& base : model.foundations)
-      if (base.member == model.members[m].id)
-        base_load += 2.0 * std::sqrt(base.stiffness * EI) + base.shear_stiffness;
-    out.base_loads.push_back(base_load / out.scales.force);
+    double foundation_load = 0.0;
+    for (const Foundation& foundation : model.foundations)
+      if (foundation.member == model.members[m].id)
+        foundation_load += 2.0 * std::sqrt(foundation.stiffness * EI) + foundation.shear_stiffness;
+    out.foundation_loads.push_back(foundation_load / out.scales.force);
   }
   const int p = out.mesh.order;
-  out.free_displacements = 3 * out.joints + out.releases;
-  for (const JointSupport& support : out.supports)
+  out.free_displacements = 3 * out.nodes + out.releases;
+  for (const NodeSupport& support : out.supports)
     for (const bool fixed : support.fixed) out.free_displacements -= fixed ? 1 : 0;
   // nodes between elements, and the P - 1 interior nodes that an element of order P has
   for (std::size_t m = 0; m + 1 < out.mesh.first.size(); ++m) {

@@ -24,7 +24,7 @@
 namespace snapthrough {
 
 /// Support of a node. Components 0, 1 are along axes turned by `angle`, 2 is the rotation.
-struct JointSupport {
+struct NodeSupport {
   std::array<bool, 3> fixed{};
   double angle = 0.0;
   std::array<double, 3> proportional{};  ///< prescribed displacement by unit scaled load factor
@@ -32,8 +32,8 @@ struct JointSupport {
 };
 
 /// Spring at a node: reacts along `row` (x, y, rotation).
-struct JointSpring {
-  int joint = 0;
+struct NodeSpring {
+  int node = 0;
   std::array<double, 3> row{};
   Law law;
   Touch touch = Touch::none;
@@ -44,8 +44,8 @@ struct JointSpring {
 ///
 /// Numbers are those of with_joined_supports(), or of the model where nothing is joined.
 struct TouchingSupports {
-  struct BasePart {
-    int base = 0;
+  struct FoundationRange {
+    int foundation = 0;
     std::array<double, 2> range{};  ///< fractions of the member
     Touch touch = Touch::none;
   };
@@ -53,7 +53,7 @@ struct TouchingSupports {
     int spring = 0;
     Touch touch = Touch::none;
   };
-  std::vector<BasePart> bases;  ///< of each base ascending, none twice
+  std::vector<FoundationRange> foundations;  ///< of each foundation ascending, none twice
   std::vector<Spring> springs;
   Eigen::VectorXd motion;  ///< of least load: unknowns of the mesh where it was found
   double reference = 0.0;  ///< load factor under which they touch
@@ -79,8 +79,8 @@ struct MonitorRow {
 struct FoundationPart {
   int foundation = 0;
   int element = 0;
-  std::array<double, 2> range{0.0, 1.0};  ///< of the element
-  std::optional<ContactStrip> strip;      ///< of a one-sided foundation, also where the mesh lumps it
+  std::array<double, 2> range{0.0, 1.0};     ///< of the element
+  std::optional<FoundationContact> contact;  ///< of a one-sided foundation, also where the mesh lumps it
 };
 
 /// @brief Everything that assembly needs, built once for a model and a mesh; const from then on.
@@ -93,12 +93,12 @@ struct Structure {
   std::vector<std::shared_ptr<const StressFreeAxis>> stress_free;  ///< of each member, with its imperfections
   Eigen::Index size = 0;                                           ///< unknowns of the mixed problem
   int free_displacements = 0;  ///< of them, free displacement unknowns (interiors included, releases counted)
-  int joints = 0;
-  int releases = 0;  ///< scalar rotations of released member ends, after the joints' unknowns
+  int nodes = 0;
+  int releases = 0;  ///< scalar rotations of released member ends, after the nodes' unknowns
   std::unique_ptr<const ElementSet> elements;
-  std::vector<ElementDofs> dofs;       ///< of each element
-  std::vector<JointSupport> supports;  ///< of each node
-  std::vector<JointSpring> joint_springs;
+  std::vector<ElementDofs> dofs;      ///< of each element
+  std::vector<NodeSupport> supports;  ///< of each node
+  std::vector<NodeSpring> node_springs;
   std::vector<FoundationLaw>
       foundation_laws;                 ///< of each foundation of the model, as results are read from it
   std::vector<SpringLaw> spring_laws;  ///< of each spring of the model
@@ -111,12 +111,12 @@ struct Structure {
   std::vector<FollowerEnd> follower_ends;
   std::vector<double> euler_loads;  ///< pi^2 EI / l^2 of each member
   std::vector<double>
-      base_loads;             ///< 2 sqrt(K EI) + G of the bases of each member: what they can add to that
+      foundation_loads;  ///< 2 sqrt(K EI) + G of the foundations of each member: what they can add to that
   TouchingSupports touching;  ///< empty unless they were looked for
-  bool one_sided = false;     ///< some base or spring is not bilateral
+  bool one_sided = false;     ///< some foundation or spring is not bilateral
   bool has_constant = false;  ///< some action has the constant pattern
   std::stop_token stop;       ///< who computes with it looks at this
-  /// Motions of the joints (x, y, rotation each, scaled) that supports of one side alone can resist, or
+  /// Motions of the nodes (x, y, rotation each, scaled) that supports of one side alone can resist, or
   /// nothing; orthonormal columns.
   Eigen::MatrixXd free_motions;
 };
@@ -132,7 +132,7 @@ struct Structure {
 [[nodiscard]] Structure with_touching(const Structure& structure, const Model& model,
                                       TouchingSupports touching);
 
-/// @brief Bases and springs that are left out because their stiffness is zero, in words.
+/// @brief Foundations and springs that are left out because their stiffness is zero, in words.
 [[nodiscard]] std::vector<std::string> without_stiffness(const Model& model);
 
 /// @brief Functional that reads the displacement along (dx, dy), or the rotation, at a place.

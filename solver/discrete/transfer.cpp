@@ -43,7 +43,7 @@ void transfer_element(const Structure& from, const Eigen::VectorXd& y, const Str
   const std::array<double, 3> u = ElementReader(from, y, end.element).displacement(end.xi);
   // the multiplier enters the equations linearly: any value does
   for (int c = 0; c < 3; ++c) out[dofs.m + c] = y[from.dofs[end.element].m + c];
-  const bool inside = dofs.b[0] >= 3 * to.joints + to.releases;
+  const bool inside = dofs.b[0] >= 3 * to.nodes + to.releases;
   for (int c = 0; inside && c < 3; ++c) out[dofs.b[c]] = u[c];
 }
 
@@ -51,7 +51,7 @@ void transfer_element(const Structure& from, const Eigen::VectorXd& y, const Str
 
 Eigen::VectorXd transfer(const Structure& from, const Eigen::VectorXd& y, const Structure& to) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(to.size);
-  const Eigen::Index shared = 3 * from.joints + from.releases;
+  const Eigen::Index shared = 3 * from.nodes + from.releases;
   out.head(shared) = y.head(shared);
   const int elements = static_cast<int>(to.mesh.elements.size());
   for (int e = 0; e < elements; ++e) transfer_element(from, y, to, e, out);

@@ -12,8 +12,8 @@
 ///   m          (force x, force y, moment) carried through the end b: the multiplier of u_b = u_a + h sum_q
 ///   b_q v_q
 ///
-/// They make stationary   sum_q h b_q [ s.(eps(v) - eps_0) - s.C s / 2 ] + bases + m.(u_b - u_a - h sum b_q
-/// v_q) - work, with  e = x'.d1 - t.d1_0,  g = x'.d2 - t.d2_0,  k = b'   and C the section's compliance.
+/// They make stationary   sum_q h b_q [ s.(eps(v) - eps_0) - s.C s / 2 ] + foundations + m.(u_b - u_a - h sum
+/// b_q v_q) - work, with  e = x'.d1 - t.d1_0,  g = x'.d2 - t.d2_0,  k = b'   and C the section's compliance.
 /// Because only compliances appear, an inextensible or unshearable section is just C = 0: no large numbers,
 /// no loss of digits in the thin limit. Newton's method on these equations is the mixed-integration-point
 /// iteration of Magisano, Leonetti and Garcea (2017).
@@ -28,7 +28,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/element/contact_strip.h"
+#include "solver/element/foundation_contact.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/support/law.h"
 #include "solver/support/regime.h"
@@ -63,25 +63,25 @@ inline constexpr double kTouchBand = 1e-7;
 
 /// A linear functional of one element's displacements, w = a.u_a + sum_q v_q.(u'_q, b'_q), with a spring on
 /// it.
-struct Station {
+struct SupportSpring {
   int element = 0;
   Law law;
   Touch touch = Touch::none;
-  int spring = -1;  ///< its number among the springs; none: part of a base
+  int spring = -1;  ///< its number among the springs; none: part of a foundation
   std::array<double, 3> a{};
   std::vector<std::array<double, 3>> v;
 };
 
-/// A station that touches without pressure.
-struct TouchingStation {
-  int spring = -1;  ///< as in Station
+/// A support that touches without pressure.
+struct TouchingSpring {
+  int spring = -1;  ///< as in SupportSpring
   bool acts = false;
 };
 
-/// Where a strip that touches without pressure acts.
-struct TouchingStrip {
+/// Where a contact that touches without pressure acts.
+struct TouchingContact {
   int element = 0;
-  int base = 0;
+  int foundation = 0;
   std::array<double, 2> range{};  ///< of the element
   std::vector<ElementPart> acting;
 };
@@ -128,9 +128,9 @@ class ElementWork {
   /// @brief Adds the follower forces at y to `out` (a load: minus a residual).
   virtual void add_pressure_load(const Eigen::VectorXd& y, const LoadFactors& factors,
                                  bool small_displacements, Eigen::VectorXd& out) = 0;
-  /// @brief Rounding of the forces of bases and springs at the last residual or linearisation, the largest of
-  /// an element: stiffness times the rounding of the displacements that their penetrations are differences
-  /// of.
+  /// @brief Rounding of the forces of foundations and springs at the last residual or linearisation, the
+  /// largest of an element: stiffness times the rounding of the displacements that their penetrations are
+  /// differences of.
   [[nodiscard]] virtual double support_rounding() const = 0;
 };
 
@@ -150,32 +150,32 @@ class ElementSet {
   virtual void reserve(int elements) = 0;
   /// @brief Adds an element; elements are numbered in the order of adding.
   virtual void add(const ElementShape& shape, const ElementDofs& dofs) = 0;
-  virtual void add_station(const Station& station) = 0;
-  virtual void add_strip(int element, ContactStrip strip, Touch touch) = 0;
+  virtual void add_spring(const SupportSpring& support) = 0;
+  virtual void add_contact(int element, FoundationContact contact, Touch touch) = 0;
   /// @brief Follower pressure of an element: force per deformed length, along its deformed right normal (so a
   /// medium on the left pushes), proportional to the load factor and constant.
   virtual void set_pressure(int element, double proportional, double constant) = 0;
   /// @brief Room to compute in; refers to this set, which must outlive it.
   [[nodiscard]] virtual std::unique_ptr<ElementWork> make_work() const = 0;
 
-  /// @brief Where one-sided supports touch at y (penetration above `-tolerance`): sets strips and stations.
+  /// @brief Where one-sided supports touch at y (penetration above `-tolerance`): sets contacts and springs.
   virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const = 0;
   /// @brief The one-sided supports that touch without pressure at y: those no further from touching than
-  /// `tolerance`, strips on all of their range. Sets strips and stations.
+  /// `tolerance`, contacts on all of their range. Sets contacts and springs.
   virtual void mark_touching(const Eigen::VectorXd& y, double tolerance, TouchingMarks& out) const = 0;
   /// In the order of the two functions below. @param frozen null: none acts
-  [[nodiscard]] virtual std::vector<TouchingStation> touching_stations(const TouchingMarks& marks,
-                                                                       const FrozenContact* frozen) const = 0;
-  /// Appends the movement of each touching station into its medium.
-  virtual void touching_movements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
-                                  std::vector<double>& out) const = 0;
-  /// @brief Of the supports that touch these stations act, and strips where `mode` moves into their medium;
+  [[nodiscard]] virtual std::vector<TouchingSpring> touching_springs(const TouchingMarks& marks,
+                                                                     const FrozenContact* frozen) const = 0;
+  /// Appends the displacement of each touching support into its medium.
+  virtual void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
+                                      std::vector<double>& out) const = 0;
+  /// @brief Of the supports that touch these springs act, and contacts where `mode` moves into their medium;
   /// with an empty mode they act on all of their range.
   virtual void set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode,
-                            std::span<const char> stations, FrozenContact& out) const = 0;
+                            std::span<const char> springs, FrozenContact& out) const = 0;
   /// As set_touching() left them. @param frozen null: none acts
-  [[nodiscard]] virtual std::vector<TouchingStrip> touching_strips(const TouchingMarks& marks,
-                                                                   const FrozenContact* frozen) const = 0;
+  [[nodiscard]] virtual std::vector<TouchingContact> touching_contacts(const TouchingMarks& marks,
+                                                                       const FrozenContact* frozen) const = 0;
   /// Share of an element on which a foundation acts.
   [[nodiscard]] virtual double frozen_share(const FrozenContact& frozen, int element,
                                             int foundation) const = 0;

@@ -54,7 +54,7 @@ class ElementWorkOf final : public ElementWork {
   using Data = ElementData<P>;
   using Shape = typename Data::Shape;
   using Functional = typename Data::Functional;
-  using StripMovement = typename Data::StripMovement;
+  using ContactDisplacement = typename Data::ContactDisplacement;
   static constexpr int kStrains = Data::kStrains;
   static constexpr int kZeta = 3 * P + 3;
   using Gauss = typename Data::Gauss;
@@ -90,8 +90,8 @@ class ElementWorkOf final : public ElementWork {
   void add_strain_product(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
                           const double* direction, double* out) const;
   void add_support_residual(int element, const double* y, double* residual, bool keep);
-  void collect_strip(std::size_t index, const double* y, const ElementDofs& dofs, const Shape& shape);
-  void add_interval(std::size_t index, const Shape& shape, const ContactStrip::Interval& interval,
+  void collect_contact(std::size_t index, const double* y, const ElementDofs& dofs, const Shape& shape);
+  void add_interval(std::size_t index, const Shape& shape, const FoundationContact::Interval& interval,
                     double modulus, double gap);
   void to_strain_row(const Functional& f, const Shape& shape, const Tangent& t, ZetaVector& row) const;
   template <int N>
@@ -110,7 +110,7 @@ class ElementWorkOf final : public ElementWork {
   void add_acting_product(const ElementDofs& dofs, const double* direction, double* out) const;
   void add_pressure_product(const Shape& shape, const ElementDofs& dofs, double pressure,
                             const double* direction, double* out) const;
-  [[nodiscard]] bool acts(const Functional& f, std::size_t station, const ElementDofs& dofs,
+  [[nodiscard]] bool acts(const Functional& f, std::size_t support, const ElementDofs& dofs,
                           const double* y) const;
   template <int N>
   void linearise_element(int element, const double* y, double* residual, Interior<N>& interior,
@@ -134,8 +134,8 @@ class ElementWorkOf final : public ElementWork {
   const std::array<Gauss, P>& a_;  ///< of data_, as the following
   const std::vector<Shape>& shapes_;
   const std::vector<ElementDofs>& dofs_;
-  const std::vector<Functional>& stations_;
-  const std::vector<ContactStrip>& strips_;
+  const std::vector<Functional>& springs_;
+  const std::vector<FoundationContact>& contacts_;
   Regime regime_;        ///< of the call that is being answered
   bool linear_ = false;  ///< it is of small displacements
   LoadFactors factors_;  ///< on the pressures, in that call
@@ -148,7 +148,7 @@ class ElementWorkOf final : public ElementWork {
   std::vector<Functional> acting_;  ///< supports of the current element that act
   std::vector<typename AugmentedMatrix<2 * P>::Weighted> stiff_rows_;  ///< of the current element, scaled
   std::vector<typename AugmentedMatrix<3 * P>::Weighted> shearable_rows_;
-  std::vector<ContactStrip::Interval> intervals_;
+  std::vector<FoundationContact::Interval> intervals_;
 };
 
 template <int P>
@@ -157,8 +157,8 @@ ElementWorkOf<P>::ElementWorkOf(const ElementData<P>& data)
       a_(data.a),
       shapes_(data.shapes),
       dofs_(data.dofs),
-      stations_(data.stations),
-      strips_(data.strips) {}
+      springs_(data.springs),
+      contacts_(data.contacts) {}
 
 template <int P>
 void ElementWorkOf<P>::begin(const LoadFactors& factors, const Regime& regime) {
@@ -355,7 +355,7 @@ template <int P>
 void ElementWorkOf<P>::collect_rows(int element, const Kinematics& kin, const double* y, double* residual) {
   const Shape& shape = shapes_[element];
   acting_.clear();
-  if (shape.station_count > 0 || shape.strip_count > 0) add_support_residual(element, y, residual, true);
+  if (shape.spring_count > 0 || shape.contact_count > 0) add_support_residual(element, y, residual, true);
   if (const double pressure = pressure_of(shape); pressure != 0.0) {
     add_pressure(shape, dofs_[element], kin, -pressure, y, residual);
     if (!linear_) collect_pressure(shape, pressure);
@@ -422,7 +422,7 @@ void ElementWorkOf<P>::add_residual(const Eigen::VectorXd& y, const LoadFactors&
     add_strain_residual(shapes_[e], dofs_[e], kin, y.data(), residual.data());
     if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
       add_pressure(shapes_[e], dofs_[e], kin, -pressure, y.data(), residual.data());
-    if (shapes_[e].station_count > 0 || shapes_[e].strip_count > 0)
+    if (shapes_[e].spring_count > 0 || shapes_[e].contact_count > 0)
       add_support_residual(e, y.data(), residual.data(), false);
   }
 }

@@ -1,56 +1,56 @@
 #pragma once
 /// @file
-/// The members of ElementWorkOf that deal with bases, springs and follower pressure. Included by
+/// The members of ElementWorkOf that deal with foundations, springs and follower pressure. Included by
 /// element_work.h only.
 
 namespace snapthrough {
 
-/// Appends the Gauss points of the strip's contact intervals to acting_.
+/// Appends the Gauss points of the intervals where a foundation touches to acting_.
 template <int P>
-void ElementWorkOf<P>::collect_strip(std::size_t index, const double* y, const ElementDofs& dofs,
-                                     const Shape& shape) {
-  const ContactStrip& strip = strips_[index];
-  const StripMovement u = data_.movement_of(shape, dofs, y);
-  const Touch touch = data_.strip_touch[index];
+void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const ElementDofs& dofs,
+                                       const Shape& shape) {
+  const FoundationContact& contact = contacts_[index];
+  const ContactDisplacement u = data_.displacement_of(shape, dofs, y);
+  const Touch touch = data_.contact_touch[index];
   if (regime_.is_frozen())
-    intervals_ = regime_.frozen->strips[index];
+    intervals_ = regime_.frozen->contacts[index];
   else if (regime_.bilateral())
-    intervals_.assign(1, {strip.range()[0], strip.range()[1]});
-  else if (touch != Touch::none && strip.is_near(u.start, u.dx, u.dy, kTouchBand))
-    intervals_.assign(touch == Touch::acts ? 1 : 0, {strip.range()[0], strip.range()[1]});
+    intervals_.assign(1, {contact.range()[0], contact.range()[1]});
+  else if (touch != Touch::none && contact.is_near(u.start, u.dx, u.dy, kTouchBand))
+    intervals_.assign(touch == Touch::acts ? 1 : 0, {contact.range()[0], contact.range()[1]});
   else
-    strip.contact_intervals(u.start, u.dx, u.dy, intervals_);
+    contact.contact_intervals(u.start, u.dx, u.dy, intervals_);
   for (const auto& interval : intervals_)
-    add_interval(index, shape, interval, regime_.softness * strip.law().stiffness,
-                 regime_.bilateral() ? 0.0 : strip.law().gap);
+    add_interval(index, shape, interval, regime_.softness * contact.law().stiffness,
+                 regime_.bilateral() ? 0.0 : contact.law().gap);
   if (regime_.grip > 0.0)
-    add_interval(index, shape, {strip.range()[0], strip.range()[1]}, regime_.grip * strip.law().stiffness,
-                 0.0);
+    add_interval(index, shape, {contact.range()[0], contact.range()[1]},
+                 regime_.grip * contact.law().stiffness, 0.0);
 }
 
-/// Appends the Gauss points of an interval on which a strip acts with a modulus and a gap. Most elements
-/// touch on all of the strip or on none of it: those points are known beforehand.
+/// Appends the Gauss points of an interval on which a contact acts with a modulus and a gap. Most elements
+/// touch on all of the contact or on none of it: those points are known beforehand.
 template <int P>
 void ElementWorkOf<P>::add_interval(std::size_t index, const Shape& shape,
-                                    const ContactStrip::Interval& interval, double modulus, double gap) {
-  const ContactStrip& strip = strips_[index];
+                                    const FoundationContact::Interval& interval, double modulus, double gap) {
+  const FoundationContact& contact = contacts_[index];
   const double width = interval.to - interval.from;
-  const bool whole = interval.from == strip.range()[0] && interval.to == strip.range()[1];
-  for (std::size_t i = 0; i < data_.strip_quadrature.points.size(); ++i) {
+  const bool whole = interval.from == contact.range()[0] && interval.to == contact.range()[1];
+  for (std::size_t i = 0; i < data_.contact_quadrature.points.size(); ++i) {
     if (whole)
-      acting_.push_back(data_.whole_strips[index][i]);
+      acting_.push_back(data_.whole_contacts[index][i]);
     else
       acting_.push_back(
-          data_.functional_at(strip, shape.h, interval.from + width * data_.strip_quadrature.points[i]));
-    acting_.back().law = {modulus * width * data_.strip_quadrature.weights[i], gap, true};
+          data_.functional_at(contact, shape.h, interval.from + width * data_.contact_quadrature.points[i]));
+    acting_.back().law = {modulus * width * data_.contact_quadrature.weights[i], gap, true};
   }
 }
 
 template <int P>
-bool ElementWorkOf<P>::acts(const Functional& f, std::size_t station, const ElementDofs& dofs,
+bool ElementWorkOf<P>::acts(const Functional& f, std::size_t support, const ElementDofs& dofs,
                             const double* y) const {
   if (!f.law.one_sided || regime_.bilateral()) return true;
-  if (regime_.is_frozen()) return regime_.frozen->stations[station] != 0;
+  if (regime_.is_frozen()) return regime_.frozen->element_springs[support] != 0;
   const double w = data_.value(f, dofs, y) - f.law.gap;
   return f.touch != Touch::none && std::abs(w) <= kTouchBand ? f.touch == Touch::acts : w > 0.0;
 }
@@ -60,17 +60,17 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
   const Shape& shape = shapes_[element];
   const ElementDofs& dofs = dofs_[element];
   acting_.clear();
-  for (int i = 0; i < shape.strip_count; ++i) collect_strip(shape.first_strip + i, y, dofs, shape);
-  for (int i = 0; i < shape.station_count; ++i) {
-    const std::size_t station = shape.first_station + i;
-    if (regime_.grip > 0.0 && stations_[station].law.one_sided) {
-      acting_.push_back(stations_[station]);
+  for (int i = 0; i < shape.contact_count; ++i) collect_contact(shape.first_contact + i, y, dofs, shape);
+  for (int i = 0; i < shape.spring_count; ++i) {
+    const std::size_t support = shape.first_spring + i;
+    if (regime_.grip > 0.0 && springs_[support].law.one_sided) {
+      acting_.push_back(springs_[support]);
       acting_.back().law.stiffness *= regime_.grip;
       acting_.back().law.gap = 0.0;
     }
-    if (!acts(stations_[station], station, dofs, y)) continue;
-    acting_.push_back(stations_[station]);
-    if (stations_[station].law.one_sided) acting_.back().law.stiffness *= regime_.softness;
+    if (!acts(springs_[support], support, dofs, y)) continue;
+    acting_.push_back(springs_[support]);
+    if (springs_[support].law.one_sided) acting_.back().law.stiffness *= regime_.softness;
     if (regime_.bilateral()) acting_.back().law.gap = 0.0;
   }
   std::array<double, kStrains> v;  // apart from y and the residual, so that loops over them need no order

@@ -112,10 +112,8 @@ void Pencil::freeze_contact(double reference) {
     double lambda = reference;
     factorizations_ += correct(problem_, metric, {}, size, options, y, lambda, work).factorisations;
   }
-  constexpr double kTouching = 1e-9;
-  const double tolerance = kTouching * y.head(3 * structure_.joints).lpNorm<Eigen::Infinity>() + 1e-14;
-  contact_ = problem_.frozen_contact(y, tolerance);
-  marks_ = problem_.marks_at(y, tolerance);
+  contact_ = problem_.frozen_contact(y);
+  marks_ = problem_.marks_at(y);
 }
 
 void Pencil::set_prestress(double reference) {
@@ -254,10 +252,12 @@ void narrow(Pencil& pencil, LoadBracket& bracket) {
   }
 }
 
+/// Relative change of a load that is rounding's.
+constexpr double kTolerance = 1e-13;
+
 /// Inverse iteration with a block on one bracket: its eigenvalues ascending, with their vectors.
 std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, Index size) {
   constexpr int kMaxIterations = 60;
-  constexpr double kTolerance = 1e-13;
   const int m = bracket.below_hi - bracket.below_lo;
   std::vector<EigenPair> pairs(static_cast<std::size_t>(m));
   for (int i = 0; i < m; ++i) pairs[i] = {bracket.hi, pseudo_random(size, static_cast<unsigned>(i + 1))};
@@ -289,7 +289,6 @@ std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, Index size) 
 /// taken from the counts, which need signs only.
 void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>& pairs) {
   constexpr double kBeside = 1e-9;
-  constexpr double kDigits = 1e-13;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const int below = bracket.below_lo + static_cast<int>(i);
     const double load = pairs[i].load;
@@ -300,7 +299,7 @@ void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>&
              std::abs(pencil.quotient(pairs[i].mode) - load) <= kBeside * load;
     };
     if (!right && !exact())
-      pairs[i].load = bisect(bracket.lo, bracket.hi, kDigits * bracket.hi,
+      pairs[i].load = bisect(bracket.lo, bracket.hi, kTolerance * bracket.hi,
                              [&](double at) { return pencil.count(at) > below; });
   }
 }

@@ -49,8 +49,8 @@ double next_share(double share) {
 }
 
 bool is_closed(const Continuation& continuation, const Bracket& bracket, double tolerance) {
-  const double size = std::max(
-      {std::abs(bracket.before.lambda), std::abs(bracket.after.lambda), 1e-6 * continuation.load_scale()});
+  const double size =
+      std::max({std::abs(bracket.before.lambda), std::abs(bracket.after.lambda), continuation.least_load()});
   return std::abs(bracket.after.lambda - bracket.before.lambda) <= tolerance * size &&
          continuation.distance(bracket.before, bracket.after) <= 1e-3;
 }
@@ -73,7 +73,7 @@ bool close(Continuation& continuation, const Chord& chord, const ZoneCounter& co
 }  // namespace
 
 std::vector<ContactChange> locate_contact_changes(Continuation& continuation, const PathPoint& a,
-                                                  const PathPoint& b, bool at_turn, const ZoneCounter& count,
+                                                  const PathPoint& b, bool at_kink, const ZoneCounter& count,
                                                   double tolerance) {
   std::vector<ContactChange> out;
   std::vector<int> old;
@@ -81,7 +81,7 @@ std::vector<ContactChange> locate_contact_changes(Continuation& continuation, co
   count(a.y, old);
   count(b.y, last);
   if (old == last) return out;
-  const Chord chord = at_turn ? continuation.movement_chord(a, b) : continuation.chord(a, b);
+  const Chord chord = at_kink ? continuation.displacement_chord(a, b) : continuation.chord(a, b);
   PathPoint from = a;
   std::vector<int> beyond;
   if (changes_at_start(continuation, chord, {a, b}, count, old, beyond)) {
@@ -96,7 +96,7 @@ std::vector<ContactChange> locate_contact_changes(Continuation& continuation, co
     count(bracket.after.y, old);
     change.after = old;
     // a path turns where its contact changes, which is next to the start
-    change.point = at_turn && !closed ? bracket.before : bracket.after;
+    change.point = at_kink && !closed ? bracket.before : bracket.after;
     out.push_back(std::move(change));
     from = std::move(bracket.after);
   }

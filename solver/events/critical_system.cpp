@@ -131,8 +131,8 @@ class CriticalNewton {
   VectorXd residual_;
   double dlambda_ = 0.0;
   double moved_ = 0.0;
-  double previous_ = 0.0;  ///< movement
-  bool stalled_ = false;   ///< movements have ceased to fall
+  double previous_ = 0.0;  ///< displacement
+  bool stalled_ = false;   ///< displacements have ceased to fall
   /// Relative difference of the stiffnesses by the factors and by quotients, when they agreed best.
   double least_doubt_ = std::numeric_limits<double>::infinity();
 };

@@ -14,7 +14,7 @@ namespace {
 using Eigen::VectorXd;
 
 /// Movement into a support, over the mode's largest, that is none.
-constexpr double kNoMovement = 1e-7;
+constexpr double kNoDisplacement = 1e-7;
 /// Relative difference of two loads of one piece that is the rounding of its eigenvalue.
 constexpr double kSameLoad = 1e-9;
 constexpr int kMostPieces = 400;  ///< of springs, before the search is given up
@@ -53,7 +53,7 @@ class Search {
   const PieceSolver& solver_;
   const TouchingMarks& marks_;
   FrozenContact& contact_;
-  std::vector<double> movements_;
+  std::vector<double> displacements_;
   std::vector<char> acting_;
   Piece least_{std::numeric_limits<double>::infinity(), {}};
 };
@@ -70,21 +70,21 @@ void Search::set_all(bool acting) {
 }
 
 void Search::set_cone_of(const VectorXd& motion) {
-  problem_.touching_movements(marks_, motion, movements_);
-  acting_.resize(movements_.size());
-  for (std::size_t i = 0; i < acting_.size(); ++i) acting_[i] = movements_[i] > 0.0;
+  problem_.touching_displacements(marks_, motion, displacements_);
+  acting_.resize(displacements_.size());
+  for (std::size_t i = 0; i < acting_.size(); ++i) acting_[i] = displacements_[i] > 0.0;
   problem_.set_touching(marks_, motion, acting_, contact_);
 }
 
 /// Whether the mode, one way or the other, moves into the springs that act and into no other.
 bool Search::fits(const VectorXd& mode, unsigned springs) {
-  problem_.touching_movements(marks_, mode, movements_);
+  problem_.touching_displacements(marks_, mode, displacements_);
   bool one_way = true;
   bool other_way = true;
-  for (std::size_t i = 0; i < movements_.size(); ++i) {
-    const double into = (springs >> i) % 2 != 0 ? movements_[i] : -movements_[i];
-    one_way = one_way && into >= -kNoMovement;
-    other_way = other_way && into <= kNoMovement;
+  for (std::size_t i = 0; i < displacements_.size(); ++i) {
+    const double into = (springs >> i) % 2 != 0 ? displacements_[i] : -displacements_[i];
+    one_way = one_way && into >= -kNoDisplacement;
+    other_way = other_way && into <= kNoDisplacement;
   }
   return one_way || other_way;
 }
@@ -172,8 +172,8 @@ LeastPiece Search::by_descent(const VectorXd& near) {
 LeastPiece set_least_piece(const StructuralProblem& problem, const PieceSolver& solver,
                            const TouchingMarks& marks, const VectorXd& near, FrozenContact& contact) {
   Search search(problem, solver, marks, contact);
-  const bool bases = std::find(marks.strips.begin(), marks.strips.end(), 1) != marks.strips.end();
-  if (!bases && problem.touching_springs(marks) <= kMostSprings)
+  const bool foundations = std::find(marks.contacts.begin(), marks.contacts.end(), 1) != marks.contacts.end();
+  if (!foundations && problem.touching_springs(marks) <= kMostSprings)
     if (const LeastPiece least = search.over_springs(); least.found) return least;
   return search.by_descent(near);
 }

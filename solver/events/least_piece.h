@@ -28,7 +28,8 @@ struct LeastPiece {
   bool found = false;
   bool certain = false;  ///< no piece has a lower load that its mode does not contradict
   double above = 0.0;    ///< a load that the least one is not below
-  /// The critical motion of bases, in the sense in which it meets them; empty where springs alone touch.
+  /// The critical motion of foundations, in the sense in which it meets them; empty where springs alone
+  /// touch.
   Eigen::VectorXd motion = {};
 };
 
@@ -45,8 +46,9 @@ struct LeastPiece {
 /// own cone, and each piece's load is a lower bound of all that have more supports.
 ///
 /// Springs only: pieces are taken in the order of their loads, from none that acts on, until one's mode is in
-/// its cone. That one is the least, with certainty. Bases: Rayleigh's quotient of Q falls from the modes of
-/// the free and of the glued structure, both ways, each step towards the lowest mode of the piece at hand.
+/// its cone. That one is the least, with certainty. Foundations: Rayleigh's quotient of Q falls from the
+/// modes of the free and of the glued structure, both ways, each step towards the lowest mode of the piece at
+/// hand.
 /// @param near the critical motion of a coarser mesh, from which alone it falls then; empty: not known
 /// @param contact of the prestress that `solver` uses; the solver computes with what is set here
 /// @param marks of the same prestress

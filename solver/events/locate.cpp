@@ -35,8 +35,8 @@ struct Search {
   double stiffness = 0.0;  ///< of the softest motion at the ends of the step
 };
 
-bool loads_agree(double l0, double l1, double tolerance, double load_scale) {
-  return std::abs(l1 - l0) <= tolerance * std::max({std::abs(l0), std::abs(l1), 1e-6 * load_scale});
+bool loads_agree(double l0, double l1, double tolerance, double least) {
+  return std::abs(l1 - l0) <= tolerance * std::max({std::abs(l0), std::abs(l1), least});
 }
 
 /// Whether two points are farther apart than their places along the chord allow: they are on two different
@@ -105,8 +105,8 @@ void add_simple_event(Search& search, CriticalType type, LocatedRoot root, doubl
   if (root.found) search.out.events.back().cause = cause_of(search, root, first_value, a, b);
 }
 
-/// Whether the load turns at a corner where the tangent is singular: two paths that cross there, and the step
-/// went from one to the other. (At a limit point the load turns smoothly, at a contact's corner nothing is
+/// Whether the load turns at a kink where the tangent is singular: two paths that cross there, and the step
+/// went from one to the other. (At a limit point the load turns smoothly, at a contact's kink nothing is
 /// singular.)
 bool changes_paths(const Search& search, const LocatedRoot& root, double first_rate) {
   constexpr double kSingular = 1e-3;  // det there, over that at the start of the step
@@ -117,7 +117,7 @@ bool changes_paths(const Search& search, const LocatedRoot& root, double first_r
 
 /// A simple point by Newton's method from the softest motions; false when it is not found so.
 bool locate_by_modes(Search& search, const PathPoint& a, const PathPoint& b, bool limit) {
-  if (search.chord.movement_only) return false;
+  if (search.chord.displacement_only) return false;
   auto event = crossing_between(search.continuation, search.chord, a, b, limit, search.options);
   if (!event) return false;
   search.out.events.push_back(*std::move(event));
@@ -129,12 +129,12 @@ void locate_limit(Search& search, const PathPoint& a, const PathPoint& b) {
   const auto rate = [&search](const PathPoint& at) {
     return search.continuation.load_rate(search.chord, at);
   };
-  const double scale = search.continuation.load_scale();
+  const double least = search.continuation.least_load();
   const auto done = [&](const PathPoint& lo, const PathPoint& hi, double value) {
     const double length = search.continuation.distance_along(search.chord, lo, hi);
-    const double size = std::max(std::abs(lo.lambda), 1e-6 * scale);
+    const double size = std::max(std::abs(lo.lambda), least);
     return std::abs(value) * length <= 0.1 * search.options.tolerance * size &&
-           loads_agree(lo.lambda, hi.lambda, search.options.tolerance, scale) &&
+           loads_agree(lo.lambda, hi.lambda, search.options.tolerance, least) &&
            length <= std::min(kSamePath, 10.0 * search.options.tolerance);
   };
   LocatedRoot root = find_root(search.continuation, search.chord, a, rate(a), b, rate(b), rate, done);
@@ -149,7 +149,7 @@ void locate_bifurcation(Search& search, const PathPoint& a, const PathPoint& b) 
   // a bifurcation broken by an imperfection e looks whole from further than e^(2/3) in the load
   const double tolerance = std::min(search.options.tolerance, kBrokenBifurcation);
   const auto done = [&search, tolerance](const PathPoint& lo, const PathPoint& hi, double) {
-    return loads_agree(lo.lambda, hi.lambda, tolerance, search.continuation.load_scale());
+    return loads_agree(lo.lambda, hi.lambda, tolerance, search.continuation.least_load());
   };
   const LocatedRoot root =
       find_root(search.continuation, search.chord, a, value(a), b, value(b), value, done);
@@ -216,7 +216,7 @@ void search_between(Search& search, const PathPoint& a, const PathPoint& b, int 
   }
   const double length = search.continuation.distance_along(search.chord, a, b);
   const bool together = length <= kSamePath && loads_agree(a.lambda, b.lambda, search.options.tolerance,
-                                                           search.continuation.load_scale());
+                                                           search.continuation.least_load());
   std::optional<PathPoint> middle;
   if (!together && depth < kMaxDepth) middle = look(search, a, b, 0.5);
   if (!middle) {
@@ -293,7 +293,7 @@ bool at_one_place(const Continuation& continuation, double tolerance, const Crit
                   const CriticalEvent& b) {
   constexpr double kSamePlace = 1e-3;
   const double agree = 10.0 * std::max(tolerance, 1e-9);
-  return loads_agree(a.point.lambda, b.point.lambda, agree, continuation.load_scale()) &&
+  return loads_agree(a.point.lambda, b.point.lambda, agree, continuation.least_load()) &&
          continuation.distance(a.point, b.point) <= kSamePlace;
 }
 
@@ -362,19 +362,19 @@ LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint
 
 namespace {
 
-/// What cannot be bracketed at a corner is at the last point before it.
-std::vector<CriticalEvent> events_before(const PathPoint& corner, const PathPoint& to) {
+/// What cannot be bracketed at a kink is at the last point before it.
+std::vector<CriticalEvent> events_before(const PathPoint& kink, const PathPoint& to) {
   std::vector<CriticalEvent> events;
   CriticalEvent event;
   event.cause = CriticalCause::contact;
-  event.point = corner;
-  event.bracket_loads[0] = corner.lambda;
+  event.point = kink;
+  event.bracket_loads[0] = kink.lambda;
   event.bracket_loads[1] = to.lambda;
-  event.negative_before = corner.negative;
-  event.negative_after = corner.negative;
-  if ((corner.tangent_lambda > 0.0) != (to.tangent_lambda > 0.0)) {
-    event.type = limit_type(corner);
-    event.negative_after += to.negative >= corner.negative ? 1 : -1;
+  event.negative_before = kink.negative;
+  event.negative_after = kink.negative;
+  if ((kink.tangent_lambda > 0.0) != (to.tangent_lambda > 0.0)) {
+    event.type = limit_type(kink);
+    event.negative_after += to.negative >= kink.negative ? 1 : -1;
     events.push_back(event);
   }
   if (event.negative_after == to.negative) return events;
@@ -388,15 +388,15 @@ std::vector<CriticalEvent> events_before(const PathPoint& corner, const PathPoin
 
 }  // namespace
 
-LocatedEvents locate_at_turn(Continuation& continuation, const PathPoint& a, const PathPoint& b, double size,
+LocatedEvents locate_at_kink(Continuation& continuation, const PathPoint& a, const PathPoint& b, double size,
                              const LocateOptions& options) {
   LocatedEvents out;
-  Search search{continuation, continuation.movement_chord(a, b), a.log_abs_det, options, out};
+  Search search{continuation, continuation.displacement_chord(a, b), a.log_abs_det, options, out};
   search_between(search, a, b, 0);
   if (out.same_path) return out;
-  PathPoint corner = continuation.last_before_corner(a, size);
-  corner.arc_length = std::nextafter(corner.arc_length, std::numeric_limits<double>::infinity());
-  return {events_before(corner, b), true, {}};
+  PathPoint kink = continuation.last_before_kink(a, size);
+  kink.arc_length = std::nextafter(kink.arc_length, std::numeric_limits<double>::infinity());
+  return {events_before(kink, b), true, {}};
 }
 
 }  // namespace snapthrough

@@ -101,11 +101,11 @@ struct Dip {
 [[nodiscard]] LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint& a,
                                                    const PathPoint& b, const LocateOptions& options);
 
-/// @brief As locate_critical_points(), for a step that led round a turn (StepOutcome::turned): places are
-/// told by the movement alone. What cannot be bracketed there is put at the last point before the corner,
+/// @brief As locate_critical_points(), for a step that led round a turn (StepOutcome::kinked): places are
+/// told by the displacement alone. What cannot be bracketed there is put at the last point before the kink,
 /// caused by contact.
 /// @param size of the step that was taken
-[[nodiscard]] LocatedEvents locate_at_turn(Continuation& continuation, const PathPoint& a, const PathPoint& b,
+[[nodiscard]] LocatedEvents locate_at_kink(Continuation& continuation, const PathPoint& a, const PathPoint& b,
                                            double size, const LocateOptions& options);
 
 }  // namespace snapthrough

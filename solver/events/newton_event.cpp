@@ -20,7 +20,7 @@ CriticalOptions options_for(const Continuation& continuation, double tolerance, 
   CriticalOptions options;
   if (continuation.options().corrector.tangent_tolerance > 0.0) options.place = kPlaceOfNoState;
   options.tolerance = 0.1 * tolerance;
-  options.least_load = 1e-6 * continuation.load_scale();
+  options.least_load = continuation.least_load();
   options.reach = reach;
   return options;
 }

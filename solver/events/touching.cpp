@@ -16,22 +16,11 @@ using Eigen::VectorXd;
 
 constexpr double kOnTheWay = 0.5;  ///< share of a load on the way to which supports must go on touching
 
-/// The supports that touch at a state.
-TouchingMarks marks_at(const Structure& structure, const StructuralProblem& problem, const VectorXd& y) {
-  constexpr double kTouching = 1e-9;
-  constexpr double kRounding = 1e-14;
-  const double largest = y.head(3 * structure.joints).lpNorm<Eigen::Infinity>();
-  return problem.marks_at(y, kTouching * largest + kRounding);
-}
-
-bool any_touch(const Structure& structure, const StructuralProblem& problem, const VectorXd& y) {
-  return has_any(marks_at(structure, problem, y));
-}
-
-/// Lengths of bases (in fractions) and number of springs.
+/// Lengths of foundations (in fractions) and number of springs.
 double amount(const TouchingSupports& touching) {
   auto sum = static_cast<double>(touching.springs.size());
-  for (const TouchingSupports::BasePart& part : touching.bases) sum += part.range[1] - part.range[0];
+  for (const TouchingSupports::FoundationRange& part : touching.foundations)
+    sum += part.range[1] - part.range[0];
   return sum;
 }
 
@@ -41,21 +30,22 @@ bool still_touch(const Structure& structure, const VectorXd& from, double lambda
   constexpr double kAll = 1e-6;
   StructuralProblem problem(structure);
   const PathMetric metric{&structure.metric, 0.0};
-  VectorXd movement;
+  VectorXd displacement;
   Workspace work;
   problem.linearise(from, 0.0, work.residual);
-  problem.load(from, 0.0, movement);
-  problem.solve(movement);
-  VectorXd y = from + lambda * movement;
-  const auto outcome = correct(problem, metric, {}, lambda * metric.norm(movement, 0.0), {}, y, lambda, work);
+  problem.load(from, 0.0, displacement);
+  problem.solve(displacement);
+  VectorXd y = from + lambda * displacement;
+  const auto outcome =
+      correct(problem, metric, {}, lambda * metric.norm(displacement, 0.0), {}, y, lambda, work);
   if (outcome.status != CorrectorStatus::converged) return false;
-  const TouchingMarks marks = marks_at(structure, problem, y);
+  const TouchingMarks marks = problem.marks_at(y);
   return has_any(marks) &&
          std::abs(amount(problem.touching(marks, nullptr)) - amount(structure.touching)) <= kAll;
 }
 
 bool is_known(const TouchingSupports& touching) {
-  return !touching.springs.empty() || !touching.bases.empty();
+  return !touching.springs.empty() || !touching.foundations.empty();
 }
 
 /// What the supports do that touch under a reference load; empty: nothing is known.
@@ -85,7 +75,7 @@ bool glued_touches(const Structure& structure, StructuralProblem& problem) {
   problem.linearise(zero, 0.0, residual, glued);
   problem.load(zero, 0.0, response);
   problem.solve(response);
-  return any_touch(structure, problem, structure.scales.load * response);
+  return has_any(problem.marks_at(structure.scales.load * response));
 }
 
 }  // namespace
@@ -99,7 +89,7 @@ std::optional<Structure> with_least_piece(const Model& model, const Structure& s
                                                                    : structure.scales.load;
   if (start) {
     const VectorXd linear = start->y + (ahead / start->tangent_lambda) * start->tangent;
-    if (!any_touch(structure, problem, linear) &&
+    if (!has_any(problem.marks_at(linear)) &&
         !(continuation.loosening() > kLoose && glued_touches(structure, problem)))
       return std::nullopt;
   }
@@ -116,8 +106,8 @@ std::optional<Structure> with_least_piece(const Model& model, const Structure& s
 
 Structure with_finer_piece(const Model& model, const Structure& coarse, Mesh mesh) {
   Structure fine = on_mesh(coarse, model, std::move(mesh));
-  const auto& parts = fine.touching.bases;
-  const auto acts = [](const TouchingSupports::BasePart& part) { return part.touch == Touch::acts; };
+  const auto& parts = fine.touching.foundations;
+  const auto acts = [](const TouchingSupports::FoundationRange& part) { return part.touch == Touch::acts; };
   // without ends of contact the mesh does not matter
   if (std::none_of(parts.begin(), parts.end(), acts) || std::all_of(parts.begin(), parts.end(), acts))
     return fine;

@@ -95,10 +95,11 @@ int default_count(const ChosenMesh& rule, const Model& model, int member, const 
             length / kSamples;
   n = std::max(n, turn / (rule.turn * std::numbers::pi / 180.0));
   const double EI = model.sections[index_of(model.sections, m.section)].EI;
-  for (const Foundation& base : model.foundations) {
-    if (base.member != m.id || base.stiffness <= 0.0 || base.range[1] <= from || base.range[0] >= to)
+  for (const Foundation& foundation : model.foundations) {
+    if (foundation.member != m.id || foundation.stiffness <= 0.0 || foundation.range[1] <= from ||
+        foundation.range[0] >= to)
       continue;
-    n = std::max(n, length / (rule.decay_lengths * std::pow(4.0 * EI / base.stiffness, 0.25)));
+    n = std::max(n, length / (rule.decay_lengths * std::pow(4.0 * EI / foundation.stiffness, 0.25)));
   }
   for (const Imperfection& imperfection : model.imperfections) {
     const auto* sine = std::get_if<SineImperfection>(&imperfection);

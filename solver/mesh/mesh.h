@@ -43,8 +43,8 @@ enum class MeshUse {
 /// Elements end where something begins, ends or acts on a member (loads, springs, ranges, spline knots). A
 /// fixed number of elements is shared out between those places by length, at least one each; where there are
 /// fewer elements than pieces, they are equal and what lies inside an element acts inside it. Without a fixed
-/// mesh the number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of the bases and
-/// the half waves of imperfections.
+/// mesh the number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of the foundations
+/// and the half waves of imperfections.
 /// @param use of the mesh where it isn't fixed
 [[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
                              MeshUse use = MeshUse::final);

@@ -17,9 +17,6 @@ constexpr double kFastestRelease = 0.1;
 constexpr double kSlowestRelease = 0.97;
 /// Share below which it is tried to do without.
 constexpr double kTryFree = 1e-3;
-/// A displacement gradient that only a mechanism reaches.
-constexpr double kSingular = 1e13;
-
 /// What the attempts share.
 struct Attempt {
   EquilibriumProblem& problem;
@@ -40,7 +37,7 @@ bool first_guess(Attempt& attempt, bool bilateral, double softness, ContactState
   ++attempt.factorisations;
   state.y = -attempt.work.residual;
   attempt.problem.solve(state.y);
-  return state.y.allFinite() && attempt.metric.norm(state.y, 0.0) < kSingular;
+  return state.y.allFinite() && attempt.metric.norm(state.y, 0.0) < kSingularResponse;
 }
 
 /// Newton's method at fixed load from state.y.

@@ -29,9 +29,6 @@ double find_correction(EquilibriumProblem& problem, const SideCondition& side, c
 /// Relative residual, over the tangent's tolerance, that the last correction may start from.
 constexpr double kNearResidual = 10.0;
 
-/// Relative residual that nothing can be taken from.
-constexpr double kExact = 1e-15;
-
 /// With contact that changes corrections may cycle: one that is the last for the tangent's sake is at most
 /// this share of the one before.
 constexpr double kClosingShare = 0.1;
@@ -41,10 +38,9 @@ constexpr double kClosingShare = 0.1;
 constexpr int kStagnantIterations = 4;
 constexpr double kStagnantShare = 0.5;
 /// Corrections (displacement gradients; share of the step) beyond which a residual is not rounding's, however
-/// small it is beside large forces, but that of contact which cycles; and a residual that always is.
+/// small it is beside large forces, but that of contact which cycles.
 constexpr double kLargestRounding = 1e-6;
 constexpr double kLargestRoundingShare = 1e-4;
-constexpr double kRoundingResidual = 1e-14;
 /// The same for a correction that is not taken.
 constexpr double kLargestLeft = 1e-8;
 
@@ -123,7 +119,10 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
 class Progress {
  public:
   Progress(const CorrectorOptions& options, double scale)
-      : options_(options), scale_(scale), movement_(std::min(scale, options.movement)), previous_(scale) {}
+      : options_(options),
+        scale_(scale),
+        movement_(std::min(scale, options.displacement)),
+        previous_(scale) {}
 
   /// Whether the correction of this size, before which the residual is `residual`, is the last.
   [[nodiscard]] bool is_last(int iteration, double size, double residual) {
@@ -141,7 +140,7 @@ class Progress {
   /// Whether the correction is rounding's: however large it is where the tangent is nearly singular, or
   /// however much residual very stiff supports make of it.
   [[nodiscard]] bool is_rounding(int iteration, double size, double residual) const {
-    if (iteration == 0) return residual <= kExact && size > options_.tangent_tolerance * scale_;
+    if (iteration == 0) return residual <= kRoundingResidual && size > options_.tangent_tolerance * scale_;
     return iteration >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * movement_) &&
            residual <= options_.largest_residual;
   }
@@ -156,7 +155,7 @@ class Progress {
   /// Takes in a correction of which `share` was taken; false when too many did not shrink.
   [[nodiscard]] bool goes_on(double size, double share, double residual) {
     // near rounding nothing falls
-    if (size > 0.5 * least_ && residual > options_.stagnant_residual) ++stalled_;
+    if (size > kStagnantShare * least_ && residual > options_.stagnant_residual) ++stalled_;
     least_ = std::min(least_, size);
     expected_ = share < 1.0 ? size : size * ratio(size) * ratio(size);
     previous_ = size;

@@ -10,6 +10,12 @@
 
 namespace snapthrough {
 
+/// Response to a unit load, a displacement gradient in units of the structure's Euler load, that only a
+/// mechanism gives.
+inline constexpr double kSingularResponse = 1e13;
+/// Relative residual that rounding always leaves: a state with it is as good as exact.
+inline constexpr double kRoundingResidual = 1e-14;
+
 /// @brief Norm of a step (dy, dlambda): sqrt(dy.W dy + weight dlambda^2), W the problem's metric.
 struct PathMetric {
   const Eigen::VectorXd* weights = nullptr;  ///< not owned
@@ -40,7 +46,7 @@ struct CorrectorOptions {
   int most_stalled = 3;     ///< corrections that are not half the least so far: it does not converge
   double tolerance = 1e-9;  ///< on the predicted norm of the next correction, relative to the step
   /// What the tolerance is relative to where it is less than the step: the displacement part of it.
-  double movement = std::numeric_limits<double>::infinity();
+  double displacement = std::numeric_limits<double>::infinity();
   /// A correction below this share of the step is the last: the tangent at hand is the path's to this share,
   /// the point to about its square. Zero: iterates to `tolerance`.
   double tangent_tolerance = 0.0;

@@ -61,17 +61,16 @@ class StructuralProblem final : public EquilibriumProblem {
   void set_stage(Stage stage) { stage_ = stage; }
   void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const override;
   [[nodiscard]] double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const override;
-  /// @brief One-sided supports glued where they touch at y (penetration above `-tolerance`), absent
-  /// elsewhere.
-  [[nodiscard]] FrozenContact frozen_contact(const Eigen::VectorXd& y, double tolerance) const;
-  /// @brief The one-sided supports that touch without pressure at y: no further from touching than
-  /// `tolerance`, bases on all of their part of an element.
-  [[nodiscard]] TouchingMarks marks_at(const Eigen::VectorXd& y, double tolerance) const;
+  /// @brief One-sided supports glued where they touch at y, absent elsewhere.
+  [[nodiscard]] FrozenContact frozen_contact(const Eigen::VectorXd& y) const;
+  /// @brief The one-sided supports that touch without pressure at y: no further from touching than 1e-9 of
+  /// the largest displacement, foundations on all of their part of an element.
+  [[nodiscard]] TouchingMarks marks_at(const Eigen::VectorXd& y) const;
   /// @brief Movement of each touching spring into its medium.
-  void touching_movements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
-                          std::vector<double>& out) const;
-  /// @brief Of the supports that touch these springs act, and bases where `mode` moves into them.
-  /// @param mode empty: bases act wherever they touch
+  void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
+                              std::vector<double>& out) const;
+  /// @brief Of the supports that touch these springs act, and foundations where `mode` moves into them.
+  /// @param mode empty: foundations act wherever they touch
   /// @param springs one a touching spring
   void set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode, std::span<const char> springs,
                     FrozenContact& out) const;
@@ -98,26 +97,27 @@ class StructuralProblem final : public EquilibriumProblem {
     return stage_ == Stage::proportional ? LoadFactors{lambda, 1.0} : LoadFactors{0.0, lambda};
   }
   [[nodiscard]] Regime regime_of(const Regime& asked) const;
+  [[nodiscard]] double touching_distance(const Eigen::VectorXd& y) const;
   void start_residual(double lambda, Eigen::VectorXd& f) const;
   void turn_to_supports(Eigen::Ref<Eigen::VectorXd> f) const;
-  void add_joint_products(double lambda, const Eigen::Ref<const Eigen::VectorXd>& direction,
-                          Eigen::Ref<Eigen::VectorXd> out) const;
-  [[nodiscard]] double penetration(const JointSpring& spring, const Eigen::VectorXd& y, double gap) const;
-  void add_joint_springs(const Eigen::VectorXd& y, const Regime& regime, Eigen::VectorXd& f);
+  void add_node_products(double lambda, const Eigen::Ref<const Eigen::VectorXd>& direction,
+                         Eigen::Ref<Eigen::VectorXd> out) const;
+  [[nodiscard]] double penetration(const NodeSpring& spring, const Eigen::VectorXd& y, double gap) const;
+  void add_node_springs(const Eigen::VectorXd& y, const Regime& regime, Eigen::VectorXd& f);
   void add_holds(const Eigen::VectorXd& y, Eigen::VectorXd& f) const;
   /// Of the loads and of the members' ends.
   /// The largest of the rows that are forces or moments; the others are displacements and strains.
   [[nodiscard]] double force_norm(const Eigen::VectorXd& f) const;
   [[nodiscard]] double largest_force(const Eigen::VectorXd& y, double lambda) const;
   void constrain_residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) const;
-  void plan_joints();
-  void assemble_joints();
+  void plan_nodes();
+  void assemble_nodes();
   void fill_member(std::size_t member, Eigen::MatrixXd& block) const;
   /// Moves what is fixed to the right-hand side.
   void subtract_fixed(const Eigen::VectorXd& rhs, Eigen::VectorXd& reduced) const;
-  /// Position of a displacement unknown's scalar in the joint system is its index; multipliers follow.
+  /// Position of a displacement unknown's scalar in the node system is its index; multipliers follow.
   [[nodiscard]] Eigen::Index multiplier(std::size_t member) const {
-    return 3 * structure_.joints + structure_.releases + 3 * static_cast<Eigen::Index>(member);
+    return 3 * structure_.nodes + structure_.releases + 3 * static_cast<Eigen::Index>(member);
   }
   [[nodiscard]] std::array<double, 2> turn_of(int dof) const;
   [[nodiscard]] Eigen::Matrix3d axes_of(const std::array<int, 3>& dofs) const;
@@ -128,17 +128,17 @@ class StructuralProblem final : public EquilibriumProblem {
   std::size_t members_;
   std::vector<CondensedElement> condensed_;
   std::vector<Chain> chains_;
-  std::vector<Eigen::Index> free_;  ///< joint scalars and multipliers that are unknown
+  std::vector<Eigen::Index> free_;  ///< node scalars and multipliers that are unknown
   std::vector<Eigen::Index> fixed_;
-  std::vector<std::vector<int>> joint_rows_;   ///< scalars of each block of the joint system
-  std::vector<Eigen::MatrixXd> joint_blocks_;  ///< of members, joint springs, nodes that are held
+  std::vector<std::vector<int>> node_rows_;   ///< scalars of each block of the node system
+  std::vector<Eigen::MatrixXd> node_blocks_;  ///< of members, node springs, nodes that are held
   std::vector<char> free_rotation_;  ///< node rotations that nothing holds: all members released there
-  bool planned_ = false;             ///< joint_rows_ and factor_ know the holds
+  bool planned_ = false;             ///< node_rows_ and factor_ know the holds
   SymmetricIndefinite factor_;
-  Eigen::VectorXd joint_rhs_, free_rhs_;  ///< scratch of solve
+  Eigen::VectorXd node_rhs_, free_rhs_;  ///< scratch of solve
   FollowerEnds follower_ends_;
   std::unique_ptr<ElementWork> elements_;
-  std::vector<double> spring_stiffness_;  ///< of each spring at a node, as add_joint_springs() found it last
+  std::vector<double> spring_stiffness_;  ///< of each spring at a node, as add_node_springs() found it last
   SharedHolds holds_;
   Eigen::MatrixXd hold_rows_;  ///< sqrt(k) H in the axes of the supports
   Stage stage_ = Stage::proportional;

@@ -10,21 +10,17 @@
 namespace snapthrough {
 namespace {
 
-/// Share of an element below which an interval of contact is rounding at a place that cannot move.
-constexpr double kNoInterval = 1e-9;
-/// Share of a member's length below which two intervals are one.
-constexpr double kNoDistance = 1e-9;
 /// Rounding of a position, over the structure's length.
 constexpr double kNoDepth = 4.0 * std::numeric_limits<double>::epsilon();
 
 /// Contact intervals of one part of a foundation, in its element's coordinate.
 void local_intervals(const Structure& structure, const FoundationPart& part, const Eigen::VectorXd& y,
-                     double depth, std::vector<ContactStrip::Interval>& out) {
+                     double depth, std::vector<FoundationContact::Interval>& out) {
   out.assign(1, {part.range[0], part.range[1]});
-  if (!part.strip) return;
+  if (!part.contact) return;
   const ElementReader reader(structure, y, part.element);
-  part.strip->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
-                                reader.gradient(1), out, depth);
+  part.contact->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
+                                  reader.gradient(1), out, depth);
 }
 
 }  // namespace
@@ -35,16 +31,16 @@ std::vector<std::array<double, 2>> contact_intervals(const Structure& structure,
   const int member = index_of(model.members, model.foundations[foundation].member);
   const double length = structure.axes[member]->length();
   std::vector<std::array<double, 2>> joined;
-  std::vector<ContactStrip::Interval> local;
+  std::vector<FoundationContact::Interval> local;
   for (const FoundationPart& part : structure.foundation_parts) {
     if (part.foundation != foundation) continue;
     local_intervals(structure, part, y, depth, local);
     const MeshElement& cell = structure.mesh.elements[part.element];
     for (const auto& interval : local) {
-      if (interval.to - interval.from <= kNoInterval) continue;
+      if (interval.to - interval.from <= kOnePlace) continue;
       const double from = length * (cell.from + interval.from * (cell.to - cell.from));
       const double to = length * (cell.from + interval.to * (cell.to - cell.from));
-      if (!joined.empty() && from - joined.back()[1] <= kNoDistance * length)
+      if (!joined.empty() && from - joined.back()[1] <= kOnePlace * length)
         joined.back()[1] = to;
       else
         joined.push_back({from, to});

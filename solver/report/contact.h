@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Where bases and one-sided springs touch the structure.
+/// Where foundations and one-sided springs touch the structure.
 
 #include <Eigen/Core>
 #include <array>

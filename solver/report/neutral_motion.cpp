@@ -34,7 +34,7 @@ MatrixXd reduced(MatrixXd motions) {
 
 NeutralMotion told(const Structure& structure, const Model& model, const Eigen::VectorXd& motion) {
   double displaced = 0.0;
-  for (int j = 0; j < structure.joints; ++j)
+  for (int j = 0; j < structure.nodes; ++j)
     displaced = std::max(displaced, std::hypot(motion[3 * j], motion[3 * j + 1]));
   const double turned = motion.lpNorm<Eigen::Infinity>();
   const bool turns_only = displaced <= kNothing * turned;
@@ -45,7 +45,7 @@ NeutralMotion told(const Structure& structure, const Model& model, const Eigen::
   const double unit = sign * (turns_only ? turned : displaced);
   const double length = structure.scales.length;
   NeutralMotion out;
-  for (int j = 0; j < structure.joints; ++j) {
+  for (int j = 0; j < structure.nodes; ++j) {
     const Eigen::Vector3d d = motion.segment<3>(3 * j) / unit;
     if (d.lpNorm<Eigen::Infinity>() <= kNothing) continue;
     const auto cleaned = [](double value) { return std::abs(value) <= kNothing ? 0.0 : value; };

@@ -20,7 +20,7 @@ RigidMotions::RigidMotions(const Structure& structure, const Model& model, const
     rotation_[dofs[2]] = 1.0;
   };
   // nodes first, for those that no member begins or ends at; ends of members may be offset from them
-  for (int j = 0; j < structure.joints; ++j)
+  for (int j = 0; j < structure.nodes; ++j)
     set_node({3 * j, 3 * j + 1, 3 * j + 2}, (model.nodes[j].x - structure.origin[0]) / L,
              (model.nodes[j].y - structure.origin[1]) / L);
   for (std::size_t e = structure.dofs.size(); e-- > 0;) {
@@ -47,18 +47,18 @@ Wrench RigidMotions::work(const SparseRow& row) const {
   return {row.dot(x_), row.dot(y_), row.dot(rotation_)};
 }
 
-Wrench RigidMotions::work(const Station& station) const {
-  return {value(station, x_).value, value(station, y_).value, value(station, rotation_).value};
+Wrench RigidMotions::work(const SupportSpring& support) const {
+  return {value(support, x_).value, value(support, y_).value, value(support, rotation_).value};
 }
 
-RigidMotions::Reading RigidMotions::value(const Station& station, const Eigen::VectorXd& y) const {
-  const ElementDofs& dofs = structure_.dofs[station.element];
+RigidMotions::Reading RigidMotions::value(const SupportSpring& support, const Eigen::VectorXd& y) const {
+  const ElementDofs& dofs = structure_.dofs[support.element];
   const int p = structure_.mesh.order;
   Reading out;
   for (int c = 0; c < 3; ++c) {
-    out.value += station.a[c] * y[dofs.a[c]];
-    out.size += std::abs(station.a[c] * y[dofs.a[c]]);
-    for (int q = 0; q < p; ++q) out.value += station.v[q][c] * y[dofs.v + c * p + q];
+    out.value += support.a[c] * y[dofs.a[c]];
+    out.size += std::abs(support.a[c] * y[dofs.a[c]]);
+    for (int q = 0; q < p; ++q) out.value += support.v[q][c] * y[dofs.v + c * p + q];
   }
   return out;
 }

@@ -19,8 +19,8 @@ using Wrench = std::array<double, 3>;
 /// rotation about the axes' origin.
 ///
 /// A rigid motion strains no element, so the internal forces do no work on it, and in equilibrium the works
-/// of all loads, reactions, springs and bases add up to zero to rounding, whatever the mesh. Positions are
-/// those of the mesh's own axis: exact at the ends of elements, between them of the elements' order.
+/// of all loads, reactions, springs and foundations add up to zero to rounding, whatever the mesh. Positions
+/// are those of the mesh's own axis: exact at the ends of elements, between them of the elements' order.
 class RigidMotions {
  public:
   /// @param structure kept by reference, must outlive this
@@ -31,14 +31,14 @@ class RigidMotions {
   [[nodiscard]] Wrench work(const Eigen::VectorXd& forces) const;
   /// A functional's values: what a unit force along it has as its resultant.
   [[nodiscard]] Wrench work(const SparseRow& row) const;
-  /// @param station its spring is not looked at
-  [[nodiscard]] Wrench work(const Station& station) const;
-  /// What a station reads from unknowns, and the size of the displacement that it starts from.
+  /// @param support its spring is not looked at
+  [[nodiscard]] Wrench work(const SupportSpring& support) const;
+  /// What a support reads from unknowns, and the size of the displacement that it starts from.
   struct Reading {
     double value = 0.0;
     double size = 0.0;
   };
-  [[nodiscard]] Reading value(const Station& station, const Eigen::VectorXd& y) const;
+  [[nodiscard]] Reading value(const SupportSpring& support, const Eigen::VectorXd& y) const;
 
   /// The model's units, moment about the origin of the model's axes.
   [[nodiscard]] Resultant unscaled(const Wrench& scaled) const;

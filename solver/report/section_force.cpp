@@ -25,7 +25,7 @@ SectionForces::SectionForces(const Structure& structure, const Model& model, con
   for (int c = 0; c < 3; ++c) end_[c] = y[structure.dofs[element].m + c];
   add_loads(lambda / structure.scales.load, 1.0);
   if (pressure_ != 0.0) release_end_of_pressure(y);
-  add_bases();
+  add_foundations();
   add_springs();
 }
 
@@ -77,27 +77,28 @@ void SectionForces::add_load(const Load& load, double factor) {
     pressure_ += (p->side == Side::left ? 1.0 : -1.0) * scales.scaled_line_load(factor * p->value);
 }
 
-void SectionForces::add_bases() {
+void SectionForces::add_foundations() {
   for (const FoundationPart& part : structure_.foundation_parts) {
     if (part.element != element_) continue;
     const FoundationLaw& law = structure_.foundation_laws[part.foundation];
     const bool lumped = structure_.mesh.foundation == FoundationRule::lumped;
     if (lumped) add_lumped(law, part.range);
-    Base out{&law, lumped, part.range, {{part.range[0], part.range[1]}}};
-    if (part.strip)
-      part.strip->contact_intervals({reader_.start()[0], reader_.start()[1]}, reader_.gradient(0),
-                                    reader_.gradient(1), out.contact);
-    bases_.push_back(out);
+    FoundationHere out{&law, lumped, part.range, {{part.range[0], part.range[1]}}};
+    if (part.contact)
+      part.contact->contact_intervals({reader_.start()[0], reader_.start()[1]}, reader_.gradient(0),
+                                      reader_.gradient(1), out.contact);
+    foundations_.push_back(out);
   }
 }
 
-void SectionForces::add_lumped(const FoundationLaw& base, Vec2 range) {
+void SectionForces::add_lumped(const FoundationLaw& foundation, Vec2 range) {
   const Quadrature lobatto = gauss_lobatto(structure_.mesh.order + 1);
   for (std::size_t i = 0; i < lobatto.points.size(); ++i) {
     const double xi = lobatto.points[i];
-    if (xi < range[0] - 1e-9 || xi > range[1] + 1e-9) continue;
-    const Vec2 n = base_normal(base, xi);
-    const double force = -reader_.length() * lobatto.weights[i] * base.law.reaction(penetration(base, xi));
+    if (xi < range[0] - kOnePlace || xi > range[1] + kOnePlace) continue;
+    const Vec2 n = normal_into(foundation, xi);
+    const double force =
+        -reader_.length() * lobatto.weights[i] * foundation.law.reaction(penetration(foundation, xi));
     points_.push_back({xi, {force * n[0], force * n[1], 0.0}});
   }
 }
@@ -134,8 +135,8 @@ Vec2 SectionForces::position(double xi) const {
   return {x + u[0], y + u[1]};
 }
 
-double SectionForces::penetration(const FoundationLaw& base, double xi) const {
-  const Vec2 n = base_normal(base, xi);
+double SectionForces::penetration(const FoundationLaw& foundation, double xi) const {
+  const Vec2 n = normal_into(foundation, xi);
   const auto u = reader_.displacement(xi);
   return u[0] * n[0] + u[1] * n[1];
 }
@@ -149,36 +150,37 @@ Vec2 SectionForces::density(double xi) const {
     if (load.per == LoadMeasure::vertical) measure = std::abs(std::sin(axis_at(xi).angle));
     for (int c = 0; c < 2; ++c) f[c] += measure * load.force[c];
   }
-  for (const Base& base : bases_) {
-    if (base.lumped || xi < base.range[0] || xi > base.range[1]) continue;
-    const Vec2 n = base_normal(*base.law, xi);
-    const double reaction = base.law->law.reaction(penetration(*base.law, xi));
+  for (const FoundationHere& foundation : foundations_) {
+    if (foundation.lumped || xi < foundation.range[0] || xi > foundation.range[1]) continue;
+    const Vec2 n = normal_into(*foundation.law, xi);
+    const double reaction = foundation.law->law.reaction(penetration(*foundation.law, xi));
     for (int c = 0; c < 2; ++c) f[c] -= reaction * n[c];
   }
   return f;
 }
 
 /// G w' of a shear layer.
-double SectionForces::shear_layer(const FoundationLaw& base, double xi) const {
-  const Vec2 n = base_normal(base, xi);
-  const Vec2 dn = base_normal_rate(base, xi);
+double SectionForces::shear_layer(const FoundationLaw& foundation, double xi) const {
+  const Vec2 n = normal_into(foundation, xi);
+  const Vec2 dn = normal_rate(foundation, xi);
   const auto u = reader_.displacement(xi);
   const auto du = reader_.derivative(xi);
-  return base.shear * (du[0] * n[0] + du[1] * n[1] + u[0] * dn[0] + u[1] * dn[1]);
+  return foundation.shear * (du[0] * n[0] + du[1] * n[1] + u[0] * dn[0] + u[1] * dn[1]);
 }
 
 /// Shear layers on [from, to] of the part beyond xi: by virtual work of its rigid motions, -int G w' dw' ds.
 void SectionForces::add_shear_layers(double xi, double from, double to, std::array<double, 3>& sum) const {
   const Vec2 x0 = position(xi);
-  for (const Base& base : bases_) {
-    if (base.law->shear == 0.0) continue;
-    const double lo = std::max(from, base.range[0]);
-    const double hi = std::min(to, base.range[1]);
+  for (const FoundationHere& foundation : foundations_) {
+    if (foundation.law->shear == 0.0) continue;
+    const double lo = std::max(from, foundation.range[0]);
+    const double hi = std::min(to, foundation.range[1]);
     for (std::size_t i = 0; lo < hi && i < gauss_.points.size(); ++i) {
       const double at = lo + (hi - lo) * gauss_.points[i];
-      const double force = shear_layer(*base.law, at) * gauss_.weights[i] * (hi - lo) * reader_.length();
-      const Vec2 n = base_normal(*base.law, at);
-      const Vec2 dn = base_normal_rate(*base.law, at);
+      const double force =
+          shear_layer(*foundation.law, at) * gauss_.weights[i] * (hi - lo) * reader_.length();
+      const Vec2 n = normal_into(*foundation.law, at);
+      const Vec2 dn = normal_rate(*foundation.law, at);
       const double angle = axis_at(at).angle;
       const Vec2 x = position(at);
       const auto du =
@@ -199,9 +201,9 @@ std::vector<double> SectionForces::breaks_beyond(double xi) const {
   };
   for (const DeadLoad& load : dead_)
     for (const double at : load.range) add(at);
-  for (const Base& base : bases_) {
-    for (const double at : base.range) add(at);
-    for (const auto& interval : base.contact) {
+  for (const FoundationHere& foundation : foundations_) {
+    for (const double at : foundation.range) add(at);
+    for (const auto& interval : foundation.contact) {
       add(interval.from);
       add(interval.to);
     }
@@ -234,7 +236,7 @@ std::array<double, 3> SectionForces::at(double xi) const {
     sum[2] -= 0.5 * pressure_ * (dx * dx + dy * dy);
   }
   const std::vector<double> breaks = breaks_beyond(xi);
-  for (std::size_t b = 0; b + 1 < breaks.size() && (!dead_.empty() || !bases_.empty()); ++b) {
+  for (std::size_t b = 0; b + 1 < breaks.size() && (!dead_.empty() || !foundations_.empty()); ++b) {
     const double width = breaks[b + 1] - breaks[b];
     for (std::size_t i = 0; i < gauss_.points.size(); ++i) {
       const double at = breaks[b] + width * gauss_.points[i];
@@ -244,10 +246,10 @@ std::array<double, 3> SectionForces::at(double xi) const {
     }
     add_shear_layers(xi, breaks[b], breaks[b + 1], sum);
   }
-  for (const Base& base : bases_) {
-    if (base.law->shear == 0.0 || xi < base.range[0] || xi > base.range[1]) continue;
-    const Vec2 n = base_normal(*base.law, xi);
-    const double cut = shear_layer(*base.law, xi);
+  for (const FoundationHere& foundation : foundations_) {
+    if (foundation.law->shear == 0.0 || xi < foundation.range[0] || xi > foundation.range[1]) continue;
+    const Vec2 n = normal_into(*foundation.law, xi);
+    const double cut = shear_layer(*foundation.law, xi);
     sum[0] -= cut * n[0];
     sum[1] -= cut * n[1];
   }

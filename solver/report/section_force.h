@@ -15,8 +15,8 @@ namespace snapthrough {
 /// @brief Force and moment carried through any section of an element.
 ///
 /// The force through the element's end is an unknown of the solution and balances everything beyond it; what
-/// acts between a section and that end (dead loads, follower pressure, bases, springs) is integrated and
-/// added:
+/// acts between a section and that end (dead loads, follower pressure, foundations, springs) is integrated
+/// and added:
 ///
 ///   n(xi) = m_f + int_xi^1 f ds,     M(xi) = m_m + (x_b - x) x m_f + int_xi^1 (x(s) - x) x f ds
 ///
@@ -37,11 +37,11 @@ class SectionForces {
     LoadMeasure per;
     Vec2 range;  ///< of the element
   };
-  struct Base {
+  struct FoundationHere {
     const FoundationLaw* law;
     bool lumped;  ///< its reaction is that of point actions
     Vec2 range;
-    std::vector<ContactStrip::Interval> contact;
+    std::vector<FoundationContact::Interval> contact;
   };
   struct PointAction {
     double xi;
@@ -51,24 +51,25 @@ class SectionForces {
   void add_loads(double proportional, double constant);
   void add_load(const Load& load, double factor);
   void release_end_of_pressure(const Eigen::VectorXd& y);
-  void add_bases();
+  void add_foundations();
   void add_springs();
-  void add_lumped(const FoundationLaw& base, Vec2 range);
+  void add_lumped(const FoundationLaw& foundation, Vec2 range);
   /// The perfect axis at xi; the last place asked for is kept, it is asked for several times.
   [[nodiscard]] const AxisPoint& axis_at(double xi) const;
   [[nodiscard]] Vec2 position(double xi) const;
-  /// Into the base's medium, and d/ds of it.
-  [[nodiscard]] Vec2 base_normal(const FoundationLaw& base, double xi) const {
-    return base.direction.at(axis_at(xi).angle);
+  /// Into the foundation's medium, and d/ds of it.
+  [[nodiscard]] Vec2 normal_into(const FoundationLaw& foundation, double xi) const {
+    return foundation.direction.at(axis_at(xi).angle);
   }
-  [[nodiscard]] Vec2 base_normal_rate(const FoundationLaw& base, double xi) const {
-    return base.direction.rate(axis_at(xi).angle, structure_.scales.scaled_curvature(axis_at(xi).curvature));
+  [[nodiscard]] Vec2 normal_rate(const FoundationLaw& foundation, double xi) const {
+    return foundation.direction.rate(axis_at(xi).angle,
+                                     structure_.scales.scaled_curvature(axis_at(xi).curvature));
   }
-  /// Displacement into the base's medium.
-  [[nodiscard]] double penetration(const FoundationLaw& base, double xi) const;
+  /// Displacement into the foundation's medium.
+  [[nodiscard]] double penetration(const FoundationLaw& foundation, double xi) const;
   /// Density of forces at a section: everything continuous but the shear layer.
   [[nodiscard]] Vec2 density(double xi) const;
-  [[nodiscard]] double shear_layer(const FoundationLaw& base, double xi) const;
+  [[nodiscard]] double shear_layer(const FoundationLaw& foundation, double xi) const;
   void add_shear_layers(double xi, double from, double to, std::array<double, 3>& sum) const;
   [[nodiscard]] std::vector<double> breaks_beyond(double xi) const;
 
@@ -82,7 +83,7 @@ class SectionForces {
   mutable AxisPoint last_;
   std::array<double, 3> end_{};
   std::vector<DeadLoad> dead_;
-  std::vector<Base> bases_;
+  std::vector<FoundationHere> foundations_;
   std::vector<PointAction> points_;
   double pressure_ = 0.0;  ///< along the deformed right normal
 };

@@ -58,14 +58,15 @@ MemberState member_state(const Structure& structure, const Model& model, const E
 
 FoundationState foundation_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
                                  int index, int points) {
-  const Foundation& base = model.foundations[index];
-  const int member = index_of(model.members, base.member);
+  const Foundation& foundation = model.foundations[index];
+  const int member = index_of(model.members, foundation.member);
   const AxisCurve& axis = *structure.axes[member];
   const FoundationLaw& law = structure.foundation_laws[index];
   FoundationState out;
-  out.id = base.id;
+  out.id = foundation.id;
   for (int i = 0; i < points; ++i) {
-    const double fraction = base.range[0] + (base.range[1] - base.range[0]) * i / (points - 1);
+    const double fraction =
+        foundation.range[0] + (foundation.range[1] - foundation.range[0]) * i / (points - 1);
     const MeshPlace place = place_of(structure.mesh, member, fraction);
     const auto u = ElementReader(structure, y, place.element).displacement(place.xi);
     const double angle = axis.at(fraction * axis.length()).angle;
@@ -106,9 +107,9 @@ std::vector<double> contact_fractions(const Structure& structure, const Model& m
                                       const Eigen::VectorXd& y) {
   std::vector<double> out;
   for (std::size_t i = 0; i < model.foundations.size(); ++i) {
-    const Foundation& base = model.foundations[i];
-    const double length =
-        structure.axes[index_of(model.members, base.member)]->length() * (base.range[1] - base.range[0]);
+    const Foundation& foundation = model.foundations[i];
+    const double length = structure.axes[index_of(model.members, foundation.member)]->length() *
+                          (foundation.range[1] - foundation.range[0]);
     double contact = 0.0;
     for (const auto& interval : contact_intervals(structure, model, y, static_cast<int>(i)))
       contact += interval[1] - interval[0];

@@ -16,8 +16,8 @@ namespace snapthrough {
 [[nodiscard]] std::vector<MemberState> member_states(const Structure& structure, const Model& model,
                                                      const Eigen::VectorXd& y, double lambda, int points);
 
-/// @brief Everything a state says: members and bases sampled at `points` equally spaced places, and what
-/// supports, springs, bases and loads put on the structure. Its branch is 0, its refinements 0.
+/// @brief Everything a state says: members and foundations sampled at `points` equally spaced places, and
+/// what supports, springs, foundations and loads put on the structure. Its branch is 0, its refinements 0.
 /// @param y unknowns of the structure's problem (scaled units); the result is in the model's units
 /// @param lambda scaled load factor of that state
 /// @pre points >= 2

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "solver/discrete/base_stations.h"
 #include "solver/discrete/element_reader.h"
+#include "solver/discrete/foundation_springs.h"
 #include "solver/model/id_index.h"
 #include "solver/report/resultant.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// What springs or a base put on the structure, scaled, and the rounding of the penetrations that it is
+/// What springs or a foundation put on the structure, scaled, and the rounding of the penetrations that it is
 /// stiffness times: that of the displacements that these are sums of.
 struct Bearing {
   Wrench wrench{};
@@ -50,7 +50,7 @@ SpringForce force_of(const Structure& structure, const Model& model, std::size_t
 /// Adds the springs to the state; returns what they put on the nodes, in the problem's rows.
 VectorXd add_springs(const Structure& structure, const Model& model, const VectorXd& y,
                      const RigidMotions& rigid, State& state, std::vector<Bearing>& bearings) {
-  VectorXd on_nodes = VectorXd::Zero(3 * structure.joints);
+  VectorXd on_nodes = VectorXd::Zero(3 * structure.nodes);
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     const Spring& spring = model.springs[i];
     const SpringForce at = force_of(structure, model, i, y);
@@ -79,7 +79,7 @@ VectorXd held_forces(const Structure& structure, ElementWork& elements, const Ve
   Regime regime;
   regime.small_displacements = structure.geometry == Geometry::linear;
   elements.add_residual(y, {lambda, 1.0}, regime, f);
-  return f.head(3 * structure.joints) - springs;
+  return f.head(3 * structure.nodes) - springs;
 }
 
 /// Adds the supports to the state; returns what they put on the nodes, in the problem's rows.
@@ -88,46 +88,46 @@ VectorXd add_supports(const Structure& structure, const Model& model, const Vect
   VectorXd reactions = VectorXd::Zero(structure.size);
   for (const Support& support : model.supports) {
     const int node = index_of(model.nodes, support.node);
-    const JointSupport& joint = structure.supports[node];
-    const std::array<std::array<double, 2>, 2> axes{
-        {{std::cos(joint.angle), std::sin(joint.angle)}, {-std::sin(joint.angle), std::cos(joint.angle)}}};
+    const NodeSupport& held_by = structure.supports[node];
+    const std::array<std::array<double, 2>, 2> axes{{{std::cos(held_by.angle), std::sin(held_by.angle)},
+                                                     {-std::sin(held_by.angle), std::cos(held_by.angle)}}};
     for (int c = 0; c < 2; ++c) {
-      if (!joint.fixed[c]) continue;
+      if (!held_by.fixed[c]) continue;
       const double along = held[3 * node] * axes[c][0] + held[3 * node + 1] * axes[c][1];
       for (int k = 0; k < 2; ++k) reactions[3 * node + k] += along * axes[c][k];
     }
-    if (joint.fixed[2]) reactions[3 * node + 2] = held[3 * node + 2];
+    if (held_by.fixed[2]) reactions[3 * node + 2] = held[3 * node + 2];
     state.supports.push_back({support.node, F * reactions[3 * node], F * reactions[3 * node + 1],
                               F * structure.scales.length * reactions[3 * node + 2]});
   }
   return reactions;
 }
 
-/// The springs of a base that act on one element.
-std::vector<Station> acting_stations(const Structure& structure, const FoundationLaw& base,
-                                     const FoundationPart& part, const VectorXd& y) {
-  if (!part.strip || structure.mesh.foundation == FoundationRule::lumped)
-    return winkler_stations(structure, base, part.element, part.range);
+/// The springs of a foundation that act on one element.
+std::vector<SupportSpring> acting_springs(const Structure& structure, const FoundationLaw& foundation,
+                                          const FoundationPart& part, const VectorXd& y) {
+  if (!part.contact || structure.mesh.foundation == FoundationRule::lumped)
+    return winkler_springs(structure, foundation, part.element, part.range);
   const ElementReader reader(structure, y, part.element);
-  std::vector<ContactStrip::Interval> intervals;
-  part.strip->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
-                                reader.gradient(1), intervals);
-  std::vector<Station> out;
+  std::vector<FoundationContact::Interval> intervals;
+  part.contact->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
+                                  reader.gradient(1), intervals);
+  std::vector<SupportSpring> out;
   for (const auto& interval : intervals)
-    for (Station& station : contact_stations(structure, base, part.element, interval))
-      out.push_back(std::move(station));
+    for (SupportSpring& support : contact_springs(structure, foundation, part.element, interval))
+      out.push_back(std::move(support));
   return out;
 }
 
-void add_stations(const std::vector<Station>& stations, const VectorXd& y, const RigidMotions& rigid,
-                  Bearing& sum) {
-  for (const Station& station : stations) {
-    const auto [value, size] = rigid.value(station, y);
-    const double w = value - station.law.gap;
-    if (station.law.one_sided && w <= 0.0) continue;
-    const Wrench unit = rigid.work(station);
-    for (int c = 0; c < 3; ++c) sum.wrench[c] -= station.law.stiffness * w * unit[c];
-    sum.rounding += station.law.stiffness * (size + station.law.gap) * std::numeric_limits<double>::epsilon();
+void add_springs_of(const std::vector<SupportSpring>& springs, const VectorXd& y, const RigidMotions& rigid,
+                    Bearing& sum) {
+  for (const SupportSpring& support : springs) {
+    const auto [value, size] = rigid.value(support, y);
+    const double w = value - support.law.gap;
+    if (support.law.one_sided && w <= 0.0) continue;
+    const Wrench unit = rigid.work(support);
+    for (int c = 0; c < 3; ++c) sum.wrench[c] -= support.law.stiffness * w * unit[c];
+    sum.rounding += support.law.stiffness * (size + support.law.gap) * std::numeric_limits<double>::epsilon();
   }
 }
 
@@ -136,11 +136,12 @@ void add_foundations(const Structure& structure, const Model& model, const Vecto
   const std::size_t first = bearings.size();
   bearings.resize(first + model.foundations.size());
   for (const FoundationPart& part : structure.foundation_parts) {
-    const FoundationLaw& base = structure.foundation_laws[part.foundation];
+    const FoundationLaw& foundation = structure.foundation_laws[part.foundation];
     Bearing& sum = bearings[first + static_cast<std::size_t>(part.foundation)];
-    if (base.shear > 0.0)
-      add_stations(shear_layer_stations(structure, base, part.element, part.range), y, rigid, sum);
-    if (base.law.stiffness > 0.0) add_stations(acting_stations(structure, base, part, y), y, rigid, sum);
+    if (foundation.shear > 0.0)
+      add_springs_of(shear_layer_springs(structure, foundation, part.element, part.range), y, rigid, sum);
+    if (foundation.law.stiffness > 0.0)
+      add_springs_of(acting_springs(structure, foundation, part, y), y, rigid, sum);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a state's supports, springs, bases and loads put on the structure.
+/// What a state's supports, springs, foundations and loads put on the structure.
 
 #include <Eigen/Core>
 

@@ -21,7 +21,7 @@ using Vec2 = std::array<double, 2>;
 
 constexpr double kOneLine = 1e-12;  ///< sine between two lines of action below which they are one
 
-/// 1 where both react to the same movement, -1 where they oppose one another, else 0.
+/// 1 where both react to the same displacement, -1 where they oppose one another, else 0.
 double agreement(const Direction& a, const Direction& b) {
   if (a.turns != b.turns) return 0.0;
   if (a.turns) return a.sign * b.sign;
@@ -35,9 +35,9 @@ Direction action_of(const Spring& spring) {
   return spring.direction ? fixed_direction(*spring.direction, sense) : Direction{true, {}, sense};
 }
 
-/// The normal of a straight axis is fixed: a base with a direction may lie on the same line.
-Direction action_of(const Model& model, const Member& member, const Foundation& base) {
-  const Direction direction = direction_of(base);
+/// The normal of a straight axis is fixed: a foundation with a direction may lie on the same line.
+Direction action_of(const Model& model, const Member& member, const Foundation& foundation) {
+  const Direction direction = direction_of(foundation);
   if (!direction.turns || !std::holds_alternative<LineCurve>(member.curve)) return direction;
   const Node& a = model.nodes[index_of(model.nodes, member.start)];
   const Node& b = model.nodes[index_of(model.nodes, member.end)];
@@ -110,18 +110,18 @@ class Joiner {
   /// Whether anything was joined.
   [[nodiscard]] bool join() {
     join_springs();
-    for (const Member& member : model_.members) join_bases(member);
+    for (const Member& member : model_.members) join_foundations(member);
     if (!joined_) return false;
     for (std::size_t i = 0; i < model_.springs.size(); ++i)
       if (!replaced_springs_[i]) springs_.push_back(model_.springs[i]);
     for (std::size_t i = 0; i < model_.foundations.size(); ++i)
-      if (!replaced_bases_[i]) bases_.push_back(model_.foundations[i]);
+      if (!replaced_foundations_[i]) foundations_.push_back(model_.foundations[i]);
     return true;
   }
   [[nodiscard]] Model take() {
     Model out = model_;
     out.springs = std::move(springs_);
-    out.foundations = std::move(bases_);
+    out.foundations = std::move(foundations_);
     return out;
   }
 
@@ -132,17 +132,18 @@ class Joiner {
   }
   void join_springs();
   void join_springs_at(const std::vector<Touching>& place);
-  void join_bases(const Member& member);
-  [[nodiscard]] bool join_bases_on(std::array<double, 2> range, const std::vector<Touching>& bases,
-                                   std::vector<Foundation>& out) const;
+  void join_foundations(const Member& member);
+  [[nodiscard]] bool join_foundations_on(std::array<double, 2> range,
+                                         const std::vector<Touching>& foundations,
+                                         std::vector<Foundation>& out) const;
 
   const Model& model_;
   double span_ = 0.0;
   bool joined_ = false;
   std::vector<bool> replaced_springs_ = std::vector<bool>(model_.springs.size(), false);
-  std::vector<bool> replaced_bases_ = std::vector<bool>(model_.foundations.size(), false);
+  std::vector<bool> replaced_foundations_ = std::vector<bool>(model_.foundations.size(), false);
   std::vector<Spring> springs_;
-  std::vector<Foundation> bases_;
+  std::vector<Foundation> foundations_;
 };
 
 /// Springs in the order of their places: at nodes, where members end too, then inside members; rotations
@@ -193,15 +194,15 @@ void Joiner::join_springs_at(const std::vector<Touching>& place) {
   }
 }
 
-/// The bases of a member, on each part of it that no range ends in.
-void Joiner::join_bases(const Member& member) {
+/// The foundations of a member, on each part of it that no range ends in.
+void Joiner::join_foundations(const Member& member) {
   std::vector<Touching> touching;
   std::vector<double> ends;
   for (std::size_t i = 0; i < model_.foundations.size(); ++i) {
-    const Foundation& base = model_.foundations[i];
-    if (base.member != member.id || !touches(base, span_)) continue;
-    touching.push_back({i, base.stiffness, action_of(model_, member, base)});
-    ends.insert(ends.end(), base.range.begin(), base.range.end());
+    const Foundation& foundation = model_.foundations[i];
+    if (foundation.member != member.id || !touches(foundation, span_)) continue;
+    touching.push_back({i, foundation.stiffness, action_of(model_, member, foundation)});
+    ends.insert(ends.end(), foundation.range.begin(), foundation.range.end());
   }
   if (touching.size() < 2) return;
   std::sort(ends.begin(), ends.end());
@@ -209,21 +210,21 @@ void Joiner::join_bases(const Member& member) {
   bool any = false;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i)
     if (ends[i + 1] - ends[i] > kOnePlace)
-      any = join_bases_on({ends[i], ends[i + 1]}, touching, parts) || any;
+      any = join_foundations_on({ends[i], ends[i + 1]}, touching, parts) || any;
   if (!any) return;
   joined_ = true;
-  for (const Touching& base : touching) replaced_bases_[base.number] = true;
-  bases_.insert(bases_.end(), parts.begin(), parts.end());
+  for (const Touching& foundation : touching) replaced_foundations_[foundation.number] = true;
+  foundations_.insert(foundations_.end(), parts.begin(), parts.end());
 }
 
 /// Appends what acts on a part of a member; whether something was joined there.
-bool Joiner::join_bases_on(std::array<double, 2> range, const std::vector<Touching>& bases,
-                           std::vector<Foundation>& out) const {
+bool Joiner::join_foundations_on(std::array<double, 2> range, const std::vector<Touching>& foundations,
+                                 std::vector<Foundation>& out) const {
   const double middle = 0.5 * (range[0] + range[1]);
   std::vector<Touching> here;
-  for (const Touching& base : bases) {
-    const Foundation& whole = model_.foundations[base.number];
-    if (whole.range[0] < middle && middle < whole.range[1]) here.push_back(base);
+  for (const Touching& foundation : foundations) {
+    const Foundation& whole = model_.foundations[foundation.number];
+    if (whole.range[0] < middle && middle < whole.range[1]) here.push_back(foundation);
   }
   const auto put = [&](std::size_t position, double stiffness, bool glued) {
     append(model_.foundations[here[position].number], stiffness, glued, out);

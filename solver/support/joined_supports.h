@@ -16,7 +16,7 @@ inline constexpr double kNoGap = 1e-14;
 ///   k_1 max(w, 0) - k_2 max(-w, 0)  =  k w + (k_1 - k_2) max(w, 0),    k = k_2 <= k_1:
 ///
 /// a bilateral support of the smaller stiffness, and a one-sided one of what the stiffer has more. Springs
-/// are added up by place and line of action; bases of a member by line of action on each part of their
+/// are added up by place and line of action; foundations of a member by line of action on each part of their
 /// ranges, which may overlap in any way.
 /// @return the model with its supports in that form, for equations only (ids and numbers of supports are
 /// others); empty: no supports are opposite

@@ -7,19 +7,19 @@ Direction fixed_direction(const std::array<double, 2>& along, double sign) {
   return {false, {sign * along[0] / size, sign * along[1] / size}, 1.0};
 }
 
-Direction direction_of(const Foundation& base) {
-  const double sense = sense_of(base.reaction);
-  if (base.direction) return fixed_direction(*base.direction, sense);
-  return {true, {}, base.side == Side::left ? sense : -sense};
+Direction direction_of(const Foundation& foundation) {
+  const double sense = sense_of(foundation.reaction);
+  if (foundation.direction) return fixed_direction(*foundation.direction, sense);
+  return {true, {}, foundation.side == Side::left ? sense : -sense};
 }
 
-FoundationLaw law_of(const Foundation& base, const Scales& scales) {
-  const bool one_sided = base.reaction != Reaction::bilateral;
-  const double gap = one_sided ? scales.scaled_length(base.gap) : 0.0;
-  return {direction_of(base),
-          {scales.scaled_modulus(base.stiffness), gap, one_sided},
-          scales.scaled_force(base.shear_stiffness),
-          sense_of(base.reaction)};
+FoundationLaw law_of(const Foundation& foundation, const Scales& scales) {
+  const bool one_sided = foundation.reaction != Reaction::bilateral;
+  const double gap = one_sided ? scales.scaled_length(foundation.gap) : 0.0;
+  return {direction_of(foundation),
+          {scales.scaled_modulus(foundation.stiffness), gap, one_sided},
+          scales.scaled_force(foundation.shear_stiffness),
+          sense_of(foundation.reaction)};
 }
 
 SpringLaw law_of(const Spring& spring, const Scales& scales) {

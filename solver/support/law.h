@@ -58,7 +58,7 @@ struct Direction {
 /// @param along of any length, not zero
 [[nodiscard]] Direction fixed_direction(const std::array<double, 2>& along, double sign);
 /// Into the medium that resists.
-[[nodiscard]] Direction direction_of(const Foundation& base);
+[[nodiscard]] Direction direction_of(const Foundation& foundation);
 template <class Support>
 [[nodiscard]] bool is_one_sided(const Support& support) {
   return support.reaction != Reaction::bilateral && support.stiffness > 0.0;
@@ -78,7 +78,7 @@ struct SpringLaw {
   double sense = 1.0;  ///< sense_of()
 };
 
-[[nodiscard]] FoundationLaw law_of(const Foundation& base, const Scales& scales);
+[[nodiscard]] FoundationLaw law_of(const Foundation& foundation, const Scales& scales);
 [[nodiscard]] SpringLaw law_of(const Spring& spring, const Scales& scales);
 
 }  // namespace snapthrough

@@ -15,23 +15,23 @@ struct ElementPart {
 
 /// Where one-sided supports act, whatever the displacements. In the order of the structure's own lists.
 struct FrozenContact {
-  std::vector<std::vector<ElementPart>> strips;  ///< where each strip acts
-  std::vector<char> stations;                    ///< which stations of elements act
-  std::vector<char> springs;                     ///< which springs at nodes act
+  std::vector<std::vector<ElementPart>> contacts;  ///< where each foundation on an element acts
+  std::vector<char> element_springs;               ///< which springs on elements act
+  std::vector<char> node_springs;                  ///< which springs at nodes act
 };
 
 /// One-sided supports that touch without pressure, in the same order.
 struct TouchingMarks {
-  std::vector<char> strips;
-  std::vector<char> stations;
-  std::vector<char> springs;
+  std::vector<char> contacts;
+  std::vector<char> element_springs;
+  std::vector<char> node_springs;
 };
 
 [[nodiscard]] inline bool has_any(const TouchingMarks& marks) {
   const auto any = [](const std::vector<char>& list) {
     return std::find(list.begin(), list.end(), 1) != list.end();
   };
-  return any(marks.strips) || any(marks.stations) || any(marks.springs);
+  return any(marks.contacts) || any(marks.element_springs) || any(marks.node_springs);
 }
 
 /// Factors on the proportional and the constant actions.

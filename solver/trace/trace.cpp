@@ -47,7 +47,7 @@ class Tracer {
     bool found = false;
     TraceEnd end = TraceEnd::load_factor;
   };
-  [[nodiscard]] std::optional<Bound> bounded_end(const PathPoint& from, const PathPoint& to, bool corner);
+  [[nodiscard]] std::optional<Bound> bounded_end(const PathPoint& from, const PathPoint& to, bool kink);
   void tell(const CriticalEvent& event);
   [[nodiscard]] bool take_events(const std::vector<CriticalEvent>& events);
   void go(PathPoint& from, const StepOptions& steps, const std::stop_token& stop);
@@ -78,14 +78,14 @@ class Tracer {
   const TraceSink& sink_;
   TraceOutcome out_;
   int limit_points_ = 0;
-  double travelled_ = 0.0;                  ///< sum of the movements of all steps
+  double travelled_ = 0.0;                  ///< sum of the displacements of all steps
   std::vector<ContactChange> changes_;      ///< on the step that is being taken
   std::optional<CriticalEvent> passed_by_;  ///< the last bifurcation that was found beside the path
   bool onto_ = false;                       ///< the step that is being taken ends on a bifurcation
   std::vector<CriticalEvent> beside_;       ///< those that are still to be told
 };
 
-/// Round a corner a point's share of the step is not its share of the arc: along the polygon instead.
+/// Round a kink a point's share of the step is not its share of the arc: along the polygon instead.
 void Tracer::measure_arc(const PathPoint& from, std::vector<CriticalEvent>& events, PathPoint& to) const {
   const PathPoint* last = &from;
   for (CriticalEvent& event : events) {
@@ -114,7 +114,7 @@ bool Tracer::finish(TraceEnd end, const PathPoint& last) {
 }
 
 /// The point where the step first crosses a bound of the stop rules; empty when it crosses none.
-std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const PathPoint& to, bool corner) {
+std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const PathPoint& to, bool kink) {
   std::vector<Crossing> crossings;
   if (rules_.load) {
     const auto load = [](const PathPoint& at) { return at.lambda; };
@@ -141,9 +141,9 @@ std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const Pa
     const LocatedRoot root =
         find_root(continuation_, continuation_.chord(from, to), from, va, to, vb, crossing.value, done);
     const bool outside_before = (va > 0.0) == (vb > 0.0);
-    // a rate jumps at a corner, which then is where it changes its sign
+    // a rate jumps at a kink, which then is where it changes its sign
     const bool jumps =
-        crossing.end == TraceEnd::monitor_turned && (corner || continuation_.distance(from, to) < kShort);
+        crossing.end == TraceEnd::monitor_turned && (kink || continuation_.distance(from, to) < kShort);
     const bool found = root.found || outside_before || jumps ||
                        std::min(std::abs(root.value_before), std::abs(root.value_after)) <= kReached * size;
     if (first && found && first->point.arc_length <= root.root.arc_length) continue;
@@ -209,7 +209,7 @@ std::vector<CriticalEvent> Tracer::beyond(const PathPoint& from, Eigen::Index fi
 /// a step is taken over them, which could end on a path that crosses there.
 std::vector<CriticalEvent> Tracer::ahead(const PathPoint& from, double wanted) {
   constexpr double kSteps = 1.5;
-  constexpr double kMostAlong = 0.5;  // of the movement along the motion: at a limit point it is all
+  constexpr double kMostAlong = 0.5;  // of the displacement along the motion: at a limit point it is all
   // what is held at the start may turn out to be resisted
   if (!from.modes || (from.holds && from.arc_length == 0.0)) return {};
   const SoftModes& modes = *from.modes;
@@ -323,7 +323,7 @@ bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<Crit
   std::vector<CriticalEvent> reached;
   int count = from.negative;
   for (const CriticalEvent& event : events) {
-    // at a corner both are at one place, where the count at the bound tells on which side it is
+    // at a kink both are at one place, where the count at the bound tells on which side it is
     if (bound && event.point.arc_length > to.arc_length && count == to.negative) continue;
     if (event.type != CriticalType::broken_bifurcation) count = event.negative_after;
     reached.push_back(event);
@@ -354,8 +354,8 @@ LocatedEvents Tracer::arrive(const PathPoint& from, StepOutcome outcome, StepSiz
   if (!freed && outcome == StepOutcome::advanced && to.negative != from.negative)
     continuation_.settle(from, to);
   find_modes(from, to);
-  if (outcome == StepOutcome::turned)
-    return locate_at_turn(continuation_, from, to, size.taken, rules_.locate);
+  if (outcome == StepOutcome::kinked)
+    return locate_at_kink(continuation_, from, to, size.taken, rules_.locate);
   auto left = left_behind(from, to);
   if (!are_whole(left)) {
     // it may have crossed to the other path there
@@ -370,7 +370,7 @@ LocatedEvents Tracer::arrive(const PathPoint& from, StepOutcome outcome, StepSiz
 void Tracer::tell_contact(const PathPoint& from, StepOutcome outcome, const PathPoint& to,
                           const LocatedEvents& located) {
   if (rules_.zones)
-    changes_ = locate_contact_changes(continuation_, from, to, outcome == StepOutcome::turned, rules_.zones,
+    changes_ = locate_contact_changes(continuation_, from, to, outcome == StepOutcome::kinked, rules_.zones,
                                       rules_.locate.tolerance);
   for (const PathPoint& point : located.touching)
     if (sink_.on_touching) sink_.on_touching(point);
@@ -430,9 +430,9 @@ void Tracer::go(PathPoint& from, const StepOptions& steps, const std::stop_token
       }
       located = arrive(from, outcome, size, to);
     }
-    const bool corner = outcome == StepOutcome::turned || turns_sharply(from, to);
-    if (corner) measure_arc(from, located.events, to);
-    const auto bound = located.same_path ? bounded_end(from, to, corner) : std::nullopt;
+    const bool kink = outcome == StepOutcome::kinked || turns_sharply(from, to);
+    if (kink) measure_arc(from, located.events, to);
+    const auto bound = located.same_path ? bounded_end(from, to, kink) : std::nullopt;
     if (!located.same_path || (bound && !bound->found)) {
       continuation_.reject(size);
       continue;
@@ -441,7 +441,7 @@ void Tracer::go(PathPoint& from, const StepOptions& steps, const std::stop_token
     tell_contact(from, outcome, to, located);
     tell_passed(to, bound.has_value(), located.events);
     if (accept(from, to, located.events, bound)) break;
-    go_on(!corner && from.holds == to.holds, from, to);
+    go_on(!kink && from.holds == to.holds, from, to);
     continuation_.weigh_load(rules_.first_loss_of_stability || rules_.limit_points.has_value(), from, size);
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The part of a one-sided base that lies on one element.
+/// The part of a one-sided foundation that lies on one element.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -18,12 +18,12 @@
 
 namespace snapthrough {
 
-/// @brief One-sided Winkler base on part of an element: reaction K max(g, 0) per undeformed length along -d,
-/// with penetration g = u.d - gap and d the direction into the medium.
+/// @brief One-sided Winkler foundation on part of an element: reaction K max(g, 0) per undeformed length
+/// along -d, with penetration g = u.d - gap and d the direction into the medium.
 ///
 /// Its integrals are split where g changes sign inside the element, so they are C1 in the displacements: a
 /// moving contact edge needs no event and gives no false limit points. Immutable, thread safe.
-class ContactStrip {
+class FoundationContact {
  public:
   /// Where the element lies on its member's initial axis.
   struct Place {
@@ -36,13 +36,13 @@ class ContactStrip {
   /// @param range part of the element, in [0, 1]
   /// @param law its stiffness K times the element's length (a sum of weights times it integrates K ds)
   /// @pre place.axis where the direction turns
-  ContactStrip(int order, const Direction& direction, Place place, std::array<double, 2> range,
-               const Law& law, int foundation);
+  FoundationContact(int order, const Direction& direction, Place place, std::array<double, 2> range,
+                    const Law& law, int foundation);
 
   /// Rule for integrals over a contact interval.
   [[nodiscard]] static Quadrature quadrature(int order) { return gauss_legendre(std::max(order + 2, 5)); }
-  /// The same strip with another gap.
-  [[nodiscard]] ContactStrip with_gap(double gap) const;
+  /// The same contact with another gap.
+  [[nodiscard]] FoundationContact with_gap(double gap) const;
   [[nodiscard]] const Law& law() const { return law_; }
   [[nodiscard]] int foundation() const { return foundation_; }
   [[nodiscard]] std::array<double, 2> range() const { return range_; }

@@ -1,4 +1,4 @@
-#include "solver/element/contact_strip.h"
+#include "solver/element/foundation_contact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@ constexpr int kLeastSamples = 13;
 
 }  // namespace
 
-ContactStrip::ContactStrip(int order, const Direction& direction, Place place, std::array<double, 2> range,
-                           const Law& law, int foundation)
+FoundationContact::FoundationContact(int order, const Direction& direction, Place place,
+                                     std::array<double, 2> range, const Law& law, int foundation)
     : rule_(&CollocationRule::of(order)),
       direction_(direction),
       place_(std::move(place)),
@@ -44,7 +44,7 @@ ContactStrip::ContactStrip(int order, const Direction& direction, Place place, s
 }
 
 /// Whether the samples resolve the direction times what displacements of the element's degree add.
-bool ContactStrip::resolved() const {
+bool FoundationContact::resolved() const {
   constexpr double kRounding = 1e-14;
   constexpr std::array<double, 5> kBetween{0.02, 0.19, 0.41, 0.68, 0.93};
   const double degree = rule_->order();
@@ -62,13 +62,13 @@ bool ContactStrip::resolved() const {
   return true;
 }
 
-ContactStrip ContactStrip::with_gap(double gap) const {
-  ContactStrip other = *this;
+FoundationContact FoundationContact::with_gap(double gap) const {
+  FoundationContact other = *this;
   other.law_.gap = gap;
   return other;
 }
 
-std::array<double, 2> ContactStrip::direction_at(double xi) const {
+std::array<double, 2> FoundationContact::direction_at(double xi) const {
   if (!direction_.turns) return direction_.fixed;
   return direction_.at(place_.axis->at(place_.s0 + xi * place_.ds).angle);
 }
@@ -87,8 +87,8 @@ std::array<double, 2> combined(std::array<double, 2> a, std::span<const double> 
 
 }  // namespace
 
-double ContactStrip::penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
-                                 std::span<const double> dy) const {
+double FoundationContact::penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
+                                      std::span<const double> dy) const {
   std::array<double, kMaxOrder> a{};
   rule_->integrals_at(xi, std::span(a).first(dx.size()));
   const auto u = combined(ua, a, dx, dy);
@@ -96,8 +96,8 @@ double ContactStrip::penetration(double xi, std::array<double, 2> ua, std::span<
   return u[0] * d[0] + u[1] * d[1] - law_.gap;
 }
 
-double ContactStrip::penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
-                                       std::span<const double> dy) const {
+double FoundationContact::penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
+                                            std::span<const double> dy) const {
   std::array<double, kMaxOrder> l{};
   rule_->values_at(xi, std::span(l).first(dx.size()));
   const auto du = combined({0.0, 0.0}, l, dx, dy);
@@ -135,9 +135,9 @@ class SampledGap {
 /// Penetration less a depth on the range, from 0 to 1, where samples do not resolve it.
 class ExactGap {
  public:
-  ExactGap(const ContactStrip& strip, std::array<double, 2> ua, std::span<const double> dx,
+  ExactGap(const FoundationContact& contact, std::array<double, 2> ua, std::span<const double> dx,
            std::span<const double> dy, double depth)
-      : strip_(strip), ua_(ua), dx_(dx), dy_(dy), depth_(depth) {}
+      : strip_(contact), ua_(ua), dx_(dx), dy_(dy), depth_(depth) {}
 
   [[nodiscard]] double value(double z) const { return strip_.penetration(at(z), ua_, dx_, dy_) - depth_; }
   [[nodiscard]] double slope(double z) const {
@@ -152,7 +152,7 @@ class ExactGap {
     return strip_.range()[0] + z * (strip_.range()[1] - strip_.range()[0]);
   }
 
-  const ContactStrip& strip_;
+  const FoundationContact& strip_;
   std::array<double, 2> ua_;
   std::span<const double> dx_, dy_;
   double depth_;
@@ -244,8 +244,8 @@ void search_part(const Gap& gap, const Sample& left, const Sample& right, const 
 
 /// Whether g may change its sign between two places, because it is no further from zero than it moves there
 /// or next to there.
-bool may_cross(double left, double right, double movement) {
-  return (left > 0.0) != (right > 0.0) || std::min(std::abs(left), std::abs(right)) <= movement;
+bool may_cross(double left, double right, double displacement) {
+  return (left > 0.0) != (right > 0.0) || std::min(std::abs(left), std::abs(right)) <= displacement;
 }
 
 /// As search_part, between two samples, where zones smaller than the sampling may begin and end.
@@ -271,8 +271,8 @@ void search_cell(const Gap& gap, const Sample& left, const Sample& right, double
 }  // namespace
 
 /// g at the samples, over another gap.
-void ContactStrip::penetrations(std::array<double, 2> ua, std::span<const double> dx,
-                                std::span<const double> dy, double gap, Values& g) const {
+void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const double> dx,
+                                     std::span<const double> dy, double gap, Values& g) const {
   const std::size_t p = dx.size();
   for (int b = 0; b < blocks_; ++b) {
     const Lanes* block = &samples_[static_cast<std::size_t>(b) * (2 + p)];
@@ -287,8 +287,8 @@ void ContactStrip::penetrations(std::array<double, 2> ua, std::span<const double
   }
 }
 
-bool ContactStrip::is_near(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
-                           double distance) const {
+bool FoundationContact::is_near(std::array<double, 2> ua, std::span<const double> dx,
+                                std::span<const double> dy, double distance) const {
   Values g;
   penetrations(ua, dx, dy, law_.gap, g);
   return std::all_of(g.begin(), g.begin() + count_, [distance](double w) { return std::abs(w) <= distance; });
@@ -296,7 +296,7 @@ bool ContactStrip::is_near(std::array<double, 2> ua, std::span<const double> dx,
 
 /// The intervals in contact from the penetration, less a depth, and its values g at the samples.
 template <class Gap>
-void ContactStrip::search(const Gap& gap, const Values& g, std::vector<Interval>& out) const {
+void FoundationContact::search(const Gap& gap, const Values& g, std::vector<Interval>& out) const {
   constexpr double kParts = 4.0;  // of a cell, in search_cell
   const int n = count_;
   const double length = range_[1] - range_[0];
@@ -319,9 +319,9 @@ void ContactStrip::search(const Gap& gap, const Values& g, std::vector<Interval>
   if (g[n - 1] > 0.0) out.push_back({from, range_[1]});
 }
 
-void ContactStrip::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
-                                     std::span<const double> dy, std::vector<Interval>& out,
-                                     double depth) const {
+void FoundationContact::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
+                                          std::span<const double> dy, std::vector<Interval>& out,
+                                          double depth) const {
   out.clear();
   Values g;
   penetrations(ua, dx, dy, law_.gap + depth, g);
