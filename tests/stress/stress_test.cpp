@@ -38,41 +38,6 @@ TEST(StressChecker, SeesAFalsePoint) {
   EXPECT_FALSE(check_result(request.model, analysis, result).failures.empty());
 }
 
-/// Models that once ended without a stop rule, or with a point that the checker refused: contact on bases of
-/// hundreds of decay lengths, corners, tiny constant actions, zones of contact between samples and beside
-/// clamped ends, axes that samples do not resolve, paths that no longer turn, residuals that are small beside
-/// large forces only, thin members that buckle within gradients of 1e-6, free ends under follower pressure.
-TEST(Stress, ModelsThatFailedOnce) {
-  for (const std::uint64_t seed :
-       {13,    75,    146,   337,   552,   564,   608,   790,   836,   982,   1073,  1122,  2073,  2091,
-        2169,  2302,  2308,  2341,  2432,  3101,  3326,  3400,  136,   2144,  3260,  4353,  6003,  6011,
-        8132,  9462,  9644,  8173,  8196,  8815,  9069,  9349,  9656,  20329, 20698, 21101, 21116, 21894,
-        30180, 34196, 34694, 55743, 58925, 60665, 67134, 67591, 70607, 71930, 100921}) {
-    const StressOutcome out = run_seed(Draw::broad, seed, 60.0);
-    EXPECT_TRUE(out.reached) << "seed " << seed << ": " << out.termination << ", " << out.detail;
-    for (const std::string& what : out.check.failures)
-      ADD_FAILURE() << "seed " << seed << ": " << what << "\n" << out.features;
-  }
-}
-
-/// Half waves so short that meshes of some hundred elements a member differ by a part of the load: said, with
-/// states that are right.
-TEST(Stress, HalfWavesShorterThanTheElementsAreNotConfirmed) {
-  const StressOutcome out = run_seed(Draw::broad, 31064, 60.0);
-  EXPECT_EQ(out.termination, "not_confirmed") << out.detail;
-  for (const std::string& what : out.check.failures) ADD_FAILURE() << what << "\n" << out.features;
-}
-
-/// Bases so stiff that penetration times stiffness is known to 1e-9 of the largest force only: their
-/// resultants are what equilibrium leaves. Two of them have a critical point where contact changes.
-TEST(Stress, ReactionsOfStiffBasesAddUp) {
-  for (const std::uint64_t seed : {200082, 200117, 200147, 351980, 353249}) {
-    const StressOutcome out = run_seed(Draw::broad, seed, 60.0);
-    EXPECT_GT(out.check.points, 0) << "seed " << seed;
-    EXPECT_LT(out.check.imbalance, 1e-9) << "seed " << seed;
-  }
-}
-
 TEST(Stress, SliceOfRandomModels) {
   constexpr int kFirst = 28;
   constexpr int kSeeds = 12;
