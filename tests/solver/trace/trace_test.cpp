@@ -12,22 +12,10 @@
 namespace snapthrough {
 namespace {
 
+using testing::pitchfork;
 using testing::SmallProblem;
-
-/// Energy a^2/2 - a^3/6 + (c - a) b^2/2 + b^4/4 - e b, load on a. With e = 0 the primary path is b = 0,
-/// lambda = a - a^2/2: a limit point at a = 1 (lambda 1/2), a bifurcation at a = c.
-SmallProblem pitchfork(double c, double imperfection) {
-  return {[c, imperfection](const Eigen::VectorXd& y) {
-            return Eigen::VectorXd(Eigen::Vector2d(y[0] - 0.5 * y[0] * y[0] - 0.5 * y[1] * y[1],
-                                                   (c - y[0]) * y[1] + y[1] * y[1] * y[1] - imperfection));
-          },
-          [c](const Eigen::VectorXd& y) {
-            Eigen::Matrix2d h;
-            h << 1.0 - y[0], -y[1], -y[1], c - y[0] + 3.0 * y[1] * y[1];
-            return Eigen::MatrixXd(h);
-          },
-          Eigen::Vector2d(1.0, 0.0)};
-}
+using testing::two_bifurcations;
+using testing::two_folds;
 
 TraceOutcome follow(SmallProblem& problem, const TraceRules& rules) {
   Continuation continuation(problem, {});
@@ -110,35 +98,6 @@ TEST(Trace, GoesStraightThroughABifurcationThatRoundingBreaks) {
     EXPECT_EQ(outcome.critical[1].type, CriticalType::limit_max) << e;
     EXPECT_NEAR(outcome.critical[1].point.lambda, 0.5, 1e-9) << e;
   }
-}
-
-/// Energy a^2/2 + ((a - c)^2 - d^2) b^2/2 + b^4/4, load on a: on the primary path b = 0, lambda = a,
-/// bifurcations at a = c - d and c + d.
-SmallProblem two_bifurcations(double c, double d) {
-  return {[c, d](const Eigen::VectorXd& y) {
-            const double x = y[0] - c;
-            return Eigen::VectorXd(
-                Eigen::Vector2d(y[0] + x * y[1] * y[1], (x * x - d * d) * y[1] + y[1] * y[1] * y[1]));
-          },
-          [c, d](const Eigen::VectorXd& y) {
-            const double x = y[0] - c;
-            Eigen::Matrix2d h;
-            h << 1.0 + y[1] * y[1], 2.0 * x * y[1], 2.0 * x * y[1], x * x - d * d + 3.0 * y[1] * y[1];
-            return Eigen::MatrixXd(h);
-          },
-          Eigen::Vector2d(1.0, 0.0)};
-}
-
-/// F = (a - c)^3 / 3 - d^2 (a - c) - F(0), one unknown: limit points at a = c - d and c + d.
-SmallProblem two_folds(double c, double d) {
-  const auto f = [c, d](double a) { return (a - c) * (a - c) * (a - c) / 3.0 - d * d * (a - c); };
-  return {[f](const Eigen::VectorXd& y) {
-            return Eigen::VectorXd(Eigen::VectorXd::Constant(1, f(y[0]) - f(0.0)));
-          },
-          [c, d](const Eigen::VectorXd& y) {
-            return Eigen::MatrixXd(Eigen::MatrixXd::Constant(1, 1, (y[0] - c) * (y[0] - c) - d * d));
-          },
-          Eigen::VectorXd::Ones(1)};
 }
 
 /// Two critical points that leave the inertia as it was are found wherever they lie in a step, or the path
