@@ -16,7 +16,7 @@
 #include "server/cli/input.h"
 #include "server/cli/interruption.h"
 #include "server/cli/progress_bar.h"
-#include "server/worker/point.h"
+#include "server/sweeps/point.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server::cli {

@@ -22,7 +22,6 @@
 #include <utility>
 
 #include "server/worker/frame.h"
-#include "server/worker/point.h"
 #include "server/worker/record.h"
 #include "server/worker/runner_process.h"
 

@@ -1,47 +1,11 @@
 #include "server/worker/local_runner.h"
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "api/api.h"
+#include "server/sweeps/point.h"
 
 namespace snapthrough::server {
-namespace {
-
-JobRun outcome_of(const api::Request& request, Result result, double seconds) {
-  std::string document = api::write_result(request, result, seconds).dump();
-  JobRun run;
-  if (result.failure) {
-    run.failure =
-        JobFailure{std::move(result.failure->code), std::move(result.failure->detail), std::move(document)};
-    run.reached = {std::move(result.branches), std::move(result.critical_points)};
-  } else {
-    run.result = JobResult{std::move(document), seconds, std::move(result.summary),
-                           std::move(result.branches), std::move(result.critical_points)};
-  }
-  return run;
-}
-
-}  // namespace
-
-JobRun solve_job(std::string_view text, const SolveFunction& solve, const Hooks& hooks) {
-  try {
-    const api::ReadOutcome read = api::read_request(text);
-    if (!read.request) {
-      return {std::nullopt,
-              JobFailure{"invalid_request",
-                         "this version of the service does not accept the stored request any more", ""}};
-    }
-    const api::Request& request = *read.request;
-    const auto start = std::chrono::steady_clock::now();
-    Result result = solve(request.model, request.analysis, hooks);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    return outcome_of(request, std::move(result), elapsed.count());
-  } catch (...) {
-    return {std::nullopt, mishap_now()};
-  }
-}
 
 JobRun LocalRunner::run_job(std::string_view request, const Hooks& hooks) {
   return solve_job(request, solve_, hooks);

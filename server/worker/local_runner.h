@@ -3,13 +3,10 @@
 /// A runner in this process: no bound holds its analyses. For tests with a solver of their own, and inside
 /// the runner's own process.
 
-#include "server/worker/point.h"
 #include "server/worker/runner.h"
+#include "server/worker/solve_job.h"
 
 namespace snapthrough::server {
-
-/// @brief The outcome of one job, solved on this thread. Whatever goes wrong is a failure.
-[[nodiscard]] JobRun solve_job(std::string_view request, const SolveFunction& solve, const Hooks& hooks);
 
 /// Computes with a function on the thread that calls it.
 class LocalRunner final : public Runner {

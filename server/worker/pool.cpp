@@ -7,7 +7,7 @@
 
 #include "server/jobs/path_batch.h"
 #include "server/pause.h"
-#include "server/worker/chunk.h"
+#include "server/sweeps/chunk.h"
 
 namespace snapthrough::server {
 namespace {

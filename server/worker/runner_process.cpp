@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "server/jobs/path_batch.h"
+#include "server/sweeps/point.h"
 #include "server/worker/confinement.h"
 #include "server/worker/frame.h"
 #include "server/worker/local_runner.h"

@@ -2,7 +2,7 @@
 /// @file
 /// The inside of a runner's process.
 
-#include "server/worker/point.h"
+#include "server/worker/solve_job.h"
 
 namespace snapthrough::server {
 

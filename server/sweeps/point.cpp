@@ -1,8 +1,6 @@
-#include "server/worker/point.h"
+#include "server/sweeps/point.h"
 
 #include <chrono>
-#include <exception>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -91,18 +89,6 @@ std::vector<api::PointOutcome> followed(const api::Sweep& sweep, std::uint64_t f
 }
 
 }  // namespace
-
-JobFailure mishap_now() {
-  try {
-    throw;
-  } catch (const std::bad_alloc&) {
-    return {kOutOfMemory, "the analysis needs more memory than there is", ""};
-  } catch (const std::exception& error) {
-    return {"internal_error", error.what(), ""};
-  } catch (...) {
-    return {"internal_error", "unknown exception", ""};
-  }
-}
 
 std::vector<api::PointOutcome> solve_curve(const api::Sweep& sweep, std::uint64_t first,
                                            const std::stop_token& stop) {

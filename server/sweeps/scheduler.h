@@ -15,11 +15,11 @@
 #include "api/sweep.h"
 #include "server/environment.h"
 #include "server/jobs/active_jobs.h"
-#include "server/jobs/sweep.h"
+#include "server/sweeps/sweep.h"
 
 namespace snapthrough::server {
 
-/// A sweep that is worked on. What changes belongs to the PointScheduler.
+/// A sweep that is worked on. What changes belongs to the SweepScheduler.
 class ActiveSweep {
  public:
   /// @param open what the store knows of it
@@ -35,7 +35,7 @@ class ActiveSweep {
   [[nodiscard]] std::stop_token stopped() const { return stop_.get_token(); }
 
  private:
-  friend class PointScheduler;
+  friend class SweepScheduler;
   std::vector<bool> done_;                        ///< or to be given alone
   std::uint64_t cursor_ = 0;                      ///< points before it were given out
   std::deque<std::vector<std::uint64_t>> again_;  ///< points that came back, or that are to be given alone
@@ -53,7 +53,7 @@ struct Chunk {
 /// @brief Gives the points of several sweeps out, in turn. Thread-safe.
 ///
 /// What a point comes to does not depend on it: each is computed alone.
-class PointScheduler {
+class SweepScheduler {
  public:
   /// So many sweeps are worked on in turn.
   static constexpr std::size_t kMost = 8;
@@ -79,7 +79,7 @@ class PointScheduler {
   /// A chunk is worked on for as long as this exists; upkeep sees when a point takes too long.
   class Watch {
    public:
-    Watch(PointScheduler& scheduler, Time since);
+    Watch(SweepScheduler& scheduler, Time since);
     ~Watch();
     Watch(const Watch&) = delete;
     Watch& operator=(const Watch&) = delete;
@@ -92,8 +92,8 @@ class PointScheduler {
     [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
 
    private:
-    friend class PointScheduler;
-    PointScheduler& scheduler_;
+    friend class SweepScheduler;
+    SweepScheduler& scheduler_;
     Time since_;
     StopReason reason_ = StopReason::none;
     std::stop_source stop_;

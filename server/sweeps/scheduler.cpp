@@ -1,4 +1,4 @@
-#include "server/jobs/point_scheduler.h"
+#include "server/sweeps/scheduler.h"
 
 #include <algorithm>
 #include <utility>
@@ -34,7 +34,7 @@ ActiveSweep::ActiveSweep(std::string name, api::Sweep read, OpenSweep open)
   }
 }
 
-bool PointScheduler::add(std::shared_ptr<ActiveSweep> sweep) {
+bool SweepScheduler::add(std::shared_ptr<ActiveSweep> sweep) {
   const std::lock_guard guard(mutex_);
   const auto same = [&](const auto& other) { return other->id == sweep->id; };
   if (std::any_of(sweeps_.begin(), sweeps_.end(), same)) {
@@ -45,31 +45,31 @@ bool PointScheduler::add(std::shared_ptr<ActiveSweep> sweep) {
   return true;
 }
 
-bool PointScheduler::has(const std::string& id) const {
+bool SweepScheduler::has(const std::string& id) const {
   const std::lock_guard guard(mutex_);
   return std::any_of(sweeps_.begin(), sweeps_.end(), [&](const auto& sweep) { return sweep->id == id; });
 }
 
-bool PointScheduler::has_room() const { return count() < kMost; }
+bool SweepScheduler::has_room() const { return count() < kMost; }
 
-std::size_t PointScheduler::count() const {
+std::size_t SweepScheduler::count() const {
   const std::lock_guard guard(mutex_);
   return sweeps_.size();
 }
 
-bool PointScheduler::has_more(ActiveSweep& sweep) {
+bool SweepScheduler::has_more(ActiveSweep& sweep) {
   while (sweep.cursor_ < sweep.done_.size() && sweep.done_[sweep.cursor_]) {
     ++sweep.cursor_;
   }
   return !sweep.again_.empty() || sweep.cursor_ < sweep.done_.size();
 }
 
-void PointScheduler::look() {
+void SweepScheduler::look() {
   available_ =
       std::any_of(sweeps_.begin(), sweeps_.end(), [](const auto& sweep) { return has_more(*sweep); });
 }
 
-std::vector<std::uint64_t> PointScheduler::next_points(ActiveSweep& sweep) {
+std::vector<std::uint64_t> SweepScheduler::next_points(ActiveSweep& sweep) {
   std::vector<std::uint64_t> points;
   if (sweep.cursor_ >= sweep.done_.size()) {
     points = std::move(sweep.again_.front());
@@ -93,7 +93,7 @@ std::vector<std::uint64_t> PointScheduler::next_points(ActiveSweep& sweep) {
   return points;
 }
 
-std::optional<Chunk> PointScheduler::take() {
+std::optional<Chunk> SweepScheduler::take() {
   const std::lock_guard guard(mutex_);
   for (std::size_t i = 0; i < sweeps_.size(); ++i) {
     std::shared_ptr<ActiveSweep> sweep = std::move(sweeps_.front());
@@ -108,7 +108,7 @@ std::optional<Chunk> PointScheduler::take() {
   return std::nullopt;
 }
 
-void PointScheduler::give_back(const Chunk& chunk, std::vector<std::uint64_t> rest, double seconds,
+void SweepScheduler::give_back(const Chunk& chunk, std::vector<std::uint64_t> rest, double seconds,
                                std::size_t done) {
   const std::lock_guard guard(mutex_);
   ActiveSweep& sweep = *chunk.sweep;
@@ -124,7 +124,7 @@ void PointScheduler::give_back(const Chunk& chunk, std::vector<std::uint64_t> re
 }
 
 template <class Is>
-void PointScheduler::remove_if(Is is) {
+void SweepScheduler::remove_if(Is is) {
   std::shared_ptr<ActiveSweep> removed;
   {
     const std::lock_guard guard(mutex_);
@@ -139,30 +139,30 @@ void PointScheduler::remove_if(Is is) {
   removed->stop_.request_stop();  // calls those who work on it, who use this scheduler
 }
 
-void PointScheduler::remove(const std::string& id) {
+void SweepScheduler::remove(const std::string& id) {
   remove_if([&](const auto& sweep) { return sweep->id == id; });
 }
 
-void PointScheduler::remove(const std::shared_ptr<ActiveSweep>& sweep) {
+void SweepScheduler::remove(const std::shared_ptr<ActiveSweep>& sweep) {
   remove_if([&](const auto& other) { return other == sweep; });
 }
 
-PointScheduler::Watch::Watch(PointScheduler& scheduler, Time since) : scheduler_(scheduler), since_(since) {
+SweepScheduler::Watch::Watch(SweepScheduler& scheduler, Time since) : scheduler_(scheduler), since_(since) {
   const std::lock_guard guard(scheduler_.mutex_);
   scheduler_.watches_.push_back(this);
 }
 
-PointScheduler::Watch::~Watch() {
+SweepScheduler::Watch::~Watch() {
   const std::lock_guard guard(scheduler_.mutex_);
   std::erase(scheduler_.watches_, this);
 }
 
-void PointScheduler::Watch::begin(Time since) {
+void SweepScheduler::Watch::begin(Time since) {
   const std::lock_guard guard(scheduler_.mutex_);
   since_ = since;
 }
 
-void PointScheduler::Watch::stop(StopReason reason) {
+void SweepScheduler::Watch::stop(StopReason reason) {
   {
     const std::lock_guard guard(scheduler_.mutex_);
     reason_ = reason_ == StopReason::none ? reason : reason_;
@@ -170,12 +170,12 @@ void PointScheduler::Watch::stop(StopReason reason) {
   stop_.request_stop();
 }
 
-StopReason PointScheduler::Watch::reason() const {
+StopReason SweepScheduler::Watch::reason() const {
   const std::lock_guard guard(scheduler_.mutex_);
   return reason_;
 }
 
-void PointScheduler::stop_older(Time since) {
+void SweepScheduler::stop_older(Time since) {
   std::vector<std::stop_source> late;
   {
     const std::lock_guard guard(mutex_);

@@ -14,11 +14,11 @@
 #include "server/jobs/job_completions.h"
 #include "server/jobs/job_metrics.h"
 #include "server/jobs/limits.h"
-#include "server/jobs/point_scheduler.h"
 #include "server/jobs/progress_topic.h"
 #include "server/jobs/submission.h"
 #include "server/log/log.h"
 #include "server/store/sweep_store.h"
+#include "server/sweeps/scheduler.h"
 
 namespace snapthrough::server {
 
@@ -69,7 +69,7 @@ class SweepService {
   }
 
   [[nodiscard]] SweepStore& store() { return world_.store; }
-  [[nodiscard]] PointScheduler& scheduler() { return scheduler_; }
+  [[nodiscard]] SweepScheduler& scheduler() { return scheduler_; }
   [[nodiscard]] ProgressTopic<SweepRecord>& news() { return news_; }
 
  private:
@@ -81,7 +81,7 @@ class SweepService {
   void wake();
 
   const SweepSurroundings world_;
-  PointScheduler scheduler_;
+  SweepScheduler scheduler_;
   ProgressTopic<SweepRecord> news_;
   std::mutex loading_;
   std::atomic<bool> unloaded_ = true;  ///< the store may have sweeps that the scheduler does not have

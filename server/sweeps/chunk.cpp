@@ -1,4 +1,4 @@
-#include "server/worker/chunk.h"
+#include "server/sweeps/chunk.h"
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -72,7 +72,7 @@ bool is_late(double seconds, const WorkerContext& context) {
 }
 
 /// Computes what is pending; what it does not come to is left as the rest.
-void compute(const Chunk& chunk, const WorkerContext& context, Runner& runner, PointScheduler::Watch& watch,
+void compute(const Chunk& chunk, const WorkerContext& context, Runner& runner, SweepScheduler::Watch& watch,
              Work& work) {
   const double start = context.environment.monotonic_seconds();
   std::vector<std::uint64_t> points;
@@ -101,7 +101,7 @@ void compute(const Chunk& chunk, const WorkerContext& context, Runner& runner, P
 
 /// Computes a curve, wholly or not at all.
 void compute_curve(const Chunk& chunk, const WorkerContext& context, Runner& runner,
-                   PointScheduler::Watch& watch, Work& work) {
+                   SweepScheduler::Watch& watch, Work& work) {
   if (work.pending.empty()) {
     return;
   }
@@ -127,7 +127,7 @@ void compute_curve(const Chunk& chunk, const WorkerContext& context, Runner& run
 }  // namespace
 
 void work_on(const Chunk& chunk, const WorkerContext& context, Runner& runner, const std::stop_token& stop) {
-  PointScheduler::Watch watch(context.sweeps.scheduler(), context.environment.now());
+  SweepScheduler::Watch watch(context.sweeps.scheduler(), context.environment.now());
   const std::stop_callback on_shutdown(stop, [&] { watch.stop(StopReason::shutdown); });
   const std::stop_callback on_dismissal(chunk.sweep->stopped(), [&] { watch.stop(StopReason::dismissed); });
   const double start = context.environment.monotonic_seconds();

@@ -1,4 +1,4 @@
-#include "server/jobs/sweep_service.h"
+#include "server/sweeps/sweep_service.h"
 
 #include <algorithm>
 #include <utility>
