@@ -504,6 +504,7 @@ void read_follow(Object& root, SweepData& data) {
   }
   check_follow(data, *follow);
   data.follow = true;
+  data.unit_size = data.parameters.back().count();
 }
 
 }  // namespace

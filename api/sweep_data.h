@@ -63,7 +63,8 @@ struct SweepData {
   int samples = 1;  ///< of a Latin hypercube
   int seed = 0;     ///< of a Latin hypercube
   std::vector<SweepOutput> outputs;
-  bool follow = false;  ///< the critical point is followed along the last parameter
+  bool follow = false;          ///< the critical point is followed along the last parameter
+  std::uint64_t unit_size = 1;  ///< points that are computed together
   std::uint64_t points = 0;
 };
 

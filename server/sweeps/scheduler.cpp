@@ -20,18 +20,29 @@ ActiveSweep::ActiveSweep(std::string name, api::Sweep read, OpenSweep open)
       owner(std::move(open.owner)),
       outputs(sweep.outputs_text()),
       reuse(open.reuse),
-      done_(std::move(open.done)) {
-  const auto block = static_cast<std::ptrdiff_t>(sweep.block());
-  for (auto begin = done_.begin(); sweep.follows() && begin != done_.end(); begin += block) {
-    const bool all = std::all_of(begin, begin + block, [](bool done) { return done; });
-    std::fill(begin, begin + block, all);  // a curve is computed wholly
-  }
-  for (const auto& [point, crashes] : open.crashes) {
-    if (!sweep.follows() && !done_.at(point)) {
-      done_[point] = true;  // the process died with it once: not again with others beside it
-      again_.push_back({point});
+      done_(sweep.units(), true) {
+  for (std::uint64_t point = 0; point < open.done.size(); ++point) {
+    if (!open.done[point]) {
+      done_[point / sweep.unit_size()] = false;  // it is computed wholly
     }
   }
+  for (const auto& [point, crashes] : open.crashes) {
+    if (const std::uint64_t unit = point / sweep.unit_size(); !done_.at(unit)) {
+      done_[unit] = true;  // the process died with it once: not again with others beside it
+      again_.push_back({unit});
+    }
+  }
+}
+
+std::vector<std::uint64_t> Chunk::points() const {
+  const std::uint64_t size = sweep->sweep.unit_size();
+  std::vector<std::uint64_t> points;
+  for (const std::uint64_t unit : units) {
+    for (std::uint64_t i = 0; i < size; ++i) {
+      points.push_back(unit * size + i);
+    }
+  }
+  return points;
 }
 
 bool SweepScheduler::add(std::shared_ptr<ActiveSweep> sweep) {
@@ -69,28 +80,32 @@ void SweepScheduler::look() {
       std::any_of(sweeps_.begin(), sweeps_.end(), [](const auto& sweep) { return has_more(*sweep); });
 }
 
-std::vector<std::uint64_t> SweepScheduler::next_points(ActiveSweep& sweep) {
-  std::vector<std::uint64_t> points;
+/// How many units a chunk has at most.
+std::size_t SweepScheduler::most_units(const ActiveSweep& sweep) {
+  if (sweep.sweep.unit_size() > 1) {
+    return 1;  // it takes long: another worker may have the next
+  }
+  if (sweep.seconds_per_unit_ > 0.0) {
+    return static_cast<std::size_t>(
+        std::clamp(kChunkSeconds / sweep.seconds_per_unit_, 1.0, static_cast<double>(kLargestChunk)));
+  }
+  return kFirstChunk;
+}
+
+std::vector<std::uint64_t> SweepScheduler::next_units(ActiveSweep& sweep) {
+  std::vector<std::uint64_t> units;
   if (sweep.cursor_ >= sweep.done_.size()) {
-    points = std::move(sweep.again_.front());
+    units = std::move(sweep.again_.front());
     sweep.again_.pop_front();
-    return points;
+    return units;
   }
-  std::size_t wanted = kFirstChunk;
-  if (sweep.seconds_per_point_ > 0.0) {
-    wanted = static_cast<std::size_t>(
-        std::clamp(kChunkSeconds / sweep.seconds_per_point_, 1.0, static_cast<double>(kLargestChunk)));
-  }
-  if (sweep.sweep.follows()) {
-    wanted = static_cast<std::size_t>(sweep.sweep.block());  // the cursor is where a curve begins
-  }
-  while (points.size() < wanted && sweep.cursor_ < sweep.done_.size()) {
+  const std::size_t most = most_units(sweep);
+  for (; units.size() < most && sweep.cursor_ < sweep.done_.size(); ++sweep.cursor_) {
     if (!sweep.done_[sweep.cursor_]) {
-      points.push_back(sweep.cursor_);
+      units.push_back(sweep.cursor_);
     }
-    ++sweep.cursor_;
   }
-  return points;
+  return units;
 }
 
 std::optional<Chunk> SweepScheduler::take() {
@@ -100,25 +115,25 @@ std::optional<Chunk> SweepScheduler::take() {
     sweeps_.pop_front();
     sweeps_.push_back(sweep);
     if (has_more(*sweep)) {
-      std::vector<std::uint64_t> points = next_points(*sweep);
+      std::vector<std::uint64_t> units = next_units(*sweep);
       look();
-      return Chunk{std::move(sweep), {}, std::move(points)};
+      return Chunk{std::move(sweep), {}, std::move(units)};
     }
   }
   return std::nullopt;
 }
 
-void SweepScheduler::give_back(const Chunk& chunk, std::vector<std::uint64_t> rest, double seconds,
-                               std::size_t done) {
+void SweepScheduler::give_back(const Chunk& chunk, std::vector<std::uint64_t> rest, double seconds) {
   const std::lock_guard guard(mutex_);
   ActiveSweep& sweep = *chunk.sweep;
+  const std::size_t done = chunk.units.size() - rest.size();
   if (!rest.empty()) {
     sweep.again_.push_back(std::move(rest));
   }
   if (done > 0) {
     const double latest = seconds / static_cast<double>(done);
-    sweep.seconds_per_point_ =
-        sweep.seconds_per_point_ > 0.0 ? 0.5 * (sweep.seconds_per_point_ + latest) : latest;
+    sweep.seconds_per_unit_ =
+        sweep.seconds_per_unit_ > 0.0 ? 0.5 * (sweep.seconds_per_unit_ + latest) : latest;
   }
   look();
 }

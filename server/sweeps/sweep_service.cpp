@@ -167,16 +167,16 @@ std::optional<Chunk> SweepService::take() {
   }
   while (std::optional<Chunk> chunk = scheduler_.take()) {
     const std::string& id = chunk->sweep->id;
-    StatusOr<PointClaim> claim = world_.store.claim(id, chunk->points, world_.environment.now());
+    StatusOr<PointClaim> claim = world_.store.claim(id, chunk->points(), world_.environment.now());
     if (claim.ok()) {
       chunk->claim = std::move(claim).value();
-      if (scheduler_.has_points()) {
+      if (scheduler_.has_units()) {
         world_.handoffs.ring();  // the next worker
       }
       return chunk;
     }
     if (claim.status().code() != StatusCode::conflict) {
-      scheduler_.give_back(*chunk, chunk->points, 0.0, 0);
+      scheduler_.give_back(*chunk, chunk->units, 0.0);
       log_sweep(id, "claim", claim.status().message());
       return std::nullopt;
     }
@@ -192,7 +192,7 @@ Status SweepService::settle(const Chunk& chunk, const std::vector<PointRow>& row
     record = world_.store.put(chunk.claim, not_stored(rows, record.status()), world_.environment.now());
   }
   if (record.ok()) {
-    scheduler_.give_back(chunk, rest, seconds, rows.size());
+    scheduler_.give_back(chunk, rest, seconds);
     stored(*record, rows);
     return {};
   }

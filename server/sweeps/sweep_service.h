@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a caller can do with sweeps, whatever the protocol, and where workers get points.
+/// What a caller can do with sweeps, whatever the protocol, and where workers get units of them.
 
 #include <atomic>
 #include <mutex>
@@ -53,20 +53,16 @@ class SweepService {
   Status remove(const std::string& id);
 
   // For the workers.
-  /// Points to compute, claimed; empty when there are none.
+  /// Units to compute, claimed; empty when there are none.
   std::optional<Chunk> take();
-  /// @brief Stores what became of a chunk. @param rest points that were not computed: they are given out
+  /// @brief Stores what became of a chunk. @param rest units that were not computed: they are given out
   /// again
   /// @param seconds that the computed ones took
   /// `unavailable` when it could not be stored: the chunk is still the caller's then.
   Status settle(const Chunk& chunk, const std::vector<PointRow>& rows, const std::vector<std::uint64_t>& rest,
                 double seconds);
   /// Whether take() may have something.
-  [[nodiscard]] bool has_work() const { return scheduler_.has_points() || unloaded_; }
-  /// Keys and outputs of points that were solved before.
-  StatusOr<std::vector<std::optional<std::string>>> find_outputs(const std::vector<std::string>& keys) {
-    return world_.store.find_outputs(keys);
-  }
+  [[nodiscard]] bool has_work() const { return scheduler_.has_units() || unloaded_; }
 
   [[nodiscard]] SweepStore& store() { return world_.store; }
   [[nodiscard]] SweepScheduler& scheduler() { return scheduler_; }

@@ -13,8 +13,7 @@ class LocalRunner final : public Runner {
  public:
   explicit LocalRunner(SolveFunction solve) : solve_(std::move(solve)) {}
   [[nodiscard]] JobRun run_job(std::string_view request, const Hooks& hooks) override;
-  void run_points(const PointTask& task) override;
-  [[nodiscard]] std::vector<api::PointOutcome> run_curve(const PointTask& task) override;
+  void run_units(const UnitTask& task) override;
 
  private:
   const SolveFunction solve_;

@@ -1,5 +1,5 @@
 #pragma once
 /// @file
-/// The former place of server/sweeps/point.h.
+/// The former place of server/sweeps/unit.h.
 
-#include "server/sweeps/point.h"
+#include "server/sweeps/unit.h"

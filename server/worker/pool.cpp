@@ -8,6 +8,7 @@
 #include "server/jobs/path_batch.h"
 #include "server/pause.h"
 #include "server/sweeps/chunk.h"
+#include "server/worker/solve_job.h"
 
 namespace snapthrough::server {
 namespace {
@@ -124,7 +125,7 @@ void give_back(const Claim& claim, const WorkerContext& context) {
 
 /// What an analysis that was asked to stop came to; false when nothing is to be stored.
 bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, const WorkerContext& context) {
-  const bool cancelled = outcome.failure && outcome.failure->code == "cancelled";
+  const bool cancelled = outcome.failure && outcome.failure->code == kCancelled;
   if (!cancelled) {
     return true;  // it came to its end before it saw the request to stop
   }

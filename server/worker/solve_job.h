@@ -14,8 +14,9 @@ namespace snapthrough::server {
 /// What runs one analysis: snapthrough::solve, or a test's stand-in. Must be reentrant.
 using SolveFunction = std::function<Result(const Model&, const Analysis&, const Hooks&)>;
 
-/// The code of a failure where memory could not be had.
+/// The code of a failure where memory could not be had, and of what was asked to stop (the solver's).
 inline constexpr const char* kOutOfMemory = "out_of_memory";
+inline constexpr const char* kCancelled = "cancelled";
 
 /// The exception that is being handled as a failure ("internal_error", or kOutOfMemory).
 [[nodiscard]] JobFailure mishap_now();

@@ -1,10 +1,12 @@
-#include "server/sweeps/point.h"
+#include "server/sweeps/unit.h"
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "server/jobs/content_key.h"
 #include "solver/sweep/critical_curve.h"
 
 namespace snapthrough::server {
@@ -59,7 +61,7 @@ nlohmann::json curve_document(const CriticalCurvePoint& point) {
 
 std::vector<api::PointOutcome> followed(const api::Sweep& sweep, std::uint64_t first,
                                         const std::stop_token& stop) {
-  std::vector<api::PointOutcome> outcomes(sweep.block());
+  std::vector<api::PointOutcome> outcomes(sweep.unit_size());
   CriticalCurveRequest request;
   std::vector<std::size_t> rows;  // of the curve's values
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -88,14 +90,92 @@ std::vector<api::PointOutcome> followed(const api::Sweep& sweep, std::uint64_t f
   return outcomes;
 }
 
+/// A point that is computed alone.
+class PointUnit final : public SweepUnit {
+ public:
+  PointUnit(const api::Sweep& sweep, std::uint64_t number) : SweepUnit(sweep, number) {}
+
+  [[nodiscard]] std::string too_long(std::chrono::seconds longest) const override {
+    return "the analysis took longer than " + std::to_string(longest.count()) + " s";
+  }
+
+ private:
+  [[nodiscard]] std::vector<api::PointOutcome> outcomes(
+      const SolveFunction& solve, const Hooks& hooks,
+      std::shared_ptr<nlohmann::json>& document) const override {
+    sweep().write_document(first(), document);
+    std::vector<api::PointOutcome> all;
+    all.push_back(solved(sweep(), document, solve, hooks));
+    return all;
+  }
+  [[nodiscard]] std::string surroundings() const override { return ""; }
+};
+
+/// The points along which a critical point is followed (solver/sweep/critical_curve.h).
+class CurveUnit final : public SweepUnit {
+ public:
+  CurveUnit(const api::Sweep& sweep, std::uint64_t number) : SweepUnit(sweep, number) {}
+
+  [[nodiscard]] std::string too_long(std::chrono::seconds /*longest*/) const override {
+    return "the curve took longer than one analysis may take";
+  }
+
+ private:
+  [[nodiscard]] std::vector<api::PointOutcome> outcomes(
+      const SolveFunction& /*solve*/, const Hooks& hooks,
+      std::shared_ptr<nlohmann::json>& /*document*/) const override {
+    return followed(sweep(), first(), hooks.stop);
+  }
+  [[nodiscard]] std::string surroundings() const override { return sweep().curve_text(first()); }
+};
+
 }  // namespace
 
-std::vector<api::PointOutcome> solve_curve(const api::Sweep& sweep, std::uint64_t first,
-                                           const std::stop_token& stop) {
+std::unique_ptr<SweepUnit> make_unit(const api::Sweep& sweep, std::uint64_t number) {
+  if (sweep.follows()) {
+    return std::make_unique<CurveUnit>(sweep, number);
+  }
+  return std::make_unique<PointUnit>(sweep, number);
+}
+
+std::vector<std::string> SweepUnit::keys(const std::string& outputs, std::string_view owner,
+                                         std::shared_ptr<nlohmann::json>& document) const {
+  const std::string beside = outputs + surroundings();
+  std::vector<std::string> all;
+  for (std::uint64_t i = 0; i < count(); ++i) {
+    sweep_.write_document(first_ + i, document);
+    all.push_back(point_key(*document, beside, owner));
+  }
+  return all;
+}
+
+std::vector<api::PointOutcome> SweepUnit::compute(const SolveFunction& solve, const Hooks& hooks,
+                                                  std::shared_ptr<nlohmann::json>& document) const {
   try {
-    return followed(sweep, first, stop);
+    return outcomes(solve, hooks, document);
   } catch (...) {
-    return std::vector<api::PointOutcome>(sweep.block(), failed(mishap_now()));
+    return std::vector<api::PointOutcome>(count(), failed(mishap_now()));
+  }
+}
+
+bool is_cut_short(const std::vector<api::PointOutcome>& outcomes) {
+  return std::any_of(outcomes.begin(), outcomes.end(),
+                     [](const api::PointOutcome& outcome) { return outcome.code == kCancelled; });
+}
+
+void compute_units(const UnitTask& task, const SolveFunction& solve) {
+  std::shared_ptr<nlohmann::json> document;
+  for (std::size_t i = 0; i < task.units.size(); ++i) {
+    if (task.stop.stop_requested() || (i > 0 && task.enough && task.enough())) {
+      return;
+    }
+    std::vector<api::PointOutcome> outcomes =
+        make_unit(task.sweep, task.units[i])->compute(solve, {task.stop}, document);
+    const bool stopped = is_cut_short(outcomes);
+    task.tell(std::move(outcomes));
+    if (stopped) {
+      return;
+    }
   }
 }
 
