@@ -78,7 +78,6 @@ class Sweep {
   /// 1, or the length of a curve.
   [[nodiscard]] std::uint64_t unit_size() const;
   [[nodiscard]] std::uint64_t units() const { return size() / unit_size(); }
-  [[nodiscard]] std::uint64_t block() const { return unit_size(); }
   /// Whether units are curves, along which the critical point is followed as the last parameter varies.
   [[nodiscard]] bool follows() const;
   /// Whether a curve is followed in the logarithm of its parameter. @pre follows()

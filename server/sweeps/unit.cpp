@@ -179,13 +179,4 @@ void compute_units(const UnitTask& task, const SolveFunction& solve) {
   }
 }
 
-api::PointOutcome solve_point(const api::Sweep& sweep, const std::shared_ptr<const nlohmann::json>& document,
-                              const SolveFunction& solve, const Hooks& hooks) {
-  try {
-    return solved(sweep, document, solve, hooks);
-  } catch (...) {
-    return failed(mishap_now());
-  }
-}
-
 }  // namespace snapthrough::server

@@ -73,9 +73,4 @@ class SweepUnit {
 /// Ends early when it is enough, or asked to stop.
 void compute_units(const UnitTask& task, const SolveFunction& solve);
 
-/// @brief The outcome of a point, given its document, when it is computed alone.
-[[nodiscard]] api::PointOutcome solve_point(const api::Sweep& sweep,
-                                            const std::shared_ptr<const nlohmann::json>& document,
-                                            const SolveFunction& solve, const Hooks& hooks);
-
 }  // namespace snapthrough::server

@@ -10,7 +10,6 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "api/sweep.h"
@@ -40,17 +39,6 @@ struct UnitTask {
   std::function<void(std::vector<api::PointOutcome>)> tell = {};
 };
 
-/// The same for a sweep whose units are points.
-struct PointTask {
-  const std::string& id;
-  const std::string& document;
-  const api::Sweep& sweep;
-  std::span<const std::uint64_t> points;
-  std::stop_token stop;
-  std::function<bool()> enough = {};
-  std::function<void(api::PointOutcome)> tell = {};
-};
-
 /// @brief Computes jobs and units of sweeps, one at a time. Whatever goes wrong is a value: a failure with a
 /// code (of the solver's; "memory_limit", "crashed", "internal_error"). Asked to stop, what is computed ends
 /// with the code "cancelled". One thread uses it.
@@ -67,10 +55,6 @@ class Runner {
   [[nodiscard]] virtual JobRun run_job(std::string_view request, const Hooks& hooks) = 0;
   /// Ends early when it is enough, or after outcomes that were "cancelled".
   virtual void run_units(const UnitTask& task) = 0;
-  void run_points(const PointTask& task) {
-    run_units({task.id, task.document, task.sweep, task.points, task.stop, task.enough,
-               [&](std::vector<api::PointOutcome> outcomes) { task.tell(std::move(outcomes.front())); }});
-  }
 };
 
 /// Called once by each worker, on its own thread.

@@ -1,5 +1,0 @@
-#pragma once
-/// @file
-/// The former place of server/sweeps/unit.h.
-
-#include "server/sweeps/unit.h"
