@@ -74,12 +74,6 @@ struct SweepData {
 /// The number that an array index is written as (no sign, no leading zero), or nothing.
 [[nodiscard]] std::optional<std::size_t> array_index(std::string_view token);
 
-class Report;
-
-/// @brief Reports outputs that no result of this analysis and this model has.
-/// @pre the parameters and outputs were read; an output that is no pointer has no tokens
-void check_outputs(const SweepData& data, Report& report);
-
 /// @brief The request document with these values of the parameters.
 [[nodiscard]] nlohmann::json document_with(const SweepData& data, const std::vector<nlohmann::json>& values);
 

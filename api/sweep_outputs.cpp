@@ -4,9 +4,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "api/check_sweep.h"
 #include "api/result_schema.h"
-#include "api/sweep_data.h"
-#include "api/value.h"
 
 namespace snapthrough::api {
 
