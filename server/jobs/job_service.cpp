@@ -187,7 +187,7 @@ StatusOr<Dismissal> JobService::dismiss(const std::string& id) {
   if (dismissal->before == JobState::accepted) {
     --waiting_;
   }
-  metrics_.job_ended("dismissed");
+  metrics_.job_ended(to_string(JobState::dismissed));
   active_.stop(id, StopReason::dismissed);
   completions_.announce(id);
   log_.write(LogLevel::info, "job",

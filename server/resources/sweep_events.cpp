@@ -13,12 +13,9 @@ namespace {
 static_assert(api::kMaxSweepPoints < kEndOfSweep);
 
 std::string progress_data(const SweepRecord& sweep) {
-  return nlohmann::ordered_json{{"points", sweep.points},
-                                {"successful", sweep.successful},
-                                {"failed", sweep.failed},
-                                {"reused", sweep.reused},
-                                {"remaining", sweep.points - sweep.done()}}
-      .dump();
+  nlohmann::ordered_json data{{"points", sweep.points}};
+  data.update(sweep_counts(sweep));
+  return data.dump();
 }
 
 /// One client that follows one sweep.

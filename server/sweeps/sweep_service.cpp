@@ -210,7 +210,7 @@ void SweepService::stored(const SweepRecord& record, const std::vector<PointRow>
   for (const PointRow& row : rows) {
     world_.metrics.point_ended(row.reused             ? "reused"
                                : row.outcome.failed() ? std::string_view(row.outcome.code)
-                                                      : "successful");
+                                                      : to_string(JobState::successful));
   }
   if (!is_final(record.state)) {
     news_.pass_on(record.id, record);
@@ -222,8 +222,8 @@ void SweepService::stored(const SweepRecord& record, const std::vector<PointRow>
   world_.log.write(record.failed > 0 ? LogLevel::warning : LogLevel::info, "sweep",
                    {{"sweep", std::string_view(record.id)},
                     {"status", to_string(record.state)},
-                    {"successful", record.successful},
-                    {"failed", record.failed},
+                    {to_string(JobState::successful), record.successful},
+                    {to_string(JobState::failed), record.failed},
                     {"reused", record.reused}});
 }
 

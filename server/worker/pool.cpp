@@ -172,7 +172,8 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
     return;
   }
   context.metrics.running.observe(context.environment.monotonic_seconds() - begun);
-  context.metrics.job_ended(outcome.failure ? std::string_view(outcome.failure->code) : "successful");
+  context.metrics.job_ended(outcome.failure ? std::string_view(outcome.failure->code)
+                                            : to_string(JobState::successful));
   context.completions.announce(claim.id);
   log_job_end(context.log, claim, outcome);
 }

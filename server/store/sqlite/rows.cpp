@@ -118,6 +118,14 @@ JobState state_in(const Statement& row, int column) {
   return *state;
 }
 
+std::string literal(JobState state) { return "'" + std::string(to_string(state)) + "'"; }
+
+const std::string& unfinished_condition() {
+  static const std::string kCondition =
+      "status IN (" + literal(JobState::accepted) + ", " + literal(JobState::running) + ")";
+  return kCondition;
+}
+
 Annotations annotations_in(const Statement& row, int column) {
   return {row.text(column), row.text(column + 1), row.text(column + 2)};
 }

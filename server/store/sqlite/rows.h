@@ -18,6 +18,12 @@ namespace snapthrough::server::sqlite {
 [[nodiscard]] std::optional<Time> optional_time_in(const Statement& row, int column);
 [[nodiscard]] JobState state_in(const Statement& row, int column);
 
+/// @brief A state as a literal, for conditions: indexes have the rows of some states only, and with a state
+/// that is bound SQLite would compile the statement again each time to see whether they may be used.
+[[nodiscard]] std::string literal(JobState state);
+/// The condition that something is to be done: "status IN (...)".
+[[nodiscard]] const std::string& unfinished_condition();
+
 /// The annotations in three columns: label, metadata, callback.
 [[nodiscard]] Annotations annotations_in(const Statement& row, int column);
 /// NULL for an empty text.
