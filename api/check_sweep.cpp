@@ -219,8 +219,9 @@ void check_follow(const SweepData& data, const Value& follow) {
   const Json none = Json::object();
   const Json analysis = data.base.value("analysis", none);
   const Json mesh = analysis.is_object() ? analysis.value("discretization", none) : none;
-  if (!analysis.is_object() || analysis.value("type", Json()) != "critical" || !mesh.is_object() ||
-      !mesh.contains("elements")) {
+  if (!analysis.is_object() ||
+      analysis.value("type", Json()) != name_of(kAnalysisTypes, AnalysisType::critical) ||
+      !mesh.is_object() || !mesh.contains("elements")) {
     follow.report("not_supported",
                   "a sweep that follows has an analysis of type critical on a mesh that is given (elements)");
   }

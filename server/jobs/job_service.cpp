@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "api/api.h"
+#include "api/names.h"
 #include "server/jobs/content_key.h"
 #include "server/jobs/envelope.h"
 #include "server/jobs/large_document.h"
@@ -12,26 +13,12 @@
 namespace snapthrough::server {
 namespace {
 
-std::string_view analysis_name(AnalysisType type) {
-  switch (type) {
-    case AnalysisType::buckling:
-      return "buckling";
-    case AnalysisType::critical:
-      return "critical";
-    case AnalysisType::path:
-      return "path";
-    case AnalysisType::static_:
-      return "static";
-  }
-  return "";
-}
-
 NewJob new_job(const Order& order, const api::Request& request, const Envelope& envelope,
                const Environment& world) {
   NewJob job;
   job.id = new_id(world);
   job.title = request.model.title;
-  job.analysis_type = analysis_name(request.analysis.type);
+  job.analysis_type = api::name_of(api::kAnalysisTypes, request.analysis.type);
   job.document = envelope.text;
   job.created = world.now();
   job.owner = order.owner;

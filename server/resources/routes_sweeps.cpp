@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/names.h"
 #include "api/sweep_table.h"
 #include "server/jobs/large_document.h"
 #include "server/resources/body_sources.h"
@@ -208,8 +209,9 @@ Response Routes::sweep_table(const Request& request, const std::string& id) {
   for (const auto& [name, value] : request.query) {
     if (!read_table_parameter(name, value, query)) {
       return wrong_parameter(request,
-                             "format (json, csv, ndjson), status (" + name_of(JobState::successful) + ", " +
-                                 name_of(JobState::failed) + "), links (true, false), first and count",
+                             "format (" + api::names_in(api::kTableForms) + "), status (" +
+                                 name_of(JobState::successful) + ", " + name_of(JobState::failed) +
+                                 "), links (true, false), first and count",
                              name, value);
     }
   }

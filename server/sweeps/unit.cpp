@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "api/api.h"
+#include "api/names.h"
 #include "server/jobs/content_key.h"
 #include "solver/sweep/critical_curve.h"
 
@@ -54,7 +56,7 @@ nlohmann::json curve_document(const CriticalCurvePoint& point) {
   nlohmann::json summary{{"critical_load_factor", nullptr}, {"critical_type", nullptr}};
   if (point.load_factor) {
     summary = {{"critical_load_factor", *point.load_factor},
-               {"critical_type", api::critical_type_name(point.type)}};
+               {"critical_type", api::name_of(api::kCriticalTypes, point.type)}};
   }
   return {{"summary", std::move(summary)}};
 }

@@ -45,8 +45,4 @@ void insert_path(Connection& connection, std::int64_t job, const std::vector<Bra
 [[nodiscard]] std::vector<Branch> read_branches(const Connection& connection, std::int64_t job);
 [[nodiscard]] std::vector<CriticalPoint> read_critical_points(const Connection& connection, std::int64_t job);
 
-/// The name of a kind of critical point in the database: "bifurcation", "limit_max", "limit_min",
-/// "broken_bifurcation".
-[[nodiscard]] std::string_view to_row(CriticalType type);
-
 }  // namespace snapthrough::server::sqlite

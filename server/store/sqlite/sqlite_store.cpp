@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "api/names.h"
 #include "server/store/sqlite/database.h"
 #include "server/store/sqlite/deliveries.h"
 #include "server/store/sqlite/file_lock.h"
@@ -309,7 +310,8 @@ Status SqliteStore::finish(const Claim& claim, const JobResult& result, Time now
         .bind(*job)
         .bind(first_piece(result.document))
         .bind(critical ? summary.critical_load_factor : std::nullopt)
-        .bind(critical ? std::optional(to_row(*summary.critical_type)) : std::nullopt)
+        .bind(critical ? std::optional(api::name_of(api::kCriticalTypes, *summary.critical_type))
+                       : std::nullopt)
         .bind(summary.termination)
         .bind(result.wall_time_s)
         .run();
