@@ -15,7 +15,7 @@
 #include "server/jobs/progress_topic.h"
 #include "server/log/log.h"
 #include "server/store/store.h"
-#include "server/sweeps/sweep_service.h"
+#include "server/sweeps/sweep_work.h"
 
 namespace snapthrough::server {
 
@@ -31,7 +31,7 @@ struct WorkerContext {
   HandoffQueue& handoffs;
   ActiveJobs& active;
   JobProgress& progress;
-  SweepService& sweeps;
+  SweepWork& sweeps;
   JobMetrics& metrics;
   const std::string instance;  ///< of the service: the name that leases bear
 

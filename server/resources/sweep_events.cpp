@@ -30,7 +30,7 @@ class FollowingSweep final : public Following {
       return end_at_once();
     }
     send_status(number_of(**sweep), sweep_status_document(**sweep));
-    follower_.emplace(jobs_.sweeps().news(), id_, [this](const SweepRecord& news) {
+    follower_.emplace(jobs_.sweeps().work().news(), id_, [this](const SweepRecord& news) {
       send_progress(number_of(news), progress_data(news));
     });
     listen_for_end();

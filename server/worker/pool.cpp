@@ -7,7 +7,6 @@
 
 #include "server/jobs/path_batch.h"
 #include "server/pause.h"
-#include "server/sweeps/chunk.h"
 #include "server/worker/solve_job.h"
 
 namespace snapthrough::server {
@@ -225,14 +224,6 @@ bool WorkerPool::claim_and_work(Runner& runner, const std::stop_token& stop) {
   return true;
 }
 
-bool WorkerPool::take_chunk_and_work(Runner& runner, const std::stop_token& stop) {
-  const std::optional<Chunk> chunk = stop.stop_requested() ? std::nullopt : context_.sweeps.take();
-  if (chunk) {
-    work_on(*chunk, context_, runner, stop);
-  }
-  return chunk.has_value();
-}
-
 void WorkerPool::run(const std::stop_token& stop) {
   const std::unique_ptr<Runner> own = make_();
   Runner& runner = *own;
@@ -242,14 +233,15 @@ void WorkerPool::run(const std::stop_token& stop) {
     // asked for jobs that nobody submitted.
     const bool waited = context_.waiting > 0;
     const bool worked = waited && claim_and_work(runner, stop);
-    if (take_chunk_and_work(runner, stop) || worked || (!waited && claim_and_work(runner, stop))) {
+    if ((!stop.stop_requested() && context_.sweeps.do_next(runner, stop)) || worked ||
+        (!waited && claim_and_work(runner, stop))) {
       continue;
     }
     // Jobs that are given directly come before those that wait: nobody is idle while some wait.
     std::optional<Handoff> handoff;
     while ((handoff = context_.handoffs.wait(seen, stop, kLongestNap))) {
       work_on(*handoff, context_, runner, stop);
-      if (context_.waiting > 0 || context_.sweeps.has_work() || stop.stop_requested()) {
+      if (context_.waiting > 0 || context_.sweeps.is_left() || stop.stop_requested()) {
         break;
       }
     }
