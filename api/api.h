@@ -54,9 +54,6 @@ inline constexpr int kMaxFindings = 1000;
 [[nodiscard]] nlohmann::json write_result(const Request& request, const Result& result, double wall_time_s,
                                           std::span<const std::string_view> parts = {});
 
-/// The type as documents have it, e.g. "limit_max".
-[[nodiscard]] const char* critical_type_name(CriticalType type);
-
 /// @brief `[{"pointer", "code", "detail"}, ...]`, in the order given.
 [[nodiscard]] nlohmann::json write_findings(const std::vector<Finding>& findings);
 

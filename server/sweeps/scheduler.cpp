@@ -1,4 +1,4 @@
-#include "server/jobs/point_scheduler.h"
+#include "server/sweeps/scheduler.h"
 
 #include <algorithm>
 #include <utility>
@@ -20,21 +20,32 @@ ActiveSweep::ActiveSweep(std::string name, api::Sweep read, OpenSweep open)
       owner(std::move(open.owner)),
       outputs(sweep.outputs_text()),
       reuse(open.reuse),
-      done_(std::move(open.done)) {
-  const auto block = static_cast<std::ptrdiff_t>(sweep.block());
-  for (auto begin = done_.begin(); sweep.follows() && begin != done_.end(); begin += block) {
-    const bool all = std::all_of(begin, begin + block, [](bool done) { return done; });
-    std::fill(begin, begin + block, all);  // a curve is computed wholly
+      done_(sweep.units(), true) {
+  for (std::uint64_t point = 0; point < open.done.size(); ++point) {
+    if (!open.done[point]) {
+      done_[point / sweep.unit_size()] = false;  // it is computed wholly
+    }
   }
   for (const auto& [point, crashes] : open.crashes) {
-    if (!sweep.follows() && !done_.at(point)) {
-      done_[point] = true;  // the process died with it once: not again with others beside it
-      again_.push_back({point});
+    if (const std::uint64_t unit = point / sweep.unit_size(); !done_.at(unit)) {
+      done_[unit] = true;  // the process died with it once: not again with others beside it
+      again_.push_back({unit});
     }
   }
 }
 
-bool PointScheduler::add(std::shared_ptr<ActiveSweep> sweep) {
+std::vector<std::uint64_t> Chunk::points() const {
+  const std::uint64_t size = sweep->sweep.unit_size();
+  std::vector<std::uint64_t> points;
+  for (const std::uint64_t unit : units) {
+    for (std::uint64_t i = 0; i < size; ++i) {
+      points.push_back(unit * size + i);
+    }
+  }
+  return points;
+}
+
+bool SweepScheduler::add(std::shared_ptr<ActiveSweep> sweep) {
   const std::lock_guard guard(mutex_);
   const auto same = [&](const auto& other) { return other->id == sweep->id; };
   if (std::any_of(sweeps_.begin(), sweeps_.end(), same)) {
@@ -45,86 +56,90 @@ bool PointScheduler::add(std::shared_ptr<ActiveSweep> sweep) {
   return true;
 }
 
-bool PointScheduler::has(const std::string& id) const {
+bool SweepScheduler::has(const std::string& id) const {
   const std::lock_guard guard(mutex_);
   return std::any_of(sweeps_.begin(), sweeps_.end(), [&](const auto& sweep) { return sweep->id == id; });
 }
 
-bool PointScheduler::has_room() const { return count() < kMost; }
+bool SweepScheduler::has_room() const { return count() < kMost; }
 
-std::size_t PointScheduler::count() const {
+std::size_t SweepScheduler::count() const {
   const std::lock_guard guard(mutex_);
   return sweeps_.size();
 }
 
-bool PointScheduler::has_more(ActiveSweep& sweep) {
+bool SweepScheduler::has_more(ActiveSweep& sweep) {
   while (sweep.cursor_ < sweep.done_.size() && sweep.done_[sweep.cursor_]) {
     ++sweep.cursor_;
   }
   return !sweep.again_.empty() || sweep.cursor_ < sweep.done_.size();
 }
 
-void PointScheduler::look() {
+void SweepScheduler::look() {
   available_ =
       std::any_of(sweeps_.begin(), sweeps_.end(), [](const auto& sweep) { return has_more(*sweep); });
 }
 
-std::vector<std::uint64_t> PointScheduler::next_points(ActiveSweep& sweep) {
-  std::vector<std::uint64_t> points;
-  if (sweep.cursor_ >= sweep.done_.size()) {
-    points = std::move(sweep.again_.front());
-    sweep.again_.pop_front();
-    return points;
+/// How many units a chunk has at most.
+std::size_t SweepScheduler::most_units(const ActiveSweep& sweep) {
+  if (sweep.sweep.unit_size() > 1) {
+    return 1;  // it takes long: another worker may have the next
   }
-  std::size_t wanted = kFirstChunk;
-  if (sweep.seconds_per_point_ > 0.0) {
-    wanted = static_cast<std::size_t>(
-        std::clamp(kChunkSeconds / sweep.seconds_per_point_, 1.0, static_cast<double>(kLargestChunk)));
+  if (sweep.seconds_per_unit_ > 0.0) {
+    return static_cast<std::size_t>(
+        std::clamp(kChunkSeconds / sweep.seconds_per_unit_, 1.0, static_cast<double>(kLargestChunk)));
   }
-  if (sweep.sweep.follows()) {
-    wanted = static_cast<std::size_t>(sweep.sweep.block());  // the cursor is where a curve begins
-  }
-  while (points.size() < wanted && sweep.cursor_ < sweep.done_.size()) {
-    if (!sweep.done_[sweep.cursor_]) {
-      points.push_back(sweep.cursor_);
-    }
-    ++sweep.cursor_;
-  }
-  return points;
+  return kFirstChunk;
 }
 
-std::optional<Chunk> PointScheduler::take() {
+std::vector<std::uint64_t> SweepScheduler::next_units(ActiveSweep& sweep) {
+  std::vector<std::uint64_t> units;
+  if (sweep.cursor_ >= sweep.done_.size()) {
+    units = std::move(sweep.again_.front());
+    sweep.again_.pop_front();
+    return units;
+  }
+  const std::size_t most = most_units(sweep);
+  for (; units.size() < most && sweep.cursor_ < sweep.done_.size(); ++sweep.cursor_) {
+    if (!sweep.done_[sweep.cursor_]) {
+      units.push_back(sweep.cursor_);
+    }
+  }
+  return units;
+}
+
+std::optional<Chunk> SweepScheduler::take() {
   const std::lock_guard guard(mutex_);
   for (std::size_t i = 0; i < sweeps_.size(); ++i) {
     std::shared_ptr<ActiveSweep> sweep = std::move(sweeps_.front());
     sweeps_.pop_front();
     sweeps_.push_back(sweep);
     if (has_more(*sweep)) {
-      std::vector<std::uint64_t> points = next_points(*sweep);
+      std::vector<std::uint64_t> units = next_units(*sweep);
       look();
-      return Chunk{std::move(sweep), {}, std::move(points)};
+      return Chunk{std::move(sweep), {}, std::move(units)};
     }
   }
   return std::nullopt;
 }
 
-void PointScheduler::give_back(const Chunk& chunk, std::vector<std::uint64_t> rest, double seconds,
-                               std::size_t done) {
+void SweepScheduler::give_back(const Chunk& chunk, std::vector<std::uint64_t> rest, double seconds) {
   const std::lock_guard guard(mutex_);
   ActiveSweep& sweep = *chunk.sweep;
+  const std::size_t done = chunk.units.size() - rest.size();
   if (!rest.empty()) {
     sweep.again_.push_back(std::move(rest));
   }
   if (done > 0) {
     const double latest = seconds / static_cast<double>(done);
-    sweep.seconds_per_point_ =
-        sweep.seconds_per_point_ > 0.0 ? 0.5 * (sweep.seconds_per_point_ + latest) : latest;
+    sweep.seconds_per_unit_ =
+        sweep.seconds_per_unit_ > 0.0 ? 0.5 * (sweep.seconds_per_unit_ + latest) : latest;
   }
   look();
 }
 
 template <class Is>
-void PointScheduler::remove_if(Is is) {
+void SweepScheduler::remove_if(Is is) {
   std::shared_ptr<ActiveSweep> removed;
   {
     const std::lock_guard guard(mutex_);
@@ -139,30 +154,30 @@ void PointScheduler::remove_if(Is is) {
   removed->stop_.request_stop();  // calls those who work on it, who use this scheduler
 }
 
-void PointScheduler::remove(const std::string& id) {
+void SweepScheduler::remove(const std::string& id) {
   remove_if([&](const auto& sweep) { return sweep->id == id; });
 }
 
-void PointScheduler::remove(const std::shared_ptr<ActiveSweep>& sweep) {
+void SweepScheduler::remove(const std::shared_ptr<ActiveSweep>& sweep) {
   remove_if([&](const auto& other) { return other == sweep; });
 }
 
-PointScheduler::Watch::Watch(PointScheduler& scheduler, Time since) : scheduler_(scheduler), since_(since) {
+SweepScheduler::Watch::Watch(SweepScheduler& scheduler, Time since) : scheduler_(scheduler), since_(since) {
   const std::lock_guard guard(scheduler_.mutex_);
   scheduler_.watches_.push_back(this);
 }
 
-PointScheduler::Watch::~Watch() {
+SweepScheduler::Watch::~Watch() {
   const std::lock_guard guard(scheduler_.mutex_);
   std::erase(scheduler_.watches_, this);
 }
 
-void PointScheduler::Watch::begin(Time since) {
+void SweepScheduler::Watch::begin(Time since) {
   const std::lock_guard guard(scheduler_.mutex_);
   since_ = since;
 }
 
-void PointScheduler::Watch::stop(StopReason reason) {
+void SweepScheduler::Watch::stop(StopReason reason) {
   {
     const std::lock_guard guard(scheduler_.mutex_);
     reason_ = reason_ == StopReason::none ? reason : reason_;
@@ -170,12 +185,12 @@ void PointScheduler::Watch::stop(StopReason reason) {
   stop_.request_stop();
 }
 
-StopReason PointScheduler::Watch::reason() const {
+StopReason SweepScheduler::Watch::reason() const {
   const std::lock_guard guard(scheduler_.mutex_);
   return reason_;
 }
 
-void PointScheduler::stop_older(Time since) {
+void SweepScheduler::stop_older(Time since) {
   std::vector<std::stop_source> late;
   {
     const std::lock_guard guard(mutex_);
