@@ -262,11 +262,12 @@ LocatedRoot find_root(Continuation& continuation, const Chord& chord, const Path
                       const std::function<bool(const PathPoint&, const PathPoint&, double)>& done) {
   LocatedRoot out{a, b, a, value_a, value_b};
   SignBracket bracket(0.0, value_a, 1.0, value_b);
+  const bool at_an_end = value_a == 0.0 || value_b == 0.0;
   double from = 0.0;  // share of the way from a to b at which the bracket begins
   double to = 1.0;
   for (int it = 0; it < kMaxEvaluations && !apart(continuation, chord, out.before, out.after); ++it) {
     const double best = std::min(std::abs(out.value_before), std::abs(out.value_after));
-    out.found = best == 0.0 || done(out.before, out.after, best);
+    out.found = at_an_end || done(out.before, out.after, best);
     if (out.found) break;
     const auto point_at = [&](double place) {
       return continuation.between(chord, out.before, out.after, (place - from) / (to - from));
@@ -275,7 +276,11 @@ LocatedRoot find_root(Continuation& continuation, const Chord& chord, const Path
     auto point = point_at(place);
     if (!point) point = point_at(place = from + kOtherShare * (to - from));
     if (!point) break;
-    const double v = value(*point);
+    double v = value(*point);
+    // on a zero that a look meets the inertia is one side's or the other's, and so is the point
+    if (v == 0.0)
+      v = std::copysign(std::numeric_limits<double>::min(),
+                        point->negative == a.negative ? value_a : value_b);
     bracket.take(place, v);
     const bool at_start = (v > 0.0) == (value_a > 0.0);
     (at_start ? from : to) = place;

@@ -80,11 +80,11 @@ class StructuralProblem final : public EquilibriumProblem {
 
  protected:
   /// Small displacements where the regime or the structure says so.
-  void find_residual(const Eigen::VectorXd& y, double lambda, const Regime& regime,
+  void find_residual(const Eigen::VectorXd& y, double lambda, const Regime& asked,
                      Eigen::VectorXd& f) override;
-  TangentReport factorise(const Eigen::VectorXd& y, double lambda, const Regime& regime,
+  TangentReport factorise(const Eigen::VectorXd& y, double lambda, const Regime& asked,
                           Eigen::VectorXd& f) override;
-  [[nodiscard]] Eigen::MatrixXd find_products(const Eigen::VectorXd& y, double lambda, const Regime& regime,
+  [[nodiscard]] Eigen::MatrixXd find_products(const Eigen::VectorXd& y, double lambda, const Regime& asked,
                                               const Eigen::Ref<const Eigen::MatrixXd>& directions) override;
 
  private:
