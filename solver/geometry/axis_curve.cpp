@@ -187,6 +187,20 @@ double AxisCurve::parameter_at(double s) const {
   return t;
 }
 
+double AxisCurve::turning(double from, double to) const {
+  if (!jet_) return std::abs(curvature_) * (to - from);
+  double angle = at(from).angle;
+  double sum = 0.0;
+  const auto turn_to = [&](double next) {
+    sum += std::abs(next - angle);
+    angle = next;
+  };
+  for (std::size_t i = 0; i < table_s_.size(); ++i)
+    if (table_s_[i] > from && table_s_[i] < to) turn_to(table_angle_[i]);
+  turn_to(at(to).angle);
+  return sum;
+}
+
 AxisPoint AxisCurve::at(double s) const {
   if (jet_) {
     const double t = parameter_at(s);

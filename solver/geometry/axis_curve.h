@@ -30,6 +30,9 @@ class AxisCurve {
   [[nodiscard]] double length() const { return length_; }
   /// @pre 0 <= s <= length()
   [[nodiscard]] AxisPoint at(double s) const;
+  /// @brief By how much the tangent turns between two arc lengths, all turns counted positive.
+  /// @pre 0 <= from <= to <= length()
+  [[nodiscard]] double turning(double from, double to) const;
   /// Whether the curvature is zero everywhere.
   [[nodiscard]] bool straight() const { return straight_; }
   /// Places in (0, length()) where the curvature jumps in its derivative (spline knots); empty for the

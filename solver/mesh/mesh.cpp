@@ -82,17 +82,16 @@ constexpr ChosenMesh kFirst{5, 60.0, 3.0, 3.0, true};
 constexpr ChosenMesh kPath{5, 60.0, 3.0, 5.0, true};
 constexpr ChosenMesh kFinal{4, 25.0, 1.0, 8.0, false};
 
+/// Elements of a mesh that is chosen: a piece gets no more, whatever it asks for, and no finer mesh has more.
+constexpr double kMostElements = 4000;
+
 /// Elements for a piece of a member, by the rule of make_mesh.
 int default_count(const ChosenMesh& rule, const Model& model, int member, const AxisCurve& axis, double from,
                   double to) {
   const Member& m = model.members[member];
   const double length = (to - from) * axis.length();
   double n = rule.least * (to - from);
-  constexpr int kSamples = 16;
-  double turn = 0.0;
-  for (int i = 0; i < kSamples; ++i)
-    turn += std::abs(axis.at(axis.length() * (from + (to - from) * (i + 0.5) / kSamples)).curvature) *
-            length / kSamples;
+  const double turn = axis.turning(from * axis.length(), to * axis.length());
   n = std::max(n, turn / (rule.turn * std::numbers::pi / 180.0));
   const double EI = model.sections[index_of(model.sections, m.section)].EI;
   for (const Foundation& foundation : model.foundations) {
@@ -105,7 +104,7 @@ int default_count(const ChosenMesh& rule, const Model& model, int member, const 
     const auto* sine = std::get_if<SineImperfection>(&imperfection);
     if (sine != nullptr && sine->member == m.id) n = std::max(n, 2.0 * sine->half_waves * (to - from));
   }
-  const int count = std::max(1, static_cast<int>(std::ceil(n - 1e-9)));
+  const int count = std::max(1, static_cast<int>(std::ceil(std::min(n, kMostElements) - 1e-9)));
   return rule.odd && count % 2 == 0 ? count + 1 : count;
 }
 
@@ -155,10 +154,9 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
 }
 
 std::optional<Mesh> finer_mesh(const Mesh& mesh) {
-  constexpr std::size_t kMostElements = 4000;
-  constexpr std::size_t kMostPerMember = 16;  // of many members
-  const std::size_t members = mesh.first.size() - 1;
-  if (2 * mesh.elements.size() > std::max(kMostElements, kMostPerMember * members)) return std::nullopt;
+  constexpr double kMostPerMember = 16.0;  // of many members
+  const double most = std::max(kMostElements, kMostPerMember * static_cast<double>(mesh.first.size() - 1));
+  if (2.0 * static_cast<double>(mesh.elements.size()) > most) return std::nullopt;
   Mesh out = mesh;
   out.foundation = FoundationRule::consistent;
   out.elements.clear();

@@ -92,5 +92,17 @@ TEST(CubicSpline, KeepsACubic) {
   EXPECT_NEAR(CubicSpline({0.0, 2.0}, {1.0, 5.0}).at(0.5)[0], 2.0, 1e-14) << "a line by two";
 }
 
+/// A sine of h half waves turns by 2 h atan(its steepest slope), however steep, wherever it is looked at.
+TEST(AxisCurve, TellsHowMuchItTurns) {
+  const double rise = 15.0;
+  const int half_waves = 80;
+  const AxisCurve axis(SineCurve{rise, half_waves}, {0.0, 0.0}, {2.5, 0.0});
+  const double steepest = std::atan(rise * half_waves * std::numbers::pi / 2.5);
+  EXPECT_NEAR(axis.turning(0.0, axis.length()), 2.0 * half_waves * steepest, 1e-6);
+  EXPECT_NEAR(axis.turning(0.0, 0.5 * axis.length()), half_waves * steepest, 1e-6);
+  const AxisCurve arc(ArcCurve{-90.0}, {0.0, 0.0}, {1.0, 0.0});
+  EXPECT_NEAR(arc.turning(0.25 * arc.length(), 0.75 * arc.length()), 0.25 * std::numbers::pi, 1e-14);
+}
+
 }  // namespace
 }  // namespace snapthrough

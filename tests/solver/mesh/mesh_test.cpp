@@ -169,6 +169,23 @@ TEST(Mesh, IsNotRefinedWithoutEnd) {
   EXPECT_EQ(most, 2048U);
 }
 
+/// A curve that turns in peaks as narrow as they are sharp asked for as many elements as a sample in a peak
+/// let expect (millions); a base beside which a beam is a thread, for more than a number holds.
+TEST(Mesh, HasNoMoreElementsThanItNeedsOrMay) {
+  Model model = testing::arch(20.0, 1e8, 1e6);
+  model.members.front().curve = SineCurve{6.0, 80};
+  const Mesh wavy = mesh_of(model, {});
+  EXPECT_LE(wavy.elements.size(), 80U * 8U) << "180 degrees a half wave, at 25 an element";
+  EXPECT_GE(wavy.elements.size(), 80U * 3U);
+  Foundation base;
+  base.member = model.members.front().id;
+  base.stiffness = 1e60;
+  model.foundations.push_back(base);
+  const Mesh stiff = mesh_of(model, {});
+  EXPECT_GT(stiff.elements.size(), wavy.elements.size());
+  EXPECT_LE(stiff.elements.size(), 4000U * 4U) << "4 000 a piece between loads";
+}
+
 TEST(Mesh, FindsThingsById) {
   const Model model = crowded();
   EXPECT_EQ(index_of(model.nodes, "b"), 1);
