@@ -615,12 +615,14 @@ void ElementWorkOf<P>::add_tangent_products(const Eigen::VectorXd& y, const Load
                                             const Eigen::Ref<const Eigen::MatrixXd>& directions,
                                             Eigen::MatrixXd& out) {
   begin(factors, regime);
-  Eigen::VectorXd unused = Eigen::VectorXd::Zero(y.size());
+  Eigen::VectorXd unused;  // forces of supports
+  if (!springs_.empty() || !contacts_.empty()) unused.setZero(y.size());
   for (int e = 0; e < size(); ++e) {
     const ElementDofs& dofs = dofs_[e];
     const Kinematics kin = kinematics(shapes_[e], dofs, y.data());
     const double pressure = linear_ ? 0.0 : pressure_of(shapes_[e]);
-    add_support_residual(e, y.data(), unused.data(), true);
+    acting_.clear();
+    if (unused.size() > 0) add_support_residual(e, y.data(), unused.data(), true);
     for (Eigen::Index i = 0; i < directions.cols(); ++i) {
       const double* direction = directions.col(i).data();
       double* product = out.col(i).data();

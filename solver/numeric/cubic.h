@@ -23,13 +23,13 @@ struct CubicWeights {
 };
 
 /// @brief Second and third derivative at its end of the cubic on a way of length d with these slopes and this
-/// rise; of numbers or vectors.
-template <class T>
-[[nodiscard]] T second_derivative_at_end(const T& rise, const T& slope_before, const T& slope, double d) {
+/// rise; of numbers or vectors, the rise may be an expression.
+template <class Rise, class T>
+[[nodiscard]] T second_derivative_at_end(const Rise& rise, const T& slope_before, const T& slope, double d) {
   return ((2.0 * slope_before + 4.0 * slope) - (6.0 / d) * rise) / d;
 }
-template <class T>
-[[nodiscard]] T third_derivative(const T& rise, const T& slope_before, const T& slope, double d) {
+template <class Rise, class T>
+[[nodiscard]] T third_derivative(const Rise& rise, const T& slope_before, const T& slope, double d) {
   return (6.0 * (slope_before + slope) - (12.0 / d) * rise) / (d * d);
 }
 

@@ -69,23 +69,27 @@ double StructuralProblem::penetration(const NodeSpring& spring, const VectorXd& 
   return w;
 }
 
+/// Force of a spring at a node along its row; keeps its stiffness in the tangent.
+double StructuralProblem::node_spring_force(std::size_t index, const VectorXd& y, const Regime& regime) {
+  const NodeSpring& spring = structure_.node_springs[index];
+  const double stiffness = spring.law.stiffness;
+  const double w = penetration(spring, y, 0.0);
+  const double gap = regime.bilateral() ? 0.0 : spring.law.gap;
+  const bool known = spring.touch != Touch::none && std::abs(w - gap) <= kTouchBand;
+  bool acts = known ? spring.touch == Touch::acts : w > gap;
+  if (regime.bilateral() || !spring.law.one_sided) acts = true;
+  if (regime.is_frozen()) acts = regime.frozen->node_springs[index] != 0;
+  const double force = acts ? stiffness * (w - gap) : 0.0;
+  spring_stiffness_[index] = acts ? stiffness : 0.0;
+  if (!spring.law.one_sided) return force;
+  spring_stiffness_[index] = stiffness * ((acts ? regime.softness : 0.0) + regime.grip);
+  return force * regime.softness + regime.grip * stiffness * w;
+}
+
 void StructuralProblem::add_node_springs(const VectorXd& y, const Regime& regime, VectorXd& f) {
   for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
     const NodeSpring& spring = structure_.node_springs[i];
-    const double stiffness = spring.law.stiffness;
-    const double w = penetration(spring, y, 0.0);
-    const double gap = regime.bilateral() ? 0.0 : spring.law.gap;
-    const bool known = spring.touch != Touch::none && std::abs(w - gap) <= kTouchBand;
-    bool acts = known ? spring.touch == Touch::acts : w > gap;
-    if (regime.bilateral() || !spring.law.one_sided) acts = true;
-    if (regime.is_frozen()) acts = regime.frozen->node_springs[i] != 0;
-    double force = acts ? stiffness * (w - gap) : 0.0;
-    spring_stiffness_[i] = acts ? stiffness : 0.0;
-    if (spring.law.one_sided) {
-      force *= regime.softness;
-      force += regime.grip * stiffness * w;
-      spring_stiffness_[i] = stiffness * ((acts ? regime.softness : 0.0) + regime.grip);
-    }
+    const double force = node_spring_force(i, y, regime);
     for (int c = 0; c < 3; ++c) f[3 * spring.node + c] += force * spring.row[c];
   }
 }
@@ -511,10 +515,10 @@ Eigen::MatrixXd StructuralProblem::find_products(const VectorXd& y, double lambd
                                                  const Eigen::Ref<const Eigen::MatrixXd>& directions) {
   end_if_asked(stop_);
   const Regime regime = regime_of(asked);
-  VectorXd scratch = VectorXd::Zero(y.size());
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(y.size(), directions.cols());
   elements_->add_tangent_products(y, factors(lambda), regime, directions, products);
-  add_node_springs(y, regime, scratch);
+  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i)
+    static_cast<void>(node_spring_force(i, y, regime));
   for (Index i = 0; i < directions.cols(); ++i) add_node_products(lambda, directions.col(i), products.col(i));
   return products;
 }

@@ -22,7 +22,7 @@ namespace snapthrough {
 /// Element interiors (ElementSet), then the nodes inside members (Chain), then a sparse symmetric system for
 /// the nodes' displacements, released rotations and the forces at members' ends, one block a member:
 ///
-///   [ K_s + springs   X^T   .  ] [u_joints]
+///   [ K_s + springs   X^T   .  ] [u_nodes]
 ///   [ X               -F    I  ] [m_member]     (I acts on its end node)
 ///
 /// Holds, k H H^T, are blocks with an unknown force of each: [ . sqrt(k) H ; . -1 ].
@@ -66,7 +66,7 @@ class StructuralProblem final : public EquilibriumProblem {
   /// @brief The one-sided supports that touch without pressure at y: no further from touching than 1e-9 of
   /// the largest displacement, foundations on all of their part of an element.
   [[nodiscard]] TouchingMarks marks_at(const Eigen::VectorXd& y) const;
-  /// @brief Movement of each touching spring into its medium.
+  /// @brief Displacement of each touching spring into its medium.
   void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
                               std::vector<double>& out) const;
   /// @brief Of the supports that touch these springs act, and foundations where `mode` moves into them.
@@ -103,6 +103,7 @@ class StructuralProblem final : public EquilibriumProblem {
   void add_node_products(double lambda, const Eigen::Ref<const Eigen::VectorXd>& direction,
                          Eigen::Ref<Eigen::VectorXd> out) const;
   [[nodiscard]] double penetration(const NodeSpring& spring, const Eigen::VectorXd& y, double gap) const;
+  double node_spring_force(std::size_t index, const Eigen::VectorXd& y, const Regime& regime);
   void add_node_springs(const Eigen::VectorXd& y, const Regime& regime, Eigen::VectorXd& f);
   void add_holds(const Eigen::VectorXd& y, Eigen::VectorXd& f) const;
   /// Of the loads and of the members' ends.
