@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "api/api.h"
+#include "api/names.h"
 #include "tests/stress/stress_run.h"
 
 namespace snapthrough::testing {
@@ -46,7 +47,7 @@ void expect_points(const std::vector<CriticalPoint>& found, const json& expected
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     SCOPED_TRACE("critical point " + std::to_string(i));
-    EXPECT_EQ(api::critical_type_name(found[i].type), points[i].at("type"));
+    EXPECT_EQ(api::name_of(api::kCriticalTypes, found[i].type), points[i].at("type"));
     EXPECT_EQ(found[i].branch, points[i].value("branch", 0));
     if (!points[i].contains("load_factor")) continue;
     const double load = points[i].at("load_factor");
