@@ -92,11 +92,11 @@ Matrix2 product(const Matrix2& a, const Matrix2& b) {
 
 /// A frame on its way along the column.
 ///
-/// Nodes are eliminated from left to right. The pivot of one, A = S + K_11 with K the stiffness of the piece
+/// Joints are eliminated from left to right. The pivot of one, A = S + K_11 with K the stiffness of the piece
 /// on its right, has as many negative eigenvalues as U^T B^-1 U+, where U, U+ are the displacement rows at
-/// the node and at the next one and B = -K_12^-1. Whether that is one follows from the signs of det U and
+/// the joint and at the next one and B = -K_12^-1. Whether that is one follows from the signs of det U and
 /// det U+ alone, each computed once, so a determinant that is lost in rounding moves an eigenvalue from one
-/// node to the next but not out of the sum.
+/// joint to the next but not out of the sum.
 class Walk {
  public:
   Walk() { f_.rows = {{{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {0.0, 0.0}}}; }
@@ -235,7 +235,7 @@ Matrix2 Walk::orthonormalise() {
   return {{{1.0 / first, -along / (first * second)}, {0.0, 1.0 / second}}};
 }
 
-/// The last node's pivot, of what is free of it.
+/// The last joint's pivot, of what is free of it.
 void Walk::finish(const ColumnJoint& joint) {
   add_spring(1, joint.left.spring);
   add_spring(0, joint.spring);

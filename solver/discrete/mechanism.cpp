@@ -291,7 +291,7 @@ class Mechanism {
   /// Whether the parts are connected in too many ways to tell.
   [[nodiscard]] bool unknown() const { return unknown_; }
   /// Displacements of the nodes (x, y, rotation each).
-  [[nodiscard]] Eigen::VectorXd of_joints(const Eigen::VectorXd& motion) const;
+  [[nodiscard]] Eigen::VectorXd of_nodes(const Eigen::VectorXd& motion) const;
   /// The node that moves most.
   [[nodiscard]] std::size_t node_of(const Eigen::VectorXd& motion) const;
   /// The motion on which the loads of a pattern do work, if they do on any.
@@ -318,7 +318,7 @@ Mechanism::Mechanism(const Model& model, bool one_sided) : parts_(model) {
   }
 }
 
-Eigen::VectorXd Mechanism::of_joints(const Eigen::VectorXd& motion) const {
+Eigen::VectorXd Mechanism::of_nodes(const Eigen::VectorXd& motion) const {
   const auto value = [&motion](const Row& row) {
     double sum = 0.0;
     for (const auto& [unknown, weight] : row) sum += weight * motion[unknown];
@@ -334,7 +334,7 @@ Eigen::VectorXd Mechanism::of_joints(const Eigen::VectorXd& motion) const {
 
 std::size_t Mechanism::node_of(const Eigen::VectorXd& motion) const {
   constexpr double kMore = 1.0 + 1e-9;  // of those that move alike the first, whatever rounding says
-  const Eigen::VectorXd moved = of_joints(motion);
+  const Eigen::VectorXd moved = of_nodes(motion);
   Eigen::Index node = 0;
   for (Eigen::Index j = 1; 3 * j < moved.size(); ++j)
     if (moved.segment<3>(3 * j).lpNorm<Eigen::Infinity>() >
@@ -351,7 +351,7 @@ std::optional<Eigen::VectorXd> Mechanism::driven_by(Pattern pattern) const {
   const double work = driven.norm();  // on the motion of length one
   if (work == 0.0) return std::nullopt;
   driven /= work;
-  if (!(work > kRounding * loading.size() * of_joints(driven).lpNorm<Eigen::Infinity>())) return std::nullopt;
+  if (!(work > kRounding * loading.size() * of_nodes(driven).lpNorm<Eigen::Infinity>())) return std::nullopt;
   return driven;
 }
 
@@ -368,7 +368,7 @@ Eigen::MatrixXd free_motions(const Model& model) {
   const auto count = static_cast<Eigen::Index>(mechanism.motions().size());
   Eigen::MatrixXd nodes(3 * static_cast<Eigen::Index>(model.nodes.size()), count);
   for (Eigen::Index i = 0; i < count; ++i)
-    nodes.col(i) = mechanism.of_joints(mechanism.motions()[static_cast<std::size_t>(i)]);
+    nodes.col(i) = mechanism.of_nodes(mechanism.motions()[static_cast<std::size_t>(i)]);
   const Eigen::HouseholderQR<Eigen::MatrixXd> orthonormal(nodes);
   const Eigen::MatrixXd motions = orthonormal.householderQ() * Eigen::MatrixXd::Identity(nodes.rows(), count);
   // what rounding left where nothing moves would couple parts that have nothing to do with one another

@@ -137,11 +137,11 @@ class ExactGap {
  public:
   ExactGap(const FoundationContact& contact, std::array<double, 2> ua, std::span<const double> dx,
            std::span<const double> dy, double depth)
-      : strip_(contact), ua_(ua), dx_(dx), dy_(dy), depth_(depth) {}
+      : contact_(contact), ua_(ua), dx_(dx), dy_(dy), depth_(depth) {}
 
-  [[nodiscard]] double value(double z) const { return strip_.penetration(at(z), ua_, dx_, dy_) - depth_; }
+  [[nodiscard]] double value(double z) const { return contact_.penetration(at(z), ua_, dx_, dy_) - depth_; }
   [[nodiscard]] double slope(double z) const {
-    return (strip_.range()[1] - strip_.range()[0]) * strip_.penetration_slope(at(z), ua_, dx_, dy_);
+    return (contact_.range()[1] - contact_.range()[0]) * contact_.penetration_slope(at(z), ua_, dx_, dy_);
   }
   [[nodiscard]] Eigen::Array4d values(const Eigen::Array4d& z) const {
     return {value(z[0]), value(z[1]), value(z[2]), value(z[3])};
@@ -149,10 +149,10 @@ class ExactGap {
 
  private:
   [[nodiscard]] double at(double z) const {
-    return strip_.range()[0] + z * (strip_.range()[1] - strip_.range()[0]);
+    return contact_.range()[0] + z * (contact_.range()[1] - contact_.range()[0]);
   }
 
-  const FoundationContact& strip_;
+  const FoundationContact& contact_;
   std::array<double, 2> ua_;
   std::span<const double> dx_, dy_;
   double depth_;
@@ -244,8 +244,8 @@ void search_part(const Gap& gap, const Sample& left, const Sample& right, const 
 
 /// Whether g may change its sign between two places, because it is no further from zero than it moves there
 /// or next to there.
-bool may_cross(double left, double right, double displacement) {
-  return (left > 0.0) != (right > 0.0) || std::min(std::abs(left), std::abs(right)) <= displacement;
+bool may_cross(double left, double right, double change) {
+  return (left > 0.0) != (right > 0.0) || std::min(std::abs(left), std::abs(right)) <= change;
 }
 
 /// As search_part, between two samples, where zones smaller than the sampling may begin and end.

@@ -72,7 +72,7 @@ Regime Pencil::regime() const {
 VectorXd Pencil::linear_response(StructuralProblem::Stage stage, double lambda, Regime regime) {
   regime.small_displacements = true;
   problem_.set_stage(stage);
-  VectorXd y = VectorXd::Zero(problem_.size());
+  const VectorXd y = VectorXd::Zero(problem_.size());
   VectorXd residual;
   problem_.linearise(y, 0.0, residual, regime);
   ++factorizations_;

@@ -23,7 +23,7 @@ struct ContactChange {
 ///
 /// The curve through both ends says where to look; the path is corrected there, and the bracket closes from
 /// both sides, in a few corrections a change. Zones that begin and end within one step are not seen.
-/// @param at_kink whether the step led round a turn, so that places are told by the displacement alone
+/// @param at_kink whether the step led round a kink, so that places are told by the displacement alone
 /// @param tolerance on the load factor, relative
 [[nodiscard]] std::vector<ContactChange> locate_contact_changes(Continuation& continuation,
                                                                 const PathPoint& a, const PathPoint& b,

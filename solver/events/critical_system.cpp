@@ -131,8 +131,8 @@ class CriticalNewton {
   VectorXd residual_;
   double dlambda_ = 0.0;
   double moved_ = 0.0;
-  double previous_ = 0.0;  ///< displacement
-  bool stalled_ = false;   ///< displacements have ceased to fall
+  double previous_ = 0.0;  ///< size of the last correction
+  bool stalled_ = false;   ///< corrections have ceased to fall
   /// Relative difference of the stiffnesses by the factors and by quotients, when they agreed best.
   double least_doubt_ = std::numeric_limits<double>::infinity();
 };

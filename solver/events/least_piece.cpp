@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Movement into a support, over the mode's largest, that is none.
+/// Displacement into a support, over the mode's largest, that is none.
 constexpr double kNoDisplacement = 1e-7;
 /// Relative difference of two loads of one piece that is the rounding of its eigenvalue.
 constexpr double kSameLoad = 1e-9;

@@ -18,11 +18,12 @@ namespace {
 
 constexpr int kMaxEvaluations = 100;
 constexpr int kMaxDepth = 48;
-/// Points this near (in the path's norm, a displacement gradient) are on one path.
-/// Rounding leaves about 1e-16 over the relative distance to the bifurcation, a broken bifurcation about the
-/// cube root of its imperfection: one of 1e-14, as rounding of the nodes' coordinates makes it, counts as
-/// whole.
+/// Points this near (in the path's norm, a displacement gradient) are on one path: rounding leaves about
+/// 1e-16 over the relative distance to the bifurcation, a broken bifurcation about the cube root of its
+/// imperfection.
 constexpr double kSamePath = 1e-5;
+/// Load, relative, to which a bifurcation is located at least: one with an imperfection of 1e-14, as rounding
+/// of the nodes' coordinates makes it, looks whole from further.
 constexpr double kBrokenBifurcation = 1e-9;
 
 /// State of the search between two points of a path.

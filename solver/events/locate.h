@@ -101,7 +101,7 @@ struct Dip {
 [[nodiscard]] LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint& a,
                                                    const PathPoint& b, const LocateOptions& options);
 
-/// @brief As locate_critical_points(), for a step that led round a turn (StepOutcome::kinked): places are
+/// @brief As locate_critical_points(), for a step that led round a kink (StepOutcome::kinked): places are
 /// told by the displacement alone. What cannot be bracketed there is put at the last point before the kink,
 /// caused by contact.
 /// @param size of the step that was taken

@@ -106,7 +106,7 @@ struct Spring {
   double gap = 0.0;  ///< free travel before a one-sided spring reacts, >= 0
 };
 
-/// Continuous base r = K w - G w'' per undeformed length, w the displacement along the initial normal
+/// Continuous foundation r = K w - G w'' per undeformed length, w the displacement along the initial normal
 /// (towards `side`) or along the fixed `direction` (pointing into the medium).
 struct Foundation {
   std::string id;

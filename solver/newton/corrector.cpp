@@ -121,17 +121,17 @@ class Progress {
   Progress(const CorrectorOptions& options, double scale)
       : options_(options),
         scale_(scale),
-        movement_(std::min(scale, options.displacement)),
+        displacement_(std::min(scale, options.displacement)),
         previous_(scale) {}
 
   /// Whether the correction of this size, before which the residual is `residual`, is the last.
   [[nodiscard]] bool is_last(int iteration, double size, double residual) {
     // quadratic convergence, as the correction before let it expect and as this one does
     const bool small =
-        std::max(expected_, size * ratio(size) * ratio(size)) <= options_.tolerance * movement_ &&
+        std::max(expected_, size * ratio(size) * ratio(size)) <= options_.tolerance * displacement_ &&
         residual <= options_.largest_residual;
     const bool rounding = residual <= kRoundingResidual ||
-                          size <= std::min(kLargestRounding, kLargestRoundingShare * movement_);
+                          size <= std::min(kLargestRounding, kLargestRoundingShare * displacement_);
     stagnant_ = iteration >= kStagnantIterations && residual <= options_.stagnant_residual &&
                 residual > kStagnantShare * last_residual_;
     last_residual_ = residual;
@@ -141,7 +141,7 @@ class Progress {
   /// however much residual very stiff supports make of it.
   [[nodiscard]] bool is_rounding(int iteration, double size, double residual) const {
     if (iteration == 0) return residual <= kRoundingResidual && size > options_.tangent_tolerance * scale_;
-    return iteration >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * movement_) &&
+    return iteration >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * displacement_) &&
            residual <= options_.largest_residual;
   }
   /// Whether corrections converge, and do not merely happen to be small.
@@ -167,7 +167,7 @@ class Progress {
 
   const CorrectorOptions& options_;
   double scale_;
-  double movement_;
+  double displacement_;
   double previous_;
   double expected_ = std::numeric_limits<double>::infinity();  ///< size of the next correction
   double last_residual_ = std::numeric_limits<double>::infinity();

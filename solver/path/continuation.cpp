@@ -357,10 +357,9 @@ void Continuation::extrapolate(const PathPoint& before, const PathPoint& from) {
   if (!(chord > 0.0)) return;
   const double half = 0.5 * angle_between(before, from);
   const double d = half > 0.0 ? chord * half / std::sin(half) : chord;
-  const VectorXd rise = from.y - before.y;
   const double rise_lambda = from.lambda - before.lambda;
-  bend_.y2 = second_derivative_at_end(rise, before.tangent, from.tangent, d);
-  bend_.y3 = third_derivative(rise, before.tangent, from.tangent, d);
+  bend_.y2 = second_derivative_at_end(from.y - before.y, before.tangent, from.tangent, d);
+  bend_.y3 = third_derivative(from.y - before.y, before.tangent, from.tangent, d);
   bend_.lambda2 = second_derivative_at_end(rise_lambda, before.tangent_lambda, from.tangent_lambda, d);
   bend_.lambda3 = third_derivative(rise_lambda, before.tangent_lambda, from.tangent_lambda, d);
 }
@@ -446,7 +445,7 @@ std::optional<PathPoint> Continuation::beyond_kink(const PathPoint& from, double
 ///
 /// Where the inertia changes, the load turns back if one support's change is the cause. Where several change
 /// at once, the cause may lie beside the path, as at a bifurcation; then the load goes on.
-bool Continuation::turn(const PathPoint& from, double size, PathPoint& to) {
+bool Continuation::step_round_kink(const PathPoint& from, double size, PathPoint& to) {
   constexpr std::array<double, 4> kDepths{1e3, 1e2, 1e1, 1e0};
   constexpr double kBeyond = 10.0;  // the step over the distance to the kink
   for (const double share : kDepths) {
@@ -525,7 +524,7 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
     }
     ++statistics_.rejected_steps;
     size *= std::min(trial.growth, 0.5);
-    if (problem_.one_sided() && size < kKinkShrink * easy_size_ && turn(from, size, to)) {
+    if (problem_.one_sided() && size < kKinkShrink * easy_size_ && step_round_kink(from, size, to)) {
       ++statistics_.steps;
       step.taken = size;
       step.wanted = std::min(size * options_.max_growth, options_.max_step);

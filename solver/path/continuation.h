@@ -90,9 +90,9 @@ class Continuation {
 
   /// @brief One accepted step from `from`: `step.wanted` is tried first, then smaller ones; sets both fields.
   [[nodiscard]] StepOutcome step(const PathPoint& from, StepSize& step, PathPoint& to);
-  /// @brief The next step from `to` is predicted, at its first size, by the cubic through both points and
+  /// @brief The next step from `from` is predicted, at its first size, by the cubic through both points and
   /// tangents: where the path does not turn sharply between them.
-  void extrapolate(const PathPoint& from, const PathPoint& to);
+  void extrapolate(const PathPoint& before, const PathPoint& from);
   /// The next step is predicted by its tangent.
   void extrapolate_nothing() { bend_ = {}; }
   /// @brief The last point before a kink that is within `size` of `from`, to rounding: found by halving
@@ -205,7 +205,7 @@ class Continuation {
   [[nodiscard]] CorrectorOutcome correct_step(const PathPoint& from, double step, double displacement,
                                               PathPoint& to);
   void predict(const PathPoint& from, double step, PathPoint& to) const;
-  [[nodiscard]] bool turn(const PathPoint& from, double size, PathPoint& to);
+  [[nodiscard]] bool step_round_kink(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] std::optional<PathPoint> beyond_kink(const PathPoint& from, double depth);
   [[nodiscard]] bool step_from_beyond(const PathPoint& from, const PathPoint& beyond, double step,
                                       PathPoint& to);
