@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "solver/check/check.h"
 #include "solver/model/analysis.h"
-#include "solver/model/check.h"
 #include "solver/model/model.h"
 #include "solver/result.h"
 
@@ -53,9 +53,6 @@ inline constexpr int kMaxFindings = 1000;
 /// @throws std::runtime_error with the JSON Pointer of the first number that is not finite
 [[nodiscard]] nlohmann::json write_result(const Request& request, const Result& result, double wall_time_s,
                                           std::span<const std::string_view> parts = {});
-
-/// The type as documents have it, e.g. "limit_max".
-[[nodiscard]] const char* critical_type_name(CriticalType type);
 
 /// @brief `[{"pointer", "code", "detail"}, ...]`, in the order given.
 [[nodiscard]] nlohmann::json write_findings(const std::vector<Finding>& findings);

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/model/check.h"
+#include "solver/check/check.h"
 
 namespace snapthrough::api {
 

@@ -6,13 +6,7 @@ namespace snapthrough::api {
 
 // The functions are static, not in an unnamed namespace, so that the templates of api/value.h find them.
 
-static void read(const Value& value, AnalysisType& out) {
-  static constexpr Named<AnalysisType> kNames[] = {{"buckling", AnalysisType::buckling},
-                                                   {"critical", AnalysisType::critical},
-                                                   {"path", AnalysisType::path},
-                                                   {"static", AnalysisType::static_}};
-  read_named(value, kNames, out);
-}
+static void read(const Value& value, AnalysisType& out) { read_named(value, kAnalysisTypes, out); }
 
 static void read(const Value& value, Geometry& out) {
   static constexpr Named<Geometry> kNames[] = {{"nonlinear", Geometry::nonlinear},
@@ -112,10 +106,8 @@ static void read(const Value& value, BranchOptions& out) {
 
 /// A name, or an object with one of two fields.
 static void read_states(const Value& value, OutputOptions& out) {
-  static constexpr Named<StateOutput> kNames[] = {
-      {"none", StateOutput::none}, {"critical", StateOutput::critical}, {"all", StateOutput::all}};
   if (value.is_string()) {
-    read_named(value, kNames, out.states);
+    read_named(value, kStateOutputs, out.states);
     return;
   }
   if (!value.is_object()) {

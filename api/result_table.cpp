@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "api/csv_field.h"
+#include "api/names.h"
 
 namespace snapthrough::api {
 
@@ -16,10 +17,12 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kLineEnd = "\r\n";
-constexpr std::array kNames{
-    std::pair{ResultTable::points, "points"}, std::pair{ResultTable::critical_points, "critical_points"},
-    std::pair{ResultTable::static_rows, "static"}, std::pair{ResultTable::buckling, "buckling"},
-    std::pair{ResultTable::states, "states"}};
+/// All but the first are also the members of a result that have what they need.
+constexpr Named<ResultTable> kResultTables[] = {{"points", ResultTable::points},
+                                                {"critical_points", ResultTable::critical_points},
+                                                {"static", ResultTable::static_rows},
+                                                {"buckling", ResultTable::buckling},
+                                                {"states", ResultTable::states}};
 
 void append(std::string& text, double value) {
   std::array<char, 40> digits{};
@@ -196,53 +199,44 @@ std::string states_csv(const Json& result) {
 }
 
 /// The member of a result that has what the table needs.
-const char* source_of(ResultTable table) {
-  switch (table) {
-    case ResultTable::critical_points:
-      return "critical_points";
-    case ResultTable::static_rows:
-      return "static";
-    case ResultTable::buckling:
-      return "buckling";
-    case ResultTable::states:
-      return "states";
-    case ResultTable::points:
-      break;
+std::string source_of(ResultTable table) {
+  if (table == ResultTable::points) {
+    throw std::invalid_argument("the points of paths are a PointsTable");
   }
-  throw std::invalid_argument("the points of paths are a PointsTable");
+  return std::string(name_of(kResultTables, table));
 }
 
 }  // namespace
 
-std::optional<ResultTable> result_table_from(std::string_view name) {
-  const auto found =
-      std::find_if(kNames.begin(), kNames.end(), [&](const auto& one) { return one.second == name; });
-  return found == kNames.end() ? std::nullopt : std::optional(found->first);
-}
+std::optional<ResultTable> result_table_from(std::string_view name) { return value_of(kResultTables, name); }
 
 std::span<const ResultTable> tables_of(std::string_view analysis_type) {
   static constexpr std::array kPath{ResultTable::points, ResultTable::critical_points, ResultTable::states};
   static constexpr std::array kCritical{ResultTable::critical_points, ResultTable::states};
   static constexpr std::array kStatic{ResultTable::static_rows, ResultTable::states};
   static constexpr std::array kBuckling{ResultTable::buckling};
-  if (analysis_type == "path") {
-    return kPath;
+  const std::optional<AnalysisType> type = value_of(kAnalysisTypes, analysis_type);
+  if (!type) {
+    return {};
   }
-  if (analysis_type == "critical") {
-    return kCritical;
+  switch (*type) {
+    case AnalysisType::path:
+      return kPath;
+    case AnalysisType::critical:
+      return kCritical;
+    case AnalysisType::static_:
+      return kStatic;
+    case AnalysisType::buckling:
+      return kBuckling;
   }
-  if (analysis_type == "static") {
-    return kStatic;
-  }
-  return analysis_type == "buckling" ? std::span<const ResultTable>(kBuckling)
-                                     : std::span<const ResultTable>();
+  return {};
 }
 
 std::string table_names(std::span<const ResultTable> tables) {
   std::string names;
-  for (const auto& [table, name] : kNames) {
-    if (std::find(tables.begin(), tables.end(), table) != tables.end()) {
-      names += (names.empty() ? "" : ", ") + std::string(name);
+  for (const Named<ResultTable>& row : kResultTables) {
+    if (std::find(tables.begin(), tables.end(), row.value) != tables.end()) {
+      names.append(names.empty() ? "" : ", ").append(row.name);
     }
   }
   return names;

@@ -164,7 +164,7 @@ std::shared_ptr<const Json> Sweep::document_between(std::uint64_t point, double 
 
 bool Sweep::follows() const { return data_->follow; }
 
-std::uint64_t Sweep::block() const { return data_->follow ? data_->parameters.back().count() : 1; }
+std::uint64_t Sweep::unit_size() const { return data_->unit_size; }
 
 bool Sweep::follows_logarithm() const {
   const std::optional<SweepRange>& range = data_->parameters.back().range;
@@ -173,10 +173,10 @@ bool Sweep::follows_logarithm() const {
 
 std::string Sweep::curve_text(std::uint64_t point) const {
   Json values = Json::array();
-  for (std::uint64_t i = 0; data_->follow && i < block(); ++i) {
-    values.push_back(design_values(*data_, point - point % block() + i).back());
+  for (std::uint64_t i = 0; i < unit_size(); ++i) {
+    values.push_back(design_values(*data_, point - point % unit_size() + i).back());
   }
-  return data_->follow ? "follow" + values.dump() : "";
+  return "follow" + values.dump();
 }
 
 bool Sweep::looks_into(std::string_view part, std::string_view list) const {

@@ -74,17 +74,18 @@ class Sweep {
   /// The same as a text. @pre point < size()
   [[nodiscard]] std::string request_text(std::uint64_t point) const;
 
-  /// Whether the critical point is followed along the last parameter.
+  /// @brief How many points, from a multiple of it on, are one unit of work: computed together, and wholly.
+  /// 1, or the length of a curve.
+  [[nodiscard]] std::uint64_t unit_size() const;
+  [[nodiscard]] std::uint64_t units() const { return size() / unit_size(); }
+  /// Whether units are curves, along which the critical point is followed as the last parameter varies.
   [[nodiscard]] bool follows() const;
-  /// @brief How many points, from a multiple of it on, are computed together: the length of a curve when the
-  /// critical point is followed, else 1.
-  [[nodiscard]] std::uint64_t block() const;
-  /// Whether a curve is followed in the logarithm of its parameter.
+  /// Whether a curve is followed in the logarithm of its parameter. @pre follows()
   [[nodiscard]] bool follows_logarithm() const;
   /// @brief The request document of a point with another value of the last parameter. @pre follows()
   [[nodiscard]] std::shared_ptr<const nlohmann::json> document_between(std::uint64_t point,
                                                                        double value) const;
-  /// All values of the curve that a point is on, as a text; empty when it is on none.
+  /// All values of the curve that a point is on, as a text. @pre follows()
   [[nodiscard]] std::string curve_text(std::uint64_t point) const;
 
   /// @brief The document of a point, written over that of another point of this sweep: every point writes all

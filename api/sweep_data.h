@@ -63,7 +63,8 @@ struct SweepData {
   int samples = 1;  ///< of a Latin hypercube
   int seed = 0;     ///< of a Latin hypercube
   std::vector<SweepOutput> outputs;
-  bool follow = false;  ///< the critical point is followed along the last parameter
+  bool follow = false;          ///< the critical point is followed along the last parameter
+  std::uint64_t unit_size = 1;  ///< points that are computed together
   std::uint64_t points = 0;
 };
 
@@ -72,12 +73,6 @@ struct SweepData {
 
 /// The number that an array index is written as (no sign, no leading zero), or nothing.
 [[nodiscard]] std::optional<std::size_t> array_index(std::string_view token);
-
-class Report;
-
-/// @brief Reports outputs that no result of this analysis and this model has.
-/// @pre the parameters and outputs were read; an output that is no pointer has no tokens
-void check_outputs(const SweepData& data, Report& report);
 
 /// @brief The request document with these values of the parameters.
 [[nodiscard]] nlohmann::json document_with(const SweepData& data, const std::vector<nlohmann::json>& values);

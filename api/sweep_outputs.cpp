@@ -4,9 +4,9 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "api/check_sweep.h"
+#include "api/names.h"
 #include "api/result_schema.h"
-#include "api/sweep_data.h"
-#include "api/value.h"
 
 namespace snapthrough::api {
 
@@ -19,15 +19,19 @@ struct PartOfAnalysis {
   std::string_view part;
   std::array<std::string_view, 3> types;
 };
-constexpr std::array<PartOfAnalysis, 9> kParts{{{"critical_points", {"critical", "path"}},
-                                                {"contact_events", {"critical", "path"}},
-                                                {"neutral_motion", {"critical", "path", "static"}},
-                                                {"branches", {"path"}},
-                                                {"states", {"critical", "path", "static"}},
-                                                {"extremes", {"critical", "path", "static"}},
-                                                {"not_reached", {"critical", "path", "static"}},
-                                                {"static", {"static"}},
-                                                {"buckling", {"buckling"}}}};
+constexpr std::string_view kCritical = name_of(kAnalysisTypes, AnalysisType::critical);
+constexpr std::string_view kPath = name_of(kAnalysisTypes, AnalysisType::path);
+constexpr std::string_view kStatic = name_of(kAnalysisTypes, AnalysisType::static_);
+constexpr std::string_view kBuckling = name_of(kAnalysisTypes, AnalysisType::buckling);
+constexpr std::array<PartOfAnalysis, 9> kParts{{{"critical_points", {kCritical, kPath}},
+                                                {"contact_events", {kCritical, kPath}},
+                                                {"neutral_motion", {kCritical, kPath, kStatic}},
+                                                {"branches", {kPath}},
+                                                {"states", {kCritical, kPath, kStatic}},
+                                                {"extremes", {kCritical, kPath, kStatic}},
+                                                {"not_reached", {kCritical, kPath, kStatic}},
+                                                {"static", {kStatic}},
+                                                {"buckling", {kBuckling}}}};
 
 bool is_within(std::string_view inner, std::string_view outer) {
   return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '/');
@@ -84,7 +88,7 @@ std::string part_refusal(const SweepData& data, const std::string& part) {
            type->get<std::string>();
   }
   const Json* states = find_at(data.base, "/analysis/output/states");
-  if (part == "states" && states != nullptr && *states == "none" &&
+  if (part == "states" && states != nullptr && *states == name_of(kStateOutputs, StateOutput::none) &&
       !is_written(data, "/analysis/output/states")) {
     return "no states are kept: /analysis/output/states is none";
   }

@@ -36,15 +36,7 @@ std::string dumped(const Json& value) { return value.dump(-1, ' ', false, Json::
 
 }  // namespace
 
-std::optional<TableForm> table_form_from(std::string_view name) {
-  if (name == "json") {
-    return TableForm::json;
-  }
-  if (name == "csv") {
-    return TableForm::csv;
-  }
-  return name == "ndjson" ? std::optional(TableForm::ndjson) : std::nullopt;
-}
+std::optional<TableForm> table_form_from(std::string_view name) { return value_of(kTableForms, name); }
 
 TableWriter::TableWriter(const Sweep& sweep, TableForm form, std::optional<PointLinks> links)
     : sweep_(sweep.for_table()), form_(form), links_(std::move(links)), columns_(sweep.columns()) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/names.h"
 #include "api/sweep.h"
 
 namespace snapthrough::api {
@@ -19,13 +20,16 @@ enum class TableForm {
   ndjson  ///< one object a line, members named like the columns
 };
 
+inline constexpr Named<TableForm> kTableForms[] = {
+    {"json", TableForm::json}, {"csv", TableForm::csv}, {"ndjson", TableForm::ndjson}};
+
 /// Where the points of a table are found, as texts in which `{point}` stands for the number of a point.
 struct PointLinks {
   std::string request;  ///< GET: its request document
   std::string job;      ///< POST: its request is handed in as a job
 };
 
-/// The form of that name ("json", "csv", "ndjson"), or nothing.
+/// The form of that name, or nothing.
 [[nodiscard]] std::optional<TableForm> table_form_from(std::string_view name);
 
 /// @brief Writes the rows of one sweep. Not thread-safe.

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "solver/model/check_place.h"
+#include "solver/check/check_place.h"
 #include "solver/model/pointer.h"
 
 namespace snapthrough::api {

@@ -15,7 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "solver/model/check.h"
+#include "api/names.h"
+#include "solver/check/check.h"
 #include "solver/model/pointer.h"
 
 namespace snapthrough::api {
@@ -109,13 +110,6 @@ void read(const Value& value, std::vector<T>& out) {
     read(value.item(i), out[i]);
   }
 }
-
-/// A name of the contract and what it stands for.
-template <class E>
-struct Named {
-  std::string_view name;
-  E value;
-};
 
 /// @return Position of the string in `names`; when it is not one of them, reports it with the nearest name.
 std::optional<std::size_t> read_choice(const Value& value, std::span<const std::string_view> names);

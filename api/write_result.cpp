@@ -6,22 +6,9 @@
 #include <utility>
 
 #include "api/api.h"
+#include "api/names.h"
 
 namespace snapthrough::api {
-
-const char* critical_type_name(CriticalType type) {
-  switch (type) {
-    case CriticalType::bifurcation:
-      return "bifurcation";
-    case CriticalType::limit_max:
-      return "limit_max";
-    case CriticalType::limit_min:
-      return "limit_min";
-    case CriticalType::broken_bifurcation:
-      return "broken_bifurcation";
-  }
-  throw std::invalid_argument("critical type out of range");
-}
 
 namespace {
 
@@ -42,7 +29,7 @@ Json count_or_null(T count) {
 Json write(const Summary& summary) {
   return {{"critical_load_factor", or_null(summary.critical_load_factor)},
           {"critical_type",
-           summary.critical_type ? Json(critical_type_name(*summary.critical_type)) : Json(nullptr)},
+           summary.critical_type ? Json(name_of(kCriticalTypes, *summary.critical_type)) : Json(nullptr)},
           {"error_estimate", or_null(summary.error_estimate)},
           {"termination", summary.termination},
           {"message", summary.message}};
@@ -83,8 +70,8 @@ Json write(const Mode& mode) {
 
 Json write(const CriticalPoint& point) {
   return {{"branch", point.branch},
-          {"type", critical_type_name(point.type)},
-          {"cause", point.cause == CriticalCause::smooth ? "smooth" : "contact"},
+          {"type", name_of(kCriticalTypes, point.type)},
+          {"cause", name_of(kCriticalCauses, point.cause)},
           {"load_factor", point.load_factor},
           {"error_estimate", or_null(point.error_estimate)},
           {"confirmed", point.confirmed},

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "bench/cases.h"
-#include "solver/assembly/structural_problem.h"
-#include "solver/assembly/structure.h"
-#include "solver/linalg/symmetric_indefinite.h"
+#include "solver/discrete/structure.h"
+#include "solver/numeric/symmetric_indefinite.h"
+#include "solver/problem/structural_problem.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough::bench {

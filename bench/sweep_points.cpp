@@ -10,7 +10,7 @@
 
 #include "api/sweep.h"
 #include "server/jobs/content_key.h"
-#include "server/worker/point.h"
+#include "server/sweeps/unit.h"
 #include "solver/solve.h"
 
 namespace {
@@ -48,9 +48,10 @@ int main(int argc, char** argv) {
   const Clock::time_point start = Clock::now();
   std::uint64_t failed = 0;
   std::shared_ptr<nlohmann::json> document;
-  for (std::uint64_t point = 0; point < sweep.size(); ++point) {
-    sweep.write_document(point, document);
-    failed += server::solve_point(sweep, document, solver, {}).failed() ? 1 : 0;
+  for (std::uint64_t unit = 0; unit < sweep.units(); ++unit) {
+    for (const api::PointOutcome& outcome : server::make_unit(sweep, unit)->compute(solver, {}, document)) {
+      failed += outcome.failed() ? 1 : 0;
+    }
   }
   const double all = seconds_since(start);
   const Clock::time_point keys = Clock::now();

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that dependencies point one way: solver <- api <- server, and which libraries each layer sees.
+"""Checks that dependencies point one way: solver <- api <- server, the folders of the solver from the ground up, and
+which libraries each layer sees.
 
   check_includes.py              exit status 1 names the includes that are not allowed
   check_includes.py --self-test  checks the checker
@@ -29,6 +30,23 @@ FORBIDDEN_SOLVER = ("thread", "chrono", "iostream", "fstream", "random", "mutex"
                     "cstdio", "ostream", "istream", "iomanip", "sstream", "condition_variable", "regex")
 API_STANDARD = SOLVER_STANDARD | {"sstream", "iosfwd", "cstdio", "regex"}
 
+# The folders of the solver, each above what it may include; files of solver/ itself by their names.
+SOLVER_ORDER = """
+    numeric model result.h hooks.h geometry support mesh element member discrete check column problem newton path events
+    trace report accuracy analysis sweep solve.h solve.cpp
+""".split()
+
+
+def place_of(path):
+    """Where a file of the solver stands in SOLVER_ORDER; -1: nowhere."""
+    room = path.split("/")[1]
+    return SOLVER_ORDER.index(room) if room in SOLVER_ORDER else -1
+
+
+def points_down(path, name):
+    """Whether a file of the solver includes its own folder or one below."""
+    return -1 < place_of(name) <= place_of(path)
+
 
 def is_eigen(name):
     return re.fullmatch(r"(?:unsupported/)?Eigen/\w+", name) is not None
@@ -50,7 +68,8 @@ def allowed(layer, quoted, name):
     return not is_eigen(name)
 
 
-def check_source(source, layer):
+def check_source(source, layer, path=""):
+    """Lines and words of what must not be there; `path` of a file of the solver, from the root."""
     found = []
     text = strip_comments(source)
     for match in INCLUDE.finditer(text):
@@ -58,11 +77,15 @@ def check_source(source, layer):
         target = match[1] or ""
         if target[:1] not in ('"', "<") or not allowed(layer, target[0] == '"', target[1:-1]):
             found.append((line, f"{layer} must not include {target or 'this'}"))
+        elif layer == "solver" and target[0] == '"' and not points_down(path, target[1:-1]):
+            found.append((line, f"{target} stands above {path} (SOLVER_ORDER of scripts/check_includes.py)"))
     return found
 
 
+SNIPPET = "solver/path/x.cpp"  # where the snippets of the solver stand
 GOOD = [
-    ("solver", "#include <vector>\n#include <Eigen/Core>\n#include <stop_token>\n#include \"solver/solve.h\"\n"),
+    ("solver", "#include <vector>\n#include <Eigen/Core>\n#include <stop_token>\n#include \"solver/model/model.h\"\n"),
+    ("solver", "#include \"solver/path/x.h\"\n#include \"solver/newton/corrector.h\"\n#include \"solver/result.h\"\n"),
     ("solver", "// #include <thread>\n/* #include <iostream> */\n"),
     ("api", "#include <nlohmann/json.hpp>\n#include \"api/api.h\"\n#include \"solver/solve.h\"\n"),
     ("server", "#include <sqlite3.h>\n#include <thread>\n#include \"server/x.h\"\n#include \"api/api.h\"\n"),
@@ -73,6 +96,9 @@ BAD = [("solver", f"#include <{name}>") for name in FORBIDDEN_SOLVER] + [
     ("solver", "#include \"api/api.h\""),
     ("solver", "#include \"server/status.h\""),
     ("solver", "#include \"../api/api.h\""),
+    ("solver", "#include \"solver/solve.h\""),
+    ("solver", "#include \"solver/trace/trace.h\""),
+    ("solver", "#include \"solver/nowhere/x.h\""),
     ("solver", "#include HEADER"),
     ("solver", "  #  include <thread>"),
     ("solver", "/* comment */ \n#include <spdlog/spdlog.h>"),
@@ -87,8 +113,8 @@ BAD = [("solver", f"#include <{name}>") for name in FORBIDDEN_SOLVER] + [
 
 
 def self_test():
-    wrong = [f"not found: {layer}: {source}" for layer, source in BAD if not check_source(source, layer)]
-    wrong += [f"{layer}: {text}" for layer, source in GOOD for _, text in check_source(source, layer)]
+    wrong = [f"not found: {layer}: {source}" for layer, source in BAD if not check_source(source, layer, SNIPPET)]
+    wrong += [f"{layer}: {text}" for layer, source in GOOD for _, text in check_source(source, layer, SNIPPET)]
     print("\n".join(wrong) if wrong else f"check_includes: self-test of {len(BAD) + len(GOOD)} snippets passed")
     return 1 if wrong else 0
 
@@ -103,9 +129,10 @@ def main(arguments):
             if path.suffix not in (".h", ".cpp"):
                 continue
             files += 1
-            for line, text in check_source(path.read_text(encoding="utf-8"), layer):
+            place = path.relative_to(ROOT).as_posix()
+            for line, text in check_source(path.read_text(encoding="utf-8"), layer, place):
                 offenders += 1
-                print(f"{path.relative_to(ROOT)}:{line}: {text}")
+                print(f"{place}:{line}: {text}")
     print(f"check_includes: {files} files, {offenders} includes that are not allowed")
     return 1 if offenders else 0
 

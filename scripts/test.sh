@@ -49,6 +49,11 @@ cmake --preset "$preset" "${options[@]}" >"$log" 2>&1 || { cat "$log"; exit 1; }
 cmake --build "build/$preset" --parallel "$jobs"
 cmake --build "build/$preset" --parallel "$jobs" --target all_verify_interface_header_sets
 
+step "clang-tidy of what the last commit changed"
+if [ "$preset" = release ]; then
+  bash scripts/tidy.sh --changed
+fi
+
 step "tests"
 ctest --test-dir "build/$preset" --parallel "$jobs" --output-on-failure --no-tests=error
 

@@ -159,7 +159,7 @@ std::string Service::Parts::metrics_text() {
     write_metric(text, name, "counter", help, static_cast<double>(value));
   };
   gauge("snapthrough_sweeps_active", "Sweeps that points are given out of.",
-        static_cast<double>(jobs.sweeps().scheduler().count()));
+        static_cast<double>(jobs.sweeps().work().count()));
   counter("snapthrough_runners_started_total", "Processes that compute, started.", runner_counters.started);
   counter("snapthrough_runners_out_of_memory_total", "Ended at the bound of their memory.",
           runner_counters.out_of_memory);

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "solver/analysis/analyses.h"
-#include "solver/analysis/skipped.h"
-#include "solver/assembly/mechanism.h"
-#include "solver/cancelled.h"
+#include "solver/discrete/mechanism.h"
+#include "solver/numeric/cancelled.h"
+#include "solver/report/result_parts.h"
+#include "solver/report/skipped.h"
 
 namespace snapthrough {
 namespace {

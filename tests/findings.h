@@ -7,7 +7,7 @@
 #include <ostream>
 #include <string>
 
-#include "solver/model/check.h"
+#include "solver/check/check.h"
 
 namespace snapthrough {
 

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "solver/model/check.h"
+#include "solver/check/check.h"
 #include "solver/solve.h"
 
 namespace {

@@ -30,8 +30,8 @@ class Runs:
         key = (name, repr(changes))
         if key not in self.results:
             self.results[key], seconds = run_request(self.program, name, changes)
-            shown = ", ".join(f"`{pointer}` {value:.6g}" if isinstance(value, float) else f"`{pointer}` {value}" for pointer, value in changes)
-            self.times.append(f"| paths/{name}.json | {shown} | {1000 * seconds:.0f} |")
+            shown = ", ".join(f"{pointer} {value:.6g}" if isinstance(value, float) else f"{pointer} {value}" for pointer, value in changes)
+            self.times.append(f"{seconds:8.2f} s  paths/{name}.json {shown}".rstrip())
         return self.results[key]
 
 

@@ -1,16 +1,15 @@
 """The pages of numbers of docs/thesis: published, on the thesis' mesh, converged, closed form."""
 from lib.thesis_data import as_printed, digits, on_thesis_mesh, percent, pick, references
 
-HEAD = ("| case | what | published | Silveira 2013 | thesis' mesh | % | converged | error estimate | reference | % | remark | ms |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+HEAD = ("| case | what | published | Silveira 2013 | thesis' mesh | % | converged | error estimate | reference | % | remark |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
 INTRODUCTION = """# Tables and limit loads
 
 Thesis' mesh: straight elements of order 1 (3 in tables 4.2 and 4.3), springs lumped at the nodes, as many elements as the thesis
 used (40 for arches, 50 for the ring). Converged: `accuracy` 1e-6 asked for, with the relative error estimate that the result carries. Reference: a
 closed form for columns, P_e (n^2 + k/n^2); for arches and rings collocation with the contact edges as unknowns. Differences in
 per cent: of our value on the thesis' mesh from the published one, and of the converged value from the reference. Blank: nothing
-published, or nothing found on that mesh. ms: run time of the whole converged analysis (of the thesis' mesh where there is only
-that); it changes from run to run.
+published, or nothing found on that mesh.
 
 Loads: columns P; arches P R^2/EI; ring q R^3/EI. Base: columns K; arches and ring k = K R^4/EI.
 """
@@ -37,14 +36,13 @@ SECTIONS = {
 
 def table_row(results, r):
     rows = results[r["file"]]
-    coarse_row, coarse = pick(rows, r, True)
-    fine_row, fine = pick(rows, r, False)
+    _, coarse = pick(rows, r, True)
+    _, fine = pick(rows, r, False)
     coarse_load = coarse[0] if coarse else None
     load, estimate = fine if fine else (None, None)
-    seconds = (fine_row or coarse_row)["/diagnostics/wall_time_s"]
     cells = (f"{r['key']} = {r['value']}", r["what"], r["published"], r["s13"], digits(coarse_load, 3),
              percent(coarse_load, r["published"]), digits(load), "" if estimate is None else f"{estimate:.0e}",
-             as_printed(r["converged"]), percent(load, r["converged"], 4), r["note"], f"{1000 * seconds:.0f}")
+             as_printed(r["converged"]), percent(load, r["converged"], 4), r["note"])
     return "| " + " | ".join(cells) + " |"
 
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "server/cli/app.h"
-#include "solver/model/check.h"
+#include "solver/check/check.h"
 
 namespace snapthrough::server::cli {
 

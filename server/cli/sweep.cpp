@@ -16,7 +16,7 @@
 #include "server/cli/input.h"
 #include "server/cli/interruption.h"
 #include "server/cli/progress_bar.h"
-#include "server/worker/point.h"
+#include "server/sweeps/unit.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server::cli {
@@ -35,10 +35,10 @@ struct RowCounts {
   std::uint64_t failed = 0;
 };
 
-/// @brief Gives points out and puts their rows in design order. Thread-safe.
+/// @brief Gives units out and puts the rows of their points in design order. Thread-safe.
 class RowQueue {
  public:
-  /// @param stop no more points are given out then
+  /// @param stop no more units are given out then
   RowQueue(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options, std::stop_token stop)
       : sweep_(sweep),
         streams_(streams),
@@ -48,22 +48,22 @@ class RowQueue {
     streams_.out << writer_.head();
   }
 
-  /// The first point of a block to solve; nothing when there are no more.
+  /// The number of a unit to compute; nothing when there are no more.
   std::optional<std::uint64_t> next() {
     std::unique_lock lock(mutex_);
-    if (given_ == sweep_.size() || stop_.stop_requested()) {
+    if (given_ == sweep_.units() || stop_.stop_requested()) {
       return std::nullopt;
     }
-    const std::uint64_t point = given_;
-    given_ += sweep_.block();
-    const bool has_room = room_.wait(
-        lock, stop_, [&] { return point < written_ + std::max(kLongestLead, 4 * sweep_.block()); });
-    return has_room ? std::optional(point) : std::nullopt;
+    const std::uint64_t unit = given_++;
+    const std::uint64_t size = sweep_.unit_size();
+    const bool has_room =
+        room_.wait(lock, stop_, [&] { return unit * size < written_ + std::max(kLongestLead, 4 * size); });
+    return has_room ? std::optional(unit) : std::nullopt;
   }
 
   /// A point that was stopped leaves no row, and none is written after it.
   void put(std::uint64_t point, api::PointOutcome outcome) {
-    if (stop_.stop_requested() && outcome.code == "cancelled") {
+    if (stop_.stop_requested() && outcome.code == kCancelled) {
       return;
     }
     const std::lock_guard guard(mutex_);
@@ -112,7 +112,7 @@ class RowQueue {
   std::condition_variable_any room_;
   api::TableWriter writer_;
   std::map<std::uint64_t, api::PointOutcome> waiting_;
-  std::uint64_t given_ = 0;
+  std::uint64_t given_ = 0;  ///< units
   std::uint64_t written_ = 0;
   std::uint64_t done_ = 0;
   std::uint64_t failed_ = 0;
@@ -120,8 +120,8 @@ class RowQueue {
   Clock::time_point next_bar_ = start_;
 };
 
-/// Each point is computed alone, so that rows do not depend on how many threads share them.
-RowCounts solve_points(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options,
+/// Each unit is computed alone, so that rows do not depend on how many threads share them.
+RowCounts compute_rows(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options,
                        const std::stop_token& stop) {
   RowQueue queue(sweep, streams, options, stop);
   const SolveFunction solver = [](const Model& model, const Analysis& analysis, const Hooks& hooks) {
@@ -129,15 +129,11 @@ RowCounts solve_points(const api::Sweep& sweep, const Streams& streams, const Sw
   };
   const auto work = [&] {
     std::shared_ptr<nlohmann::json> document;
-    while (const std::optional<std::uint64_t> point = queue.next()) {
-      if (!sweep.follows()) {
-        sweep.write_document(*point, document);
-        queue.put(*point, solve_point(sweep, document, solver, {.stop = stop}));
-        continue;
-      }
-      std::vector<api::PointOutcome> outcomes = solve_curve(sweep, *point, stop);
+    while (const std::optional<std::uint64_t> number = queue.next()) {
+      const std::unique_ptr<SweepUnit> unit = make_unit(sweep, *number);
+      std::vector<api::PointOutcome> outcomes = unit->compute(solver, {.stop = stop}, document);
       for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        queue.put(*point + i, std::move(outcomes[i]));
+        queue.put(unit->first() + i, std::move(outcomes[i]));
       }
     }
   };
@@ -179,7 +175,7 @@ int sweep_command(const std::string& path, const Streams& streams, const SweepOp
     return write_point(*outcome.sweep, *options.point, streams);
   }
   const Interruption interruption;
-  const RowCounts rows = solve_points(*outcome.sweep, streams, options, interruption.token());
+  const RowCounts rows = compute_rows(*outcome.sweep, streams, options, interruption.token());
   if (!streams.out) {
     streams.err << "snapthrough: cannot write the rows\n";
     return kOther;

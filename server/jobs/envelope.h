@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "server/jobs/job.h"
-#include "solver/model/check.h"
+#include "solver/check/check.h"
 
 namespace snapthrough::server {
 

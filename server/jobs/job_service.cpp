@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "api/api.h"
+#include "api/names.h"
 #include "server/jobs/content_key.h"
 #include "server/jobs/envelope.h"
 #include "server/jobs/large_document.h"
@@ -12,26 +13,12 @@
 namespace snapthrough::server {
 namespace {
 
-std::string_view analysis_name(AnalysisType type) {
-  switch (type) {
-    case AnalysisType::buckling:
-      return "buckling";
-    case AnalysisType::critical:
-      return "critical";
-    case AnalysisType::path:
-      return "path";
-    case AnalysisType::static_:
-      return "static";
-  }
-  return "";
-}
-
 NewJob new_job(const Order& order, const api::Request& request, const Envelope& envelope,
                const Environment& world) {
   NewJob job;
   job.id = new_id(world);
   job.title = request.model.title;
-  job.analysis_type = analysis_name(request.analysis.type);
+  job.analysis_type = api::name_of(api::kAnalysisTypes, request.analysis.type);
   job.document = envelope.text;
   job.created = world.now();
   job.owner = order.owner;
@@ -79,9 +66,10 @@ JobService::JobService(Store& store, const Environment& environment, Log& log, J
       environment_(environment),
       log_(log),
       limits_(limits),
-      sweeps_({store_.sweeps(), environment_, log_, limits_, health_, handoffs_, completions_, metrics_}),
-      context_{store_,    environment_, log_,      limits_, health_,  waiting_,           completions_,
-               handoffs_, active_,      progress_, sweeps_, metrics_, new_id(environment)} {}
+      sweeps_({store_.sweeps(), environment_, log_, limits_, health_, waiting_, handoffs_, completions_,
+               metrics_}),
+      context_{store_,    environment_, log_,      limits_,        health_,  waiting_,           completions_,
+               handoffs_, active_,      progress_, sweeps_.work(), metrics_, new_id(environment)} {}
 
 StatusOr<Submission> JobService::submit(const Order& order) {
   if (Status status = health_.takes_work(); !status.ok()) {
@@ -187,7 +175,7 @@ StatusOr<Dismissal> JobService::dismiss(const std::string& id) {
   if (dismissal->before == JobState::accepted) {
     --waiting_;
   }
-  metrics_.job_ended("dismissed");
+  metrics_.job_ended(to_string(JobState::dismissed));
   active_.stop(id, StopReason::dismissed);
   completions_.announce(id);
   log_.write(LogLevel::info, "job",

@@ -15,6 +15,7 @@
 #include "server/jobs/worker_context.h"
 #include "server/log/log.h"
 #include "server/store/store.h"
+#include "server/sweeps/sweep_service.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server {
@@ -41,7 +42,6 @@ class JobService {
   [[nodiscard]] Store& store() { return store_; }
   [[nodiscard]] const Environment& environment() const { return environment_; }
   [[nodiscard]] const JobLimits& limits() const { return limits_; }
-  /// Sweeps, for callers and workers.
   [[nodiscard]] SweepService& sweeps() { return sweeps_; }
   /// For the workers, and for whoever follows what they do.
   [[nodiscard]] const WorkerContext& context() const { return context_; }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/model/check.h"
+#include "solver/check/check.h"
 
 namespace snapthrough::server {
 

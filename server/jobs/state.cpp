@@ -3,6 +3,13 @@
 #include <algorithm>
 
 namespace snapthrough::server {
+namespace {
+
+/// In the order of JobState.
+constexpr std::array<std::string_view, kJobStates.size()> kNames{"accepted", "running", "successful",
+                                                                 "failed", "dismissed"};
+
+}  // namespace
 
 std::optional<JobState> next_state(JobState from, JobEvent event) {
   const auto* row = std::find_if(kJobTransitions.begin(), kJobTransitions.end(),
@@ -18,29 +25,11 @@ bool is_final(JobState state) {
                       [&](const JobTransition& t) { return t.from == state; });
 }
 
-std::string_view to_string(JobState state) {
-  switch (state) {
-    case JobState::accepted:
-      return "accepted";
-    case JobState::running:
-      return "running";
-    case JobState::successful:
-      return "successful";
-    case JobState::failed:
-      return "failed";
-    case JobState::dismissed:
-      return "dismissed";
-  }
-  return "";
-}
+std::string_view to_string(JobState state) { return kNames.at(static_cast<std::size_t>(state)); }
 
 std::optional<JobState> job_state_from(std::string_view name) {
-  const auto* state = std::find_if(kJobStates.begin(), kJobStates.end(),
-                                   [&](JobState candidate) { return to_string(candidate) == name; });
-  if (state == kJobStates.end()) {
-    return std::nullopt;
-  }
-  return *state;
+  const auto* found = std::find(kNames.begin(), kNames.end(), name);
+  return found == kNames.end() ? std::nullopt : std::optional(static_cast<JobState>(found - kNames.begin()));
 }
 
 }  // namespace snapthrough::server

@@ -13,9 +13,9 @@
 #include "server/jobs/job_metrics.h"
 #include "server/jobs/limits.h"
 #include "server/jobs/progress_topic.h"
-#include "server/jobs/sweep_service.h"
 #include "server/log/log.h"
 #include "server/store/store.h"
+#include "server/sweeps/sweep_work.h"
 
 namespace snapthrough::server {
 
@@ -31,7 +31,7 @@ struct WorkerContext {
   HandoffQueue& handoffs;
   ActiveJobs& active;
   JobProgress& progress;
-  SweepService& sweeps;
+  SweepWork& sweeps;
   JobMetrics& metrics;
   const std::string instance;  ///< of the service: the name that leases bear
 

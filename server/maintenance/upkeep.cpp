@@ -33,7 +33,7 @@ void log_recovery(Log& log, const Recovery& recovery, std::string_view why) {
 void Upkeep::run_once(Time now) {
   look_at_disk(now);
   context_.active.stop_older(now - context_.limits.longest_run, StopReason::time_limit);
-  context_.sweeps.scheduler().stop_older(now - context_.limits.longest_run);
+  context_.sweeps.stop_older(now - context_.limits.longest_run);
   if (now >= next_renewal_) {
     next_renewal_ = now + context_.limits.lease / 4;
     renew_leases(now);

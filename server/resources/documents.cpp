@@ -55,11 +55,10 @@ std::string status_message(const Job& job, const std::optional<Progress>& progre
     case JobState::successful:
       return "the result is ready";
     case JobState::failed:
-      return "failed";
     case JobState::dismissed:
-      return "dismissed";
+      break;
   }
-  return "";
+  return std::string(to_string(job.state));
 }
 
 ordered_json job_status(const Job& job, const std::optional<Progress>& progress) {
@@ -100,8 +99,8 @@ std::string sweep_message(const SweepRecord& sweep) {
       return "the table is complete; " + std::to_string(sweep.failed) + " of " +
              std::to_string(sweep.points) + " points failed";
     case JobState::dismissed:
-      return "dismissed; " + std::to_string(sweep.done()) + " of " + std::to_string(sweep.points) +
-             " points have a row";
+      return std::string(to_string(sweep.state)) + "; " + std::to_string(sweep.done()) + " of " +
+             std::to_string(sweep.points) + " points have a row";
   }
   return "";
 }
@@ -115,11 +114,7 @@ ordered_json sweep_status(const SweepRecord& sweep) {
                       {"title", sweep.title},
                       {"analysis", sweep.analysis_type},
                       {"points", sweep.points},
-                      {"counts",
-                       {{"successful", sweep.successful},
-                        {"failed", sweep.failed},
-                        {"reused", sweep.reused},
-                        {"remaining", sweep.points - sweep.done()}}},
+                      {"counts", sweep_counts(sweep)},
                       {"created", rfc3339(sweep.created)},
                       {"started", optional_time(sweep.started)},
                       {"finished", optional_time(sweep.finished)}};
@@ -132,6 +127,13 @@ ordered_json sweep_status(const SweepRecord& sweep) {
 }  // namespace
 
 std::string sweep_path(std::string_view id) { return "/v1/sweeps/" + std::string(id); }
+
+ordered_json sweep_counts(const SweepRecord& sweep) {
+  return {{to_string(JobState::successful), sweep.successful},
+          {to_string(JobState::failed), sweep.failed},
+          {"reused", sweep.reused},
+          {"remaining", sweep.points - sweep.done()}};
+}
 
 std::string sweep_status_document(const SweepRecord& sweep) { return to_text(sweep_status(sweep)); }
 

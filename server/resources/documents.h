@@ -2,6 +2,7 @@
 /// @file
 /// The JSON documents of the interface other than requests and results: job status, lists, problems.
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,7 +10,7 @@
 
 #include "server/resources/message.h"
 #include "server/store/store.h"
-#include "solver/model/check.h"
+#include "solver/check/check.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server::http {
@@ -36,6 +37,9 @@ struct Problem {
 
 /// The sweep's place: "/v1/sweeps/<id>".
 [[nodiscard]] std::string sweep_path(std::string_view id);
+
+/// What became of its points: so many successful, failed, reused (of the successful ones) and remaining.
+[[nodiscard]] nlohmann::ordered_json sweep_counts(const SweepRecord& sweep);
 
 [[nodiscard]] std::string sweep_status_document(const SweepRecord& sweep);
 

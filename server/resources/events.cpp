@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "api/api.h"
+#include "api/names.h"
 #include "server/resources/documents.h"
 #include "server/resources/following.h"
 
@@ -30,7 +30,7 @@ std::string progress_data(const Progress& progress) {
 /// @param last as the result has it; else as the path's own mesh gave it
 std::string critical_data(const CriticalPoint& point, bool last) {
   ordered_json data{{"branch", point.branch},
-                    {"type", api::critical_type_name(point.type)},
+                    {"type", api::name_of(api::kCriticalTypes, point.type)},
                     {"load_factor", point.load_factor},
                     {"arc_length", point.arc_length},
                     {"negative_before", point.negative_before},

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "api/names.h"
 #include "server/jobs/envelope.h"
 #include "server/resources/routes.h"
 
@@ -75,7 +76,7 @@ constexpr ListParameter kListParameters[] = {
     {"analysis",
      [](const std::string& value, ListQuery& query) {
        query.analysis = value;
-       return value == "buckling" || value == "critical" || value == "path" || value == "static";
+       return api::value_of(api::kAnalysisTypes, value).has_value();
      }},
     {"label",
      [](const std::string& value, ListQuery& query) {
@@ -104,14 +105,13 @@ std::optional<Response> read_list_query(const Request& request, ListQuery& query
   std::set<std::string> seen;
   for (const auto& [name, value] : request.query) {
     if (!read_list_parameter(name, value, seen, query)) {
-      return wrong_parameter(request,
-                             "limit (1 to " + std::to_string(kLargestPage) +
-                                 "), cursor (from a next link), status, analysis (buckling, critical, path, "
-                                 "static), label (1 to " +
-                                 std::to_string(kLongestLabel) +
-                                 " characters), created_after and created_before (RFC 3339, e.g. "
-                                 "2026-01-31T08:30:00Z), each once",
-                             name, value);
+      return wrong_parameter(
+          request,
+          "limit (1 to " + std::to_string(kLargestPage) + "), cursor (from a next link), status, analysis (" +
+              api::names_in(api::kAnalysisTypes) + "), label (1 to " + std::to_string(kLongestLabel) +
+              " characters), created_after and created_before (RFC 3339, e.g. "
+              "2026-01-31T08:30:00Z), each once",
+          name, value);
     }
   }
   return std::nullopt;

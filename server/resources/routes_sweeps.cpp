@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/names.h"
 #include "api/sweep_table.h"
 #include "server/jobs/large_document.h"
 #include "server/resources/body_sources.h"
@@ -17,6 +18,9 @@ Response sweep_missing(const Request& request, const std::string& id) {
                         "There is no sweep with the id " + id + ".");
 }
 
+/// For sentences.
+std::string name_of(JobState state) { return std::string(to_string(state)); }
+
 /// What of a table is asked for.
 struct TableQuery {
   PointQuery points;
@@ -31,8 +35,9 @@ bool read_table_parameter(const std::string& name, const std::string& value, Tab
     return number.has_value();
   }
   if (name == "status") {
-    query.failed = value == "failed";
-    return value == "failed" || value == "successful";
+    const std::optional<JobState> state = job_state_from(value);
+    query.failed = state == JobState::failed;
+    return state == JobState::failed || state == JobState::successful;
   }
   if (name == "links") {
     table.links = value == "true";
@@ -204,8 +209,9 @@ Response Routes::sweep_table(const Request& request, const std::string& id) {
   for (const auto& [name, value] : request.query) {
     if (!read_table_parameter(name, value, query)) {
       return wrong_parameter(request,
-                             "format (json, csv, ndjson), status (successful, failed), links (true, false), "
-                             "first and count",
+                             "format (" + api::names_in(api::kTableForms) + "), status (" +
+                                 name_of(JobState::successful) + ", " + name_of(JobState::failed) +
+                                 "), links (true, false), first and count",
                              name, value);
     }
   }
@@ -282,7 +288,7 @@ Response Routes::dismiss_sweep(const Request& request, const std::string& id) {
     }
     if (!change->changed && change->before && *change->before != JobState::dismissed) {
       return simple_problem(request, 409, "already-finished", "Already finished",
-                            "The sweep is " + std::string(to_string(*change->before)) + " already.");
+                            "The sweep is " + name_of(*change->before) + " already.");
     }
     return status_of_sweep(request, id, 200);
   });
@@ -290,8 +296,8 @@ Response Routes::dismiss_sweep(const Request& request, const std::string& id) {
 
 Response Routes::retry_sweep(const Request& request, const std::string& id) {
   for (const auto& [name, value] : request.query) {
-    if (name != "status" || value != "failed") {
-      return wrong_parameter(request, "status=failed", name, value);
+    if (name != "status" || job_state_from(value) != JobState::failed) {
+      return wrong_parameter(request, "status=" + name_of(JobState::failed), name, value);
     }
   }
   return with_sweep(request, id, [&](const SweepRecord&) {
@@ -301,8 +307,9 @@ Response Routes::retry_sweep(const Request& request, const std::string& id) {
     }
     if (!change->changed && change->before) {
       return simple_problem(request, 409, "nothing-to-retry", "Nothing to retry",
-                            "Points are tried again when a sweep is failed or dismissed; this one is " +
-                                std::string(to_string(*change->before)) + ".");
+                            "Points are tried again when a sweep is " + name_of(JobState::failed) + " or " +
+                                name_of(JobState::dismissed) + "; this one is " + name_of(*change->before) +
+                                ".");
     }
     return status_of_sweep(request, id, 200);
   });

@@ -13,12 +13,9 @@ namespace {
 static_assert(api::kMaxSweepPoints < kEndOfSweep);
 
 std::string progress_data(const SweepRecord& sweep) {
-  return nlohmann::ordered_json{{"points", sweep.points},
-                                {"successful", sweep.successful},
-                                {"failed", sweep.failed},
-                                {"reused", sweep.reused},
-                                {"remaining", sweep.points - sweep.done()}}
-      .dump();
+  nlohmann::ordered_json data{{"points", sweep.points}};
+  data.update(sweep_counts(sweep));
+  return data.dump();
 }
 
 /// One client that follows one sweep.
@@ -33,7 +30,7 @@ class FollowingSweep final : public Following {
       return end_at_once();
     }
     send_status(number_of(**sweep), sweep_status_document(**sweep));
-    follower_.emplace(jobs_.sweeps().news(), id_, [this](const SweepRecord& news) {
+    follower_.emplace(jobs_.sweeps().work().news(), id_, [this](const SweepRecord& news) {
       send_progress(number_of(news), progress_data(news));
     });
     listen_for_end();

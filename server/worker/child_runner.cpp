@@ -22,9 +22,9 @@
 #include <utility>
 
 #include "server/worker/frame.h"
-#include "server/worker/point.h"
 #include "server/worker/record.h"
 #include "server/worker/runner_process.h"
+#include "server/worker/solve_job.h"
 
 namespace snapthrough::server {
 namespace {
@@ -65,7 +65,7 @@ void ChildRunner::pass_on(const Frame& news, const Hooks& hooks) {
 struct ChildRunner::Watch {
   std::stop_token stop;
   std::function<bool(Frame&)> take;        ///< @return whether it was the last frame
-  std::function<bool()> enough = nullptr;  ///< see PointTask
+  std::function<bool()> enough = nullptr;  ///< see UnitTask
 };
 
 ChildRunner::ChildRunner(ChildRunnerOptions options, RunnerCounters& counters)
@@ -274,7 +274,7 @@ JobFailure ChildRunner::failure_of(End end, int crashes) const {
       return {"memory_limit",
               "the analysis needs more than " + std::to_string(options_.memory) + " bytes of memory", ""};
     case End::killed:
-      return {"cancelled", "the analysis was ended, because it did not stop when it was asked to", ""};
+      return {kCancelled, "the analysis was ended, because it did not stop when it was asked to", ""};
     case End::answered:
     case End::crashed:
       break;
@@ -316,7 +316,7 @@ JobRun ChildRunner::run_job(std::string_view request, const Hooks& hooks) {
 }
 
 /// The number that the process knows the sweep by; it is told of it if need be.
-std::uint64_t ChildRunner::send_sweep(const PointTask& task) {
+std::uint64_t ChildRunner::send_sweep(const UnitTask& task) {
   if (const auto known = sweeps_.find(task.id); known != sweeps_.end()) {
     return known->second;
   }
@@ -335,77 +335,61 @@ std::uint64_t ChildRunner::send_sweep(const PointTask& task) {
   return number;
 }
 
-ChildRunner::End ChildRunner::attempt_points(const PointTask& task, std::size_t& told, bool at_once,
-                                             bool curve) {
+ChildRunner::End ChildRunner::attempt_units(const UnitTask& task, std::size_t& told, bool at_once) {
   const std::uint64_t number = send_sweep(task);
+  const std::size_t before = told;
+  const auto rest = task.units.subspan(told);
   std::string body;
   RecordWriter writer(body);
   writer.put(options_.memory);
   writer.put(number);
-  if (curve) {
-    writer.put(task.points.front());
-  } else {
-    writer.put(at_once);
-    const auto rest = task.points.subspan(told);
-    writer.put(std::vector<std::uint64_t>(rest.begin(), rest.end()));
-  }
+  writer.put(at_once);
+  writer.put(std::vector<std::uint64_t>(rest.begin(), rest.end()));
+  std::vector<api::PointOutcome> outcomes;  // of the unit that is told next
   Watch watch{task.stop,
               [&](Frame& frame) {
-                for (RecordReader reader(frame.body); !reader.at_end(); ++told) {
-                  if (told == task.points.size()) {
+                for (RecordReader reader(frame.body); !reader.at_end();) {
+                  if (told == task.units.size()) {
                     throw std::runtime_error("there are more outcomes than points");
                   }
-                  task.tell(reader.get<api::PointOutcome>());
+                  outcomes.push_back(reader.get<api::PointOutcome>());
+                  if (outcomes.size() == task.sweep.unit_size()) {
+                    ++told;
+                    task.tell(std::exchange(outcomes, {}));
+                  }
                 }
-                if (frame.type == FrameType::done && curve && told < task.points.size()) {
-                  throw std::runtime_error("a curve is computed wholly");
+                const bool done = frame.type == FrameType::done;
+                if (done && (!outcomes.empty() || (told == before && !task.stop.stop_requested()))) {
+                  throw std::runtime_error("at least one unit is computed, and each wholly");
                 }
-                return frame.type == FrameType::done;
+                return done;
               },
               task.enough};
-  return run_task(curve ? FrameType::curve : FrameType::points, body, watch);
+  return run_task(FrameType::units, body, watch);
 }
 
-/// A process that runs out of memory tells all outcomes before, so that the next point is the one; one that
-/// crashes may not, and tells each at once after that.
-void ChildRunner::run_points(const PointTask& task) {
+/// A process that runs out of memory tells all outcomes before, so that the next unit is the one; one that
+/// crashes may not, and tells each at once after that. Where one unit is left it is the one.
+void ChildRunner::run_units(const UnitTask& task) {
   int crashes = 0;
-  bool at_once = false;
-  for (std::size_t told = 0; told < task.points.size();) {
+  bool at_once = task.units.size() == 1;
+  for (std::size_t told = 0; told < task.units.size();) {
     const std::size_t before = told;
-    const End end = attempt_points(task, told, at_once, false);
+    const End end = attempt_units(task, told, at_once);
     if (end == End::answered) {
       return;
     }
     crashes = (told == before ? crashes : 0) + (end == End::crashed ? 1 : 0);
     const bool sure = at_once || end != End::crashed;
     at_once = at_once || end == End::crashed;
-    if (told < task.points.size() && sure && (end != End::crashed || crashes >= options_.max_crashes)) {
+    if (told < task.units.size() && sure && (end != End::crashed || crashes >= options_.max_crashes)) {
       const JobFailure failure = failure_of(end, crashes);
-      task.tell({"", failure.code, failure.detail});
       ++told;
+      task.tell(std::vector<api::PointOutcome>(task.sweep.unit_size(), {"", failure.code, failure.detail}));
       crashes = 0;
     }
     if (task.stop.stop_requested()) {
       return;
-    }
-  }
-}
-
-std::vector<api::PointOutcome> ChildRunner::run_curve(const PointTask& task) {
-  for (int crashes = 0;;) {
-    std::vector<api::PointOutcome> outcomes;
-    const auto tell = [&](api::PointOutcome outcome) { outcomes.push_back(std::move(outcome)); };
-    const PointTask whole{task.id, task.document, task.sweep, task.points, task.stop, {}, tell};
-    std::size_t told = 0;
-    const End end = attempt_points(whole, told, false, true);
-    if (end == End::answered) {
-      return outcomes;
-    }
-    crashes += end == End::crashed ? 1 : 0;
-    if (end != End::crashed || crashes >= options_.max_crashes || task.stop.stop_requested()) {
-      const JobFailure failure = failure_of(end, crashes);
-      return std::vector<api::PointOutcome>(task.sweep.block(), {"", failure.code, failure.detail});
     }
   }
 }

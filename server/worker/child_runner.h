@@ -41,8 +41,7 @@ class ChildRunner final : public Runner {
   ~ChildRunner() override;
 
   [[nodiscard]] JobRun run_job(std::string_view request, const Hooks& hooks) override;
-  void run_points(const PointTask& task) override;
-  [[nodiscard]] std::vector<api::PointOutcome> run_curve(const PointTask& task) override;
+  void run_units(const UnitTask& task) override;
 
   /// The process, for tests that harm it; 0: there is none.
   [[nodiscard]] pid_t process() const { return process_; }
@@ -59,13 +58,13 @@ class ChildRunner final : public Runner {
   [[nodiscard]] End run_task(FrameType type, std::string_view body, Watch& watch);
   [[nodiscard]] bool send(FrameType type, std::string_view body);
   [[nodiscard]] bool control(FrameType type);
-  [[nodiscard]] std::uint64_t send_sweep(const PointTask& task);
+  [[nodiscard]] std::uint64_t send_sweep(const UnitTask& task);
   [[nodiscard]] End attend(Watch& watch);
   [[nodiscard]] std::optional<bool> take_frame(Watch& watch);
   static void pass_on(const Frame& news, const Hooks& hooks);
   [[nodiscard]] End end_of_process(bool killed);
-  /// What is left of a list of points, until the process has answered or ended.
-  [[nodiscard]] End attempt_points(const PointTask& task, std::size_t& told, bool at_once, bool curve);
+  /// What is left of a list of units, until the process has answered or ended.
+  [[nodiscard]] End attempt_units(const UnitTask& task, std::size_t& told, bool at_once);
   [[nodiscard]] JobFailure failure_of(End end, int crashes) const;
 
   const ChildRunnerOptions options_;

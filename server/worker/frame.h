@@ -10,18 +10,17 @@ namespace snapthrough::server {
 
 enum class FrameType : std::uint32_t {
   // to the runner
-  job,     ///< memory, request
-  sweep,   ///< forget those before, number, document
-  points,  ///< memory, number of the sweep, whether to tell each outcome at once, points
-  curve,   ///< memory, number of the sweep, first point
+  job,    ///< memory, request
+  sweep,  ///< forget those before, number, document
+  units,  ///< memory, number of the sweep, whether to tell each unit at once, numbers of units
   // on the control pipe; tasks are counted from 1, sweeps are none
-  enough,  ///< number of a task: no further point of it
+  enough,  ///< number of a task: no further unit of it
   stop,    ///< number of a task: it shall end
   // from the runner
   news,      ///< progress, critical points that were found since
   job_run,   ///< JobRun
-  outcomes,  ///< of points, in their order
-  done       ///< of a list of points: no more outcomes
+  outcomes,  ///< of the points of units, in their order
+  done       ///< of a list of units: no more outcomes
 };
 
 struct Frame {

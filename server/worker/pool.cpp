@@ -7,7 +7,7 @@
 
 #include "server/jobs/path_batch.h"
 #include "server/pause.h"
-#include "server/worker/chunk.h"
+#include "server/worker/solve_job.h"
 
 namespace snapthrough::server {
 namespace {
@@ -124,7 +124,7 @@ void give_back(const Claim& claim, const WorkerContext& context) {
 
 /// What an analysis that was asked to stop came to; false when nothing is to be stored.
 bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, const WorkerContext& context) {
-  const bool cancelled = outcome.failure && outcome.failure->code == "cancelled";
+  const bool cancelled = outcome.failure && outcome.failure->code == kCancelled;
   if (!cancelled) {
     return true;  // it came to its end before it saw the request to stop
   }
@@ -171,7 +171,8 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
     return;
   }
   context.metrics.running.observe(context.environment.monotonic_seconds() - begun);
-  context.metrics.job_ended(outcome.failure ? std::string_view(outcome.failure->code) : "successful");
+  context.metrics.job_ended(outcome.failure ? std::string_view(outcome.failure->code)
+                                            : to_string(JobState::successful));
   context.completions.announce(claim.id);
   log_job_end(context.log, claim, outcome);
 }
@@ -223,14 +224,6 @@ bool WorkerPool::claim_and_work(Runner& runner, const std::stop_token& stop) {
   return true;
 }
 
-bool WorkerPool::take_chunk_and_work(Runner& runner, const std::stop_token& stop) {
-  const std::optional<Chunk> chunk = stop.stop_requested() ? std::nullopt : context_.sweeps.take();
-  if (chunk) {
-    work_on(*chunk, context_, runner, stop);
-  }
-  return chunk.has_value();
-}
-
 void WorkerPool::run(const std::stop_token& stop) {
   const std::unique_ptr<Runner> own = make_();
   Runner& runner = *own;
@@ -240,14 +233,15 @@ void WorkerPool::run(const std::stop_token& stop) {
     // asked for jobs that nobody submitted.
     const bool waited = context_.waiting > 0;
     const bool worked = waited && claim_and_work(runner, stop);
-    if (take_chunk_and_work(runner, stop) || worked || (!waited && claim_and_work(runner, stop))) {
+    if ((!stop.stop_requested() && context_.sweeps.do_next(runner, stop)) || worked ||
+        (!waited && claim_and_work(runner, stop))) {
       continue;
     }
     // Jobs that are given directly come before those that wait: nobody is idle while some wait.
     std::optional<Handoff> handoff;
     while ((handoff = context_.handoffs.wait(seen, stop, kLongestNap))) {
       work_on(*handoff, context_, runner, stop);
-      if (context_.waiting > 0 || context_.sweeps.has_work() || stop.stop_requested()) {
+      if (context_.waiting > 0 || context_.sweeps.is_left() || stop.stop_requested()) {
         break;
       }
     }

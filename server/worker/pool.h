@@ -40,7 +40,6 @@ class WorkerPool {
  private:
   void run(const std::stop_token& stop);
   bool claim_and_work(Runner& runner, const std::stop_token& stop);
-  bool take_chunk_and_work(Runner& runner, const std::stop_token& stop);
 
   const WorkerContext& context_;
   RunnerFactory make_;

@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "api/names.h"
 #include "api/sweep.h"
 #include "server/jobs/job.h"
 #include "server/worker/runner.h"
@@ -77,9 +78,9 @@ inline constexpr auto kFields<api::PointOutcome> =
 template <class T>
 inline constexpr T kLast{};
 template <>
-inline constexpr CriticalType kLast<CriticalType> = CriticalType::broken_bifurcation;
+inline constexpr CriticalType kLast<CriticalType> = api::last_of(api::kCriticalTypes);
 template <>
-inline constexpr CriticalCause kLast<CriticalCause> = CriticalCause::contact;
+inline constexpr CriticalCause kLast<CriticalCause> = api::last_of(api::kCriticalCauses);
 
 template <class T>
 inline constexpr bool kIsPlain = std::is_arithmetic_v<T> || std::is_enum_v<T>;

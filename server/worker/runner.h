@@ -26,20 +26,20 @@ struct JobRun {
   std::int64_t peak_bytes = 0;  ///< most memory that it used at a time; 0: not known
 };
 
-/// Points of a sweep that are computed one after the other.
-struct PointTask {
+/// Units of a sweep (server/sweeps/unit.h) that are computed one after the other.
+struct UnitTask {
   const std::string& id;        ///< of the sweep
   const std::string& document;  ///< that `sweep` was read from
   const api::Sweep& sweep;
-  std::span<const std::uint64_t> points;
+  std::span<const std::uint64_t> units;  ///< their numbers
   std::stop_token stop;
-  /// Asked now and then: whether what is left may wait. At least one point is computed.
+  /// Asked now and then: whether what is left may wait. At least one unit is computed.
   std::function<bool()> enough = {};
-  /// Told each outcome, in the order of the points.
-  std::function<void(api::PointOutcome)> tell = {};
+  /// Told the outcomes of each unit, in the order of the units.
+  std::function<void(std::vector<api::PointOutcome>)> tell = {};
 };
 
-/// @brief Computes jobs and points of sweeps, one at a time. Whatever goes wrong is a value: a failure with a
+/// @brief Computes jobs and units of sweeps, one at a time. Whatever goes wrong is a value: a failure with a
 /// code (of the solver's; "memory_limit", "crashed", "internal_error"). Asked to stop, what is computed ends
 /// with the code "cancelled". One thread uses it.
 class Runner {
@@ -53,11 +53,8 @@ class Runner {
 
   /// @param request document of the job, as it was handed in
   [[nodiscard]] virtual JobRun run_job(std::string_view request, const Hooks& hooks) = 0;
-  /// Ends early when it is enough, or after an outcome that was "cancelled".
-  virtual void run_points(const PointTask& task) = 0;
-  /// @brief The outcomes of the sweep's block() points from the first of the task's on, which follow one
-  /// critical point (solver/sweep/critical_curve.h). @pre task.sweep.follows()
-  [[nodiscard]] virtual std::vector<api::PointOutcome> run_curve(const PointTask& task) = 0;
+  /// Ends early when it is enough, or after outcomes that were "cancelled".
+  virtual void run_units(const UnitTask& task) = 0;
 };
 
 /// Called once by each worker, on its own thread.

@@ -16,9 +16,9 @@
 #include <utility>
 
 #include "server/jobs/path_batch.h"
+#include "server/sweeps/unit.h"
 #include "server/worker/confinement.h"
 #include "server/worker/frame.h"
-#include "server/worker/local_runner.h"
 #include "server/worker/record.h"
 
 namespace snapthrough::server {
@@ -192,11 +192,8 @@ class RunnerProcess {
         case FrameType::sweep:
           keep_sweep(reader);
           break;
-        case FrameType::points:
-          run_points(reader);
-          break;
-        case FrameType::curve:
-          run_curve(reader);
+        case FrameType::units:
+          run_units(reader);
           break;
         default:
           std::abort();
@@ -240,21 +237,23 @@ class RunnerProcess {
     }
   }
 
-  /// An outcome that is not told at once is told when the next takes long.
-  void run_points(RecordReader& reader) {
+  /// What is not told at once is told when the next unit takes long.
+  void run_units(RecordReader& reader) {
     constexpr std::chrono::milliseconds kUntold{10};
     const std::stop_token stop = control_.begin();
     memory_.set(reader.get<std::int64_t>());
     const api::Sweep& sweep = sweeps_.at(reader.get<std::uint64_t>());
     const bool at_once = reader.get<bool>();
-    const auto points = reader.get<std::vector<std::uint64_t>>();
+    const auto units = reader.get<std::vector<std::uint64_t>>();
     static const std::string kNotNeeded;
     auto told = std::chrono::steady_clock::now();
-    const auto tell = [&](const api::PointOutcome& outcome) {
-      if (outcome.code == kOutOfMemory) {
-        end_without_memory();
+    const auto tell = [&](const std::vector<api::PointOutcome>& outcomes) {
+      for (const api::PointOutcome& outcome : outcomes) {
+        if (outcome.code == kOutOfMemory) {
+          end_without_memory();
+        }
+        untold().add(outcome);
       }
-      untold().add(outcome);
       const auto now = std::chrono::steady_clock::now();
       if (at_once || now - told >= kUntold) {
         told = now;
@@ -263,22 +262,8 @@ class RunnerProcess {
         }
       }
     };
-    LocalRunner(solve_).run_points(
-        {kNotNeeded, kNotNeeded, sweep, points, stop, [this] { return control_.enough(); }, tell});
-    untold().tell();
-    answer(FrameType::done, "");
-  }
-
-  void run_curve(RecordReader& reader) {
-    const std::stop_token stop = control_.begin();
-    memory_.set(reader.get<std::int64_t>());
-    const api::Sweep& sweep = sweeps_.at(reader.get<std::uint64_t>());
-    for (const api::PointOutcome& outcome : solve_curve(sweep, reader.get<std::uint64_t>(), stop)) {
-      if (outcome.code == kOutOfMemory) {
-        end_without_memory();
-      }
-      untold().add(outcome);
-    }
+    compute_units({kNotNeeded, kNotNeeded, sweep, units, stop, [this] { return control_.enough(); }, tell},
+                  solve_);
     untold().tell();
     answer(FrameType::done, "");
   }

@@ -2,7 +2,7 @@
 /// @file
 /// The inside of a runner's process.
 
-#include "server/worker/point.h"
+#include "server/worker/solve_job.h"
 
 namespace snapthrough::server {
 
@@ -17,7 +17,7 @@ inline constexpr int kControlPipe = 3;
 
 /// @brief Computes what frames on kTaskSocket ask for, one after the other, until the other side is gone.
 /// @param parent process that it ends with
-/// @param solve  what solves jobs and points; curves are followed by solve_curve()
+/// @param solve  what solves jobs and points; curves are followed as SweepUnit::compute() says
 /// @return exit status of the process
 [[nodiscard]] int run_runner(int parent, const SolveFunction& solve);
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "solver/accuracy/differences.h"
-#include "solver/accuracy/transfer.h"
+#include "solver/discrete/transfer.h"
 
 namespace snapthrough {
 namespace {

@@ -6,15 +6,15 @@
 #include <optional>
 #include <vector>
 
-#include "solver/assembly/structure.h"
+#include "solver/discrete/structure.h"
+#include "solver/events/buckling.h"
 #include "solver/model/analysis.h"
-#include "solver/stability/buckling.h"
 
 namespace snapthrough {
 
 /// Buckling loads on the coarsest mesh that is fine enough for all of them.
 struct BucklingLoads {
-  std::shared_ptr<const Structure> structure;  ///< with the contact frozen, as linear_buckling() leaves it
+  std::shared_ptr<const Structure> structure;
   LinearBuckling buckling;
   std::vector<std::optional<double>>
       errors;              ///< relative, one a load; empty: the next mesh has another count

@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "solver/accuracy/differences.h"
-#include "solver/analysis/analyses.h"
-#include "solver/analysis/touching.h"
-#include "solver/cancelled.h"
-#include "solver/post/state.h"
+#include "solver/events/touching.h"
+#include "solver/numeric/cancelled.h"
+#include "solver/numeric/number_text.h"
+#include "solver/report/result_parts.h"
+#include "solver/report/state.h"
 
 namespace snapthrough {
 namespace {

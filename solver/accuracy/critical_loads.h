@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "solver/accuracy/polish.h"
-#include "solver/path/trace.h"
-#include "solver/solve.h"
+#include "solver/hooks.h"
+#include "solver/trace/trace.h"
 
 namespace snapthrough {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "solver/accuracy/transfer.h"
-#include "solver/stability/newton_event.h"
+#include "solver/discrete/transfer.h"
+#include "solver/events/newton_event.h"
 
 namespace snapthrough {
 namespace {
@@ -28,20 +28,6 @@ std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<
   }
   if (best == nullptr) return std::nullopt;
   return FoundPoint{*best, best->point};
-}
-
-/// A place along a chord with the value of a function there and the load's derivative along it.
-struct Sample {
-  double t = 0.0;
-  double value = 0.0;
-  double rate = 0.0;
-};
-
-/// Zero of the inverse quadratic through three samples.
-double inverse_root(const Sample& a, const Sample& b, const Sample& c) {
-  return a.t * (b.value * c.value) / ((a.value - b.value) * (a.value - c.value)) +
-         b.t * (a.value * c.value) / ((b.value - a.value) * (b.value - c.value)) +
-         c.t * (a.value * b.value) / ((c.value - a.value) * (c.value - b.value));
 }
 
 }  // namespace
@@ -78,74 +64,6 @@ std::optional<PathPoint> FineMesh::corrected(const PathPoint& guess, double alon
   return continuation_.between(chord, lo, hi, 0.5 * (1.0 + along));
 }
 
-/// Zero at a critical point of the known one's type: the load's rate, or the determinant over it.
-double FineMesh::test_value(const CriticalEvent& known, const Chord& chord, const PathPoint& at,
-                            double log_abs_det) const {
-  const double rate = continuation_.load_rate(chord, at);
-  if (known.type != CriticalType::bifurcation) return rate;
-  return at.determinant(log_abs_det) / rate;
-}
-
-/// A simple critical point from three samples or a few more: the known point's place, points on both sides,
-/// predicted from there, and inverse quadratic interpolation, which is not corrected any more. So no tangent
-/// is factorised where it is singular.
-std::optional<FoundPoint> FineMesh::interpolated(const CriticalEvent& known, const PathPoint& at,
-                                                 double reach) {
-  constexpr int kMostSamples = 5;
-  if (known.multiplicity != 1 || known.cause == CriticalCause::contact) return std::nullopt;
-  const auto middle = corrected(at, 0.0, reach);
-  if (!middle) return std::nullopt;
-  const Chord chord{at.tangent, at.tangent_lambda, false};
-  PathPoint guess = *middle;
-  guess.tangent = at.tangent;
-  guess.tangent_lambda = at.tangent_lambda;
-  const auto before = corrected(guess, -1.0, reach);
-  if (!before || before->negative != known.negative_before) return std::nullopt;
-  const auto after = corrected(guess, 1.0, reach);
-  if (!after || after->negative != known.negative_after) return std::nullopt;
-  const auto sample = [&](double t, const PathPoint& point) {
-    return Sample{t, test_value(known, chord, point, before->log_abs_det),
-                  continuation_.load_rate(chord, point)};
-  };
-  Sample a = sample(-reach, *before);
-  Sample b = sample(reach, *after);
-  if ((a.value > 0.0) == (b.value > 0.0)) return std::nullopt;
-  double t = 0.0;
-  std::optional<PathPoint> point = middle;
-  for (int n = 1;; ++n) {
-    const Sample c = sample(t, *point);
-    const double root = inverse_root(a, b, c);
-    const double move = root - t;
-    const Sample& other = (c.value > 0.0) == (a.value > 0.0) ? b : a;
-    const double rate_at_root = c.rate + (other.rate - c.rate) * move / (other.t - c.t);
-    const double change = 0.5 * (c.rate + rate_at_root) * move;
-    // the interpolation's error is of the next order in the distances to the samples
-    const double error = std::abs(change) * std::abs(move) / reach;
-    if (!(std::abs(root) < reach)) return std::nullopt;
-    if (error <= 0.1 * tolerance_ * std::abs(point->lambda)) {
-      CriticalEvent event = known;
-      event.null.resize(0, 0);  // those of the coarser mesh
-      event.across.resize(0);
-      event.point = *point;
-      event.point.y += move / metric_rate(chord, *point) * point->tangent;
-      event.point.lambda += change;
-      event.point.tangent = at.tangent;
-      event.point.tangent_lambda = at.tangent_lambda;
-      return FoundPoint{event, *point};
-    }
-    if (n == kMostSamples) return std::nullopt;
-    ((c.value > 0.0) == (a.value > 0.0) ? a : b) = c;
-    t = root;
-    point = corrected(guess, t / reach, reach);
-    if (!point) return std::nullopt;
-  }
-}
-
-/// d (distance along the chord) / ds of the path at a point.
-double FineMesh::metric_rate(const Chord& chord, const PathPoint& at) const {
-  return continuation_.metric().inner(at.tangent, at.tangent_lambda, chord.y, chord.lambda);
-}
-
 std::optional<FoundPoint> FineMesh::near(const CriticalEvent& known, const PathPoint& at, double reach) {
   const auto before = corrected(at, -1.0, reach);
   if (!before) return std::nullopt;
@@ -166,8 +84,8 @@ std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const Pat
   for (int n = 0; n < kMostSteps; ++n) {
     const StepOutcome outcome = continuation_.step(*from, size, to);
     if (outcome == StepOutcome::step_underflow) return std::nullopt;
-    const LocatedEvents located = outcome == StepOutcome::turned
-                                      ? locate_at_turn(continuation_, *from, to, size.taken, {tolerance_})
+    const LocatedEvents located = outcome == StepOutcome::kinked
+                                      ? locate_at_kink(continuation_, *from, to, size.taken, {tolerance_})
                                       : locate_critical_points(continuation_, *from, to, {tolerance_});
     if (!located.same_path) {
       continuation_.reject(size);
@@ -191,7 +109,7 @@ std::optional<CriticalEvent> FineMesh::by_newton(const Structure& from, const Cr
                                                  const PathPoint& at) {
   Eigen::MatrixXd null(structure_.size, known.null.cols());
   for (Eigen::Index i = 0; i < null.cols(); ++i) null.col(i) = transfer(from, known.null.col(i), structure_);
-  const double reach = kReach * kWidening * continuation_.way_to(at);
+  const double reach = kReach * kWidening * continuation_.path_length_to(at);
   return critical_point_near(continuation_, known, at, std::move(null), reach, tolerance_);
 }
 
@@ -202,12 +120,11 @@ std::optional<CriticalEvent> FineMesh::bifurcation(const Structure& from, const 
 std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEvent& known,
                                          const Structure& base, const PathPoint& before) {
   const PathPoint at = transferred(from, known.point);
-  const double path = continuation_.way_to(at);
+  const double path = continuation_.path_length_to(at);
   if (!(path > 0.0)) return std::nullopt;
   if (known.null.size() > 0)
     if (const auto event = by_newton(from, known, at)) return FoundPoint{*event, event->point};
   if (known.type == CriticalType::broken_bifurcation) return std::nullopt;
-  if (auto found = interpolated(known, at, kReach * path)) return found;
   for (const double reach : {kReach * path, kReach * kWidening * path})
     if (auto found = near(known, at, reach)) return found;
   const PathPoint start = transferred(base, before);

@@ -4,16 +4,16 @@
 
 #include <optional>
 
-#include "solver/assembly/structural_problem.h"
-#include "solver/assembly/structure.h"
+#include "solver/discrete/structure.h"
+#include "solver/events/locate.h"
 #include "solver/path/continuation.h"
-#include "solver/stability/locate.h"
+#include "solver/problem/structural_problem.h"
 
 namespace snapthrough {
 
 /// A critical point of a mesh.
 struct FoundPoint {
-  CriticalEvent event;    ///< its point may be interpolated
+  CriticalEvent event;
   PathPoint equilibrium;  ///< the point itself, or one so near that it stands for it, in equilibrium
 };
 
@@ -47,13 +47,8 @@ class FineMesh {
  private:
   [[nodiscard]] PathPoint transferred(const Structure& from, const PathPoint& point) const;
   [[nodiscard]] std::optional<PathPoint> corrected(const PathPoint& guess, double along, double reach);
-  [[nodiscard]] double test_value(const CriticalEvent& known, const Chord& chord, const PathPoint& at,
-                                  double log_abs_det) const;
-  [[nodiscard]] double metric_rate(const Chord& chord, const PathPoint& at) const;
   [[nodiscard]] std::optional<CriticalEvent> by_newton(const Structure& from, const CriticalEvent& known,
                                                        const PathPoint& at);
-  [[nodiscard]] std::optional<FoundPoint> interpolated(const CriticalEvent& known, const PathPoint& at,
-                                                       double reach);
   [[nodiscard]] std::optional<FoundPoint> near(const CriticalEvent& known, const PathPoint& at, double reach);
   [[nodiscard]] std::optional<FoundPoint> follow(const CriticalEvent& known, const PathPoint& before,
                                                  double distance);

@@ -4,15 +4,16 @@
 
 #include <optional>
 #include <stop_token>
-#include <string>
 #include <vector>
 
-#include "solver/assembly/structural_problem.h"
-#include "solver/assembly/structure.h"
+#include "solver/discrete/structure.h"
+#include "solver/hooks.h"
+#include "solver/model/analysis.h"
+#include "solver/model/model.h"
 #include "solver/path/continuation.h"
 #include "solver/path/path_point.h"
-#include "solver/solve.h"
-#include "solver/stability/locate.h"
+#include "solver/problem/structural_problem.h"
+#include "solver/result.h"
 
 namespace snapthrough {
 
@@ -45,24 +46,6 @@ void report_buckling(const Analysis& analysis, FoundLoads found, Result& result)
 /// @throws std::runtime_error when the structure has fewer modes than an imperfection names
 [[nodiscard]] ModeOffsets mode_offsets(const Model& model, const Analysis& analysis,
                                        const std::stop_token& stop = {});
-
-/// @brief The mode of a critical point as results report it, at the analysis' points of each member.
-/// @param problem of `structure`; factorised anew
-[[nodiscard]] Mode mode_at(const Structure& structure, const Model& model, EquilibriumProblem& problem,
-                           const CriticalEvent& event, const Analysis& analysis);
-
-/// A number in a message: the fewest digits that read back to the same value, as in the result document.
-[[nodiscard]] std::string number(double value);
-/// A size in a message that no field of the document repeats: three significant digits.
-[[nodiscard]] std::string rounded(double value);
-/// Copies the counts of a continuation into a result, adding to what is there.
-void add_statistics(const ContinuationStatistics& statistics, Result& result);
-/// Reports the mesh that the reported loads are from, and how often it was refined.
-void report_mesh(const Structure& structure, int refinements, Result& result);
-/// A critical load that finer meshes do not confirm is none.
-void withdraw_critical_load(Result& result);
-/// Makes a result that of a failed analysis.
-void fail(Result& result, const char* code, const std::string& detail);
 
 /// @brief The start of the path: the unloaded state, or the equilibrium under the constant actions.
 ///

@@ -4,8 +4,9 @@
 #include <utility>
 
 #include "solver/analysis/analyses.h"
-#include "solver/post/extremes.h"
-#include "solver/post/state.h"
+#include "solver/numeric/number_text.h"
+#include "solver/report/extremes.h"
+#include "solver/report/state.h"
 
 namespace snapthrough {
 namespace {

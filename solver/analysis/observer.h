@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 
-#include "solver/assembly/structure.h"
+#include "solver/discrete/structure.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
-#include "solver/post/strain.h"
+#include "solver/report/strain.h"
 #include "solver/result.h"
 
 namespace snapthrough {

@@ -5,9 +5,9 @@
 #include <stop_token>
 #include <vector>
 
+#include "solver/events/locate.h"
 #include "solver/path/continuation.h"
 #include "solver/path/path_point.h"
-#include "solver/stability/locate.h"
 
 namespace snapthrough {
 

@@ -6,8 +6,11 @@
 #include <utility>
 
 #include "solver/analysis/analyses.h"
-#include "solver/assembly/structure.h"
-#include "solver/post/state.h"
+#include "solver/discrete/structure.h"
+#include "solver/hooks.h"
+#include "solver/numeric/number_text.h"
+#include "solver/report/result_parts.h"
+#include "solver/report/state.h"
 
 namespace snapthrough {
 
@@ -31,7 +34,8 @@ void Recorder::start_branch(std::optional<int> parent) {
   branch.id = branch_;
   branch.parent = parent;
   for (const MonitorRow& monitor : structure_.monitors) branch.monitors.push_back({monitor.id, {}});
-  for (const Foundation& base : model_.foundations) branch.contact_fraction.push_back({base.id, {}});
+  for (const Foundation& foundation : model_.foundations)
+    branch.contact_fraction.push_back({foundation.id, {}});
   result_.branches.push_back(std::move(branch));
 }
 

@@ -7,10 +7,10 @@
 
 #include "solver/analysis/observer.h"
 #include "solver/analysis/path_points.h"
-#include "solver/path/trace.h"
-#include "solver/post/contact.h"
-#include "solver/post/neutral_motion.h"
-#include "solver/solve.h"
+#include "solver/hooks.h"
+#include "solver/report/contact.h"
+#include "solver/report/neutral_motion.h"
+#include "solver/trace/trace.h"
 
 namespace snapthrough {
 

@@ -11,36 +11,40 @@
 
 #include "solver/accuracy/buckling_loads.h"
 #include "solver/analysis/analyses.h"
-#include "solver/analysis/touching.h"
-#include "solver/assembly/joined_supports.h"
-#include "solver/assembly/mechanism.h"
-#include "solver/post/mode.h"
-#include "solver/post/neutral_motion.h"
-#include "solver/stability/buckling.h"
+#include "solver/discrete/mechanism.h"
+#include "solver/events/buckling.h"
+#include "solver/events/touching.h"
+#include "solver/model/id_index.h"
+#include "solver/numeric/number_text.h"
+#include "solver/report/mode.h"
+#include "solver/report/neutral_motion.h"
+#include "solver/report/result_parts.h"
+#include "solver/support/joined_supports.h"
 
 namespace snapthrough {
 namespace {
 
 using Eigen::VectorXd;
 
-/// Which one-sided bases count as glued, in words.
-std::string contact_text(const Structure& structure, const Model& model) {
+/// Which one-sided foundations count as glued, in words.
+std::string contact_text(const Structure& structure, const Model& model, const FrozenContact& contact) {
   const std::optional<Model> joined = with_joined_supports(model);
   const Model& laws = joined ? *joined : model;
   struct Share {
     double glued = 0.0;
     double all = 0.0;
   };
-  std::map<std::string, Share> shares;  // of bases that were cut into parts, too
+  std::map<std::string, Share> shares;  // of foundations that were cut into parts, too
   for (std::size_t i = 0; i < laws.foundations.size(); ++i) {
-    const Foundation& base = laws.foundations[i];
-    if (base.reaction == Reaction::bilateral || base.stiffness == 0.0) continue;
-    const int member = index_of(laws.members, base.member);
-    Share& share = shares[base.id];
-    share.all += (base.range[1] - base.range[0]) * structure.axes[member]->length() / structure.scales.length;
+    const Foundation& foundation = laws.foundations[i];
+    if (foundation.reaction == Reaction::bilateral || foundation.stiffness == 0.0) continue;
+    const int member = index_of(laws.members, foundation.member);
+    Share& share = shares[foundation.id];
+    share.all += (foundation.range[1] - foundation.range[0]) * structure.axes[member]->length() /
+                 structure.scales.length;
     for (int e = structure.mesh.first[member]; e < structure.mesh.first[member + 1]; ++e)
       share.glued +=
-          length_of_element(structure, e) * structure.elements->frozen_share(e, static_cast<int>(i));
+          length_of_element(structure, e) * structure.elements->frozen_share(contact, e, static_cast<int>(i));
   }
   std::string text = joined ? "; one-sided supports that oppose one another act as bilateral ones" : "";
   for (const auto& [id, share] : shares)
@@ -122,7 +126,7 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   }
   report_buckling(analysis, std::move(found), result);
   warn_of_touching(structure, buckling.piece, result);
-  result.summary.message += contact_text(structure, model);
+  result.summary.message += contact_text(structure, model, buckling.contact);
   report_errors(analysis, loads, result);
 }
 

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "solver/analysis/analyses.h"
-#include "solver/post/mode.h"
-#include "solver/stability/exact_column.h"
+#include "solver/column/exact_column.h"
+#include "solver/hooks.h"
+#include "solver/report/mode.h"
 
 namespace snapthrough {
 namespace {

@@ -10,11 +10,14 @@
 #include "solver/accuracy/critical_loads.h"
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/recorder.h"
-#include "solver/analysis/skipped.h"
-#include "solver/analysis/touching.h"
-#include "solver/cancelled.h"
-#include "solver/path/trace.h"
-#include "solver/stability/branch.h"
+#include "solver/events/branch.h"
+#include "solver/events/touching.h"
+#include "solver/hooks.h"
+#include "solver/numeric/cancelled.h"
+#include "solver/numeric/number_text.h"
+#include "solver/report/result_parts.h"
+#include "solver/report/skipped.h"
+#include "solver/trace/trace.h"
 
 namespace snapthrough {
 namespace {

@@ -9,13 +9,16 @@
 
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/observer.h"
-#include "solver/analysis/touching.h"
-#include "solver/cancelled.h"
+#include "solver/events/locate.h"
+#include "solver/events/touching.h"
+#include "solver/hooks.h"
 #include "solver/newton/contact_state.h"
-#include "solver/path/trace.h"
-#include "solver/post/neutral_motion.h"
-#include "solver/post/state.h"
-#include "solver/stability/locate.h"
+#include "solver/numeric/cancelled.h"
+#include "solver/numeric/number_text.h"
+#include "solver/report/neutral_motion.h"
+#include "solver/report/result_parts.h"
+#include "solver/report/state.h"
+#include "solver/trace/trace.h"
 
 namespace snapthrough {
 namespace {
@@ -83,7 +86,8 @@ void StaticRows::set(std::size_t index, const VectorXd& y, int negative) {
 void StaticRows::move_to(Result& result) {
   StaticTable& table = result.static_table.emplace();
   for (const MonitorRow& monitor : structure_.monitors) table.monitors.push_back({monitor.id, {}});
-  for (const Foundation& base : model_.foundations) table.contact_fraction.push_back({base.id, {}});
+  for (const Foundation& foundation : model_.foundations)
+    table.contact_fraction.push_back({foundation.id, {}});
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!rows_[i]) {
       result.not_reached.push_back(analysis_.load_factors[i]);

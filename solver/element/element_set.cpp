@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "solver/element/element_set_impl.h"
+#include "solver/element/element_data.h"
 
 namespace snapthrough {
 

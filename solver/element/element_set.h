@@ -12,14 +12,14 @@
 ///   m          (force x, force y, moment) carried through the end b: the multiplier of u_b = u_a + h sum_q
 ///   b_q v_q
 ///
-/// They make stationary   sum_q h b_q [ s.(eps(v) - eps_0) - s.C s / 2 ] + bases + m.(u_b - u_a - h sum b_q
-/// v_q) - work, with  e = x'.d1 - t.d1_0,  g = x'.d2 - t.d2_0,  k = b'   and C the section's compliance.
+/// They make stationary   sum_q h b_q [ s.(eps(v) - eps_0) - s.C s / 2 ] + foundations + m.(u_b - u_a - h sum
+/// b_q v_q) - work, with  e = x'.d1 - t.d1_0,  g = x'.d2 - t.d2_0,  k = b'   and C the section's compliance.
 /// Because only compliances appear, an inextensible or unshearable section is just C = 0: no large numbers,
 /// no loss of digits in the thin limit. Newton's method on these equations is the mixed-integration-point
 /// iteration of Magisano, Leonetti and Garcea (2017).
 ///
 /// Element interiors (v, s) are eliminated element by element in terms of the strains, see
-/// element_set_impl.h.
+/// element_work.h.
 
 #include <Eigen/Core>
 #include <array>
@@ -28,8 +28,10 @@
 #include <utility>
 #include <vector>
 
-#include "solver/element/contact_strip.h"
-#include "solver/element/gauss_rule.h"
+#include "solver/element/foundation_contact.h"
+#include "solver/numeric/gauss_rule.h"
+#include "solver/support/law.h"
+#include "solver/support/regime.h"
 
 namespace snapthrough {
 
@@ -61,29 +63,27 @@ inline constexpr double kTouchBand = 1e-7;
 
 /// A linear functional of one element's displacements, w = a.u_a + sum_q v_q.(u'_q, b'_q), with a spring on
 /// it.
-struct Station {
+struct SupportSpring {
   int element = 0;
-  double stiffness = 0.0;
-  double gap = 0.0;
-  bool one_sided = false;  ///< reacts with stiffness * max(w - gap, 0) instead of stiffness * w
+  Law law;
   Touch touch = Touch::none;
-  int spring = -1;  ///< its number among the springs; none: part of a base
+  int spring = -1;  ///< its number among the springs; none: part of a foundation
   std::array<double, 3> a{};
   std::vector<std::array<double, 3>> v;
 };
 
-/// A station that touches without pressure.
-struct TouchingStation {
-  int spring = -1;  ///< as in Station
+/// A support that touches without pressure.
+struct TouchingSpring {
+  int spring = -1;  ///< as in SupportSpring
   bool acts = false;
 };
 
-/// Where a strip that touches without pressure acts.
-struct TouchingStrip {
+/// Where a contact that touches without pressure acts.
+struct TouchingContact {
   int element = 0;
-  int base = 0;
+  int foundation = 0;
   std::array<double, 2> range{};  ///< of the element
-  std::vector<ContactStrip::Interval> acting;
+  std::vector<ElementPart> acting;
 };
 
 /// What remains of an element once its interior is eliminated; with rows for (u_a, m):
@@ -95,10 +95,47 @@ struct CondensedElement {
   double log_det = 0.0;  ///< log |det| of the interior
 };
 
-/// @brief All elements of one mesh, of one order.
+/// @brief What is computed of elements: forces, and their tangent eliminated down to the elements' ends.
 ///
-/// Not thread safe: it keeps the factors of the last linearise(). All vectors are in the problem's scaled
-/// units and have the layout that the ElementDofs name.
+/// Not thread safe: it keeps the factors of the last linearise(), and scratch. All vectors are in the
+/// problem's scaled units and have the layout that the ElementDofs name.
+class ElementWork {
+ public:
+  ElementWork() = default;
+  ElementWork(const ElementWork&) = delete;
+  ElementWork& operator=(const ElementWork&) = delete;
+  ElementWork(ElementWork&&) = delete;
+  ElementWork& operator=(ElementWork&&) = delete;
+  virtual ~ElementWork() = default;
+
+  /// @brief Adds the internal forces and compatibility residuals at y to `residual`.
+  /// @param factors on follower pressures
+  virtual void add_residual(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                            Eigen::VectorXd& residual) = 0;
+  /// @brief As add_residual, and eliminates all interiors: `condensed` (one an element) gets K, X, F,
+  /// negative, log_det.
+  virtual void linearise(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                         Eigen::VectorXd& residual, std::span<CondensedElement> condensed) = 0;
+  /// @brief Interior part of a right-hand side: fills ra and rm of `condensed`.
+  virtual void reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) = 0;
+  /// @brief Replaces the interior rows of `x` (a right-hand side on entry) by the solution, from the solution
+  /// at the ends and the multipliers that `x` already holds.
+  virtual void recover(Eigen::VectorXd& x) = 0;
+  /// Adds the second derivative of the energy times `directions`, column by column, to `out`.
+  virtual void add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors,
+                                    const Regime& regime, const Eigen::Ref<const Eigen::MatrixXd>& directions,
+                                    Eigen::MatrixXd& out) = 0;
+  /// @brief Adds the follower forces at y to `out` (a load: minus a residual).
+  virtual void add_pressure_load(const Eigen::VectorXd& y, const LoadFactors& factors,
+                                 bool small_displacements, Eigen::VectorXd& out) = 0;
+  /// @brief Rounding of the forces of foundations and springs at the last residual or linearisation, the
+  /// largest of an element: stiffness times the rounding of the displacements that their penetrations are
+  /// differences of.
+  [[nodiscard]] virtual double support_rounding() const = 0;
+};
+
+/// @brief All elements of one mesh, of one order, with the supports on them: data alone, which nothing
+/// changes once a structure is made.
 class ElementSet {
  public:
   ElementSet() = default;
@@ -113,62 +150,35 @@ class ElementSet {
   virtual void reserve(int elements) = 0;
   /// @brief Adds an element; elements are numbered in the order of adding.
   virtual void add(const ElementShape& shape, const ElementDofs& dofs) = 0;
-  virtual void add_station(const Station& station) = 0;
-  virtual void add_strip(int element, ContactStrip strip, Touch touch) = 0;
-  /// Uses small displacements: strains linearised about the stress-free axis.
-  virtual void set_linear_geometry(bool linear) = 0;
-  /// Treats one-sided supports as glued and without gap, as long as it is set.
-  virtual void set_bonded(bool bonded) = 0;
-  /// One-sided supports also react in both directions, without gap, with this share of their stiffness.
-  virtual void set_grip(double share) = 0;
-  /// One-sided supports have this share of their stiffness only, in (0, 1].
-  virtual void set_softness(double share) = 0;
-  /// @brief From now on one-sided supports are glued where they touch at y (penetration above `-tolerance`)
-  /// and absent elsewhere, whatever the displacements.
-  virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance) = 0;
-  /// @brief Finds the one-sided supports that touch without pressure at y: those no further from touching
-  /// than `tolerance`, strips on all of their range. freeze_contact() does so, too.
-  virtual void mark_touching(const Eigen::VectorXd& y, double tolerance) = 0;
-  [[nodiscard]] virtual bool strips_touch() const = 0;
-  /// In the order of the two functions below.
-  [[nodiscard]] virtual std::vector<TouchingStation> touching_stations() const = 0;
-  /// Appends the movement of each touching station into its medium.
-  virtual void touching_movements(const Eigen::VectorXd& mode, std::vector<double>& out) const = 0;
-  /// @brief Where the contact is frozen: of the supports that touch these stations act, and strips where
-  /// `mode` moves into their medium; with an empty mode they act on all of their range.
-  virtual void set_touching(const Eigen::VectorXd& mode, std::span<const char> stations) = 0;
-  /// As set_touching() left them.
-  [[nodiscard]] virtual std::vector<TouchingStrip> touching_strips() const = 0;
-  /// Share of an element on which a foundation's frozen contact acts.
-  [[nodiscard]] virtual double frozen_share(int element, int foundation) const = 0;
+  virtual void add_spring(const SupportSpring& support) = 0;
+  virtual void add_contact(int element, FoundationContact contact, Touch touch) = 0;
   /// @brief Follower pressure of an element: force per deformed length, along its deformed right normal (so a
   /// medium on the left pushes), proportional to the load factor and constant.
   virtual void set_pressure(int element, double proportional, double constant) = 0;
-  /// Factors on the pressures, used by everything below until they are set again.
-  virtual void set_load_factors(double proportional, double constant) = 0;
-  /// @brief Adds the follower forces at y, by unit factors given, to `out` (a load: minus a residual).
-  virtual void add_pressure_load(const Eigen::VectorXd& y, double proportional, double constant,
-                                 Eigen::VectorXd& out) const = 0;
+  /// @brief Room to compute in; refers to this set, which must outlive it.
+  [[nodiscard]] virtual std::unique_ptr<ElementWork> make_work() const = 0;
 
-  /// @brief Adds the internal forces and compatibility residuals at y to `residual`.
-  virtual void add_residual(const Eigen::VectorXd& y, Eigen::VectorXd& residual) = 0;
-  /// @brief As add_residual, and eliminates all interiors: `condensed` (size()) gets K, X, F, negative,
-  /// log_det.
-  virtual void linearise(const Eigen::VectorXd& y, Eigen::VectorXd& residual,
-                         std::span<CondensedElement> condensed) = 0;
-  /// @brief Interior part of a right-hand side: fills ra and rm of `condensed`.
-  virtual void reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) = 0;
-  /// @brief Replaces the interior rows of `x` (a right-hand side on entry) by the solution, from the solution
-  /// at the ends and the multipliers that `x` already holds.
-  virtual void recover(Eigen::VectorXd& x) = 0;
-  /// @brief Rounding of the forces of bases and springs at the last residual or linearisation, the largest of
-  /// an element: stiffness times the rounding of the displacements that their penetrations are differences
-  /// of.
-  [[nodiscard]] virtual double support_rounding() const = 0;
-  /// Adds the second derivative of the energy times `directions`, column by column, to `out`.
-  virtual void add_tangent_products(const Eigen::VectorXd& y,
-                                    const Eigen::Ref<const Eigen::MatrixXd>& directions,
-                                    Eigen::MatrixXd& out) = 0;
+  /// @brief Where one-sided supports touch at y (penetration above `-tolerance`): sets contacts and springs.
+  virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const = 0;
+  /// @brief The one-sided supports that touch without pressure at y: those no further from touching than
+  /// `tolerance`, contacts on all of their range. Sets contacts and springs.
+  virtual void mark_touching(const Eigen::VectorXd& y, double tolerance, TouchingMarks& out) const = 0;
+  /// In the order of the two functions below. @param frozen null: none acts
+  [[nodiscard]] virtual std::vector<TouchingSpring> touching_springs(const TouchingMarks& marks,
+                                                                     const FrozenContact* frozen) const = 0;
+  /// Appends the displacement of each touching support into its medium.
+  virtual void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
+                                      std::vector<double>& out) const = 0;
+  /// @brief Of the supports that touch these springs act, and contacts where `mode` moves into their medium;
+  /// with an empty mode they act on all of their range.
+  virtual void set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode,
+                            std::span<const char> springs, FrozenContact& out) const = 0;
+  /// As set_touching() left them. @param frozen null: none acts
+  [[nodiscard]] virtual std::vector<TouchingContact> touching_contacts(const TouchingMarks& marks,
+                                                                       const FrozenContact* frozen) const = 0;
+  /// Share of an element on which a foundation acts.
+  [[nodiscard]] virtual double frozen_share(const FrozenContact& frozen, int element,
+                                            int foundation) const = 0;
 };
 
 /// @brief An empty set for elements of an order in 1..kMaxOrder.

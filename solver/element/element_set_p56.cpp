@@ -1,4 +1,4 @@
-#include "solver/element/element_set_impl.h"
+#include "solver/element/element_work.h"
 
 namespace snapthrough {
 template class ElementSetOf<5>;

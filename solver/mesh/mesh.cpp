@@ -12,8 +12,6 @@
 namespace snapthrough {
 namespace {
 
-constexpr double kTouching = 1e-9;  ///< fractions closer than this are one place
-
 /// Fractions where elements must end, 0 and 1 included, ascending.
 std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& axis) {
   const std::string& id = model.members[member].id;
@@ -34,7 +32,7 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
   std::sort(at.begin(), at.end());
   std::vector<double> unique;
   for (const double fraction : at)
-    if (unique.empty() || fraction - unique.back() > kTouching) unique.push_back(fraction);
+    if (unique.empty() || fraction - unique.back() > kOnePlace) unique.push_back(fraction);
   unique.back() = 1.0;
   return unique;
 }
@@ -84,29 +82,29 @@ constexpr ChosenMesh kFirst{5, 60.0, 3.0, 3.0, true};
 constexpr ChosenMesh kPath{5, 60.0, 3.0, 5.0, true};
 constexpr ChosenMesh kFinal{4, 25.0, 1.0, 8.0, false};
 
+/// Elements of a mesh that is chosen: a piece gets no more, whatever it asks for, and no finer mesh has more.
+constexpr double kMostElements = 4000;
+
 /// Elements for a piece of a member, by the rule of make_mesh.
 int default_count(const ChosenMesh& rule, const Model& model, int member, const AxisCurve& axis, double from,
                   double to) {
   const Member& m = model.members[member];
   const double length = (to - from) * axis.length();
   double n = rule.least * (to - from);
-  constexpr int kSamples = 16;
-  double turn = 0.0;
-  for (int i = 0; i < kSamples; ++i)
-    turn += std::abs(axis.at(axis.length() * (from + (to - from) * (i + 0.5) / kSamples)).curvature) *
-            length / kSamples;
+  const double turn = axis.turning(from * axis.length(), to * axis.length());
   n = std::max(n, turn / (rule.turn * std::numbers::pi / 180.0));
   const double EI = model.sections[index_of(model.sections, m.section)].EI;
-  for (const Foundation& base : model.foundations) {
-    if (base.member != m.id || base.stiffness <= 0.0 || base.range[1] <= from || base.range[0] >= to)
+  for (const Foundation& foundation : model.foundations) {
+    if (foundation.member != m.id || foundation.stiffness <= 0.0 || foundation.range[1] <= from ||
+        foundation.range[0] >= to)
       continue;
-    n = std::max(n, length / (rule.decay_lengths * std::pow(4.0 * EI / base.stiffness, 0.25)));
+    n = std::max(n, length / (rule.decay_lengths * std::pow(4.0 * EI / foundation.stiffness, 0.25)));
   }
   for (const Imperfection& imperfection : model.imperfections) {
     const auto* sine = std::get_if<SineImperfection>(&imperfection);
     if (sine != nullptr && sine->member == m.id) n = std::max(n, 2.0 * sine->half_waves * (to - from));
   }
-  const int count = std::max(1, static_cast<int>(std::ceil(n - 1e-9)));
+  const int count = std::max(1, static_cast<int>(std::ceil(std::min(n, kMostElements) - 1e-9)));
   return rule.odd && count % 2 == 0 ? count + 1 : count;
 }
 
@@ -123,21 +121,12 @@ void add_elements(Mesh& mesh, int member, const std::vector<double>& breaks, con
 
 }  // namespace
 
-Axes make_axes(const Model& model) {
-  const Node& origin = model.nodes.front();
-  const IdIndex nodes(model.nodes);
-  Axes axes;
-  for (const Member& member : model.members) {
-    const Node& a = model.nodes[nodes.of(member.start)];
-    const Node& b = model.nodes[nodes.of(member.end)];
-    Curve curve = member.curve;
-    if (auto* points = std::get_if<PointsCurve>(&curve))
-      for (auto& point : points->points) point = {point[0] - origin.x, point[1] - origin.y};
-    const std::array<double, 2> start{a.x - origin.x, a.y - origin.y};
-    const std::array<double, 2> end{b.x - origin.x, b.y - origin.y};
-    axes.push_back(std::make_shared<const AxisCurve>(curve, start, end));
-  }
-  return axes;
+std::array<double, 2> part_of(const MeshElement& element, std::array<double, 2> range) {
+  const double width = element.to - element.from;
+  const double one = kOnePlace / width;
+  const double lo = std::clamp((range[0] - element.from) / width, 0.0, 1.0);
+  const double hi = std::clamp((range[1] - element.from) / width, 0.0, 1.0);
+  return {lo < one ? 0.0 : lo, hi > 1.0 - one ? 1.0 : hi};
 }
 
 Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes, MeshUse use) {
@@ -165,10 +154,9 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
 }
 
 std::optional<Mesh> finer_mesh(const Mesh& mesh) {
-  constexpr std::size_t kMostElements = 4000;
-  constexpr std::size_t kMostPerMember = 16;  // of many members
-  const std::size_t members = mesh.first.size() - 1;
-  if (2 * mesh.elements.size() > std::max(kMostElements, kMostPerMember * members)) return std::nullopt;
+  constexpr double kMostPerMember = 16.0;  // of many members
+  const double most = std::max(kMostElements, kMostPerMember * static_cast<double>(mesh.first.size() - 1));
+  if (2.0 * static_cast<double>(mesh.elements.size()) > most) return std::nullopt;
   Mesh out = mesh;
   out.foundation = FoundationRule::consistent;
   out.elements.clear();

@@ -2,13 +2,12 @@
 /// @file
 /// Members cut into elements.
 
-#include <memory>
+#include <array>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "solver/geometry/axes.h"
 #include "solver/model/analysis.h"
-#include "solver/model/axis_curve.h"
 #include "solver/model/model.h"
 
 namespace snapthrough {
@@ -28,9 +27,9 @@ struct Mesh {
   std::vector<int> first;  ///< first element of each member; one entry more than there are members
 };
 
-/// Axes of all members, in the model's units, relative to the first node.
-using Axes = std::vector<std::shared_ptr<const AxisCurve>>;
-[[nodiscard]] Axes make_axes(const Model& model);
+/// @brief Part of an element, in its own [0, 1], that a range of its member's fractions covers; from 0 or to
+/// 1 where it ends at one place with the element. The range is empty where there is none.
+[[nodiscard]] std::array<double, 2> part_of(const MeshElement& element, std::array<double, 2> range);
 
 /// What a mesh that the solver chooses is for.
 enum class MeshUse {
@@ -44,8 +43,8 @@ enum class MeshUse {
 /// Elements end where something begins, ends or acts on a member (loads, springs, ranges, spline knots). A
 /// fixed number of elements is shared out between those places by length, at least one each; where there are
 /// fewer elements than pieces, they are equal and what lies inside an element acts inside it. Without a fixed
-/// mesh the number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of the bases and
-/// the half waves of imperfections.
+/// mesh the number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of the foundations
+/// and the half waves of imperfections.
 /// @param use of the mesh where it isn't fixed
 [[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
                              MeshUse use = MeshUse::final);
@@ -54,13 +53,5 @@ enum class MeshUse {
 /// the same elements is no witness where an element is too long for what it carries: both err together.)
 /// @return empty when it would have too many elements
 [[nodiscard]] std::optional<Mesh> finer_mesh(const Mesh& mesh);
-
-/// @brief Index of the thing with this id; -1 when there is none.
-template <typename T>
-[[nodiscard]] int index_of(const std::vector<T>& things, const std::string& id) {
-  for (std::size_t i = 0; i < things.size(); ++i)
-    if (things[i].id == id) return static_cast<int>(i);
-  return -1;
-}
 
 }  // namespace snapthrough

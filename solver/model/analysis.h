@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "solver/numeric/max_order.h"
+
 namespace snapthrough {
 
 enum class AnalysisType { buckling, critical, path, static_ };
@@ -80,8 +82,5 @@ struct Analysis {
   BranchOptions branches;
   OutputOptions output;
 };
-
-/// Highest polynomial order of the beam element.
-inline constexpr int kMaxOrder = 8;
 
 }  // namespace snapthrough

@@ -3,6 +3,7 @@
 /// Positions of things by their ids.
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -28,5 +29,13 @@ class IdIndex {
  private:
   std::unordered_map<std::string_view, int> positions_;
 };
+
+/// @brief Index of the thing with this id; -1 when there is none.
+template <typename T>
+[[nodiscard]] int index_of(const std::vector<T>& things, const std::string& id) {
+  for (std::size_t i = 0; i < things.size(); ++i)
+    if (things[i].id == id) return static_cast<int>(i);
+  return -1;
+}
 
 }  // namespace snapthrough

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
 /// The structure as its user describes it. Plain data, in the user's own consistent units, one field for each
-/// field of the request document. Nothing here is checked: see solver/model/check.h.
+/// field of the request document. Nothing here is checked: see solver/check/check.h.
 ///
 /// Axes: x to the right, y up, rotation counter-clockwise. A member runs from `start` to `end`; its tangent
 /// is t and its left normal n is t turned by +90 degrees. Fractions are of the member's undeformed length.
@@ -25,6 +25,9 @@ enum class Side { left, right };
 enum class LoadMeasure { length, horizontal, vertical };
 /// A displacement component; `normal` is along the initial left normal and needs a location on a member.
 enum class Component { x, y, rotation, normal };
+
+/// Fractions of a member's length that are no further apart are one place.
+inline constexpr double kOnePlace = 1e-9;
 
 /// A place on the structure: a node, or a point of a member. Exactly one of `node`, `member` is not empty.
 struct Location {
@@ -103,7 +106,7 @@ struct Spring {
   double gap = 0.0;  ///< free travel before a one-sided spring reacts, >= 0
 };
 
-/// Continuous base r = K w - G w'' per undeformed length, w the displacement along the initial normal
+/// Continuous foundation r = K w - G w'' per undeformed length, w the displacement along the initial normal
 /// (towards `side`) or along the fixed `direction` (pointing into the medium).
 struct Foundation {
   std::string id;

@@ -17,9 +17,6 @@ constexpr double kFastestRelease = 0.1;
 constexpr double kSlowestRelease = 0.97;
 /// Share below which it is tried to do without.
 constexpr double kTryFree = 1e-3;
-/// A displacement gradient that only a mechanism reaches.
-constexpr double kSingular = 1e13;
-
 /// What the attempts share.
 struct Attempt {
   EquilibriumProblem& problem;
@@ -31,28 +28,31 @@ struct Attempt {
 };
 
 /// First correction from the unloaded state; false when the structure is singular.
-bool first_guess(Attempt& attempt, bool bonded, ContactState& state) {
+bool first_guess(Attempt& attempt, bool bilateral, double softness, ContactState& state) {
   state.y = VectorXd::Zero(attempt.problem.size());
-  attempt.problem.set_bonded(bonded);
-  state.tangent = attempt.problem.linearise(state.y, attempt.lambda, attempt.work.residual);
-  attempt.problem.set_bonded(false);
+  Regime regime;
+  if (bilateral) regime.contact = Regime::Contact::bilateral;
+  regime.softness = softness;
+  state.tangent = attempt.problem.linearise(state.y, attempt.lambda, attempt.work.residual, regime);
   ++attempt.factorisations;
   state.y = -attempt.work.residual;
   attempt.problem.solve(state.y);
-  return state.y.allFinite() && attempt.metric.norm(state.y, 0.0) < kSingular;
+  return state.y.allFinite() && attempt.metric.norm(state.y, 0.0) < kSingularResponse;
 }
 
 /// Newton's method at fixed load from state.y.
-bool settle(Attempt& attempt, ContactState& state) {
+bool settle(Attempt& attempt, const Regime& regime, ContactState& state) {
   const SideCondition load_control;
+  CorrectorOptions options = attempt.options;
+  options.regime = regime;
   double lambda = attempt.lambda;
   constexpr double kSmaller = 0.1;
   constexpr double kLeastScale = 1e-14;
   // from a guess that is far too large again: corrections that were small beside it need not be so beside
   // this
   for (double scale = std::max(attempt.metric.norm(state.y, 0.0), kLeastScale);;) {
-    const auto outcome = correct(attempt.problem, attempt.metric, load_control, scale, attempt.options,
-                                 state.y, lambda, attempt.work);
+    const auto outcome =
+        correct(attempt.problem, attempt.metric, load_control, scale, options, state.y, lambda, attempt.work);
     attempt.factorisations += outcome.factorisations;
     state.tangent = outcome.tangent;
     state.relative_residual = outcome.relative_residual;
@@ -66,9 +66,9 @@ bool settle(Attempt& attempt, ContactState& state) {
 /// Newton's method with a grip; `state` changes only when it settles.
 bool settle_with(Attempt& attempt, double grip, ContactState& state) {
   ContactState trial = state;
-  attempt.problem.set_grip(grip);
-  const bool settled = settle(attempt, trial);
-  attempt.problem.set_grip(0.0);
+  Regime regime;
+  regime.grip = grip;
+  const bool settled = settle(attempt, regime, trial);
   if (settled) state = std::move(trial);
   return settled;
 }
@@ -81,10 +81,11 @@ bool harden(Attempt& attempt, ContactState& state) {
   constexpr double kSlowest = 1.3;
   double softness = kSofter;
   const auto settle_at = [&](double share, bool from_guess) {
-    attempt.problem.set_softness(share);
+    Regime regime;
+    regime.softness = share;
     ContactState trial = state;
-    const bool settled = (!from_guess || first_guess(attempt, true, trial)) && settle(attempt, trial);
-    attempt.problem.set_softness(1.0);
+    const bool settled =
+        (!from_guess || first_guess(attempt, true, share, trial)) && settle(attempt, regime, trial);
     if (settled) state = std::move(trial);
     return settled;
   };
@@ -137,12 +138,12 @@ std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, cons
   ContactState glued;
   if (guess != nullptr) {
     state.y = *guess;
-    if (settle(attempt, state)) return state;
+    if (settle(attempt, {}, state)) return state;
   }
   for (const bool bonded : {true, false}) {
-    if (!first_guess(attempt, bonded, state)) continue;
+    if (!first_guess(attempt, bonded, 1.0, state)) continue;
     if (bonded) glued = state;
-    if (state.y.isZero(0.0) || settle(attempt, state)) return state;
+    if (state.y.isZero(0.0) || settle(attempt, {}, state)) return state;
   }
   if (glued.y.size() == 0) return std::nullopt;
   if (harden(attempt, state)) return state;

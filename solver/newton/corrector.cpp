@@ -29,9 +29,6 @@ double find_correction(EquilibriumProblem& problem, const SideCondition& side, c
 /// Relative residual, over the tangent's tolerance, that the last correction may start from.
 constexpr double kNearResidual = 10.0;
 
-/// Relative residual that nothing can be taken from.
-constexpr double kExact = 1e-15;
-
 /// With contact that changes corrections may cycle: one that is the last for the tangent's sake is at most
 /// this share of the one before.
 constexpr double kClosingShare = 0.1;
@@ -41,10 +38,9 @@ constexpr double kClosingShare = 0.1;
 constexpr int kStagnantIterations = 4;
 constexpr double kStagnantShare = 0.5;
 /// Corrections (displacement gradients; share of the step) beyond which a residual is not rounding's, however
-/// small it is beside large forces, but that of contact which cycles; and a residual that always is.
+/// small it is beside large forces, but that of contact which cycles.
 constexpr double kLargestRounding = 1e-6;
 constexpr double kLargestRoundingShare = 1e-4;
-constexpr double kRoundingResidual = 1e-14;
 /// The same for a correction that is not taken.
 constexpr double kLargestLeft = 1e-8;
 
@@ -57,7 +53,8 @@ constexpr int kLeastIterations = 3;
 /// Share of the correction at which the forces do no work on it any more. At a given load and small
 /// displacements one-sided supports have a convex energy, of which this is the least along the correction:
 /// so Newton's method can't cycle between contact patterns.
-double least_energy(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lambda, Workspace& work) {
+double least_energy(EquilibriumProblem& problem, const Regime& regime, const Eigen::VectorXd& y,
+                    double lambda, Workspace& work) {
   constexpr int kMostTrials = 12;
   constexpr double kWorkLeft = 0.1;
   constexpr double kEnough = 0.5;
@@ -66,7 +63,7 @@ double least_energy(EquilibriumProblem& problem, const Eigen::VectorXd& y, doubl
   if (!(at_start < 0.0)) return 1.0;
   const auto work_at = [&](double share) {
     work.trial = y + share * work.correction;
-    problem.residual(work.trial, lambda, work.residual);
+    problem.residual(work.trial, lambda, work.residual, regime);
     return work.residual.dot(work.correction);
   };
   double low = 0.0;
@@ -102,7 +99,7 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
                Workspace& work) {
   work.trial = y + work.correction;
   if (exact || problem.one_sided()) {
-    problem.residual(work.trial, lambda + dlambda, work.residual);
+    problem.residual(work.trial, lambda + dlambda, work.residual, options.regime);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
     const double rounding =
         std::max(options.residual_floor, problem.residual_rounding(work.trial, lambda + dlambda));
@@ -122,16 +119,19 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
 class Progress {
  public:
   Progress(const CorrectorOptions& options, double scale)
-      : options_(options), scale_(scale), movement_(std::min(scale, options.movement)), previous_(scale) {}
+      : options_(options),
+        scale_(scale),
+        displacement_(std::min(scale, options.displacement)),
+        previous_(scale) {}
 
   /// Whether the correction of this size, before which the residual is `residual`, is the last.
   [[nodiscard]] bool is_last(int iteration, double size, double residual) {
     // quadratic convergence, as the correction before let it expect and as this one does
     const bool small =
-        std::max(expected_, size * ratio(size) * ratio(size)) <= options_.tolerance * movement_ &&
+        std::max(expected_, size * ratio(size) * ratio(size)) <= options_.tolerance * displacement_ &&
         residual <= options_.largest_residual;
     const bool rounding = residual <= kRoundingResidual ||
-                          size <= std::min(kLargestRounding, kLargestRoundingShare * movement_);
+                          size <= std::min(kLargestRounding, kLargestRoundingShare * displacement_);
     stagnant_ = iteration >= kStagnantIterations && residual <= options_.stagnant_residual &&
                 residual > kStagnantShare * last_residual_;
     last_residual_ = residual;
@@ -140,8 +140,8 @@ class Progress {
   /// Whether the correction is rounding's: however large it is where the tangent is nearly singular, or
   /// however much residual very stiff supports make of it.
   [[nodiscard]] bool is_rounding(int iteration, double size, double residual) const {
-    if (iteration == 0) return residual <= kExact && size > options_.tangent_tolerance * scale_;
-    return iteration >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * movement_) &&
+    if (iteration == 0) return residual <= kRoundingResidual && size > options_.tangent_tolerance * scale_;
+    return iteration >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * displacement_) &&
            residual <= options_.largest_residual;
   }
   /// Whether corrections converge, and do not merely happen to be small.
@@ -155,7 +155,7 @@ class Progress {
   /// Takes in a correction of which `share` was taken; false when too many did not shrink.
   [[nodiscard]] bool goes_on(double size, double share, double residual) {
     // near rounding nothing falls
-    if (size > 0.5 * least_ && residual > options_.stagnant_residual) ++stalled_;
+    if (size > kStagnantShare * least_ && residual > options_.stagnant_residual) ++stalled_;
     least_ = std::min(least_, size);
     expected_ = share < 1.0 ? size : size * ratio(size) * ratio(size);
     previous_ = size;
@@ -167,7 +167,7 @@ class Progress {
 
   const CorrectorOptions& options_;
   double scale_;
-  double movement_;
+  double displacement_;
   double previous_;
   double expected_ = std::numeric_limits<double>::infinity();  ///< size of the next correction
   double last_residual_ = std::numeric_limits<double>::infinity();
@@ -177,9 +177,9 @@ class Progress {
 };
 
 /// Whether what the corrections left is what the supports' rounding leaves anyway.
-bool settled_to_rounding(EquilibriumProblem& problem, const Eigen::VectorXd& y, double lambda,
-                         CorrectorOutcome& out, Workspace& work) {
-  problem.residual(y, lambda, work.residual);
+bool settled_to_rounding(EquilibriumProblem& problem, const Regime& regime, const Eigen::VectorXd& y,
+                         double lambda, CorrectorOutcome& out, Workspace& work) {
+  problem.residual(y, lambda, work.residual, regime);
   const double size = problem.relative_residual(work.residual, y, lambda);
   if (!(size <= problem.residual_rounding(y, lambda))) return false;
   out.relative_residual = size;
@@ -194,7 +194,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
   CorrectorOutcome out;
   Progress progress(options, scale);
   for (int it = 0; it < options.max_iterations; ++it) {
-    out.tangent = problem.linearise(y, lambda, work.residual);
+    out.tangent = problem.linearise(y, lambda, work.residual, options.regime);
     ++out.factorisations;
     const double residual = problem.relative_residual(work.residual, y, lambda);
     out.relative_residual = residual;
@@ -219,14 +219,15 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
       out.status = CorrectorStatus::converged;
       return out;
     }
-    const double share = options.least_energy ? least_energy(problem, y, lambda, work) : 1.0;
+    const double share = options.least_energy ? least_energy(problem, options.regime, y, lambda, work) : 1.0;
     y += share * work.correction;
     lambda += share * dlambda;
     if (size > options.largest_correction * scale) return out;
     if (!progress.goes_on(size, share, residual)) break;
   }
-  out.status = settled_to_rounding(problem, y, lambda, out, work) ? CorrectorStatus::converged
-                                                                  : CorrectorStatus::too_many_iterations;
+  out.status = settled_to_rounding(problem, options.regime, y, lambda, out, work)
+                   ? CorrectorStatus::converged
+                   : CorrectorStatus::too_many_iterations;
   return out;
 }
 

@@ -6,9 +6,15 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/path/equilibrium_problem.h"
+#include "solver/problem/equilibrium_problem.h"
 
 namespace snapthrough {
+
+/// Response to a unit load, a displacement gradient in units of the structure's Euler load, that only a
+/// mechanism gives.
+inline constexpr double kSingularResponse = 1e13;
+/// Relative residual that rounding always leaves: a state with it is as good as exact.
+inline constexpr double kRoundingResidual = 1e-14;
 
 /// @brief Norm of a step (dy, dlambda): sqrt(dy.W dy + weight dlambda^2), W the problem's metric.
 struct PathMetric {
@@ -40,7 +46,7 @@ struct CorrectorOptions {
   int most_stalled = 3;     ///< corrections that are not half the least so far: it does not converge
   double tolerance = 1e-9;  ///< on the predicted norm of the next correction, relative to the step
   /// What the tolerance is relative to where it is less than the step: the displacement part of it.
-  double movement = std::numeric_limits<double>::infinity();
+  double displacement = std::numeric_limits<double>::infinity();
   /// A correction below this share of the step is the last: the tangent at hand is the path's to this share,
   /// the point to about its square. Zero: iterates to `tolerance`.
   double tangent_tolerance = 0.0;
@@ -48,6 +54,7 @@ struct CorrectorOptions {
   double largest_correction = 2.0;  ///< a correction beyond this many steps ends the iteration as diverged
   double largest_first = std::numeric_limits<double>::infinity();   ///< the same for the first
   double largest_growth = std::numeric_limits<double>::infinity();  ///< from one correction to the next
+  Regime regime;                                                    ///< how supports are taken
   bool least_energy = false;         ///< shortens corrections to where the energy is least, see correct()
   double residual_floor = 2e-13;     ///< relative residual that rounding allows; the iteration stops there
   double stagnant_residual = 1e-11;  ///< below it, one that no longer falls is rounding's, too

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "solver/linalg/pseudo_random.h"
-#include "solver/path/hermite.h"
+#include "solver/numeric/cubic.h"
+#include "solver/numeric/pseudo_random.h"
 
 namespace snapthrough {
 
@@ -23,9 +23,6 @@ constexpr double kLargeGradient = 0.3;
 /// Smallest displacement gradient that one load scale counts for in the path's norm: a structure that hardly
 /// moves before it buckles (a straight column) still has its load seen.
 constexpr double kSmallGradient = 0.003;
-/// Response to a unit load, in units of its Euler load's, that only a mechanism gives.
-constexpr double kSingularResponse = 1e13;
-
 /// Smallest factor from one step size to the next.
 constexpr double kLeastGrowth = 0.3;
 /// First correction, over the step, beyond which the predictor said nothing about where the path goes.
@@ -37,12 +34,15 @@ constexpr int kMostStalled = 2;
 /// their stiffness: then steps grow by this much, so long as they stay this far from what limits them.
 constexpr double kFastGrowth = 8.0;
 constexpr double kFarFromLimits = 0.1;
-/// Distance to a point beyond a corner, over the step that should have led there, that only a jump to another
+/// Distance to a point beyond a kink, over the step that should have led there, that only a jump to another
 /// path takes.
-constexpr double kCornerLength = 4.0;
+constexpr double kKinkLength = 4.0;
 /// Share of the last size that was accepted at once to which steps must have shrunk before a turn is looked
 /// for.
-constexpr double kTurnShrink = 1e-3;
+constexpr double kKinkShrink = 1e-3;
+
+/// Turn of the tangent, rad, below which there is no kink.
+constexpr double kLeastTurn = 1e-3;
 
 /// Share of the last size that was accepted at once below which a step may take all corrections it needs; a
 /// larger one is shortened first, which costs less.
@@ -65,15 +65,12 @@ constexpr double kSmallStart = 1e-7;
 constexpr double kSmallLoad = 1e-4;
 
 /// Displacement gradient that the load is never weighed below.
-constexpr double kLeastMovement = 1e-8;
+constexpr double kLeastDisplacement = 1e-8;
 /// Share of the load in the path's norm, over that of the displacement, at which the load is weighed anew.
 constexpr double kLoadDominates = 3.0;
 
-/// Relative residual of a predictor that is as good as exact.
-constexpr double kRoundingResidual = 1e-14;
-
 /// Sign of det [J, -load; tangent]: parity of the negative eigenvalues times the sense of the load. It is the
-/// same on both sides of a corner, because both sides' tangents agree in the plane that separates them.
+/// same on both sides of a kink, because both sides' tangents agree in the plane that separates them.
 bool keeps_orientation(const PathPoint& from, const PathPoint& to) {
   return (from.negative % 2 == to.negative % 2) == ((from.tangent_lambda > 0.0) == (to.tangent_lambda > 0.0));
 }
@@ -105,11 +102,11 @@ void Continuation::count(const CorrectorOutcome& outcome) {
   statistics_.iterations += outcome.factorisations;
 }
 
-bool Continuation::unit_response(const VectorXd& at, double lambda, bool bonded, VectorXd& response,
-                                 TangentReport& report) {
-  problem_.set_bonded(bonded);
-  report = problem_.linearise(at, lambda, work_.residual);
-  problem_.set_bonded(false);
+bool Continuation::unit_response(const VectorXd& at, double lambda, Regime::Contact contact,
+                                 VectorXd& response, TangentReport& report) {
+  Regime regime;
+  regime.contact = contact;
+  report = problem_.linearise(at, lambda, work_.residual, regime);
   ++statistics_.factorizations;
   problem_.load(at, lambda, response);
   problem_.solve(response);
@@ -125,9 +122,9 @@ bool Continuation::is_loose() {
   problem_.solve(motion);
   const double size = metric_.norm(motion, 0.0);
   if (size < kSingularResponse) return false;
-  problem_.set_bonded(true);
-  problem_.linearise(VectorXd::Zero(problem_.size()), 0.0, work_.residual);
-  problem_.set_bonded(false);
+  Regime glued;
+  glued.contact = Regime::Contact::bilateral;
+  problem_.linearise(VectorXd::Zero(problem_.size()), 0.0, work_.residual, glued);
   ++statistics_.factorizations;
   problem_.solve(held);
   if (size < kSingularResponse * metric_.norm(held, 0.0)) return false;
@@ -146,7 +143,7 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
   VectorXd response;
   TangentReport report;
   const VectorXd zero = VectorXd::Zero(problem_.size());
-  if (!unit_response(zero, 0.0, true, response, report)) return std::nullopt;
+  if (!unit_response(zero, 0.0, Regime::Contact::bilateral, response, report)) return std::nullopt;
   const double norm = metric_.norm(response, 0.0);
   if (norm == 0.0) return first_point(zero, 0.0, response, direction, report);
   // small in both: a thin column hardly moves before it buckles
@@ -184,7 +181,7 @@ std::optional<PathPoint> Continuation::start_at_rest(PathPoint rest, double dire
   VectorXd response;
   TangentReport report;
   if (outcome.status != CorrectorStatus::converged ||
-      !unit_response(rest.y, rest.lambda, false, response, report))
+      !unit_response(rest.y, rest.lambda, Regime::Contact::unilateral, response, report))
     return std::nullopt;
   return first_point(rest.y, rest.lambda, response, direction, report);
 }
@@ -295,7 +292,7 @@ bool Continuation::hold_neutral(const PathPoint& from, PathPoint& at) {
   if (!held.holds || held.holds->motions.cols() <= before || !settle_with(held.holds, held)) return false;
   VectorXd response;
   TangentReport report;
-  if (!unit_response(held.y, held.lambda, false, response, report)) return false;
+  if (!unit_response(held.y, held.lambda, Regime::Contact::unilateral, response, report)) return false;
   const double norm = metric_.norm(response, 1.0);
   const double sign = metric_.inner(response, 1.0, at.tangent, at.tangent_lambda) < 0.0 ? -1.0 : 1.0;
   held.tangent = (sign / norm) * response;
@@ -335,7 +332,7 @@ std::optional<PathPoint> Continuation::start_at(const VectorXd& y, double direct
   metric_.load_weight = 0.0;
   VectorXd response;
   TangentReport report;
-  if (!unit_response(y, 0.0, false, response, report)) return std::nullopt;
+  if (!unit_response(y, 0.0, Regime::Contact::unilateral, response, report)) return std::nullopt;
   PathPoint start = first_point(y, 0.0, response, direction, report);
   start.holds = holds;
   return start;
@@ -360,11 +357,11 @@ void Continuation::extrapolate(const PathPoint& before, const PathPoint& from) {
   if (!(chord > 0.0)) return;
   const double half = 0.5 * angle_between(before, from);
   const double d = half > 0.0 ? chord * half / std::sin(half) : chord;
-  const double along = (from.lambda - before.lambda) / d;
-  bend_.y2 = ((2.0 * before.tangent + 4.0 * from.tangent) - (6.0 / d) * (from.y - before.y)) / d;
-  bend_.y3 = (6.0 * (before.tangent + from.tangent) - (12.0 / d) * (from.y - before.y)) / (d * d);
-  bend_.lambda2 = (2.0 * before.tangent_lambda + 4.0 * from.tangent_lambda - 6.0 * along) / d;
-  bend_.lambda3 = (6.0 * (before.tangent_lambda + from.tangent_lambda) - 12.0 * along) / (d * d);
+  const double rise_lambda = from.lambda - before.lambda;
+  bend_.y2 = second_derivative_at_end(from.y - before.y, before.tangent, from.tangent, d);
+  bend_.y3 = third_derivative(from.y - before.y, before.tangent, from.tangent, d);
+  bend_.lambda2 = second_derivative_at_end(rise_lambda, before.tangent_lambda, from.tangent_lambda, d);
+  bend_.lambda3 = third_derivative(rise_lambda, before.tangent_lambda, from.tangent_lambda, d);
 }
 
 void Continuation::predict(const PathPoint& from, double step, PathPoint& to) const {
@@ -376,18 +373,19 @@ void Continuation::predict(const PathPoint& from, double step, PathPoint& to) co
 }
 
 /// Corrects `to` from the predictor under the side condition at hand.
-CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, double movement,
+CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, double displacement,
                                             PathPoint& to) {
   CorrectorOptions options = options_.corrector;
   // supports act on a structure that hardly moves under much load, too
-  if (problem_.one_sided()) options.movement = std::max(step * metric_.norm(from.tangent, 0.0), kLeastNoise);
+  if (problem_.one_sided())
+    options.displacement = std::max(step * metric_.norm(from.tangent, 0.0), kLeastNoise);
   if (step >= kPatientShare * easy_size_) {
     options.largest_first = kLargestCorrection;
     options.largest_growth = kLargestGrowth;
     options.most_stalled = std::min(options.most_stalled, kMostStalled);
   }
   predict(from, step, to);
-  const auto outcome = correct(problem_, metric_, side_, movement, options, to.y, to.lambda, work_);
+  const auto outcome = correct(problem_, metric_, side_, displacement, options, to.y, to.lambda, work_);
   count(outcome);
   return outcome;
 }
@@ -396,8 +394,8 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   side_.normal = metric_.weights->cwiseProduct(from.tangent);
   side_.normal_lambda = metric_.load_weight * from.tangent_lambda;
   // where the load dwarfs the displacements, a step may be long while the structure hardly moves
-  const double movement = std::min(step, kLargeGradient);
-  const auto outcome = correct_step(from, step, movement, to);
+  const double displacement = std::min(step, kLargeGradient);
+  const auto outcome = correct_step(from, step, displacement, to);
   Trial trial;
   if (outcome.status != CorrectorStatus::converged) return trial;
   set_tangent(to, from.negative, outcome, from.tangent, from.tangent_lambda);
@@ -405,7 +403,7 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   trial.corrections = outcome.factorisations;
   trial.angle = angle_between(from, to);
   // what the residual does not show is rounding, which shorter steps would not lessen
-  if (outcome.first_residual > kRoundingResidual) trial.correction = outcome.first_correction / movement;
+  if (outcome.first_residual > kRoundingResidual) trial.correction = outcome.first_correction / displacement;
   const double room = std::min(options_.target_angle / std::max(trial.angle, 1e-12),
                                options_.target_correction / std::max(trial.correction, 1e-12));
   double fast = 0.0;
@@ -414,7 +412,7 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
     const double missed = metric_.norm(to.y - from.y - step * from.tangent,
                                        to.lambda - from.lambda - step * from.tangent_lambda);
     fast = std::min({kFastGrowth, kFarFromLimits * room,
-                     kFarFromLimits * options_.target_correction * movement / std::max(missed, 1e-300)});
+                     kFarFromLimits * options_.target_correction * displacement / std::max(missed, 1e-300)});
   }
   trial.growth = std::clamp(room, kLeastGrowth, std::max(options_.max_growth, fast));
   to.arc_length = from.arc_length + arc(from, to);
@@ -422,16 +420,16 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   return trial;
 }
 
-/// A point beyond a corner that is less than `depth` from `from`, with the path's direction there: that of
+/// A point beyond a kink that is less than `depth` from `from`, with the path's direction there: that of
 /// the supports which act beyond, in the sense that keeps the orientation.
-std::optional<PathPoint> Continuation::beyond_corner(const PathPoint& from, double depth) {
-  constexpr double kLeastTurn = 1e-3;  // of the tangent, rad
+std::optional<PathPoint> Continuation::beyond_kink(const PathPoint& from, double depth) {
   PathPoint beyond = from;
   beyond.y += depth * from.tangent;
   beyond.lambda += depth * from.tangent_lambda;
   VectorXd response;
   TangentReport report;
-  if (!unit_response(beyond.y, beyond.lambda, false, response, report)) return std::nullopt;
+  if (!unit_response(beyond.y, beyond.lambda, Regime::Contact::unilateral, response, report))
+    return std::nullopt;
   beyond.negative = count_next_to(from.negative, report);
   const double norm = metric_.norm(response, 1.0);
   beyond.tangent = response / norm;
@@ -441,17 +439,17 @@ std::optional<PathPoint> Continuation::beyond_corner(const PathPoint& from, doub
   return beyond;
 }
 
-/// Takes the path round a corner that is within `size` of `from`, where it goes back against its tangent or
+/// Takes the path round a kink that is within `size` of `from`, where it goes back against its tangent or
 /// so nearly across it that no step along the tangent meets it again. How far beyond it supports show what
 /// they do is not known: stiff ones that begin to act are as good as absent where they hardly touch.
 ///
 /// Where the inertia changes, the load turns back if one support's change is the cause. Where several change
 /// at once, the cause may lie beside the path, as at a bifurcation; then the load goes on.
-bool Continuation::turn(const PathPoint& from, double size, PathPoint& to) {
+bool Continuation::step_round_kink(const PathPoint& from, double size, PathPoint& to) {
   constexpr std::array<double, 4> kDepths{1e3, 1e2, 1e1, 1e0};
-  constexpr double kBeyond = 10.0;  // the step over the distance to the corner
+  constexpr double kBeyond = 10.0;  // the step over the distance to the kink
   for (const double share : kDepths) {
-    auto beyond = beyond_corner(from, share * size);
+    auto beyond = beyond_kink(from, share * size);
     if (!beyond) continue;
     const double step = kBeyond * share * size;
     if (step_from_beyond(from, *beyond, step, to)) return true;
@@ -462,14 +460,14 @@ bool Continuation::turn(const PathPoint& from, double size, PathPoint& to) {
   return false;
 }
 
-/// The point of the path one step from a point beyond a corner: by Newton's method or, where it is stable,
+/// The point of the path one step from a point beyond a kink: by Newton's method or, where it is stable,
 /// downhill in the energy.
 bool Continuation::step_from_beyond(const PathPoint& from, const PathPoint& beyond, double step,
                                     PathPoint& to) {
   const Trial trial = try_step(beyond, step, to);
   to.arc_length = from.arc_length + arc(from, to);
-  if (trial.converged && trial.angle <= options_.max_angle && trial.correction <= kCornerLength &&
-      distance(from, to) <= kCornerLength * step && to.negative == beyond.negative)
+  if (trial.converged && trial.angle <= options_.max_angle && trial.correction <= kKinkLength &&
+      distance(from, to) <= kKinkLength * step && to.negative == beyond.negative)
     return true;
   return beyond.negative == 0 && settle_beyond(from, beyond, step, to);
 }
@@ -480,7 +478,7 @@ bool Continuation::step_from_beyond(const PathPoint& from, const PathPoint& beyo
 /// size.
 /// @param beyond a point with the direction in which the load and the guess lie
 bool Continuation::settle_beyond(const PathPoint& from, const PathPoint& beyond, double size, PathPoint& to) {
-  constexpr double kProportional = 0.1;  // of the movement: what the end's tangent may miss it by
+  constexpr double kProportional = 0.1;  // of the displacement: what the end's tangent may miss it by
   if (beyond.tangent_lambda == 0.0) return false;
   constexpr int kIterations = 60;
   to.y = beyond.y + size * beyond.tangent;
@@ -495,12 +493,12 @@ bool Continuation::settle_beyond(const PathPoint& from, const PathPoint& beyond,
     outcome = correct_downhill(size, kIterations, to);
   }
   if (outcome.status != CorrectorStatus::converged || outcome.tangent.negative > 0) return false;
-  const VectorXd movement = to.y - from.y;
+  const VectorXd displacement = to.y - from.y;
   const double dlambda = to.lambda - from.lambda;
-  set_tangent(to, beyond.negative, outcome, movement, dlambda);
+  set_tangent(to, beyond.negative, outcome, displacement, dlambda);
   to.arc_length = from.arc_length + arc(from, to);
-  const VectorXd missed = movement - (dlambda / to.tangent_lambda) * to.tangent;
-  return metric_.norm(missed, 0.0) <= kProportional * metric_.norm(movement, dlambda) &&
+  const VectorXd missed = displacement - (dlambda / to.tangent_lambda) * to.tangent;
+  return metric_.norm(missed, 0.0) <= kProportional * metric_.norm(displacement, dlambda) &&
          (to.tangent_lambda > 0.0) == (dlambda > 0.0);
 }
 
@@ -526,20 +524,19 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
     }
     ++statistics_.rejected_steps;
     size *= std::min(trial.growth, 0.5);
-    if (problem_.one_sided() && size < kTurnShrink * easy_size_ && turn(from, size, to)) {
+    if (problem_.one_sided() && size < kKinkShrink * easy_size_ && step_round_kink(from, size, to)) {
       ++statistics_.steps;
       step.taken = size;
       step.wanted = std::min(size * options_.max_growth, options_.max_step);
-      return StepOutcome::turned;
+      return StepOutcome::kinked;
     }
   }
   step.wanted = size;
   return StepOutcome::step_underflow;
 }
 
-PathPoint Continuation::last_before_corner(const PathPoint& from, double size) {
+PathPoint Continuation::last_before_kink(const PathPoint& from, double size) {
   constexpr int kHalvings = 30;
-  constexpr double kSmooth = 1e-3;  // a turn of the tangent, rad, that is no corner
   problem_.set_holds(from.holds);
   PathPoint last = from;
   PathPoint probe;
@@ -547,7 +544,8 @@ PathPoint Continuation::last_before_corner(const PathPoint& from, double size) {
   for (int i = 0; i < kHalvings; ++i) {
     size *= 0.5;
     const Trial trial = try_step(last, size, probe);
-    if (trial.converged && probe.negative == from.negative && trial.angle < kSmooth) std::swap(last, probe);
+    if (trial.converged && probe.negative == from.negative && trial.angle < kLeastTurn)
+      std::swap(last, probe);
   }
   return last;
 }
@@ -607,10 +605,10 @@ void Continuation::settle(const PathPoint& from, PathPoint& point) {
 }
 
 void Continuation::weigh_load(bool to_limit, PathPoint& at, StepSize& step) {
-  const bool stuck = step.wanted < kTurnShrink * easy_size_;
+  const bool stuck = step.wanted < kKinkShrink * easy_size_;
   if (!to_limit && !stuck && !problem_.one_sided()) return;
   const double loaded = std::sqrt(metric_.load_weight) * std::abs(at.lambda);
-  const double moved = std::max(metric_.norm(at.y, 0.0), stuck ? kLeastMovement : kSmallGradient);
+  const double moved = std::max(metric_.norm(at.y, 0.0), stuck ? kLeastDisplacement : kSmallGradient);
   if (loaded <= kLoadDominates * moved) return;
   metric_.load_weight *= (moved / loaded) * (moved / loaded);
   const double length = metric_.norm(at.tangent, at.tangent_lambda);
@@ -638,7 +636,7 @@ double Continuation::arc(const PathPoint& a, const PathPoint& b) const {
   return PathMetric{metric_.weights, arc_weight_}.norm(b.y - a.y, b.lambda - a.lambda);
 }
 
-double Continuation::way_to(const PathPoint& at) const {
+double Continuation::path_length_to(const PathPoint& at) const {
   return std::min({at.arc_length, metric_.norm(at.y, at.lambda), kLargeGradient});
 }
 
@@ -655,13 +653,13 @@ Chord Continuation::chord(const PathPoint& a, const PathPoint& b) const {
   return {(b.y - a.y) / length, (b.lambda - a.lambda) / length, false};
 }
 
-Chord Continuation::movement_chord(const PathPoint& a, const PathPoint& b) const {
+Chord Continuation::displacement_chord(const PathPoint& a, const PathPoint& b) const {
   const double length = metric_.norm(b.y - a.y, 0.0);
   return {(b.y - a.y) / length, 0.0, true};
 }
 
 double Continuation::distance_in(const Chord& chord, const PathPoint& a, const PathPoint& b) const {
-  return metric_.norm(b.y - a.y, chord.movement_only ? 0.0 : b.lambda - a.lambda);
+  return metric_.norm(b.y - a.y, chord.displacement_only ? 0.0 : b.lambda - a.lambda);
 }
 
 double Continuation::load_rate(const Chord& chord, const PathPoint& at) const {
@@ -676,7 +674,7 @@ void Continuation::interpolate(const Chord& chord, const PathPoint& lo, const Pa
   const double rate_lo = metric_.inner(lo.tangent, lo.tangent_lambda, chord.y, chord.lambda);
   const double rate_hi = metric_.inner(hi.tangent, hi.tangent_lambda, chord.y, chord.lambda);
   if (rate_lo > kSmoothRate && rate_hi > kSmoothRate) {
-    const Hermite h(share * length, length);
+    const CubicWeights h(share * length, length);
     at.y = h.a * lo.y + (h.da / rate_lo) * lo.tangent + h.b * hi.y + (h.db / rate_hi) * hi.tangent;
     at.lambda = h.a * lo.lambda + h.da / rate_lo * lo.tangent_lambda + h.b * hi.lambda +
                 h.db / rate_hi * hi.tangent_lambda;
@@ -694,7 +692,7 @@ std::optional<PathPoint> Continuation::between(const Chord& chord, const PathPoi
   interpolate(chord, lo, hi, share, point);
   side_.normal = metric_.weights->cwiseProduct(chord.y);
   side_.normal_lambda = metric_.load_weight * chord.lambda;
-  const double scale = std::max(distance_in(chord, lo, hi), chord.movement_only ? kLeastNoise : kNoise);
+  const double scale = std::max(distance_in(chord, lo, hi), chord.displacement_only ? kLeastNoise : kNoise);
   const auto outcome =
       correct(problem_, metric_, side_, scale, options_.corrector, point.y, point.lambda, work_);
   count(outcome);

@@ -43,17 +43,17 @@ struct StepSize {
   double wanted = 0.0;
 };
 
-/// Unit direction from one point of a path to another. Where the load turns within a movement too small for
-/// the path's norm, that of the movement alone, without load.
+/// Unit direction from one point of a path to another. Where the load turns within a displacement too small
+/// for the path's norm, that of the displacement alone, without load.
 struct Chord {
   Eigen::VectorXd y;
   double lambda = 0.0;
-  bool movement_only = false;
+  bool displacement_only = false;
 };
 
-/// What a step met. `turned`: the path turns sharply at the step's start, because a support begins or ceases
+/// What a step met. `kinked`: the path turns sharply at the step's start, because a support begins or ceases
 /// to act there, and the step leads on in the new direction.
-enum class StepOutcome { advanced, turned, step_underflow };
+enum class StepOutcome { advanced, kinked, step_underflow };
 
 /// @brief Follows F(y, lambda) = 0 from a known point.
 ///
@@ -90,14 +90,14 @@ class Continuation {
 
   /// @brief One accepted step from `from`: `step.wanted` is tried first, then smaller ones; sets both fields.
   [[nodiscard]] StepOutcome step(const PathPoint& from, StepSize& step, PathPoint& to);
-  /// @brief The next step from `to` is predicted, at its first size, by the cubic through both points and
+  /// @brief The next step from `from` is predicted, at its first size, by the cubic through both points and
   /// tangents: where the path does not turn sharply between them.
-  void extrapolate(const PathPoint& from, const PathPoint& to);
+  void extrapolate(const PathPoint& before, const PathPoint& from);
   /// The next step is predicted by its tangent.
   void extrapolate_nothing() { bend_ = {}; }
-  /// @brief The last point before a corner that is within `size` of `from`, to rounding: found by halving
+  /// @brief The last point before a kink that is within `size` of `from`, to rounding: found by halving
   /// steps which either meet the same contact or do not.
-  [[nodiscard]] PathPoint last_before_corner(const PathPoint& from, double size);
+  [[nodiscard]] PathPoint last_before_kink(const PathPoint& from, double size);
   /// @brief Bounds the step sizes from now on by the caller's, which are fractions of the load scale.
   /// @param load_rate d lambda / ds at the start, positive
   void limit_steps(const StepOptions& steps, double load_rate);
@@ -110,12 +110,12 @@ class Continuation {
     arc_weight_ = other.arc_weight_;
   }
   /// @brief Weighs the load anew in the path's norm where it dwarfs the displacement there: a structure that
-  /// carries far more than its members' scale says would meet its limit load as a corner. Arc lengths stay in
+  /// carries far more than its members' scale says would meet its limit load as a kink. Arc lengths stay in
   /// the norm that the path began with.
   /// @param to_limit whether the path is on the way to a limit; one that is followed beyond for its own sake
   /// would go by smaller steps, so there it is done only where steps have become far shorter than they were
   /// (a thin member between immovable ends turns within gradients that the norm did not see), and where
-  /// contact changes with movements that the norm would not see
+  /// contact changes with displacements that the norm would not see
   /// @param at the point to go on from; its tangent is normalised again
   void weigh_load(bool to_limit, PathPoint& at, StepSize& step);
   /// @brief Takes the last step back, because it jumped to another path: the next one will be shorter.
@@ -138,7 +138,7 @@ class Continuation {
   /// @brief The straight line from one point of the path to another: places between are told by their
   /// distance along it.
   [[nodiscard]] Chord chord(const PathPoint& a, const PathPoint& b) const;
-  [[nodiscard]] Chord movement_chord(const PathPoint& a, const PathPoint& b) const;
+  [[nodiscard]] Chord displacement_chord(const PathPoint& a, const PathPoint& b) const;
   /// @brief The point of the path between lo and hi, in the plane normal to the chord at a share (0 to 1) of
   /// the way.
   /// @return empty when the correction failed
@@ -152,7 +152,7 @@ class Continuation {
   [[nodiscard]] double arc(const PathPoint& a, const PathPoint& b) const;
   /// The way from the path's beginning to a point, as a measure of places next to it: no longer than the
   /// straight one, nor than gradients at which a structure has changed its shape for good.
-  [[nodiscard]] double way_to(const PathPoint& at) const;
+  [[nodiscard]] double path_length_to(const PathPoint& at) const;
   /// Distance of two points in the path's norm, in a chord's, and along a chord.
   [[nodiscard]] double distance(const PathPoint& a, const PathPoint& b) const;
   [[nodiscard]] double distance_in(const Chord& chord, const PathPoint& a, const PathPoint& b) const;
@@ -171,13 +171,15 @@ class Continuation {
   [[nodiscard]] double loosening() const { return loosening_; }
   /// Scale of the first critical load factor that the load is measured by.
   [[nodiscard]] double load_scale() const { return load_scale_; }
+  /// Load that tolerances are relative to where a load is less.
+  [[nodiscard]] double least_load() const { return 1e-6 * load_scale_; }
   /// Load beyond which nothing of interest can be: far above what buckles the weakest member, and above what
-  /// buckles the strongest with its bases helping.
+  /// buckles the strongest with its foundations helping.
   [[nodiscard]] double load_bound() const { return load_bound_; }
   [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
 
  private:
-  [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, double lambda, bool bonded,
+  [[nodiscard]] bool unit_response(const Eigen::VectorXd& at, double lambda, Regime::Contact contact,
                                    Eigen::VectorXd& response, TangentReport& report);
   [[nodiscard]] std::optional<PathPoint> one_sided_start(double direction);
   [[nodiscard]] std::optional<PathPoint> softly_held_start(const SharedHolds& soft, double direction,
@@ -200,11 +202,11 @@ class Continuation {
     double growth = 0.3;      ///< wanted factor to the next step size
     int corrections = 0;
   };
-  [[nodiscard]] CorrectorOutcome correct_step(const PathPoint& from, double step, double movement,
+  [[nodiscard]] CorrectorOutcome correct_step(const PathPoint& from, double step, double displacement,
                                               PathPoint& to);
   void predict(const PathPoint& from, double step, PathPoint& to) const;
-  [[nodiscard]] bool turn(const PathPoint& from, double size, PathPoint& to);
-  [[nodiscard]] std::optional<PathPoint> beyond_corner(const PathPoint& from, double depth);
+  [[nodiscard]] bool step_round_kink(const PathPoint& from, double size, PathPoint& to);
+  [[nodiscard]] std::optional<PathPoint> beyond_kink(const PathPoint& from, double depth);
   [[nodiscard]] bool step_from_beyond(const PathPoint& from, const PathPoint& beyond, double step,
                                       PathPoint& to);
   /// Angle between the tangents, rad.

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "solver/path/holds.h"
 #include "solver/path/soft_mode.h"
+#include "solver/problem/holds.h"
 
 namespace snapthrough {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/linalg/pseudo_random.h"
+#include "solver/numeric/pseudo_random.h"
 
 namespace snapthrough {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "solver/path/equilibrium_problem.h"
+#include "solver/problem/equilibrium_problem.h"
 
 namespace snapthrough {
 

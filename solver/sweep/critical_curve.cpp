@@ -11,10 +11,11 @@
 #include <utility>
 
 #include "solver/analysis/analyses.h"
-#include "solver/analysis/touching.h"
-#include "solver/assembly/mechanism.h"
-#include "solver/cancelled.h"
-#include "solver/path/trace.h"
+#include "solver/discrete/mechanism.h"
+#include "solver/events/touching.h"
+#include "solver/numeric/cancelled.h"
+#include "solver/numeric/number_text.h"
+#include "solver/trace/trace.h"
 
 namespace snapthrough {
 namespace {
@@ -160,7 +161,7 @@ void Follower::remember(std::optional<Expansion> node) {
   if (nodes_.size() > kHistory) nodes_.pop_front();
 }
 
-/// The path's direction at the critical point, of norm one; that of the movement alone at a limit point.
+/// The path's direction at the critical point, of norm one; that of the displacement alone at a limit point.
 Chord direction_of(const Expansion& node, const Continuation& continuation) {
   const Place& first = node.series[1];
   const double load = node.bifurcation ? first.lambda : 0.0;
@@ -315,7 +316,7 @@ CriticalCurvePoint Follower::trace_at(double value) {
     if (!touching && event.cause == CriticalCause::smooth && event.multiplicity == 1 && !event.point.holds) {
       Expansion guess;
       guess.t = place_of(value);
-      guess.reach = kReach * member->continuation.way_to(event.point);
+      guess.reach = kReach * member->continuation.path_length_to(event.point);
       const VectorXd zero = VectorXd::Zero(event.point.y.size());
       guess.bifurcation = event.type == CriticalType::bifurcation;
       guess.series = {Place{event.point.y, event.point.lambda},

@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <string>
 #include <vector>
 
 #include "solver/solve.h"
 #include "tests/accuracy/known_loads.h"
+#include "tests/recorded.h"
 
 namespace snapthrough {
 namespace {
@@ -39,9 +40,9 @@ void judge(const KnownLoads& problem, double accuracy, const Result& result, Sco
     }
     const double error = std::abs(point->load_factor / load.value - 1.0);
     const double estimate = point->error_estimate.value_or(-1.0);
-    std::printf("%-44s %d %7.0e %9.1e %9.1e %8.2f %3d %2d\n", problem.name.c_str(), load.number, accuracy,
-                error, estimate, estimate / error, result.discretization.elements,
-                result.discretization.order);
+    record_figure("load_" + std::to_string(score.loads), problem.name, ", load ", load.number, ": error ",
+                  error, ", estimate ", estimate, ", ", result.discretization.elements, " elements of order ",
+                  result.discretization.order);
     if (!point->error_estimate) {
       ++score.unknown;
       ADD_FAILURE() << problem.name << " at " << accuracy << " has no estimate; " << result.summary.message;
@@ -72,9 +73,9 @@ TEST_P(Honesty, OfTheEstimate) {
   const auto middle = score.ratios.begin() + static_cast<std::ptrdiff_t>(score.ratios.size() / 2);
   std::nth_element(score.ratios.begin(), middle, score.ratios.end());
   EXPECT_LT(*middle, 10.0);
-  std::printf(
-      "accuracy %.0e: %d loads, %d above the accuracy, %d above the estimate, median ratio %.2f (%zu)\n",
-      accuracy, score.loads, score.above_accuracy, score.above_estimate, *middle, score.ratios.size());
+  record_figure("loads", score.loads);
+  record_figure("above_estimate", score.above_estimate);
+  record_figure("median_of_estimate_to_error", *middle, " of ", score.ratios.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Accuracies, Honesty, ::testing::Values(1e-2, 1e-3, 1e-4, 1e-6));

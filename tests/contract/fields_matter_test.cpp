@@ -1,5 +1,5 @@
 /// Every field of the request document matters: changing it changes the answer. (That wrong values are
-/// refused, each with its pointer, is tested in tests/api and tests/solver/model.)
+/// refused, each with its pointer, is tested in tests/api and tests/solver/check.)
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -20,6 +19,7 @@
 #include <system_error>
 #include <thread>
 
+#include "tests/recorded.h"
 #include "tests/server/support/client.h"
 #include "tests/server/support/killed_service.h"
 #include "tests/server/support/receiver.h"
@@ -236,8 +236,10 @@ class Crash : public KilledServiceTest {
     for (const auto& [job, count] : completions_) {
       EXPECT_EQ(count, 1) << job << " ended more than once";
     }
-    std::printf("%zu acknowledged jobs, %d successful, %zu removed, %d requests\n", told_.jobs.size(),
-                successful, told_.removed.size(), told_.requests.load());
+    record_figure("jobs_acknowledged", told_.jobs.size());
+    record_figure("jobs_successful", successful);
+    record_figure("jobs_removed", told_.removed.size());
+    record_figure("requests", told_.requests.load());
   }
 
   void check_sweeps() {
@@ -274,7 +276,8 @@ class Crash : public KilledServiceTest {
     for (const std::string& path : told_.callbacks) {
       EXPECT_EQ(ends[path], json::parse(get(port_, path).body)["status"]) << path;
     }
-    std::printf("%zu ends were told, in %zu deliveries\n", ends.size(), deliveries);
+    record_figure("ends_told", ends.size());
+    record_figure("deliveries", deliveries);
   }
 
   Receiver receiver_;
@@ -323,10 +326,11 @@ TEST_F(Crash, EveryAcknowledgedJobIsThereAndEndsOnce) {
   const std::int64_t rows = query("SELECT count(*) FROM sweep_points");
   EXPECT_GE(rows, static_cast<std::int64_t>(kSweepPoints * told_.sweeps.size()));
   EXPECT_EQ(query("SELECT count(*) FROM computed"), rows) << "points were computed that had a row";
-  std::printf(
-      "%d kills of the service, %d of runners; %zu sweeps, %lld rows; work taken up at most %.3f s "
-      "after the start\n",
-      kills, runners_killed, told_.sweeps.size(), static_cast<long long>(rows), slowest);
+  record_figure("kills_of_the_service", kills);
+  record_figure("kills_of_runners", runners_killed);
+  record_figure("sweeps", told_.sweeps.size());
+  record_figure("rows", rows);
+  record_figure("longest_until_work_is_taken_up_s", slowest);
 }
 
 }  // namespace

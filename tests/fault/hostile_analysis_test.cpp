@@ -10,7 +10,6 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -22,6 +21,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/recorded.h"
 #include "tests/server/support/client.h"
 #include "tests/server/support/process.h"
 #include "tests/server/support/samples.h"
@@ -263,16 +263,17 @@ TEST_F(HostileAnalysis, EachIsOneJobThatEndsWithItsCodeAndNobodyElseNotices) {
   check_nothing_leaked(before);
   check_service_is_the_same();
   int ended = 0;
+  int ends = 0;
   for (const auto& [what, times] : ended_) {
-    std::printf("%5d %s\n", times, what.c_str());
+    record_figure("end_" + std::to_string(++ends), times, " times ", what);
     ended += times;
   }
   EXPECT_EQ(ended, count);
-  std::printf(
-      "%d hostile analyses in %.0f s; ordinary jobs, p50 and p99 in ms: %.1f and %.1f of %zu alone, "
-      "%.1f and %.1f of %zu among them\n",
-      count, took.count(), alone.quantile(0.5), alone.quantile(0.99), alone.milliseconds.size(),
-      among.quantile(0.5), among.quantile(0.99), among.milliseconds.size());
+  record_figure("hostile_analyses", count, " in ", took.count(), " s");
+  record_figure("ordinary_jobs_alone", alone.milliseconds.size(), ", p50 ", alone.quantile(0.5), " ms, p99 ",
+                alone.quantile(0.99), " ms");
+  record_figure("ordinary_jobs_among_them", among.milliseconds.size(), ", p50 ", among.quantile(0.5),
+                " ms, p99 ", among.quantile(0.99), " ms");
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/recorded.h"
 #include "tests/server/support/client.h"
 #include "tests/server/support/process.h"
 #include "tests/server/support/samples.h"
@@ -111,8 +111,9 @@ TEST_F(Hostile, SlowAndIdleClientsDoNotMoveLivez) {
   });
   const double among = livez_p99(300);
   const double grown = memory() - before;
-  std::printf("livez p99: %.2f ms alone, %.2f ms among 1000 slow and 2000 idle clients; memory +%.1f MB\n",
-              alone, among, grown);
+  record_figure("livez_p99_alone_ms", alone);
+  record_figure("livez_p99_among_slow_and_idle_clients_ms", among);
+  record_figure("memory_grown_mb", grown);
   EXPECT_LT(among, alone + 50.0);
   EXPECT_LT(grown, kMostGrown);
 }
@@ -159,8 +160,9 @@ TEST_F(Hostile, EveryBadRequestGetsItsStatus) {
     EXPECT_EQ(call(port_, "GET", "/v1/jobs/../../etc/passwd", "", {}).status, 404);
     EXPECT_EQ(post_text("{}", {"Idempotency-Key: " + std::string(300, 'k')}), 400);
   }
-  std::printf("memory +%.1f MB\n", memory() - before);
-  EXPECT_LT(memory() - before, kMostGrown);
+  const double grown = memory() - before;
+  record_figure("memory_grown_mb", grown);
+  EXPECT_LT(grown, kMostGrown);
   EXPECT_EQ(get(port_, "/livez").status, 200);
 }
 

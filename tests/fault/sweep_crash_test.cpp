@@ -8,6 +8,7 @@
 #include <random>
 #include <regex>
 
+#include "tests/recorded.h"
 #include "tests/server/support/client.h"
 #include "tests/server/support/killed_service.h"
 #include "tests/server/support/samples.h"
@@ -79,8 +80,9 @@ TEST_F(SweepCrash, GoesOnWhereItWasKilled) {
   EXPECT_EQ(interrupted, kills) << "kills came after the end";
   EXPECT_GT(found, 0) << "nothing was there before";
   EXPECT_EQ(json::parse(get(port_, sweep + "/table").body)["rows"].size(), static_cast<std::size_t>(kPoints));
-  std::printf("%d kills, %d while it ran; %lld points there at the last start, %lld computed after it\n",
-              kills, interrupted, static_cast<long long>(found), static_cast<long long>(solved()));
+  record_figure("kills_while_it_ran", interrupted, " of ", kills);
+  record_figure("points_at_the_last_start", found);
+  record_figure("points_computed_after_it", solved());
 }
 
 }  // namespace

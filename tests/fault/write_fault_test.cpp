@@ -10,7 +10,6 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -22,6 +21,7 @@
 
 #include "server/store/sqlite/sqlite_store.h"
 #include "solver/solve.h"
+#include "tests/recorded.h"
 #include "tests/server/support/running_service.h"
 #include "tests/server/support/store_driver.h"
 
@@ -183,8 +183,8 @@ TEST_F(WriteFaults, EachWriteThatFailsIsReportedAndLeavesTheStoreWhole) {
     check();
   }
   EXPECT_GT(reported, writes) << "most faults hit something";
-  std::printf("%lld writes made to fail in turn, %lld lives told of it\n",
-              2LL * static_cast<long long>(writes), static_cast<long long>(reported));
+  record_figure("writes_made_to_fail", 2 * writes);
+  record_figure("lives_told_of_it", reported);
 }
 
 Result quick(const Model&, const Analysis&, const Hooks&) {
@@ -277,7 +277,8 @@ TEST_F(FullDisk, NoFalseCreatedAtAnyStepAndItRecovers) {
   for (const std::string& job : told) {
     EXPECT_EQ(json::parse(get(port(), job, {"Prefer: wait=20"}).body)["status"], "successful") << job;
   }
-  std::printf("%zu jobs acknowledged, %d refused\n", told.size(), refused);
+  record_figure("jobs_acknowledged", told.size());
+  record_figure("jobs_refused", refused);
 }
 
 TEST_F(FullDisk, ReadyzSaysSoWhileItLasts) {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <thread>
 
-#include "solver/assembly/structural_problem.h"
 #include "solver/path/continuation.h"
+#include "solver/problem/structural_problem.h"
 #include "tests/paths/reference_problems.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

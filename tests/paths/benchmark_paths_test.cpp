@@ -4,9 +4,9 @@
 /// Sources: thesis.md's converged values as reference_problems.h gives them; Lee's frame from
 /// frames_limit_points.csv (12 digits).
 #include <array>
-#include <cstdio>
 
 #include "tests/paths/reference_problems.h"
+#include "tests/recorded.h"
 
 namespace snapthrough {
 namespace {
@@ -113,8 +113,8 @@ TEST_P(Corrections, AreFewWhateverTheSlenderness) {
   const int p95 = percentile(histogram, 0.95);
   int steps = 0;
   for (const int count : histogram) steps += count;
-  std::printf("EA L^2 / EI %.0e: %d steps, corrections: median %d, 95 %% %d, most %d\n", slenderness, steps,
-              median, p95, percentile(histogram, 1.0));
+  record_figure("steps", steps);
+  record_figure("corrections", "median ", median, ", 95 % ", p95, ", most ", percentile(histogram, 1.0));
   EXPECT_LE(median, 4);
   EXPECT_LE(p95, 7);
 }

@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "solver/assembly/structural_problem.h"
-#include "solver/path/trace.h"
+#include "solver/problem/structural_problem.h"
+#include "solver/trace/trace.h"
 #include "tests/paths/reference_problems.h"
 
 namespace snapthrough {

@@ -7,9 +7,10 @@
 #include <numbers>
 #include <string>
 
-#include "solver/assembly/mechanism.h"
+#include "solver/check/check.h"
+#include "solver/discrete/mechanism.h"
 #include "solver/mesh/mesh.h"
-#include "solver/model/check.h"
+#include "solver/model/id_index.h"
 #include "tests/stress/random_numbers.h"
 
 namespace snapthrough::testing {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
-#include "solver/assembly/mechanism.h"
-#include "solver/model/check.h"
+#include "solver/check/check.h"
+#include "solver/discrete/mechanism.h"
 #include "tests/stress/random_numbers.h"
 
 namespace snapthrough::testing {

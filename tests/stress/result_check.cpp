@@ -10,6 +10,7 @@
 #include <string>
 #include <variant>
 
+#include "solver/model/id_index.h"
 #include "tests/reaction_sum.h"
 #include "tests/stress/inertia.h"
 #include "tests/stress/rod_state.h"

@@ -1,4 +1,5 @@
 #include "tests/stress/rod_model.h"
+#include "solver/model/id_index.h"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -45,11 +46,8 @@ void add(Functional& to, const Functional& what) {
 /// Part of an element that a range of fractions of the member covers, in the element's own [0, 1].
 std::array<double, 2> part_of(const RodElement& element, const std::array<double, 2>& range) {
   const double width = element.to - element.from;
-  double lo = std::clamp((range[0] - element.from) / width, 0.0, 1.0);
-  double hi = std::clamp((range[1] - element.from) / width, 0.0, 1.0);
-  if (lo < 1e-7) lo = 0.0;  // the mesh joins places closer than 1e-9
-  if (hi > 1.0 - 1e-7) hi = 1.0;
-  return {lo, hi};
+  return {std::clamp((range[0] - element.from) / width, 0.0, 1.0),
+          std::clamp((range[1] - element.from) / width, 0.0, 1.0)};
 }
 
 void Maker::scales() {

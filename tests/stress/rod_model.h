@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "solver/assembly/axis_offset.h"
+#include "solver/geometry/stress_free_axis.h"
 #include "solver/mesh/mesh.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"

@@ -11,7 +11,7 @@
 #include <thread>
 #include <variant>
 
-#include "solver/assembly/mechanism.h"
+#include "solver/discrete/mechanism.h"
 #include "solver/solve.h"
 #include "tests/stress/broad_model.h"
 #include "tests/stress/random_model.h"
@@ -104,8 +104,7 @@ std::string features_of(const RandomRequest& request) {
 
 }  // namespace
 
-StressOutcome run_seed(Draw draw, std::uint64_t seed, double time_bound_s) {
-  RandomRequest request = draw == Draw::first ? random_request(seed) : broad_request(seed);
+StressOutcome run_request(RandomRequest request, double time_bound_s) {
   StressOutcome out;
   out.features = features_of(request);
   if (const auto findings = check(request.model, request.analysis); !findings.empty()) {
@@ -135,12 +134,18 @@ StressOutcome run_seed(Draw draw, std::uint64_t seed, double time_bound_s) {
   out.reached = reached(request.analysis, out.termination);
   out.detail = result.summary.message;
   out.said_where = !out.termination.empty() && !out.detail.empty();
+  out.critical_points = result.critical_points;
+  if (!result.branches.empty()) out.end_load_factor = result.branches.front().load_factor.back();
   out.check = check_result(request.model, request.analysis, result);
   if (out.termination == "cancelled") out.check.failures.push_back("time: over the bound");
   if (out.termination == "loose_part" && !needs_one_sided_supports(request))
     out.check.failures.push_back("loose: supports that act both ways hold every part");
   if (!out.said_where) out.check.failures.push_back("silent: no termination or message");
   return out;
+}
+
+StressOutcome run_seed(Draw draw, std::uint64_t seed, double time_bound_s) {
+  return run_request(draw == Draw::first ? random_request(seed) : broad_request(seed), time_bound_s);
 }
 
 }  // namespace snapthrough::testing

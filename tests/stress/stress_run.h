@@ -1,16 +1,18 @@
 #pragma once
 /// @file
-/// One seed of the stress test: draw, solve, check.
+/// One model of the stress test: solve with all states, check. Or one seed: draw it first.
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "tests/stress/random_model.h"
 #include "tests/stress/result_check.h"
 
 namespace snapthrough::testing {
 
-/// Which generator a seed belongs to. A generator is never changed once seeds of it are regressions: a wider
-/// one is added.
+/// Which generator a seed belongs to. A generator is never changed, since docs/stress.md tells of its seeds:
+/// a wider one is added.
 enum class Draw { first, broad };
 
 struct StressOutcome {
@@ -19,9 +21,14 @@ struct StressOutcome {
   bool reached = false;     ///< a stop rule that was asked for
   bool said_where = true;   ///< not reached: ended with a code and a sentence
   ResultCheck check;
-  double seconds = 0.0;  ///< of the solution
-  std::string features;  ///< what the model has, in a few words
+  double seconds = 0.0;                        ///< of the solution
+  std::string features;                        ///< what the model has, in a few words
+  std::vector<CriticalPoint> critical_points;  ///< in the order of the result
+  double end_load_factor = 0.0;                ///< of the primary path, if there is one
 };
+
+/// @param time_bound_s processor time after which the solver is asked to stop
+[[nodiscard]] StressOutcome run_request(RandomRequest request, double time_bound_s);
 
 [[nodiscard]] StressOutcome run_seed(Draw draw, std::uint64_t seed, double time_bound_s);
 

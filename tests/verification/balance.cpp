@@ -8,8 +8,8 @@
 #include <string>
 #include <variant>
 
-#include "solver/element/gauss_rule.h"
-#include "solver/model/axis_curve.h"
+#include "solver/geometry/axis_curve.h"
+#include "solver/numeric/gauss_rule.h"
 #include "tests/reaction_sum.h"
 
 namespace snapthrough::testing {

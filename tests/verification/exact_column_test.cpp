@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "solver/accuracy/buckling_loads.h"
-#include "solver/assembly/mechanism.h"
+#include "solver/discrete/mechanism.h"
 #include "tests/verification/cases.h"
 #include "tests/verification/random_column.h"
 #include "tests/verification/reference_table.h"

@@ -1,7 +1,7 @@
 /// Structures that a look at their supports shows to be held, against the check that factorises them.
 #include <gtest/gtest.h>
 
-#include "solver/assembly/mechanism.h"
+#include "solver/discrete/mechanism.h"
 #include "tests/verification/cases.h"
 #include "tests/verification/random_column.h"
 

@@ -9,7 +9,7 @@ namespace {
 /// Rows of one status in order.
 std::string run_sql(const ListedTable& table, const ListQuery& query, JobState state) {
   std::string sql = "SELECT " + std::string(table.columns) + ", created_us, seq FROM " + table.name;
-  sql += " WHERE owner = ?1 AND status = '" + std::string(to_string(state)) + "'" + table.condition;
+  sql += " WHERE owner = ?1 AND status = " + literal(state) + table.condition;
   sql += " AND created_us > ?2 AND (created_us, seq) < (?3, ?4)";
   sql += query.label ? " AND label = ?6" : "";
   sql += query.analysis ? " AND analysis_type = ?7" : "";

@@ -1,24 +1,18 @@
 #include "server/store/sqlite/rows.h"
 
-#include <array>
 #include <utility>
+
+#include "api/names.h"
 
 namespace snapthrough::server::sqlite {
 namespace {
 
-constexpr std::array kCriticalTypes{
-    std::pair{CriticalType::bifurcation, std::string_view("bifurcation")},
-    std::pair{CriticalType::limit_max, std::string_view("limit_max")},
-    std::pair{CriticalType::limit_min, std::string_view("limit_min")},
-    std::pair{CriticalType::broken_bifurcation, std::string_view("broken_bifurcation")}};
-
-CriticalType critical_type(std::string_view name) {
-  for (const auto& [type, text] : kCriticalTypes) {
-    if (text == name) {
-      return type;
-    }
+CriticalType critical_type_in(const Statement& row, int column) {
+  const std::optional<CriticalType> type = api::value_of(api::kCriticalTypes, row.text(column));
+  if (!type) {
+    throw Error(0, "unknown kind of critical point in the store: " + row.text(column));
   }
-  throw Error(0, "unknown kind of critical point in the store: " + std::string(name));
+  return *type;
 }
 
 std::optional<int> optional_int(const Statement& row, int column) {
@@ -69,7 +63,7 @@ void insert_critical_point(Connection& connection, std::int64_t job, int number,
       .bind(job)
       .bind(number)
       .bind(point.branch)
-      .bind(to_row(point.type))
+      .bind(api::name_of(api::kCriticalTypes, point.type))
       .bind(point.load_factor)
       .bind(point.error_estimate)
       .bind(point.arc_length)
@@ -118,6 +112,14 @@ JobState state_in(const Statement& row, int column) {
   return *state;
 }
 
+std::string literal(JobState state) { return "'" + std::string(to_string(state)) + "'"; }
+
+const std::string& unfinished_condition() {
+  static const std::string kCondition =
+      "status IN (" + literal(JobState::accepted) + ", " + literal(JobState::running) + ")";
+  return kCondition;
+}
+
 Annotations annotations_in(const Statement& row, int column) {
   return {row.text(column), row.text(column + 1), row.text(column + 2)};
 }
@@ -132,15 +134,6 @@ std::optional<Submitted> known_key(Statement& row, const IdempotencyKey& key) {
   }
   const bool same = row.text(0) == key.fingerprint;
   return Submitted{same ? Submitted::Kind::repeated : Submitted::Kind::key_conflict, row.text(1)};
-}
-
-std::string_view to_row(CriticalType type) {
-  for (const auto& [candidate, text] : kCriticalTypes) {
-    if (candidate == type) {
-      return text;
-    }
-  }
-  return "";
 }
 
 Job read_job(const Statement& row) {
@@ -205,7 +198,7 @@ std::vector<CriticalPoint> read_critical_points(const Connection& connection, st
   while (rows.step()) {
     CriticalPoint point;
     point.branch = static_cast<int>(rows.integer(0));
-    point.type = critical_type(rows.text(1));
+    point.type = critical_type_in(rows, 1);
     point.load_factor = rows.real(2);
     point.error_estimate = rows.optional_real(3);
     point.arc_length = rows.real(4);

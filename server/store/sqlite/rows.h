@@ -18,6 +18,12 @@ namespace snapthrough::server::sqlite {
 [[nodiscard]] std::optional<Time> optional_time_in(const Statement& row, int column);
 [[nodiscard]] JobState state_in(const Statement& row, int column);
 
+/// @brief A state as a literal, for conditions: indexes have the rows of some states only, and with a state
+/// that is bound SQLite would compile the statement again each time to see whether they may be used.
+[[nodiscard]] std::string literal(JobState state);
+/// The condition that something is to be done: "status IN (...)".
+[[nodiscard]] const std::string& unfinished_condition();
+
 /// The annotations in three columns: label, metadata, callback.
 [[nodiscard]] Annotations annotations_in(const Statement& row, int column);
 /// NULL for an empty text.
@@ -38,9 +44,5 @@ void insert_path(Connection& connection, std::int64_t job, const std::vector<Bra
                  const std::vector<CriticalPoint>& critical_points);
 [[nodiscard]] std::vector<Branch> read_branches(const Connection& connection, std::int64_t job);
 [[nodiscard]] std::vector<CriticalPoint> read_critical_points(const Connection& connection, std::int64_t job);
-
-/// The name of a kind of critical point in the database: "bifurcation", "limit_max", "limit_min",
-/// "broken_bifurcation".
-[[nodiscard]] std::string_view to_row(CriticalType type);
 
 }  // namespace snapthrough::server::sqlite

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "api/names.h"
 #include "server/store/sqlite/database.h"
 #include "server/store/sqlite/deliveries.h"
 #include "server/store/sqlite/file_lock.h"
@@ -62,29 +63,41 @@ const ListedTable kListedJobs{"jobs", kJobColumns, ""};
 
 /// The row number of the claimed job if the claim still holds, i.e. (id, running, attempt) matches.
 std::optional<std::int64_t> held_job(Connection& connection, const Claim& claim) {
-  Statement row =
-      connection.prepare("SELECT seq FROM jobs WHERE id = ? AND status = 'running' AND attempt = ?");
+  static const std::string kSql =
+      "SELECT seq FROM jobs WHERE id = ? AND attempt = ? AND status = " + literal(JobState::running);
+  Statement row = connection.prepare(kSql);
   row.bind(claim.id).bind(claim.attempt);
   return row.step() ? std::optional(row.integer(0)) : std::nullopt;
 }
 
 /// The same, and its lease has not run out: who works past it may have been given up.
 std::optional<std::int64_t> leased_job(Connection& connection, const Claim& claim, Time now) {
-  Statement row = connection.prepare(
-      "SELECT seq FROM jobs WHERE id = ? AND status = 'running' AND attempt = ? AND lease_until_us >= ?");
+  static const std::string kSql =
+      "SELECT seq FROM jobs WHERE id = ? AND attempt = ? AND lease_until_us >= ? AND status = " +
+      literal(JobState::running);
+  Statement row = connection.prepare(kSql);
   row.bind(claim.id).bind(claim.attempt).bind(to_row(now));
   return row.step() ? std::optional(row.integer(0)) : std::nullopt;
 }
 
 Status lost_claim(const Claim& claim) {
-  return {StatusCode::conflict,
-          "job " + claim.id + " is no longer running in attempt " + std::to_string(claim.attempt)};
+  return {StatusCode::conflict, "job " + claim.id + " is no longer " +
+                                    std::string(to_string(JobState::running)) + " in attempt " +
+                                    std::to_string(claim.attempt)};
 }
 
 void end_job(Connection& connection, std::int64_t job, JobEvent event, Time now) {
   connection.prepare("UPDATE jobs SET status = ?, finished_us = ? WHERE seq = ?")
       .bind(to_string(next_state(JobState::running, event).value()))
       .bind(to_row(now))
+      .bind(job)
+      .run();
+}
+
+/// To its place in the queue.
+void put_back(Connection& connection, std::int64_t job) {
+  connection.prepare("UPDATE jobs SET status = ?, started_us = NULL WHERE seq = ?")
+      .bind(to_string(next_state(JobState::running, JobEvent::requeue).value()))
       .bind(job)
       .run();
 }
@@ -156,12 +169,11 @@ struct KnownJob {
 /// The newest successful job of that content and owner, of those with these annotations if there are any.
 std::optional<KnownJob> same_content(const Connection& connection, std::string_view content_key,
                                      std::string_view owner, const Annotations& annotations) {
-  Statement row = connection.prepare(
-      "SELECT seq, id, label, metadata, NULL FROM jobs INDEXED BY jobs_by_content WHERE content_key = ?1 AND "
-      "owner "
-      "= ?2"
-      " AND status = 'successful' AND content_key <> ''"
-      " ORDER BY label IS ?3 AND metadata IS ?4 DESC, seq DESC LIMIT 1");
+  static const std::string kSql =
+      "SELECT seq, id, label, metadata, NULL FROM jobs INDEXED BY jobs_by_content WHERE content_key = ?1"
+      " AND owner = ?2 AND content_key <> '' AND status = " +
+      literal(JobState::successful) + " ORDER BY label IS ?3 AND metadata IS ?4 DESC, seq DESC LIMIT 1";
+  Statement row = connection.prepare(kSql);
   row.bind(content_key)
       .bind(owner)
       .bind(text_or_null(annotations.label))
@@ -237,18 +249,20 @@ StatusOr<std::optional<Claim>> SqliteStore::claim(const Lease& lease, Time now) 
   using Outcome = StatusOr<std::optional<Claim>>;
   return database_.write<std::optional<Claim>>(
       [&](Connection& connection) -> Outcome {
-        Statement row = connection.prepare(
+        static const std::string kOldest =
             "SELECT jobs.seq, jobs.id, jobs.attempt, requests.document, jobs.created_us FROM jobs"
-            " JOIN requests ON requests.job = jobs.seq WHERE jobs.status = 'accepted'"
-            " ORDER BY jobs.seq LIMIT 1");
+            " JOIN requests ON requests.job = jobs.seq WHERE jobs.status = " +
+            literal(JobState::accepted) + " ORDER BY jobs.seq LIMIT 1";
+        Statement row = connection.prepare(kOldest);
         if (!row.step()) {
           return std::optional<Claim>();
         }
         Claim claim{row.text(1), static_cast<int>(row.integer(2)) + 1, row.text(3), time_in(row, 4)};
         connection
             .prepare(
-                "UPDATE jobs SET status = 'running', attempt = ?, started_us = ?, worker = ?,"
-                " lease_until_us = ? WHERE seq = ?")
+                "UPDATE jobs SET status = ?, attempt = ?, started_us = ?, worker = ?, lease_until_us = ?"
+                " WHERE seq = ?")
+            .bind(to_string(JobState::running))
             .bind(claim.attempt)
             .bind(to_row(now))
             .bind(lease.worker)
@@ -296,7 +310,8 @@ Status SqliteStore::finish(const Claim& claim, const JobResult& result, Time now
         .bind(*job)
         .bind(first_piece(result.document))
         .bind(critical ? summary.critical_load_factor : std::nullopt)
-        .bind(critical ? std::optional(to_row(*summary.critical_type)) : std::nullopt)
+        .bind(critical ? std::optional(api::name_of(api::kCriticalTypes, *summary.critical_type))
+                       : std::nullopt)
         .bind(summary.termination)
         .bind(result.wall_time_s)
         .run();
@@ -326,9 +341,7 @@ Status SqliteStore::requeue(const Claim& claim) {
     if (!job) {
       return lost_claim(claim);
     }
-    connection.prepare("UPDATE jobs SET status = 'accepted', started_us = NULL WHERE seq = ?")
-        .bind(*job)
-        .run();
+    put_back(connection, *job);
     return Status();
   });
 }
@@ -352,9 +365,7 @@ void take_back(Connection& connection, const TakenBack& job, bool crashed, int m
                     ""});
     return end_job(connection, job.row, JobEvent::fail, now);
   }
-  connection.prepare("UPDATE jobs SET status = 'accepted', started_us = NULL WHERE seq = ?")
-      .bind(job.row)
-      .run();
+  put_back(connection, job.row);
 }
 
 /// Takes back every running job whose lease ends before `ended_before`, except that those of `worker` don't
@@ -363,9 +374,10 @@ Recovery take_all_back(Connection& connection, Time ended_before, std::string_vi
                        Time now) {
   std::vector<std::pair<TakenBack, bool>> jobs;
   {
-    Statement row = connection.prepare(
-        "SELECT seq, id, crashes, worker FROM jobs INDEXED BY jobs_by_lease WHERE status = 'running'"
-        " AND lease_until_us < ? ORDER BY seq");
+    static const std::string kSql =
+        "SELECT seq, id, crashes, worker FROM jobs INDEXED BY jobs_by_lease WHERE status = " +
+        literal(JobState::running) + " AND lease_until_us < ? ORDER BY seq";
+    Statement row = connection.prepare(kSql);
     row.bind(to_row(ended_before));
     while (row.step()) {
       const bool crashed = worker.empty() || row.text(3) != worker;
@@ -400,7 +412,7 @@ StatusOr<Dismissal> SqliteStore::dismiss(std::string_view id, Time now) {
     if (!row.step()) {
       return Dismissal{};
     }
-    const Dismissal dismissal{true, job_state_from(row.text(1)).value()};
+    const Dismissal dismissal{true, state_in(row, 1)};
     if (const auto after = next_state(dismissal.before, JobEvent::dismiss)) {
       connection.prepare("UPDATE jobs SET status = ?, finished_us = ? WHERE seq = ?")
           .bind(to_string(*after))
@@ -461,7 +473,7 @@ StatusOr<JobCounts> SqliteStore::counts() {
     Statement row = connection.prepare("SELECT status, count(*) FROM jobs GROUP BY owner, status");
     JobCounts counts{};
     while (row.step()) {
-      counts[static_cast<std::size_t>(job_state_from(row.text(0)).value())] += row.integer(1);
+      counts[static_cast<std::size_t>(state_in(row, 0))] += row.integer(1);
     }
     return counts;
   });
@@ -469,8 +481,9 @@ StatusOr<JobCounts> SqliteStore::counts() {
 
 StatusOr<std::optional<Time>> SqliteStore::oldest_waiting() {
   return database_.read<std::optional<Time>>([](const Connection& connection) {
-    Statement row =
-        connection.prepare("SELECT created_us FROM jobs WHERE status = 'accepted' ORDER BY seq LIMIT 1");
+    static const std::string kSql =
+        "SELECT created_us FROM jobs WHERE status = " + literal(JobState::accepted) + " ORDER BY seq LIMIT 1";
+    Statement row = connection.prepare(kSql);
     return row.step() ? std::optional(time_in(row, 0)) : std::nullopt;
   });
 }

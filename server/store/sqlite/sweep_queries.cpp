@@ -46,8 +46,9 @@ SweepRecord read_sweep_record(const Statement& row) {
 
 StatusOr<std::vector<std::string>> SqliteSweepStore::unfinished() {
   return database_.read<std::vector<std::string>>([](const Connection& connection) {
-    Statement rows = connection.prepare(
-        "SELECT id FROM sweeps WHERE status IN ('accepted', 'running') AND removed = 0 ORDER BY seq");
+    static const std::string kSql =
+        "SELECT id FROM sweeps WHERE " + unfinished_condition() + " AND removed = 0 ORDER BY seq";
+    Statement rows = connection.prepare(kSql);
     std::vector<std::string> ids;
     while (rows.step()) {
       ids.push_back(rows.text(0));
@@ -59,9 +60,11 @@ StatusOr<std::vector<std::string>> SqliteSweepStore::unfinished() {
 StatusOr<std::optional<OpenSweep>> SqliteSweepStore::open(std::string_view id) {
   return database_.read<std::optional<OpenSweep>>([&](const Connection& connection)
                                                       -> std::optional<OpenSweep> {
-    Statement row = connection.prepare(
+    static const std::string kSql =
         "SELECT seq, document, owner, reuse, points FROM sweeps JOIN sweep_documents ON sweep = seq"
-        " WHERE id = ? AND status IN ('accepted', 'running') AND removed = 0");
+        " WHERE id = ? AND removed = 0 AND " +
+        unfinished_condition();
+    Statement row = connection.prepare(kSql);
     row.bind(id);
     if (!row.step()) {
       return std::nullopt;

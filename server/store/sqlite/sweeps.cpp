@@ -19,8 +19,7 @@ struct Place {
 std::optional<Place> find(const Connection& connection, std::string_view id) {
   Statement row = connection.prepare("SELECT seq, status FROM sweeps WHERE id = ? AND removed = 0");
   row.bind(id);
-  return row.step() ? std::optional(Place{row.integer(0), job_state_from(row.text(1)).value()})
-                    : std::nullopt;
+  return row.step() ? std::optional(Place{row.integer(0), state_in(row, 1)}) : std::nullopt;
 }
 
 std::optional<Submitted> known_key(const Connection& connection, const IdempotencyKey& key,
@@ -117,8 +116,10 @@ void insert_points(Connection& connection, std::int64_t sweep, const std::vector
       .run();
   connection
       .prepare(
-          "UPDATE sweeps SET status = iif(failed > 0, 'failed', 'successful'), finished_us = ?"
+          "UPDATE sweeps SET status = iif(failed > 0, ?, ?), finished_us = ?"
           " WHERE seq = ? AND successful + failed = points")
+      .bind(to_string(JobState::failed))
+      .bind(to_string(JobState::successful))
       .bind(to_row(now))
       .bind(sweep)
       .run();
@@ -194,9 +195,8 @@ StatusOr<PointClaim> SqliteSweepStore::claim(std::string_view id, const std::vec
           return Status(StatusCode::conflict, "sweep " + std::string(id) + " is over");
         }
         if (place->state == JobState::accepted) {
-          connection
-              .prepare(
-                  "UPDATE sweeps SET status = 'running', started_us = ifnull(started_us, ?) WHERE seq = ?")
+          connection.prepare("UPDATE sweeps SET status = ?, started_us = ifnull(started_us, ?) WHERE seq = ?")
+              .bind(to_string(JobState::running))
               .bind(to_row(now))
               .bind(place->row)
               .run();
@@ -255,7 +255,8 @@ StatusOr<SweepChange> SqliteSweepStore::dismiss(std::string_view id, Time now) {
     if (is_final(place->state)) {
       return SweepChange{place->state, false};
     }
-    connection.prepare("UPDATE sweeps SET status = 'dismissed', finished_us = ? WHERE seq = ?")
+    connection.prepare("UPDATE sweeps SET status = ?, finished_us = ? WHERE seq = ?")
+        .bind(to_string(JobState::dismissed))
         .bind(to_row(now))
         .bind(place->row)
         .run();
@@ -281,9 +282,10 @@ StatusOr<SweepChange> SqliteSweepStore::retry(std::string_view id, const Quotas&
     }
     connection
         .prepare(
-            "UPDATE sweeps SET failed = 0, status = 'accepted', finished_us = NULL, bytes = max(0, bytes -"
+            "UPDATE sweeps SET failed = 0, status = ?, finished_us = NULL, bytes = max(0, bytes -"
             " (SELECT ifnull(sum(length(CAST(code || detail AS BLOB))), 0) FROM sweep_points"
             " WHERE sweep = seq AND code IS NOT NULL)) WHERE seq = ?")
+        .bind(to_string(JobState::accepted))
         .bind(place->row)
         .run();
     connection.prepare("DELETE FROM sweep_points WHERE sweep = ? AND code IS NOT NULL")

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "solver/assembly/structural_problem.h"
+#include "solver/problem/structural_problem.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {
@@ -100,7 +100,7 @@ TEST_P(Tangent, IsInvertedByTheElimination) {
 /// only.
 void make_compatible(const Structure& structure, Eigen::VectorXd& x) {
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
-  for (int j = 0; j < structure.joints; ++j)
+  for (int j = 0; j < structure.nodes; ++j)
     if (structure.supports[j].fixed[0]) x.segment<2>(3 * j).setZero();
   for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
     const ElementDofs& dofs = structure.dofs[e];
@@ -108,7 +108,7 @@ void make_compatible(const Structure& structure, Eigen::VectorXd& x) {
     for (int c = 0; c < 2; ++c) {
       double end = x[dofs.a[c]];
       for (int q = 0; q < rule.order(); ++q) end += h * rule.weight(q) * x[dofs.v + c * rule.order() + q];
-      if (dofs.b[c] >= 3 * structure.joints) {
+      if (dofs.b[c] >= 3 * structure.nodes) {
         x[dofs.b[c]] = end;
       } else {
         for (int q = 0; q < rule.order(); ++q) x[dofs.v + c * rule.order() + q] += (x[dofs.b[c]] - end) / h;
@@ -161,7 +161,7 @@ TEST_P(LowOrderTangent, InertiaIsThatOfTheDenseMatrix) {
   std::vector<Eigen::Index> kept;
   int multipliers = 0;
   for (Eigen::Index i = 0; i < problem.size(); ++i) {
-    const bool fixed = i < 3 * structure.joints && structure.supports[i / 3].fixed[i % 3];
+    const bool fixed = i < 3 * structure.nodes && structure.supports[i / 3].fixed[i % 3];
     if (!fixed) kept.push_back(i);
   }
   for (std::size_t e = 0; e < structure.dofs.size(); ++e) multipliers += 3 * order + 3;

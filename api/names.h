@@ -1,0 +1,79 @@
+#pragma once
+/// @file
+/// The texts of enumerations: one table for each, for whoever reads or writes a document, a row of the store
+/// or a query.
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "solver/model/analysis.h"
+#include "solver/result.h"
+
+namespace snapthrough::api {
+
+/// A name of the contract and what it stands for.
+template <class E>
+struct Named {
+  std::string_view name;
+  E value;
+};
+
+inline constexpr Named<AnalysisType> kAnalysisTypes[] = {{"buckling", AnalysisType::buckling},
+                                                         {"critical", AnalysisType::critical},
+                                                         {"path", AnalysisType::path},
+                                                         {"static", AnalysisType::static_}};
+inline constexpr Named<CriticalType> kCriticalTypes[] = {
+    {"bifurcation", CriticalType::bifurcation},
+    {"limit_max", CriticalType::limit_max},
+    {"limit_min", CriticalType::limit_min},
+    {"broken_bifurcation", CriticalType::broken_bifurcation}};
+inline constexpr Named<CriticalCause> kCriticalCauses[] = {{"smooth", CriticalCause::smooth},
+                                                           {"contact", CriticalCause::contact}};
+
+/// Those that are a text.
+inline constexpr Named<StateOutput> kStateOutputs[] = {
+    {"none", StateOutput::none}, {"critical", StateOutput::critical}, {"all", StateOutput::all}};
+
+/// The name of a value. @throws std::invalid_argument when the table does not have it
+template <class E, std::size_t n>
+[[nodiscard]] constexpr std::string_view name_of(const Named<E> (&table)[n], E value) {
+  for (const Named<E>& row : table) {
+    if (row.value == value) {
+      return row.name;
+    }
+  }
+  throw std::invalid_argument("an enumeration has a value without a name");
+}
+
+/// The value of that name, or nothing.
+template <class E, std::size_t n>
+[[nodiscard]] constexpr std::optional<E> value_of(const Named<E> (&table)[n], std::string_view name) {
+  const auto* row =
+      std::find_if(std::begin(table), std::end(table), [&](const Named<E>& one) { return one.name == name; });
+  return row == std::end(table) ? std::nullopt : std::optional<E>(row->value);
+}
+
+/// The largest value.
+template <class E, std::size_t n>
+[[nodiscard]] constexpr E last_of(const Named<E> (&table)[n]) {
+  return std::max_element(std::begin(table), std::end(table),
+                          [](const Named<E>& a, const Named<E>& b) { return a.value < b.value; })
+      ->value;
+}
+
+/// The names, for sentences: "a, b, c".
+template <class E, std::size_t n>
+[[nodiscard]] std::string names_in(const Named<E> (&table)[n]) {
+  std::string all;
+  for (const Named<E>& row : table) {
+    all.append(all.empty() ? "" : ", ").append(row.name);
+  }
+  return all;
+}
+
+}  // namespace snapthrough::api

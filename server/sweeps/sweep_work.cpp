@@ -1,0 +1,276 @@
+#include "server/sweeps/sweep_work.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <utility>
+
+#include "server/pause.h"
+#include "server/sweeps/unit.h"
+
+namespace snapthrough::server {
+namespace {
+
+/// A chunk that takes longer ends after the unit it is at; when jobs wait, sooner.
+constexpr double kLongest = 0.25;
+constexpr double kLongestWhileJobsWait = 0.02;
+constexpr std::chrono::milliseconds kRetryPause{200};
+
+/// Rows that say that the store did not take them.
+std::vector<PointRow> not_stored(std::vector<PointRow> rows, const Status& status) {
+  for (PointRow& row : rows) {
+    row = {row.point, {"", "not_stored", "the row could not be stored: " + status.message()}};
+  }
+  return rows;
+}
+
+/// A unit that is still to be computed.
+struct Pending {
+  std::uint64_t number = 0;
+  std::unique_ptr<SweepUnit> unit;
+  std::vector<std::string> keys;  ///< of its points
+};
+
+struct Work {
+  std::vector<PointRow> rows;
+  std::vector<Pending> pending;
+  std::vector<std::uint64_t> rest;  ///< units that were not computed
+};
+
+std::vector<Pending> pending_units(const Chunk& chunk) {
+  const ActiveSweep& sweep = *chunk.sweep;
+  std::shared_ptr<nlohmann::json> document;
+  std::vector<Pending> all;
+  for (const std::uint64_t number : chunk.units) {
+    std::unique_ptr<SweepUnit> unit = make_unit(sweep.sweep, number);
+    std::vector<std::string> keys = unit->keys(sweep.outputs, sweep.owner, document);
+    all.push_back({number, std::move(unit), std::move(keys)});
+  }
+  return all;
+}
+
+/// Takes what is known already: units, of which every point is.
+void look_up(const Chunk& chunk, const SweepSurroundings& world, Work& work) {
+  if (!chunk.sweep->reuse) {
+    return;
+  }
+  std::vector<std::string> keys;
+  for (const Pending& pending : work.pending) {
+    keys.insert(keys.end(), pending.keys.begin(), pending.keys.end());
+  }
+  auto found = world.store.find_outputs(keys);
+  if (!found.ok()) {
+    return;  // they are computed then
+  }
+  std::vector<Pending> unknown;
+  auto outputs = found->begin();  // of the unit's first point
+  for (Pending& pending : work.pending) {
+    const auto end = outputs + static_cast<std::ptrdiff_t>(pending.keys.size());
+    if (std::find(outputs, end, std::nullopt) != end) {
+      unknown.push_back(std::move(pending));
+      outputs = end;
+      continue;
+    }
+    for (std::size_t i = 0; i < pending.keys.size(); ++i, ++outputs) {
+      work.rows.push_back(
+          {pending.unit->first() + i, {*std::move(*outputs), "", ""}, std::move(pending.keys[i]), true});
+    }
+  }
+  work.pending = std::move(unknown);
+}
+
+bool is_late(double seconds, const SweepSurroundings& world) {
+  return seconds > kLongest || (seconds > kLongestWhileJobsWait && world.waiting > 0);
+}
+
+/// The rows of a unit that was computed, or stopped for its time.
+void add_rows(Pending& pending, std::vector<api::PointOutcome> outcomes, const SweepSurroundings& world,
+              std::vector<PointRow>& rows) {
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (outcomes[i].code == kCancelled) {
+      outcomes[i] = {"", "time_limit", pending.unit->too_long(world.limits.longest_run)};
+    }
+    rows.push_back({pending.unit->first() + i, std::move(outcomes[i]), std::move(pending.keys[i])});
+  }
+}
+
+/// Computes what is pending; what it does not come to is left as the rest.
+void compute(const Chunk& chunk, const SweepSurroundings& world, Runner& runner, SweepScheduler::Watch& watch,
+             Work& work) {
+  const double start = world.environment.monotonic_seconds();
+  std::vector<std::uint64_t> units;
+  for (const Pending& pending : work.pending) {
+    units.push_back(pending.number);
+  }
+  std::size_t next = 0;
+  const auto late = [&] { return is_late(world.environment.monotonic_seconds() - start, world); };
+  const auto take = [&](std::vector<api::PointOutcome> outcomes) {
+    if (is_cut_short(outcomes) && watch.reason() != StopReason::time_limit) {
+      return;
+    }
+    add_rows(work.pending[next], std::move(outcomes), world, work.rows);
+    ++next;
+    watch.begin(world.environment.now());
+  };
+  watch.begin(world.environment.now());
+  runner.run_units(
+      {chunk.sweep->id, chunk.sweep->document, chunk.sweep->sweep, units, watch.token(), late, take});
+  work.rest.assign(units.begin() + static_cast<std::ptrdiff_t>(next), units.end());
+}
+
+}  // namespace
+
+void log_sweep(Log& log, std::string_view id, std::string_view status, std::string_view detail) {
+  log.write(LogLevel::info, "sweep", {{"sweep", id}, {"status", status}, {"detail", detail}});
+}
+
+StatusOr<SweepChange> SweepWork::dismiss(const std::string& id) {
+  StatusOr<SweepChange> change = world_.store.dismiss(id, world_.environment.now());
+  if (change.ok() && change->changed) {
+    scheduler_.remove(id);
+    unloaded_ = true;  // there is room now, and it may be tried again already
+    world_.completions.announce(id);
+    log_sweep(world_.log, id, to_string(JobState::dismissed));
+  }
+  return change;
+}
+
+/// Workers that sleep look at the store.
+void SweepWork::wake() {
+  unloaded_ = true;
+  world_.handoffs.ring();
+}
+
+/// Gives the scheduler the oldest sweeps that it does not have.
+void SweepWork::load() {
+  const std::unique_lock lock(loading_, std::try_to_lock);
+  if (!lock.owns_lock() || !unloaded_.exchange(false)) {
+    return;  // somebody is at it
+  }
+  const StatusOr<std::vector<std::string>> ids = world_.store.unfinished();
+  bool all = ids.ok();
+  for (const std::string& id : ids.ok() ? *ids : std::vector<std::string>()) {
+    if (scheduler_.has(id)) {
+      continue;
+    }
+    all = scheduler_.has_room() && load_one(id) && all;
+    if (!scheduler_.has_room()) {
+      break;
+    }
+  }
+  if (!all && scheduler_.has_room()) {
+    unloaded_ = true;  // the store failed: to be tried again
+  }
+}
+
+/// False when the store failed.
+bool SweepWork::load_one(const std::string& id) {
+  StatusOr<std::optional<OpenSweep>> open = world_.store.open(id);
+  if (!open.ok() || !open->has_value()) {
+    return open.ok();  // it has ended meanwhile
+  }
+  OpenSweep found = **open;
+  const api::SweepOutcome read = api::read_sweep(found.document);
+  if (!read.sweep || read.sweep->size() != found.done.size()) {
+    log_sweep(world_.log, id, "not_readable", "this version does not accept the stored document any more");
+    return dismiss(id).ok();
+  }
+  scheduler_.add(std::make_shared<ActiveSweep>(id, *read.sweep, std::move(found)));
+  return true;
+}
+
+std::optional<Chunk> SweepWork::take() {
+  if (unloaded_ && scheduler_.has_room()) {
+    load();
+  }
+  while (std::optional<Chunk> chunk = scheduler_.take()) {
+    const std::string& id = chunk->sweep->id;
+    StatusOr<PointClaim> claim = world_.store.claim(id, chunk->points(), world_.environment.now());
+    if (claim.ok()) {
+      chunk->claim = std::move(claim).value();
+      if (scheduler_.has_units()) {
+        world_.handoffs.ring();  // the next worker
+      }
+      return chunk;
+    }
+    if (claim.status().code() != StatusCode::conflict) {
+      scheduler_.give_back(*chunk, chunk->units, 0.0);
+      log_sweep(world_.log, id, "claim", claim.status().message());
+      return std::nullopt;
+    }
+    scheduler_.remove(chunk->sweep);
+  }
+  return std::nullopt;
+}
+
+bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
+  const std::optional<Chunk> chunk = take();
+  if (!chunk) {
+    return false;
+  }
+  SweepScheduler::Watch watch(scheduler_, world_.environment.now());
+  const std::stop_callback on_shutdown(stop, [&] { watch.stop(StopReason::shutdown); });
+  const std::stop_callback on_dismissal(chunk->sweep->stopped(), [&] { watch.stop(StopReason::dismissed); });
+  const double start = world_.environment.monotonic_seconds();
+  Work work;
+  work.pending = pending_units(*chunk);
+  look_up(*chunk, world_, work);
+  compute(*chunk, world_, runner, watch, work);
+  const double seconds = world_.environment.monotonic_seconds() - start;
+  Status status = settle(*chunk, work.rows, work.rest, seconds);
+  while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
+    pause(stop, kRetryPause);
+    status = settle(*chunk, work.rows, work.rest, seconds);
+  }
+  if (!status.ok() && status.code() != StatusCode::conflict) {
+    world_.log.write(
+        LogLevel::error, "store",
+        {{"sweep", std::string_view(chunk->sweep->id)}, {"detail", std::string_view(status.message())}});
+  }
+  return true;
+}
+
+Status SweepWork::settle(const Chunk& chunk, const std::vector<PointRow>& rows,
+                         const std::vector<std::uint64_t>& rest, double seconds) {
+  StatusOr<SweepRecord> record = world_.store.put(chunk.claim, rows, world_.environment.now());
+  if (!record.ok() && record.status().code() == StatusCode::io_error) {
+    record = world_.store.put(chunk.claim, not_stored(rows, record.status()), world_.environment.now());
+  }
+  if (record.ok()) {
+    scheduler_.give_back(chunk, rest, seconds);
+    stored(*record, rows);
+    return {};
+  }
+  if (record.status().code() == StatusCode::unavailable) {
+    world_.health.writable = false;
+    return record.status();
+  }
+  // Dismissed or removed meanwhile, or the store is broken: then the next start takes it up again. One that
+  // was tried again since is another.
+  scheduler_.remove(chunk.sweep);
+  return record.status();
+}
+
+void SweepWork::stored(const SweepRecord& record, const std::vector<PointRow>& rows) {
+  for (const PointRow& row : rows) {
+    world_.metrics.point_ended(row.reused             ? "reused"
+                               : row.outcome.failed() ? std::string_view(row.outcome.code)
+                                                      : to_string(JobState::successful));
+  }
+  if (!is_final(record.state)) {
+    news_.pass_on(record.id, record);
+    return;
+  }
+  scheduler_.remove(record.id);
+  unloaded_ = true;  // there is room now
+  world_.completions.announce(record.id);
+  world_.log.write(record.failed > 0 ? LogLevel::warning : LogLevel::info, "sweep",
+                   {{"sweep", std::string_view(record.id)},
+                    {"status", to_string(record.state)},
+                    {to_string(JobState::successful), record.successful},
+                    {to_string(JobState::failed), record.failed},
+                    {"reused", record.reused}});
+}
+
+}  // namespace snapthrough::server

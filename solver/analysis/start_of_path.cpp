@@ -1,0 +1,87 @@
+#include <cstddef>
+#include <string>
+
+#include "solver/analysis/analyses.h"
+#include "solver/hooks.h"
+#include "solver/numeric/number_text.h"
+#include "solver/report/result_parts.h"
+#include "solver/trace/trace.h"
+
+namespace snapthrough {
+
+namespace {
+
+/// Why there is no equilibrium under the first small load.
+std::string nothing_found(const Model& model, const Structure& structure, const Continuation& continuation) {
+  const Eigen::VectorXd& motion = continuation.loose_motion();
+  if (motion.size() == 0)
+    return "no equilibrium was found for the first small load: contact alone may not hold the structure";
+  std::size_t node = 0;
+  double largest = 0.0;
+  for (int j = 0; j < structure.nodes; ++j) {
+    const double size = motion.segment<2>(3 * j).lpNorm<Eigen::Infinity>();
+    if (size <= largest) continue;
+    largest = size;
+    node = static_cast<std::size_t>(j);
+  }
+  return "under the first small load a part of the structure can move freely: nothing presses it onto its "
+         "one-sided supports, and nothing else holds it (the motion is largest near node \"" +
+         model.nodes[node].id + "\")";
+}
+
+void fail_to_start(const Model& model, const Structure& structure, const Continuation& continuation,
+                   Result& result) {
+  const bool loose = continuation.loose_motion().size() > 0;
+  fail(result, loose ? "loose_part" : "no_start", nothing_found(model, structure, continuation));
+}
+
+}  // namespace
+
+std::optional<PathPoint> start_of_path(const Model& model, const Structure& structure,
+                                       StructuralProblem& problem, Continuation& continuation,
+                                       double direction, const Hooks& hooks, Result& result) {
+  if (!structure.has_constant) {
+    auto start = continuation.start(direction);
+    if (!start) fail_to_start(model, structure, continuation, result);
+    return start;
+  }
+  problem.set_stage(StructuralProblem::Stage::constant);
+  ContinuationOptions options;
+  options.largest_first_load = 1e-2;
+  Continuation loading(problem, options);
+  TraceRules rules;
+  rules.load = {{-1.0, 1.0}};
+  rules.limit_points = 1;
+  const TraceOutcome outcome = trace(loading, loading.start(), rules, {}, {}, hooks.stop);
+  problem.set_stage(StructuralProblem::Stage::proportional);
+  add_statistics(loading.statistics(), result);
+  if (outcome.end == TraceEnd::cancelled) {
+    fail(result, "cancelled", "cancelled while the constant actions were put on");
+    return std::nullopt;
+  }
+  if (outcome.end == TraceEnd::limit_points ||
+      (outcome.end != TraceEnd::load_factor && outcome.last.negative > 0)) {
+    fail(result, "constant_actions_limit",
+         "the structure can't carry the constant actions: " +
+             std::string(outcome.end == TraceEnd::limit_points ? "their limit point is"
+                                                               : "the path, unstable by then, was left") +
+             " at " + rounded(outcome.last.lambda) + " of them");
+    return std::nullopt;
+  }
+  if (outcome.end == TraceEnd::no_start) {
+    fail(result, "constant_actions",
+         "the constant actions can't be put on: " + nothing_found(model, structure, loading));
+    return std::nullopt;
+  }
+  if (outcome.end != TraceEnd::load_factor) {
+    fail(result, "constant_actions",
+         "the constant actions can't be put on: equilibrium was followed to " + rounded(outcome.last.lambda) +
+             " of them");
+    return std::nullopt;
+  }
+  auto start = continuation.start_at(outcome.last.y, direction, outcome.last.holds);
+  if (!start) fail_to_start(model, structure, continuation, result);
+  return start;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,28 @@
+#include "solver/check/check.h"
+
+#include "solver/check/check_parts.h"
+#include "solver/discrete/mechanism.h"
+
+namespace snapthrough {
+
+std::vector<Finding> check(const Model& model, const Analysis& analysis) {
+  std::vector<Finding> findings;
+  const checks::Place root(PointerPath(), findings);
+  const checks::Place place = root / "model";
+  checks::Names names;
+  checks::check_nodes(place, model, names);
+  checks::check_sections(place, model, names);
+  checks::check_members(place, model, names);
+  checks::check_supports(place, model, names);
+  checks::check_springs(place, model, names);
+  checks::check_foundations(place, model, names);
+  checks::check_loads(place, model, names);
+  checks::check_something_proportional(place, model, analysis);
+  checks::check_imperfections(place, model, names);
+  checks::check_monitors(place, model, names);
+  checks::check_analysis(root, model, analysis, names);
+  checks::check_supported(root, model, analysis);
+  return findings.empty() ? find_mechanism(model) : findings;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,167 @@
+/// What acts on the structure and what is watched: loads, imperfections, monitors.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <unordered_set>
+
+#include "solver/check/check_parts.h"
+#include "solver/model/limits.h"
+
+namespace snapthrough::checks {
+
+namespace {
+
+void check_force(const Place& place, const std::array<double, 2>& force) {
+  require_finite(place / 0, force[0]);
+  require_finite(place / 1, force[1]);
+}
+
+void check_load(const Place& place, const PointLoad& load, const Names& names) {
+  check_location(place / "at", load.at, names);
+  check_force(place / "force", load.force);
+  require_finite(place / "moment", load.moment);
+}
+
+void check_load(const Place& place, const DistributedLoad& load, const Names& names) {
+  names.members.require(place / "member", load.member);
+  check_force(place / "force", load.force);
+  require_fractions(place / "range", load.range);
+}
+
+void check_load(const Place& place, const PressureLoad& load, const Names& names) {
+  names.members.require(place / "member", load.member);
+  require_finite(place / "value", load.value);
+}
+
+void check_load(const Place& place, const InitialStrain& load, const Names& names) {
+  names.members.require(place / "member", load.member);
+  require_finite(place / "axial", load.axial);
+  require_finite(place / "curvature", load.curvature);
+}
+
+// NaN counts as an amount: what it is, is another finding.
+bool is_amount(double value) { return !(value == 0.0); }
+bool is_amount(const std::array<double, 2>& v) { return is_amount(v[0]) || is_amount(v[1]); }
+
+bool has_amount(const PointLoad& load) { return is_amount(load.force) || is_amount(load.moment); }
+bool has_amount(const DistributedLoad& load) { return is_amount(load.force); }
+bool has_amount(const PressureLoad& load) { return is_amount(load.value); }
+bool has_amount(const InitialStrain& load) { return is_amount(load.axial) || is_amount(load.curvature); }
+
+bool grows(const Load& load) {
+  return std::visit([](const auto& l) { return l.pattern == Pattern::proportional && has_amount(l); }, load);
+}
+
+bool grows(const Support& support) {
+  const auto& d = support.displacement;
+  return d && d->pattern == Pattern::proportional &&
+         (is_amount(d->x) || is_amount(d->y) || is_amount(d->rotation));
+}
+
+void check_imperfection(const Place& place, const SineImperfection& imperfection, const Names& names) {
+  names.members.require(place / "member", imperfection.member);
+  require_between(place / "half_waves", imperfection.half_waves, 1, kMaxHalfWaves);
+  require_finite(place / "amplitude", imperfection.amplitude);
+}
+
+void check_imperfection(const Place& place, const ModeImperfection& imperfection, const Names&) {
+  require_between(place / "number", imperfection.number, 1, kMaxModes);
+  require_finite(place / "amplitude", imperfection.amplitude);
+}
+
+void check_imperfection(const Place& place, const PointsImperfection& imperfection, const Names& names) {
+  names.members.require(place / "member", imperfection.member);
+  const Place offsets = place / "offsets";
+  require_count(offsets, imperfection.offsets.size(), kMaxCurvePoints);
+  if (imperfection.offsets.size() < 2) {
+    offsets.report("empty", "offsets must hold at least two [fraction, offset] pairs");
+  }
+  double previous = -1.0;
+  for (std::size_t i = 0; i < imperfection.offsets.size(); ++i) {
+    const double fraction = imperfection.offsets[i][0];
+    if (require_between(offsets / i / 0, fraction, 0.0, 1.0) && !(fraction - previous > kMinRelativeChord)) {
+      (offsets / i / 0)
+          .report("not_increasing", "fractions must increase by more than " + text(kMinRelativeChord) +
+                                        ", got " + text(fraction) + " after " + text(previous));
+    }
+    require_finite(offsets / i / 1, imperfection.offsets[i][1]);
+    previous = fraction;
+  }
+}
+
+/// Nodes of members whose rotation nothing resists.
+std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
+  std::unordered_set<std::string> nodes;
+  for (const Member& member : model.members) nodes.insert({member.start, member.end});
+  for (const Member& member : model.members) {
+    if (!member.release_start_rotation) nodes.erase(member.start);
+    if (!member.release_end_rotation) nodes.erase(member.end);
+  }
+  for (const Support& support : model.supports)
+    if (support.rotation) nodes.erase(support.node);
+  for (const Spring& spring : model.springs)
+    if (!spring.direction) nodes.erase(spring.at.node);
+  return nodes;
+}
+
+/// A moment on a node whose members are all released there would turn the node and nothing else.
+void check_moments(const Place& loads, const Model& data) {
+  const auto free = nodes_free_to_turn(data);
+  for (std::size_t i = 0; i < data.loads.size(); ++i) {
+    const auto* load = std::get_if<PointLoad>(&data.loads[i]);
+    if (load == nullptr || load->moment == 0.0 || !free.contains(load->at.node)) continue;
+    (loads / i / "moment")
+        .report("mechanism", "the moment turns node \"" + load->at.node +
+                                 "\" without deforming anything: all members are released there, and no "
+                                 "support or rotational spring holds its rotation");
+  }
+}
+
+}  // namespace
+
+void check_loads(const Place& model, const Model& data, const Names& names) {
+  const Place loads = model / "loads";
+  require_count(loads, data.loads.size(), kMaxLoads);
+  for (std::size_t i = 0; i < data.loads.size(); ++i) {
+    std::visit([&, place = loads / i](const auto& load) { check_load(place, load, names); }, data.loads[i]);
+  }
+  check_moments(loads, data);
+}
+
+void check_something_proportional(const Place& model, const Model& data, const Analysis& analysis) {
+  const bool something =
+      std::any_of(data.loads.begin(), data.loads.end(), [](const Load& l) { return grows(l); }) ||
+      std::any_of(data.supports.begin(), data.supports.end(), [](const Support& s) { return grows(s); });
+  if (!something && analysis.type != AnalysisType::static_) {
+    (model / "loads")
+        .report("no_load",
+                "nothing grows with the load factor: at least one proportional load or "
+                "prescribed displacement must not be zero");
+  }
+}
+
+void check_imperfections(const Place& model, const Model& data, const Names& names) {
+  const Place imperfections = model / "imperfections";
+  require_count(imperfections, data.imperfections.size(), kMaxImperfections);
+  for (std::size_t i = 0; i < data.imperfections.size(); ++i) {
+    std::visit([&, place = imperfections / i](const auto& item) { check_imperfection(place, item, names); },
+               data.imperfections[i]);
+  }
+}
+
+void check_monitors(const Place& model, const Model& data, Names& names) {
+  const Place monitors = model / "monitors";
+  require_count(monitors, data.monitors.size(), kMaxMonitors);
+  for (std::size_t i = 0; i < data.monitors.size(); ++i) {
+    const Place place = monitors / i;
+    const Monitor& monitor = data.monitors[i];
+    names.monitors.add(place / "id", monitor.id);
+    check_location(place / "at", monitor.at, names);
+    if (monitor.component == Component::normal && !monitor.at.node.empty()) {
+      (place / "component").report("needs_member", "component normal needs a location on a member");
+    }
+  }
+}
+
+}  // namespace snapthrough::checks

@@ -1,0 +1,155 @@
+/// The analysis: what is to be computed, on which mesh, how far.
+
+#include <cmath>
+#include <set>
+
+#include "solver/check/check_parts.h"
+#include "solver/model/limits.h"
+#include "solver/numeric/max_order.h"
+
+namespace snapthrough::checks {
+
+namespace {
+
+/// Elements of the whole mesh, and that every member has some; 0 when that is not known.
+long long check_member_elements(const Place& elements, const Model& model, const Discretization& mesh,
+                                const Names& names) {
+  Ids given("number of elements for member");
+  long long total = 0;
+  for (const auto& [member, count] : mesh.member_elements) {
+    const Place place = elements / member;
+    names.members.require(place, member);
+    given.add(place, member);
+    if (require_between(place, count, 1, kMaxElementsPerMember)) {
+      total += count;
+    }
+  }
+  for (const Member& member : model.members) {
+    if (!given.contains(member.id) && mesh.elements == 0) {
+      elements.report("missing_field", "no number of elements for member " + in_quotes(member.id));
+    }
+    total += given.contains(member.id) ? 0 : mesh.elements;
+  }
+  return total;
+}
+
+void check_fixed_mesh(const Place& place, const Model& model, const Discretization& mesh,
+                      const Names& names) {
+  const Place elements = place / "elements";
+  if (mesh.member_elements.empty() || mesh.elements != 0) {
+    require_between(elements, mesh.elements, 1, kMaxElementsPerMember);
+  }
+  const long long total = check_member_elements(elements, model, mesh, names);
+  if (total > kMaxElements) {
+    elements.report("too_many", "a mesh has at most " + std::to_string(kMaxElements) + " elements, got " +
+                                    std::to_string(total));
+  }
+  require_between(place / "order", mesh.order, 1, kMaxOrder);
+}
+
+void check_discretization(const Place& place, const Model& model, const Discretization& mesh,
+                          const Names& names) {
+  if (mesh.fixed_mesh) {
+    check_fixed_mesh(place, model, mesh, names);
+  } else if (!(mesh.accuracy > 0.0 && mesh.accuracy <= kMaxAccuracy)) {
+    (place / "accuracy")
+        .report("out_of_range", "accuracy must be above 0 and at most " + text(kMaxAccuracy) + ", got " +
+                                    text(mesh.accuracy));
+  }
+}
+
+void check_step(const Place& place, const StepOptions& step) {
+  bool positive = true;
+  const auto check_one = [&](std::string_view key, const std::optional<double>& value) {
+    positive = (!value || require_positive(place / key, *value)) && positive;
+  };
+  check_one("initial", step.initial);
+  check_one("min", step.min);
+  check_one("max", step.max);
+  const auto above = [](const std::optional<double>& a, const std::optional<double>& b) {
+    return a && b && *a > *b;
+  };
+  if (positive &&
+      (above(step.min, step.initial) || above(step.initial, step.max) || above(step.min, step.max))) {
+    place.report("out_of_range", "steps must satisfy min <= initial <= max");
+  }
+}
+
+void check_stop(const Place& place, const StopRules& stop, const Names& names) {
+  if (stop.limit_points) {
+    require_between(place / "limit_points", *stop.limit_points, 1, kMaxSteps);
+  }
+  if (stop.load_factor) {
+    require_interval(place / "load_factor", *stop.load_factor);
+  }
+  if (stop.monitor) {
+    names.monitors.require(place / "monitor" / "id", stop.monitor->id);
+    require_interval(place / "monitor" / "range", stop.monitor->range);
+  }
+  if (stop.steps) {
+    require_between(place / "steps", *stop.steps, 1, kMaxSteps);
+  }
+}
+
+void check_load_factors(const Place& place, const std::vector<double>& factors) {
+  require_count(place, factors.size(), kMaxLoadFactors);
+  if (factors.empty()) {
+    place.report("empty", place.name() + " must hold at least one load factor");
+  }
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    require_finite(place / i, factors[i]);
+  }
+}
+
+/// A static analysis has states at its own load factors only.
+void check_static_states(const Place& place, const Analysis& analysis) {
+  const std::vector<double>& asked = analysis.output.at_load_factors;
+  const std::set<double> known(analysis.load_factors.begin(), analysis.load_factors.end());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (!known.contains(asked[i])) {
+      (place / i).report("unknown_reference", "a static analysis has states at its load_factors, and " +
+                                                  text(asked[i]) + " is none of them");
+    }
+  }
+}
+
+void check_output(const Place& place, const Model& model, const OutputOptions& output) {
+  if (output.states == StateOutput::every) {
+    require_between(place / "states" / "every", output.every, 1, kMaxSteps);
+  } else if (output.states == StateOutput::at_load_factors) {
+    check_load_factors(place / "states" / "at_load_factors", output.at_load_factors);
+  }
+  if (output.path_points) {
+    require_between(place / "path_points", *output.path_points, 2, kMaxPathPoints);
+  }
+  const Place points = place / "points_per_member";
+  const auto members = static_cast<long long>(model.members.size());
+  if (require_between(points, output.points_per_member, 2, kMaxPointsPerMember) &&
+      members * output.points_per_member > kMaxStatePoints) {
+    points.report("too_many", "a state holds at most " + std::to_string(kMaxStatePoints) +
+                                  " points, members times points_per_member");
+  }
+}
+
+}  // namespace
+
+void check_analysis(const Place& root, const Model& model, const Analysis& analysis, const Names& names) {
+  const Place place = root / "analysis";
+  require_between(place / "modes", analysis.modes, 1, kMaxModes);
+  check_load_factors(place / "load_factors", analysis.load_factors);
+  check_discretization(place / "discretization", model, analysis.discretization, names);
+  if (analysis.control.type == ControlType::displacement) {
+    names.monitors.require(place / "control" / "displacement", analysis.control.monitor);
+  }
+  check_step(place / "step", analysis.step);
+  check_stop(place / "stop", analysis.stop, names);
+  if (analysis.branches.limit) {
+    require_between(place / "branches" / "limit", *analysis.branches.limit, 1, kMaxSteps);
+  }
+  check_output(place / "output", model, analysis.output);
+  if (analysis.type == AnalysisType::static_ && analysis.output.states == StateOutput::at_load_factors) {
+    check_static_states(place / "output" / "states" / "at_load_factors", analysis);
+  }
+}
+
+}  // namespace snapthrough::checks

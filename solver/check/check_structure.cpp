@@ -1,0 +1,182 @@
+/// Nodes, sections and members: ids, references, values and geometry.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/check/check_parts.h"
+#include "solver/model/limits.h"
+
+namespace snapthrough::checks {
+
+namespace {
+
+using Point = std::array<double, 2>;
+
+Point position(const Node& node) { return {node.x, node.y}; }
+
+double distance(const Point& a, const Point& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
+
+/// Whether geometry can be computed with it; when not, that is another finding.
+bool is_bounded(const Point& p) { return std::abs(p[0]) <= kMaxMagnitude && std::abs(p[1]) <= kMaxMagnitude; }
+bool is_bounded(const Node& node) { return is_bounded(position(node)); }
+
+/// Distances up to this are zero for this model: a part of its extent (of nodes and of points of splines),
+/// and no less than the roundoff of coordinates.
+double zero_distance(const Model& model) {
+  Point lo{kMaxMagnitude, kMaxMagnitude};
+  Point hi{-kMaxMagnitude, -kMaxMagnitude};
+  double largest = 0.0;
+  const auto include = [&](const Point& p) {
+    for (std::size_t i = 0; is_bounded(p) && i < 2; ++i) {
+      lo[i] = std::min(lo[i], p[i]);
+      hi[i] = std::max(hi[i], p[i]);
+      largest = std::max(largest, std::abs(p[i]));
+    }
+  };
+  for (const Node& node : model.nodes) include(position(node));
+  for (const Member& member : model.members) {
+    if (const auto* spline = std::get_if<PointsCurve>(&member.curve)) {
+      std::for_each(spline->points.begin(), spline->points.end(), include);
+    }
+  }
+  return std::max(kMinRelativeChord * distance(lo, hi),
+                  16.0 * std::numeric_limits<double>::epsilon() * largest);
+}
+
+void check_curve(const Place&, const LineCurve&) {}
+
+void check_curve(const Place& place, const ArcCurve& arc) {
+  const double turn = std::abs(arc.sweep_degrees);
+  if (!(turn > 0.0 && turn < 360.0)) {
+    (place / "sweep_degrees")
+        .report("out_of_range",
+                "sweep_degrees must be between -360 and 360 and not 0, got " + text(arc.sweep_degrees));
+  }
+}
+
+void check_curve(const Place& place, const ParabolaCurve& parabola) {
+  require_finite(place / "rise", parabola.rise);
+}
+
+void check_curve(const Place& place, const SineCurve& sine) {
+  require_finite(place / "rise", sine.rise);
+  require_between(place / "half_waves", sine.half_waves, 1, kMaxHalfWaves);
+}
+
+void check_curve(const Place& place, const PointsCurve& curve) {
+  const Place points = place / "points";
+  if (curve.points.empty()) {
+    points.report("empty", "points must hold at least one interior point; a straight member is a line");
+  }
+  require_count(points, curve.points.size(), kMaxCurvePoints);
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    require_finite(points / i / 0, curve.points[i][0]);
+    require_finite(points / i / 1, curve.points[i][1]);
+  }
+}
+
+/// Consecutive points of a spline, its ends included, must differ.
+void check_spline_points(const Place& place, const PointsCurve& curve, const Point& start, const Point& end,
+                         double zero) {
+  Point previous = start;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const bool meets_end = i + 1 == curve.points.size() && distance(curve.points[i], end) <= zero;
+    if (distance(previous, curve.points[i]) <= zero || meets_end) {
+      (place / i).report("coincident_points", "point " + std::to_string(i) + " coincides with a neighbour");
+    }
+    previous = curve.points[i];
+  }
+}
+
+void check_member_geometry(const Place& place, const Member& member, const Node& start, const Node& end,
+                           double zero) {
+  if (!is_bounded(start) || !is_bounded(end)) {
+    return;
+  }
+  if (distance(position(start), position(end)) <= zero) {
+    place.report("zero_length", "member " + in_quotes(member.id) + " has no length: nodes " +
+                                    in_quotes(start.id) + " and " + in_quotes(end.id) +
+                                    " are at the same place");
+    return;
+  }
+  if (const auto* spline = std::get_if<PointsCurve>(&member.curve)) {
+    check_spline_points(place / "curve" / "points", *spline, position(start), position(end), zero);
+  }
+}
+
+void check_nodes_are_reached(const Place& nodes, const Model& data, const Names& names) {
+  std::vector<bool> reached(data.nodes.size(), false);
+  for (const Member& member : data.members) {
+    reached[names.nodes.index(member.start)] = true;
+    reached[names.nodes.index(member.end)] = true;
+  }
+  for (std::size_t i = 0; i < data.nodes.size(); ++i) {
+    if (!reached[i] && names.nodes.index(data.nodes[i].id) == i) {
+      (nodes / i).report("unreached_node", "no member reaches node " + in_quotes(data.nodes[i].id));
+    }
+  }
+}
+
+}  // namespace
+
+void check_nodes(const Place& model, const Model& data, Names& names) {
+  const Place nodes = model / "nodes";
+  require_count(nodes, data.nodes.size(), kMaxNodes);
+  if (data.nodes.empty()) {
+    nodes.report("empty", "a model needs nodes");
+  }
+  for (std::size_t i = 0; i < data.nodes.size(); ++i) {
+    const Place place = nodes / i;
+    names.nodes.add(place / "id", data.nodes[i].id);
+    require_finite(place / "x", data.nodes[i].x);
+    require_finite(place / "y", data.nodes[i].y);
+  }
+}
+
+void check_sections(const Place& model, const Model& data, Names& names) {
+  const Place sections = model / "sections";
+  require_count(sections, data.sections.size(), kMaxSections);
+  if (data.sections.empty()) {
+    sections.report("empty", "a model needs sections");
+  }
+  for (std::size_t i = 0; i < data.sections.size(); ++i) {
+    const Place place = sections / i;
+    const Section& section = data.sections[i];
+    names.sections.add(place / "id", section.id);
+    require_positive(place / "EA", section.EA);
+    require_positive(place / "EI", section.EI);
+    if (section.GA) {
+      require_positive(place / "GA", *section.GA);
+    }
+  }
+}
+
+void check_members(const Place& model, const Model& data, Names& names) {
+  const Place members = model / "members";
+  require_count(members, data.members.size(), kMaxMembers);
+  if (data.members.empty()) {
+    members.report("empty", "a model needs members");
+  }
+  const double zero = zero_distance(data);
+  bool all_known = true;
+  for (std::size_t i = 0; i < data.members.size(); ++i) {
+    const Place place = members / i;
+    const Member& member = data.members[i];
+    names.members.add(place / "id", member.id);
+    const bool start_known = names.nodes.require(place / "start", member.start);
+    const bool end_known = names.nodes.require(place / "end", member.end);
+    names.sections.require(place / "section", member.section);
+    std::visit([&place](const auto& curve) { check_curve(place / "curve", curve); }, member.curve);
+    if (start_known && end_known) {
+      check_member_geometry(place, member, data.nodes[names.nodes.index(member.start)],
+                            data.nodes[names.nodes.index(member.end)], zero);
+    }
+    all_known = all_known && start_known && end_known;
+  }
+  if (all_known && !data.members.empty()) {  // otherwise a misspelt id would be reported twice
+    check_nodes_are_reached(model / "nodes", data, names);
+  }
+}
+
+}  // namespace snapthrough::checks

@@ -1,0 +1,143 @@
+#include "solver/column/exact_column.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include "solver/column/column_frame.h"
+#include "solver/numeric/bracket.h"
+
+namespace snapthrough {
+namespace {
+
+/// The search for the loads of one column.
+class LoadSearch {
+ public:
+  LoadSearch(const ColumnLine& line, int count) : line_(line), wanted_(count) {}
+  [[nodiscard]] std::optional<ColumnBuckling> run();
+
+ private:
+  [[nodiscard]] ColumnCount count(double lambda) {
+    ++out_.counts;
+    return count_below(line_, lambda);
+  }
+  [[nodiscard]] bool enclose(LoadBracket& bracket);
+  [[nodiscard]] bool take(const LoadBracket& bracket);
+  [[nodiscard]] double root(const LoadBracket& bracket);
+  [[nodiscard]] bool confirm(double load, int below);
+
+  const ColumnLine& line_;
+  int wanted_;
+  ColumnBuckling out_;
+  std::vector<int> below_;  ///< counts below each of the loads
+  double scale_ = 0.0;
+  bool lost_ = false;
+};
+
+/// A load factor with as many loads below it as are wanted.
+bool LoadSearch::enclose(LoadBracket& bracket) {
+  constexpr double kMostPieces = 5e4;
+  constexpr int kDoublings = 100;
+  double hi = std::numeric_limits<double>::infinity();
+  double length = 0.0;
+  for (const ColumnSpan& span : line_.spans) length += span.length;
+  for (const ColumnSpan& span : line_.spans)
+    if (span.proportional > 0.0)
+      hi =
+          std::min(hi, std::numbers::pi * std::numbers::pi * span.EI / (length * length * span.proportional));
+  out_.negative_at_start = count(0.0).negative;
+  bracket = {0.0, 0.0, out_.negative_at_start, out_.negative_at_start};
+  if (!std::isfinite(hi)) return true;  // nothing is compressed: no load is too much
+  hi *= kOffMultiples;
+  scale_ = hi;
+  for (int i = 0; i < kDoublings && bracket.below_hi - bracket.below_lo < wanted_; ++i, hi *= 2.0) {
+    if (piece_count(line_, hi) > kMostPieces) return false;
+    bracket.hi = hi;
+    bracket.below_hi = count(hi).negative;
+  }
+  return bracket.below_hi - bracket.below_lo >= wanted_;
+}
+
+/// Takes a bracket that holds one load, or equal ones.
+bool LoadSearch::take(const LoadBracket& bracket) {
+  constexpr double kEqual = 1e-14;
+  // loads that many times below Euler's are those of a mechanism
+  constexpr double kNone = 1e-25;
+  lost_ = lost_ || bracket.hi <= kNone * scale_;
+  if (lost_) return true;
+  const bool equal = bracket.hi - bracket.lo <= kEqual * bracket.hi;
+  if (!bracket.is_single() && !equal) return false;
+  const double load = bracket.is_single() ? root(bracket) : 0.5 * (bracket.lo + bracket.hi);
+  for (int below = bracket.below_lo; below < bracket.below_hi; ++below) {
+    out_.loads.push_back(load);
+    below_.push_back(below);
+  }
+  return true;
+}
+
+/// a over b.
+double ratio(const WideNumber& a, const WideNumber& b) {
+  return std::ldexp(a.mantissa / b.mantissa, std::clamp(a.exponent - b.exponent, -2000, 2000));
+}
+
+/// The one load of a bracket.
+double LoadSearch::root(const LoadBracket& bracket) {
+  constexpr double kDigits = 1e-15;
+  constexpr int kMost = 200;
+  const ColumnCount at_hi = count(bracket.hi);
+  // sizes from the determinant, signs from the count
+  const auto value = [&](double lambda, bool& above) {
+    const ColumnCount now = count(lambda);
+    above = now.negative > bracket.below_lo;
+    if (now.determinant.mantissa == 0.0) return 0.0;
+    const double size = std::clamp(std::abs(ratio(now.determinant, at_hi.determinant)), 1e-300, 1e300);
+    return above ? size : -size;
+  };
+  bool above = false;
+  SignBracket at(bracket.hi, 1.0, bracket.lo, value(bracket.lo, above));
+  for (int i = 0; i < kMost; ++i) {
+    const double least = kDigits * at.largest();
+    if (at.width() <= least || at.is_exact()) return at.best();
+    const double x = at.next(0.5 * least / at.width());
+    at.take(x, value(x, above));
+  }
+  return at.middle();
+}
+
+/// Counts on both sides, of pieces cut otherwise.
+bool LoadSearch::confirm(double load, int below) {
+  constexpr double kLeast = 1e-13;
+  constexpr double kMost = 1e-6;
+  for (double beside = kLeast; beside <= kMost; beside *= 8.0) {
+    out_.counts += 2;
+    if (count_below(line_, load * (1.0 - beside), true).negative <= below &&
+        count_below(line_, load * (1.0 + beside), true).negative > below) {
+      out_.errors.push_back(beside);
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<ColumnBuckling> LoadSearch::run() {
+  LoadBracket all;
+  if (!enclose(all)) return std::nullopt;
+  isolate_loads(
+      all, out_.negative_at_start + wanted_, [this](double load) { return count(load).negative; },
+      [this](const LoadBracket& bracket) { return take(bracket); });
+  if (lost_) return std::nullopt;
+  if (static_cast<int>(out_.loads.size()) > wanted_) out_.loads.resize(static_cast<std::size_t>(wanted_));
+  for (std::size_t i = 0; i < out_.loads.size(); ++i)
+    if (!confirm(out_.loads[i], below_[i])) return std::nullopt;
+  return std::move(out_);
+}
+
+}  // namespace
+
+std::optional<ColumnBuckling> column_buckling(const ColumnLine& line, int count) {
+  return LoadSearch(line, count).run();
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,36 @@
+#pragma once
+/// @file
+/// Displacements anywhere in one element.
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+
+#include "solver/discrete/structure.h"
+#include "solver/numeric/max_order.h"
+
+namespace snapthrough {
+
+/// @brief Reads the displacements of one element from the unknowns of its structure, scaled.
+class ElementReader {
+ public:
+  ElementReader(const Structure& structure, const Eigen::VectorXd& y, int element);
+
+  /// (x, y, rotation) at xi in [0, 1].
+  [[nodiscard]] std::array<double, 3> displacement(double xi) const;
+  /// Derivatives of (x, y, rotation) by scaled arc length.
+  [[nodiscard]] std::array<double, 3> derivative(double xi) const;
+  /// Length times the derivatives at the Gauss points, component c.
+  [[nodiscard]] std::span<const double> gradient(int c) const { return std::span(dv_[c]).first(p_); }
+  [[nodiscard]] const std::array<double, 3>& start() const { return ua_; }
+  [[nodiscard]] double length() const { return h_; }
+
+ private:
+  int p_;
+  double h_;
+  const CollocationRule* rule_;
+  std::array<double, 3> ua_{};
+  std::array<std::array<double, kMaxOrder>, 3> dv_{};
+};
+
+}  // namespace snapthrough

@@ -1,0 +1,111 @@
+#include "solver/discrete/foundation_springs.h"
+#include "solver/numeric/max_order.h"
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace snapthrough {
+namespace {
+
+/// A spring that reads the penetration at a place of an element.
+SupportSpring penetration_spring(const Structure& structure, const FoundationLaw& foundation, int element,
+                                 double xi) {
+  const auto d = foundation.direction.at(axis_point(structure, element, xi).angle);
+  return support_at(structure, element, xi, {d[0], d[1], 0.0});
+}
+
+/// Those at the points of a rule on part of an element, glued.
+std::vector<SupportSpring> penetration_springs(const Structure& structure, const FoundationLaw& foundation,
+                                               int element, std::array<double, 2> range,
+                                               const Quadrature& rule) {
+  std::vector<SupportSpring> out;
+  out.reserve(rule.points.size());
+  const double width = range[1] - range[0];
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    out.push_back(penetration_spring(structure, foundation, element, range[0] + width * rule.points[i]));
+    out.back().law.stiffness =
+        foundation.law.stiffness * length_of_element(structure, element) * width * rule.weights[i];
+  }
+  return out;
+}
+
+/// Lobatto's points of the whole element, those in the range.
+std::vector<SupportSpring> lumped_springs(const Structure& structure, const FoundationLaw& foundation,
+                                          int element, std::array<double, 2> range) {
+  const Quadrature lobatto = gauss_lobatto(structure.mesh.order + 1);
+  std::vector<SupportSpring> out;
+  for (std::size_t i = 0; i < lobatto.points.size(); ++i) {
+    const double xi = lobatto.points[i];
+    if (xi < range[0] - kOnePlace || xi > range[1] + kOnePlace) continue;
+    SupportSpring support = penetration_spring(structure, foundation, element, xi);
+    support.law = foundation.law;
+    support.law.stiffness =
+        foundation.law.stiffness * length_of_element(structure, element) * lobatto.weights[i];
+    out.push_back(support);
+  }
+  return out;
+}
+
+}  // namespace
+
+SupportSpring support_at(const Structure& structure, int element, double xi, std::array<double, 3> row) {
+  const int p = structure.mesh.order;
+  std::array<double, kMaxOrder> a{};
+  CollocationRule::of(p).integrals_at(xi, std::span(a).first(p));
+  SupportSpring support;
+  support.element = element;
+  support.a = row;
+  support.v.reserve(static_cast<std::size_t>(p));
+  const double h = length_of_element(structure, element);
+  for (int q = 0; q < p; ++q) support.v.push_back({h * a[q] * row[0], h * a[q] * row[1], h * a[q] * row[2]});
+  return support;
+}
+
+AxisPoint axis_point(const Structure& structure, int element, double xi) {
+  const MeshElement& e = structure.mesh.elements[element];
+  const AxisCurve& axis = *structure.axes[e.member];
+  return axis.at(axis.length() * (e.from + xi * (e.to - e.from)));
+}
+
+std::vector<SupportSpring> winkler_springs(const Structure& structure, const FoundationLaw& foundation,
+                                           int element, std::array<double, 2> range) {
+  if (structure.mesh.foundation == FoundationRule::lumped)
+    return lumped_springs(structure, foundation, element, range);
+  return penetration_springs(structure, foundation, element, range, gauss_legendre(structure.mesh.order + 1));
+}
+
+std::vector<SupportSpring> contact_springs(const Structure& structure, const FoundationLaw& foundation,
+                                           int element, FoundationContact::Interval interval) {
+  std::vector<SupportSpring> out =
+      penetration_springs(structure, foundation, element, {interval.from, interval.to},
+                          FoundationContact::quadrature(structure.mesh.order));
+  for (SupportSpring& support : out) support.law.gap = foundation.law.gap;
+  return out;
+}
+
+std::vector<SupportSpring> shear_layer_springs(const Structure& structure, const FoundationLaw& foundation,
+                                               int element, std::array<double, 2> range) {
+  const int p = structure.mesh.order;
+  const Quadrature gauss = gauss_legendre(p + 1);
+  const double width = range[1] - range[0];
+  std::vector<SupportSpring> out;
+  out.reserve(gauss.points.size());
+  for (std::size_t i = 0; i < gauss.points.size(); ++i) {
+    const double xi = range[0] + width * gauss.points[i];
+    const AxisPoint at = axis_point(structure, element, xi);
+    const auto n = foundation.direction.at(at.angle);
+    const auto dn = foundation.direction.rate(at.angle, structure.scales.scaled_curvature(at.curvature));
+    SupportSpring support = support_at(structure, element, xi, {dn[0], dn[1], 0.0});
+    std::array<double, kMaxOrder> l{};
+    CollocationRule::of(p).values_at(xi, std::span(l).first(p));
+    for (int q = 0; q < p; ++q)
+      for (int c = 0; c < 2; ++c) support.v[q][c] += l[q] * n[c];
+    support.law.stiffness =
+        foundation.shear * length_of_element(structure, element) * width * gauss.weights[i];
+    out.push_back(support);
+  }
+  return out;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,583 @@
+#include "solver/discrete/structure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <variant>
+
+#include "solver/discrete/foundation_springs.h"
+#include "solver/geometry/axes.h"
+#include "solver/geometry/stress_free_axis.h"
+#include "solver/model/id_index.h"
+#include "solver/numeric/max_order.h"
+#include "solver/support/joined_supports.h"
+
+namespace snapthrough {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+
+/// Builds a Structure stage by stage; one object a call of make_structure.
+class Builder {
+ public:
+  /// @param laws the model with the supports that the equations have
+  Builder(const Model& model, const Model& laws, Structure& out) : model_(model), laws_(laws), out_(out) {}
+
+  void set_scales();
+  void number_unknowns();
+  void add_elements();
+  void add_supports();
+  /// @param load_scale of another mesh of the model; empty: from the loads themselves
+  void add_loads(std::optional<double> load_scale);
+  void set_metric();
+  void add_monitors();
+  /// The elements are complete.
+  void finish() { out_.elements = std::move(elements_); }
+
+ private:
+  void add_element_supports(int element);
+  void add_foundation(int element, int index);
+  void add_foundation_law(int element, int index);
+  void add_contacts(int element, int index);
+  [[nodiscard]] Touch touch_of_spring(std::size_t index) const;
+  [[nodiscard]] FoundationContact make_contact(int element, const FoundationLaw& foundation, int index,
+                                               std::array<double, 2> range) const;
+  void add_point_spring(int element, std::size_t index);
+  void add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const;
+  void add_distributed(const DistributedLoad& load);
+  [[nodiscard]] Eigen::VectorXd& pattern(Pattern p) {
+    return p == Pattern::proportional ? out_.proportional_load : out_.constant_load;
+  }
+  void add_pressure(const PressureLoad& load);
+  void add_initial_strain(const InitialStrain& load);
+  void scale_loads(std::optional<double> load_scale);
+  void find_follower_ends(double load_scale);
+  [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
+
+  /// Follower pressures of the elements, scaled, proportional and constant; set once the load's scale is
+  /// known.
+  struct ElementPressure {
+    int element;
+    double proportional;
+    double constant;
+  };
+
+  const Model& model_;
+  const Model& laws_;
+  Structure& out_;
+  std::unique_ptr<ElementSet> elements_;
+  std::vector<ElementPressure> pressures_;
+  double strain_size_ = 0.0;  ///< forces that the proportional initial strains would need
+};
+
+ElementShape shape_on(const Structure& out, const Model& model, int element, const StressFreeAxis& axis) {
+  const MeshElement& e = out.mesh.elements[element];
+  const CollocationRule& rule = CollocationRule::of(out.mesh.order);
+  const Section& section = model.sections[index_of(model.sections, model.members[e.member].section)];
+  const double length = axis.perfect().length();
+  const double L = out.scales.length;
+  const double F = out.scales.force;
+  ElementShape shape;
+  shape.length = (e.to - e.from) * length / L;
+  std::array<double, 2> chord{0.0, 0.0};
+  for (int q = 0; q < rule.order(); ++q) {
+    const double s = length * (e.from + rule.point(q) * (e.to - e.from));
+    const StressFreePoint point = axis.at(s);
+    shape.angle.push_back(point.angle);
+    shape.t.push_back({point.stretch * std::cos(point.angle), point.stretch * std::sin(point.angle)});
+    for (int c = 0; c < 2; ++c) chord[c] += rule.weight(q) * shape.t[q][c];
+    shape.axial_compliance.push_back(point.stretch * F / section.EA);
+    shape.shear_compliance.push_back(section.GA ? point.stretch * F / *section.GA : 0.0);
+    shape.bending_compliance.push_back(point.stretch * F * L * L / section.EI);
+  }
+  // close the chord exactly: then rigid motions of any structure are free of strain
+  const StressFreePoint from = axis.at(length * e.from);
+  const StressFreePoint to = axis.at(length * e.to);
+  const std::array<double, 2> exact{(to.x - from.x) / L, (to.y - from.y) / L};
+  for (auto& t : shape.t)
+    for (int c = 0; c < 2; ++c) t[c] += exact[c] / shape.length - chord[c];
+  return shape;
+}
+
+void Builder::set_scales() {
+  double length = 0.0;
+  double bending = 0.0;
+  for (const auto& axis : out_.axes) length = std::max(length, axis->length());
+  for (const Member& member : model_.members)
+    bending = std::max(bending, model_.sections[index_of(model_.sections, member.section)].EI);
+  out_.scales.length = length;
+  out_.scales.force = bending / (length * length);
+  for (const Foundation& foundation : model_.foundations)
+    out_.foundation_laws.push_back(law_of(foundation, out_.scales));
+  for (const Spring& spring : model_.springs) out_.spring_laws.push_back(law_of(spring, out_.scales));
+}
+
+void Builder::number_unknowns() {
+  const Mesh& mesh = out_.mesh;
+  const int p = mesh.order;
+  out_.dofs.reserve(mesh.elements.size());
+  out_.nodes = static_cast<int>(model_.nodes.size());
+  int next = 3 * out_.nodes;
+  std::vector<std::array<int, 2>> released(model_.members.size(), {-1, -1});
+  for (std::size_t m = 0; m < model_.members.size(); ++m) {
+    if (model_.members[m].release_start_rotation) released[m][0] = next++;
+    if (model_.members[m].release_end_rotation) released[m][1] = next++;
+  }
+  out_.releases = next - 3 * out_.nodes;
+  for (std::size_t m = 0; m < model_.members.size(); ++m) {
+    const int start = index_of(model_.nodes, model_.members[m].start);
+    const int end = index_of(model_.nodes, model_.members[m].end);
+    std::array<int, 3> a{3 * start, 3 * start + 1, released[m][0] >= 0 ? released[m][0] : 3 * start + 2};
+    for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
+      ElementDofs dofs;
+      dofs.a = a;
+      dofs.v = next;
+      dofs.s = next + 3 * p;
+      dofs.m = next + 6 * p;
+      next += 6 * p + 3;
+      dofs.b = {next, next + 1, next + 2};
+      if (e + 1 == mesh.first[m + 1])
+        dofs.b = {3 * end, 3 * end + 1, released[m][1] >= 0 ? released[m][1] : 3 * end + 2};
+      else
+        next += 3;
+      a = dofs.b;
+      out_.dofs.push_back(dofs);
+    }
+  }
+  out_.size = next;
+  out_.proportional_load = Eigen::VectorXd::Zero(out_.size);
+  out_.constant_load = Eigen::VectorXd::Zero(out_.size);
+}
+
+FoundationContact Builder::make_contact(int element, const FoundationLaw& foundation, int index,
+                                        std::array<double, 2> range) const {
+  const MeshElement& e = out_.mesh.elements[element];
+  const std::shared_ptr<const AxisCurve>& axis = out_.axes[e.member];
+  Law law = foundation.law;
+  law.stiffness *= element_length(element);
+  return FoundationContact(out_.mesh.order, foundation.direction,
+                           {axis, e.from * axis->length(), (e.to - e.from) * axis->length()}, range, law,
+                           index);
+}
+
+/// A foundation of the model: where it lies, as results are read from it.
+void Builder::add_foundation(int element, int index) {
+  const Foundation& foundation = model_.foundations[index];
+  const auto range = part_of(out_.mesh.elements[element], foundation.range);
+  if (range[1] <= range[0]) return;
+  out_.foundation_parts.push_back({index, element, range, std::nullopt});
+  if (is_one_sided(foundation))
+    out_.foundation_parts.back().contact = make_contact(element, out_.foundation_laws[index], index, range);
+}
+
+/// A foundation as it acts in the equations.
+void Builder::add_foundation_law(int element, int index) {
+  const Foundation& foundation = laws_.foundations[index];
+  const auto range = part_of(out_.mesh.elements[element], foundation.range);
+  if (range[1] <= range[0]) return;
+  const FoundationLaw law = law_of(foundation, out_.scales);
+  if (law.shear > 0.0)
+    for (const SupportSpring& support : shear_layer_springs(out_, law, element, range))
+      elements_->add_spring(support);
+  if (law.law.stiffness == 0.0) return;
+  if (law.law.one_sided && out_.mesh.foundation == FoundationRule::consistent)
+    add_contacts(element, index);
+  else
+    for (const SupportSpring& support : winkler_springs(out_, law, element, range))
+      elements_->add_spring(support);
+}
+
+/// A one-sided foundation on an element: the parts that touch without pressure apart from the rest.
+void Builder::add_contacts(int element, int index) {
+  const Foundation& foundation = laws_.foundations[index];
+  const FoundationLaw law = law_of(foundation, out_.scales);
+  const auto add = [&](std::array<double, 2> fractions, Touch touch) {
+    const auto range = part_of(out_.mesh.elements[element], fractions);
+    if (range[1] > range[0]) elements_->add_contact(element, make_contact(element, law, index, range), touch);
+  };
+  double from = foundation.range[0];
+  for (const TouchingSupports::FoundationRange& part : out_.touching.foundations) {
+    if (part.foundation != index) continue;
+    add({from, part.range[0]}, Touch::none);
+    add(part.range, part.touch);
+    from = part.range[1];
+  }
+  add({from, foundation.range[1]}, Touch::none);
+}
+
+Touch Builder::touch_of_spring(std::size_t index) const {
+  for (const TouchingSupports::Spring& spring : out_.touching.springs)
+    if (spring.spring == static_cast<int>(index)) return spring.touch;
+  return Touch::none;
+}
+
+void Builder::add_point_spring(int element, std::size_t index) {
+  const Spring& spring = laws_.springs[index];
+  const MeshPlace place = place_of(out_.mesh, out_.mesh.elements[element].member, spring.at.fraction);
+  if (place.element != element || spring.stiffness == 0.0) return;
+  const SpringLaw law = law_of(spring, out_.scales);
+  SupportSpring support = support_at(out_, element, place.xi, law.row);
+  support.law = law.law;
+  support.touch = touch_of_spring(index);
+  support.spring = static_cast<int>(index);
+  elements_->add_spring(support);
+}
+
+void Builder::add_element_supports(int element) {
+  const std::string& member = model_.members[out_.mesh.elements[element].member].id;
+  for (std::size_t i = 0; i < model_.foundations.size(); ++i)
+    if (model_.foundations[i].member == member) add_foundation(element, static_cast<int>(i));
+  for (std::size_t i = 0; i < laws_.foundations.size(); ++i)
+    if (laws_.foundations[i].member == member) add_foundation_law(element, static_cast<int>(i));
+  for (std::size_t i = 0; i < laws_.springs.size(); ++i)
+    if (laws_.springs[i].at.member == member) add_point_spring(element, i);
+}
+
+void Builder::add_elements() {
+  elements_ = make_element_set(out_.mesh.order);
+  elements_->reserve(static_cast<int>(out_.mesh.elements.size()));
+  for (std::size_t m = 0; m < model_.members.size(); ++m) {
+    const StressFreeAxis& axis = *out_.stress_free[m];
+    for (int e = out_.mesh.first[m]; e < out_.mesh.first[m + 1]; ++e) {
+      elements_->add(shape_on(out_, model_, e, axis), out_.dofs[e]);
+      add_element_supports(e);
+    }
+  }
+  out_.skipped = without_stiffness(model_);
+}
+
+void Builder::add_supports() {
+  out_.supports.assign(model_.nodes.size(), {});
+  for (const Support& support : model_.supports) {
+    NodeSupport& node = out_.supports[index_of(model_.nodes, support.node)];
+    node.fixed = {support.x, support.y, support.rotation};
+    node.angle = support.angle_degrees * std::numbers::pi / 180.0;
+    if (!support.displacement) continue;
+    const auto& d = *support.displacement;
+    const Vec3 value{out_.scales.scaled_length(d.x), out_.scales.scaled_length(d.y), d.rotation};
+    (d.pattern == Pattern::proportional ? node.proportional : node.constant) = value;
+  }
+  for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
+    const Spring& spring = laws_.springs[i];
+    if (spring.at.node.empty() || spring.stiffness == 0.0) continue;
+    const SpringLaw law = law_of(spring, out_.scales);
+    NodeSpring js;
+    js.node = index_of(model_.nodes, spring.at.node);
+    js.row = law.row;
+    js.law = law.law;
+    js.touch = touch_of_spring(i);
+    js.spring = static_cast<int>(i);
+    out_.node_springs.push_back(js);
+  }
+}
+
+void Builder::add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const {
+  const SupportSpring support = support_at(out_, element, xi, action);
+  const ElementDofs& dofs = out_.dofs[element];
+  const int p = out_.mesh.order;
+  for (int c = 0; c < 3; ++c) {
+    load[dofs.a[c]] += support.a[c];
+    for (int q = 0; q < p; ++q) load[dofs.v + c * p + q] += support.v[q][c];
+  }
+}
+
+void Builder::add_distributed(const DistributedLoad& load) {
+  const int member = index_of(model_.members, load.member);
+  const AxisCurve& axis = *out_.axes[member];
+  const Quadrature gauss = gauss_legendre(out_.mesh.order + 1);
+  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
+    const MeshElement& cell = out_.mesh.elements[e];
+    const auto range = part_of(cell, load.range);
+    if (range[1] <= range[0]) continue;
+    const double width = range[1] - range[0];
+    for (std::size_t i = 0; i < gauss.points.size(); ++i) {
+      const double xi = range[0] + width * gauss.points[i];
+      double w = element_length(e) * width * out_.scales.scaled_line_load(gauss.weights[i]);
+      const double angle = axis.at(axis.length() * (cell.from + xi * (cell.to - cell.from))).angle;
+      if (load.per == LoadMeasure::horizontal) w *= std::abs(std::cos(angle));
+      if (load.per == LoadMeasure::vertical) w *= std::abs(std::sin(angle));
+      add_point_action(pattern(load.pattern), e, xi, {w * load.force[0], w * load.force[1], 0.0});
+    }
+  }
+}
+
+void Builder::add_loads(std::optional<double> load_scale) {
+  const Scales& scales = out_.scales;
+  for (const Load& load : model_.loads) {
+    if (const auto* point = std::get_if<PointLoad>(&load)) {
+      const Vec3 action{scales.scaled_force(point->force[0]), scales.scaled_force(point->force[1]),
+                        scales.scaled_moment(point->moment)};
+      if (point->at.member.empty()) {
+        const int node = index_of(model_.nodes, point->at.node);
+        for (int c = 0; c < 3; ++c) pattern(point->pattern)[3 * node + c] += action[c];
+      } else {
+        const MeshPlace place =
+            place_of(out_.mesh, index_of(model_.members, point->at.member), point->at.fraction);
+        add_point_action(pattern(point->pattern), place.element, place.xi, action);
+      }
+    } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
+      add_distributed(*distributed);
+    } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
+      add_pressure(*pressure);
+    } else {
+      add_initial_strain(std::get<InitialStrain>(load));
+    }
+  }
+  scale_loads(load_scale);
+}
+
+void Builder::add_pressure(const PressureLoad& load) {
+  const int member = index_of(model_.members, load.member);
+  // a medium on the left pushes along the right normal
+  const double value = (load.side == Side::left ? 1.0 : -1.0) * out_.scales.scaled_line_load(load.value);
+  const bool proportional = load.pattern == Pattern::proportional;
+  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e)
+    pressures_.push_back({e, proportional ? value : 0.0, proportional ? 0.0 : value});
+}
+
+void Builder::add_initial_strain(const InitialStrain& load) {
+  const int member = index_of(model_.members, load.member);
+  const int p = out_.mesh.order;
+  const double curvature = out_.scales.scaled_curvature(load.curvature);
+  const Section& section = model_.sections[index_of(model_.sections, model_.members[member].section)];
+  if (load.pattern == Pattern::proportional)
+    strain_size_ += out_.scales.scaled_force(std::abs(load.axial) * section.EA) +
+                    out_.scales.scaled_moment(std::abs(load.curvature) * section.EI);
+  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
+    const CollocationRule& rule = CollocationRule::of(p);
+    const ElementShape shape = shape_of_element(out_, model_, e);
+    for (int q = 0; q < p; ++q) {
+      const double length = shape.length * rule.weight(q) * std::hypot(shape.t[q][0], shape.t[q][1]);
+      pattern(load.pattern)[out_.dofs[e].s + q] += length * load.axial;
+      pattern(load.pattern)[out_.dofs[e].s + 2 * p + q] += length * curvature;
+    }
+  }
+}
+
+/// Scales the load factor so that the actions by unit scaled factor add up to the order of one.
+void Builder::scale_loads(std::optional<double> load_scale) {
+  double total = strain_size_;
+  for (int j = 0; j < 3 * out_.nodes + out_.releases; ++j) total += std::abs(out_.proportional_load[j]);
+  for (const ElementDofs& dofs : out_.dofs)
+    if (dofs.a[0] >= 3 * out_.nodes)
+      for (const int i : dofs.a) total += std::abs(out_.proportional_load[i]);
+  for (const NodeSupport& support : out_.supports)
+    for (const double value : support.proportional) total += std::abs(value);
+  for (const ElementPressure& p : pressures_) total += std::abs(p.proportional) * element_length(p.element);
+  if (total == 0.0) total = 1.0;
+  if (load_scale) total = *load_scale;
+  out_.scales.load = total;
+  out_.proportional_load /= total;
+  for (NodeSupport& support : out_.supports)
+    for (double& value : support.proportional) value /= total;
+  for (const ElementPressure& p : pressures_)
+    elements_->set_pressure(p.element, p.proportional / total, p.constant);
+  find_follower_ends(total);
+}
+
+/// Nodes that are free to move where the pressures of the lines that meet don't cancel.
+void Builder::find_follower_ends(double load_scale) {
+  std::vector<FollowerEnd> sums(static_cast<std::size_t>(out_.nodes));
+  for (const ElementPressure& p : pressures_) {
+    const ElementDofs& dofs = out_.dofs[p.element];
+    for (const auto& [node, half] : {std::pair{dofs.a, -0.5}, std::pair{dofs.b, 0.5}}) {
+      if (node[0] >= 3 * out_.nodes) continue;
+      FollowerEnd& end = sums[node[0] / 3];
+      end.proportional += half * p.proportional / load_scale;
+      end.constant += half * p.constant;
+    }
+  }
+  for (int j = 0; j < out_.nodes && out_.geometry == Geometry::nonlinear; ++j) {
+    const NodeSupport& support = out_.supports[j];
+    sums[j].node = j;
+    if (!support.fixed[0] && !support.fixed[1] && (sums[j].proportional != 0.0 || sums[j].constant != 0.0))
+      out_.follower_ends.push_back(sums[j]);
+  }
+}
+
+void Builder::set_metric() {
+  out_.metric = Eigen::VectorXd::Zero(out_.size);
+  const CollocationRule& rule = CollocationRule::of(out_.mesh.order);
+  const int p = rule.order();
+  double total = 0.0;
+  for (std::size_t e = 0; e < out_.dofs.size(); ++e) total += element_length(static_cast<int>(e));
+  for (std::size_t e = 0; e < out_.dofs.size(); ++e) {
+    const ElementDofs& dofs = out_.dofs[e];
+    const double part = element_length(static_cast<int>(e)) / total;
+    for (int c = 0; c < 2; ++c) {
+      out_.metric[dofs.a[c]] += 0.5 * part;
+      out_.metric[dofs.b[c]] += 0.5 * part;
+      for (int q = 0; q < p; ++q) out_.metric[dofs.v + c * p + q] = part * rule.weight(q);
+    }
+  }
+}
+
+void Builder::add_monitors() {
+  for (const Monitor& monitor : model_.monitors) {
+    Vec3 row{0.0, 0.0, 0.0};
+    double unit = out_.scales.length;
+    if (monitor.component == Component::x) row[0] = 1.0;
+    if (monitor.component == Component::y) row[1] = 1.0;
+    if (monitor.component == Component::rotation) {
+      row[2] = 1.0;
+      unit = 1.0;
+    }
+    if (monitor.component == Component::normal) {
+      const AxisCurve& axis = *out_.axes[index_of(model_.members, monitor.at.member)];
+      const double angle = axis.at(monitor.at.fraction * axis.length()).angle;
+      row = {-std::sin(angle), std::cos(angle), 0.0};
+    }
+    MonitorRow out{monitor.id, displacement_row(out_, model_, monitor.at, row)};
+    for (auto& [index, weight] : out.row.entries) weight *= unit;
+    out_.monitors.push_back(std::move(out));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> without_stiffness(const Model& model) {
+  std::vector<std::string> out;
+  for (const Foundation& foundation : model.foundations)
+    if (foundation.stiffness == 0.0) out.push_back("foundation " + foundation.id + ": stiffness 0");
+  for (const Spring& spring : model.springs)
+    if (spring.stiffness == 0.0) out.push_back("spring " + spring.id + ": stiffness 0");
+  return out;
+}
+
+ElementShape shape_of_element(const Structure& structure, const Model& model, int element) {
+  const int member = structure.mesh.elements[element].member;
+  return shape_on(structure, model, element, *structure.stress_free[member]);
+}
+
+double length_of_element(const Structure& structure, int element) {
+  const MeshElement& e = structure.mesh.elements[element];
+  return (e.to - e.from) * structure.axes[e.member]->length() / structure.scales.length;
+}
+
+MeshPlace place_of(const Mesh& mesh, int member, double fraction) {
+  int e = mesh.first[member];
+  while (e + 1 < mesh.first[member + 1] && mesh.elements[e + 1].from <= fraction + kOnePlace) ++e;
+  const MeshElement& cell = mesh.elements[e];
+  const double width = cell.to - cell.from;
+  const double one = kOnePlace / width;
+  const double xi = std::clamp((fraction - cell.from) / width, 0.0, 1.0);
+  return {e, xi < one ? 0.0 : (xi > 1.0 - one ? 1.0 : xi)};
+}
+
+SparseRow displacement_row(const Structure& structure, const Model& model, const Location& at, Vec3 row) {
+  SparseRow out;
+  const auto add = [&](Eigen::Index index, double weight) {
+    if (weight != 0.0) out.entries.emplace_back(index, weight);
+  };
+  if (at.member.empty()) {
+    const int node = index_of(model.nodes, at.node);
+    for (int c = 0; c < 3; ++c) add(3 * node + c, row[c]);
+    return out;
+  }
+  const int member = index_of(model.members, at.member);
+  const MeshPlace place = place_of(structure.mesh, member, at.fraction);
+  const ElementDofs& dofs = structure.dofs[place.element];
+  const MeshElement& cell = structure.mesh.elements[place.element];
+  const double h = (cell.to - cell.from) * structure.axes[member]->length() / structure.scales.length;
+  const int p = structure.mesh.order;
+  std::array<double, kMaxOrder> a{};
+  CollocationRule::of(p).integrals_at(place.xi, std::span(a).first(p));
+  for (int c = 0; c < 3; ++c) {
+    add(dofs.a[c], row[c]);
+    for (int q = 0; q < p; ++q) add(dofs.v + c * p + q, row[c] * h * a[q]);
+  }
+  return out;
+}
+
+namespace {
+
+/// Everything that follows from the model, the axes, the geometry and the mesh, which are set.
+void fill(const Model& model, std::optional<double> load_scale, Structure& out) {
+  const std::optional<Model> joined = with_joined_supports(model);
+  const Model& laws = joined ? *joined : model;
+  Builder builder(model, laws, out);
+  builder.set_scales();
+  builder.number_unknowns();
+  builder.add_elements();
+  builder.add_supports();
+  builder.add_loads(load_scale);
+  builder.set_metric();
+  builder.add_monitors();
+  builder.finish();
+  const auto one_sided = [](const auto& support) { return is_one_sided(support); };
+  out.one_sided = std::any_of(laws.foundations.begin(), laws.foundations.end(), one_sided) ||
+                  std::any_of(laws.springs.begin(), laws.springs.end(), one_sided);
+  for (const Load& load : model.loads)
+    out.has_constant =
+        out.has_constant || std::visit([](const auto& l) { return l.pattern == Pattern::constant; }, load);
+  for (const Support& support : model.supports)
+    out.has_constant =
+        out.has_constant || (support.displacement && support.displacement->pattern == Pattern::constant);
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    const double EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
+    const double length = out.axes[m]->length();
+    out.euler_loads.push_back(std::numbers::pi * std::numbers::pi * EI /
+                              (length * length * out.scales.force));
+    double foundation_load = 0.0;
+    for (const Foundation& foundation : model.foundations)
+      if (foundation.member == model.members[m].id)
+        foundation_load += 2.0 * std::sqrt(foundation.stiffness * EI) + foundation.shear_stiffness;
+    out.foundation_loads.push_back(foundation_load / out.scales.force);
+  }
+  const int p = out.mesh.order;
+  out.free_displacements = 3 * out.nodes + out.releases;
+  for (const NodeSupport& support : out.supports)
+    for (const bool fixed : support.fixed) out.free_displacements -= fixed ? 1 : 0;
+  // nodes between elements, and the P - 1 interior nodes that an element of order P has
+  for (std::size_t m = 0; m + 1 < out.mesh.first.size(); ++m) {
+    const int n = out.mesh.first[m + 1] - out.mesh.first[m];
+    out.free_displacements += 3 * (n - 1) + 3 * (p - 1) * n;
+  }
+}
+
+}  // namespace
+
+Structure make_structure(const Model& model, const Discretization& discretization, Geometry geometry,
+                         const ModeOffsets& modes, MeshUse use) {
+  Structure out;
+  out.geometry = geometry;
+  out.axes = make_axes(model);
+  out.origin = {model.nodes.front().x, model.nodes.front().y};
+  for (std::size_t m = 0; m < model.members.size(); ++m)
+    out.stress_free.push_back(std::make_shared<const StressFreeAxis>(
+        model, static_cast<int>(m), out.axes[m], modes.empty() ? std::vector<CubicSpline>{} : modes[m]));
+  out.mesh = make_mesh(model, discretization, out.axes, use);
+  fill(model, std::nullopt, out);
+  return out;
+}
+
+namespace {
+
+Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, TouchingSupports touching) {
+  Structure out;
+  out.geometry = structure.geometry;
+  out.axes = structure.axes;
+  out.origin = structure.origin;
+  out.stress_free = structure.stress_free;
+  out.mesh = std::move(mesh);
+  out.touching = std::move(touching);
+  fill(model, structure.scales.load, out);
+  out.free_motions = structure.free_motions;
+  out.stop = structure.stop;
+  return out;
+}
+
+}  // namespace
+
+Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh) {
+  return built_anew(structure, model, std::move(mesh), structure.touching);
+}
+
+Structure with_touching(const Structure& structure, const Model& model, TouchingSupports touching) {
+  return built_anew(structure, model, structure.mesh, std::move(touching));
+}
+
+}  // namespace snapthrough

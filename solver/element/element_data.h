@@ -1,0 +1,300 @@
+#pragma once
+/// @file
+/// The elements of one order P as they are made: nothing of a state. Included only by the files that
+/// instantiate it.
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/element/element_set.h"
+
+namespace snapthrough {
+
+/// Geometry, sections and supports of elements of order P.
+template <int P>
+struct ElementData {
+  static constexpr int kStrains = 3 * P;
+  using Gauss = std::array<double, P>;
+
+  struct Shape {
+    double h = 0.0;
+    bool shearable = false;
+    Gauss cos0{}, sin0{}, tx{}, ty{}, e0{}, g0{}, hb{};
+    std::array<double, kStrains> compliance{};
+    std::array<double, kStrains> root{};  ///< sqrt of the compliance
+    int first_spring = 0, spring_count = 0;
+    int first_contact = 0, contact_count = 0;
+    double pressure = 0.0, constant_pressure = 0.0;  ///< along the deformed right normal
+    int factor = 0;                                  ///< its number among the stiff or the shearable ones
+  };
+  /// A linear functional of an element's displacements with a support on it.
+  struct Functional {
+    Law law;
+    Touch touch = Touch::none;
+    int spring = -1;
+    std::array<double, 3> a{};
+    std::array<Gauss, 3> v{};
+  };
+  /// Displacement at an element's start and h times u'_x, u'_y at the Gauss points, as contacts read them.
+  struct ContactDisplacement {
+    std::array<double, 2> start;
+    Gauss dx, dy;
+  };
+
+  ElementData();
+  [[nodiscard]] ContactDisplacement displacement_of(const Shape& shape, const ElementDofs& at,
+                                                    const double* y) const;
+  [[nodiscard]] double value(const Functional& f, const ElementDofs& at, const double* y) const;
+  [[nodiscard]] Functional functional_at(const FoundationContact& contact, double h, double xi) const;
+
+  const CollocationRule* rule;
+  Gauss b{};
+  std::array<Gauss, P> a{};  ///< A_qr
+  /// On contact intervals: exact for straight axes, and near enough for turning normals that the energy's
+  /// edge terms vanish as they must (the tangent then is the derivative of the residual).
+  Quadrature contact_quadrature;
+  std::vector<Shape> shapes;
+  std::vector<ElementDofs> dofs;
+  int stiff = 0;      ///< unshearable elements
+  int shearable = 0;  ///< the others
+  std::vector<Functional> springs;
+  std::vector<FoundationContact> contacts;
+  std::vector<Touch> contact_touch;
+  std::vector<std::vector<Functional>> whole_contacts;  ///< Gauss points of each contact's whole range
+};
+
+template <int P>
+class ElementSetOf final : public ElementSet {
+ public:
+  [[nodiscard]] int size() const override { return static_cast<int>(data_.shapes.size()); }
+  void reserve(int elements) override {
+    data_.shapes.reserve(elements);
+    data_.dofs.reserve(elements);
+  }
+  void add(const ElementShape& shape, const ElementDofs& dofs) override;
+  void add_spring(const SupportSpring& support) override;
+  void add_contact(int element, FoundationContact contact, Touch touch) override;
+  void set_pressure(int element, double proportional, double constant) override;
+  [[nodiscard]] std::unique_ptr<ElementWork> make_work() const override;
+  void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const override;
+  void mark_touching(const Eigen::VectorXd& y, double tolerance, TouchingMarks& out) const override;
+  [[nodiscard]] std::vector<TouchingSpring> touching_springs(const TouchingMarks& marks,
+                                                             const FrozenContact* frozen) const override;
+  void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
+                              std::vector<double>& out) const override;
+  void set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode, std::span<const char> springs,
+                    FrozenContact& out) const override;
+  [[nodiscard]] std::vector<TouchingContact> touching_contacts(const TouchingMarks& marks,
+                                                               const FrozenContact* frozen) const override;
+  [[nodiscard]] double frozen_share(const FrozenContact& frozen, int element, int foundation) const override;
+
+ private:
+  ElementData<P> data_;
+};
+
+template <int P>
+ElementData<P>::ElementData()
+    : rule(&CollocationRule::of(P)), contact_quadrature(FoundationContact::quadrature(P)) {
+  for (int q = 0; q < P; ++q) {
+    b[q] = rule->weight(q);
+    for (int r = 0; r < P; ++r) a[q][r] = rule->integral(q, r);
+  }
+}
+
+template <int P>
+auto ElementData<P>::displacement_of(const Shape& shape, const ElementDofs& at, const double* y) const
+    -> ContactDisplacement {
+  ContactDisplacement u{{y[at.a[0]], y[at.a[1]]}, {}, {}};
+  for (int q = 0; q < P; ++q) {
+    u.dx[q] = shape.h * y[at.v + q];
+    u.dy[q] = shape.h * y[at.v + P + q];
+  }
+  return u;
+}
+
+template <int P>
+double ElementData<P>::value(const Functional& f, const ElementDofs& at, const double* y) const {
+  double w = f.a[0] * y[at.a[0]] + f.a[1] * y[at.a[1]] + f.a[2] * y[at.a[2]];
+  const double* v = y + at.v;
+  for (int c = 0; c < 3; ++c)
+    for (int q = 0; q < P; ++q) w += f.v[c][q] * v[c * P + q];
+  return w;
+}
+
+/// The penetration at a place of a contact, with neither stiffness nor gap.
+template <int P>
+auto ElementData<P>::functional_at(const FoundationContact& contact, double h, double xi) const
+    -> Functional {
+  Gauss integrals;
+  const auto d = contact.direction_at(xi);
+  rule->integrals_at(xi, integrals);
+  Functional f;
+  f.a = {d[0], d[1], 0.0};
+  for (int q = 0; q < P; ++q) {
+    f.v[0][q] = d[0] * h * integrals[q];
+    f.v[1][q] = d[1] * h * integrals[q];
+    f.v[2][q] = 0.0;
+  }
+  return f;
+}
+
+template <int P>
+void ElementSetOf<P>::add(const ElementShape& in, const ElementDofs& dofs) {
+  typename ElementData<P>::Shape shape;
+  shape.h = in.length;
+  for (int q = 0; q < P; ++q) {
+    shape.cos0[q] = std::cos(in.angle[q]);
+    shape.sin0[q] = std::sin(in.angle[q]);
+    shape.tx[q] = in.t[q][0];
+    shape.ty[q] = in.t[q][1];
+    shape.e0[q] = in.t[q][0] * shape.cos0[q] + in.t[q][1] * shape.sin0[q];
+    shape.g0[q] = -in.t[q][0] * shape.sin0[q] + in.t[q][1] * shape.cos0[q];
+    shape.hb[q] = in.length * data_.b[q];
+    shape.compliance[q] = in.axial_compliance[q];
+    shape.compliance[P + q] = in.shear_compliance[q];
+    shape.compliance[2 * P + q] = in.bending_compliance[q];
+    shape.shearable = shape.shearable || in.shear_compliance[q] > 0.0;
+  }
+  for (int i = 0; i < ElementData<P>::kStrains; ++i) shape.root[i] = std::sqrt(shape.compliance[i]);
+  shape.first_spring = static_cast<int>(data_.springs.size());
+  shape.first_contact = static_cast<int>(data_.contacts.size());
+  shape.factor = shape.shearable ? data_.shearable++ : data_.stiff++;
+  data_.shapes.push_back(shape);
+  data_.dofs.push_back(dofs);
+}
+
+/// Springs and contacts belong to the element added last, so that each element's are contiguous.
+template <int P>
+void ElementSetOf<P>::add_spring(const SupportSpring& support) {
+  typename ElementData<P>::Functional f;
+  f.law = support.law;
+  f.touch = support.touch;
+  f.spring = support.spring;
+  f.a = support.a;
+  for (int q = 0; q < P; ++q)
+    for (int c = 0; c < 3; ++c) f.v[c][q] = support.v[q][c];
+  data_.springs.push_back(f);
+  ++data_.shapes[support.element].spring_count;
+}
+
+template <int P>
+void ElementSetOf<P>::add_contact(int element, FoundationContact contact, Touch touch) {
+  data_.contact_touch.push_back(touch);
+  auto& whole = data_.whole_contacts.emplace_back();
+  const auto [from, to] = contact.range();
+  for (const double point : data_.contact_quadrature.points)
+    whole.push_back(data_.functional_at(contact, data_.shapes[element].h, from + (to - from) * point));
+  data_.contacts.push_back(std::move(contact));
+  ++data_.shapes[element].contact_count;
+}
+
+template <int P>
+void ElementSetOf<P>::set_pressure(int element, double proportional, double constant) {
+  data_.shapes[element].pressure += proportional;
+  data_.shapes[element].constant_pressure += constant;
+}
+
+template <int P>
+void ElementSetOf<P>::freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const {
+  out.contacts.resize(data_.contacts.size());
+  out.element_springs.assign(data_.springs.size(), 0);
+  for (int e = 0; e < size(); ++e) {
+    const auto& shape = data_.shapes[e];
+    const ElementDofs& dofs = data_.dofs[e];
+    const auto u = data_.displacement_of(shape, dofs, y.data());
+    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i)
+      data_.contacts[i].contact_intervals(u.start, u.dx, u.dy, out.contacts[i], -tolerance);
+    for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i)
+      out.element_springs[i] =
+          data_.value(data_.springs[i], dofs, y.data()) > data_.springs[i].law.gap - tolerance;
+  }
+}
+
+template <int P>
+void ElementSetOf<P>::mark_touching(const Eigen::VectorXd& y, double tolerance, TouchingMarks& out) const {
+  out.contacts.assign(data_.contacts.size(), 0);
+  out.element_springs.assign(data_.springs.size(), 0);
+  for (int e = 0; e < size(); ++e) {
+    const auto& shape = data_.shapes[e];
+    const auto u = data_.displacement_of(shape, data_.dofs[e], y.data());
+    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i)
+      out.contacts[i] = data_.contacts[i].is_near(u.start, u.dx, u.dy, tolerance);
+    for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i) {
+      const auto& support = data_.springs[i];
+      const double w = data_.value(support, data_.dofs[e], y.data()) - support.law.gap;
+      out.element_springs[i] = support.law.one_sided && std::abs(w) <= tolerance;
+    }
+  }
+}
+
+template <int P>
+std::vector<TouchingSpring> ElementSetOf<P>::touching_springs(const TouchingMarks& marks,
+                                                              const FrozenContact* frozen) const {
+  std::vector<TouchingSpring> out;
+  for (std::size_t i = 0; i < data_.springs.size(); ++i)
+    if (marks.element_springs[i] != 0)
+      out.push_back({data_.springs[i].spring, frozen != nullptr && frozen->element_springs[i] != 0});
+  return out;
+}
+
+template <int P>
+void ElementSetOf<P>::touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
+                                             std::vector<double>& out) const {
+  for (int e = 0; e < size(); ++e) {
+    const auto& shape = data_.shapes[e];
+    for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i)
+      if (marks.element_springs[i] != 0)
+        out.push_back(data_.value(data_.springs[i], data_.dofs[e], mode.data()));
+  }
+}
+
+template <int P>
+void ElementSetOf<P>::set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode,
+                                   std::span<const char> springs, FrozenContact& out) const {
+  auto next = springs.begin();
+  for (std::size_t i = 0; i < data_.springs.size(); ++i)
+    if (marks.element_springs[i] != 0) out.element_springs[i] = *next++;
+  for (int e = 0; e < size(); ++e) {
+    const auto& shape = data_.shapes[e];
+    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
+      if (marks.contacts[i] == 0) continue;
+      const FoundationContact& contact = data_.contacts[i];
+      out.contacts[i].assign(1, {contact.range()[0], contact.range()[1]});
+      if (mode.size() == 0) continue;
+      const auto u = data_.displacement_of(shape, data_.dofs[e], mode.data());
+      contact.contact_intervals(u.start, u.dx, u.dy, out.contacts[i], -contact.law().gap);
+    }
+  }
+}
+
+template <int P>
+std::vector<TouchingContact> ElementSetOf<P>::touching_contacts(const TouchingMarks& marks,
+                                                                const FrozenContact* frozen) const {
+  std::vector<TouchingContact> out;
+  for (int e = 0; e < size(); ++e)
+    for (int i = data_.shapes[e].first_contact;
+         i < data_.shapes[e].first_contact + data_.shapes[e].contact_count; ++i)
+      if (marks.contacts[i] != 0)
+        out.push_back({e, data_.contacts[i].foundation(), data_.contacts[i].range(),
+                       frozen != nullptr ? frozen->contacts[i] : std::vector<ElementPart>{}});
+  return out;
+}
+
+template <int P>
+double ElementSetOf<P>::frozen_share(const FrozenContact& frozen, int element, int foundation) const {
+  const auto& shape = data_.shapes[element];
+  double share = 0.0;
+  for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
+    if (data_.contacts[i].foundation() != foundation) continue;
+    for (const ElementPart& part : frozen.contacts[i]) share += part.to - part.from;
+  }
+  return share;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,656 @@
+#pragma once
+/// @file
+/// ElementWork for one order P. Included only by the files that instantiate it.
+///
+/// The interior of an element is written in its strains. With R_q = [d1 d2] the rotation at Gauss point q, E
+/// = x'.d1, G = x'.d2 and p_q = -G d1 + E d2 (x' turned by +90 degrees),
+///
+///   du'_q = d1 de_q + d2 dg_q + p_q db_q,     db_q = db_a + h sum_r A_qr dk_r,
+///
+/// so a linear functional of (u_a, v) becomes one of zeta = (e_1..e_P, g_1..g_P, k_1..k_P, u_a). The second
+/// derivative of the mixed functional is then
+///
+///   sum_q h b_q [ 2 db_q (N dg_q - Q de_q) + (N E + Q G) db_q^2 ]  +  sum_j k_j (dw_j)^2  =:  zeta^T H zeta
+///
+/// plus the compliance terms. The strain rows read h b ds + H zeta - U^T m = tau with d eps = C ds + d, U the
+/// rows of u_b. Substituting ds = y / sqrt(C) gives   S y = g,  S = h b I + sqrt(C) H sqrt(C): symmetric, of
+/// size 2 P or 3 P, and the identity in the limit C = 0. The columns that couple y to (u_a, m) stand beside S
+/// while it is factorised, which gives the condensed element at once.
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/element/augmented_factor.h"
+#include "solver/element/element_data.h"
+
+namespace snapthrough {
+
+template <int P>
+class ElementWorkOf final : public ElementWork {
+ public:
+  explicit ElementWorkOf(const ElementData<P>& data);
+  [[nodiscard]] double support_rounding() const override { return support_rounding_; }
+  void add_pressure_load(const Eigen::VectorXd& y, const LoadFactors& factors, bool small_displacements,
+                         Eigen::VectorXd& out) override;
+  void add_residual(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                    Eigen::VectorXd& residual) override;
+  void linearise(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                 Eigen::VectorXd& residual, std::span<CondensedElement> condensed) override;
+  void reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) override;
+  void recover(Eigen::VectorXd& x) override;
+  void add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                            const Eigen::Ref<const Eigen::MatrixXd>& directions,
+                            Eigen::MatrixXd& out) override;
+
+ private:
+  using Data = ElementData<P>;
+  using Shape = typename Data::Shape;
+  using Functional = typename Data::Functional;
+  using ContactDisplacement = typename Data::ContactDisplacement;
+  static constexpr int kStrains = Data::kStrains;
+  static constexpr int kZeta = 3 * P + 3;
+  using Gauss = typename Data::Gauss;
+  static constexpr int kRow = padded(kZeta);  ///< whole blocks; what is beyond kZeta is zero
+  using ZetaVector = Eigen::Matrix<double, kRow, 1>;
+
+  /// Rotations and axis derivatives at the Gauss points.
+  struct Kinematics {
+    Gauss c, s, xp, yp, E, G, px, py;
+  };
+  /// What solve needs of the last linearisation: H as it is made, not its entries.
+  struct Tangent {
+    Gauss c, s, px, py;
+    Gauss n, t, w;                     ///< h b_q times N, Q and N E + Q G; zero for small displacements
+    int first_row = 0, row_count = 0;  ///< of supports and pressure, in rows_
+  };
+  /// stiffness (row.zeta)^2 / 2 is part of the energy's second variation.
+  struct StrainRow {
+    ZetaVector row;
+    double stiffness = 0.0;
+  };
+  /// An element's interior y of N active strains, in the order e, (g,) k, with the columns of (u_a, m)
+  /// beside.
+  template <int N>
+  struct Interior {
+    AugmentedFactor<N> factor;                                             ///< of S
+    alignas(32) std::array<double, AugmentedFactor<N>::kWidth> reduced{};  ///< L^-1 times the last rhs
+  };
+
+  [[nodiscard]] Kinematics kinematics(const Shape& shape, const ElementDofs& dofs, const double* y) const;
+  void add_strain_residual(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
+                           const double* y, double* residual) const;
+  void add_strain_product(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
+                          const double* direction, double* out) const;
+  void add_support_residual(int element, const double* y, double* residual, bool keep);
+  void collect_contact(std::size_t index, const double* y, const ElementDofs& dofs, const Shape& shape);
+  void add_interval(std::size_t index, const Shape& shape, const FoundationContact::Interval& interval,
+                    double modulus, double gap);
+  void to_strain_row(const Functional& f, const Shape& shape, const Tangent& t, ZetaVector& row) const;
+  template <int N>
+  void add_end_columns(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const;
+  template <int N>
+  void add_geometric(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const;
+  template <int N>
+  void add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S);
+  void collect_rows(int element, const Kinematics& kin, const double* y, double* residual);
+  [[nodiscard]] double pressure_of(const Shape& shape) const {
+    return factors_.proportional * shape.pressure + factors_.constant * shape.constant_pressure;
+  }
+  void add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, double pressure,
+                    const double* y, double* load) const;
+  void collect_pressure(const Shape& shape, double pressure);
+  void add_acting_product(const ElementDofs& dofs, const double* direction, double* out) const;
+  void add_pressure_product(const Shape& shape, const ElementDofs& dofs, double pressure,
+                            const double* direction, double* out) const;
+  [[nodiscard]] bool acts(const Functional& f, std::size_t support, const ElementDofs& dofs,
+                          const double* y) const;
+  template <int N>
+  void linearise_element(int element, const double* y, double* residual, Interior<N>& interior,
+                         CondensedElement& out);
+  template <int N>
+  void reduce_element(int element, const double* rhs, Interior<N>& interior, CondensedElement& out) const;
+  template <int N>
+  void recover_element(int element, const Interior<N>& interior, double* x) const;
+  void subtract_strains(const Shape& shape, const Tangent& t, const ZetaVector& d, ZetaVector& tau,
+                        Eigen::Vector3d& rm) const;
+  /// Active index i of S to its position in zeta.
+  template <int N>
+  [[nodiscard]] static constexpr int active(int i) {
+    return N == kStrains || i < P ? i : i + P;
+  }
+
+  [[nodiscard]] int size() const { return static_cast<int>(shapes_.size()); }
+  void begin(const LoadFactors& factors, const Regime& regime);
+
+  const Data& data_;
+  const std::array<Gauss, P>& a_;  ///< of data_, as the following
+  const std::vector<Shape>& shapes_;
+  const std::vector<ElementDofs>& dofs_;
+  const std::vector<Functional>& springs_;
+  const std::vector<FoundationContact>& contacts_;
+  Regime regime_;        ///< of the call that is being answered
+  bool linear_ = false;  ///< it is of small displacements
+  LoadFactors factors_;  ///< on the pressures, in that call
+  double support_rounding_ = 0.0;
+  std::vector<Tangent> tangents_;
+  std::vector<StrainRow> rows_;         ///< of all elements, from the last linearisation
+  std::vector<Interior<2 * P>> stiff_;  ///< of unshearable elements; made with the first linearisation
+  std::vector<Interior<3 * P>> shearable_;
+  // scratch
+  std::vector<Functional> acting_;  ///< supports of the current element that act
+  std::vector<typename AugmentedMatrix<2 * P>::Weighted> stiff_rows_;  ///< of the current element, scaled
+  std::vector<typename AugmentedMatrix<3 * P>::Weighted> shearable_rows_;
+  std::vector<FoundationContact::Interval> intervals_;
+};
+
+template <int P>
+ElementWorkOf<P>::ElementWorkOf(const ElementData<P>& data)
+    : data_(data),
+      a_(data.a),
+      shapes_(data.shapes),
+      dofs_(data.dofs),
+      springs_(data.springs),
+      contacts_(data.contacts) {}
+
+template <int P>
+void ElementWorkOf<P>::begin(const LoadFactors& factors, const Regime& regime) {
+  regime_ = regime;
+  linear_ = regime.small_displacements;
+  factors_ = factors;
+}
+
+template <int P>
+auto ElementWorkOf<P>::kinematics(const Shape& shape, const ElementDofs& dofs, const double* y) const
+    -> Kinematics {
+  Kinematics kin;
+  const double* v = y + dofs.v;
+  const double ba = y[dofs.a[2]];
+  for (int q = 0; q < P; ++q) {
+    double b = 0.0;
+    for (int r = 0; r < P; ++r) b += a_[q][r] * v[2 * P + r];
+    b = ba + shape.h * b;
+    if (linear_) {
+      kin.c[q] = shape.cos0[q];
+      kin.s[q] = shape.sin0[q];
+      kin.xp[q] = shape.tx[q];
+      kin.yp[q] = shape.ty[q];
+      kin.E[q] = shape.cos0[q] * v[q] + shape.sin0[q] * v[P + q] + shape.g0[q] * b + shape.e0[q];
+      kin.G[q] = -shape.sin0[q] * v[q] + shape.cos0[q] * v[P + q] - shape.e0[q] * b + shape.g0[q];
+      kin.px[q] = -shape.ty[q];
+      kin.py[q] = shape.tx[q];
+      continue;
+    }
+    const double cb = std::cos(b);
+    const double sb = std::sin(b);
+    kin.c[q] = shape.cos0[q] * cb - shape.sin0[q] * sb;
+    kin.s[q] = shape.sin0[q] * cb + shape.cos0[q] * sb;
+    kin.xp[q] = shape.tx[q] + v[q];
+    kin.yp[q] = shape.ty[q] + v[P + q];
+    kin.E[q] = kin.xp[q] * kin.c[q] + kin.yp[q] * kin.s[q];
+    kin.G[q] = -kin.xp[q] * kin.s[q] + kin.yp[q] * kin.c[q];
+    kin.px[q] = -kin.yp[q];
+    kin.py[q] = kin.xp[q];
+  }
+  return kin;
+}
+
+template <int P>
+void ElementWorkOf<P>::add_strain_residual(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
+                                           const double* y, double* residual) const {
+  const double* v = y + dofs.v;
+  const double* s = y + dofs.s;
+  const double* m = y + dofs.m;
+  double* fv = residual + dofs.v;
+  double* fs = residual + dofs.s;
+  double* fm = residual + dofs.m;
+  double gap[3];
+  for (int c = 0; c < 3; ++c) gap[c] = y[dofs.b[c]] - y[dofs.a[c]];
+  double moment_a = 0.0;
+  for (int q = 0; q < P; ++q) {
+    const double hb = shape.hb[q];
+    const double N = s[q];
+    const double Q = s[P + q];
+    fs[q] += hb * (kin.E[q] - shape.e0[q] - shape.compliance[q] * N);
+    fs[P + q] += hb * (kin.G[q] - shape.g0[q] - shape.compliance[P + q] * Q);
+    fs[2 * P + q] += hb * (v[2 * P + q] - shape.compliance[2 * P + q] * s[2 * P + q]);
+    fv[q] += hb * (N * kin.c[q] - Q * kin.s[q] - m[0]);
+    fv[P + q] += hb * (N * kin.s[q] + Q * kin.c[q] - m[1]);
+    fv[2 * P + q] += hb * (s[2 * P + q] - m[2]);
+    // N G - Q E, the moment of the section force about the axis' tangent; linear geometry keeps the initial
+    // tangent
+    const double turn = linear_ ? N * shape.g0[q] - Q * shape.e0[q] : N * kin.G[q] - Q * kin.E[q];
+    moment_a += hb * turn;
+    for (int r = 0; r < P; ++r) fv[2 * P + r] += hb * turn * shape.h * a_[q][r];
+    for (int c = 0; c < 3; ++c) gap[c] -= hb * v[c * P + q];
+  }
+  for (int c = 0; c < 3; ++c) {
+    residual[dofs.a[c]] -= m[c];
+    residual[dofs.b[c]] += m[c];
+    fm[c] += gap[c];
+  }
+  residual[dofs.a[2]] += moment_a;
+}
+
+template <int P>
+void ElementWorkOf<P>::to_strain_row(const Functional& f, const Shape& shape, const Tangent& t,
+                                     ZetaVector& row) const {
+  Gauss turn;
+  Gauss bend = f.v[2];
+  double turn_a = f.a[2];
+  for (int q = 0; q < P; ++q) {
+    const double vx = f.v[0][q];
+    const double vy = f.v[1][q];
+    row[q] = vx * t.c[q] + vy * t.s[q];
+    row[P + q] = -vx * t.s[q] + vy * t.c[q];
+    turn[q] = vx * t.px[q] + vy * t.py[q];
+    turn_a += turn[q];
+    turn[q] *= shape.h;
+  }
+  for (int q = 0; q < P; ++q)
+    for (int r = 0; r < P; ++r) bend[r] += turn[q] * a_[q][r];
+  for (int r = 0; r < P; ++r) row[2 * P + r] = bend[r];
+  row[3 * P] = f.a[0];
+  row[3 * P + 1] = f.a[1];
+  row[3 * P + 2] = turn_a;
+  for (int i = kZeta; i < kRow; ++i) row[i] = 0.0;
+}
+
+/// The columns of m beside S and u_a: minus the rows of u_b, which are those of an end's displacement.
+template <int P>
+template <int N>
+void ElementWorkOf<P>::add_end_columns(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const {
+  constexpr int K = N - P;  // first curvature
+  constexpr int A = N;      // u_a
+  constexpr int M = N + 3;
+  for (int q = 0; q < P; ++q) {
+    const double e = shape.hb[q] * shape.root[q];
+    S(q, M) = -e * t.c[q];
+    S(q, M + 1) = -e * t.s[q];
+    if constexpr (N == kStrains) {
+      const double g = shape.hb[q] * shape.root[P + q];
+      S(P + q, M) = g * t.s[q];
+      S(P + q, M + 1) = -g * t.c[q];
+    }
+    S(K + q, M + 2) = -shape.hb[q] * shape.root[2 * P + q];
+  }
+  double x = 0.0;
+  double y = 0.0;
+  Gauss kx{};
+  Gauss ky{};
+  for (int q = 0; q < P; ++q) {
+    const double px = shape.hb[q] * t.px[q];
+    const double py = shape.hb[q] * t.py[q];
+    x += px;
+    y += py;
+    for (int r = 0; r < P; ++r) {
+      kx[r] += px * a_[q][r];
+      ky[r] += py * a_[q][r];
+    }
+  }
+  for (int r = 0; r < P; ++r) {
+    const double f = -shape.h * shape.root[2 * P + r];
+    S(K + r, M) = f * kx[r];
+    S(K + r, M + 1) = f * ky[r];
+  }
+  S(A + 2, M) = -x;
+  S(A + 2, M + 1) = -y;
+  for (int c = 0; c < 3; ++c) S(A + c, M + c) = -1.0;
+}
+
+template <int P>
+template <int N>
+void ElementWorkOf<P>::add_geometric(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const {
+  constexpr int K = N - P;
+  using Weighted = typename AugmentedMatrix<N>::Weighted;
+  std::array<Weighted, P> turn;  // db_q
+  for (int q = 0; q < P; ++q) {
+    turn[q].x.fill(0.0);
+    turn[q].weight = t.w[q];
+    for (int r = 0; r < P; ++r) turn[q].x[K + r] = shape.h * a_[q][r] * shape.root[2 * P + r];
+    turn[q].x[N + 2] = 1.0;
+    const auto add = [&](int row, double f) {
+      for (int b = K / kBlock * kBlock; b < AugmentedMatrix<N>::kWidth; b += kBlock)
+        store(ConstBlock(&S(row, b)) + f * ConstBlock(&turn[q].x[b]), &S(row, b));
+    };
+    add(q, -t.t[q] * shape.root[q]);
+    if constexpr (N == kStrains) add(P + q, t.n[q] * shape.root[P + q]);
+  }
+  S.template add_squares<K>(turn.data(), P);
+}
+
+/// Adds the rows of supports and pressure, scaled.
+template <int P>
+template <int N>
+void ElementWorkOf<P>::add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) {
+  auto& scaled = [this]() -> auto& {
+    if constexpr (N == kStrains)
+      return shearable_rows_;
+    else
+      return stiff_rows_;
+  }
+  ();
+  const auto count = static_cast<std::size_t>(t.row_count);
+  if (scaled.size() < count) scaled.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const StrainRow& in = rows_[t.first_row + k];
+    auto& x = scaled[k].x;
+    scaled[k].weight = in.stiffness;
+    for (int i = 0; i < N; ++i) x[i] = shape.root[active<N>(i)] * in.row[active<N>(i)];
+    for (int c = 0; c < 3; ++c) x[N + c] = in.row[kStrains + c];
+    for (int i = N + 3; i < AugmentedMatrix<N>::kWidth; ++i) x[i] = 0.0;
+  }
+  S.template add_squares<0>(scaled.data(), count);
+}
+
+/// The supports and the pressure that act at y, as rows in strains, and their forces.
+template <int P>
+void ElementWorkOf<P>::collect_rows(int element, const Kinematics& kin, const double* y, double* residual) {
+  const Shape& shape = shapes_[element];
+  acting_.clear();
+  if (shape.spring_count > 0 || shape.contact_count > 0) add_support_residual(element, y, residual, true);
+  if (const double pressure = pressure_of(shape); pressure != 0.0) {
+    add_pressure(shape, dofs_[element], kin, -pressure, y, residual);
+    if (!linear_) collect_pressure(shape, pressure);
+  }
+  Tangent& t = tangents_[element];
+  t.first_row = static_cast<int>(rows_.size());
+  t.row_count = static_cast<int>(acting_.size());
+  for (const Functional& f : acting_) {
+    StrainRow& out = rows_.emplace_back();
+    to_strain_row(f, shape, t, out.row);
+    out.stiffness = f.law.stiffness;
+  }
+}
+
+template <int P>
+template <int N>
+void ElementWorkOf<P>::linearise_element(int element, const double* y, double* residual,
+                                         Interior<N>& interior, CondensedElement& out) {
+  const Shape& shape = shapes_[element];
+  const ElementDofs& dofs = dofs_[element];
+  const Kinematics kin = kinematics(shape, dofs, y);
+  add_strain_residual(shape, dofs, kin, y, residual);
+  Tangent& t = tangents_[element];
+  t.c = kin.c;
+  t.s = kin.s;
+  t.px = kin.px;
+  t.py = kin.py;
+  for (int q = 0; q < P; ++q) {
+    t.n[q] = linear_ ? 0.0 : shape.hb[q] * y[dofs.s + q];
+    t.t[q] = linear_ ? 0.0 : shape.hb[q] * y[dofs.s + P + q];
+    t.w[q] = t.n[q] * kin.E[q] + t.t[q] * kin.G[q];
+  }
+  collect_rows(element, kin, y, residual);
+  AugmentedMatrix<N> S;
+  S.set_zero();
+  for (int i = 0; i < N; ++i) S(i, i) = shape.hb[i % P];
+  add_end_columns<N>(shape, t, S);
+  if (!linear_) add_geometric<N>(shape, t, S);
+  if (t.row_count > 0) add_rows<N>(shape, t, S);
+  std::array<double, N> pivots;
+  interior.factor.factorise(S, pivots);
+  out.negative = 0;
+  double det = 1.0;
+  for (int i = 0; i < N; ++i) {
+    if (pivots[i] < 0.0) ++out.negative;
+    det *= std::abs(pivots[i]) / shape.hb[i % P];
+  }
+  out.log_det = std::log(det);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      out.K(i, j) = S(N + std::min(i, j), N + std::max(i, j));
+      out.X(i, j) = S(N + j, N + 3 + i);
+      out.F(i, j) = -S(N + 3 + std::min(i, j), N + 3 + std::max(i, j));
+    }
+}
+
+template <int P>
+void ElementWorkOf<P>::add_residual(const Eigen::VectorXd& y, const LoadFactors& factors,
+                                    const Regime& regime, Eigen::VectorXd& residual) {
+  begin(factors, regime);
+  support_rounding_ = 0.0;
+  for (int e = 0; e < size(); ++e) {
+    const Kinematics kin = kinematics(shapes_[e], dofs_[e], y.data());
+    add_strain_residual(shapes_[e], dofs_[e], kin, y.data(), residual.data());
+    if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
+      add_pressure(shapes_[e], dofs_[e], kin, -pressure, y.data(), residual.data());
+    if (shapes_[e].spring_count > 0 || shapes_[e].contact_count > 0)
+      add_support_residual(e, y.data(), residual.data(), false);
+  }
+}
+
+template <int P>
+void ElementWorkOf<P>::linearise(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
+                                 Eigen::VectorXd& residual, std::span<CondensedElement> condensed) {
+  begin(factors, regime);
+  support_rounding_ = 0.0;
+  tangents_.resize(shapes_.size());
+  stiff_.resize(static_cast<std::size_t>(data_.stiff));
+  shearable_.resize(static_cast<std::size_t>(data_.shearable));
+  rows_.clear();
+  for (int e = 0; e < size(); ++e) {
+    const Shape& shape = shapes_[e];
+    if (shape.shearable)
+      linearise_element<3 * P>(e, y.data(), residual.data(), shearable_[shape.factor], condensed[e]);
+    else
+      linearise_element<2 * P>(e, y.data(), residual.data(), stiff_[shape.factor], condensed[e]);
+  }
+}
+
+/// What given strains d leave of the right-hand sides of the strains, tau - H d, and of m, rm + U d.
+template <int P>
+void ElementWorkOf<P>::subtract_strains(const Shape& shape, const Tangent& t, const ZetaVector& d,
+                                        ZetaVector& tau, Eigen::Vector3d& rm) const {
+  for (int q = 0; q < P; ++q) {
+    const double e = d[q];
+    const double g = d[P + q];
+    double b = 0.0;
+    for (int r = 0; r < P; ++r) b += a_[q][r] * d[2 * P + r];
+    b *= shape.h;
+    tau[q] += t.t[q] * b;
+    tau[P + q] -= t.n[q] * b;
+    const double turn = t.n[q] * g - t.t[q] * e + t.w[q] * b;
+    for (int r = 0; r < P; ++r) tau[2 * P + r] -= turn * shape.h * a_[q][r];
+    tau[kStrains + 2] -= turn;
+    rm[0] += shape.hb[q] * (t.c[q] * e - t.s[q] * g + t.px[q] * b);
+    rm[1] += shape.hb[q] * (t.s[q] * e + t.c[q] * g + t.py[q] * b);
+    rm[2] += shape.hb[q] * d[2 * P + q];
+  }
+  for (int k = t.first_row; k < t.first_row + t.row_count; ++k) {
+    const StrainRow& row = rows_[k];
+    subtract_scaled<kRow>(tau.data(), row.row.data(),
+                          row.stiffness * dot_from<kRow>(row.row.data(), d.data(), 0), 0);
+  }
+}
+
+template <int P>
+template <int N>
+void ElementWorkOf<P>::reduce_element(int element, const double* rhs, Interior<N>& interior,
+                                      CondensedElement& out) const {
+  const Shape& shape = shapes_[element];
+  const ElementDofs& dofs = dofs_[element];
+  Functional row;
+  ZetaVector d = ZetaVector::Zero();
+  bool strained = false;
+  for (int i = 0; i < kStrains; ++i) {
+    row.v[i / P][i % P] = rhs[dofs.v + i];
+    d[i] = rhs[dofs.s + i] / shape.hb[i % P];
+    strained = strained || d[i] != 0.0;
+  }
+  ZetaVector tau;  // interior rows in the strain basis, the start's entries included
+  to_strain_row(row, shape, tangents_[element], tau);
+  for (int c = 0; c < 3; ++c) out.rm[c] = rhs[dofs.m + c];
+  if (strained) subtract_strains(shape, tangents_[element], d, tau, out.rm);
+  interior.reduced.fill(0.0);
+  for (int i = 0; i < N; ++i) interior.reduced[i] = shape.root[active<N>(i)] * tau[active<N>(i)];
+  interior.factor.forward(interior.reduced.data());
+  for (int c = 0; c < 3; ++c) {
+    out.ra[c] = tau[kStrains + c] + interior.reduced[N + c];
+    out.rm[c] += interior.reduced[N + 3 + c];
+  }
+}
+
+template <int P>
+void ElementWorkOf<P>::reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) {
+  for (int e = 0; e < size(); ++e) {
+    const Shape& shape = shapes_[e];
+    if (shape.shearable)
+      reduce_element<3 * P>(e, rhs.data(), shearable_[shape.factor], condensed[e]);
+    else
+      reduce_element<2 * P>(e, rhs.data(), stiff_[shape.factor], condensed[e]);
+  }
+}
+
+template <int P>
+template <int N>
+void ElementWorkOf<P>::recover_element(int element, const Interior<N>& interior, double* x) const {
+  const Shape& shape = shapes_[element];
+  const ElementDofs& dofs = dofs_[element];
+  const Tangent& t = tangents_[element];
+  ZetaVector zeta = ZetaVector::Zero();
+  for (int i = 0; i < kStrains; ++i) zeta[i] = x[dofs.s + i] / shape.hb[i % P];
+  for (int c = 0; c < 3; ++c) zeta[kStrains + c] = x[dofs.a[c]];
+  alignas(32) std::array<double, AugmentedFactor<N>::kWidth> y{};
+  for (int c = 0; c < 3; ++c) {
+    y[N + c] = x[dofs.a[c]];
+    y[N + 3 + c] = x[dofs.m + c];
+  }
+  interior.factor.backward(interior.reduced.data(), y.data());
+  for (int i = 0; i < N; ++i) {
+    const int z = active<N>(i);
+    zeta[z] += shape.root[z] * y[i];
+    x[dofs.s + z] = y[i] / shape.root[z];
+  }
+  Gauss b;
+  for (int q = 0; q < P; ++q) {
+    b[q] = 0.0;
+    for (int r = 0; r < P; ++r) b[q] += a_[q][r] * zeta[2 * P + r];
+    b[q] = zeta[kStrains + 2] + shape.h * b[q];
+  }
+  if constexpr (N < kStrains) {  // shear forces from their rows, as no strain goes with them
+    Gauss row;
+    for (int q = 0; q < P; ++q)
+      row[q] = t.c[q] * (x[dofs.v + P + q] + shape.hb[q] * x[dofs.m + 1]) -
+               t.s[q] * (x[dofs.v + q] + shape.hb[q] * x[dofs.m]) - t.n[q] * b[q];
+    for (int k = t.first_row; k < t.first_row + t.row_count; ++k) {
+      const double f = rows_[k].stiffness * dot_from<kRow>(rows_[k].row.data(), zeta.data(), 0);
+      for (int q = 0; q < P; ++q) row[q] -= f * rows_[k].row[P + q];
+    }
+    for (int q = 0; q < P; ++q) x[dofs.s + P + q] = row[q] / shape.hb[q];
+  }
+  for (int q = 0; q < P; ++q) {
+    x[dofs.v + q] = t.c[q] * zeta[q] - t.s[q] * zeta[P + q] + t.px[q] * b[q];
+    x[dofs.v + P + q] = t.s[q] * zeta[q] + t.c[q] * zeta[P + q] + t.py[q] * b[q];
+    x[dofs.v + 2 * P + q] = zeta[2 * P + q];
+  }
+}
+
+template <int P>
+void ElementWorkOf<P>::recover(Eigen::VectorXd& x) {
+  for (int e = 0; e < size(); ++e) {
+    const Shape& shape = shapes_[e];
+    if (shape.shearable)
+      recover_element<3 * P>(e, shearable_[shape.factor], x.data());
+    else
+      recover_element<2 * P>(e, stiff_[shape.factor], x.data());
+  }
+}
+
+/// The beam's part of the tangent as an operator.
+template <int P>
+void ElementWorkOf<P>::add_strain_product(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
+                                          const double* y, const double* direction, double* out) const {
+  const double* s = y + dofs.s;
+  const double* dv = direction + dofs.v;
+  const double* ds = direction + dofs.s;
+  const double* dm = direction + dofs.m;
+  double* fv = out + dofs.v;
+  double* fs = out + dofs.s;
+  double gap[3];
+  for (int c = 0; c < 3; ++c) gap[c] = direction[dofs.b[c]] - direction[dofs.a[c]];
+  for (int q = 0; q < P; ++q) {
+    const double hb = shape.hb[q];
+    double db = 0.0;
+    for (int r = 0; r < P; ++r) db += a_[q][r] * dv[2 * P + r];
+    db = direction[dofs.a[2]] + shape.h * db;
+    const double c = kin.c[q];
+    const double sn = kin.s[q];
+    const double E = linear_ ? shape.e0[q] : kin.E[q];
+    const double G = linear_ ? shape.g0[q] : kin.G[q];
+    const double geo = linear_ ? 0.0 : db;
+    const double along = c * dv[q] + sn * dv[P + q];
+    const double across = -sn * dv[q] + c * dv[P + q];
+    fs[q] += hb * (along + G * db - shape.compliance[q] * ds[q]);
+    fs[P + q] += hb * (across - E * db - shape.compliance[P + q] * ds[P + q]);
+    fs[2 * P + q] += hb * (dv[2 * P + q] - shape.compliance[2 * P + q] * ds[2 * P + q]);
+    fv[q] += hb * (ds[q] * c - ds[P + q] * sn - geo * (s[q] * sn + s[P + q] * c) - dm[0]);
+    fv[P + q] += hb * (ds[q] * sn + ds[P + q] * c + geo * (s[q] * c - s[P + q] * sn) - dm[1]);
+    fv[2 * P + q] += hb * (ds[2 * P + q] - dm[2]);
+    double turn = ds[q] * G - ds[P + q] * E;
+    if (!linear_) turn += s[q] * (across - E * db) - s[P + q] * (along + G * db);
+    out[dofs.a[2]] += hb * turn;
+    for (int r = 0; r < P; ++r) fv[2 * P + r] += hb * turn * shape.h * a_[q][r];
+    for (int k = 0; k < 3; ++k) gap[k] -= hb * dv[k * P + q];
+  }
+  for (int k = 0; k < 3; ++k) {
+    out[dofs.a[k]] -= dm[k];
+    out[dofs.b[k]] += dm[k];
+    out[dofs.m + k] += gap[k];
+  }
+}
+
+/// The tangent as an operator, written from the second derivative of the mixed functional itself (not from
+/// the eliminated form), so that the two can be held against one another.
+template <int P>
+void ElementWorkOf<P>::add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors,
+                                            const Regime& regime,
+                                            const Eigen::Ref<const Eigen::MatrixXd>& directions,
+                                            Eigen::MatrixXd& out) {
+  begin(factors, regime);
+  Eigen::VectorXd unused;  // forces of supports
+  if (!springs_.empty() || !contacts_.empty()) unused.setZero(y.size());
+  for (int e = 0; e < size(); ++e) {
+    const ElementDofs& dofs = dofs_[e];
+    const Kinematics kin = kinematics(shapes_[e], dofs, y.data());
+    const double pressure = linear_ ? 0.0 : pressure_of(shapes_[e]);
+    acting_.clear();
+    if (unused.size() > 0) add_support_residual(e, y.data(), unused.data(), true);
+    for (Eigen::Index i = 0; i < directions.cols(); ++i) {
+      const double* direction = directions.col(i).data();
+      double* product = out.col(i).data();
+      add_strain_product(shapes_[e], dofs, kin, y.data(), direction, product);
+      if (pressure != 0.0) add_pressure_product(shapes_[e], dofs, pressure, direction, product);
+      add_acting_product(dofs, direction, product);
+    }
+  }
+}
+
+/// The acting supports' part, as add_support_residual() left them.
+template <int P>
+void ElementWorkOf<P>::add_acting_product(const ElementDofs& dofs, const double* direction,
+                                          double* out) const {
+  for (const Functional& f : acting_) {
+    const double force = f.law.stiffness * data_.value(f, dofs, direction);
+    for (int k = 0; k < 3; ++k) {
+      out[dofs.a[k]] += force * f.a[k];
+      for (int q = 0; q < P; ++q) out[dofs.v + k * P + q] += force * f.v[k][q];
+    }
+  }
+}
+
+template <int P>
+std::unique_ptr<ElementWork> ElementSetOf<P>::make_work() const {
+  return std::make_unique<ElementWorkOf<P>>(data_);
+}
+
+}  // namespace snapthrough
+
+#include "solver/element/element_work_supports.h"

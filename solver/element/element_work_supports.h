@@ -1,0 +1,192 @@
+#pragma once
+/// @file
+/// The members of ElementWorkOf that deal with foundations, springs and follower pressure. Included by
+/// element_work.h only.
+
+namespace snapthrough {
+
+/// Appends the Gauss points of the intervals where a foundation touches to acting_.
+template <int P>
+void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const ElementDofs& dofs,
+                                       const Shape& shape) {
+  const FoundationContact& contact = contacts_[index];
+  const ContactDisplacement u = data_.displacement_of(shape, dofs, y);
+  const Touch touch = data_.contact_touch[index];
+  if (regime_.is_frozen())
+    intervals_ = regime_.frozen->contacts[index];
+  else if (regime_.bilateral())
+    intervals_.assign(1, {contact.range()[0], contact.range()[1]});
+  else if (touch != Touch::none && contact.is_near(u.start, u.dx, u.dy, kTouchBand))
+    intervals_.assign(touch == Touch::acts ? 1 : 0, {contact.range()[0], contact.range()[1]});
+  else
+    contact.contact_intervals(u.start, u.dx, u.dy, intervals_);
+  for (const auto& interval : intervals_)
+    add_interval(index, shape, interval, regime_.softness * contact.law().stiffness,
+                 regime_.bilateral() ? 0.0 : contact.law().gap);
+  if (regime_.grip > 0.0)
+    add_interval(index, shape, {contact.range()[0], contact.range()[1]},
+                 regime_.grip * contact.law().stiffness, 0.0);
+}
+
+/// Appends the Gauss points of an interval on which a contact acts with a modulus and a gap. Most elements
+/// touch on all of the contact or on none of it: those points are known beforehand.
+template <int P>
+void ElementWorkOf<P>::add_interval(std::size_t index, const Shape& shape,
+                                    const FoundationContact::Interval& interval, double modulus, double gap) {
+  const FoundationContact& contact = contacts_[index];
+  const double width = interval.to - interval.from;
+  const bool whole = interval.from == contact.range()[0] && interval.to == contact.range()[1];
+  for (std::size_t i = 0; i < data_.contact_quadrature.points.size(); ++i) {
+    if (whole)
+      acting_.push_back(data_.whole_contacts[index][i]);
+    else
+      acting_.push_back(
+          data_.functional_at(contact, shape.h, interval.from + width * data_.contact_quadrature.points[i]));
+    acting_.back().law = {modulus * width * data_.contact_quadrature.weights[i], gap, true};
+  }
+}
+
+template <int P>
+bool ElementWorkOf<P>::acts(const Functional& f, std::size_t support, const ElementDofs& dofs,
+                            const double* y) const {
+  if (!f.law.one_sided || regime_.bilateral()) return true;
+  if (regime_.is_frozen()) return regime_.frozen->element_springs[support] != 0;
+  const double w = data_.value(f, dofs, y) - f.law.gap;
+  return f.touch != Touch::none && std::abs(w) <= kTouchBand ? f.touch == Touch::acts : w > 0.0;
+}
+
+template <int P>
+void ElementWorkOf<P>::add_support_residual(int element, const double* y, double* residual, bool keep) {
+  const Shape& shape = shapes_[element];
+  const ElementDofs& dofs = dofs_[element];
+  acting_.clear();
+  for (int i = 0; i < shape.contact_count; ++i) collect_contact(shape.first_contact + i, y, dofs, shape);
+  for (int i = 0; i < shape.spring_count; ++i) {
+    const std::size_t support = shape.first_spring + i;
+    if (regime_.grip > 0.0 && springs_[support].law.one_sided) {
+      acting_.push_back(springs_[support]);
+      acting_.back().law.stiffness *= regime_.grip;
+      acting_.back().law.gap = 0.0;
+    }
+    if (!acts(springs_[support], support, dofs, y)) continue;
+    acting_.push_back(springs_[support]);
+    if (springs_[support].law.one_sided) acting_.back().law.stiffness *= regime_.softness;
+    if (regime_.bilateral()) acting_.back().law.gap = 0.0;
+  }
+  std::array<double, kStrains> v;  // apart from y and the residual, so that loops over them need no order
+  std::array<double, kStrains> forces{};
+  double at_start[3] = {0.0, 0.0, 0.0};
+  for (int i = 0; i < kStrains; ++i) v[i] = y[dofs.v + i];
+  double rounding = 0.0;
+  for (const Functional& f : acting_) {
+    double size = f.law.gap;
+    for (int c = 0; c < 3; ++c) size += std::abs(f.a[c] * y[dofs.a[c]]);
+    rounding += f.law.stiffness * size * std::numeric_limits<double>::epsilon();
+    double w = -f.law.gap;
+    for (int c = 0; c < 3; ++c) w += f.a[c] * y[dofs.a[c]];
+    const double* row = f.v[0].data();
+    for (int i = 0; i < kStrains; ++i) w += row[i] * v[i];
+    const double force = f.law.stiffness * w;
+    for (int c = 0; c < 3; ++c) at_start[c] += force * f.a[c];
+    for (int i = 0; i < kStrains; ++i) forces[i] += force * row[i];
+  }
+  for (int c = 0; c < 3; ++c) residual[dofs.a[c]] += at_start[c];
+  for (int i = 0; i < kStrains; ++i) residual[dofs.v + i] += forces[i];
+  support_rounding_ = std::max(support_rounding_, rounding);
+  if (!keep) acting_.clear();
+}
+
+/// Adds the force  pressure * (y', -x') ds  (right normal times the stretch) to a load vector.
+///
+/// Written as the derivative of pressure times the area 1/2 int (x y' - y x') ds swept by the element's own
+/// displacements, less what that derivative has too much at its ends: forces on the nodes, which neighbours
+/// under the same pressure cancel and supports take. So the symmetric tangent is exact inside elements.
+template <int P>
+void ElementWorkOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
+                                    double pressure, const double* y, double* load) const {
+  double place[2][P];  // positions relative to the element's stress-free start
+  double chord[2] = {0.0, 0.0};
+  for (int q = 0; q < P; ++q) {
+    chord[0] += shape.hb[q] * shape.tx[q];
+    chord[1] += shape.hb[q] * shape.ty[q];
+    for (int c = 0; c < 2; ++c) place[c][q] = linear_ ? 0.0 : y[dofs.a[c]];
+    for (int r = 0; r < P; ++r) {
+      place[0][q] += shape.h * a_[q][r] * kin.xp[r];
+      place[1][q] += shape.h * a_[q][r] * kin.yp[r];
+    }
+  }
+  for (int q = 0; q < P; ++q) {
+    const double w = 0.5 * pressure * shape.hb[q];
+    const double fx = w * kin.yp[q];
+    const double fy = -w * kin.xp[q];
+    load[dofs.a[0]] += fx;
+    load[dofs.a[1]] += fy;
+    load[dofs.v + q] -= w * place[1][q];
+    load[dofs.v + P + q] += w * place[0][q];
+    for (int r = 0; r < P; ++r) {
+      load[dofs.v + r] += fx * shape.h * a_[q][r];
+      load[dofs.v + P + r] += fy * shape.h * a_[q][r];
+    }
+  }
+  for (const double sign : {-1.0, 1.0}) {  // start, end
+    const auto& node = sign < 0.0 ? dofs.a : dofs.b;
+    const double x = (linear_ ? 0.0 : y[node[0]]) + (sign < 0.0 ? 0.0 : chord[0]);
+    const double z = (linear_ ? 0.0 : y[node[1]]) + (sign < 0.0 ? 0.0 : chord[1]);
+    load[node[0]] += 0.5 * sign * pressure * z;
+    load[node[1]] -= 0.5 * sign * pressure * x;
+  }
+}
+
+template <int P>
+void ElementWorkOf<P>::add_pressure_load(const Eigen::VectorXd& y, const LoadFactors& factors,
+                                         bool small_displacements, Eigen::VectorXd& out) {
+  Regime regime;
+  regime.small_displacements = small_displacements;
+  begin(factors, regime);
+  for (int e = 0; e < size(); ++e)
+    if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
+      add_pressure(shapes_[e], dofs_[e], kinematics(shapes_[e], dofs_[e], y.data()), pressure, y.data(),
+                   out.data());
+}
+
+/// The symmetric part of the follower force's derivative: minus pressure times the second derivative of the
+/// area 1/2 int (x y' - y x') ds, appended to acting_ as squares, since 4 a b = (a + b)^2 - (a - b)^2. What
+/// is left out belongs to the element's ends, cancels between neighbours under the same pressure, and
+/// vanishes at fixed ends.
+template <int P>
+void ElementWorkOf<P>::collect_pressure(const Shape& shape, double pressure) {
+  for (int q = 0; q < P; ++q) {
+    for (const int c : {0, 1}) {
+      for (const double sign : {1.0, -1.0}) {
+        Functional f;
+        f.a[c] = 1.0;
+        for (int r = 0; r < P; ++r) f.v[c][r] = shape.h * a_[q][r];
+        f.v[1 - c][q] = sign;
+        f.law.stiffness = (c == 0 ? -0.25 : 0.25) * sign * pressure * shape.hb[q];
+        acting_.push_back(f);
+      }
+    }
+  }
+}
+
+template <int P>
+void ElementWorkOf<P>::add_pressure_product(const Shape& shape, const ElementDofs& dofs, double pressure,
+                                            const double* direction, double* out) const {
+  const double* dv = direction + dofs.v;
+  double* fv = out + dofs.v;
+  for (int q = 0; q < P; ++q) {
+    double u[2] = {direction[dofs.a[0]], direction[dofs.a[1]]};
+    for (int r = 0; r < P; ++r)
+      for (int c = 0; c < 2; ++c) u[c] += shape.h * a_[q][r] * dv[c * P + r];
+    const double w = -0.5 * pressure * shape.hb[q];
+    const double place[2] = {w * dv[P + q], -w * dv[q]};
+    fv[q] -= w * u[1];
+    fv[P + q] += w * u[0];
+    for (int c = 0; c < 2; ++c) {
+      out[dofs.a[c]] += place[c];
+      for (int r = 0; r < P; ++r) fv[c * P + r] += place[c] * shape.h * a_[q][r];
+    }
+  }
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,334 @@
+#include "solver/element/foundation_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "solver/numeric/chebyshev_series.h"
+#include "solver/numeric/cubic.h"
+#include "solver/numeric/max_order.h"
+
+namespace snapthrough {
+namespace {
+
+/// With fewer the turning of a curved axis on one element would be seen.
+constexpr int kLeastSamples = 13;
+
+}  // namespace
+
+FoundationContact::FoundationContact(int order, const Direction& direction, Place place,
+                                     std::array<double, 2> range, const Law& law, int foundation)
+    : rule_(&CollocationRule::of(order)),
+      direction_(direction),
+      place_(std::move(place)),
+      range_(range),
+      law_(law),
+      foundation_(foundation) {
+  count_ = std::max(2 * order + 3, direction_.turns ? kLeastSamples : 0);
+  blocks_ = (count_ + kLanes - 1) / kLanes;
+  samples_.assign(static_cast<std::size_t>(blocks_) * (2 + order), Lanes::Zero());
+  for (int i = 0; i < count_; ++i) {
+    z_[i] = i + 1 == count_ ? 1.0 : 0.5 - 0.5 * std::cos(std::numbers::pi * i / (count_ - 1));
+    const double xi = i + 1 == count_ ? range_[1] : range_[0] + z_[i] * (range_[1] - range_[0]);
+    std::array<double, kMaxOrder> a{};
+    rule_->integrals_at(xi, std::span(a).first(order));
+    Lanes* block = &samples_[static_cast<std::size_t>(i / kLanes) * (2 + order)];
+    const auto d = direction_at(xi);
+    for (int c = 0; c < 2; ++c) block[c][i % kLanes] = d[c];
+    for (int r = 0; r < order; ++r) block[2 + r][i % kLanes] = a[r];
+  }
+  exact_ = !direction_.turns || resolved();
+}
+
+/// Whether the samples resolve the direction times what displacements of the element's degree add.
+bool FoundationContact::resolved() const {
+  constexpr double kRounding = 1e-14;
+  constexpr std::array<double, 5> kBetween{0.02, 0.19, 0.41, 0.68, 0.93};
+  const double degree = rule_->order();
+  for (int c = 0; c < 2; ++c) {
+    std::array<double, ChebyshevSeries::kMostPoints> values{};
+    for (int i = 0; i < count_; ++i)
+      values[i] = samples_[static_cast<std::size_t>(i / kLanes) * (2 + rule_->order()) + c][i % kLanes] *
+                  std::pow(z_[i], degree);
+    const ChebyshevSeries series(std::span<const double>(values).first(count_));
+    for (const double z : kBetween) {
+      const double exact = direction_at(range_[0] + z * (range_[1] - range_[0]))[c] * std::pow(z, degree);
+      if (std::abs(series.value(z) - exact) > kRounding) return false;
+    }
+  }
+  return true;
+}
+
+FoundationContact FoundationContact::with_gap(double gap) const {
+  FoundationContact other = *this;
+  other.law_.gap = gap;
+  return other;
+}
+
+std::array<double, 2> FoundationContact::direction_at(double xi) const {
+  if (!direction_.turns) return direction_.fixed;
+  return direction_.at(place_.axis->at(place_.s0 + xi * place_.ds).angle);
+}
+
+namespace {
+
+/// a + sum_r weights_r (dx_r, dy_r).
+std::array<double, 2> combined(std::array<double, 2> a, std::span<const double> weights,
+                               std::span<const double> dx, std::span<const double> dy) {
+  for (std::size_t r = 0; r < dx.size(); ++r) {
+    a[0] += weights[r] * dx[r];
+    a[1] += weights[r] * dy[r];
+  }
+  return a;
+}
+
+}  // namespace
+
+double FoundationContact::penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
+                                      std::span<const double> dy) const {
+  std::array<double, kMaxOrder> a{};
+  rule_->integrals_at(xi, std::span(a).first(dx.size()));
+  const auto u = combined(ua, a, dx, dy);
+  const auto d = direction_at(xi);
+  return u[0] * d[0] + u[1] * d[1] - law_.gap;
+}
+
+double FoundationContact::penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
+                                            std::span<const double> dy) const {
+  std::array<double, kMaxOrder> l{};
+  rule_->values_at(xi, std::span(l).first(dx.size()));
+  const auto du = combined({0.0, 0.0}, l, dx, dy);
+  if (!direction_.turns) return du[0] * direction_.fixed[0] + du[1] * direction_.fixed[1];
+  std::array<double, kMaxOrder> a{};
+  rule_->integrals_at(xi, std::span(a).first(dx.size()));
+  const auto u = combined(ua, a, dx, dy);
+  const AxisPoint axis = place_.axis->at(place_.s0 + xi * place_.ds);
+  const auto d = direction_.at(axis.angle);
+  const double turn = place_.ds * axis.curvature;
+  return du[0] * d[0] + du[1] * d[1] + turn * (u[1] * d[0] - u[0] * d[1]);
+}
+
+namespace {
+
+/// The penetration between its samples, set up when it is first asked for: most searches end without.
+class SampledGap {
+ public:
+  explicit SampledGap(std::span<const double> samples) : samples_(samples) {}
+
+  [[nodiscard]] double value(double z) const { return series().value(z); }
+  [[nodiscard]] double slope(double z) const { return series().slope(z); }
+  [[nodiscard]] Eigen::Array4d values(const Eigen::Array4d& z) const { return series().values(z); }
+
+ private:
+  [[nodiscard]] const ChebyshevSeries& series() const {
+    if (!series_) series_.emplace(samples_);
+    return *series_;
+  }
+
+  std::span<const double> samples_;
+  mutable std::optional<ChebyshevSeries> series_;
+};
+
+/// Penetration less a depth on the range, from 0 to 1, where samples do not resolve it.
+class ExactGap {
+ public:
+  ExactGap(const FoundationContact& contact, std::array<double, 2> ua, std::span<const double> dx,
+           std::span<const double> dy, double depth)
+      : contact_(contact), ua_(ua), dx_(dx), dy_(dy), depth_(depth) {}
+
+  [[nodiscard]] double value(double z) const { return contact_.penetration(at(z), ua_, dx_, dy_) - depth_; }
+  [[nodiscard]] double slope(double z) const {
+    return (contact_.range()[1] - contact_.range()[0]) * contact_.penetration_slope(at(z), ua_, dx_, dy_);
+  }
+  [[nodiscard]] Eigen::Array4d values(const Eigen::Array4d& z) const {
+    return {value(z[0]), value(z[1]), value(z[2]), value(z[3])};
+  }
+
+ private:
+  [[nodiscard]] double at(double z) const {
+    return contact_.range()[0] + z * (contact_.range()[1] - contact_.range()[0]);
+  }
+
+  const FoundationContact& contact_;
+  std::array<double, 2> ua_;
+  std::span<const double> dx_, dy_;
+  double depth_;
+};
+
+/// A place of the range, from 0 to 1, with the penetration there.
+struct Sample {
+  double z = 0.0;
+  double g = 0.0;
+};
+
+template <class Gap>
+double root_between(const Gap& gap, Sample lo, Sample hi) {
+  // Illinois' variant of false position: keeps the bracket, converges faster than linearly
+  int last = 0;
+  for (int it = 0; it < 60; ++it) {
+    const double z = hi.z - hi.g * (hi.z - lo.z) / (hi.g - lo.g);
+    if (hi.z - lo.z < 1e-15 || z <= lo.z || z >= hi.z) break;
+    const double g = gap.value(z);
+    if (g == 0.0) return z;
+    if ((g > 0.0) == (hi.g > 0.0)) {
+      hi = {z, g};
+      if (last == 1) lo.g *= 0.5;
+      last = 1;
+    } else {
+      lo = {z, g};
+      if (last == -1) hi.g *= 0.5;
+      last = -1;
+    }
+  }
+  return std::clamp(hi.z - hi.g * (hi.z - lo.z) / (hi.g - lo.g), lo.z, hi.z);
+}
+
+/// A place between two where g has not the given sign, as it has at both, if it turns back there.
+template <class Gap>
+std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, double sign) {
+  constexpr int kMostTrials = 20;
+  double fall = sign * gap.slope(left.z);
+  double rise = sign * gap.slope(right.z);
+  const double whole = right.z - left.z;
+  // beside a clamped end, where g and its slope are zero, it is not convex
+  if (const auto t = Cubic{sign * left.g, fall * whole, sign * right.g, rise * whole}.minimum()) {
+    const double z = left.z + *t * whole;
+    if (const Sample least{z, gap.value(z)}; sign * least.g < 0.0) return least;
+  }
+  for (int n = 0; n < kMostTrials && fall < 0.0 && rise > 0.0; ++n) {
+    // what is convex stays above both tangents
+    const double width = right.z - left.z;
+    const double meet = (sign * (right.g - left.g) - rise * width) / (fall - rise);
+    if (sign * left.g + fall * meet > 0.0) break;
+    const double share = std::clamp(-fall / (rise - fall), 0.1, 0.9);
+    const double z = left.z + share * width;
+    const Sample middle{z, gap.value(z)};
+    if (sign * middle.g <= 0.0) return middle;
+    const double slope = sign * gap.slope(z);
+    (slope < 0.0 ? left : right) = middle;
+    (slope < 0.0 ? fall : rise) = slope;
+  }
+  return std::nullopt;
+}
+
+/// The change of sign between two places. Beside a held node g is zero but for rounding, whose sign says
+/// nothing of what happens on the way there.
+template <class Gap>
+double change_between(const Gap& gap, const Sample& left, const Sample& right) {
+  constexpr double kRounding = 1e-10;
+  const bool to_zero = std::abs(right.g) < kRounding * std::abs(left.g);
+  const bool from_zero = std::abs(left.g) < kRounding * std::abs(right.g);
+  if (!to_zero && !from_zero) return root_between(gap, left, right);
+  const Sample& far = to_zero ? left : right;
+  const auto dip = dip_between(gap, left, right, far.g > 0.0 ? 1.0 : -1.0);
+  if (!dip) return to_zero ? right.z : left.z;
+  return to_zero ? root_between(gap, left, *dip) : root_between(gap, *dip, right);
+}
+
+/// Tells `cross(place, whether contact begins there)` of the changes of sign between two places.
+template <class Gap, class Cross>
+void search_part(const Gap& gap, const Sample& left, const Sample& right, const Cross& cross) {
+  const bool inside = left.g > 0.0;
+  if (inside != (right.g > 0.0)) {
+    cross(change_between(gap, left, right), !inside);
+    return;
+  }
+  const auto dip = dip_between(gap, left, right, inside ? 1.0 : -1.0);
+  if (!dip || (dip->g > 0.0) == inside) return;
+  cross(root_between(gap, left, *dip), !inside);
+  cross(root_between(gap, *dip, right), inside);
+}
+
+/// Whether g may change its sign between two places, because it is no further from zero than it moves there
+/// or next to there.
+bool may_cross(double left, double right, double change) {
+  return (left > 0.0) != (right > 0.0) || std::min(std::abs(left), std::abs(right)) <= change;
+}
+
+/// As search_part, between two samples, where zones smaller than the sampling may begin and end.
+/// @param before, after how far g moves on the parts next to these ends
+template <class Gap, class Cross>
+void search_cell(const Gap& gap, const Sample& left, const Sample& right, double before, double after,
+                 const Cross& cross) {
+  constexpr int kParts = 4;
+  const double width = right.z - left.z;
+  const Eigen::Array4d z =
+      left.z + width * Eigen::Array4d(1.0 / kParts, 2.0 / kParts, 3.0 / kParts, 4.0 / kParts);
+  const Eigen::Array4d inner = gap.values(z);
+  std::array<Sample, kParts + 1> places{left, Sample{z[0], inner[0]}, Sample{z[1], inner[1]},
+                                        Sample{z[2], inner[2]}, right};
+  std::array<double, kParts + 2> moves{before};
+  for (int i = 0; i < kParts; ++i) moves[i + 1] = std::abs(places[i + 1].g - places[i].g);
+  moves[kParts + 1] = after;
+  for (int i = 0; i < kParts; ++i)
+    if (may_cross(places[i].g, places[i + 1].g, std::max({moves[i], moves[i + 1], moves[i + 2]})))
+      search_part(gap, places[i], places[i + 1], cross);
+}
+
+}  // namespace
+
+/// g at the samples, over another gap.
+void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const double> dx,
+                                     std::span<const double> dy, double gap, Values& g) const {
+  const std::size_t p = dx.size();
+  for (int b = 0; b < blocks_; ++b) {
+    const Lanes* block = &samples_[static_cast<std::size_t>(b) * (2 + p)];
+    Lanes ux = Lanes::Constant(ua[0]);
+    Lanes uy = Lanes::Constant(ua[1]);
+    for (std::size_t r = 0; r < p; ++r) {
+      ux += dx[r] * block[2 + r];
+      uy += dy[r] * block[2 + r];
+    }
+    const Lanes values = ux * block[0] + uy * block[1] - gap;
+    for (int i = 0; i < kLanes; ++i) g[kLanes * b + i] = values[i];
+  }
+}
+
+bool FoundationContact::is_near(std::array<double, 2> ua, std::span<const double> dx,
+                                std::span<const double> dy, double distance) const {
+  Values g;
+  penetrations(ua, dx, dy, law_.gap, g);
+  return std::all_of(g.begin(), g.begin() + count_, [distance](double w) { return std::abs(w) <= distance; });
+}
+
+/// The intervals in contact from the penetration, less a depth, and its values g at the samples.
+template <class Gap>
+void FoundationContact::search(const Gap& gap, const Values& g, std::vector<Interval>& out) const {
+  constexpr double kParts = 4.0;  // of a cell, in search_cell
+  const int n = count_;
+  const double length = range_[1] - range_[0];
+  double from = range_[0];
+  const auto cross = [&](double z, bool entering) {
+    const double at = range_[0] + length * z;
+    if (entering) from = at;
+    if (!entering && at > from) out.push_back({from, at});
+  };
+  Values rate;  // of the cell before sample i
+  rate[0] = 0.0;
+  for (int i = 1; i < n; ++i) rate[i] = std::abs(g[i] - g[i - 1]) / (z_[i] - z_[i - 1]);
+  rate[n] = 0.0;
+  for (int i = 0; i + 1 < n; ++i) {
+    const double width = z_[i + 1] - z_[i];
+    if (!may_cross(g[i], g[i + 1], width * std::max({rate[i], rate[i + 1], rate[i + 2]}))) continue;
+    search_cell(gap, Sample{z_[i], g[i]}, Sample{z_[i + 1], g[i + 1]}, rate[i] * width / kParts,
+                rate[i + 2] * width / kParts, cross);
+  }
+  if (g[n - 1] > 0.0) out.push_back({from, range_[1]});
+}
+
+void FoundationContact::contact_intervals(std::array<double, 2> ua, std::span<const double> dx,
+                                          std::span<const double> dy, std::vector<Interval>& out,
+                                          double depth) const {
+  out.clear();
+  Values g;
+  penetrations(ua, dx, dy, law_.gap + depth, g);
+  if (exact_)
+    search(SampledGap(std::span<const double>(g).first(count_)), g, out);
+  else
+    search(ExactGap(*this, ua, dx, dy, depth), g, out);
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,79 @@
+#include "solver/events/branch.h"
+
+#include <cmath>
+
+#include "solver/events/critical_mode.h"
+#include "solver/numeric/pseudo_random.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kFirstStep = 0.01;  ///< displacement gradient
+
+/// The sense in which the largest displacement of a motion is positive.
+double sense_of(const Continuation& continuation, const VectorXd& motion) {
+  Index largest = 0;
+  continuation.metric().weights->cwiseSqrt().cwiseProduct(motion).cwiseAbs().maxCoeff(&largest);
+  return motion[largest] < 0.0 ? -1.0 : 1.0;
+}
+
+/// A direction in (y, lambda).
+struct Direction {
+  VectorXd y;
+  double lambda = 0.0;
+};
+
+/// Response to the load without its part along the null vector.
+Direction load_direction(Continuation& continuation, const PathPoint& point, const VectorXd& null) {
+  const PathMetric& metric = continuation.metric();
+  Direction out{VectorXd(), 1.0};
+  continuation.problem().load(point.y, point.lambda, out.y);
+  continuation.problem().solve(out.y);
+  out.y -= metric.inner(out.y, 0.0, null, 0.0) * null;
+  const double norm = metric.norm(out.y, out.lambda);
+  out.y /= norm;
+  out.lambda /= norm;
+  return out;
+}
+
+/// The direction across the known path in the plane of the null vector and the response to the load, in which
+/// both paths' tangents lie; along the null vector, its largest displacement positive.
+Direction direction_across(Continuation& continuation, const PathPoint& point) {
+  EquilibriumProblem& problem = continuation.problem();
+  VectorXd null = null_vector(problem, point, pseudo_random(problem.size(), 1U));
+  null *= sense_of(continuation, null);
+  const Direction load = load_direction(continuation, point, null);
+  const PathMetric& metric = continuation.metric();
+  const double along_null = metric.inner(null, 0.0, point.tangent, point.tangent_lambda);
+  const double along_load = metric.inner(load.y, load.lambda, point.tangent, point.tangent_lambda);
+  const double scale = (along_load < 0.0 ? -1.0 : 1.0) / std::hypot(along_null, along_load);
+  return {scale * (along_load * null - along_null * load.y), -scale * along_null * load.lambda};
+}
+
+}  // namespace
+
+std::optional<PathPoint> first_point_of_branch(Continuation& continuation, const CriticalEvent& bifurcation,
+                                               double sign) {
+  continuation.problem().set_holds(bifurcation.point.holds);
+  Direction direction{bifurcation.across, bifurcation.across_lambda};
+  if (direction.y.size() == 0) {
+    direction = direction_across(continuation, bifurcation.point);
+  } else {
+    const double along = continuation.metric().inner(direction.y, 0.0, bifurcation.null.col(0), 0.0);
+    sign *= sense_of(continuation, bifurcation.null.col(0)) * (along < 0.0 ? -1.0 : 1.0);
+  }
+  if (!direction.y.allFinite()) return std::nullopt;
+  PathPoint from = bifurcation.point;
+  from.tangent = sign * direction.y;
+  from.tangent_lambda = sign * direction.lambda;
+  from.arc_length = 0.0;
+  StepSize size{0.0, kFirstStep};
+  PathPoint to;
+  if (continuation.step(from, size, to) != StepOutcome::advanced) return std::nullopt;
+  return to;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,375 @@
+#include "solver/events/buckling.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "solver/newton/corrector.h"
+#include "solver/numeric/bracket.h"
+#include "solver/numeric/pseudo_random.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// The pencil J(lambda) = J_0 + lambda G in the mixed unknowns: displacements zero, stresses s_c + lambda
+/// s_p.
+class Pencil {
+ public:
+  Pencil(const Structure& structure, StructuralProblem& problem) : structure_(structure), problem_(problem) {}
+
+  /// Linear stresses of both kinds of actions, with the contact that the reference load brings about.
+  void set_prestress(double reference);
+  [[nodiscard]] int count(double lambda);
+  void solve(VectorXd& x) { problem_.solve(x); }
+  [[nodiscard]] VectorXd geometric(const VectorXd& x);
+  [[nodiscard]] VectorXd product(double lambda, const VectorXd& x) {
+    return problem_.tangent_product(stress(lambda), lambda, x, regime());
+  }
+  /// Rayleigh's quotient of a motion, from the tangent itself and not its factors.
+  [[nodiscard]] double quotient(const VectorXd& x) { return -x.dot(product(0.0, x)) / x.dot(geometric(x)); }
+  [[nodiscard]] double scale() const { return problem_.critical_load_scale(proportional_); }
+  [[nodiscard]] int factorizations() const { return factorizations_; }
+  /// Whether what is held carries nothing at a load factor.
+  [[nodiscard]] bool holds_are_idle(double lambda);
+  [[nodiscard]] const SharedHolds& holds() const { return holds_; }
+  [[nodiscard]] const TouchingMarks& marks() const { return marks_; }
+  /// Where one-sided supports act; what is changed here counts from then on.
+  [[nodiscard]] FrozenContact& contact() { return contact_; }
+
+ private:
+  [[nodiscard]] Regime regime() const;
+  [[nodiscard]] VectorXd linear_response(StructuralProblem::Stage stage, double lambda, Regime regime);
+  void freeze_contact(double reference);
+  [[nodiscard]] VectorXd stress(double lambda) const;
+
+  const Structure& structure_;
+  StructuralProblem& problem_;
+  VectorXd constant_;
+  VectorXd proportional_;
+  SharedHolds holds_;  ///< motions that nothing resists
+  TouchingMarks marks_;
+  FrozenContact contact_;
+  int factorizations_ = 0;
+};
+
+/// The contact of the reference load, once it is known.
+Regime Pencil::regime() const {
+  Regime regime;
+  if (!structure_.one_sided) return regime;
+  regime.contact = Regime::Contact::frozen;
+  regime.frozen = &contact_;
+  return regime;
+}
+
+/// Small displacements under the actions of a stage, from the unloaded state.
+VectorXd Pencil::linear_response(StructuralProblem::Stage stage, double lambda, Regime regime) {
+  regime.small_displacements = true;
+  problem_.set_stage(stage);
+  const VectorXd y = VectorXd::Zero(problem_.size());
+  VectorXd residual;
+  problem_.linearise(y, 0.0, residual, regime);
+  ++factorizations_;
+  VectorXd response;
+  problem_.load(y, 0.0, response);
+  response *= lambda;
+  problem_.solve(response);
+  problem_.set_stage(StructuralProblem::Stage::proportional);
+  return response;
+}
+
+bool Pencil::holds_are_idle(double lambda) {
+  if (!holds_) return true;
+  constexpr double kIdle = 1e-6;
+  ++factorizations_;
+  const double bound = kIdle * std::max(1.0, std::abs(lambda));
+  const MotionStiffness held = motion_stiffness(problem_, holds_, stress(lambda), lambda, regime());
+  const VectorXd moved =
+      holds_->motions.transpose() * (constant_ + lambda * proportional_).head(holds_->motions.rows());
+  return held.stiffness.lpNorm<Eigen::Infinity>() <= bound && moved.lpNorm<Eigen::Infinity>() <= bound;
+}
+
+/// Equilibrium under both kinds of actions with unilateral contact, from the glued one.
+void Pencil::freeze_contact(double reference) {
+  Regime glued;
+  glued.contact = Regime::Contact::bilateral;
+  VectorXd y = linear_response(StructuralProblem::Stage::constant, 1.0, glued) +
+               linear_response(StructuralProblem::Stage::proportional, reference, glued);
+  const PathMetric metric{&structure_.metric, 0.0};
+  const double size = metric.norm(y, 0.0);
+  if (size > 0.0) {
+    CorrectorOptions options;
+    options.max_iterations = 60;
+    options.largest_correction = std::numeric_limits<double>::infinity();
+    options.regime.small_displacements = true;
+    Workspace work;
+    double lambda = reference;
+    factorizations_ += correct(problem_, metric, {}, size, options, y, lambda, work).factorisations;
+  }
+  contact_ = problem_.frozen_contact(y);
+  marks_ = problem_.marks_at(y);
+}
+
+void Pencil::set_prestress(double reference) {
+  const SharedHolds soft = held_softly(problem_);
+  problem_.set_holds(soft);
+  if (structure_.one_sided) freeze_contact(reference);
+  if (soft) {
+    Regime small = regime();
+    small.small_displacements = true;
+    holds_ = softly_held(problem_, soft, VectorXd::Zero(problem_.size()), 0.0, small).neutral;
+    ++factorizations_;
+    problem_.set_holds(holds_);
+  }
+  constant_ = linear_response(StructuralProblem::Stage::constant, 1.0, regime());
+  proportional_ = linear_response(StructuralProblem::Stage::proportional, 1.0, regime());
+}
+
+VectorXd Pencil::stress(double lambda) const {
+  VectorXd y = VectorXd::Zero(problem_.size());
+  const int p = structure_.mesh.order;
+  for (const ElementDofs& dofs : structure_.dofs)
+    y.segment(dofs.s, 3 * p) =
+        constant_.segment(dofs.s, 3 * p) + lambda * proportional_.segment(dofs.s, 3 * p);
+  return y;
+}
+
+int Pencil::count(double lambda) {
+  VectorXd residual;
+  ++factorizations_;
+  return problem_.linearise(stress(lambda), lambda, residual, regime()).negative;
+}
+
+VectorXd Pencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }
+
+/// Width of a bracket of one eigenvalue over its end, below which inverse iteration gains two digits by
+/// iteration or more.
+constexpr double kShort = 1e-2;
+
+/// Brackets of one eigenvalue each that are short, or of a cluster that is narrow, ascending.
+std::vector<LoadBracket> isolated(Pencil& pencil, const LoadBracket& all, int wanted) {
+  constexpr double kNarrow = 1e-4;
+  std::vector<LoadBracket> out;
+  const auto take = [&](const LoadBracket& bracket) {
+    const bool single = bracket.is_single();
+    // the only load that is wanted may have a wide bracket: there is no other beside it to be mixed up with
+    const bool only = single && out.empty() && bracket.below_hi == wanted;
+    if (!only && bracket.hi - bracket.lo > (single ? kShort : kNarrow) * bracket.hi) return false;
+    // eigenvalues on both sides of a common end are one cluster
+    if (!out.empty() && out.back().hi == bracket.lo) {
+      out.back().hi = bracket.hi;
+      out.back().below_hi = bracket.below_hi;
+    } else {
+      out.push_back(bracket);
+    }
+    return true;
+  };
+  isolate_loads(
+      all, wanted, [&](double load) { return pencil.count(load); }, take);
+  return out;
+}
+
+struct EigenPair {
+  double load = 0.0;
+  VectorXd mode;
+};
+
+/// Rayleigh-Ritz on the span of y, where J(shift) y_j = b_j: (y^T b) c = (shift - lambda) (y^T G y) c.
+std::vector<EigenPair> ritz(Pencil& pencil, double shift, const std::vector<VectorXd>& y,
+                            const std::vector<VectorXd>& b) {
+  const auto m = static_cast<Index>(y.size());
+  Eigen::MatrixXd left(m, m);
+  Eigen::MatrixXd right(m, m);
+  for (Index j = 0; j < m; ++j) {
+    const VectorXd gy = pencil.geometric(y[j]);
+    for (Index i = 0; i < m; ++i) {
+      left(i, j) = y[i].dot(b[j]);
+      right(i, j) = y[i].dot(gy);
+    }
+  }
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(left.partialPivLu().solve(right));
+  std::vector<EigenPair> pairs;
+  for (Index k = 0; k < m; ++k) {
+    VectorXd mode = VectorXd::Zero(y[0].size());
+    for (Index j = 0; j < m; ++j) mode += solver.eigenvectors()(j, k).real() * y[j];
+    pairs.push_back({shift - 1.0 / solver.eigenvalues()[k].real(), mode / mode.lpNorm<Eigen::Infinity>()});
+  }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const EigenPair& l, const EigenPair& r) { return l.load < r.load; });
+  return pairs;
+}
+
+/// One step of inverse iteration with what the pencil was factorised at. @return largest relative change
+double iterate(Pencil& pencil, double shift, std::vector<EigenPair>& pairs) {
+  std::vector<VectorXd> b;
+  std::vector<VectorXd> y;
+  for (const EigenPair& pair : pairs) {
+    b.push_back(pencil.geometric(pair.mode));
+    y.push_back(b.back());
+    pencil.solve(y.back());
+  }
+  auto next = ritz(pencil, shift, y, b);
+  double change = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    change = std::max(change, std::abs(next[i].load / pairs[i].load - 1.0));
+  pairs = std::move(next);
+  return change;
+}
+
+/// Draws the lower end of a wide bracket of one load up to just below it: a few iterations from the lower end
+/// say where it is, and a count says whether they are right. Factorised there when it is true.
+bool draw_up(Pencil& pencil, LoadBracket& bracket, std::vector<EigenPair>& pairs) {
+  constexpr int kTries = 3;
+  constexpr int kIterations = 3;
+  constexpr double kBelow = 2e-3;  // as for the shift of refine()
+  for (int i = 0; i < kTries; ++i) {
+    if (pencil.count(bracket.lo) != bracket.below_lo) return false;
+    for (int k = 0; k < kIterations; ++k) iterate(pencil, bracket.lo, pairs);
+    const double load = pairs[0].load;
+    if (!(load > bracket.lo && load < bracket.hi)) return false;  // some other load is nearer
+    const double shift = load * (1.0 - kBelow);
+    if (shift <= bracket.lo) return pencil.count(bracket.lo) == bracket.below_lo;
+    if (pencil.count(shift) == bracket.below_lo) {
+      bracket.lo = shift;
+      return true;
+    }
+    bracket.hi = shift;
+  }
+  return false;
+}
+
+/// Halves a bracket of one load until inverse iteration gains two digits by iteration or more.
+void narrow(Pencil& pencil, LoadBracket& bracket) {
+  while (bracket.hi - bracket.lo > kShort * bracket.hi) {
+    const double middle = 0.5 * (bracket.lo + bracket.hi);
+    (pencil.count(middle) > bracket.below_lo ? bracket.hi : bracket.lo) = middle;
+  }
+}
+
+/// Relative change of a load that is rounding's.
+constexpr double kTolerance = 1e-13;
+
+/// Inverse iteration with a block on one bracket: its eigenvalues ascending, with their vectors.
+std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, Index size) {
+  constexpr int kMaxIterations = 60;
+  const int m = bracket.below_hi - bracket.below_lo;
+  std::vector<EigenPair> pairs(static_cast<std::size_t>(m));
+  for (int i = 0; i < m; ++i) pairs[i] = {bracket.hi, pseudo_random(size, static_cast<unsigned>(i + 1))};
+  if (m == 1 && bracket.hi - bracket.lo > kShort * bracket.hi) {
+    if (draw_up(pencil, bracket, pairs)) {
+      for (int it = 0; it < kMaxIterations; ++it)
+        if (iterate(pencil, bracket.lo, pairs) <= kTolerance) break;
+      return pairs;
+    }
+    narrow(pencil, bracket);
+    pairs[0] = {bracket.hi, pseudo_random(size, 1U)};
+  }
+  // Well off the eigenvalues, where elimination is accurate even if parts of the structure buckle at the same
+  // load, as long as no other eigenvalue is met on the way; else inside the bracket, off the places of the
+  // bisection.
+  double shift = bracket.lo - 2e-3 * bracket.hi;
+  if (pencil.count(shift) != bracket.below_lo) {
+    shift = bracket.lo + 0.381966 * (bracket.hi - bracket.lo);
+    static_cast<void>(pencil.count(shift));  // factorises there
+  }
+  for (int it = 0; it < kMaxIterations; ++it)
+    if (iterate(pencil, shift, pairs) <= kTolerance && it > 0) break;
+  return pairs;
+}
+
+/// Holds each value of a bracket against the counts just beside it. Where they disagree, the counts have lost
+/// their digits next to a double load, if the value is in the bracket and the mode's quotient is the same; or
+/// elimination was poor at the shift (a single element held at one end buckles near it), and the value is
+/// taken from the counts, which need signs only.
+void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>& pairs) {
+  constexpr double kBeside = 1e-9;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const int below = bracket.below_lo + static_cast<int>(i);
+    const double load = pairs[i].load;
+    const bool right = load > 0.0 && pencil.count(load * (1.0 - kBeside)) <= below &&
+                       pencil.count(load * (1.0 + kBeside)) > below;
+    const auto exact = [&] {
+      return load >= bracket.lo && load <= bracket.hi &&
+             std::abs(pencil.quotient(pairs[i].mode) - load) <= kBeside * load;
+    };
+    if (!right && !exact())
+      pairs[i].load = bisect(bracket.lo, bracket.hi, kTolerance * bracket.hi,
+                             [&](double at) { return pencil.count(at) > below; });
+  }
+}
+
+/// A load factor with at least `count` eigenvalues below it; empty bracket when there is none.
+LoadBracket enclose(Pencil& pencil, int count, int at_start) {
+  // beyond 1e13 of the first scale the elastic stiffness is lost in the geometric one's rounding
+  constexpr int kDoublings = 43;
+  LoadBracket bracket{0.0, 0.0, at_start, at_start};
+  double hi = pencil.scale();
+  if (!std::isfinite(hi) || hi <= 0.0) hi = 1.0;
+  hi *= kOffMultiples;
+  for (int i = 0; i < kDoublings && bracket.below_hi - at_start < count; ++i) {
+    bracket.hi = hi;
+    bracket.below_hi = pencil.count(hi);
+    hi *= 2.0;
+  }
+  return bracket;
+}
+
+/// The lowest loads of the pencil as its contact is.
+void find_loads(Pencil& pencil, Index size, int count, LinearBuckling& out) {
+  out.loads.clear();
+  out.modes.clear();
+  out.negative_at_start = pencil.count(0.0);
+  const LoadBracket all = enclose(pencil, count, out.negative_at_start);
+  for (LoadBracket& bracket : isolated(pencil, all, out.negative_at_start + count)) {
+    auto pairs = refine(pencil, bracket, size);
+    confirm(pencil, bracket, pairs);
+    for (EigenPair& pair : pairs) {
+      if (static_cast<int>(out.loads.size()) == count) break;
+      if (!pair.mode.allFinite()) continue;  // a count that was rounding's, of a mesh that has no such mode
+      out.loads.push_back(pair.load);
+      out.modes.push_back(std::move(pair.mode));
+    }
+  }
+}
+
+PieceSolver solver_of(Pencil& pencil, Index size) {
+  PieceSolver solver;
+  solver.lowest = [&pencil, size]() -> std::optional<Piece> {
+    LinearBuckling found;
+    find_loads(pencil, size, 1, found);
+    if (found.loads.empty() || found.negative_at_start > 0) return std::nullopt;
+    return Piece{found.loads.front(), std::move(found.modes.front())};
+  };
+  solver.quotient = [&pencil](const VectorXd& motion) { return pencil.quotient(motion); };
+  return solver;
+}
+
+}  // namespace
+
+LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem, int count,
+                               double reference, const VectorXd& near) {
+  LinearBuckling out;
+  Pencil pencil(structure, problem);
+  pencil.set_prestress(reference);
+  out.holds = pencil.holds();
+  out.contact = pencil.contact();
+  out.is_mechanism = !pencil.holds_are_idle(reference);
+  if (out.is_mechanism) return out;
+  const TouchingMarks& marks = pencil.marks();
+  out.touches = structure.one_sided && structure.free_motions.cols() == 0 && has_any(marks);
+  if (out.touches)
+    out.piece = set_least_piece(problem, solver_of(pencil, problem.size()), marks, near, pencil.contact());
+  find_loads(pencil, problem.size(), count, out);
+  out.factorizations = pencil.factorizations();
+  out.marks = marks;
+  out.contact = std::move(pencil.contact());
+  return out;
+}
+
+}  // namespace snapthrough

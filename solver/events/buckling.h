@@ -1,0 +1,44 @@
+#pragma once
+/// @file
+/// Linearised buckling: the eigenvalues of the tangent about a linear prestress.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solver/events/least_piece.h"
+#include "solver/problem/structural_problem.h"
+
+namespace snapthrough {
+
+/// Eigenvalues lambda > 0 of (K_E + K_G(s_c) + lambda K_G(s_p)) x = 0, ascending, s_c and s_p the linear
+/// stresses of the constant and of the proportional actions by unit (scaled) load factor.
+struct LinearBuckling {
+  std::vector<double> loads;           ///< scaled load factors; fewer than asked when there are no more
+  std::vector<Eigen::VectorXd> modes;  ///< unknowns of the structural problem, largest displacement one
+  int negative_at_start = 0;           ///< negative eigenvalues under the constant actions alone
+  SharedHolds holds;                   ///< of motions that nothing resists
+  /// A motion that no support resists is driven by the actions, or resisted by their stresses alone: there is
+  /// no reference state to linearise about. No loads then.
+  bool is_mechanism = false;
+  int factorizations = 0;
+  bool touches = false;   ///< some one-sided supports touch without pressure under the reference load
+  LeastPiece piece;       ///< what was found for them
+  TouchingMarks marks;    ///< of them
+  FrozenContact contact;  ///< that the loads are of
+};
+
+/// @brief The lowest `count` buckling loads of a structure.
+///
+/// Inertia counts isolate each eigenvalue or cluster (nothing is missed, repeated ones are counted), inverse
+/// iteration on a block of the cluster's size with Rayleigh-Ritz gives its values and modes. One-sided
+/// supports are glued where they are pressed at the linear equilibrium under the load factor `reference` and
+/// absent where they are left. Those that touch without pressure act in the piece that becomes unstable first
+/// (set_least_piece()): the first load is the critical one, the others are those of the same piece. Where
+/// nothing else holds the structure they are glued.
+/// @param structure not linear in its geometry
+/// @param reference scaled load factor of the reference load
+/// @param near the first mode on a coarser mesh, where supports touch without pressure; empty: not known
+[[nodiscard]] LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem,
+                                             int count, double reference, const Eigen::VectorXd& near = {});
+
+}  // namespace snapthrough

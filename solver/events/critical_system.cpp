@@ -1,0 +1,450 @@
+#include "solver/events/critical_system.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "solver/numeric/pseudo_random.h"
+#include "solver/path/soft_mode.h"
+
+namespace snapthrough {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+MatrixXd symmetric(const MatrixXd& m) { return 0.5 * (m + m.transpose()); }
+
+VectorXd eigenvalues(const MatrixXd& m) {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric(m)).eigenvalues();
+}
+
+/// A direction along z and the null motions, of norm one.
+CriticalDirection direction(const CriticalSolution& at, const VectorXd& along_null, double along_load,
+                            const PathMetric& metric) {
+  CriticalDirection out{at.null * along_null + along_load * at.response, along_load, 0.0};
+  const double norm = metric.norm(out.y, out.lambda);
+  out.y /= norm;
+  out.lambda /= norm;
+  out.stiffness_rate = along_load * at.B(0, 0);
+  for (Index k = 0; k < along_null.size(); ++k)
+    out.stiffness_rate += along_null[k] * at.A[static_cast<std::size_t>(k)](0, 0);
+  out.stiffness_rate /= norm;
+  return out;
+}
+
+}  // namespace
+
+double CriticalSolution::imperfection() const {
+  if (unfolding.size() == 0 || unfolding.isZero(0.0)) return 0.0;
+  return unfolding.norm() / (std::abs(lambda) * eigenvalues(B).cwiseAbs().minCoeff());
+}
+
+std::optional<CriticalSolution::Spectrum> CriticalSolution::spectrum() const {
+  // (stiffness + d B) w = 0
+  const double sign = B(0, 0) < 0.0 ? -1.0 : 1.0;
+  const MatrixXd definite = symmetric(-sign * B);
+  if ((eigenvalues(definite).array() >= 0.0).any()) return std::nullopt;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> pairs(symmetric(stiffness), -definite);
+  const Index k = stiffness.cols();
+  Spectrum out{-sign * pairs.eigenvalues(), pairs.eigenvectors()};
+  if (sign > 0.0) {
+    out.distances = out.distances.reverse().eval();
+    out.shares = out.shares.rowwise().reverse().eval();
+  }
+  for (Index i = 0; i < k; ++i) out.shares.col(i).normalize();
+  return out;
+}
+
+std::vector<CriticalDirection> CriticalSolution::tangents(const PathMetric& metric) const {
+  // n_i.F''[t, t] = 0 for t = z b + n a
+  const Index k = C.size();
+  if (k == 1) {
+    const double a = A[0](0, 0);
+    const double b = B(0, 0);
+    const double root = b * b - a * C[0];
+    if (!(root > 0.0)) return {};
+    const double big = -(b + std::copysign(std::sqrt(root), b));
+    return {direction(*this, C, big, metric), direction(*this, VectorXd::Constant(1, big), a, metric)};
+  }
+  VectorXd a = VectorXd::Zero(k);
+  constexpr int kIterations = 5;
+  for (int it = 0; it < kIterations; ++it) {
+    MatrixXd change = B;
+    for (Index j = 0; j < k; ++j) change.col(j) += A[static_cast<std::size_t>(j)] * a;
+    const VectorXd value = B * a + change * a + C;
+    a -= 0.5 * change.fullPivLu().solve(value);
+  }
+  if (!a.allFinite()) return {};
+  return {direction(*this, a, 1.0, metric)};
+}
+
+namespace {
+
+/// Newton's method on one of the two systems, with the bordered matrix [J, W n; n W, 0].
+class CriticalNewton {
+ public:
+  CriticalNewton(EquilibriumProblem& problem, const PathMetric& metric, const CriticalGuess& guess,
+                 const CriticalOptions& options, bool bifurcation)
+      : problem_(problem), metric_(metric), guess_(guess), options_(options), bifurcation_(bifurcation) {
+    at_.y = guess.y;
+    at_.lambda = guess.lambda;
+    at_.null = guess.null;
+    if (bifurcation) at_.unfolding = VectorXd::Zero(guess.null.cols());
+  }
+  [[nodiscard]] std::optional<CriticalSolution> run(int& factorisations);
+  [[nodiscard]] VectorXd another_null_motion(const CriticalSolution& at);
+
+ private:
+  void solve(MatrixXd& x);
+  void refine(const MatrixXd& rows, const MatrixXd& border);
+  [[nodiscard]] bool factorise();
+  void take_quotients(const MatrixXd& right);
+  void keep_better(const MatrixXd& rows, const MatrixXd& border);
+  [[nodiscard]] MatrixXd works(const Eigen::Ref<const MatrixXd>& forces,
+                               const Eigen::Ref<const MatrixXd>& motions) const;
+  void differentiate();
+  [[nodiscard]] bool step();
+  [[nodiscard]] bool converged();
+  [[nodiscard]] bool balances();
+  [[nodiscard]] MatrixXd share_of_target() const;
+  [[nodiscard]] VectorXd small_step() const;
+
+  EquilibriumProblem& problem_;
+  const PathMetric& metric_;
+  const CriticalGuess& guess_;
+  const CriticalOptions& options_;
+  bool bifurcation_;
+  CriticalSolution at_;
+  MatrixXd v_;      ///< J v = W n G, n.W v = 1
+  VectorXd p_, q_;  ///< of the residual and of the load
+  VectorXd pi_, rho_;
+  MatrixXd along_p_;   ///< n_i.F''[n_j, p]
+  VectorXd along_zp_;  ///< n_i.F''[z, p]
+  VectorXd residual_;
+  double dlambda_ = 0.0;
+  double moved_ = 0.0;
+  double previous_ = 0.0;  ///< size of the last correction
+  bool stalled_ = false;   ///< corrections have ceased to fall
+  /// Relative difference of the stiffnesses by the factors and by quotients, when they agreed best.
+  double least_doubt_ = std::numeric_limits<double>::infinity();
+};
+
+/// x := J^-1 x, column by column.
+void CriticalNewton::solve(MatrixXd& x) {
+  VectorXd column;
+  for (Index i = 0; i < x.cols(); ++i) {
+    column = x.col(i);
+    problem_.solve(column);
+    x.col(i) = column;
+  }
+}
+
+/// Corrects the solutions once by what they leave: parts of a member may be at a buckling load of their own,
+/// as the halves of a column at its, where elimination loses digits; and so it does where the tangent is
+/// singular.
+void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
+  constexpr double kLargest = 0.1;
+  const Index k = v_.cols();
+  MatrixXd all(rows.rows(), k + 2);
+  all << v_, p_, q_;
+  MatrixXd multipliers(k, k + 2);
+  multipliers << -at_.stiffness, pi_, rho_;
+  MatrixXd left = -problem_.tangent_products(at_.y, at_.lambda, all) - rows.leftCols(k) * multipliers;
+  left.rightCols(2) += rows.rightCols(2);
+  solve(left);
+  left -= v_ * (border.transpose() * left);
+  // a pivot of zero corrects nothing
+  if (!(left.leftCols(k).norm() < kLargest * v_.norm())) return;
+  v_ += left.leftCols(k);
+  p_ += left.col(k);
+  q_ += left.col(k + 1);
+}
+
+/// The solves with one factorisation; false when the tangent has no factors.
+bool CriticalNewton::factorise() {
+  constexpr double kSure = 0.1;
+  constexpr double kLargest = 1e6;  // square of what null motions of norm one may become
+  const TangentReport report = problem_.linearise(at_.y, at_.lambda, residual_);
+  const Index k = at_.null.cols();
+  MatrixXd rows(at_.y.size(), k + 2);
+  VectorXd column;
+  for (Index i = 0; i < k; ++i) {
+    problem_.metric_forces(at_.null.col(i), column);
+    rows.col(i) = column;
+  }
+  rows.col(k) = -residual_;
+  if (bifurcation_) rows.col(k) -= rows.leftCols(k) * at_.unfolding;
+  problem_.load(at_.y, at_.lambda, column);
+  rows.col(k + 1) = column;
+  const MatrixXd border = problem_.metric().asDiagonal() * at_.null;
+  // forces that do no work on the motions hardly move along them, where factors lose their digits
+  const MatrixXd shares = works(rows.rightCols(2), at_.null);
+  MatrixXd x = rows;
+  x.rightCols(2) -= rows.leftCols(k) * shares;
+  solve(x);
+  at_.stiffness = (border.transpose() * x.leftCols(k)).inverse();
+  v_ = x.leftCols(k) * at_.stiffness;
+  // [J, W n; n W, 0] [x; s] = [rows; 0] for the residual and the load
+  const MatrixXd along = border.transpose() * x.rightCols(2);
+  p_ = x.col(k) - v_ * along.col(0);
+  q_ = x.col(k + 1) - v_ * along.col(1);
+  x.resize(0, 0);
+  const VectorXd factored = eigenvalues(at_.stiffness);
+  pi_ = shares.col(0) + at_.stiffness * along.col(0);
+  rho_ = shares.col(1) + at_.stiffness * along.col(1);
+  at_.stiffness = symmetric(works(problem_.tangent_products(at_.y, at_.lambda, v_), v_));
+  const VectorXd exact = eigenvalues(at_.stiffness);
+  const double doubt = (factored - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().minCoeff();
+  if (!(doubt > least_doubt_)) {
+    // signs of pivots and of these eigenvalues come from the same factors
+    least_doubt_ = doubt;
+    at_.others = report.negative - static_cast<int>((factored.array() < 0.0).count());
+  }
+  if (!(doubt < kSure)) {
+    refine(rows, border);
+    keep_better(rows, border);
+    take_quotients(rows.rightCols(2));
+  }
+  return (v_.transpose() * problem_.metric().asDiagonal() * v_).trace() < kLargest && p_.allFinite() &&
+         q_.allFinite();
+}
+
+/// Keeps the motions and the response to the load of the iteration before where those of the factors at hand
+/// satisfy their equations less.
+void CriticalNewton::keep_better(const MatrixXd& rows, const MatrixXd& border) {
+  const Index k = v_.cols();
+  const auto products = [&](const Eigen::Ref<const MatrixXd>& x) {
+    return problem_.tangent_products(at_.y, at_.lambda, x);
+  };
+  const auto left = [&](const Eigen::Ref<const MatrixXd>& motions) {
+    const MatrixXd forces = products(motions);
+    return (forces - rows.leftCols(k) * symmetric(works(forces, motions))).norm();
+  };
+  if (left(v_) > left(at_.null)) {
+    v_ = at_.null;
+    p_ -= v_ * (border.transpose() * p_);
+    q_ -= v_ * (border.transpose() * q_);
+  }
+  if (at_.response.size() == 0) return;
+  const auto left_of_load = [&](const VectorXd& response) {
+    const MatrixXd forces = rows.col(k + 1) - products(response);
+    return (forces - rows.leftCols(k) * works(forces, v_)).norm();
+  };
+  const VectorXd before = at_.response - v_ * (border.transpose() * at_.response);
+  if (left_of_load(q_) > left_of_load(before)) q_ = before;
+}
+
+/// Stiffness and multipliers as Rayleigh's quotients of the solutions: their errors are products of the
+/// solutions' own.
+void CriticalNewton::take_quotients(const MatrixXd& right) {
+  const Index k = v_.cols();
+  MatrixXd all(v_.rows(), k + 2);
+  all << v_, p_, q_;
+  MatrixXd forces = problem_.tangent_products(at_.y, at_.lambda, all);
+  forces.rightCols(2) = right - forces.rightCols(2);
+  at_.stiffness = symmetric(works(forces.leftCols(k), v_));
+  // only v keeps in place what the load moves
+  const MatrixXd multipliers = works(forces.rightCols(2), v_);
+  pi_ = multipliers.col(0);
+  rho_ = multipliers.col(1);
+}
+
+/// Work of forces, by column, on motions, by row.
+MatrixXd CriticalNewton::works(const Eigen::Ref<const MatrixXd>& forces,
+                               const Eigen::Ref<const MatrixXd>& motions) const {
+  MatrixXd out(motions.cols(), forces.cols());
+  for (Index i = 0; i < motions.cols(); ++i)
+    for (Index j = 0; j < forces.cols(); ++j) out(i, j) = problem_.work(forces.col(j), motions.col(i));
+  return out;
+}
+
+void CriticalNewton::differentiate() {
+  const Index k = v_.cols();
+  at_.A.assign(static_cast<std::size_t>(k), MatrixXd(k, k));
+  at_.B.resize(k, k);
+  at_.C.resize(k);
+  along_p_.resize(k, k);
+  along_zp_.resize(k);
+  for (Index j = 0; j < k; ++j) {
+    const MatrixXd z =
+        tangent_change(problem_, at_.y, at_.lambda, {v_.col(j), 0.0, metric_.norm(v_.col(j), 0.0)}, v_);
+    for (Index i = 0; i < k; ++i) {
+      for (Index l = 0; l < k; ++l)
+        at_.A[static_cast<std::size_t>(j)](i, l) = problem_.work(z.col(i), v_.col(l));
+      along_p_(i, j) = problem_.work(z.col(i), p_);
+    }
+  }
+  const PathDirection along_z{q_, 1.0, metric_.norm(q_, 1.0)};
+  MatrixXd all(q_.size(), k + 1);
+  all << v_, q_;
+  const MatrixXd z = tangent_change(problem_, at_.y, at_.lambda, along_z, all);
+  const VectorXd of_load = load_change(problem_, at_.y, at_.lambda, along_z);
+  for (Index i = 0; i < k; ++i) {
+    for (Index l = 0; l < k; ++l) at_.B(i, l) = problem_.work(z.col(i), v_.col(l));
+    along_zp_[i] = problem_.work(z.col(i), p_);
+    at_.C[i] = problem_.work(z.col(k), v_.col(i)) - problem_.work(of_load, v_.col(i));
+  }
+}
+
+/// S: the distance in the load of the target is -trace(S stiffness) / trace(S B).
+MatrixXd CriticalNewton::share_of_target() const {
+  const auto spectrum = at_.spectrum();
+  if (!spectrum) return at_.B.inverse();  // the mean of their distances
+  const VectorXd w = spectrum->shares.col(guess_.target);
+  return w * w.transpose() / w.dot(at_.B * w);
+}
+
+/// Changes of the load factor and of the amplitudes along the null motions.
+VectorXd CriticalNewton::small_step() const {
+  const Index k = v_.cols();
+  MatrixXd equations(k + 1, k + 1);
+  VectorXd right(k + 1);
+  if (bifurcation_) {
+    const MatrixXd share = share_of_target();
+    equations(0, 0) = (share * at_.B).trace();
+    for (Index j = 0; j < k; ++j) equations(0, j + 1) = (share * at_.A[static_cast<std::size_t>(j)]).trace();
+    right[0] = -(share * (at_.stiffness + along_p_)).trace();
+    equations.block(1, 0, k, 1) = at_.C;
+    equations.block(1, 1, k, k) = at_.B;
+    right.tail(k) = rho_ - along_zp_;
+  } else {
+    equations << at_.B(0, 0), at_.A[0](0, 0), rho_[0], -at_.stiffness(0, 0);
+    right << -at_.stiffness(0, 0) - along_p_(0, 0), -pi_[0];
+  }
+  return equations.fullPivLu().solve(right);
+}
+
+bool CriticalNewton::step() {
+  const VectorXd change = small_step();
+  if (!change.allFinite()) return false;
+  dlambda_ = change[0];
+  const VectorXd amplitudes = change.tail(v_.cols());
+  const VectorXd dy = p_ + dlambda_ * q_ + v_ * amplitudes;
+  moved_ = metric_.norm(dy, dlambda_);
+  if (!std::isfinite(moved_)) return false;
+  at_.y += dy;
+  at_.lambda += dlambda_;
+  if (bifurcation_) at_.unfolding += pi_ + dlambda_ * rho_ - at_.stiffness * amplitudes;
+  at_.stiffness += dlambda_ * at_.B + along_p_;
+  for (Index j = 0; j < v_.cols(); ++j) at_.stiffness += amplitudes[j] * at_.A[static_cast<std::size_t>(j)];
+  at_.response = q_;
+  // orthonormal motions of the same space
+  const MatrixXd gram = v_.transpose() * problem_.metric().asDiagonal() * v_;
+  const MatrixXd root = gram.llt().matrixU();
+  at_.null = root.transpose().triangularView<Eigen::Lower>().solve(v_.transpose()).transpose();
+  return metric_.norm(at_.y - guess_.y, at_.lambda - guess_.lambda) <= options_.reach;
+}
+
+/// Whether the next correction would be too small to count, as quadratic convergence lets expect; or no
+/// smaller than this one although the solves are exact: then both are rounding's.
+bool CriticalNewton::converged() {
+  constexpr double kRounding = 1e-6;  // of the reach, and of the load factor
+  const bool falls = previous_ == 0.0 || moved_ < 0.5 * previous_;
+  const double ratio = falls && previous_ > 0.0 ? moved_ / previous_ : 1.0;
+  const double size = std::max(std::abs(at_.lambda), options_.least_load);
+  const bool stagnant = stalled_ && !falls && std::max(moved_, previous_) <= kRounding * options_.reach &&
+                        std::abs(dlambda_) <= kRounding * size;
+  previous_ = moved_;
+  stalled_ = stalled_ || !falls;
+  return stagnant || (moved_ * ratio <= options_.place * options_.reach &&
+                      std::abs(dlambda_) * ratio <= options_.tolerance * size);
+}
+
+/// Whether the forces balance at the solution. Where supports act on one side only the last correction,
+/// however small, may have changed what touches.
+bool CriticalNewton::balances() {
+  if (!problem_.one_sided()) return true;
+  problem_.residual(at_.y, at_.lambda, residual_);
+  VectorXd column;
+  for (Index i = 0; i < at_.unfolding.size(); ++i) {
+    problem_.metric_forces(at_.null.col(i), column);
+    residual_ += at_.unfolding[i] * column;
+  }
+  const double size = problem_.relative_residual(residual_, at_.y, at_.lambda);
+  return size <= std::max(options_.largest_residual, problem_.residual_rounding(at_.y, at_.lambda));
+}
+
+std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
+  constexpr int kMostIterations = 8;
+  constexpr double kAside = 1e-8;  // of the reach
+  constexpr int kSettling = 3;     // iterations before the unfolding force says how large it will be
+  for (int it = 1; it <= kMostIterations; ++it) {
+    ++factorisations;
+    if (!factorise()) {
+      // a tangent that is singular to the last bit has factors next to here
+      at_.y += kAside * options_.reach * at_.null.col(0);
+      ++factorisations;
+      if (!factorise()) return std::nullopt;
+    }
+    differentiate();
+    if (!step()) return std::nullopt;
+    const bool broken = bifurcation_ && at_.imperfection() > options_.largest_imperfection;
+    if (broken && it >= kSettling) return std::nullopt;
+    if (converged() && balances()) return std::move(at_);
+  }
+  return std::nullopt;
+}
+
+/// A motion that loses its stiffness at a bifurcation, too, and is none of those that it was solved for;
+/// empty when there is none. By inverse iteration with the last factors.
+VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
+  constexpr double kBeside = 1e-3;  // of the load
+  constexpr int kIterations = 2;
+  const Index k = at.null.cols();
+  if (k == (problem_.metric().array() > 0.0).count()) return {};
+  const MatrixXd border = problem_.metric().asDiagonal() * at.null;
+  VectorXd x = pseudo_random(at.y.size(), static_cast<unsigned>(k + 1));
+  VectorXd force;
+  for (int it = 0; it < kIterations; ++it) {
+    x -= at.null * (border.transpose() * x);
+    problem_.metric_forces(x, force);
+    problem_.solve(force);
+    x = force - at.null * (border.transpose() * force);
+    x /= metric_.norm(x, 0.0);
+  }
+  if (!x.allFinite()) return {};
+  const PathDirection along_z{at.response, 1.0, metric_.norm(at.response, 1.0)};
+  const double rate = works(tangent_change(problem_, at.y, at.lambda, along_z, x), x)(0, 0);
+  const double stiffness = works(problem_.tangent_products(at.y, at.lambda, x), x)(0, 0);
+  // a motion that the load drives, as an imperfection would, is that of a limit point
+  problem_.load(at.y, at.lambda, force);
+  const bool driven = std::abs(problem_.work(force, x)) > options_.largest_imperfection * std::abs(rate);
+  return !driven && std::abs(stiffness) <= kBeside * std::abs(at.lambda * rate) ? x : VectorXd();
+}
+
+}  // namespace
+
+std::optional<CriticalSolution> solve_bifurcation(EquilibriumProblem& problem, const PathMetric& metric,
+                                                  const CriticalGuess& guess, const CriticalOptions& options,
+                                                  int& factorisations) {
+  CriticalGuess wider = guess;
+  std::optional<CriticalSolution> best;
+  for (;;) {
+    CriticalNewton newton(problem, metric, wider, options, true);
+    auto found = newton.run(factorisations);
+    if (!found) return best;
+    const VectorXd another = newton.another_null_motion(*found);
+    if (another.size() == 0) return found;
+    // anew from the guess: at a multiple bifurcation itself factors have no digits left
+    const Index k = found->null.cols();
+    wider.null.resize(Eigen::NoChange, k + 1);
+    wider.null << found->null, another;
+    best = std::move(found);
+  }
+}
+
+std::optional<CriticalSolution> solve_limit_point(EquilibriumProblem& problem, const PathMetric& metric,
+                                                  const CriticalGuess& guess, const CriticalOptions& options,
+                                                  int& factorisations) {
+  return CriticalNewton(problem, metric, guess, options, false).run(factorisations);
+}
+
+}  // namespace snapthrough

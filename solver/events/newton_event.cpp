@@ -1,0 +1,299 @@
+#include "solver/events/newton_event.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/events/critical_system.h"
+#include "solver/numeric/cubic.h"
+#include "solver/path/soft_mode.h"
+
+namespace snapthrough {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+CriticalOptions options_for(const Continuation& continuation, double tolerance, double reach) {
+  constexpr double kPlaceOfNoState = 1e-3;  // where only the load is reported, which errs by the square
+  CriticalOptions options;
+  if (continuation.options().corrector.tangent_tolerance > 0.0) options.place = kPlaceOfNoState;
+  options.tolerance = 0.1 * tolerance;
+  options.least_load = continuation.least_load();
+  options.reach = reach;
+  return options;
+}
+
+/// The tangent of the path that leaves in a direction, and of that which crosses it.
+struct Tangents {
+  CriticalDirection along;
+  CriticalDirection across;  ///< without y: not known
+};
+
+std::optional<Tangents> tangents_along(const PathMetric& metric, const CriticalSolution& found,
+                                       const PathDirection& way) {
+  constexpr double kSameWay = 0.5;  // cosine between the path's direction and its tangent at the bifurcation
+  const auto inner = [&](const CriticalDirection& d) {
+    return metric.inner(d.y, d.lambda, way.y, way.lambda);
+  };
+  auto all = found.tangents(metric);
+  if (all.empty()) return std::nullopt;
+  if (all.size() == 2 && std::abs(inner(all[1])) > std::abs(inner(all[0]))) std::swap(all[0], all[1]);
+  const double along = inner(all[0]);
+  if (!(std::abs(along) >= kSameWay * metric.norm(way.y, way.lambda))) return std::nullopt;
+  Tangents out{std::move(all[0]), all.size() == 2 ? std::move(all[1]) : CriticalDirection{}};
+  if (along < 0.0) out.along = {-out.along.y, -out.along.lambda, -out.along.stiffness_rate};
+  return out;
+}
+
+/// One bifurcation of those that a solution stands for.
+/// @param distance to it in the load
+CriticalEvent bifurcation_event(const CriticalSolution& found, const Tangents& tangents, double distance,
+                                const VectorXd& shares) {
+  CriticalEvent event;
+  event.type = CriticalType::bifurcation;
+  event.point.y = found.y;
+  if (distance != 0.0) event.point.y += distance / tangents.along.lambda * tangents.along.y;
+  event.point.lambda = found.lambda + distance;
+  event.point.tangent = tangents.along.y;
+  event.point.tangent_lambda = tangents.along.lambda;
+  event.null = found.null;
+  if (shares.size() > 1) event.null.col(0) = found.null * shares;
+  event.imperfection = found.imperfection();
+  event.across = tangents.across.y;
+  event.across_lambda = tangents.across.lambda;
+  event.bracket_loads[0] = event.bracket_loads[1] = event.point.lambda;
+  return event;
+}
+
+/// A solution of Moore's system with what a path needs of it.
+struct Solved {
+  CriticalSolution at;
+  Tangents tangents;
+  CriticalSolution::Spectrum spectrum;
+};
+
+std::optional<Solved> solve_on_path(Continuation& continuation, const CriticalGuess& guess,
+                                    const PathDirection& way, const CriticalOptions& options) {
+  int factorisations = 0;
+  auto found =
+      solve_bifurcation(continuation.problem(), continuation.metric(), guess, options, factorisations);
+  continuation.count_factorisations(factorisations);
+  if (!found) return std::nullopt;
+  auto tangents = tangents_along(continuation.metric(), *found, way);
+  auto spectrum = found->spectrum();
+  if (!tangents || !spectrum) return std::nullopt;
+  return Solved{*std::move(found), *std::move(tangents), *std::move(spectrum)};
+}
+
+/// The same bifurcation, found for itself: seen from another of several its place is right to the square of
+/// the distance only.
+CriticalEvent settled(Continuation& continuation, const CriticalEvent& event, Index target,
+                      const PathDirection& way, const CriticalOptions& options) {
+  const CriticalGuess guess{event.point.y, event.point.lambda, event.null, target};
+  const auto found = solve_on_path(continuation, guess, way, options);
+  if (!found) return event;
+  return bifurcation_event(found->at, found->tangents, 0.0, found->spectrum.shares.col(target));
+}
+
+/// Whether the inertia changes as bifurcations say, just before the first and beyond the last. Where supports
+/// act on one side only the tangent's derivatives may be those of a contact that ends there.
+bool inertia_confirms(Continuation& continuation, const std::vector<CriticalEvent>& events, double apart) {
+  EquilibriumProblem& problem = continuation.problem();
+  if (!problem.one_sided() || events.empty()) return true;
+  const auto negative = [&](const CriticalEvent& event, double way) {
+    VectorXd residual;
+    continuation.count_factorisations(1);
+    return problem
+        .linearise(event.point.y + way * event.point.tangent,
+                   event.point.lambda + way * event.point.tangent_lambda, residual)
+        .negative;
+  };
+  return negative(events.front(), -apart) == events.front().negative_before &&
+         negative(events.back(), apart) == events.back().negative_after;
+}
+
+/// The bifurcations next to a guess as a path meets them that goes some way: the first that is asked for, and
+/// those close to it; those within the tolerance are one of higher multiplicity.
+/// @param before negative eigenvalues on the near side; -1: as many as there are
+std::vector<CriticalEvent> bifurcations_near(Continuation& continuation, const CriticalGuess& guess,
+                                             const PathDirection& way, int before,
+                                             const CriticalOptions& options) {
+  constexpr double kExact = 1e-5;  // of the load: distances whose square does not count
+  constexpr double kClose = 1e-2;
+  constexpr double kBeside = 1e-2;  // of the reach
+  const auto solved = solve_on_path(continuation, guess, way, options);
+  if (!solved) return {};
+  const auto& [found, tangents, spectrum] = *solved;
+  const auto count = static_cast<int>(found.null.cols());
+  const int change = tangents.along.stiffness_rate < 0.0 ? 1 : -1;
+  const int first = found.others + (change < 0 ? count : 0);
+  if (before >= 0 && before != first) return {};
+  const double size = std::max(std::abs(found.lambda), options.least_load);
+  std::vector<CriticalEvent> events;
+  for (int n = 0; n < count; ++n) {
+    const Index i = tangents.along.lambda < 0.0 ? count - 1 - n : n;
+    const double distance = count > 1 && i != guess.target ? spectrum.distances[i] : 0.0;
+    if (std::abs(distance) > kClose * size) break;
+    CriticalEvent event = bifurcation_event(found, tangents, distance, spectrum.shares.col(i));
+    if (std::abs(distance) > kExact * size) event = settled(continuation, event, i, way, options);
+    event.negative_before = first + change * n;
+    event.negative_after = event.negative_before + change;
+    event.point.negative = event.negative_before;
+    const double apart = events.empty() ? size : std::abs(event.point.lambda - events.back().point.lambda);
+    if (apart > 100.0 * options.tolerance * size) {
+      events.push_back(std::move(event));
+    } else {
+      events.back().negative_after = event.negative_after;
+      ++events.back().multiplicity;
+    }
+  }
+  if (!inertia_confirms(continuation, events, kBeside * options.reach)) return {};
+  return events;
+}
+
+}  // namespace
+
+std::vector<CriticalEvent> bifurcations_beyond(Continuation& continuation, const PathPoint& from,
+                                               const std::vector<Index>& modes, double distance, double reach,
+                                               double tolerance) {
+  const PathMetric& metric = continuation.metric();
+  CriticalGuess guess{from.y + distance * from.tangent, from.lambda + distance * from.tangent_lambda,
+                      from.modes->motions(Eigen::all, modes),
+                      from.tangent_lambda < 0.0 ? static_cast<Index>(modes.size()) - 1 : 0};
+  for (Index i = 0; i < guess.null.cols(); ++i)
+    guess.y -= distance * metric.inner(from.tangent, 0.0, guess.null.col(i), 0.0) * guess.null.col(i);
+  continuation.problem().set_holds(from.holds);
+  const PathDirection way{from.tangent, from.tangent_lambda};
+  auto events =
+      bifurcations_near(continuation, guess, way, from.negative, options_for(continuation, tolerance, reach));
+  for (const CriticalEvent& event : events)
+    if (!(metric.inner(event.point.y - from.y, event.point.lambda - from.lambda, way.y, way.lambda) > 0.0))
+      return {};
+  double arc = from.arc_length;
+  const PathPoint* last = &from;
+  for (CriticalEvent& event : events) {
+    arc += continuation.arc(*last, event.point);
+    event.point.arc_length = arc;
+    event.point.log_abs_det = from.log_abs_det;
+    event.point.holds = from.holds;
+    last = &event.point;
+  }
+  return events;
+}
+
+namespace {
+
+/// The mode of a step's end whose stiffness changes its sign on the step: it has `sign` there. -1: none.
+Index crossing_mode(const SoftModes& modes, double sign, double sense) {
+  Index best = -1;
+  for (Index i = 0; i < modes.count(); ++i) {
+    if (!(sign * modes.stiffness[i] > 0.0) || !std::isfinite(modes.distance_to_zero(i, sense))) continue;
+    if (best < 0 || modes.distance_to_zero(i, sense) < modes.distance_to_zero(best, sense)) best = i;
+  }
+  return best;
+}
+
+/// Where the stiffness passes zero, as a share of the step from a to b: on the cubic through values and rates
+/// where both ends' motions are one, else on the line from the nearer end.
+double predicted_share(const PathMetric& metric, const SoftModes& a, Index i, const SoftModes& b, Index j,
+                       double length) {
+  constexpr double kSame = 0.9;
+  const double from_a = a.distance_to_zero(i, 1.0) / length;
+  const double from_b = b.distance_to_zero(j, -1.0) / length;
+  if (std::abs(metric.inner(a.motions.col(i), 0.0, b.motions.col(j), 0.0)) < kSame)
+    return from_a < from_b ? from_a : 1.0 - from_b;
+  return Cubic{a.stiffness[i], length * a.rate[i], b.stiffness[j], length * b.rate[j]}.zero();
+}
+
+CriticalEvent limit_event(const Continuation& continuation, const CriticalSolution& found,
+                          const CriticalEvent& kind, const VectorXd& direction) {
+  CriticalEvent event = kind;
+  event.point.y = found.y;
+  event.point.lambda = found.lambda;
+  const VectorXd null = found.null.col(0);
+  const double along = continuation.metric().inner(null, 0.0, direction, 0.0);
+  event.point.tangent = along < 0.0 ? VectorXd(-null) : null;
+  event.point.tangent_lambda = 0.0;
+  event.point.negative = kind.negative_before;
+  event.null = found.null;
+  event.bracket_loads[0] = event.bracket_loads[1] = found.lambda;
+  return event;
+}
+
+/// The simple critical point of a kind next to a guess, by Newton's method.
+/// @param kind its type and the inertia on both sides
+/// @param way direction of the path there
+std::optional<CriticalEvent> solve_event(Continuation& continuation, const CriticalGuess& guess,
+                                         const CriticalEvent& kind, const PathDirection& way,
+                                         const CriticalOptions& options) {
+  if (!is_limit(kind.type)) {
+    // of several close together, the one with the same inertia on both sides
+    for (CriticalEvent& event : bifurcations_near(continuation, guess, way, -1, options))
+      if (event.negative_before == kind.negative_before && event.negative_after == kind.negative_after) {
+        event.type = kind.type;
+        return std::move(event);
+      }
+    return std::nullopt;
+  }
+  if (guess.null.cols() != 1) return std::nullopt;
+  int factorisations = 0;
+  const auto found =
+      solve_limit_point(continuation.problem(), continuation.metric(), guess, options, factorisations);
+  continuation.count_factorisations(factorisations);
+  if (!found || found->others != std::min(kind.negative_before, kind.negative_after)) return std::nullopt;
+  return limit_event(continuation, *found, kind, way.y);
+}
+
+}  // namespace
+
+std::optional<CriticalEvent> critical_point_near(Continuation& continuation, const CriticalEvent& known,
+                                                 const PathPoint& at, Eigen::MatrixXd null, double reach,
+                                                 double tolerance) {
+  if (known.cause == CriticalCause::contact) return std::nullopt;
+  continuation.problem().set_holds(at.holds);
+  CriticalGuess guess{at.y, at.lambda, std::move(null)};
+  guess.target = at.tangent_lambda < 0.0 ? guess.null.cols() - 1 : 0;
+  auto event = solve_event(continuation, guess, known, {at.tangent, at.tangent_lambda},
+                           options_for(continuation, tolerance, reach));
+  if (!event) return std::nullopt;
+  event->point.arc_length = at.arc_length;
+  event->point.log_abs_det = at.log_abs_det;
+  event->point.holds = at.holds;
+  return event;
+}
+
+std::optional<CriticalEvent> crossing_between(Continuation& continuation, const Chord& chord,
+                                              const PathPoint& a, const PathPoint& b, bool limit,
+                                              const LocateOptions& options) {
+  const bool lost = b.negative > a.negative;
+  if (!a.modes || !b.modes) return std::nullopt;
+  const Index i = crossing_mode(*a.modes, lost ? 1.0 : -1.0, 1.0);
+  const Index j = crossing_mode(*b.modes, lost ? -1.0 : 1.0, -1.0);
+  if (i < 0 || j < 0) return std::nullopt;
+  const PathMetric& metric = continuation.metric();
+  const double length = continuation.distance_along(chord, a, b);
+  const double share = std::clamp(predicted_share(metric, *a.modes, i, *b.modes, j, length), 0.0, 1.0);
+  PathPoint at;
+  continuation.interpolate(chord, a, b, share, at);
+  const CriticalGuess guess{at.y, at.lambda, share < 0.5 ? a.modes->motions.col(i) : b.modes->motions.col(j)};
+  continuation.problem().set_holds(a.holds);
+  CriticalEvent kind;
+  kind.type = !limit                   ? CriticalType::bifurcation
+              : a.tangent_lambda > 0.0 ? CriticalType::limit_max
+                                       : CriticalType::limit_min;
+  kind.negative_before = a.negative;
+  kind.negative_after = b.negative;
+  auto event = solve_event(continuation, guess, kind, {chord.y, chord.lambda},
+                           options_for(continuation, options.tolerance, length));
+  if (!event || event->imperfection > options.perfect) return std::nullopt;
+  const double along = continuation.distance_along(chord, a, event->point);
+  if (!(along >= 0.0 && along <= length)) return std::nullopt;
+  event->point.arc_length = a.arc_length + along / length * (b.arc_length - a.arc_length);
+  event->point.log_abs_det = a.log_abs_det;
+  event->point.holds = a.holds;
+  return event;
+}
+
+}  // namespace snapthrough

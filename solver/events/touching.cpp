@@ -1,0 +1,130 @@
+#include "solver/events/touching.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "solver/discrete/transfer.h"
+#include "solver/events/buckling.h"
+#include "solver/newton/corrector.h"
+#include "solver/numeric/number_text.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kOnTheWay = 0.5;  ///< share of a load on the way to which supports must go on touching
+
+/// Lengths of foundations (in fractions) and number of springs.
+double amount(const TouchingSupports& touching) {
+  auto sum = static_cast<double>(touching.springs.size());
+  for (const TouchingSupports::FoundationRange& part : touching.foundations)
+    sum += part.range[1] - part.range[0];
+  return sum;
+}
+
+/// Whether the equilibrium at a load, on the path from an unloaded or a preloaded state, leaves all of them
+/// where they are.
+bool still_touch(const Structure& structure, const VectorXd& from, double lambda) {
+  constexpr double kAll = 1e-6;
+  StructuralProblem problem(structure);
+  const PathMetric metric{&structure.metric, 0.0};
+  VectorXd displacement;
+  Workspace work;
+  problem.linearise(from, 0.0, work.residual);
+  problem.load(from, 0.0, displacement);
+  problem.solve(displacement);
+  VectorXd y = from + lambda * displacement;
+  const auto outcome =
+      correct(problem, metric, {}, lambda * metric.norm(displacement, 0.0), {}, y, lambda, work);
+  if (outcome.status != CorrectorStatus::converged) return false;
+  const TouchingMarks marks = problem.marks_at(y);
+  return has_any(marks) &&
+         std::abs(amount(problem.touching(marks, nullptr)) - amount(structure.touching)) <= kAll;
+}
+
+bool is_known(const TouchingSupports& touching) {
+  return !touching.springs.empty() || !touching.foundations.empty();
+}
+
+/// What the supports do that touch under a reference load; empty: nothing is known.
+TouchingSupports least_piece(const Model& model, const Structure& structure, double reference,
+                             const VectorXd& near, LinearBuckling& buckling) {
+  const Structure unknown = with_touching(structure, model, {});
+  StructuralProblem problem(unknown);
+  buckling = linear_buckling(unknown, problem, 1, reference, near);
+  if (!buckling.piece.found || buckling.loads.empty()) return {};
+  TouchingSupports out = problem.touching(buckling.marks, &buckling.contact);
+  out.motion = buckling.piece.motion;
+  out.reference = reference;
+  return out;
+}
+
+/// Response beside that of the glued structure beyond which supports are left, or pressed by rounding alone.
+constexpr double kLoose = 1e3;
+
+/// Whether supports touch without pressure where the structure glued to them responds to its load.
+bool glued_touches(const Structure& structure, StructuralProblem& problem) {
+  if (structure.has_constant) return false;
+  const VectorXd zero = VectorXd::Zero(structure.size);
+  VectorXd residual;
+  VectorXd response;
+  Regime glued;
+  glued.contact = Regime::Contact::bilateral;
+  problem.linearise(zero, 0.0, residual, glued);
+  problem.load(zero, 0.0, response);
+  problem.solve(response);
+  return has_any(problem.marks_at(structure.scales.load * response));
+}
+
+}  // namespace
+
+std::optional<Structure> with_least_piece(const Model& model, const Structure& structure,
+                                          StructuralProblem& problem, const Continuation& continuation,
+                                          const std::optional<PathPoint>& start, Result& result) {
+  if (!structure.one_sided || is_known(structure.touching)) return std::nullopt;
+  if (start ? start->tangent_lambda <= 0.0 : structure.has_constant) return std::nullopt;
+  const double ahead = start && continuation.loosening() <= kLoose ? kOnTheWay * continuation.load_scale()
+                                                                   : structure.scales.load;
+  if (start) {
+    const VectorXd linear = start->y + (ahead / start->tangent_lambda) * start->tangent;
+    if (!has_any(problem.marks_at(linear)) &&
+        !(continuation.loosening() > kLoose && glued_touches(structure, problem)))
+      return std::nullopt;
+  }
+  LinearBuckling buckling;
+  TouchingSupports touching = least_piece(model, structure, ahead, {}, buckling);
+  result.diagnostics.factorizations += buckling.factorizations;
+  if (!is_known(touching)) return std::nullopt;
+  std::optional<Structure> out = with_touching(structure, model, std::move(touching));
+  const VectorXd from = start ? start->y : VectorXd::Zero(structure.size);
+  if (!still_touch(*out, from, kOnTheWay * buckling.loads.front())) return std::nullopt;
+  warn_of_touching(structure, buckling.piece, result);
+  return out;
+}
+
+Structure with_finer_piece(const Model& model, const Structure& coarse, Mesh mesh) {
+  Structure fine = on_mesh(coarse, model, std::move(mesh));
+  const auto& parts = fine.touching.foundations;
+  const auto acts = [](const TouchingSupports::FoundationRange& part) { return part.touch == Touch::acts; };
+  // without ends of contact the mesh does not matter
+  if (std::none_of(parts.begin(), parts.end(), acts) || std::all_of(parts.begin(), parts.end(), acts))
+    return fine;
+  LinearBuckling buckling;
+  const VectorXd near = transfer(coarse, coarse.touching.motion, fine);
+  TouchingSupports touching = least_piece(model, fine, coarse.touching.reference, near, buckling);
+  return is_known(touching) ? with_touching(fine, model, std::move(touching)) : std::move(fine);
+}
+
+void warn_of_touching(const Structure& structure, const LeastPiece& piece, Result& result) {
+  if (!piece.found || piece.certain) return;
+  result.warnings.push_back(
+      {"touching_supports",
+       "one-sided supports touch without pressure, and each motion of the structure meets other ones: the "
+       "critical "
+       "load is the least that was found over the ways in which they can act; it is at least " +
+           number(piece.above / structure.scales.load) + ", what the structure carries without them"});
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,17 @@
+#pragma once
+/// @file
+/// The initial axes of a model's members.
+
+#include <memory>
+#include <vector>
+
+#include "solver/geometry/axis_curve.h"
+#include "solver/model/model.h"
+
+namespace snapthrough {
+
+/// Axes of all members, in the model's units, relative to the first node.
+using Axes = std::vector<std::shared_ptr<const AxisCurve>>;
+[[nodiscard]] Axes make_axes(const Model& model);
+
+}  // namespace snapthrough

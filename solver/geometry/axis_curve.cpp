@@ -1,0 +1,225 @@
+#include "solver/geometry/axis_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "solver/geometry/cubic_spline.h"
+#include "solver/numeric/gauss_rule.h"
+
+namespace snapthrough {
+namespace {
+
+constexpr int kTableIntervals = 64;
+
+/// Chord frame: point(xi, eta) = start + xi * chord + eta * left normal of the chord.
+struct Chord {
+  std::array<double, 2> start;
+  std::array<double, 2> vector;
+  std::array<double, 2> normal;
+};
+
+Chord chord_of(std::array<double, 2> a, std::array<double, 2> b) {
+  const double dx = b[0] - a[0];
+  const double dy = b[1] - a[1];
+  const double length = std::hypot(dx, dy);
+  return {a, {dx, dy}, {-dy / length, dx / length}};
+}
+
+/// Splines of x and y over cumulated chord length, through start, interior points and end.
+struct PlaneSpline {
+  CubicSpline x;
+  CubicSpline y;
+  std::vector<double> t;  ///< parameters of all points, from 0 to 1
+};
+
+PlaneSpline spline_through(const PointsCurve& curve, std::array<double, 2> start, std::array<double, 2> end) {
+  std::vector<std::array<double, 2>> all{start};
+  all.insert(all.end(), curve.points.begin(), curve.points.end());
+  all.push_back(end);
+  std::vector<double> t{0.0};
+  std::vector<double> x{start[0]};
+  std::vector<double> y{start[1]};
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    t.push_back(t.back() + std::hypot(all[i][0] - all[i - 1][0], all[i][1] - all[i - 1][1]));
+    x.push_back(all[i][0]);
+    y.push_back(all[i][1]);
+  }
+  for (double& value : t) value /= t.back();
+  return {CubicSpline(t, x), CubicSpline(t, y), t};
+}
+
+/// Hermite's cubic on [0, 1] from 0 to `rise` with the slopes at its ends.
+double cubic(double u, double rise, double slope0, double slope1) {
+  return u * (slope0 + u * (3.0 * rise - 2.0 * slope0 - slope1 + u * (slope0 + slope1 - 2.0 * rise)));
+}
+
+}  // namespace
+
+/// |d(x, y) / dt|; lengths of models are far from the ends of the number range.
+double AxisCurve::speed_of(const Jet& j) { return std::sqrt(j.dx * j.dx + j.dy * j.dy); }
+
+AxisCurve::AxisCurve(const Curve& curve, std::array<double, 2> start, std::array<double, 2> end) {
+  const Chord chord = chord_of(start, end);
+  const double chord_length = std::hypot(chord.vector[0], chord.vector[1]);
+  start_ = start;
+  start_angle_ = std::atan2(chord.vector[1], chord.vector[0]);
+  length_ = chord_length;
+  straight_ = std::holds_alternative<LineCurve>(curve);
+  if (const auto* arc = std::get_if<ArcCurve>(&curve)) {
+    const double sweep = arc->sweep_degrees * std::numbers::pi / 180.0;
+    const double radius = chord_length / (2.0 * std::sin(0.5 * std::abs(sweep)));
+    length_ = radius * std::abs(sweep);
+    curvature_ = sweep / length_;
+    start_angle_ -= 0.5 * sweep;
+  } else if (const auto* parabola = std::get_if<ParabolaCurve>(&curve)) {
+    const double rise = parabola->rise;
+    set_parametric(
+        [chord, rise](double t) {
+          const double eta = 4.0 * rise * t * (1.0 - t);
+          const double d = 4.0 * rise * (1.0 - 2.0 * t);
+          const auto& n = chord.normal;
+          return Jet{chord.start[0] + t * chord.vector[0] + eta * n[0],
+                     chord.start[1] + t * chord.vector[1] + eta * n[1],
+                     chord.vector[0] + d * n[0],
+                     chord.vector[1] + d * n[1],
+                     -8.0 * rise * n[0],
+                     -8.0 * rise * n[1]};
+        },
+        kTableIntervals);
+  } else if (const auto* sine = std::get_if<SineCurve>(&curve)) {
+    const double rise = sine->rise;
+    const double w = sine->half_waves * std::numbers::pi;
+    set_parametric(
+        [chord, rise, w](double t) {
+          const double eta = rise * std::sin(w * t);
+          const double d = rise * w * std::cos(w * t);
+          const double dd = -w * w * eta;
+          const auto& n = chord.normal;
+          return Jet{chord.start[0] + t * chord.vector[0] + eta * n[0],
+                     chord.start[1] + t * chord.vector[1] + eta * n[1],
+                     chord.vector[0] + d * n[0],
+                     chord.vector[1] + d * n[1],
+                     dd * n[0],
+                     dd * n[1]};
+        },
+        kTableIntervals * std::max(1, sine->half_waves));
+  } else if (const auto* points = std::get_if<PointsCurve>(&curve)) {
+    set_spline(*points, start, end);
+  }
+}
+
+void AxisCurve::set_spline(const PointsCurve& curve, std::array<double, 2> start, std::array<double, 2> end) {
+  auto spline = std::make_shared<const PlaneSpline>(spline_through(curve, start, end));
+  set_parametric(
+      [spline](double t) {
+        const auto x = spline->x.at(t);
+        const auto y = spline->y.at(t);
+        return Jet{x[0], y[0], x[1], y[1], x[2], y[2]};
+      },
+      kTableIntervals * static_cast<int>(spline->t.size()));
+  // not-a-knot: the first and the last interior point are no knots
+  for (std::size_t i = 2; i + 2 < spline->t.size(); ++i) knots_.push_back(length_to(spline->t[i]));
+}
+
+/// Arc length from the start to a parameter: the table, and the rest by quadrature.
+double AxisCurve::length_to(double t) const {
+  static const Quadrature gauss = gauss_legendre(12);
+  const auto intervals = static_cast<double>(table_s_.size() - 1);
+  const auto k = std::min(static_cast<std::size_t>(t * intervals), table_s_.size() - 2);
+  const double t0 = static_cast<double>(k) / intervals;
+  double s = table_s_[k];
+  for (std::size_t q = 0; q < gauss.points.size(); ++q) {
+    const Jet j = jet_(t0 + (t - t0) * gauss.points[q]);
+    s += (t - t0) * gauss.weights[q] * speed_of(j);
+  }
+  return s;
+}
+
+void AxisCurve::set_parametric(std::function<Jet(double)> jet, int intervals) {
+  jet_ = std::move(jet);
+  const Quadrature gauss = gauss_legendre(12);
+  table_s_.assign(1, 0.0);
+  Jet j = jet_(0.0);
+  table_angle_.assign(1, std::atan2(j.dy, j.dx));
+  table_speed_.assign(1, speed_of(j));
+  const double dt = 1.0 / intervals;
+  for (int i = 0; i < intervals; ++i) {
+    double ds = 0.0;
+    for (std::size_t q = 0; q < gauss.points.size(); ++q) {
+      j = jet_((i + gauss.points[q]) * dt);
+      ds += gauss.weights[q] * dt * speed_of(j);
+    }
+    table_s_.push_back(table_s_.back() + ds);
+    j = jet_((i + 1) * dt);
+    const double turn = std::remainder(std::atan2(j.dy, j.dx) - table_angle_.back(), 2.0 * std::numbers::pi);
+    table_angle_.push_back(table_angle_.back() + turn);
+    table_speed_.push_back(speed_of(j));
+  }
+  length_ = table_s_.back();
+}
+
+double AxisCurve::parameter_at(double s) const {
+  static const Quadrature gauss = gauss_legendre(12);
+  // with the start by Hermite's cubic below, one Newton step leaves its square
+  constexpr double kOneStepMore = 1e-9;
+  const auto upper = std::upper_bound(table_s_.begin() + 1, table_s_.end() - 1, s);
+  const auto i = static_cast<std::size_t>(upper - table_s_.begin()) - 1;
+  const double dt = 1.0 / static_cast<double>(table_s_.size() - 1);
+  const double t0 = static_cast<double>(i) * dt;
+  const double rest = s - table_s_[i];
+  const double whole = table_s_[i + 1] - table_s_[i];
+  double t = t0 + cubic(rest / whole, dt, whole / table_speed_[i], whole / table_speed_[i + 1]);
+  for (int it = 0; it < 20; ++it) {
+    double length = 0.0;
+    for (std::size_t q = 0; q < gauss.points.size(); ++q) {
+      const Jet j = jet_(t0 + (t - t0) * gauss.points[q]);
+      length += (t - t0) * gauss.weights[q] * speed_of(j);
+    }
+    const Jet j = jet_(t);
+    const double step = (length - rest) / speed_of(j);
+    t -= step;
+    if (std::abs(step) < kOneStepMore) break;
+  }
+  return t;
+}
+
+double AxisCurve::turning(double from, double to) const {
+  if (!jet_) return std::abs(curvature_) * (to - from);
+  double angle = at(from).angle;
+  double sum = 0.0;
+  const auto turn_to = [&](double next) {
+    sum += std::abs(next - angle);
+    angle = next;
+  };
+  for (std::size_t i = 0; i < table_s_.size(); ++i)
+    if (table_s_[i] > from && table_s_[i] < to) turn_to(table_angle_[i]);
+  turn_to(at(to).angle);
+  return sum;
+}
+
+AxisPoint AxisCurve::at(double s) const {
+  if (jet_) {
+    const double t = parameter_at(s);
+    const Jet j = jet_(t);
+    const auto i =
+        std::min(static_cast<std::size_t>(std::max(t, 0.0) * static_cast<double>(table_angle_.size() - 1)),
+                 table_angle_.size() - 1);
+    const double angle =
+        table_angle_[i] + std::remainder(std::atan2(j.dy, j.dx) - table_angle_[i], 2.0 * std::numbers::pi);
+    const double speed = speed_of(j);
+    return {j.x, j.y, angle, (j.dx * j.ddy - j.dy * j.ddx) / (speed * speed * speed)};
+  }
+  const double angle = start_angle_ + curvature_ * s;
+  // chord of the part [0, s]: length s sinc(turn / 2) in the direction of the mean angle
+  const double half_turn = 0.5 * curvature_ * s;
+  const double sinc =
+      std::abs(half_turn) < 1e-4 ? 1.0 - half_turn * half_turn / 6.0 : std::sin(half_turn) / half_turn;
+  const double mean = start_angle_ + half_turn;
+  return {start_[0] + s * sinc * std::cos(mean), start_[1] + s * sinc * std::sin(mean), angle, curvature_};
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,48 @@
+#pragma once
+/// @file
+/// A smooth function on an interval from its values at Chebyshev's points.
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+
+#include "solver/numeric/max_order.h"
+
+namespace snapthrough {
+
+/// @brief Interpolates n values at xi_i = (1 - cos(pi i / (n - 1))) / 2 of [0, 1] by a polynomial of degree
+/// n - 1: exact for those, and converging geometrically for what is smooth.
+class ChebyshevSeries {
+ public:
+  static constexpr int kMostPoints = 2 * kMaxOrder + 3;
+
+  /// @pre 2 <= values.size() <= kMostPoints
+  explicit ChebyshevSeries(std::span<const double> values);
+
+  [[nodiscard]] double value(double xi) const { return sum(coefficients_, xi); }
+  /// At four places at once.
+  [[nodiscard]] Eigen::Array4d values(const Eigen::Array4d& xi) const { return sum(coefficients_, xi); }
+  [[nodiscard]] double slope(double xi) const { return sum(slopes_, xi); }
+
+ private:
+  using Coefficients = std::array<double, kMostPoints>;
+  /// Clenshaw's recurrence.
+  template <class Real>
+  [[nodiscard]] Real sum(const Coefficients& c, const Real& xi) const {
+    const Real t = 2.0 * xi - 1.0;
+    Real b1 = 0.0 * xi;
+    Real b2 = b1;
+    for (int k = size_ - 1; k > 0; --k) {
+      const Real b = c[k] - b2 + 2.0 * t * b1;
+      b2 = b1;
+      b1 = b;
+    }
+    return c[0] - b2 + t * b1;
+  }
+
+  int size_;
+  Coefficients coefficients_{};
+  Coefficients slopes_{};  ///< of d / d xi
+};
+
+}  // namespace snapthrough

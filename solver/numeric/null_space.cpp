@@ -1,0 +1,85 @@
+#include "solver/numeric/null_space.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "solver/numeric/pseudo_random.h"
+
+namespace snapthrough {
+
+using Eigen::Index;
+using Eigen::SparseMatrix;
+using Eigen::VectorXd;
+
+/// Of what is computed from vectors of length one.
+constexpr double kRounding = 1e-12;
+
+NullSpace::NullSpace(SparseMatrix<double> rows, SparseMatrix<double> sizes, double tolerance)
+    : rows_(std::move(rows)), sizes_(std::move(sizes)), tolerance_(tolerance) {
+  // some roundings of each diagonal entry: the pivots of a singular matrix stay positive, and a vector of the
+  // null space still grows a hundred times as fast as one that B maps to 1e-6
+  constexpr double kShift = 1e-14;
+  constexpr Index kMostEntries = 2'000'000;  // of the factor: half a second
+  SparseMatrix<double> squares = rows_.transpose() * rows_;
+  SparseMatrix<double> shift(squares.rows(), squares.cols());
+  shift.setIdentity();
+  const VectorXd diagonal = squares.diagonal();
+  for (Index i = 0; i < shift.cols(); ++i) shift.coeffRef(i, i) = kShift * std::max(diagonal[i], 1.0);
+  squares += shift;
+  factor_.analyzePattern(squares);
+  too_dense_ = factor_.entries() > kMostEntries;
+  if (!too_dense_) factor_.factorize(squares);
+}
+
+namespace {
+
+/// Removes the parts along orthonormal vectors; twice, as the first pass leaves rounding of what it
+/// subtracts.
+void make_orthogonal(const std::vector<VectorXd>& others, VectorXd& x) {
+  for (int pass = 0; pass < 2; ++pass)
+    for (const VectorXd& other : others) x -= other.dot(x) * other;
+}
+
+}  // namespace
+
+/// What vectors of the null space add to the sizes is left out: with them a vector can be large anywhere.
+bool NullSpace::is_null(const VectorXd& x) const {
+  const double left = VectorXd(rows_ * x).lpNorm<Eigen::Infinity>();
+  VectorXd size = sizes_ * x;
+  make_orthogonal(found_sizes_, size);
+  return left <= tolerance_ * size.lpNorm<Eigen::Infinity>() ||
+         left <= kRounding * x.lpNorm<Eigen::Infinity>();
+}
+
+std::optional<VectorXd> NullSpace::next() {
+  constexpr int kMostSteps = 30;
+  constexpr int kRefinements = 3;
+  if (too_dense_ || static_cast<Index>(found_.size()) == rows_.cols()) return std::nullopt;
+  VectorXd x = pseudo_random(rows_.cols(), static_cast<unsigned>(found_.size()) + 1U);
+  make_orthogonal(found_, x);
+  x.normalize();
+  double left = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kMostSteps; ++step) {  // until B x gets no smaller
+    x = VectorXd(factor_.solve(x));
+    make_orthogonal(found_, x);
+    x.normalize();
+    const double before = std::exchange(left, VectorXd(rows_ * x).norm());
+    if (left > 0.5 * before) break;
+  }
+  if (!is_null(x)) return std::nullopt;
+  for (int i = 0; i < kRefinements; ++i) {
+    const VectorXd rest = rows_ * x;
+    x -= VectorXd(factor_.solve(rows_.transpose() * rest));
+    make_orthogonal(found_, x);
+    x.normalize();
+  }
+  VectorXd size = sizes_ * x;
+  make_orthogonal(found_sizes_, size);
+  if (size.norm() > kRounding) found_sizes_.push_back(size.normalized());
+  found_.push_back(x);
+  return x;
+}
+
+}  // namespace snapthrough

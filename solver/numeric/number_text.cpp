@@ -1,0 +1,20 @@
+#include "solver/numeric/number_text.h"
+
+#include <charconv>
+
+namespace snapthrough {
+
+std::string number(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value);
+  return {text, end.ptr};
+}
+
+std::string rounded(double value) {
+  constexpr int kDigits = 3;
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, kDigits);
+  return {text, end.ptr};
+}
+
+}  // namespace snapthrough

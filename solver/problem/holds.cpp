@@ -1,0 +1,77 @@
+#include "solver/problem/holds.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+#include <vector>
+
+#include "solver/problem/equilibrium_problem.h"
+
+namespace snapthrough {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MotionStiffness motion_stiffness(EquilibriumProblem& problem, const SharedHolds& holds, const VectorXd& y,
+                                 double lambda, const Regime& regime) {
+  const MatrixXd& H = holds->motions;
+  problem.set_holds(holds);
+  VectorXd residual;
+  problem.linearise(y, lambda, residual, regime);
+  MatrixXd S(H.cols(), H.cols());
+  VectorXd x;
+  for (Index i = 0; i < H.cols(); ++i) {
+    problem.force_along(H.col(i), x);
+    problem.solve(x);
+    S.col(i) = H.transpose() * x.head(H.rows());
+  }
+  const MatrixXd stiffness = S.inverse();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> principal(0.5 * (stiffness + stiffness.transpose()));
+  MotionStiffness out;
+  out.motions = H * principal.eigenvectors();
+  out.stiffness = principal.eigenvalues().array() - holds->stiffness;
+  out.force = holds->stiffness * principal.eigenvectors().transpose() *
+              (H.transpose() * y.head(H.rows()) - holds->at);
+  return out;
+}
+
+namespace {
+
+constexpr double kSoft = 1e-6;         // stiffness of soft holds
+constexpr double kShareOfSoft = 1e-3;  // stiffness beside it that counts as none
+constexpr double kFirm = 1e5;          // stiffness beside it that leaves 1e-5 of what soft springs change
+constexpr double kShareOfLoad = 1e-6;  // force beside the load that counts as none
+
+SharedHolds neutral_of(const MotionStiffness& all, const VectorXd& y, double stiffness, double force) {
+  std::vector<Index> neutral;
+  for (Index i = 0; i < all.stiffness.size(); ++i)
+    if (std::abs(all.stiffness[i]) <= stiffness && std::abs(all.force[i]) <= force) neutral.push_back(i);
+  if (neutral.empty()) return nullptr;
+  auto out = std::make_shared<Holds>();
+  out->motions = all.motions(Eigen::all, neutral);
+  out->at = out->motions.transpose() * y.head(all.motions.rows());
+  return out;
+}
+
+}  // namespace
+
+SharedHolds held_softly(const EquilibriumProblem& problem) {
+  const MatrixXd& motions = problem.free_motions();
+  if (motions.cols() == 0) return nullptr;
+  return std::make_shared<const Holds>(Holds{motions, VectorXd::Zero(motions.cols()), kSoft});
+}
+
+SoftlyHeld softly_held(EquilibriumProblem& problem, const SharedHolds& soft, const VectorXd& y, double lambda,
+                       const Regime& regime) {
+  const MotionStiffness met = motion_stiffness(problem, soft, y, lambda, regime);
+  return {neutral_of(met, y, kShareOfSoft * soft->stiffness, kShareOfLoad * std::abs(lambda)),
+          met.stiffness.minCoeff() >= kFirm * soft->stiffness};
+}
+
+SharedHolds neutral_part(EquilibriumProblem& problem, const SharedHolds& holds, const VectorXd& y,
+                         double lambda, double stiffness, double force) {
+  return neutral_of(motion_stiffness(problem, holds, y, lambda), y, stiffness, force);
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,553 @@
+#include "solver/problem/structural_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "solver/numeric/cancelled.h"
+#include "solver/numeric/number_text.h"
+
+namespace snapthrough {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+StructuralProblem::StructuralProblem(const Structure& structure)
+    : structure_(structure),
+      stop_(structure.stop),
+      members_(structure.mesh.first.size() - 1),
+      follower_ends_(structure.follower_ends) {
+  condensed_.resize(structure.dofs.size());
+  chains_.resize(members_);
+  elements_ = structure.elements->make_work();
+  spring_stiffness_.assign(structure.node_springs.size(), 0.0);
+  // a node's rotation is nobody's when every member there is released and neither support nor spring turns
+  // with it
+  free_rotation_.assign(static_cast<std::size_t>(structure.nodes), 1);
+  for (const ElementDofs& dofs : structure.dofs) {
+    for (const int dof : {dofs.a[2], dofs.b[2]})
+      if (dof < 3 * structure.nodes) free_rotation_[dof / 3] = 0;
+  }
+  for (const NodeSpring& spring : structure.node_springs)
+    if (spring.row[2] != 0.0) free_rotation_[spring.node] = 0;
+  const Index n = 3 * structure.nodes + structure.releases + 3 * static_cast<Index>(members_);
+  for (Index i = 0; i < n; ++i) (is_fixed(i) ? fixed_ : free_).push_back(i);
+  largest_load_ = force_norm(structure.proportional_load);
+}
+
+bool StructuralProblem::is_fixed(Index scalar) const {
+  if (scalar >= 3 * structure_.nodes) return false;
+  if (scalar % 3 == 2 && free_rotation_[scalar / 3]) return true;
+  return structure_.supports[scalar / 3].fixed[scalar % 3];
+}
+
+/// Cosine and sine of the support angle at the node of a displacement unknown.
+std::array<double, 2> StructuralProblem::turn_of(int dof) const {
+  if (dof >= 3 * structure_.nodes) return {1.0, 0.0};
+  const double angle = structure_.supports[dof / 3].angle;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// Columns: the support's axes in global ones.
+Matrix3d StructuralProblem::axes_of(const std::array<int, 3>& dofs) const {
+  const auto [c, s] = turn_of(dofs[0]);
+  Matrix3d axes = Matrix3d::Identity();
+  axes(0, 0) = c;
+  axes(0, 1) = -s;
+  axes(1, 0) = s;
+  axes(1, 1) = c;
+  return axes;
+}
+
+double StructuralProblem::penetration(const NodeSpring& spring, const VectorXd& y, double gap) const {
+  double w = -gap;
+  for (int c = 0; c < 3; ++c) w += spring.row[c] * y[3 * spring.node + c];
+  return w;
+}
+
+/// Force of a spring at a node along its row; keeps its stiffness in the tangent.
+double StructuralProblem::node_spring_force(std::size_t index, const VectorXd& y, const Regime& regime) {
+  const NodeSpring& spring = structure_.node_springs[index];
+  const double stiffness = spring.law.stiffness;
+  const double w = penetration(spring, y, 0.0);
+  const double gap = regime.bilateral() ? 0.0 : spring.law.gap;
+  const bool known = spring.touch != Touch::none && std::abs(w - gap) <= kTouchBand;
+  bool acts = known ? spring.touch == Touch::acts : w > gap;
+  if (regime.bilateral() || !spring.law.one_sided) acts = true;
+  if (regime.is_frozen()) acts = regime.frozen->node_springs[index] != 0;
+  const double force = acts ? stiffness * (w - gap) : 0.0;
+  spring_stiffness_[index] = acts ? stiffness : 0.0;
+  if (!spring.law.one_sided) return force;
+  spring_stiffness_[index] = stiffness * ((acts ? regime.softness : 0.0) + regime.grip);
+  return force * regime.softness + regime.grip * stiffness * w;
+}
+
+void StructuralProblem::add_node_springs(const VectorXd& y, const Regime& regime, VectorXd& f) {
+  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
+    const NodeSpring& spring = structure_.node_springs[i];
+    const double force = node_spring_force(i, y, regime);
+    for (int c = 0; c < 3; ++c) f[3 * spring.node + c] += force * spring.row[c];
+  }
+}
+
+void StructuralProblem::force_along(const VectorXd& motion, VectorXd& out) const {
+  out.setZero(size());
+  out.head(motion.size()) = motion;
+  turn_to_supports(out);
+}
+
+void StructuralProblem::metric_forces(const VectorXd& x, VectorXd& out) const {
+  out = structure_.metric.cwiseProduct(x);
+  turn_to_supports(out);
+  for (const Index row : fixed_)
+    if (row < 3 * structure_.nodes) out[row] = 0.0;
+}
+
+double StructuralProblem::work(const VectorXd& forces, const VectorXd& motion) const {
+  double out = forces.dot(motion);
+  for (int j = 0; j < structure_.nodes; ++j) {
+    if (structure_.supports[j].angle == 0.0) continue;
+    const auto [c, s] = turn_of(3 * j);
+    const double ux = motion[3 * j];
+    const double uy = motion[3 * j + 1];
+    out += forces[3 * j] * ((c - 1.0) * ux + s * uy) + forces[3 * j + 1] * (-s * ux + (c - 1.0) * uy);
+  }
+  return out;
+}
+
+void StructuralProblem::set_holds(const SharedHolds& holds) {
+  if (holds == holds_) return;
+  holds_ = holds;
+  planned_ = false;
+  if (!holds_) return;
+  hold_rows_.resize(holds_->motions.rows(), holds_->motions.cols());
+  VectorXd column;
+  for (Index i = 0; i < hold_rows_.cols(); ++i) {
+    force_along(holds_->motions.col(i), column);
+    hold_rows_.col(i) = std::sqrt(holds_->stiffness) * column.head(hold_rows_.rows());
+  }
+}
+
+void StructuralProblem::add_holds(const VectorXd& y, VectorXd& f) const {
+  if (!holds_) return;
+  const Index rows = holds_->motions.rows();
+  const VectorXd moved = holds_->motions.transpose() * y.head(rows) - holds_->at;
+  f.head(rows) += holds_->stiffness * (holds_->motions * moved);
+}
+
+/// Turns the rows of nodes into the axes of their supports.
+void StructuralProblem::turn_to_supports(Eigen::Ref<VectorXd> f) const {
+  for (int j = 0; j < structure_.nodes; ++j) {
+    const auto [c, s] = turn_of(3 * j);
+    const double fx = f[3 * j];
+    const double fy = f[3 * j + 1];
+    f[3 * j] = c * fx + s * fy;
+    f[3 * j + 1] = -s * fx + c * fy;
+  }
+}
+
+/// Turns the rows of nodes into the axes of their supports and puts the constraints into the fixed ones.
+void StructuralProblem::constrain_residual(const VectorXd& y, double lambda, VectorXd& f) const {
+  turn_to_supports(f);
+  const auto [proportional, constant] = factors(lambda);
+  for (int j = 0; j < structure_.nodes; ++j) {
+    const NodeSupport& support = structure_.supports[j];
+    const auto [c, s] = turn_of(3 * j);
+    const double local[3] = {c * y[3 * j] + s * y[3 * j + 1], -s * y[3 * j] + c * y[3 * j + 1], y[3 * j + 2]};
+    for (int k = 0; k < 3; ++k)
+      if (is_fixed(3 * j + k))
+        f[3 * j + k] = local[k] - proportional * support.proportional[k] - constant * support.constant[k];
+  }
+}
+
+/// Minus the dead loads.
+void StructuralProblem::start_residual(double lambda, VectorXd& f) const {
+  const auto [proportional, constant] = factors(lambda);
+  f = -proportional * structure_.proportional_load - constant * structure_.constant_load;
+}
+
+Regime StructuralProblem::regime_of(const Regime& asked) const {
+  Regime regime = asked;
+  regime.small_displacements = asked.small_displacements || structure_.geometry == Geometry::linear;
+  return regime;
+}
+
+void StructuralProblem::find_residual(const VectorXd& y, double lambda, const Regime& asked, VectorXd& f) {
+  end_if_asked(stop_);
+  const Regime regime = regime_of(asked);
+  start_residual(lambda, f);
+  elements_->add_residual(y, factors(lambda), regime, f);
+  add_node_springs(y, regime, f);
+  add_holds(y, f);
+  constrain_residual(y, lambda, f);
+}
+
+void StructuralProblem::load(const VectorXd& y, double, VectorXd& out) {
+  const bool constant = stage_ == Stage::constant;
+  out = constant ? structure_.constant_load : structure_.proportional_load;
+  elements_->add_pressure_load(y, {constant ? 0.0 : 1.0, constant ? 1.0 : 0.0},
+                               structure_.geometry == Geometry::linear, out);
+  turn_to_supports(out);
+  for (int j = 0; j < structure_.nodes; ++j) {
+    const NodeSupport& support = structure_.supports[j];
+    for (int k = 0; k < 3; ++k)
+      if (is_fixed(3 * j + k)) out[3 * j + k] = constant ? support.constant[k] : support.proportional[k];
+  }
+}
+
+void StructuralProblem::fill_member(std::size_t member, MatrixXd& block) const {
+  const CondensedElement& ends = chains_[member].ends();
+  const Matrix3d Ta = axes_of(structure_.dofs[structure_.mesh.first[member]].a);
+  const Matrix3d Tb = axes_of(structure_.dofs[structure_.mesh.first[member + 1] - 1].b);
+  block.setZero(9, 9);  // start, end, force
+  block.topLeftCorner<3, 3>() = Ta.transpose() * ends.K * Ta;
+  block.bottomLeftCorner<3, 3>() = ends.X * Ta;
+  block.block<3, 3>(6, 3) = Tb;
+  block.bottomRightCorner<3, 3>() = -ends.F;
+}
+
+/// Which scalars the blocks of the node system couple: members, then node springs, then nodes that are
+/// held.
+void StructuralProblem::plan_nodes() {
+  node_rows_.clear();
+  for (std::size_t m = 0; m < members_; ++m) {
+    const std::array<int, 3>& a = structure_.dofs[structure_.mesh.first[m]].a;
+    const std::array<int, 3>& b = structure_.dofs[structure_.mesh.first[m + 1] - 1].b;
+    const auto force = static_cast<int>(multiplier(m));
+    node_rows_.push_back({a[0], a[1], a[2], b[0], b[1], b[2], force, force + 1, force + 2});
+  }
+  for (const NodeSpring& spring : structure_.node_springs)
+    node_rows_.push_back({3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2});
+  const auto scalars = static_cast<int>(multiplier(members_));
+  const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
+  for (int node = 0; holds > 0 && node < structure_.nodes; ++node) {
+    node_rows_.push_back({3 * node, 3 * node + 1, 3 * node + 2});
+    for (int h = 0; h < holds; ++h) node_rows_.back().push_back(scalars + h);
+  }
+  node_blocks_.resize(node_rows_.size());
+  std::vector<int> number(static_cast<std::size_t>(scalars + holds), -1);
+  for (std::size_t i = 0; i < free_.size(); ++i) number[free_[i]] = static_cast<int>(i);
+  for (int h = 0; h < holds; ++h) number[scalars + h] = static_cast<int>(free_.size()) + h;
+  std::vector<std::vector<int>> blocks = node_rows_;
+  for (std::vector<int>& block : blocks)
+    for (int& row : block) row = number[row];
+  factor_.analyse(static_cast<int>(free_.size()) + holds, std::move(blocks));
+  planned_ = true;
+}
+
+void StructuralProblem::assemble_nodes() {
+  if (!planned_) plan_nodes();
+  for (std::size_t member = 0; member < members_; ++member) fill_member(member, node_blocks_[member]);
+  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
+    const NodeSpring& spring = structure_.node_springs[i];
+    const std::array<int, 3> dofs{3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2};
+    const Eigen::Vector3d row =
+        axes_of(dofs).transpose() * Eigen::Vector3d(spring.row[0], spring.row[1], spring.row[2]);
+    node_blocks_[members_ + i] = spring_stiffness_[i] * row * row.transpose();
+  }
+  const std::size_t first_hold = members_ + structure_.node_springs.size();
+  for (std::size_t i = first_hold; i < node_blocks_.size(); ++i) {
+    const Index holds = hold_rows_.cols();
+    MatrixXd& block = node_blocks_[i];
+    block.setZero(3 + holds, 3 + holds);
+    block.bottomLeftCorner(holds, 3) =
+        hold_rows_.middleRows<3>(3 * static_cast<Index>(i - first_hold)).transpose();
+    if (i == first_hold) block.diagonal().tail(holds).setConstant(-1.0);
+  }
+  factor_.factorise(node_blocks_);
+}
+
+TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, const Regime& asked,
+                                           VectorXd& f) {
+  end_if_asked(stop_);
+  const Regime regime = regime_of(asked);
+  start_residual(lambda, f);
+  elements_->linearise(y, factors(lambda), regime, f, condensed_);
+  add_node_springs(y, regime, f);
+  add_holds(y, f);
+  TangentReport report;
+  for (std::size_t m = 0; m < members_; ++m) {
+    const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
+    const auto count = static_cast<std::size_t>(structure_.mesh.first[m + 1]) - first;
+    chains_[m].factorise(std::span(condensed_).subspan(first, count));
+    report.negative += chains_[m].ends().negative;
+    report.log_abs_det += chains_[m].ends().log_det;
+  }
+  assemble_nodes();
+  const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
+  report.negative += factor_.inertia().negative - 3 * static_cast<int>(members_) - holds;
+  report.log_abs_det += factor_.log_abs_det();
+  if (!follower_ends_.empty()) add_follower_ends(lambda, report);
+  constrain_residual(y, lambda, f);
+  return report;
+}
+
+/// Where the tangent is not symmetric, stability against divergence changes where its determinant does: the
+/// count is that of the symmetric part, made to agree in parity.
+void StructuralProblem::add_follower_ends(double lambda, TangentReport& report) {
+  const auto [proportional, constant] = factors(lambda);
+  const double det =
+      follower_ends_.prepare(proportional, constant, size(), [this](VectorXd& x) { solve_symmetric(x); });
+  report.log_abs_det += std::log(std::max(std::abs(det), std::numeric_limits<double>::min()));
+  if (det < 0.0) report.negative += report.negative > 0 ? -1 : 1;
+  report.parity_only = true;
+}
+
+void StructuralProblem::solve(VectorXd& x) {
+  solve_symmetric(x);
+  if (!follower_ends_.empty()) follower_ends_.correct(x);
+}
+
+void StructuralProblem::subtract_fixed(const VectorXd& rhs, VectorXd& reduced) const {
+  const bool moved = std::any_of(fixed_.begin(), fixed_.end(), [&](Index row) { return rhs[row] != 0.0; });
+  if (!moved) return;
+  for (std::size_t b = 0; b < node_rows_.size(); ++b) {
+    const std::vector<int>& rows = node_rows_[b];
+    const std::vector<int>& numbers = factor_.blocks()[b];
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (numbers[k] >= 0 || rhs[rows[k]] == 0.0) continue;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto [low, high] = std::minmax<Index>({static_cast<Index>(i), static_cast<Index>(k)});
+        if (numbers[i] >= 0) reduced[numbers[i]] -= node_blocks_[b](high, low) * rhs[rows[k]];
+      }
+    }
+  }
+}
+
+void StructuralProblem::solve_symmetric(VectorXd& x) {
+  elements_->reduce(x, condensed_);
+  VectorXd& rhs = node_rhs_;
+  rhs.setZero(multiplier(members_));
+  rhs.head(3 * structure_.nodes + structure_.releases) = x.head(3 * structure_.nodes + structure_.releases);
+  for (std::size_t m = 0; m < members_; ++m) {
+    const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
+    const auto count = static_cast<std::size_t>(structure_.mesh.first[m + 1]) - first;
+    chains_[m].reduce(std::span(condensed_).subspan(first, count),
+                      std::span(structure_.dofs).subspan(first, count), x);
+    const ElementDofs& element = structure_.dofs[first];
+    const Eigen::Vector3d ra = axes_of(element.a).transpose() * chains_[m].ends().ra;
+    for (int c = 0; c < 3; ++c) {
+      if (!is_fixed(element.a[c])) rhs[element.a[c]] += ra[c];
+      rhs[multiplier(m) + c] = chains_[m].ends().rm[c];
+    }
+  }
+  VectorXd& reduced = free_rhs_;
+  reduced.setZero(factor_.size());
+  for (std::size_t i = 0; i < free_.size(); ++i) reduced[static_cast<Index>(i)] = rhs[free_[i]];
+  subtract_fixed(rhs, reduced);
+  factor_.solve(reduced);
+  for (std::size_t i = 0; i < free_.size(); ++i) rhs[free_[i]] = reduced[static_cast<Index>(i)];
+  // back to global axes, then inwards
+  for (int j = 0; j < structure_.nodes; ++j) {
+    const auto [c, s] = turn_of(3 * j);
+    x[3 * j] = c * rhs[3 * j] - s * rhs[3 * j + 1];
+    x[3 * j + 1] = s * rhs[3 * j] + c * rhs[3 * j + 1];
+    x[3 * j + 2] = rhs[3 * j + 2];
+  }
+  for (int r = 3 * structure_.nodes; r < 3 * structure_.nodes + structure_.releases; ++r) x[r] = rhs[r];
+  for (std::size_t m = 0; m < members_; ++m) {
+    const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
+    const auto count = static_cast<std::size_t>(structure_.mesh.first[m + 1]) - first;
+    x.segment<3>(structure_.dofs[first + count - 1].m) = rhs.segment<3>(multiplier(m));
+    chains_[m].recover(std::span(condensed_).subspan(first, count),
+                       std::span(structure_.dofs).subspan(first, count), x);
+  }
+  elements_->recover(x);
+}
+
+/// Distance from a support within which it touches at y.
+double StructuralProblem::touching_distance(const VectorXd& y) const {
+  constexpr double kTouching = 1e-9;
+  constexpr double kRounding = 1e-14;
+  return kTouching * y.head(3 * structure_.nodes).lpNorm<Eigen::Infinity>() + kRounding;
+}
+
+FrozenContact StructuralProblem::frozen_contact(const VectorXd& y) const {
+  const double tolerance = touching_distance(y);
+  FrozenContact out;
+  structure_.elements->freeze_contact(y, tolerance, out);
+  for (const NodeSpring& spring : structure_.node_springs)
+    out.node_springs.push_back(!spring.law.one_sided || penetration(spring, y, spring.law.gap) > -tolerance);
+  return out;
+}
+
+TouchingMarks StructuralProblem::marks_at(const VectorXd& y) const {
+  const double tolerance = touching_distance(y);
+  TouchingMarks out;
+  structure_.elements->mark_touching(y, tolerance, out);
+  for (const NodeSpring& spring : structure_.node_springs)
+    out.node_springs.push_back(spring.law.one_sided &&
+                               std::abs(penetration(spring, y, spring.law.gap)) <= tolerance);
+  return out;
+}
+
+std::size_t StructuralProblem::touching_springs(const TouchingMarks& marks) const {
+  return static_cast<std::size_t>(std::count(marks.node_springs.begin(), marks.node_springs.end(), 1) +
+                                  std::count(marks.element_springs.begin(), marks.element_springs.end(), 1));
+}
+
+void StructuralProblem::touching_displacements(const TouchingMarks& marks, const VectorXd& mode,
+                                               std::vector<double>& out) const {
+  out.clear();
+  for (std::size_t i = 0; i < marks.node_springs.size(); ++i)
+    if (marks.node_springs[i] != 0) out.push_back(penetration(structure_.node_springs[i], mode, 0.0));
+  structure_.elements->touching_displacements(marks, mode, out);
+}
+
+void StructuralProblem::set_touching(const TouchingMarks& marks, const VectorXd& mode,
+                                     std::span<const char> springs, FrozenContact& out) const {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < marks.node_springs.size(); ++i)
+    if (marks.node_springs[i] != 0) out.node_springs[i] = springs[next++];
+  structure_.elements->set_touching(marks, mode, springs.subspan(next), out);
+}
+
+TouchingSupports StructuralProblem::touching(const TouchingMarks& marks, const FrozenContact* frozen) const {
+  const auto touch = [](bool acts) { return acts ? Touch::acts : Touch::absent; };
+  TouchingSupports out;
+  for (std::size_t i = 0; i < marks.node_springs.size(); ++i)
+    if (marks.node_springs[i] != 0)
+      out.springs.push_back(
+          {structure_.node_springs[i].spring, touch(frozen != nullptr && frozen->node_springs[i] != 0)});
+  for (const TouchingSpring& support : structure_.elements->touching_springs(marks, frozen))
+    if (support.spring >= 0) out.springs.push_back({support.spring, touch(support.acts)});
+  for (const TouchingContact& contact : structure_.elements->touching_contacts(marks, frozen)) {
+    const MeshElement& cell = structure_.mesh.elements[contact.element];
+    const auto add = [&](double from, double to, bool acts) {
+      const double width = cell.to - cell.from;
+      if (to - from > kOnePlace)
+        out.foundations.push_back(
+            {contact.foundation, {cell.from + from * width, cell.from + to * width}, touch(acts)});
+    };
+    double from = contact.range[0];
+    for (const ElementPart& interval : contact.acting) {
+      add(from, interval.from, false);
+      add(interval.from, interval.to, true);
+      from = interval.to;
+    }
+    add(from, contact.range[1], false);
+  }
+  return out;
+}
+
+double StructuralProblem::largest_axial_force(std::size_t member, const VectorXd& response) const {
+  double force = 0.0;
+  for (int e = structure_.mesh.first[member]; e < structure_.mesh.first[member + 1]; ++e)
+    for (int q = 0; q < structure_.mesh.order; ++q)
+      force = std::max(force, std::abs(response[structure_.dofs[e].s + q]));
+  return force;
+}
+
+double StructuralProblem::critical_load_scale(const VectorXd& unit_response) const {
+  double scale = std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m < members_; ++m) {
+    const double force = largest_axial_force(m, unit_response);
+    if (force > 0.0) scale = std::min(scale, structure_.euler_loads[m] / force);
+  }
+  return scale;
+}
+
+double StructuralProblem::largest_critical_load_scale(const VectorXd& unit_response) const {
+  constexpr double kCounts = 1e-2;  // of the largest force: members with less do not decide
+  double largest = 0.0;
+  for (std::size_t m = 0; m < members_; ++m)
+    largest = std::max(largest, largest_axial_force(m, unit_response));
+  double scale = 0.0;
+  for (std::size_t m = 0; m < members_; ++m) {
+    const double force = largest_axial_force(m, unit_response);
+    if (force > kCounts * largest)
+      scale = std::max(scale, (structure_.euler_loads[m] + structure_.foundation_loads[m]) / force);
+  }
+  return scale;
+}
+
+double StructuralProblem::force_norm(const VectorXd& f) const {
+  double forces = f.head(3 * structure_.nodes + structure_.releases).lpNorm<Eigen::Infinity>();
+  for (const ElementDofs& dofs : structure_.dofs) {
+    forces = std::max(forces, f.segment(dofs.v, 3 * structure_.mesh.order).lpNorm<Eigen::Infinity>());
+    for (const int a : dofs.a) forces = std::max(forces, std::abs(f[a]));
+  }
+  return forces;
+}
+
+double StructuralProblem::largest_force(const VectorXd& y, double lambda) const {
+  double force = std::abs(lambda) * largest_load_;
+  for (const ElementDofs& dofs : structure_.dofs)
+    force = std::max(force, y.segment<3>(dofs.m).lpNorm<Eigen::Infinity>());
+  return force;
+}
+
+double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) const {
+  constexpr double kRoundings =
+      0.5;  // half a unit in the last place; signs vary over the places of a foundation
+  constexpr double kMostRounding = 1e-7;  // beyond, supports are too stiff for this arithmetic
+  double largest = elements_->support_rounding();
+  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
+    const NodeSpring& spring = structure_.node_springs[i];
+    const double stiffness = spring_stiffness_[i];
+    if (stiffness == 0.0) continue;
+    double size = spring.law.gap;
+    for (int c = 0; c < 3; ++c) size += std::abs(spring.row[c] * y[3 * spring.node + c]);
+    largest = std::max(largest, stiffness * size * std::numeric_limits<double>::epsilon());
+  }
+  const double force = largest_force(y, lambda);
+  return force > 0.0 ? std::min(kRoundings * largest / force, kMostRounding) : 0.0;
+}
+
+double StructuralProblem::relative_residual(const VectorXd& f, const VectorXd& y, double lambda) {
+  const int p = structure_.mesh.order;
+  const double force = largest_force(y, lambda);
+  double displacement = 1.0;
+  const double forces = force_norm(f);
+  double gaps = 0.0;
+  for (const ElementDofs& dofs : structure_.dofs) {
+    gaps = std::max(gaps, f.segment(dofs.s, 3 * p + 3).lpNorm<Eigen::Infinity>());
+    for (const int a : dofs.a) displacement = std::max(displacement, std::abs(y[a]));
+  }
+  return std::max(force > 0.0 ? forces / force : forces, gaps / displacement);
+}
+
+Eigen::MatrixXd StructuralProblem::find_products(const VectorXd& y, double lambda, const Regime& asked,
+                                                 const Eigen::Ref<const Eigen::MatrixXd>& directions) {
+  end_if_asked(stop_);
+  const Regime regime = regime_of(asked);
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(y.size(), directions.cols());
+  elements_->add_tangent_products(y, factors(lambda), regime, directions, products);
+  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i)
+    static_cast<void>(node_spring_force(i, y, regime));
+  for (Index i = 0; i < directions.cols(); ++i) add_node_products(lambda, directions.col(i), products.col(i));
+  return products;
+}
+
+/// What is not the elements' of the tangent times a direction, in the rows of linearise().
+void StructuralProblem::add_node_products(double lambda, const Eigen::Ref<const VectorXd>& direction,
+                                          Eigen::Ref<VectorXd> out) const {
+  const auto [proportional, constant] = factors(lambda);
+  follower_ends_.add_product(proportional, constant, direction, out);
+  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
+    const double stiffness = spring_stiffness_[i];
+    if (stiffness == 0.0) continue;
+    const NodeSpring& spring = structure_.node_springs[i];
+    double w = 0.0;
+    for (int c = 0; c < 3; ++c) w += spring.row[c] * direction[3 * spring.node + c];
+    for (int c = 0; c < 3; ++c) out[3 * spring.node + c] += stiffness * w * spring.row[c];
+  }
+  if (holds_) {
+    const Eigen::MatrixXd& H = holds_->motions;
+    out.head(H.rows()) += holds_->stiffness * (H * (H.transpose() * direction.head(H.rows())));
+  }
+  turn_to_supports(out);
+  for (int j = 0; j < structure_.nodes; ++j) {
+    const auto [c, s] = turn_of(3 * j);
+    const double local[3] = {c * direction[3 * j] + s * direction[3 * j + 1],
+                             -s * direction[3 * j] + c * direction[3 * j + 1], direction[3 * j + 2]};
+    for (int k = 0; k < 3; ++k)
+      if (is_fixed(3 * j + k)) out[3 * j + k] = local[k];
+  }
+}
+
+}  // namespace snapthrough

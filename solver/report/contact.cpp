@@ -1,0 +1,75 @@
+#include "solver/report/contact.h"
+
+#include <cstddef>
+#include <limits>
+
+#include "solver/discrete/element_reader.h"
+#include "solver/model/id_index.h"
+#include "solver/report/support_state.h"
+
+namespace snapthrough {
+namespace {
+
+/// Rounding of a position, over the structure's length.
+constexpr double kNoDepth = 4.0 * std::numeric_limits<double>::epsilon();
+
+/// Contact intervals of one part of a foundation, in its element's coordinate.
+void local_intervals(const Structure& structure, const FoundationPart& part, const Eigen::VectorXd& y,
+                     double depth, std::vector<FoundationContact::Interval>& out) {
+  out.assign(1, {part.range[0], part.range[1]});
+  if (!part.contact) return;
+  const ElementReader reader(structure, y, part.element);
+  part.contact->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
+                                  reader.gradient(1), out, depth);
+}
+
+}  // namespace
+
+std::vector<std::array<double, 2>> contact_intervals(const Structure& structure, const Model& model,
+                                                     const Eigen::VectorXd& y, int foundation, double depth) {
+  if (model.foundations[foundation].stiffness == 0.0) return {};
+  const int member = index_of(model.members, model.foundations[foundation].member);
+  const double length = structure.axes[member]->length();
+  std::vector<std::array<double, 2>> joined;
+  std::vector<FoundationContact::Interval> local;
+  for (const FoundationPart& part : structure.foundation_parts) {
+    if (part.foundation != foundation) continue;
+    local_intervals(structure, part, y, depth, local);
+    const MeshElement& cell = structure.mesh.elements[part.element];
+    for (const auto& interval : local) {
+      if (interval.to - interval.from <= kOnePlace) continue;
+      const double from = length * (cell.from + interval.from * (cell.to - cell.from));
+      const double to = length * (cell.from + interval.to * (cell.to - cell.from));
+      if (!joined.empty() && from - joined.back()[1] <= kOnePlace * length)
+        joined.back()[1] = to;
+      else
+        joined.push_back({from, to});
+    }
+  }
+  return joined;
+}
+
+ContactZones::ContactZones(const Structure& structure, const Model& model)
+    : structure_(structure), model_(model) {
+  for (std::size_t i = 0; i < model.foundations.size(); ++i) {
+    if (!is_one_sided(model.foundations[i])) continue;
+    foundations_.push_back(static_cast<int>(i));
+    ids_.push_back(model.foundations[i].id);
+  }
+  for (std::size_t i = 0; i < model.springs.size(); ++i) {
+    const Spring& spring = model.springs[i];
+    if (!is_one_sided(spring)) continue;
+    const SpringLaw& law = structure.spring_laws[i];
+    springs_.push_back({displacement_row(structure, model, spring.at, law.row), law.law.gap});
+    ids_.push_back(spring.id);
+  }
+}
+
+void ContactZones::count(const Eigen::VectorXd& y, std::vector<int>& zones) const {
+  zones.clear();
+  for (const int foundation : foundations_)
+    zones.push_back(static_cast<int>(contact_intervals(structure_, model_, y, foundation, kNoDepth).size()));
+  for (const SpringRow& spring : springs_) zones.push_back(spring.row.dot(y) > spring.gap + kNoDepth ? 1 : 0);
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,49 @@
+#include "solver/report/result_parts.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "solver/events/critical_mode.h"
+#include "solver/report/mode.h"
+
+namespace snapthrough {
+
+void add_statistics(const ContinuationStatistics& statistics, Result& result) {
+  Diagnostics& d = result.diagnostics;
+  d.steps += statistics.steps;
+  d.rejected_steps += statistics.rejected_steps;
+  d.iterations += statistics.iterations;
+  d.factorizations += statistics.factorizations;
+  for (std::size_t i = 0; i < d.corrections.size(); ++i) d.corrections[i] += statistics.corrections[i];
+  d.max_relative_residual = std::max(d.max_relative_residual, statistics.max_relative_residual);
+}
+
+void report_mesh(const Structure& structure, int refinements, Result& result) {
+  MeshReport& report = result.discretization;
+  report.elements = static_cast<int>(structure.mesh.elements.size());
+  report.order = structure.mesh.order;
+  report.unknowns = structure.free_displacements;
+  report.refinements = refinements;
+}
+
+void withdraw_critical_load(Result& result) {
+  result.summary.critical_load_factor.reset();
+  result.summary.critical_type.reset();
+  result.summary.error_estimate.reset();
+}
+
+void fail(Result& result, const char* code, const std::string& detail) {
+  result.failure = Failure{code, detail};
+  result.summary.termination = code;
+  result.summary.message = detail;
+}
+
+Mode mode_at(const Structure& structure, const Model& model, EquilibriumProblem& problem,
+             const CriticalEvent& event, const Analysis& analysis) {
+  Mode mode =
+      mode_displacements(structure, model, mode_of(problem, event), analysis.output.points_per_member);
+  scale_to_largest(mode);
+  return mode;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,259 @@
+#include "solver/report/section_force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <variant>
+
+namespace snapthrough {
+namespace {
+
+using Vec2 = std::array<double, 2>;
+
+}  // namespace
+
+SectionForces::SectionForces(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
+                             double lambda, int element)
+    : structure_(structure),
+      model_(model),
+      element_(element),
+      cell_(structure.mesh.elements[element]),
+      reader_(structure, y, element),
+      gauss_(gauss_legendre(structure.mesh.order + 2)) {
+  for (int c = 0; c < 3; ++c) end_[c] = y[structure.dofs[element].m + c];
+  add_loads(lambda / structure.scales.load, 1.0);
+  if (pressure_ != 0.0) release_end_of_pressure(y);
+  add_foundations();
+  add_springs();
+}
+
+/// The multiplier goes with the area formula of the pressure (element/element_work_supports.h), which puts a
+/// force on the node and its opposite on the element's end: take the latter back, so that end_ is what the
+/// section carries.
+void SectionForces::release_end_of_pressure(const Eigen::VectorXd& y) {
+  const StressFreeAxis& axis = *structure_.stress_free[cell_.member];
+  const double length = axis.perfect().length();
+  const StressFreePoint from = axis.at(length * cell_.from);
+  const StressFreePoint to = axis.at(length * cell_.to);
+  double x = (to.x - from.x) / structure_.scales.length;
+  double z = (to.y - from.y) / structure_.scales.length;
+  if (structure_.geometry == Geometry::nonlinear) {
+    x += y[structure_.dofs[element_].b[0]];
+    z += y[structure_.dofs[element_].b[1]];
+  }
+  end_[0] -= 0.5 * pressure_ * z;
+  end_[1] += 0.5 * pressure_ * x;
+}
+
+void SectionForces::add_loads(double proportional, double constant) {
+  for (const Load& load : model_.loads) {
+    const Pattern pattern = std::visit([](const auto& l) { return l.pattern; }, load);
+    add_load(load, pattern == Pattern::proportional ? proportional : constant);
+  }
+}
+
+void SectionForces::add_load(const Load& load, double factor) {
+  const std::string& member = model_.members[cell_.member].id;
+  const Scales& scales = structure_.scales;
+  if (const auto* point = std::get_if<PointLoad>(&load); point != nullptr && point->at.member == member) {
+    const MeshPlace place = place_of(structure_.mesh, cell_.member, point->at.fraction);
+    if (place.element == element_)
+      points_.push_back(
+          {place.xi,
+           {scales.scaled_force(factor * point->force[0]), scales.scaled_force(factor * point->force[1]),
+            scales.scaled_moment(factor * point->moment)}});
+  }
+  if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == member) {
+    const Vec2 range = part_of(cell_, d->range);
+    if (range[1] > range[0])
+      dead_.push_back(
+          {{scales.scaled_line_load(factor * d->force[0]), scales.scaled_line_load(factor * d->force[1])},
+           d->per,
+           range});
+  }
+  if (const auto* p = std::get_if<PressureLoad>(&load); p != nullptr && p->member == member)
+    pressure_ += (p->side == Side::left ? 1.0 : -1.0) * scales.scaled_line_load(factor * p->value);
+}
+
+void SectionForces::add_foundations() {
+  for (const FoundationPart& part : structure_.foundation_parts) {
+    if (part.element != element_) continue;
+    const FoundationLaw& law = structure_.foundation_laws[part.foundation];
+    const bool lumped = structure_.mesh.foundation == FoundationRule::lumped;
+    if (lumped) add_lumped(law, part.range);
+    FoundationHere out{&law, lumped, part.range, {{part.range[0], part.range[1]}}};
+    if (part.contact)
+      part.contact->contact_intervals({reader_.start()[0], reader_.start()[1]}, reader_.gradient(0),
+                                      reader_.gradient(1), out.contact);
+    foundations_.push_back(out);
+  }
+}
+
+void SectionForces::add_lumped(const FoundationLaw& foundation, Vec2 range) {
+  const Quadrature lobatto = gauss_lobatto(structure_.mesh.order + 1);
+  for (std::size_t i = 0; i < lobatto.points.size(); ++i) {
+    const double xi = lobatto.points[i];
+    if (xi < range[0] - kOnePlace || xi > range[1] + kOnePlace) continue;
+    const Vec2 n = normal_into(foundation, xi);
+    const double force =
+        -reader_.length() * lobatto.weights[i] * foundation.law.reaction(penetration(foundation, xi));
+    points_.push_back({xi, {force * n[0], force * n[1], 0.0}});
+  }
+}
+
+void SectionForces::add_springs() {
+  for (std::size_t i = 0; i < model_.springs.size(); ++i) {
+    const Location& at = model_.springs[i].at;
+    if (at.member != model_.members[cell_.member].id) continue;
+    const MeshPlace place = place_of(structure_.mesh, cell_.member, at.fraction);
+    if (place.element != element_) continue;
+    const SpringLaw& spring = structure_.spring_laws[i];
+    const auto u = reader_.displacement(place.xi);
+    const auto& row = spring.row;
+    const double force = -spring.law.reaction(row[0] * u[0] + row[1] * u[1] + row[2] * u[2]);
+    points_.push_back({place.xi, {force * row[0], force * row[1], force * row[2]}});
+  }
+}
+
+const AxisPoint& SectionForces::axis_at(double xi) const {
+  const AxisCurve& axis = *structure_.axes[cell_.member];
+  if (xi != last_xi_) last_ = axis.at(axis.length() * (cell_.from + xi * (cell_.to - cell_.from)));
+  last_xi_ = xi;
+  return last_;
+}
+
+Vec2 SectionForces::position(double xi) const {
+  const StressFreeAxis& axis = *structure_.stress_free[cell_.member];
+  const StressFreePoint p =
+      axis.at(axis.perfect().length() * (cell_.from + xi * (cell_.to - cell_.from)), axis_at(xi));
+  const double x = p.x / structure_.scales.length;
+  const double y = p.y / structure_.scales.length;
+  if (structure_.geometry == Geometry::linear) return {x, y};  // equilibrium is that of the undeformed shape
+  const auto u = reader_.displacement(xi);
+  return {x + u[0], y + u[1]};
+}
+
+double SectionForces::penetration(const FoundationLaw& foundation, double xi) const {
+  const Vec2 n = normal_into(foundation, xi);
+  const auto u = reader_.displacement(xi);
+  return u[0] * n[0] + u[1] * n[1];
+}
+
+Vec2 SectionForces::density(double xi) const {
+  Vec2 f{0.0, 0.0};
+  for (const DeadLoad& load : dead_) {
+    if (xi < load.range[0] || xi > load.range[1]) continue;
+    double measure = 1.0;
+    if (load.per == LoadMeasure::horizontal) measure = std::abs(std::cos(axis_at(xi).angle));
+    if (load.per == LoadMeasure::vertical) measure = std::abs(std::sin(axis_at(xi).angle));
+    for (int c = 0; c < 2; ++c) f[c] += measure * load.force[c];
+  }
+  for (const FoundationHere& foundation : foundations_) {
+    if (foundation.lumped || xi < foundation.range[0] || xi > foundation.range[1]) continue;
+    const Vec2 n = normal_into(*foundation.law, xi);
+    const double reaction = foundation.law->law.reaction(penetration(*foundation.law, xi));
+    for (int c = 0; c < 2; ++c) f[c] -= reaction * n[c];
+  }
+  return f;
+}
+
+/// G w' of a shear layer.
+double SectionForces::shear_layer(const FoundationLaw& foundation, double xi) const {
+  const Vec2 n = normal_into(foundation, xi);
+  const Vec2 dn = normal_rate(foundation, xi);
+  const auto u = reader_.displacement(xi);
+  const auto du = reader_.derivative(xi);
+  return foundation.shear * (du[0] * n[0] + du[1] * n[1] + u[0] * dn[0] + u[1] * dn[1]);
+}
+
+/// Shear layers on [from, to] of the part beyond xi: by virtual work of its rigid motions, -int G w' dw' ds.
+void SectionForces::add_shear_layers(double xi, double from, double to, std::array<double, 3>& sum) const {
+  const Vec2 x0 = position(xi);
+  for (const FoundationHere& foundation : foundations_) {
+    if (foundation.law->shear == 0.0) continue;
+    const double lo = std::max(from, foundation.range[0]);
+    const double hi = std::min(to, foundation.range[1]);
+    for (std::size_t i = 0; lo < hi && i < gauss_.points.size(); ++i) {
+      const double at = lo + (hi - lo) * gauss_.points[i];
+      const double force =
+          shear_layer(*foundation.law, at) * gauss_.weights[i] * (hi - lo) * reader_.length();
+      const Vec2 n = normal_into(*foundation.law, at);
+      const Vec2 dn = normal_rate(*foundation.law, at);
+      const double angle = axis_at(at).angle;
+      const Vec2 x = position(at);
+      const auto du =
+          structure_.geometry == Geometry::linear ? std::array{0.0, 0.0, 0.0} : reader_.derivative(at);
+      const Vec2 slope{std::cos(angle) + du[0], std::sin(angle) + du[1]};
+      sum[0] -= force * dn[0];
+      sum[1] -= force * dn[1];
+      sum[2] -=
+          force * (-n[0] * slope[1] + n[1] * slope[0] - dn[0] * (x[1] - x0[1]) + dn[1] * (x[0] - x0[0]));
+    }
+  }
+}
+
+std::vector<double> SectionForces::breaks_beyond(double xi) const {
+  std::vector<double> breaks{xi, 1.0};
+  const auto add = [&breaks, xi](double at) {
+    if (at > xi && at < 1.0) breaks.push_back(at);
+  };
+  for (const DeadLoad& load : dead_)
+    for (const double at : load.range) add(at);
+  for (const FoundationHere& foundation : foundations_) {
+    for (const double at : foundation.range) add(at);
+    for (const auto& interval : foundation.contact) {
+      add(interval.from);
+      add(interval.to);
+    }
+  }
+  std::sort(breaks.begin(), breaks.end());
+  return breaks;
+}
+
+std::array<double, 3> SectionForces::at(double xi) const {
+  const Vec2 x0 = position(xi);
+  const Vec2 xb = position(1.0);
+  std::array<double, 3> sum = end_;
+  sum[2] += (xb[0] - x0[0]) * end_[1] - (xb[1] - x0[1]) * end_[0];
+  const auto add = [&sum, &x0](const Vec2& x, double fx, double fy) {
+    sum[0] += fx;
+    sum[1] += fy;
+    sum[2] += (x[0] - x0[0]) * fy - (x[1] - x0[1]) * fx;
+  };
+  for (const PointAction& point : points_) {
+    if (point.xi < xi || (point.xi == xi && xi < 1.0)) continue;
+    add(position(point.xi), point.action[0], point.action[1]);
+    sum[2] += point.action[2];
+  }
+  if (pressure_ !=
+      0.0) {  // int (y', -x') ds and its moment about x0 are exact: the chord, and half its square
+    const double dx = xb[0] - x0[0];
+    const double dy = xb[1] - x0[1];
+    sum[0] += pressure_ * dy;
+    sum[1] -= pressure_ * dx;
+    sum[2] -= 0.5 * pressure_ * (dx * dx + dy * dy);
+  }
+  const std::vector<double> breaks = breaks_beyond(xi);
+  for (std::size_t b = 0; b + 1 < breaks.size() && (!dead_.empty() || !foundations_.empty()); ++b) {
+    const double width = breaks[b + 1] - breaks[b];
+    for (std::size_t i = 0; i < gauss_.points.size(); ++i) {
+      const double at = breaks[b] + width * gauss_.points[i];
+      const Vec2 f = density(at);
+      const double ds = width * gauss_.weights[i] * reader_.length();
+      add(position(at), ds * f[0], ds * f[1]);
+    }
+    add_shear_layers(xi, breaks[b], breaks[b + 1], sum);
+  }
+  for (const FoundationHere& foundation : foundations_) {
+    if (foundation.law->shear == 0.0 || xi < foundation.range[0] || xi > foundation.range[1]) continue;
+    const Vec2 n = normal_into(*foundation.law, xi);
+    const double cut = shear_layer(*foundation.law, xi);
+    sum[0] -= cut * n[0];
+    sum[1] -= cut * n[1];
+  }
+  return sum;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,91 @@
+#pragma once
+/// @file
+/// Section forces of one element, from equilibrium.
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "solver/discrete/element_reader.h"
+#include "solver/discrete/structure.h"
+#include "solver/model/model.h"
+
+namespace snapthrough {
+
+/// @brief Force and moment carried through any section of an element.
+///
+/// The force through the element's end is an unknown of the solution and balances everything beyond it; what
+/// acts between a section and that end (dead loads, follower pressure, foundations, springs) is integrated
+/// and added:
+///
+///   n(xi) = m_f + int_xi^1 f ds,     M(xi) = m_m + (x_b - x) x m_f + int_xi^1 (x(s) - x) x f ds
+///
+/// so that N, Q and M are in equilibrium with the loads at every section, and no strain is differentiated.
+class SectionForces {
+ public:
+  /// @param lambda scaled load factor of the state y
+  SectionForces(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda,
+                int element);
+
+  /// (force x, force y, moment) at xi in [0, 1], acting from the far part on the near part, scaled.
+  [[nodiscard]] std::array<double, 3> at(double xi) const;
+
+ private:
+  using Vec2 = std::array<double, 2>;
+  struct DeadLoad {
+    Vec2 force;
+    LoadMeasure per;
+    Vec2 range;  ///< of the element
+  };
+  struct FoundationHere {
+    const FoundationLaw* law;
+    bool lumped;  ///< its reaction is that of point actions
+    Vec2 range;
+    std::vector<FoundationContact::Interval> contact;
+  };
+  struct PointAction {
+    double xi;
+    std::array<double, 3> action;
+  };
+
+  void add_loads(double proportional, double constant);
+  void add_load(const Load& load, double factor);
+  void release_end_of_pressure(const Eigen::VectorXd& y);
+  void add_foundations();
+  void add_springs();
+  void add_lumped(const FoundationLaw& foundation, Vec2 range);
+  /// The perfect axis at xi; the last place asked for is kept, it is asked for several times.
+  [[nodiscard]] const AxisPoint& axis_at(double xi) const;
+  [[nodiscard]] Vec2 position(double xi) const;
+  /// Into the foundation's medium, and d/ds of it.
+  [[nodiscard]] Vec2 normal_into(const FoundationLaw& foundation, double xi) const {
+    return foundation.direction.at(axis_at(xi).angle);
+  }
+  [[nodiscard]] Vec2 normal_rate(const FoundationLaw& foundation, double xi) const {
+    return foundation.direction.rate(axis_at(xi).angle,
+                                     structure_.scales.scaled_curvature(axis_at(xi).curvature));
+  }
+  /// Displacement into the foundation's medium.
+  [[nodiscard]] double penetration(const FoundationLaw& foundation, double xi) const;
+  /// Density of forces at a section: everything continuous but the shear layer.
+  [[nodiscard]] Vec2 density(double xi) const;
+  [[nodiscard]] double shear_layer(const FoundationLaw& foundation, double xi) const;
+  void add_shear_layers(double xi, double from, double to, std::array<double, 3>& sum) const;
+  [[nodiscard]] std::vector<double> breaks_beyond(double xi) const;
+
+  const Structure& structure_;
+  const Model& model_;
+  int element_;
+  const MeshElement& cell_;
+  ElementReader reader_;
+  Quadrature gauss_;
+  mutable double last_xi_ = -1.0;
+  mutable AxisPoint last_;
+  std::array<double, 3> end_{};
+  std::vector<DeadLoad> dead_;
+  std::vector<FoundationHere> foundations_;
+  std::vector<PointAction> points_;
+  double pressure_ = 0.0;  ///< along the deformed right normal
+};
+
+}  // namespace snapthrough

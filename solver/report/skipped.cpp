@@ -1,0 +1,39 @@
+#include "solver/report/skipped.h"
+
+namespace snapthrough {
+namespace {
+
+/// Bilateral supports have no contact to look for.
+template <class Support>
+void add_bilateral(const char* kind, const std::vector<Support>& supports, std::vector<std::string>& out) {
+  for (const Support& support : supports)
+    if (support.reaction == Reaction::bilateral && support.stiffness > 0.0)
+      out.push_back(std::string(kind) + " " + support.id + ": contact search, bilateral");
+}
+
+}  // namespace
+
+bool points_are_not_polished(const Analysis& analysis) {
+  const OutputOptions& output = analysis.output;
+  return !analysis.discretization.fixed_mesh && output.states == StateOutput::none && !output.path_points &&
+         !output.extremes;
+}
+
+std::vector<std::string> skipped_work(const Model& model, const Analysis& analysis) {
+  std::vector<std::string> out;
+  add_bilateral("foundation", model.foundations, out);
+  add_bilateral("spring", model.springs, out);
+  if (analysis.type == AnalysisType::buckling && analysis.output.extremes)
+    out.emplace_back("extremes: linearised buckling reaches no states");
+  if (analysis.type != AnalysisType::path && analysis.output.path_points)
+    out.emplace_back("path_points: only the branches of a path have points");
+  const bool critical = analysis.type == AnalysisType::critical;
+  if (!critical && analysis.type != AnalysisType::path) return out;
+  if (critical) out.emplace_back("path: points and contact changes, only the critical load was asked for");
+  if (analysis.output.states == StateOutput::none) out.emplace_back("states: none were asked for");
+  if (points_are_not_polished(analysis))
+    out.emplace_back("path points: correction to rounding, their states were not asked for");
+  return out;
+}
+
+}  // namespace snapthrough

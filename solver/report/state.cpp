@@ -1,0 +1,121 @@
+#include "solver/report/state.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "solver/discrete/element_reader.h"
+#include "solver/geometry/stress_free_axis.h"
+#include "solver/model/id_index.h"
+#include "solver/report/contact.h"
+#include "solver/report/section_force.h"
+#include "solver/report/support_state.h"
+
+namespace snapthrough {
+namespace {
+
+MemberState member_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
+                         double lambda, int member, int points) {
+  const double L = structure.scales.length;
+  const double F = structure.scales.force;
+  const StressFreeAxis& axis = *structure.stress_free[member];
+  const double length = axis.perfect().length();
+  MemberState out;
+  out.id = model.members[member].id;
+  int current = -1;
+  std::unique_ptr<ElementReader> reader;
+  std::unique_ptr<SectionForces> forces;
+  for (int i = 0; i < points; ++i) {
+    const double fraction = static_cast<double>(i) / (points - 1);
+    const MeshPlace place = place_of(structure.mesh, member, fraction);
+    if (place.element != current) {
+      current = place.element;
+      reader = std::make_unique<ElementReader>(structure, y, current);
+      forces = std::make_unique<SectionForces>(structure, model, y, lambda, current);
+    }
+    const auto u = reader->displacement(place.xi);
+    const auto n = forces->at(place.xi);
+    const StressFreePoint p = axis.at(fraction * length);
+    // small displacements: equilibrium is that of the undeformed shape
+    const double angle = p.angle + (structure.geometry == Geometry::linear ? 0.0 : u[2]);
+    out.s.push_back(fraction * length);
+    out.x0.push_back(structure.origin[0] + p.x);
+    out.y0.push_back(structure.origin[1] + p.y);
+    out.u.push_back(L * u[0]);
+    out.v.push_back(L * u[1]);
+    out.x.push_back(structure.origin[0] + p.x + L * u[0]);
+    out.y.push_back(structure.origin[1] + p.y + L * u[1]);
+    out.rotation.push_back(u[2]);
+    out.axial_force.push_back(F * (n[0] * std::cos(angle) + n[1] * std::sin(angle)));
+    out.shear_force.push_back(F * (-n[0] * std::sin(angle) + n[1] * std::cos(angle)));
+    out.bending_moment.push_back(F * L * n[2]);
+  }
+  return out;
+}
+
+FoundationState foundation_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
+                                 int index, int points) {
+  const Foundation& foundation = model.foundations[index];
+  const int member = index_of(model.members, foundation.member);
+  const AxisCurve& axis = *structure.axes[member];
+  const FoundationLaw& law = structure.foundation_laws[index];
+  FoundationState out;
+  out.id = foundation.id;
+  for (int i = 0; i < points; ++i) {
+    const double fraction =
+        foundation.range[0] + (foundation.range[1] - foundation.range[0]) * i / (points - 1);
+    const MeshPlace place = place_of(structure.mesh, member, fraction);
+    const auto u = ElementReader(structure, y, place.element).displacement(place.xi);
+    const double angle = axis.at(fraction * axis.length()).angle;
+    // results are in the user's sense: a medium that pushes has a positive reaction, one that pulls a
+    // negative
+    const auto d = law.direction.at(angle);
+    const double w = u[0] * d[0] + u[1] * d[1];
+    out.s.push_back(fraction * axis.length());
+    out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * law.law.reaction(w)));
+    out.displacement.push_back(in_users_sense(law.sense, structure.scales.length * w));
+  }
+  out.contact = contact_intervals(structure, model, y, index);
+  return out;
+}
+
+}  // namespace
+
+std::vector<MemberState> member_states(const Structure& structure, const Model& model,
+                                       const Eigen::VectorXd& y, double lambda, int points) {
+  std::vector<MemberState> out;
+  for (std::size_t m = 0; m < model.members.size(); ++m)
+    out.push_back(member_state(structure, model, y, lambda, static_cast<int>(m), points));
+  return out;
+}
+
+State make_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda,
+                 int points) {
+  State state;
+  state.load_factor = lambda / structure.scales.load;
+  state.members = member_states(structure, model, y, lambda, points);
+  for (std::size_t i = 0; i < model.foundations.size(); ++i)
+    state.foundations.push_back(foundation_state(structure, model, y, static_cast<int>(i), points));
+  add_forces_on_structure(structure, model, y, lambda, state);
+  return state;
+}
+
+std::vector<double> contact_fractions(const Structure& structure, const Model& model,
+                                      const Eigen::VectorXd& y) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < model.foundations.size(); ++i) {
+    const Foundation& foundation = model.foundations[i];
+    const double length = structure.axes[index_of(model.members, foundation.member)]->length() *
+                          (foundation.range[1] - foundation.range[0]);
+    double contact = 0.0;
+    for (const auto& interval : contact_intervals(structure, model, y, static_cast<int>(i)))
+      contact += interval[1] - interval[0];
+    out.push_back(std::clamp(contact / length, 0.0, 1.0));
+  }
+  return out;
+}
+
+}  // namespace snapthrough

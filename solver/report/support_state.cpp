@@ -1,0 +1,201 @@
+#include "solver/report/support_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "solver/discrete/element_reader.h"
+#include "solver/discrete/foundation_springs.h"
+#include "solver/model/id_index.h"
+#include "solver/report/resultant.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::VectorXd;
+
+/// What springs or a foundation put on the structure, scaled, and the rounding of the penetrations that it is
+/// stiffness times: that of the displacements that these are sums of.
+struct Bearing {
+  Wrench wrench{};
+  double rounding = 0.0;
+};
+
+/// A spring in a state, scaled.
+struct SpringForce {
+  SparseRow row;              ///< displacement into its medium
+  double displacement = 0.0;  ///< its value
+  double force = 0.0;         ///< on the structure against it
+  bool closed = false;
+  double rounding = 0.0;  ///< of the force
+};
+
+SpringForce force_of(const Structure& structure, const Model& model, std::size_t index, const VectorXd& y) {
+  const SpringLaw& spring = structure.spring_laws[index];
+  SpringForce out;
+  out.row = displacement_row(structure, model, model.springs[index].at, spring.row);
+  out.displacement = out.row.dot(y);
+  out.force = spring.law.reaction(out.displacement);
+  out.closed = spring.law.acts(out.displacement);
+  double size = spring.law.gap;
+  for (const auto& [at, weight] : out.row.entries) size += std::abs(weight * y[at]);
+  if (out.force != 0.0) out.rounding = spring.law.stiffness * size * std::numeric_limits<double>::epsilon();
+  return out;
+}
+
+/// Adds the springs to the state; returns what they put on the nodes, in the problem's rows.
+VectorXd add_springs(const Structure& structure, const Model& model, const VectorXd& y,
+                     const RigidMotions& rigid, State& state, std::vector<Bearing>& bearings) {
+  VectorXd on_nodes = VectorXd::Zero(3 * structure.nodes);
+  for (std::size_t i = 0; i < model.springs.size(); ++i) {
+    const Spring& spring = model.springs[i];
+    const SpringForce at = force_of(structure, model, i, y);
+    const double sense = structure.spring_laws[i].sense;
+    const double L = structure.scales.length;
+    const double F = structure.scales.force;
+    Bearing& bearing = bearings.emplace_back();
+    bearing.wrench = rigid.work(at.row);
+    for (double& component : bearing.wrench) component *= -at.force;
+    bearing.rounding = at.rounding;
+    state.springs.push_back({spring.id,
+                             in_users_sense(sense, at.force * (spring.direction ? F : F * L)),
+                             in_users_sense(sense, at.displacement * (spring.direction ? L : 1.0)),
+                             at.closed,
+                             {}});
+    if (spring.at.node.empty()) continue;
+    for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
+  }
+  return on_nodes;
+}
+
+/// Forces and moments on the nodes that nothing but supports can put there, in global axes.
+VectorXd held_forces(const Structure& structure, ElementWork& elements, const VectorXd& y, double lambda,
+                     const VectorXd& springs) {
+  VectorXd f = -lambda * structure.proportional_load - structure.constant_load;
+  Regime regime;
+  regime.small_displacements = structure.geometry == Geometry::linear;
+  elements.add_residual(y, {lambda, 1.0}, regime, f);
+  return f.head(3 * structure.nodes) - springs;
+}
+
+/// Adds the supports to the state; returns what they put on the nodes, in the problem's rows.
+VectorXd add_supports(const Structure& structure, const Model& model, const VectorXd& held, State& state) {
+  const double F = structure.scales.force;
+  VectorXd reactions = VectorXd::Zero(structure.size);
+  for (const Support& support : model.supports) {
+    const int node = index_of(model.nodes, support.node);
+    const NodeSupport& held_by = structure.supports[node];
+    const std::array<std::array<double, 2>, 2> axes{{{std::cos(held_by.angle), std::sin(held_by.angle)},
+                                                     {-std::sin(held_by.angle), std::cos(held_by.angle)}}};
+    for (int c = 0; c < 2; ++c) {
+      if (!held_by.fixed[c]) continue;
+      const double along = held[3 * node] * axes[c][0] + held[3 * node + 1] * axes[c][1];
+      for (int k = 0; k < 2; ++k) reactions[3 * node + k] += along * axes[c][k];
+    }
+    if (held_by.fixed[2]) reactions[3 * node + 2] = held[3 * node + 2];
+    state.supports.push_back({support.node, F * reactions[3 * node], F * reactions[3 * node + 1],
+                              F * structure.scales.length * reactions[3 * node + 2]});
+  }
+  return reactions;
+}
+
+/// The springs of a foundation that act on one element.
+std::vector<SupportSpring> acting_springs(const Structure& structure, const FoundationLaw& foundation,
+                                          const FoundationPart& part, const VectorXd& y) {
+  if (!part.contact || structure.mesh.foundation == FoundationRule::lumped)
+    return winkler_springs(structure, foundation, part.element, part.range);
+  const ElementReader reader(structure, y, part.element);
+  std::vector<FoundationContact::Interval> intervals;
+  part.contact->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
+                                  reader.gradient(1), intervals);
+  std::vector<SupportSpring> out;
+  for (const auto& interval : intervals)
+    for (SupportSpring& support : contact_springs(structure, foundation, part.element, interval))
+      out.push_back(std::move(support));
+  return out;
+}
+
+void add_springs_of(const std::vector<SupportSpring>& springs, const VectorXd& y, const RigidMotions& rigid,
+                    Bearing& sum) {
+  for (const SupportSpring& support : springs) {
+    const auto [value, size] = rigid.value(support, y);
+    const double w = value - support.law.gap;
+    if (support.law.one_sided && w <= 0.0) continue;
+    const Wrench unit = rigid.work(support);
+    for (int c = 0; c < 3; ++c) sum.wrench[c] -= support.law.stiffness * w * unit[c];
+    sum.rounding += support.law.stiffness * (size + support.law.gap) * std::numeric_limits<double>::epsilon();
+  }
+}
+
+void add_foundations(const Structure& structure, const Model& model, const VectorXd& y,
+                     const RigidMotions& rigid, std::vector<Bearing>& bearings) {
+  const std::size_t first = bearings.size();
+  bearings.resize(first + model.foundations.size());
+  for (const FoundationPart& part : structure.foundation_parts) {
+    const FoundationLaw& foundation = structure.foundation_laws[part.foundation];
+    Bearing& sum = bearings[first + static_cast<std::size_t>(part.foundation)];
+    if (foundation.shear > 0.0)
+      add_springs_of(shear_layer_springs(structure, foundation, part.element, part.range), y, rigid, sum);
+    if (foundation.law.stiffness > 0.0)
+      add_springs_of(acting_springs(structure, foundation, part, y), y, rigid, sum);
+  }
+}
+
+/// The largest of the forces at elements' ends and of those given.
+double largest_force(const Structure& structure, const VectorXd& y, const VectorXd& others) {
+  double force = others.lpNorm<Eigen::Infinity>();
+  for (const ElementDofs& dofs : structure.dofs)
+    force = std::max(force, y.segment<3>(dofs.m).lpNorm<Eigen::Infinity>());
+  return force;
+}
+
+/// Gives what is left of the sum of all to the bearings, in proportion to the rounding of their penetrations:
+/// a state is found when its displacements are, so the force that is left then is that of stiff bearings, and
+/// equilibrium knows their reactions better than stiffness times penetration does.
+/// @param largest of the other forces; more than the share of it that correctors let stand, and than rounding
+/// of penetrations, stays
+void balance(const Wrench& others, double largest, std::vector<Bearing>& bearings) {
+  constexpr double kResidual = 1e-8;  // CorrectorOptions::largest_residual
+  constexpr double kRoundings = 8.0;  // of a displacement that is summed over an element
+  Wrench left = others;
+  double rounding = 0.0;
+  for (const Bearing& bearing : bearings) {
+    for (int c = 0; c < 3; ++c) {
+      left[c] += bearing.wrench[c];
+      largest = std::max(largest, std::abs(bearing.wrench[c]));
+    }
+    rounding += bearing.rounding;
+  }
+  const double size = std::max({std::abs(left[0]), std::abs(left[1]), std::abs(left[2])});
+  if (rounding == 0.0 || size > std::max(kResidual * largest, kRoundings * rounding)) return;
+  for (Bearing& bearing : bearings)
+    for (int c = 0; c < 3; ++c) bearing.wrench[c] -= bearing.rounding / rounding * left[c];
+}
+
+}  // namespace
+
+void add_forces_on_structure(const Structure& structure, const Model& model, const VectorXd& y, double lambda,
+                             State& state) {
+  const RigidMotions rigid(structure, model, y);
+  const std::unique_ptr<ElementWork> elements = structure.elements->make_work();
+  std::vector<Bearing> bearings;  // springs, then foundations
+  const VectorXd springs = add_springs(structure, model, y, rigid, state, bearings);
+  const VectorXd reactions =
+      add_supports(structure, model, held_forces(structure, *elements, y, lambda, springs), state);
+  add_foundations(structure, model, y, rigid, bearings);
+  VectorXd loads = lambda * structure.proportional_load + structure.constant_load;
+  elements->add_pressure_load(y, {lambda, 1.0}, structure.geometry == Geometry::linear, loads);
+  state.loads = rigid.unscaled(rigid.work(loads));
+  loads += reactions;
+  balance(rigid.work(loads), largest_force(structure, y, reactions), bearings);
+  const std::size_t first = state.springs.size();
+  for (std::size_t i = 0; i < first; ++i) state.springs[i].resultant = rigid.unscaled(bearings[i].wrench);
+  for (std::size_t i = 0; i < state.foundations.size(); ++i)
+    state.foundations[i].resultant = rigid.unscaled(bearings[first + i].wrench);
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,60 @@
+#pragma once
+/// @file
+/// How supports are taken when a structure is linearised.
+
+#include <algorithm>
+#include <vector>
+
+namespace snapthrough {
+
+/// Part of an element, in its own [0, 1].
+struct ElementPart {
+  double from = 0.0;
+  double to = 0.0;
+};
+
+/// Where one-sided supports act, whatever the displacements. In the order of the structure's own lists.
+struct FrozenContact {
+  std::vector<std::vector<ElementPart>> contacts;  ///< where each foundation on an element acts
+  std::vector<char> element_springs;               ///< which springs on elements act
+  std::vector<char> node_springs;                  ///< which springs at nodes act
+};
+
+/// One-sided supports that touch without pressure, in the same order.
+struct TouchingMarks {
+  std::vector<char> contacts;
+  std::vector<char> element_springs;
+  std::vector<char> node_springs;
+};
+
+[[nodiscard]] inline bool has_any(const TouchingMarks& marks) {
+  const auto any = [](const std::vector<char>& list) {
+    return std::find(list.begin(), list.end(), 1) != list.end();
+  };
+  return any(marks.contacts) || any(marks.element_springs) || any(marks.node_springs);
+}
+
+/// Factors on the proportional and the constant actions.
+struct LoadFactors {
+  double proportional = 0.0;
+  double constant = 0.0;
+};
+
+/// @brief What an equation of equilibrium takes its supports and displacements for.
+struct Regime {
+  enum class Contact {
+    unilateral,  ///< one-sided supports push or pull where they are touched
+    bilateral,   ///< they are glued, without gap
+    frozen       ///< they act where `frozen` says
+  };
+  Contact contact = Contact::unilateral;
+  const FrozenContact* frozen = nullptr;
+  double softness = 1.0;  ///< share of their stiffness that one-sided supports have, in (0, 1]
+  double grip = 0.0;      ///< share of it with which they react in both directions, without gap, as well
+  bool small_displacements = false;  ///< strains linearised about the stress-free axis
+
+  [[nodiscard]] bool bilateral() const { return contact == Contact::bilateral; }
+  [[nodiscard]] bool is_frozen() const { return contact == Contact::frozen; }
+};
+
+}  // namespace snapthrough

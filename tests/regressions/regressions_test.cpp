@@ -1,0 +1,92 @@
+/// Models that failed once. Each file of this folder is a request with what it must give, a test of its own:
+/// see README.md.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "api/api.h"
+#include "api/names.h"
+#include "tests/stress/stress_run.h"
+
+namespace snapthrough::testing {
+namespace {
+
+using nlohmann::json;
+
+const std::filesystem::path kFolder = SNAPTHROUGH_SOURCE_DIR "/tests/regressions";
+
+/// Names of the files, without their ending.
+std::vector<std::string> situations() {
+  std::vector<std::string> out;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
+    if (entry.path().extension() == ".json") out.push_back(entry.path().stem());
+  std::ranges::sort(out);
+  return out;
+}
+
+json read(const std::string& situation) {
+  std::ifstream in(kFolder / (situation + ".json"));
+  return json::parse(in);
+}
+
+class Regression : public ::testing::TestWithParam<std::string> {};
+
+void expect_points(const std::vector<CriticalPoint>& found, const json& expected) {
+  const json& points = expected.at("critical_points");
+  if (expected.value("more", false)) {
+    ASSERT_GE(found.size(), points.size());
+  } else {
+    ASSERT_EQ(found.size(), points.size());
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    SCOPED_TRACE("critical point " + std::to_string(i));
+    EXPECT_EQ(api::name_of(api::kCriticalTypes, found[i].type), points[i].at("type"));
+    EXPECT_EQ(found[i].branch, points[i].value("branch", 0));
+    if (!points[i].contains("load_factor")) continue;
+    const double load = points[i].at("load_factor");
+    EXPECT_NEAR(found[i].load_factor, load, expected.at("relative_tolerance").get<double>() * std::abs(load));
+  }
+}
+
+TEST_P(Regression, EndsAsItMust) {
+  constexpr double kMostSeconds = 120.0;  // twice what the longest takes
+  const json document = read(GetParam());
+  SCOPED_TRACE(document.at("failed_once").get<std::string>());
+  const json& expected = document.at("expected");
+  const api::ReadOutcome read =
+      api::read_request_document(std::make_shared<const json>(document.at("request")));
+  ASSERT_TRUE(read.request) << read.findings.front().pointer << " " << read.findings.front().detail;
+  const StressOutcome out = run_request({read.request->model, read.request->analysis}, kMostSeconds);
+  const json& ends = expected.at("termination");
+  EXPECT_TRUE(ends.is_array() ? std::ranges::count(ends, json(out.termination)) > 0 : ends == out.termination)
+      << out.termination << ", expected " << ends << "; " << out.detail;
+  for (const std::string& what : out.check.failures) ADD_FAILURE() << what << "\n" << out.features;
+  if (expected.contains("critical_points")) expect_points(out.critical_points, expected);
+  if (expected.contains("end_load_factor")) {
+    const double load = expected.at("end_load_factor");
+    EXPECT_NEAR(out.end_load_factor, load, expected.at("relative_tolerance").get<double>() * std::abs(load));
+  }
+  if (expected.contains("imbalance")) {
+    EXPECT_GT(out.check.points, 0) << "no state was summed";
+    EXPECT_LT(out.check.imbalance, expected.at("imbalance").get<double>());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Regression, ::testing::ValuesIn(situations()), [](const auto& p) {
+  std::string name = p.param;
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
+
+/// An empty folder would pass.
+TEST(Regressions, AreThere) { EXPECT_GE(situations().size(), 50U); }
+
+}  // namespace
+}  // namespace snapthrough::testing

@@ -1,0 +1,196 @@
+/// Where elements end, how many there are, and how meshes become finer.
+#include "solver/mesh/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solver/model/id_index.h"
+#include "tests/solver/structures.h"
+
+namespace snapthrough {
+namespace {
+
+using testing::fixed_mesh;
+
+Mesh mesh_of(const Model& model, const Discretization& asked, MeshUse use = MeshUse::final) {
+  return make_mesh(model, asked, make_axes(model), use);
+}
+
+/// Ends of a member's elements, 0 included.
+std::vector<double> ends_of(const Mesh& mesh, std::size_t member) {
+  std::vector<double> out{0.0};
+  for (int e = mesh.first[member]; e < mesh.first[member + 1]; ++e) {
+    const MeshElement& element = mesh.elements[static_cast<std::size_t>(e)];
+    EXPECT_EQ(element.member, static_cast<int>(member));
+    EXPECT_EQ(element.from, out.back()) << "no gap and no overlap";
+    out.push_back(element.to);
+  }
+  EXPECT_EQ(out.back(), 1.0);
+  return out;
+}
+
+bool has_end(const std::vector<double>& ends, double place) {
+  return std::ranges::any_of(ends, [place](double end) { return std::abs(end - place) < 1e-12; });
+}
+
+double longest(const std::vector<double>& ends) {
+  double out = 0.0;
+  for (std::size_t i = 1; i < ends.size(); ++i) out = std::max(out, ends[i] - ends[i - 1]);
+  return out;
+}
+
+/// A column with something at each of 0.1, 0.2, 0.35, 0.6, 0.8.
+Model crowded() {
+  Model model = testing::column(1.0, 1.0, 1e6, 10.0);
+  model.foundations[0].range = {0.1, 0.6};
+  model.springs = {{"s", {"", "column", 0.2}, std::array{0.0, 1.0}, 1.0, Reaction::bilateral, 0.0}};
+  model.loads.push_back(PointLoad{{"", "column", 0.35}, {0.0, 1.0}, 0.0, Pattern::constant});
+  model.loads.push_back(
+      DistributedLoad{"column", {0.0, 1.0}, {0.6, 0.8}, LoadMeasure::length, Pattern::constant});
+  return model;
+}
+
+TEST(Mesh, HasElementsEndWhereSomethingActs) {
+  for (const MeshUse use : {MeshUse::final, MeshUse::path, MeshUse::first}) {
+    const auto ends = ends_of(mesh_of(crowded(), {}, use), 0);
+    for (const double place : {0.1, 0.2, 0.35, 0.6, 0.8}) EXPECT_TRUE(has_end(ends, place)) << place;
+  }
+}
+
+TEST(Mesh, HasElementsEndAtTheKnotsOfAnAxis) {
+  Model model = testing::column(4.0, 1.0, 1e6, 0.0);
+  model.members[0].curve = PointsCurve{{{0.8, 0.2}, {1.7, -0.1}, {2.5, 0.2}, {3.1, 0.1}}};
+  const Axes axes = make_axes(model);
+  ASSERT_EQ(axes[0]->knots().size(), 2U);
+  const auto ends = ends_of(make_mesh(model, {}, axes), 0);
+  for (const double knot : axes[0]->knots()) EXPECT_TRUE(has_end(ends, knot / axes[0]->length()));
+}
+
+/// Twelve elements over pieces of 0.1, 0.1, 0.15, 0.25, 0.2, 0.2: the longest piece is cut first.
+TEST(Mesh, SharesAFixedNumberByLength) {
+  const auto ends = ends_of(mesh_of(crowded(), fixed_mesh(12, 3)), 0);
+  EXPECT_EQ(ends.size(), 13U);
+  for (const double place : {0.1, 0.2, 0.35, 0.6, 0.8}) EXPECT_TRUE(has_end(ends, place)) << place;
+  EXPECT_NEAR(longest(ends), 0.1, 1e-12);
+}
+
+/// With fewer elements than pieces they are equal, and what lies inside them acts inside.
+TEST(Mesh, CutsEquallyWhereThereAreTooFewElements) {
+  const auto ends = ends_of(mesh_of(crowded(), fixed_mesh(4, 3)), 0);
+  ASSERT_EQ(ends.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(ends[i], 0.25 * static_cast<double>(i), 1e-15);
+}
+
+TEST(Mesh, TakesNumbersMemberByMember) {
+  Model model = testing::column(1.0, 1.0, 1e6, 0.0);
+  model.nodes.push_back({"c", 2.0, 0.0});
+  model.members.push_back({"second", "b", "c", "s", LineCurve{}, false, false});
+  Discretization asked = fixed_mesh(3, 2);
+  asked.member_elements = {{"second", 7}};
+  const Mesh mesh = mesh_of(model, asked);
+  EXPECT_EQ(mesh.first, (std::vector<int>{0, 3, 10}));
+  EXPECT_EQ(mesh.order, 2);
+}
+
+/// What an element of each mesh may span, by the rule of make_mesh(): 25 degrees and one decay length where
+/// nothing checks it, 60 degrees and three decay lengths where finer meshes follow.
+class Grading : public ::testing::TestWithParam<MeshUse> {
+ protected:
+  [[nodiscard]] double turn() const { return GetParam() == MeshUse::final ? 25.0 : 60.0; }
+  [[nodiscard]] double decay_lengths() const { return GetParam() == MeshUse::final ? 1.0 : 3.0; }
+};
+INSTANTIATE_TEST_SUITE_P(Uses, Grading, ::testing::Values(MeshUse::final, MeshUse::path, MeshUse::first));
+
+TEST_P(Grading, FollowsTheTurningOfTheAxis) {
+  for (const double sweep : {20.0, 180.0, 355.0}) {
+    Model model = testing::arch(sweep, 1e6, 1.0);
+    model.loads.clear();
+    const auto ends = ends_of(mesh_of(model, {}, GetParam()), 0);
+    EXPECT_LE(longest(ends) * sweep, turn() * (1.0 + 1e-9)) << sweep;
+    if (sweep > 300.0) {
+      EXPECT_GT(longest(ends) * sweep, 0.6 * turn()) << "far too many elements";
+    }
+  }
+}
+
+TEST_P(Grading, FollowsTheDecayLengthOfTheBasesWhereTheyAre) {
+  for (const double K : {1e4, 1e8, 1e12}) {
+    Model model = testing::column(1.0, 1.0, 1e6, K);
+    model.foundations[0].range = {0.0, 0.5};
+    const auto ends = ends_of(mesh_of(model, {}, GetParam()), 0);
+    const auto middle = std::ranges::find(ends, 0.5);
+    ASSERT_NE(middle, ends.end());
+    const double decay = std::pow(4.0 / K, 0.25);
+    EXPECT_LE(longest({ends.begin(), middle + 1}), decay_lengths() * decay * (1.0 + 1e-9)) << K;
+    // beside the base nothing asks for more
+    EXPECT_LE(ends.end() - middle, 6) << K;
+  }
+}
+
+TEST_P(Grading, FollowsTheHalfWavesOfAnImperfection) {
+  Model model = testing::column(1.0, 1.0, 1e6, 0.0);
+  model.imperfections = {SineImperfection{"column", 20, 1e-3}};
+  EXPECT_GE(ends_of(mesh_of(model, {}, GetParam()), 0).size(), 41U);
+}
+
+/// So that no element is half a half wave long: see the rule.
+TEST(Mesh, OfSeveralHasOddNumbersOfElements) {
+  for (const MeshUse use : {MeshUse::path, MeshUse::first})
+    for (double K = 1.0; K < 1e10; K *= 7.0)
+      EXPECT_EQ(mesh_of(testing::column(1.0, 1.0, 1e6, K), {}, use).elements.size() % 2, 1U) << K;
+}
+
+TEST(Mesh, BecomesFinerByHalves) {
+  const Mesh mesh = mesh_of(crowded(), fixed_mesh(12, 3, FoundationRule::lumped));
+  const auto finer = finer_mesh(mesh);
+  ASSERT_TRUE(finer);
+  EXPECT_EQ(finer->order, 3);
+  EXPECT_EQ(finer->foundation, FoundationRule::consistent) << "what is lumped has no limit";
+  const auto coarse = ends_of(mesh, 0);
+  const auto fine = ends_of(*finer, 0);
+  ASSERT_EQ(fine.size(), 2 * coarse.size() - 1);
+  for (std::size_t i = 0; i + 1 < coarse.size(); ++i) {
+    EXPECT_EQ(fine[2 * i], coarse[i]);
+    EXPECT_EQ(fine[2 * i + 1], 0.5 * (coarse[i] + coarse[i + 1]));
+  }
+}
+
+TEST(Mesh, IsNotRefinedWithoutEnd) {
+  std::optional<Mesh> mesh = mesh_of(testing::column(1.0, 1.0, 1e6, 0.0), fixed_mesh(1, 1));
+  std::size_t most = 0;
+  for (int i = 0; i < 40 && mesh; ++i) {
+    most = mesh->elements.size();
+    mesh = finer_mesh(*mesh);
+  }
+  EXPECT_FALSE(mesh);
+  EXPECT_EQ(most, 2048U);
+}
+
+/// A curve that turns in peaks as narrow as they are sharp asked for as many elements as a sample in a peak
+/// let expect (millions); a base beside which a beam is a thread, for more than a number holds.
+TEST(Mesh, HasNoMoreElementsThanItNeedsOrMay) {
+  Model model = testing::arch(20.0, 1e8, 1e6);
+  model.members.front().curve = SineCurve{6.0, 80};
+  const Mesh wavy = mesh_of(model, {});
+  EXPECT_LE(wavy.elements.size(), 80U * 8U) << "180 degrees a half wave, at 25 an element";
+  EXPECT_GE(wavy.elements.size(), 80U * 3U);
+  Foundation base;
+  base.member = model.members.front().id;
+  base.stiffness = 1e60;
+  model.foundations.push_back(base);
+  const Mesh stiff = mesh_of(model, {});
+  EXPECT_GT(stiff.elements.size(), wavy.elements.size());
+  EXPECT_LE(stiff.elements.size(), 4000U * 4U) << "4 000 a piece between loads";
+}
+
+TEST(Mesh, FindsThingsById) {
+  const Model model = crowded();
+  EXPECT_EQ(index_of(model.nodes, "b"), 1);
+  EXPECT_EQ(index_of(model.nodes, "z"), -1);
+}
+
+}  // namespace
+}  // namespace snapthrough

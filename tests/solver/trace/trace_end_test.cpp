@@ -1,0 +1,139 @@
+/// Each rule that ends a path, and each way to fail, on problems of one and two unknowns.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solver/trace/trace.h"
+#include "tests/solver/newton/scalar_problem.h"
+#include "tests/solver/path/failing_problem.h"
+#include "tests/solver/path/small_problem.h"
+
+namespace snapthrough {
+namespace {
+
+using testing::FailingProblem;
+using testing::pitchfork;
+using testing::ScalarProblem;
+using testing::SmallProblem;
+
+TraceOutcome follow(EquilibriumProblem& problem, const TraceRules& rules) {
+  Continuation continuation(problem, {});
+  return trace(continuation, continuation.start(), rules, {}, {}, {});
+}
+
+TEST(TraceEnd, AtItsLastStep) {
+  SmallProblem problem = pitchfork(5.0, 0.0);
+  TraceRules rules;
+  rules.steps = 3;
+  Continuation continuation(problem, {});
+  int points = 0;
+  TraceSink sink;
+  sink.on_point = [&points](const PathPoint&) { ++points; };
+  const TraceOutcome outcome = trace(continuation, continuation.start(), rules, {}, sink, {});
+  EXPECT_EQ(outcome.end, TraceEnd::steps);
+  EXPECT_EQ(points, 4) << "the start, and three";
+  EXPECT_GT(outcome.last.lambda, 0.0);
+}
+
+TEST(TraceEnd, AtTheFirstLossOfStability) {
+  SmallProblem problem = pitchfork(0.6, 0.0);
+  TraceRules rules;
+  rules.first_loss_of_stability = true;
+  const TraceOutcome outcome = follow(problem, rules);
+  EXPECT_EQ(outcome.end, TraceEnd::critical_point);
+  ASSERT_EQ(outcome.critical.size(), 1U);
+  EXPECT_NEAR(outcome.last.lambda, 0.42, 1e-8);
+}
+
+TEST(TraceEnd, AtOnceWhereItIsUnstableAlready) {
+  SmallProblem problem = pitchfork(-0.1, 0.0);
+  TraceRules rules;
+  rules.first_loss_of_stability = true;
+  const TraceOutcome outcome = follow(problem, rules);
+  EXPECT_EQ(outcome.end, TraceEnd::unstable_at_start);
+  EXPECT_EQ(outcome.last.lambda, 0.0);
+}
+
+/// lambda = 1/2 is the most that the monitor, here the load itself, can reach.
+TEST(TraceEnd, WhereTheMonitorTurns) {
+  SmallProblem problem = pitchfork(5.0, 0.0);
+  TraceRules rules;
+  rules.monitor_turns = true;
+  rules.monitor = [](const PathPoint& at) { return at.lambda; };
+  rules.monitor_rate = [](const PathPoint& at) { return at.tangent_lambda; };
+  rules.monitor_range = {{-10.0, 10.0}};
+  const TraceOutcome outcome = follow(problem, rules);
+  EXPECT_EQ(outcome.end, TraceEnd::monitor_turned);
+  EXPECT_NEAR(outcome.last.lambda, 0.5, 1e-6);
+}
+
+/// f(a) = a goes on for ever.
+TEST(TraceEnd, WhereTheStructureLeavesForInfinity) {
+  ScalarProblem problem([](double a) { return a; }, [](double) { return 1.0; });
+  const TraceOutcome outcome = follow(problem, {});
+  EXPECT_EQ(outcome.end, TraceEnd::displacement_bound);
+  EXPECT_GE(std::abs(outcome.last.y[0]), 4.0);
+}
+
+/// f(a) = a / (1 - a) hardly moves any more, whatever the load.
+TEST(TraceEnd, WhereTheLoadLeavesForInfinity) {
+  SmallProblem problem(
+      [](const Eigen::VectorXd& y) { return Eigen::VectorXd(y.array() / (1.0 - y.array())); },
+      [](const Eigen::VectorXd& y) {
+        return Eigen::MatrixXd(Eigen::MatrixXd::Constant(1, 1, std::pow(1.0 - y[0], -2)));
+      },
+      Eigen::VectorXd::Ones(1));
+  const TraceOutcome outcome = follow(problem, {});
+  EXPECT_EQ(outcome.end, TraceEnd::load_bound);
+  EXPECT_NEAR(outcome.last.y[0], outcome.last.lambda / (1.0 + outcome.last.lambda), 1e-9);
+}
+
+/// Beyond a = 0.3 no step can end: the last point is before it, as near as steps can get.
+TEST(TraceEnd, InUnderflowWhereNothingConverges) {
+  FailingProblem problem([] { return pitchfork(0.6, 0.0); }, {0.3, 1e9}, FailingProblem::How::no_number);
+  const TraceOutcome outcome = follow(problem, {});
+  EXPECT_EQ(outcome.end, TraceEnd::step_underflow);
+  EXPECT_LE(outcome.last.y[0], 0.3);
+  EXPECT_GT(outcome.last.y[0], 0.29);
+  EXPECT_TRUE(outcome.critical.empty());
+}
+
+/// What was reached stays.
+TEST(TraceEnd, WhereItIsCancelled) {
+  FailingProblem problem([] { return pitchfork(0.6, 0.0); }, {0.3, 1e9}, FailingProblem::How::cancelled);
+  const TraceOutcome outcome = follow(problem, {});
+  EXPECT_EQ(outcome.end, TraceEnd::cancelled);
+  EXPECT_GT(outcome.last.y[0], 0.0);
+  EXPECT_LE(outcome.last.y[0], 0.3);
+}
+
+/// f(a) = a^2 has no stiffness to start with.
+TEST(TraceEnd, BeforeItStartsWhereTheTangentIsSingular) {
+  ScalarProblem problem([](double a) { return a * a; }, [](double a) { return 2.0 * a; });
+  Continuation continuation(problem, {});
+  const auto start = continuation.start();
+  EXPECT_FALSE(start);
+  EXPECT_EQ(trace(continuation, start, {}, {}, {}, {}).end, TraceEnd::no_start);
+}
+
+/// A path that meets a critical point of another branch has rejoined it.
+TEST(TraceEnd, WhereItMeetsAnotherBranch) {
+  SmallProblem problem = pitchfork(0.6, 0.0);
+  Continuation continuation(problem, {});
+  const auto start = continuation.start();
+  ASSERT_TRUE(start);
+  TraceRules rules;
+  const TraceOutcome first = [&] {
+    TraceRules once;
+    once.first_loss_of_stability = true;
+    return trace(continuation, start, once, {}, {}, {});
+  }();
+  ASSERT_EQ(first.critical.size(), 1U);
+  rules.known = {first.critical[0].point};
+  const TraceOutcome outcome = trace(continuation, start, rules, {}, {}, {});
+  EXPECT_EQ(outcome.end, TraceEnd::rejoined);
+  EXPECT_NEAR(outcome.last.lambda, 0.42, 1e-6);
+}
+
+}  // namespace
+}  // namespace snapthrough
