@@ -7,19 +7,16 @@
 #include "tests/solver/newton/scalar_problem.h"
 #include "tests/solver/path/failing_problem.h"
 #include "tests/solver/path/small_problem.h"
+#include "tests/solver/trace/follow.h"
 
 namespace snapthrough {
 namespace {
 
 using testing::FailingProblem;
+using testing::follow;
 using testing::pitchfork;
 using testing::ScalarProblem;
 using testing::SmallProblem;
-
-TraceOutcome follow(EquilibriumProblem& problem, const TraceRules& rules) {
-  Continuation continuation(problem, {});
-  return trace(continuation, continuation.start(), rules, {}, {}, {});
-}
 
 TEST(TraceEnd, AtItsLastStep) {
   SmallProblem problem = pitchfork(5.0, 0.0);

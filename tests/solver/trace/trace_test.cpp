@@ -8,19 +8,16 @@
 
 #include "solver/events/branch.h"
 #include "tests/solver/path/small_problem.h"
+#include "tests/solver/trace/follow.h"
 
 namespace snapthrough {
 namespace {
 
+using testing::follow;
 using testing::pitchfork;
 using testing::SmallProblem;
 using testing::two_bifurcations;
 using testing::two_folds;
-
-TraceOutcome follow(SmallProblem& problem, const TraceRules& rules) {
-  Continuation continuation(problem, {});
-  return trace(continuation, continuation.start(), rules, {}, {}, {});
-}
 
 TraceRules until_limit_points(int n) {
   TraceRules rules;
