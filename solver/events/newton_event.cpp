@@ -58,6 +58,7 @@ CriticalEvent bifurcation_event(const CriticalSolution& found, const Tangents& t
   event.point.lambda = found.lambda + distance;
   event.point.tangent = tangents.along.y;
   event.point.tangent_lambda = tangents.along.lambda;
+  event.point.perturbed = true;
   event.null = found.null;
   if (shares.size() > 1) event.null.col(0) = found.null * shares;
   event.imperfection = found.imperfection();

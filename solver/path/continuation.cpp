@@ -27,6 +27,9 @@ constexpr double kSmallGradient = 0.003;
 constexpr double kLeastGrowth = 0.3;
 /// First correction, over the step, beyond which the predictor said nothing about where the path goes.
 constexpr double kLargestCorrection = 0.5;
+/// Share of a step's displacement that may lie outside what the rates at its ends give: steps of smooth paths
+/// stay below 0.2, those that end on another path or pass over a snap are at 0.8 and more.
+constexpr double kLargestUnexplained = 0.4;
 /// What a step that was never shortened much is given up at, to try a shorter one, which costs less.
 constexpr double kLargestGrowth = 2.0;
 constexpr int kMostStalled = 2;
@@ -390,6 +393,16 @@ CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, 
   return outcome;
 }
 
+double Continuation::unexplained(const PathPoint& from, double step, const PathPoint& to) const {
+  const double cosine = metric_.inner(from.tangent, from.tangent_lambda, to.tangent, to.tangent_lambda);
+  const VectorXd turn = to.tangent - cosine * from.tangent;  // in the plane that `to` was corrected in
+  const VectorXd rise = to.y - from.y - step * from.tangent;
+  const double along = metric_.inner(rise, 0.0, turn, 0.0);
+  const double turned = metric_.inner(turn, 0.0, turn, 0.0);
+  const double share = along > 0.0 ? std::min(along / turned, step / std::abs(cosine)) : 0.0;
+  return metric_.norm(rise - share * turn, 0.0) / std::max(metric_.norm(to.y - from.y, 0.0), kNoise);
+}
+
 Continuation::Trial Continuation::try_step(const PathPoint& from, double step, PathPoint& to) {
   side_.normal = metric_.weights->cwiseProduct(from.tangent);
   side_.normal_lambda = metric_.load_weight * from.tangent_lambda;
@@ -402,6 +415,7 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   trial.converged = true;
   trial.corrections = outcome.factorisations;
   trial.angle = angle_between(from, to);
+  if (!from.perturbed) trial.unexplained = unexplained(from, step, to);
   // what the residual does not show is rounding, which shorter steps would not lessen
   if (outcome.first_residual > kRoundingResidual) trial.correction = outcome.first_correction / displacement;
   const double room = std::min(options_.target_angle / std::max(trial.angle, 1e-12),
@@ -505,13 +519,15 @@ bool Continuation::settle_beyond(const PathPoint& from, const PathPoint& beyond,
 StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint& to) {
   problem_.set_holds(from.holds);
   to.holds = from.holds;
+  to.perturbed = false;
   double size = std::min(step.wanted, options_.max_step);
   const double first_size = size;
   if (easy_size_ == 0.0) easy_size_ = size;
   while (size >= options_.min_step) {
     const Trial trial = try_step(from, size, to);
     bend_ = {};
-    const bool smooth = trial.angle <= options_.max_angle && trial.correction <= kLargestCorrection;
+    const bool smooth = trial.angle <= options_.max_angle && trial.correction <= kLargestCorrection &&
+                        trial.unexplained <= kLargestUnexplained;
     if (trial.converged && smooth) {
       ++statistics_.steps;
       ++statistics_.corrections[std::min<std::size_t>(trial.corrections, statistics_.corrections.size() - 1)];

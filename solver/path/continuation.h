@@ -197,14 +197,18 @@ class Continuation {
   /// What came of one attempt at a step.
   struct Trial {
     bool converged = false;
-    double angle = 0.0;       ///< between the tangents
-    double correction = 0.0;  ///< first correction over the step
-    double growth = 0.3;      ///< wanted factor to the next step size
+    double angle = 0.0;        ///< between the tangents
+    double correction = 0.0;   ///< first correction over the step
+    double unexplained = 0.0;  ///< of the displacement, by both ends' rates
+    double growth = 0.3;       ///< wanted factor to the next step size
     int corrections = 0;
   };
   [[nodiscard]] CorrectorOutcome correct_step(const PathPoint& from, double step, double displacement,
                                               PathPoint& to);
   void predict(const PathPoint& from, double step, PathPoint& to) const;
+  /// @brief Share of a step's displacement that is not some mean of what its ends' rates give. A path that
+  /// turns one way, or has one kink, leaves little; a snap in between, or an end on another path, does.
+  [[nodiscard]] double unexplained(const PathPoint& from, double step, const PathPoint& to) const;
   [[nodiscard]] bool step_round_kink(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] std::optional<PathPoint> beyond_kink(const PathPoint& from, double depth);
   [[nodiscard]] bool step_from_beyond(const PathPoint& from, const PathPoint& beyond, double step,

@@ -18,8 +18,9 @@ struct PathPoint {
   double tangent_lambda = 0.0;  ///< dlambda/ds: zero at a limit point
   int negative = 0;             ///< negative eigenvalues of the constrained tangent stiffness
   double log_abs_det = 0.0;
-  SharedHolds holds;  ///< part of the equations there
-  SharedModes modes;  ///< the softest motions, where they were asked for
+  bool perturbed = false;  ///< an equilibrium but for the imperfection that breaks a bifurcation there
+  SharedHolds holds;       ///< part of the equations there
+  SharedModes modes;       ///< the softest motions, where they were asked for
 
   /// The determinant with its sign, over e^log_scale.
   [[nodiscard]] double determinant(double log_scale) const {
