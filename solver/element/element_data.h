@@ -83,7 +83,8 @@ class ElementSetOf final : public ElementSet {
   void set_pressure(int element, double proportional, double constant) override;
   [[nodiscard]] std::unique_ptr<ElementWork> make_work() const override;
   void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const override;
-  void mark_touching(const Eigen::VectorXd& y, double tolerance, TouchingMarks& out) const override;
+  void mark_touching(const Eigen::VectorXd& y, const TouchingDistance& near,
+                     TouchingMarks& out) const override;
   [[nodiscard]] std::vector<TouchingSpring> touching_springs(const TouchingMarks& marks,
                                                              const FrozenContact* frozen) const override;
   void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
@@ -217,18 +218,20 @@ void ElementSetOf<P>::freeze_contact(const Eigen::VectorXd& y, double tolerance,
 }
 
 template <int P>
-void ElementSetOf<P>::mark_touching(const Eigen::VectorXd& y, double tolerance, TouchingMarks& out) const {
+void ElementSetOf<P>::mark_touching(const Eigen::VectorXd& y, const TouchingDistance& near,
+                                    TouchingMarks& out) const {
   out.contacts.assign(data_.contacts.size(), 0);
   out.element_springs.assign(data_.springs.size(), 0);
   for (int e = 0; e < size(); ++e) {
     const auto& shape = data_.shapes[e];
     const auto u = data_.displacement_of(shape, data_.dofs[e], y.data());
     for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i)
-      out.contacts[i] = data_.contacts[i].is_near(u.start, u.dx, u.dy, tolerance);
+      out.contacts[i] =
+          data_.contacts[i].is_near(u.start, u.dx, u.dy, near.of(data_.contacts[i].law().stiffness));
     for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i) {
       const auto& support = data_.springs[i];
       const double w = data_.value(support, data_.dofs[e], y.data()) - support.law.gap;
-      out.element_springs[i] = support.law.one_sided && std::abs(w) <= tolerance;
+      out.element_springs[i] = support.law.one_sided && std::abs(w) <= near.of(support.law.stiffness);
     }
   }
 }

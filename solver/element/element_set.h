@@ -162,7 +162,8 @@ class ElementSet {
   virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const = 0;
   /// @brief The one-sided supports that touch without pressure at y: those no further from touching than
   /// `tolerance`, contacts on all of their range. Sets contacts and springs.
-  virtual void mark_touching(const Eigen::VectorXd& y, double tolerance, TouchingMarks& out) const = 0;
+  virtual void mark_touching(const Eigen::VectorXd& y, const TouchingDistance& near,
+                             TouchingMarks& out) const = 0;
   /// In the order of the two functions below. @param frozen null: none acts
   [[nodiscard]] virtual std::vector<TouchingSpring> touching_springs(const TouchingMarks& marks,
                                                                      const FrozenContact* frozen) const = 0;

@@ -360,14 +360,18 @@ void StructuralProblem::solve_symmetric(VectorXd& x) {
 }
 
 /// Distance from a support within which it touches at y.
-double StructuralProblem::touching_distance(const VectorXd& y) const {
-  constexpr double kTouching = 1e-9;
-  constexpr double kRounding = 1e-14;
-  return kTouching * y.head(3 * structure_.nodes).lpNorm<Eigen::Infinity>() + kRounding;
+TouchingDistance StructuralProblem::touching_distance(const VectorXd& y) const {
+  constexpr double kTouching = 1e-9;     // of the largest displacement
+  constexpr double kUnloaded = 1e-6;     // of the largest force
+  constexpr double kSolution = 1e-13;    // rounding of displacements, relative
+  constexpr double kCoordinate = 1e-14;  // and of the coordinates that they begin from
+  const double largest = y.head(3 * structure_.nodes).lpNorm<Eigen::Infinity>();
+  return {kTouching * largest + kCoordinate, kUnloaded * largest_force(y, 0.0),
+          kSolution * largest + kCoordinate};
 }
 
 FrozenContact StructuralProblem::frozen_contact(const VectorXd& y) const {
-  const double tolerance = touching_distance(y);
+  const double tolerance = touching_distance(y).any;
   FrozenContact out;
   structure_.elements->freeze_contact(y, tolerance, out);
   for (const NodeSpring& spring : structure_.node_springs)
@@ -376,12 +380,12 @@ FrozenContact StructuralProblem::frozen_contact(const VectorXd& y) const {
 }
 
 TouchingMarks StructuralProblem::marks_at(const VectorXd& y) const {
-  const double tolerance = touching_distance(y);
+  const TouchingDistance near = touching_distance(y);
   TouchingMarks out;
-  structure_.elements->mark_touching(y, tolerance, out);
+  structure_.elements->mark_touching(y, near, out);
   for (const NodeSpring& spring : structure_.node_springs)
-    out.node_springs.push_back(spring.law.one_sided &&
-                               std::abs(penetration(spring, y, spring.law.gap)) <= tolerance);
+    out.node_springs.push_back(spring.law.one_sided && std::abs(penetration(spring, y, spring.law.gap)) <=
+                                                           near.of(spring.law.stiffness));
   return out;
 }
 

@@ -64,7 +64,7 @@ class StructuralProblem final : public EquilibriumProblem {
   /// @brief One-sided supports glued where they touch at y, absent elsewhere.
   [[nodiscard]] FrozenContact frozen_contact(const Eigen::VectorXd& y) const;
   /// @brief The one-sided supports that touch without pressure at y: no further from touching than 1e-9 of
-  /// the largest displacement, foundations on all of their part of an element.
+  /// the largest displacement and 1e-6 of the largest force, foundations on all of their part of an element.
   [[nodiscard]] TouchingMarks marks_at(const Eigen::VectorXd& y) const;
   /// @brief Displacement of each touching spring into its medium.
   void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
@@ -97,7 +97,7 @@ class StructuralProblem final : public EquilibriumProblem {
     return stage_ == Stage::proportional ? LoadFactors{lambda, 1.0} : LoadFactors{0.0, lambda};
   }
   [[nodiscard]] Regime regime_of(const Regime& asked) const;
-  [[nodiscard]] double touching_distance(const Eigen::VectorXd& y) const;
+  [[nodiscard]] TouchingDistance touching_distance(const Eigen::VectorXd& y) const;
   void start_residual(double lambda, Eigen::VectorXd& f) const;
   void turn_to_supports(Eigen::Ref<Eigen::VectorXd> f) const;
   void add_node_products(double lambda, const Eigen::Ref<const Eigen::VectorXd>& direction,

@@ -27,6 +27,17 @@ struct TouchingMarks {
   std::vector<char> node_springs;
 };
 
+/// How near to touching a support is that touches without pressure: a stiff one that is pressed hardly moves.
+struct TouchingDistance {
+  double any = 0.0;       ///< of the softest
+  double force = 0.0;     ///< that it carries there at most
+  double rounding = 0.0;  ///< of a displacement, whatever force that is
+
+  [[nodiscard]] double of(double stiffness) const {
+    return std::min(any, std::max(force / stiffness, rounding));
+  }
+};
+
 [[nodiscard]] inline bool has_any(const TouchingMarks& marks) {
   const auto any = [](const std::vector<char>& list) {
     return std::find(list.begin(), list.end(), 1) != list.end();
