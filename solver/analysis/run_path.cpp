@@ -17,13 +17,14 @@
 #include "solver/numeric/number_text.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/skipped.h"
+#include "solver/report/strain.h"
 #include "solver/trace/trace.h"
 
 namespace snapthrough {
 namespace {
 
-/// A search for the loss of stability has no bound that its user can choose: only a path that gets nowhere
-/// meets this one.
+/// A search for the loss of stability has no bounds that its user can choose: only a path that gets nowhere
+/// meets this one, or that of the strain.
 constexpr int kMostStepsOfSearch = 20000;
 
 const SparseRow* row_of(const Structure& structure, const std::string& monitor) {
@@ -48,6 +49,9 @@ TraceRules rules_of(const Model& model, const Analysis& analysis, const Structur
   if (analysis.type == AnalysisType::critical) {
     rules.first_loss_of_stability = true;
     rules.steps = kMostStepsOfSearch;
+    rules.strain = [gauge = StrainGauge(structure, model)](const PathPoint& at) {
+      return gauge.along_fibres(at.y);
+    };
     return rules;
   }
   const StopRules& stop = analysis.stop;
@@ -111,8 +115,8 @@ constexpr EndText kEnds[] = {
     {TraceEnd::monitor_turned, "monitor_turned", "the controlled displacement turns back here", false},
     {TraceEnd::rejoined, "rejoined", "the path came back to a known bifurcation", false},
     {TraceEnd::steps, "steps", "the path was still going on", false},
-    {TraceEnd::displacement_bound, "displacement_bound", "displacements grew beyond any bound of interest",
-     false},
+    {TraceEnd::displacement_bound, "displacement_bound",
+     "displacements or strains grew beyond any bound of interest", false},
     {TraceEnd::load_bound, "load_bound", "the load grew beyond any bound of interest", false},
     {TraceEnd::cancelled, "cancelled", "cancelled", true},
     {TraceEnd::step_underflow, "step_underflow", "no smaller step converged; the path stands", true},
@@ -329,7 +333,6 @@ std::optional<Mesh> much_finer(const Mesh& mesh) {
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
-  constexpr int kMostPaths = 4;
   constexpr double kMostWork = 1e7;  // elements factorised on the next path: some ten seconds
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
@@ -343,8 +346,8 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     result.discretization.paths = paths;
     if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
     auto quartered = much_finer(mesh->mesh);
-    if (paths == kMostPaths || !quartered) break;
-    if (static_cast<double>(factorizations) * static_cast<double>(quartered->elements.size()) > kMostWork)
+    if (!quartered ||
+        static_cast<double>(factorizations) * static_cast<double>(quartered->elements.size()) > kMostWork)
       break;
     earlier = result.critical_points;
     finer = on_mesh(structure, model, *std::move(quartered));

@@ -35,4 +35,16 @@ bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const 
   return raised;
 }
 
+double StrainGauge::along_fibres(const Eigen::VectorXd& y) const {
+  const int p = structure_.mesh.order;
+  double largest = 0.0;
+  for (std::size_t e = 0; e < structure_.dofs.size(); ++e) {
+    const Compliance& by = compliances_[structure_.mesh.elements[e].member];
+    const auto forces = y.segment(structure_.dofs[e].s, 3 * p);
+    largest = std::max({largest, by.axial * forces.head(p).lpNorm<Eigen::Infinity>(),
+                        by.bending * forces.tail(p).lpNorm<Eigen::Infinity>()});
+  }
+  return largest;
+}
+
 }  // namespace snapthrough

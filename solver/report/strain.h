@@ -27,6 +27,8 @@ class StrainGauge {
   StrainGauge(const Structure& structure, const Model& model);
   /// Replaces `largest` where a strain of y exceeds it; true when one does.
   [[nodiscard]] bool raise(const Eigen::VectorXd& y, LargestStrain& largest) const;
+  /// The largest strain of y along a fibre, without shear: at -1 the fibre is compressed to nothing.
+  [[nodiscard]] double along_fibres(const Eigen::VectorXd& y) const;
 
  private:
   struct Compliance {

@@ -304,7 +304,8 @@ void Tracer::go_on(bool smooth, PathPoint& from, PathPoint& to) {
 bool Tracer::ends_here(const PathPoint& at, int steps, const std::stop_token& stop) {
   if (stop.stop_requested()) return finish(TraceEnd::cancelled, at);
   if (steps >= rules_.steps) return finish(TraceEnd::steps, at);
-  if (continuation_.metric().norm(at.y, 0.0) > rules_.gradient || travelled_ > rules_.travel)
+  if (continuation_.metric().norm(at.y, 0.0) > rules_.gradient || travelled_ > rules_.travel ||
+      (rules_.strain && rules_.strain(at) > 1.0))
     return finish(TraceEnd::displacement_bound, at);
   if (!rules_.load && std::abs(at.lambda) > continuation_.load_bound())
     return finish(TraceEnd::load_bound, at);

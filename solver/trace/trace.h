@@ -26,9 +26,12 @@ struct TraceRules {
   std::function<double(const PathPoint&)> monitor_rate;  ///< by arc length, with monitor_turns
   std::optional<std::array<double, 2>> monitor_range;
   int steps = 1000;
-  ZoneCounter zones;       ///< empty: contact that begins or ends is not looked for
-  double gradient = 4.0;   ///< norm of the displacement at which a path is given up as leaving for infinity
-  double travel = 1000.0;  ///< the same for the length of the way there, which members that wind up make long
+  ZoneCounter zones;      ///< empty: contact that begins or ends is not looked for
+  double gradient = 4.0;  ///< norm of the displacement at which a path is given up as leaving for infinity
+  double travel = 100.0;  ///< the same for the length of the way there, which members that wind up make long
+  /// Largest strain along a fibre at a point: a path is given up where it is 1, at which a fibre is
+  /// compressed to nothing. Empty: it is not looked at.
+  std::function<double(const PathPoint&)> strain;
   std::optional<double> first_step;  ///< in the path's norm; empty: from the load's scale
   /// Critical points of other branches: the path ends where it meets one of them again.
   std::vector<PathPoint> known;
