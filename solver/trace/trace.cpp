@@ -395,6 +395,10 @@ void Tracer::tell_passed(const PathPoint& to, bool may_end, std::vector<Critical
           ? beside_.end()
           : std::stable_partition(beside_.begin(), beside_.end(),
                                   [&](const CriticalEvent& event) { return !is_ahead(event); });
+  // one that the path turns away from is told where it does
+  const double reached = events.empty() ? to.arc_length : events.front().point.arc_length;
+  for (auto event = beside_.begin(); event != waiting; ++event)
+    event->point.arc_length = std::min(event->point.arc_length, reached);
   events.insert(events.begin(), beside_.begin(), waiting);
   beside_.erase(beside_.begin(), waiting);
 }
