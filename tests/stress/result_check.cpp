@@ -84,6 +84,7 @@ class Check {
   [[nodiscard]] static CountRange count(const ConstrainedTangent& t);
   void determinant(std::size_t index, const ConstrainedTangent& t, CountRange negative);
   void contact(const State& state, const RodState& at);
+  [[nodiscard]] double imperfection_at(std::size_t index) const;
   void reactions();
   void springs(const State& state, const RodState& at);
   void finite_series(std::span<const double> values, const std::string& what);
@@ -293,6 +294,16 @@ void Check::contact(const State& state, const RodState& at) {
   }
 }
 
+/// The imperfection that a state is in equilibrium without: that of the bifurcation that it is.
+double Check::imperfection_at(std::size_t index) const {
+  const State& state = result_.states[index];
+  double size = 0.0;
+  for (const CriticalPoint& c : result_.critical_points)
+    if (c.branch == state.branch && c.load_factor == state.load_factor)
+      size = std::max(size, c.imperfection.value_or(0.0));
+  return size;
+}
+
 void Check::state(std::size_t index, std::optional<CountRange> negative) {
   const State& s = result_.states[index];
   if (s.refinements > 0 || rod_.points == 0 || has_mode_imperfection(model_) ||
@@ -300,7 +311,7 @@ void Check::state(std::size_t index, std::optional<CountRange> negative) {
     ++out_.uncovered;
     return;
   }
-  RodState at = evaluate(rod_, s);
+  RodState at = evaluate(rod_, s, 0.0, imperfection_at(index));
   ++out_.points;
   out_.residual = std::max(out_.residual, at.residual);
   if (at.roughness > 100.0)

@@ -24,8 +24,8 @@ constexpr double kUlps = 4.0;
 
 class Evaluation {
  public:
-  Evaluation(const RodModel& rod, const State& state, double closer)
-      : rod_(rod), state_(state), closer_(closer) {}
+  Evaluation(const RodModel& rod, const State& state, double closer, double imperfection)
+      : rod_(rod), state_(state), closer_(closer), force_share_(kConvergedForce + imperfection) {}
   RodState run();
 
  private:
@@ -47,7 +47,8 @@ class Evaluation {
 
   const RodModel& rod_;
   const State& state_;
-  double closer_;  ///< to one-sided supports, in roundings
+  double closer_;       ///< to one-sided supports, in roundings
+  double force_share_;  ///< of a force or a lever arm that may be left
   RodState out_;
   double noise_ = 0.0;  ///< of a displacement
   double turn_noise_ = 0.0;
@@ -251,8 +252,8 @@ void Evaluation::forces(const RodElement& element, ElementState& at, Vector3d& m
   for (Eigen::Index q = 0; q < p; ++q) at.M[q] -= r.v(2, q) / (element.h * rule.weights[q]);
   double noise = 0.0;
   for (const RodSpring& spring : at.acting) noise += spring.stiffness * rounding_of(element, spring.row);
-  at.force_noise += noise + kConvergedForce * (m.head<2>().norm() + r.a.head<2>().norm());
-  at.moment_noise += at.force_noise * element.h + kConvergedForce * std::abs(m[2]) +
+  at.force_noise += noise + force_share_ * (m.head<2>().norm() + r.a.head<2>().norm());
+  at.moment_noise += at.force_noise * element.h + force_share_ * std::abs(m[2]) +
                      m.head<2>().norm() * (noise_ + element.h * at.gradient_noise.maxCoeff());
   m -= r.a;
   m[2] -= turn.sum();
@@ -435,8 +436,8 @@ RodState Evaluation::run() {
 
 }  // namespace
 
-RodState evaluate(const RodModel& rod, const State& state, double closer) {
-  return Evaluation(rod, state, closer).run();
+RodState evaluate(const RodModel& rod, const State& state, double closer, double imperfection) {
+  return Evaluation(rod, state, closer, imperfection).run();
 }
 
 }  // namespace snapthrough::testing

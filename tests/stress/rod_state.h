@@ -35,7 +35,10 @@ struct RodState {
 /// @brief Evaluates a state; `state` has rod.points samples a member.
 /// @param closer brings one-sided supports closer, by this many roundings of the displacement there: what
 /// changes with it is not decided by the state's digits
-[[nodiscard]] RodState evaluate(const RodModel& rod, const State& state, double closer = 0.0);
+/// @param imperfection slope that the state is in equilibrium without, as one at a bifurcation is that
+/// rounding or the mesh breaks (`critical_points[].imperfection`): section forces turn by so much
+[[nodiscard]] RodState evaluate(const RodModel& rod, const State& state, double closer = 0.0,
+                                double imperfection = 0.0);
 
 /// Factor of the proportional and of the constant actions.
 [[nodiscard]] inline double factor(int pattern, double load_factor) {
