@@ -24,7 +24,7 @@ namespace snapthrough {
 namespace {
 
 /// A search for the loss of stability has no bounds that its user can choose: only a path that gets nowhere
-/// meets this one, or that of the strain.
+/// meets this one, or leaves what the theory is for.
 constexpr int kMostStepsOfSearch = 20000;
 
 const SparseRow* row_of(const Structure& structure, const std::string& monitor) {
@@ -49,8 +49,8 @@ TraceRules rules_of(const Model& model, const Analysis& analysis, const Structur
   if (analysis.type == AnalysisType::critical) {
     rules.first_loss_of_stability = true;
     rules.steps = kMostStepsOfSearch;
-    rules.strain = [gauge = StrainGauge(structure, model)](const PathPoint& at) {
-      return gauge.along_fibres(at.y);
+    rules.beyond_theory = [gauge = StrainGauge(structure, model)](const PathPoint& at) {
+      return gauge.is_beyond_theory(at.y);
     };
     return rules;
   }

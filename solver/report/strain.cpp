@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace snapthrough {
 
@@ -35,16 +36,20 @@ bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const 
   return raised;
 }
 
-double StrainGauge::along_fibres(const Eigen::VectorXd& y) const {
+bool StrainGauge::is_beyond_theory(const Eigen::VectorXd& y) const {
+  constexpr double kMostStrain = 1.0;
+  constexpr double kMostRotation = 10.0 * std::numbers::pi;
   const int p = structure_.mesh.order;
-  double largest = 0.0;
   for (std::size_t e = 0; e < structure_.dofs.size(); ++e) {
+    const ElementDofs& dofs = structure_.dofs[e];
     const Compliance& by = compliances_[structure_.mesh.elements[e].member];
-    const auto forces = y.segment(structure_.dofs[e].s, 3 * p);
-    largest = std::max({largest, by.axial * forces.head(p).lpNorm<Eigen::Infinity>(),
-                        by.bending * forces.tail(p).lpNorm<Eigen::Infinity>()});
+    const auto forces = y.segment(dofs.s, 3 * p);
+    if (std::abs(y[dofs.b[2]]) > kMostRotation ||
+        by.axial * forces.head(p).lpNorm<Eigen::Infinity>() > kMostStrain ||
+        by.bending * forces.tail(p).lpNorm<Eigen::Infinity>() > kMostStrain)
+      return true;
   }
-  return largest;
+  return false;
 }
 
 }  // namespace snapthrough

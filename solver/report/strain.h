@@ -27,8 +27,9 @@ class StrainGauge {
   StrainGauge(const Structure& structure, const Model& model);
   /// Replaces `largest` where a strain of y exceeds it; true when one does.
   [[nodiscard]] bool raise(const Eigen::VectorXd& y, LargestStrain& largest) const;
-  /// The largest strain of y along a fibre, without shear: at -1 the fibre is compressed to nothing.
-  [[nodiscard]] double along_fibres(const Eigen::VectorXd& y) const;
+  /// Whether y is out of reach of any section and any drawing: the strain along a fibre is 1, at which it is
+  /// compressed to nothing, or an element has turned by five turns, within which a member meets itself.
+  [[nodiscard]] bool is_beyond_theory(const Eigen::VectorXd& y) const;
 
  private:
   struct Compliance {

@@ -305,7 +305,7 @@ bool Tracer::ends_here(const PathPoint& at, int steps, const std::stop_token& st
   if (stop.stop_requested()) return finish(TraceEnd::cancelled, at);
   if (steps >= rules_.steps) return finish(TraceEnd::steps, at);
   if (continuation_.metric().norm(at.y, 0.0) > rules_.gradient || travelled_ > rules_.travel ||
-      (rules_.strain && rules_.strain(at) > 1.0))
+      (rules_.beyond_theory && rules_.beyond_theory(at)))
     return finish(TraceEnd::displacement_bound, at);
   if (!rules_.load && std::abs(at.lambda) > continuation_.load_bound())
     return finish(TraceEnd::load_bound, at);

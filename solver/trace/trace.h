@@ -29,9 +29,8 @@ struct TraceRules {
   ZoneCounter zones;      ///< empty: contact that begins or ends is not looked for
   double gradient = 4.0;  ///< norm of the displacement at which a path is given up as leaving for infinity
   double travel = 100.0;  ///< the same for the length of the way there, which members that wind up make long
-  /// Largest strain along a fibre at a point: a path is given up where it is 1, at which a fibre is
-  /// compressed to nothing. Empty: it is not looked at.
-  std::function<double(const PathPoint&)> strain;
+  /// Where a path is given up as well; empty: nowhere.
+  std::function<bool(const PathPoint&)> beyond_theory;
   std::optional<double> first_step;  ///< in the path's norm; empty: from the load's scale
   /// Critical points of other branches: the path ends where it meets one of them again.
   std::vector<PathPoint> known;
