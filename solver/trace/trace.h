@@ -26,9 +26,9 @@ struct TraceRules {
   std::function<double(const PathPoint&)> monitor_rate;  ///< by arc length, with monitor_turns
   std::optional<std::array<double, 2>> monitor_range;
   int steps = 1000;
-  ZoneCounter zones;      ///< empty: contact that begins or ends is not looked for
-  double gradient = 4.0;  ///< norm of the displacement at which a path is given up as leaving for infinity
-  double travel = 100.0;  ///< the same for the length of the way there, which members that wind up make long
+  ZoneCounter zones;       ///< empty: contact that begins or ends is not looked for
+  double gradient = 4.0;   ///< norm of the displacement at which a path is given up as leaving for infinity
+  double travel = 1000.0;  ///< the same for the length of the way there, which members that wind up make long
   /// Where a path is given up as well; empty: nowhere.
   std::function<bool(const PathPoint&)> beyond_theory;
   std::optional<double> first_step;  ///< in the path's norm; empty: from the load's scale
