@@ -333,6 +333,7 @@ std::optional<Mesh> much_finer(const Mesh& mesh) {
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
+  constexpr int kMostPaths = 4;
   constexpr double kMostWork = 1e7;  // elements factorised on the next path: some ten seconds
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
@@ -346,8 +347,8 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     result.discretization.paths = paths;
     if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
     auto quartered = much_finer(mesh->mesh);
-    if (!quartered ||
-        static_cast<double>(factorizations) * static_cast<double>(quartered->elements.size()) > kMostWork)
+    if (paths == kMostPaths || !quartered) break;
+    if (static_cast<double>(factorizations) * static_cast<double>(quartered->elements.size()) > kMostWork)
       break;
     earlier = result.critical_points;
     finer = on_mesh(structure, model, *std::move(quartered));
