@@ -234,8 +234,7 @@ std::optional<PathPoint> Continuation::start(double direction) {
   SoftlyHeld held;
   if (soft) {
     auto start = softly_held_start(soft, direction, held);
-    // where it moved to rest, what the holds carried is for the supports
-    if (held.resisted) return start->lambda == 0.0 ? start : start_at_rest(*std::move(start), direction);
+    if (held.resisted) return start;
   }
   problem_.set_holds(held.neutral);
   auto start = one_sided_start(direction);
