@@ -161,7 +161,7 @@ class ElementSet {
   /// @brief Where one-sided supports touch at y (penetration above `-tolerance`): sets contacts and springs.
   virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const = 0;
   /// @brief The one-sided supports that touch without pressure at y: those no further from touching than
-  /// `tolerance`, contacts on all of their range. Sets contacts and springs.
+  /// `near` says of their stiffness, contacts on all of their range. Sets contacts and springs.
   virtual void mark_touching(const Eigen::VectorXd& y, const TouchingDistance& near,
                              TouchingMarks& out) const = 0;
   /// In the order of the two functions below. @param frozen null: none acts

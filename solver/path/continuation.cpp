@@ -28,7 +28,7 @@ constexpr double kLeastGrowth = 0.3;
 /// First correction, over the step, beyond which the predictor said nothing about where the path goes.
 constexpr double kLargestCorrection = 0.5;
 /// Share of a step's displacement that may lie outside what the rates at its ends give: steps of smooth paths
-/// stay below 0.2, those that end on another path or pass over a snap are at 0.8 and more.
+/// stay below 0.15, those that end on another path or pass over a snap are at 0.5 and more.
 constexpr double kLargestUnexplained = 0.4;
 /// What a step that was never shortened much is given up at, to try a shorter one, which costs less.
 constexpr double kLargestGrowth = 2.0;
@@ -393,10 +393,10 @@ CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, 
   return outcome;
 }
 
-double Continuation::unexplained(const PathPoint& from, double step, const PathPoint& to) const {
+double Continuation::unexplained(const PathPoint& from, double step, const VectorXd& rise,
+                                 const PathPoint& to) const {
   const double cosine = metric_.inner(from.tangent, from.tangent_lambda, to.tangent, to.tangent_lambda);
   const VectorXd turn = to.tangent - cosine * from.tangent;  // in the plane that `to` was corrected in
-  const VectorXd rise = to.y - from.y - step * from.tangent;
   const double along = metric_.inner(rise, 0.0, turn, 0.0);
   const double turned = metric_.inner(turn, 0.0, turn, 0.0);
   const double share = along > 0.0 ? std::min(along / turned, step / std::abs(cosine)) : 0.0;
@@ -415,7 +415,8 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   trial.converged = true;
   trial.corrections = outcome.factorisations;
   trial.angle = angle_between(from, to);
-  if (!from.perturbed) trial.unexplained = unexplained(from, step, to);
+  const VectorXd rise = to.y - from.y - step * from.tangent;
+  if (!from.perturbed) trial.unexplained = unexplained(from, step, rise, to);
   // what the residual does not show is rounding, which shorter steps would not lessen
   if (outcome.first_residual > kRoundingResidual) trial.correction = outcome.first_correction / displacement;
   const double room = std::min(options_.target_angle / std::max(trial.angle, 1e-12),
@@ -423,8 +424,7 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   double fast = 0.0;
   if (problem_.one_sided()) {
     // contact may end anywhere beyond: only where the tangent alone would have done
-    const double missed = metric_.norm(to.y - from.y - step * from.tangent,
-                                       to.lambda - from.lambda - step * from.tangent_lambda);
+    const double missed = metric_.norm(rise, to.lambda - from.lambda - step * from.tangent_lambda);
     fast = std::min({kFastGrowth, kFarFromLimits * room,
                      kFarFromLimits * options_.target_correction * displacement / std::max(missed, 1e-300)});
   }

@@ -208,7 +208,9 @@ class Continuation {
   void predict(const PathPoint& from, double step, PathPoint& to) const;
   /// @brief Share of a step's displacement that is not some mean of what its ends' rates give. A path that
   /// turns one way, or has one kink, leaves little; a snap in between, or an end on another path, does.
-  [[nodiscard]] double unexplained(const PathPoint& from, double step, const PathPoint& to) const;
+  /// @param rise what the tangent at `from` alone misses of the displacement
+  [[nodiscard]] double unexplained(const PathPoint& from, double step, const Eigen::VectorXd& rise,
+                                   const PathPoint& to) const;
   [[nodiscard]] bool step_round_kink(const PathPoint& from, double size, PathPoint& to);
   [[nodiscard]] std::optional<PathPoint> beyond_kink(const PathPoint& from, double depth);
   [[nodiscard]] bool step_from_beyond(const PathPoint& from, const PathPoint& beyond, double step,
