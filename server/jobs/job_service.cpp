@@ -66,10 +66,11 @@ JobService::JobService(Store& store, const Environment& environment, Log& log, J
       environment_(environment),
       log_(log),
       limits_(limits),
+      instance_(new_id(environment)),
       sweeps_({store_.sweeps(), environment_, log_, limits_, health_, waiting_, handoffs_, completions_,
-               metrics_}),
-      context_{store_,    environment_, log_,      limits_,        health_,  waiting_,           completions_,
-               handoffs_, active_,      progress_, sweeps_.work(), metrics_, new_id(environment)} {}
+               metrics_, instance_}),
+      context_{store_,    environment_, log_,      limits_,        health_,  waiting_, completions_,
+               handoffs_, active_,      progress_, sweeps_.work(), metrics_, instance_} {}
 
 StatusOr<Submission> JobService::submit(const Order& order) {
   if (Status status = health_.takes_work(); !status.ok()) {

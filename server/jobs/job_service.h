@@ -64,6 +64,7 @@ class JobService {
   ActiveJobs active_;
   JobProgress progress_;
   JobMetrics metrics_;
+  const std::string instance_;  ///< the name that leases bear
   SweepService sweeps_;
   const WorkerContext context_;
 };

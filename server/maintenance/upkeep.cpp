@@ -37,7 +37,9 @@ void Upkeep::run_once(Time now) {
   if (now >= next_renewal_) {
     next_renewal_ = now + context_.limits.lease / 4;
     renew_leases(now);
+    context_.sweeps.renew_leases(now);
     rescue(now);
+    context_.sweeps.rescue(now);
   }
   if (now >= next_retirement_) {
     next_retirement_ = now + kBetweenRetirements;
@@ -101,14 +103,14 @@ void Upkeep::retire(Time now) {
     StatusOr<int> retired = kRetiredAtOnce;
     int total = 0;
     while (retired.ok() && *retired == kRetiredAtOnce) {
-      retired = context_.store.retire(now - limits.keep_jobs, kRetiredAtOnce);
+      retired = context_.store.retire(limits.keep_jobs, kRetiredAtOnce, now);
       total += retired.ok() ? *retired : 0;
     }
     if (total > 0) {
       context_.log.write(LogLevel::info, "retired", {{"jobs", static_cast<std::int64_t>(total)}});
     }
   }
-  if (const Status status = context_.store.forget_keys(now - limits.keep_keys); !status.ok()) {
+  if (const Status status = context_.store.forget_keys(limits.keep_keys, now); !status.ok()) {
     context_.log.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
   }
 }
@@ -118,7 +120,7 @@ void Upkeep::retire_sweeps(Time now) {
   SweepStore& store = context_.store.sweeps();
   const JobLimits& limits = context_.limits;
   if (limits.keep_jobs.count() > 0) {
-    const StatusOr<int> retired = store.retire(now - limits.keep_jobs);
+    const StatusOr<int> retired = store.retire(limits.keep_jobs, now);
     if (retired.ok() && *retired > 0) {
       context_.log.write(LogLevel::info, "retired", {{"sweeps", static_cast<std::int64_t>(*retired)}});
     }
@@ -127,7 +129,7 @@ void Upkeep::retire_sweeps(Time now) {
   for (int i = 0; i < kPurgesAtOnce && more.ok() && *more; ++i) {
     more = store.purge(kPurgedRows);
   }
-  if (const Status status = store.forget_keys(now - limits.keep_keys); !status.ok()) {
+  if (const Status status = store.forget_keys(limits.keep_keys, now); !status.ok()) {
     context_.log.write(LogLevel::error, "store", {{"detail", std::string_view(status.message())}});
   }
 }

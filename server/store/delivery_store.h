@@ -2,6 +2,7 @@
 /// @file
 /// What the service needs from a database to tell callbacks. Same promises as Store (server/store/store.h).
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,10 +34,11 @@ class DeliveryStore {
   virtual ~DeliveryStore() = default;
 
   /// The delivery to addresses of an origin ("https://host") that is due for the longest time; empty when
-  /// none is.
-  virtual StatusOr<std::optional<Delivery>> next(std::string_view origin, Time now) = 0;
-  /// Notes an attempt that failed, and when the next is due. Survives the death of the process.
-  virtual Status postpone(std::int64_t number, Time due) = 0;
+  /// none is. It is the caller's: nobody else is given it for as long as `hold`.
+  virtual StatusOr<std::optional<Delivery>> next(std::string_view origin, std::chrono::milliseconds hold,
+                                                 Time now) = 0;
+  /// Notes an attempt that failed; the next is due after that pause. Survives the death of the process.
+  virtual Status postpone(std::int64_t number, std::chrono::milliseconds pause, Time now) = 0;
   /// Removes a delivery, done or given up. Survives the death of the process.
   virtual Status remove(std::int64_t number) = 0;
   virtual StatusOr<std::int64_t> waiting() = 0;

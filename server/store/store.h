@@ -4,6 +4,7 @@
 /// holds all of its SQL; one conformance suite (tests/server/store_conformance.h) runs on every driver.
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -51,7 +52,10 @@ struct DocumentPiece {
 /// Thread safety: every verb may be called from any thread. Durability: a verb that returned ok survives the
 /// death of the process and of the machine. Atomicity: each verb happens wholly or not at all. A verb with a
 /// Claim is fenced: it returns `conflict` and changes nothing unless the job is running in that claim's
-/// attempt, and (finish and fail) its lease has not run out. One process at a time owns a store.
+/// attempt, and (finish and fail) its lease has not run out.
+///
+/// Time: `now` is the caller's clock. A driver of a database that many hosts use goes by the database's clock
+/// instead, and takes from the caller's only how long something lasts.
 class Store {
  public:
   Store() = default;
@@ -64,7 +68,7 @@ class Store {
   /// Adds a job in state accepted (running when it comes with a lease), unless its idempotency key is known
   /// or there is a result that it may reuse (see Submitted); `waiting_quota` or `storage_quota` when its
   /// owner would have more than its quotas then. `queued` is called when any verb that is called from then on
-  /// comes after this one.
+  /// comes after this one; that may be before this one is durable.
   virtual StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) = 0;
   StatusOr<Submitted> submit(const NewJob& job) {
     return submit(job, [] {});
@@ -73,7 +77,8 @@ class Store {
   /// What is known of an idempotency key of an owner; empty when it is new.
   virtual StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) = 0;
 
-  /// Gives the oldest accepted job to the caller and makes it running; empty when none waits. It survives
+  /// Gives an accepted job to the caller and makes it running; empty when none waits. Owners take turns; of
+  /// one owner it is the oldest. It survives
   /// the death of the process, not that of the machine: the job is accepted again then.
   virtual StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) = 0;
 
@@ -90,8 +95,9 @@ class Store {
   /// Gives a running job back, at its place in the queue; it does not count as a crash.
   virtual Status requeue(const Claim& claim) = 0;
 
-  /// Deals with every job that is still running although its process is gone: back to the queue, or failed
-  /// with code "crashed" when this was crash number `max_crashes`. To be called once, before the first claim.
+  /// Deals with every job that is still running although its process is known to be gone: back to the queue,
+  /// or failed with code "crashed" when this was crash number `max_crashes`. To be called once, before the
+  /// first claim. Where other processes may use the store, none is known to be gone: rescue() finds them.
   virtual StatusOr<Recovery> recover(int max_crashes, Time now) = 0;
 
   /// Takes running jobs back whose lease has run out: to the queue, or failed like recover() when that
@@ -102,11 +108,11 @@ class Store {
   virtual StatusOr<Dismissal> dismiss(std::string_view id, Time now) = 0;
   /// Removes a job and all that belongs to it, in whatever state; false when there is none.
   virtual StatusOr<bool> remove(std::string_view id) = 0;
-  /// Removes at most `most` jobs that ended before that time, the oldest first; how many.
-  virtual StatusOr<int> retire(Time ended_before, int most) = 0;
-  /// Forgets idempotency keys that were first used before that time.
-  virtual Status forget_keys(Time used_before) = 0;
-  /// Writes something, to find out whether writing works.
+  /// Removes at most `most` jobs that ended longer ago than that, the oldest first; how many.
+  virtual StatusOr<int> retire(std::chrono::seconds age, int most, Time now) = 0;
+  /// Forgets idempotency keys that were first used longer ago than that.
+  virtual Status forget_keys(std::chrono::seconds age, Time now) = 0;
+  /// Finds out whether writing works.
   virtual Status probe(Time now) = 0;
 
   /// A successful job of that owner and content, the newest (of those without annotations, if there are

@@ -2,6 +2,7 @@
 /// @file
 /// What the service needs from a database for sweeps. Same promises as Store (server/store/store.h).
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -41,23 +42,32 @@ class SweepStore {
   virtual StatusOr<Submitted> submit(const NewSweep& sweep) = 0;
   /// What is known of an idempotency key of an owner; empty when it is new.
   virtual StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) = 0;
-  /// Ids of sweeps that are accepted or running, the oldest first.
+  /// Ids of sweeps that are accepted or running: the oldest of each owner, the second of each, and so on.
   virtual StatusOr<std::vector<std::string>> unfinished() = 0;
   /// What a worker needs to go on with an accepted or running sweep; empty when there is none.
   virtual StatusOr<std::optional<OpenSweep>> open(std::string_view id) = 0;
 
-  /// Notes that a worker begins with these points and makes the sweep running; `conflict` when it is neither
-  /// accepted nor running. It survives the death of the process, not that of the machine.
-  virtual StatusOr<PointClaim> claim(std::string_view id, const std::vector<std::uint64_t>& points,
-                                     Time now) = 0;
-  /// Stores rows of a claim, ends the claim, and ends the sweep when all points have a row. `conflict`, and
-  /// nothing is stored, when the claim is not known or the sweep is not running. A point that has a row keeps
-  /// it.
-  virtual StatusOr<SweepRecord> put(const PointClaim& claim, const std::vector<PointRow>& rows, Time now) = 0;
-  /// Deals with the claims of a process that is gone: their points without a row are given out again, or get
-  /// a row with the code "crashed" when that happened `max_crashes` times. To be called once, before the
-  /// first claim. @return how many points are given out again
+  /// @brief Gives units that nobody has to the caller, at most `most`, and makes the sweep running. Units
+  /// during which a process died are given one at a time. Empty when others have all that is left; `conflict`
+  /// when the sweep is neither accepted nor running. It survives the death of the process, not that of the
+  /// machine.
+  virtual StatusOr<std::optional<UnitClaim>> claim(std::string_view id, std::uint64_t most,
+                                                   const Lease& lease, Time now) = 0;
+  /// Renews the leases of claims that still hold; the numbers of those that don't.
+  virtual StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>& claims, Time until,
+                                                    Time now) = 0;
+  /// @brief Stores rows of a claim and ends it: units without rows are given out again. Ends the sweep when
+  /// all points have a row. `conflict`, and nothing is stored, when the claim does not hold any more or the
+  /// sweep is not running. A point that has a row keeps it.
+  /// @param rows of all points of some of its units
+  virtual StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, Time now) = 0;
+  /// Deals with the claims of a process that is known to be gone (see Store::recover()): their units are
+  /// given out again, or their points get rows with the code "crashed" when that happened `max_crashes`
+  /// times.
+  /// @return how many units are given out again
   virtual StatusOr<std::int64_t> recover(int max_crashes, Time now) = 0;
+  /// The same for claims whose lease has run out, see Store::rescue().
+  virtual StatusOr<std::int64_t> rescue(std::string_view worker, int max_crashes, Time now) = 0;
 
   /// Makes an accepted or running sweep dismissed; its rows stay.
   virtual StatusOr<SweepChange> dismiss(std::string_view id, Time now) = 0;
@@ -66,12 +76,12 @@ class SweepStore {
   virtual StatusOr<SweepChange> retry(std::string_view id, const Quotas& quotas) = 0;
   /// Nobody shall find the sweep any more; purge() gives its space back. False when there is none.
   virtual StatusOr<bool> remove(std::string_view id) = 0;
-  /// Removes sweeps that ended before that time; how many.
-  virtual StatusOr<int> retire(Time ended_before) = 0;
+  /// Removes sweeps that ended longer ago than that; how many.
+  virtual StatusOr<int> retire(std::chrono::seconds age, Time now) = 0;
   /// Gives back the space of at most `most` rows of removed sweeps; true when there may be more.
   virtual StatusOr<bool> purge(int most) = 0;
-  /// Forgets idempotency keys that were first used before that time.
-  virtual Status forget_keys(Time used_before) = 0;
+  /// Forgets idempotency keys that were first used longer ago than that.
+  virtual Status forget_keys(std::chrono::seconds age, Time now) = 0;
 
   virtual StatusOr<std::optional<SweepRecord>> get(std::string_view id) = 0;
   virtual StatusOr<SweepPage> list(const ListQuery& query) = 0;

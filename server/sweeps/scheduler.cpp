@@ -1,6 +1,7 @@
 #include "server/sweeps/scheduler.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace snapthrough::server {
@@ -8,8 +9,8 @@ namespace {
 
 /// How long a worker computes before it stores rows and looks for jobs.
 constexpr double kChunkSeconds = 0.1;
-constexpr std::size_t kFirstChunk = 2;
-constexpr std::size_t kLargestChunk = 2048;
+constexpr std::uint64_t kFirstChunk = 2;
+constexpr std::uint64_t kLargestChunk = 2048;
 
 }  // namespace
 
@@ -19,31 +20,7 @@ ActiveSweep::ActiveSweep(std::string name, api::Sweep read, OpenSweep open)
       sweep(std::move(read)),
       owner(std::move(open.owner)),
       outputs(sweep.outputs_text()),
-      reuse(open.reuse),
-      done_(sweep.units(), true) {
-  for (std::uint64_t point = 0; point < open.done.size(); ++point) {
-    if (!open.done[point]) {
-      done_[point / sweep.unit_size()] = false;  // it is computed wholly
-    }
-  }
-  for (const auto& [point, crashes] : open.crashes) {
-    if (const std::uint64_t unit = point / sweep.unit_size(); !done_.at(unit)) {
-      done_[unit] = true;  // the process died with it once: not again with others beside it
-      again_.push_back({unit});
-    }
-  }
-}
-
-std::vector<std::uint64_t> Chunk::points() const {
-  const std::uint64_t size = sweep->sweep.unit_size();
-  std::vector<std::uint64_t> points;
-  for (const std::uint64_t unit : units) {
-    for (std::uint64_t i = 0; i < size; ++i) {
-      points.push_back(unit * size + i);
-    }
-  }
-  return points;
-}
+      reuse(open.reuse) {}
 
 bool SweepScheduler::add(std::shared_ptr<ActiveSweep> sweep) {
   const std::lock_guard guard(mutex_);
@@ -68,70 +45,67 @@ std::size_t SweepScheduler::count() const {
   return sweeps_.size();
 }
 
-bool SweepScheduler::has_more(ActiveSweep& sweep) {
-  while (sweep.cursor_ < sweep.done_.size() && sweep.done_[sweep.cursor_]) {
-    ++sweep.cursor_;
-  }
-  return !sweep.again_.empty() || sweep.cursor_ < sweep.done_.size();
-}
-
 void SweepScheduler::look() {
   available_ =
-      std::any_of(sweeps_.begin(), sweeps_.end(), [](const auto& sweep) { return has_more(*sweep); });
+      std::any_of(sweeps_.begin(), sweeps_.end(), [](const auto& sweep) { return !sweep->exhausted_; });
 }
 
 /// How many units a chunk has at most.
-std::size_t SweepScheduler::most_units(const ActiveSweep& sweep) {
+std::uint64_t SweepScheduler::most_units(const ActiveSweep& sweep) {
   if (sweep.sweep.unit_size() > 1) {
     return 1;  // it takes long: another worker may have the next
   }
   if (sweep.seconds_per_unit_ > 0.0) {
-    return static_cast<std::size_t>(
+    return static_cast<std::uint64_t>(
         std::clamp(kChunkSeconds / sweep.seconds_per_unit_, 1.0, static_cast<double>(kLargestChunk)));
   }
   return kFirstChunk;
 }
 
-std::vector<std::uint64_t> SweepScheduler::next_units(ActiveSweep& sweep) {
-  std::vector<std::uint64_t> units;
-  if (sweep.cursor_ >= sweep.done_.size()) {
-    units = std::move(sweep.again_.front());
-    sweep.again_.pop_front();
-    return units;
-  }
-  const std::size_t most = most_units(sweep);
-  for (; units.size() < most && sweep.cursor_ < sweep.done_.size(); ++sweep.cursor_) {
-    if (!sweep.done_[sweep.cursor_]) {
-      units.push_back(sweep.cursor_);
-    }
-  }
-  return units;
+std::uint64_t SweepScheduler::served(const std::string& owner) const {
+  const auto found = served_.find(owner);
+  return found == served_.end() ? 0 : found->second;
 }
 
-std::optional<Chunk> SweepScheduler::take() {
+std::optional<SweepTurn> SweepScheduler::next() {
   const std::lock_guard guard(mutex_);
-  for (std::size_t i = 0; i < sweeps_.size(); ++i) {
-    std::shared_ptr<ActiveSweep> sweep = std::move(sweeps_.front());
-    sweeps_.pop_front();
-    sweeps_.push_back(sweep);
-    if (has_more(*sweep)) {
-      std::vector<std::uint64_t> units = next_units(*sweep);
-      look();
-      return Chunk{std::move(sweep), {}, std::move(units)};
-    }
+  const auto order = [&](const auto& sweep) {
+    return std::tuple(sweep->exhausted_, served(sweep->owner), sweep->served_);
+  };
+  const auto first = std::min_element(sweeps_.begin(), sweeps_.end(),
+                                      [&](const auto& a, const auto& b) { return order(a) < order(b); });
+  if (first == sweeps_.end() || (*first)->exhausted_) {
+    return std::nullopt;
   }
-  return std::nullopt;
+  ActiveSweep& sweep = **first;
+  served_[sweep.owner] = sweep.served_ = ++turns_;
+  return SweepTurn{*first, most_units(sweep), sweep.changes_};
 }
 
-void SweepScheduler::give_back(const Chunk& chunk, std::vector<std::uint64_t> rest, double seconds) {
+void SweepScheduler::exhausted(const SweepTurn& turn) {
+  const std::lock_guard guard(mutex_);
+  turn.sweep->exhausted_ = turn.sweep->changes_ == turn.changes;
+  look();
+}
+
+void SweepScheduler::refresh() {
+  const std::lock_guard guard(mutex_);
+  for (const std::shared_ptr<ActiveSweep>& sweep : sweeps_) {
+    ++sweep->changes_;
+    sweep->exhausted_ = false;
+  }
+  look();
+}
+
+void SweepScheduler::give_back(const Chunk& chunk, std::uint64_t computed, double seconds) {
   const std::lock_guard guard(mutex_);
   ActiveSweep& sweep = *chunk.sweep;
-  const std::size_t done = chunk.units.size() - rest.size();
-  if (!rest.empty()) {
-    sweep.again_.push_back(std::move(rest));
+  if (computed < chunk.claim.units.count) {
+    ++sweep.changes_;
+    sweep.exhausted_ = false;
   }
-  if (done > 0) {
-    const double latest = seconds / static_cast<double>(done);
+  if (computed > 0) {
+    const double latest = seconds / static_cast<double>(computed);
     sweep.seconds_per_unit_ =
         sweep.seconds_per_unit_ > 0.0 ? 0.5 * (sweep.seconds_per_unit_ + latest) : latest;
   }
@@ -149,6 +123,9 @@ void SweepScheduler::remove_if(Is is) {
     }
     removed = std::move(*found);
     sweeps_.erase(found);
+    if (sweeps_.empty()) {
+      served_.clear();
+    }
     look();
   }
   removed->stop_.request_stop();  // calls those who work on it, who use this scheduler
@@ -162,7 +139,8 @@ void SweepScheduler::remove(const std::shared_ptr<ActiveSweep>& sweep) {
   remove_if([&](const auto& other) { return other == sweep; });
 }
 
-SweepScheduler::Watch::Watch(SweepScheduler& scheduler, Time since) : scheduler_(scheduler), since_(since) {
+SweepScheduler::Watch::Watch(SweepScheduler& scheduler, const UnitClaim& claim, Time since)
+    : scheduler_(scheduler), claim_(claim), held_since_(since), since_(since) {
   const std::lock_guard guard(scheduler_.mutex_);
   scheduler_.watches_.push_back(this);
 }
@@ -190,20 +168,40 @@ StopReason SweepScheduler::Watch::reason() const {
   return reason_;
 }
 
-void SweepScheduler::stop_older(Time since) {
-  std::vector<std::stop_source> late;
+template <class Is>
+void SweepScheduler::stop_if(Is is, StopReason reason) {
+  std::vector<std::stop_source> found;
   {
     const std::lock_guard guard(mutex_);
     for (Watch* watch : watches_) {
-      if (watch->since_ < since && watch->reason_ == StopReason::none) {
-        watch->reason_ = StopReason::time_limit;
-        late.push_back(watch->stop_);
+      if (is(*watch) && watch->reason_ == StopReason::none) {
+        watch->reason_ = reason;
+        found.push_back(watch->stop_);
       }
     }
   }
-  for (std::stop_source& source : late) {
+  for (std::stop_source& source : found) {
     source.request_stop();
   }
+}
+
+void SweepScheduler::stop_older(Time since) {
+  stop_if([&](const Watch& watch) { return watch.since_ < since; }, StopReason::time_limit);
+}
+
+void SweepScheduler::stop_claim(std::int64_t number, StopReason reason) {
+  stop_if([&](const Watch& watch) { return watch.claim_.number == number; }, reason);
+}
+
+std::vector<UnitClaim> SweepScheduler::older(Time since) const {
+  const std::lock_guard guard(mutex_);
+  std::vector<UnitClaim> held;
+  for (const Watch* watch : watches_) {
+    if (watch->held_since_ <= since) {
+      held.push_back(watch->claim_);
+    }
+  }
+  return held;
 }
 
 }  // namespace snapthrough::server

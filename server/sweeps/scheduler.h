@@ -1,15 +1,16 @@
 #pragma once
 /// @file
-/// The sweeps that this process works on, and which of their units (unit.h) are given to whom.
+/// The sweeps that this process works on, and whose turn it is. Which units (unit.h) a worker gets is the
+/// store's to say.
 
 #include <atomic>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "api/sweep.h"
@@ -36,24 +37,27 @@ class ActiveSweep {
 
  private:
   friend class SweepScheduler;
-  std::vector<bool> done_;                        ///< by unit: all its points are, or it is to be given alone
-  std::uint64_t cursor_ = 0;                      ///< units before it were given out
-  std::deque<std::vector<std::uint64_t>> again_;  ///< units that came back, or that are to be given alone
-  double seconds_per_unit_ = 0.0;                 ///< 0: not known
+  bool exhausted_ = false;         ///< others have all units that are left, as far as is known
+  std::uint64_t changes_ = 0;      ///< how often units may have come back
+  std::uint64_t served_ = 0;       ///< when it had its last turn, in turns
+  double seconds_per_unit_ = 0.0;  ///< 0: not known
   std::stop_source stop_;
+};
+
+/// A sweep whose turn it is.
+struct SweepTurn {
+  std::shared_ptr<ActiveSweep> sweep;
+  std::uint64_t most = 1;     ///< units that a worker computes at a time
+  std::uint64_t changes = 0;  ///< for exhausted()
 };
 
 /// Units of one sweep that one worker computes.
 struct Chunk {
   std::shared_ptr<ActiveSweep> sweep;
-  PointClaim claim;
-  std::vector<std::uint64_t> units;  ///< their numbers
-
-  /// The points of its units.
-  [[nodiscard]] std::vector<std::uint64_t> points() const;
+  UnitClaim claim;
 };
 
-/// @brief Gives the units of several sweeps out, in turn. Thread-safe.
+/// @brief Gives turns to several sweeps: owners take turns, and of each owner its sweeps. Thread-safe.
 ///
 /// What a unit comes to does not depend on it: each is computed alone.
 class SweepScheduler {
@@ -65,24 +69,28 @@ class SweepScheduler {
   bool add(std::shared_ptr<ActiveSweep> sweep);
   [[nodiscard]] bool has(const std::string& id) const;
   [[nodiscard]] bool has_room() const;
-  /// Whether units are left to give.
+  /// Whether units may be left to take.
   [[nodiscard]] bool has_units() const { return available_; }
   [[nodiscard]] std::size_t count() const;
 
-  /// Units of the next sweep in turn, as many as take about a tenth of a second; without a claim.
-  std::optional<Chunk> take();
-  /// Ends a chunk that take() gave. @param rest units that were not computed
-  /// @param seconds that the others took
-  void give_back(const Chunk& chunk, std::vector<std::uint64_t> rest, double seconds);
+  /// The next sweep in turn of which units may be left, and as many as take about a tenth of a second.
+  std::optional<SweepTurn> next();
+  /// The store had no units for that turn.
+  void exhausted(const SweepTurn& turn);
+  /// Units of any sweep may have come back.
+  void refresh();
+  /// Ends a chunk. @param computed units, in that many seconds
+  void give_back(const Chunk& chunk, std::uint64_t computed, double seconds);
   /// Nothing of it is wanted any more: those who work on it are asked to stop.
   void remove(const std::string& id);
   /// The same for this one only, not for one of that id that was added since (dismissed and tried again).
   void remove(const std::shared_ptr<ActiveSweep>& sweep);
 
-  /// A chunk is worked on for as long as this exists; upkeep sees when a unit takes too long.
+  /// A chunk is worked on for as long as this exists; upkeep sees when a unit takes too long, and renews the
+  /// lease.
   class Watch {
    public:
-    Watch(SweepScheduler& scheduler, Time since);
+    Watch(SweepScheduler& scheduler, const UnitClaim& claim, Time since);
     ~Watch();
     Watch(const Watch&) = delete;
     Watch& operator=(const Watch&) = delete;
@@ -97,23 +105,32 @@ class SweepScheduler {
    private:
     friend class SweepScheduler;
     SweepScheduler& scheduler_;
+    const UnitClaim& claim_;
+    const Time held_since_;
     Time since_;
     StopReason reason_ = StopReason::none;
     std::stop_source stop_;
   };
   /// Stops units that began before that time.
   void stop_older(Time since);
+  /// Stops those who work on that claim.
+  void stop_claim(std::int64_t number, StopReason reason);
+  /// The claims that are held since before that time.
+  [[nodiscard]] std::vector<UnitClaim> older(Time since) const;
 
  private:
   template <class Is>
   void remove_if(Is is);
-  static std::vector<std::uint64_t> next_units(ActiveSweep& sweep);
-  static std::size_t most_units(const ActiveSweep& sweep);
-  static bool has_more(ActiveSweep& sweep);
+  template <class Is>
+  void stop_if(Is is, StopReason reason);
+  static std::uint64_t most_units(const ActiveSweep& sweep);
+  [[nodiscard]] std::uint64_t served(const std::string& owner) const;
   void look();
 
   mutable std::mutex mutex_;
-  std::deque<std::shared_ptr<ActiveSweep>> sweeps_;  ///< the first is the next in turn
+  std::vector<std::shared_ptr<ActiveSweep>> sweeps_;       ///< the oldest first
+  std::unordered_map<std::string, std::uint64_t> served_;  ///< by owner: its last turn
+  std::uint64_t turns_ = 0;
   std::vector<Watch*> watches_;
   std::atomic<bool> available_ = false;
 };

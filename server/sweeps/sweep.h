@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "api/sweep.h"
@@ -44,6 +43,7 @@ struct NewSweep {
   std::int64_t points = 0;
   Time created;
   std::string owner = {};
+  std::int64_t unit_points = 1;  ///< points of each unit (server/sweeps/unit.h); divides `points`
   std::optional<IdempotencyKey> idempotency = {};
   bool reuse = true;  ///< rows of other sweeps of the same owner will do
   std::string analysis_type = {};
@@ -64,14 +64,21 @@ struct OpenSweep {
   std::string document;
   std::string owner;
   bool reuse = true;
-  std::vector<bool> done;                          ///< by point: it has a row
-  std::unordered_map<std::uint64_t, int> crashes;  ///< how often the process died during a point, if it did
 };
 
-/// Points that a worker has, so that those are known during which the process died.
-struct PointClaim {
-  std::int64_t number = 0;
+/// Units of a sweep, one after the other.
+struct UnitRun {
+  std::uint64_t first = 0;  ///< number of the first unit, counted from 0
+  std::uint64_t count = 0;
+
+  bool operator==(const UnitRun&) const = default;
+};
+
+/// Units that a worker has until its lease runs out, and what proves that it still does.
+struct UnitClaim {
+  std::int64_t number = 0;  ///< never used again
   std::string sweep;
+  UnitRun units;
 };
 
 /// What of a sweep's table to read.

@@ -33,16 +33,16 @@ struct Pending {
 };
 
 struct Work {
-  std::vector<PointRow> rows;
-  std::vector<Pending> pending;
-  std::vector<std::uint64_t> rest;  ///< units that were not computed
+  std::vector<PointRow> rows;    ///< of units that are done
+  std::vector<Pending> pending;  ///< those that are not known already
 };
 
 std::vector<Pending> pending_units(const Chunk& chunk) {
   const ActiveSweep& sweep = *chunk.sweep;
   std::shared_ptr<nlohmann::json> document;
   std::vector<Pending> all;
-  for (const std::uint64_t number : chunk.units) {
+  const UnitRun& run = chunk.claim.units;
+  for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
     std::unique_ptr<SweepUnit> unit = make_unit(sweep.sweep, number);
     std::vector<std::string> keys = unit->keys(sweep.outputs, sweep.owner, document);
     all.push_back({number, std::move(unit), std::move(keys)});
@@ -95,7 +95,7 @@ void add_rows(Pending& pending, std::vector<api::PointOutcome> outcomes, const S
   }
 }
 
-/// Computes what is pending; what it does not come to is left as the rest.
+/// Computes what is pending, as far as it comes.
 void compute(const Chunk& chunk, const SweepSurroundings& world, Runner& runner, SweepScheduler::Watch& watch,
              Work& work) {
   const double start = world.environment.monotonic_seconds();
@@ -116,7 +116,6 @@ void compute(const Chunk& chunk, const SweepSurroundings& world, Runner& runner,
   watch.begin(world.environment.now());
   runner.run_units(
       {chunk.sweep->id, chunk.sweep->document, chunk.sweep->sweep, units, watch.token(), late, take});
-  work.rest.assign(units.begin() + static_cast<std::ptrdiff_t>(next), units.end());
 }
 
 }  // namespace
@@ -136,6 +135,26 @@ StatusOr<SweepChange> SweepWork::dismiss(const std::string& id) {
   return change;
 }
 
+void SweepWork::renew_leases(Time now) {
+  const std::vector<UnitClaim> held = scheduler_.older(now - world_.limits.lease / 8);
+  if (held.empty()) {
+    return;
+  }
+  const StatusOr<std::vector<std::int64_t>> lost = world_.store.renew(held, now + world_.limits.lease, now);
+  for (const std::int64_t number : lost.ok() ? *lost : std::vector<std::int64_t>()) {
+    scheduler_.stop_claim(number, StopReason::lease_lost);
+  }
+}
+
+void SweepWork::rescue(Time now) {
+  const StatusOr<std::int64_t> units = world_.store.rescue(world_.instance, world_.limits.max_crashes, now);
+  if (units.ok() && *units > 0) {
+    world_.log.write(LogLevel::warning, "sweep",
+                     {{"units", *units}, {"detail", std::string_view("the lease of the worker ran out")}});
+    wake();
+  }
+}
+
 /// Workers that sleep look at the store.
 void SweepWork::wake() {
   unloaded_ = true;
@@ -148,6 +167,7 @@ void SweepWork::load() {
   if (!lock.owns_lock() || !unloaded_.exchange(false)) {
     return;  // somebody is at it
   }
+  scheduler_.refresh();
   const StatusOr<std::vector<std::string>> ids = world_.store.unfinished();
   bool all = ids.ok();
   for (const std::string& id : ids.ok() ? *ids : std::vector<std::string>()) {
@@ -172,7 +192,7 @@ bool SweepWork::load_one(const std::string& id) {
   }
   OpenSweep found = **open;
   const api::SweepOutcome read = api::read_sweep(found.document);
-  if (!read.sweep || read.sweep->size() != found.done.size()) {
+  if (!read.sweep) {
     log_sweep(world_.log, id, "not_readable", "this version does not accept the stored document any more");
     return dismiss(id).ok();
   }
@@ -184,22 +204,25 @@ std::optional<Chunk> SweepWork::take() {
   if (unloaded_ && scheduler_.has_room()) {
     load();
   }
-  while (std::optional<Chunk> chunk = scheduler_.take()) {
-    const std::string& id = chunk->sweep->id;
-    StatusOr<PointClaim> claim = world_.store.claim(id, chunk->points(), world_.environment.now());
-    if (claim.ok()) {
-      chunk->claim = std::move(claim).value();
+  while (const std::optional<SweepTurn> turn = scheduler_.next()) {
+    const std::string& id = turn->sweep->id;
+    const Time now = world_.environment.now();
+    const Lease lease{world_.instance, now + world_.limits.lease};
+    StatusOr<std::optional<UnitClaim>> claim = world_.store.claim(id, turn->most, lease, now);
+    if (claim.ok() && claim->has_value()) {
       if (scheduler_.has_units()) {
         world_.handoffs.ring();  // the next worker
       }
-      return chunk;
+      return Chunk{turn->sweep, **std::move(claim)};
     }
-    if (claim.status().code() != StatusCode::conflict) {
-      scheduler_.give_back(*chunk, chunk->units, 0.0);
+    if (claim.ok()) {
+      scheduler_.exhausted(*turn);
+    } else if (claim.status().code() == StatusCode::conflict) {
+      scheduler_.remove(turn->sweep);
+    } else {
       log_sweep(world_.log, id, "claim", claim.status().message());
       return std::nullopt;
     }
-    scheduler_.remove(chunk->sweep);
   }
   return std::nullopt;
 }
@@ -209,7 +232,7 @@ bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
   if (!chunk) {
     return false;
   }
-  SweepScheduler::Watch watch(scheduler_, world_.environment.now());
+  SweepScheduler::Watch watch(scheduler_, chunk->claim, world_.environment.now());
   const std::stop_callback on_shutdown(stop, [&] { watch.stop(StopReason::shutdown); });
   const std::stop_callback on_dismissal(chunk->sweep->stopped(), [&] { watch.stop(StopReason::dismissed); });
   const double start = world_.environment.monotonic_seconds();
@@ -218,10 +241,10 @@ bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
   look_up(*chunk, world_, work);
   compute(*chunk, world_, runner, watch, work);
   const double seconds = world_.environment.monotonic_seconds() - start;
-  Status status = settle(*chunk, work.rows, work.rest, seconds);
+  Status status = settle(*chunk, work.rows, seconds);
   while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
     pause(stop, kRetryPause);
-    status = settle(*chunk, work.rows, work.rest, seconds);
+    status = settle(*chunk, work.rows, seconds);
   }
   if (!status.ok() && status.code() != StatusCode::conflict) {
     world_.log.write(
@@ -231,14 +254,13 @@ bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
   return true;
 }
 
-Status SweepWork::settle(const Chunk& chunk, const std::vector<PointRow>& rows,
-                         const std::vector<std::uint64_t>& rest, double seconds) {
+Status SweepWork::settle(const Chunk& chunk, const std::vector<PointRow>& rows, double seconds) {
   StatusOr<SweepRecord> record = world_.store.put(chunk.claim, rows, world_.environment.now());
   if (!record.ok() && record.status().code() == StatusCode::io_error) {
     record = world_.store.put(chunk.claim, not_stored(rows, record.status()), world_.environment.now());
   }
   if (record.ok()) {
-    scheduler_.give_back(chunk, rest, seconds);
+    scheduler_.give_back(chunk, rows.size() / chunk.sweep->sweep.unit_size(), seconds);
     stored(*record, rows);
     return {};
   }

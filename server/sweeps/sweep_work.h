@@ -35,6 +35,7 @@ struct SweepSurroundings {
   HandoffQueue& handoffs;
   JobCompletions& completions;  ///< of sweeps, too
   JobMetrics& metrics;
+  const std::string instance;  ///< of the service: the name that leases bear
 };
 
 /// A line about a sweep that began, was stopped or removed.
@@ -60,6 +61,10 @@ class SweepWork {
   StatusOr<SweepChange> dismiss(const std::string& id);
   /// Stops units that began before that time: they took longer than an analysis may.
   void stop_older(Time since) { scheduler_.stop_older(since); }
+  /// Renews leases that are held for a while; who works on one that was lost is asked to stop.
+  void renew_leases(Time now);
+  /// Takes units back whose lease has run out.
+  void rescue(Time now);
   /// Sweeps that are worked on in turn.
   [[nodiscard]] std::size_t count() const { return scheduler_.count(); }
   /// Told each time that rows were stored.
@@ -69,8 +74,7 @@ class SweepWork {
   void load();
   bool load_one(const std::string& id);
   std::optional<Chunk> take();
-  Status settle(const Chunk& chunk, const std::vector<PointRow>& rows, const std::vector<std::uint64_t>& rest,
-                double seconds);
+  Status settle(const Chunk& chunk, const std::vector<PointRow>& rows, double seconds);
   void stored(const SweepRecord& record, const std::vector<PointRow>& rows);
 
   const SweepSurroundings world_;

@@ -84,7 +84,7 @@ void Webhooks::send_due(Sender& sender, const std::stop_token& stop) {
   ignore_closed_sockets();
   while (!stop.stop_requested()) {
     const StatusOr<std::optional<Delivery>> due =
-        world_.store.deliveries().next(sender.origin, world_.environment.now());
+        world_.store.deliveries().next(sender.origin, 2 * world_.times.attempt, world_.environment.now());
     if (!due.ok()) {
       world_.log.write(LogLevel::error, "store", {{"detail", std::string_view(due.status().message())}});
     }
@@ -131,7 +131,7 @@ bool Webhooks::settle(const Delivery& delivery, const PostOutcome& outcome) {
     return deliveries.remove(delivery.number).ok();
   }
   note(delivery, LogLevel::warning, "failed", outcome);
-  return deliveries.postpone(delivery.number, world_.environment.now() + world_.times.pauses[attempts]).ok();
+  return deliveries.postpone(delivery.number, world_.times.pauses[attempts], world_.environment.now()).ok();
 }
 
 void Webhooks::note(const Delivery& delivery, LogLevel level, std::string_view outcome,

@@ -29,19 +29,23 @@ class FuzzedSweeps final : public SweepStore {
   }
   StatusOr<std::vector<std::string>> unfinished() override { return std::vector<std::string>(); }
   StatusOr<std::optional<OpenSweep>> open(std::string_view) override { return std::optional<OpenSweep>(); }
-  StatusOr<PointClaim> claim(std::string_view, const std::vector<std::uint64_t>&, Time) override {
+  StatusOr<std::optional<UnitClaim>> claim(std::string_view, std::uint64_t, const Lease&, Time) override {
     return store_is_full();
   }
-  StatusOr<SweepRecord> put(const PointClaim&, const std::vector<PointRow>&, Time) override {
+  StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>&, Time, Time) override {
+    return store_is_full();
+  }
+  StatusOr<SweepRecord> put(const UnitClaim&, const std::vector<PointRow>&, Time) override {
     return store_is_full();
   }
   StatusOr<std::int64_t> recover(int, Time) override { return 0; }
+  StatusOr<std::int64_t> rescue(std::string_view, int, Time) override { return 0; }
   StatusOr<SweepChange> dismiss(std::string_view id, Time) override { return changed(id); }
   StatusOr<SweepChange> retry(std::string_view id, const Quotas&) override { return changed(id); }
   StatusOr<bool> remove(std::string_view id) override { return record(id).has_value(); }
-  StatusOr<int> retire(Time) override { return 0; }
+  StatusOr<int> retire(std::chrono::seconds, Time) override { return 0; }
   StatusOr<bool> purge(int) override { return false; }
-  Status forget_keys(Time) override { return {}; }
+  Status forget_keys(std::chrono::seconds, Time) override { return {}; }
   StatusOr<std::optional<SweepRecord>> get(std::string_view id) override { return record(id); }
   StatusOr<SweepPage> list(const ListQuery& query) override {
     SweepPage page;
@@ -112,8 +116,8 @@ class FuzzedStore final : public Store {
     return Dismissal{id == kFuzzedJob, JobState::successful};
   }
   StatusOr<bool> remove(std::string_view id) override { return id == kFuzzedJob; }
-  StatusOr<int> retire(Time, int) override { return 0; }
-  Status forget_keys(Time) override { return store_is_full(); }
+  StatusOr<int> retire(std::chrono::seconds, int, Time) override { return 0; }
+  Status forget_keys(std::chrono::seconds, Time) override { return store_is_full(); }
   Status probe(Time) override { return store_is_full(); }
   StatusOr<std::optional<std::string>> find_result(std::string_view, std::string_view) override {
     return std::optional<std::string>();

@@ -3,12 +3,14 @@
 
 #include <gmock/gmock.h>
 
-#include "server/store/sqlite/sqlite_store.h"
 #include "tests/server/support/samples.h"
 #include "tests/server/support/store_driver.h"
 
 namespace snapthrough::server::test {
 namespace {
+
+using std::chrono_literals::operator""ms;
+using std::chrono_literals::operator""s;
 
 const std::string kOrigin = "https://hooks.example:8443";
 const std::string kAddress = kOrigin + "/a?b=c//d";
@@ -30,13 +32,13 @@ class DeliveryStoreConformance : public StoreTest {
     ASSERT_TRUE(store_->sweeps().submit(sweep).ok());
   }
   void put(int sweep, std::uint64_t point, const std::string& code = "") {
-    const auto claimed = store_->sweeps().claim(id_number(sweep), {point}, at_second(5));
-    ASSERT_TRUE(claimed.ok());
+    const auto claimed = store_->sweeps().claim(id_number(sweep), 1, kLease, at_second(5));
+    ASSERT_TRUE(claimed.ok() && *claimed && (*claimed)->units.first == point);
     const PointRow row{point, {code.empty() ? "[1]" : "", code, code}};
-    ASSERT_TRUE(store_->sweeps().put(*claimed, {row}, at_second(6)).ok());
+    ASSERT_TRUE(store_->sweeps().put(**claimed, {row}, at_second(6)).ok());
   }
   std::optional<Delivery> next(int second = 1000, const std::string& origin = kOrigin) {
-    const auto found = deliveries().next(origin, at_second(second));
+    const auto found = deliveries().next(origin, 0ms, at_second(second));
     EXPECT_TRUE(found.ok()) << found.status().message();
     return found.ok() ? *found : std::nullopt;
   }
@@ -51,9 +53,9 @@ TEST_P(DeliveryStoreConformance, EveryVerbThatEndsAJobAddsADelivery) {
   ASSERT_TRUE(store_->finish(claim(), sample_result(), at_second(201)).ok());
   ASSERT_TRUE(store_->fail(claim(), {"no_convergence", "why", ""}, {}, at_second(202)).ok());
   ASSERT_TRUE(store_->dismiss(id_number(3), at_second(203)).ok());
-  (void)claim();
+  (void)store_->claim({"dead", at_second(150)}, at_second(100));
   EXPECT_EQ(waiting(), 3);
-  EXPECT_EQ(store_->recover(1, at_second(204))->failed.size(), 1U);
+  EXPECT_EQ(recover(1, at_second(204)).failed.size(), 1U);
   (void)store_->claim({"another", at_second(150)}, at_second(100));
   EXPECT_EQ(store_->rescue("worker", 1, at_second(205))->failed.size(), 1U);
   ASSERT_TRUE(store_->requeue(claim()).ok());
@@ -111,7 +113,7 @@ TEST_P(DeliveryStoreConformance, AnAttemptThatFailedIsKeptWithItsNumber) {
   add_job(1);
   ASSERT_TRUE(store_->dismiss(id_number(1), at_second(50)).ok());
   const std::int64_t number = next(50)->number;
-  ASSERT_TRUE(deliveries().postpone(number, at_second(80)).ok());
+  ASSERT_TRUE(deliveries().postpone(number, 20s, at_second(60)).ok());
   reopen();
   EXPECT_FALSE(next(79));
   EXPECT_EQ(next(80)->number, number);
@@ -125,7 +127,7 @@ TEST_P(DeliveryStoreConformance, ADeliveryGoesWithItsJob) {
   ASSERT_TRUE(store_->dismiss(id_number(2), at_second(60)).ok());
   ASSERT_TRUE(*store_->remove(id_number(1)));
   EXPECT_EQ(next_id(), id_number(2));
-  EXPECT_EQ(*store_->retire(at_second(61), 10), 1);
+  EXPECT_EQ(*store_->retire(1s, 10, at_second(62)), 1);
   EXPECT_EQ(waiting(), 0);
 }
 
@@ -153,16 +155,12 @@ TEST_P(DeliveryStoreConformance, DismissedAndCrashedSweepsAreTold) {
   add_sweep(2, 1);
   ASSERT_TRUE(store_->sweeps().dismiss(id_number(1), at_second(7))->changed);
   EXPECT_EQ(next_id(), id_number(1));
-  ASSERT_TRUE(store_->sweeps().claim(id_number(2), {0}, at_second(8)).ok());
-  ASSERT_TRUE(store_->sweeps().recover(1, at_second(9)).ok());
+  ASSERT_TRUE(store_->sweeps().claim(id_number(2), 1, {"dead", at_second(8)}, at_second(8)).ok());
+  recover_sweeps(1, at_second(9));
   EXPECT_EQ(waiting(), 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sqlite, DeliveryStoreConformance,
-                         testing::Values(StoreDriver{"sqlite", [](const TempDir& folder) {
-                                                       return sqlite::open_store(folder.file("store.db"),
-                                                                                 at_second(0));
-                                                     }}));
+INSTANTIATE_TEST_SUITE_P(Drivers, DeliveryStoreConformance, testing::ValuesIn(store_drivers()), driver_name);
 
 }  // namespace
 }  // namespace snapthrough::server::test

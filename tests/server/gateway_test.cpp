@@ -31,8 +31,8 @@ class FailingStore : public Store {
   StatusOr<Recovery> rescue(std::string_view, int, Time) override { return status(); }
   StatusOr<Dismissal> dismiss(std::string_view, Time) override { return status(); }
   StatusOr<bool> remove(std::string_view) override { return status(); }
-  StatusOr<int> retire(Time, int) override { return status(); }
-  Status forget_keys(Time) override { return status(); }
+  StatusOr<int> retire(std::chrono::seconds, int, Time) override { return status(); }
+  Status forget_keys(std::chrono::seconds, Time) override { return status(); }
   Status probe(Time) override { return status(); }
   StatusOr<std::optional<std::string>> find_result(std::string_view, std::string_view) override {
     return status();

@@ -208,5 +208,50 @@ TEST_F(Schema, RefusesASeriesOfAnotherLength) {
                Error);
 }
 
+TEST_F(Migrations, UnfinishedSweepsOfTheEighthVersionGoOnWhereTheyWere) {
+  const std::string path = folder_.file("old.db");
+  {
+    Connection old(path, Access::read_write);
+    ASSERT_TRUE(migrate(old, std::span(embedded_migrations()).first(8), at_second(0)).ok());
+    const auto add = [&](int number, const std::string& state, int points, const std::string& document) {
+      old.execute(
+          "INSERT INTO sweeps (id, seq, status, points, created_us, successful, finished_us) VALUES ('" +
+          test::id_number(number) + "', " + std::to_string(number) + ", '" + state + "', " +
+          std::to_string(points) + ", 1, 3, " + (state == "dismissed" ? "2" : "NULL") + ")");
+      old.prepare("INSERT INTO sweep_documents VALUES (?, ?)").bind(number).bind(document).run();
+      for (const int point : {0, 1, 3}) {
+        old.prepare("INSERT INTO sweep_points (sweep, point, outputs) VALUES (?, ?, '[1]')")
+            .bind(number)
+            .bind(point)
+            .run();
+      }
+    };
+    add(1, "running", 6, "{}");
+    add(2, "dismissed", 4, "{}");
+    add(3, "running", 6,
+        R"({"follow": "k", "parameters": [{"values": [1, 2, 3]}, {"name": "k", "values": [1, 2]}]})");
+    add(4, "running", 6, R"({"follow": "k", "parameters": [{"range": {"from": 1, "to": 2, "count": 3}}]})");
+    old.execute("INSERT INTO sweep_claims (sweep, points) VALUES (1, x'')");
+  }
+  auto opened = open_store(path, at_second(1));
+  ASSERT_TRUE(opened.ok()) << opened.status().message();
+  SweepStore& sweeps = (*opened)->sweeps();
+  ASSERT_TRUE(sweeps.retry(test::id_number(2), {})->changed);
+  const auto left = [&](int number) {
+    std::vector<std::string> runs;
+    for (;;) {
+      const auto claim = sweeps.claim(test::id_number(number), 9, {"w", at_second(9)}, at_second(1));
+      if (!claim.ok() || !*claim) {
+        return runs;
+      }
+      runs.push_back(std::to_string((*claim)->units.first) + "+" + std::to_string((*claim)->units.count));
+    }
+  };
+  EXPECT_THAT(left(1), testing::ElementsAre("2+1", "4+2"));
+  EXPECT_THAT(left(2), testing::ElementsAre("2+1"));
+  EXPECT_THAT(left(3), testing::ElementsAre("1+2")) << "curves of two points";
+  EXPECT_THAT(left(4), testing::ElementsAre("0+2")) << "curves of three";
+}
+
 }  // namespace
 }  // namespace snapthrough::server::sqlite

@@ -11,22 +11,19 @@
 #include "server/digest.h"
 #include "server/store/sqlite/sqlite_store.h"
 #include "tests/server/support/running_service.h"
+#include "tests/server/support/store_driver.h"
 
 namespace snapthrough::server::test {
 namespace {
 
 using nlohmann::json;
+using std::chrono_literals::operator""s;
 using testing::HasSubstr;
 
 const Lease kLease{"worker", at_second(1'000'000)};
 
-class Quota : public testing::Test {
+class Quota : public StoreTest {
  protected:
-  void SetUp() override {
-    auto opened = sqlite::open_store(path_, at_second(0));
-    ASSERT_TRUE(opened.ok()) << opened.status().message();
-    store_ = std::move(opened).value();
-  }
   [[nodiscard]] SweepStore& sweeps() const { return store_->sweeps(); }
   StatusCode add_job(int number, const std::string& owner, const Quotas& quotas = {},
                      const std::string& document = "{}") {
@@ -41,17 +38,99 @@ class Quota : public testing::Test {
     sweep.quotas = quotas;
     return sweeps().submit(sweep).status().code();
   }
-  /// Stores a row for each of the points, failed ones for odd numbers.
-  void put_rows(const std::string& id, const std::vector<std::uint64_t>& points) {
-    const auto claim = sweeps().claim(id, points, at_second(5));
+  /// Stores a row for each of the next points if there are any, failed ones for odd numbers.
+  void put_rows(const std::string& id, std::uint64_t most) {
+    const auto claim = sweeps().claim(id, most, kLease, at_second(5));
     ASSERT_TRUE(claim.ok());
+    if (!*claim) {
+      return;
+    }
     std::vector<PointRow> rows;
-    for (const std::uint64_t point : points) {
+    const UnitRun& units = (*claim)->units;
+    for (std::uint64_t point = units.first; point < units.first + units.count; ++point) {
       rows.push_back(point % 2 == 0 ? PointRow{point, {"[1.5]", "", ""}}
                                     : PointRow{point, {"", "no_convergence", "step \xc3\xa4"}});
     }
-    ASSERT_TRUE(sweeps().put(*claim, rows, at_second(6)).ok());
+    ASSERT_TRUE(sweeps().put(**claim, rows, at_second(6)).ok());
   }
+};
+
+TEST_P(Quota, JobsThatWaitAreBoundedForEachOwner) {
+  const Quotas two{2, 0, 0};
+  EXPECT_EQ(add_job(1, "ann", two), StatusCode::ok);
+  EXPECT_EQ(add_job(2, "ann", two), StatusCode::ok);
+  EXPECT_EQ(add_job(3, "ann", two), StatusCode::waiting_quota);
+  EXPECT_FALSE(store_->get(id_number(3))->has_value()) << "nothing was stored";
+  EXPECT_EQ(add_job(4, "bob", two), StatusCode::ok);
+  const Claim claim = **store_->claim(kLease, at_second(1));
+  EXPECT_EQ(add_job(5, "ann", two), StatusCode::ok) << "the first does not wait any more";
+  ASSERT_TRUE(store_->requeue(claim).ok());
+  EXPECT_EQ(add_job(6, "ann", two), StatusCode::waiting_quota);
+  EXPECT_TRUE(store_->dismiss(id_number(1), at_second(2)).ok());
+  EXPECT_EQ(add_job(6, "ann", two), StatusCode::waiting_quota) << "two of three are left";
+  EXPECT_TRUE(store_->dismiss(id_number(2), at_second(2)).ok());
+  EXPECT_EQ(add_job(6, "ann", two), StatusCode::ok);
+}
+
+TEST_P(Quota, AKnownIdempotencyKeyIsAnsweredAtTheQuotaToo) {
+  NewJob job = new_job(id_number(1));
+  job.quotas = {1, 0, 0};
+  job.idempotency = IdempotencyKey{"key", "print"};
+  ASSERT_TRUE(store_->submit(job).ok());
+  const auto again = store_->submit(job);
+  ASSERT_TRUE(again.ok()) << again.status().message();
+  EXPECT_EQ(again->kind, Submitted::Kind::repeated);
+}
+
+TEST_P(Quota, PointsThatWaitAreBoundedAlsoWhenASweepIsTriedAgain) {
+  const Quotas ten{0, 10, 0};
+  EXPECT_EQ(add_sweep(1, "ann", 6, ten), StatusCode::ok);
+  EXPECT_EQ(add_sweep(2, "ann", 5, ten), StatusCode::waiting_quota);
+  put_rows(id_number(1), 2);
+  EXPECT_EQ(add_sweep(2, "ann", 5, ten), StatusCode::ok) << "points with a row do not wait";
+  ASSERT_TRUE(sweeps().dismiss(id_number(1), at_second(7))->changed);
+  EXPECT_EQ(add_sweep(3, "ann", 6, ten), StatusCode::waiting_quota);
+  EXPECT_EQ(add_sweep(3, "ann", 5, ten), StatusCode::ok);
+  EXPECT_EQ(sweeps().retry(id_number(1), ten).status().code(), StatusCode::waiting_quota);
+  EXPECT_EQ((*sweeps().get(id_number(1)))->failed, 1) << "it is as it was";
+  ASSERT_TRUE(*sweeps().remove(id_number(3)));
+  EXPECT_TRUE(sweeps().retry(id_number(1), ten)->changed);
+}
+
+TEST_P(Quota, BytesThatAreKeptAreBounded) {
+  const Quotas quotas{0, 0, 10'000};
+  const std::string document(4'000, 'x');
+  EXPECT_EQ(add_job(1, "ann", quotas, document), StatusCode::ok);
+  JobResult result = sample_result();
+  result.document = std::string(9'000, 'y');
+  EXPECT_TRUE(store_->finish(**store_->claim(kLease, at_second(1)), result, at_second(2)).ok())
+      << "what was accepted is stored";
+  EXPECT_EQ(add_job(2, "ann", quotas, "{}"), StatusCode::storage_quota);
+  EXPECT_EQ(add_sweep(3, "ann", 1, quotas), StatusCode::storage_quota);
+  EXPECT_EQ(add_job(4, "bob", quotas, document), StatusCode::ok);
+  ASSERT_TRUE(*store_->remove(id_number(1)));
+  EXPECT_EQ(add_job(2, "ann", quotas, document), StatusCode::ok);
+  EXPECT_EQ(add_job(5, "ann", quotas, document), StatusCode::ok);
+  EXPECT_EQ(add_job(6, "ann", quotas, document), StatusCode::storage_quota);
+}
+
+TEST_P(Quota, ManyAtATimeDoNotPassIt) {
+  std::atomic<int> stored = 0;
+  std::vector<std::jthread> clients;
+  for (int client = 0; client < 8; ++client) {
+    clients.emplace_back([&, client] {
+      for (int i = 0; i < 10; ++i) {
+        stored += add_job(1 + client * 10 + i, "ann", {7, 0, 0}) == StatusCode::ok ? 1 : 0;
+      }
+    });
+  }
+  clients.clear();
+  EXPECT_EQ(stored, 7);
+}
+
+/// Of SQLite, whose counts are read.
+class RandomQuota : public Quota {
+ protected:
   /// "owner jobs points bytes" of each owner that has anything, as the store counted it, or counted anew.
   std::set<std::string> usage(bool anew) const {
     static const char* const kCounted =
@@ -70,7 +149,7 @@ class Quota : public testing::Test {
         "   JOIN sweeps ON seq = sweep WHERE removed = 0)"
         "SELECT owner, sum(jobs), sum(points), sum(bytes) FROM held GROUP BY owner"
         " HAVING sum(jobs) + sum(points) + sum(bytes) > 0";
-    const sqlite::Connection connection(path_, sqlite::Access::read_only);
+    const sqlite::Connection connection(folder_.file("store.db"), sqlite::Access::read_only);
     sqlite::Statement row = connection.prepare(anew ? kAnew : kCounted);
     std::set<std::string> all;
     while (row.step()) {
@@ -80,86 +159,6 @@ class Quota : public testing::Test {
     return all;
   }
 
-  TempDir folder_;
-  std::string path_ = folder_.file("store.db");
-  std::unique_ptr<Store> store_;
-};
-
-TEST_F(Quota, JobsThatWaitAreBoundedForEachOwner) {
-  const Quotas two{2, 0, 0};
-  EXPECT_EQ(add_job(1, "ann", two), StatusCode::ok);
-  EXPECT_EQ(add_job(2, "ann", two), StatusCode::ok);
-  EXPECT_EQ(add_job(3, "ann", two), StatusCode::waiting_quota);
-  EXPECT_FALSE(store_->get(id_number(3))->has_value()) << "nothing was stored";
-  EXPECT_EQ(add_job(4, "bob", two), StatusCode::ok);
-  const Claim claim = **store_->claim(kLease, at_second(1));
-  EXPECT_EQ(add_job(5, "ann", two), StatusCode::ok) << "the first does not wait any more";
-  ASSERT_TRUE(store_->requeue(claim).ok());
-  EXPECT_EQ(add_job(6, "ann", two), StatusCode::waiting_quota);
-  EXPECT_TRUE(store_->dismiss(id_number(1), at_second(2)).ok());
-  EXPECT_EQ(add_job(6, "ann", two), StatusCode::waiting_quota) << "two of three are left";
-  EXPECT_TRUE(store_->dismiss(id_number(2), at_second(2)).ok());
-  EXPECT_EQ(add_job(6, "ann", two), StatusCode::ok);
-}
-
-TEST_F(Quota, AKnownIdempotencyKeyIsAnsweredAtTheQuotaToo) {
-  NewJob job = new_job(id_number(1));
-  job.quotas = {1, 0, 0};
-  job.idempotency = IdempotencyKey{"key", "print"};
-  ASSERT_TRUE(store_->submit(job).ok());
-  const auto again = store_->submit(job);
-  ASSERT_TRUE(again.ok()) << again.status().message();
-  EXPECT_EQ(again->kind, Submitted::Kind::repeated);
-}
-
-TEST_F(Quota, PointsThatWaitAreBoundedAlsoWhenASweepIsTriedAgain) {
-  const Quotas ten{0, 10, 0};
-  EXPECT_EQ(add_sweep(1, "ann", 6, ten), StatusCode::ok);
-  EXPECT_EQ(add_sweep(2, "ann", 5, ten), StatusCode::waiting_quota);
-  put_rows(id_number(1), {0, 1});
-  EXPECT_EQ(add_sweep(2, "ann", 5, ten), StatusCode::ok) << "points with a row do not wait";
-  ASSERT_TRUE(sweeps().dismiss(id_number(1), at_second(7))->changed);
-  EXPECT_EQ(add_sweep(3, "ann", 6, ten), StatusCode::waiting_quota);
-  EXPECT_EQ(add_sweep(3, "ann", 5, ten), StatusCode::ok);
-  EXPECT_EQ(sweeps().retry(id_number(1), ten).status().code(), StatusCode::waiting_quota);
-  EXPECT_EQ((*sweeps().get(id_number(1)))->failed, 1) << "it is as it was";
-  ASSERT_TRUE(*sweeps().remove(id_number(3)));
-  EXPECT_TRUE(sweeps().retry(id_number(1), ten)->changed);
-}
-
-TEST_F(Quota, BytesThatAreKeptAreBounded) {
-  const Quotas quotas{0, 0, 10'000};
-  const std::string document(4'000, 'x');
-  EXPECT_EQ(add_job(1, "ann", quotas, document), StatusCode::ok);
-  JobResult result = sample_result();
-  result.document = std::string(9'000, 'y');
-  EXPECT_TRUE(store_->finish(**store_->claim(kLease, at_second(1)), result, at_second(2)).ok())
-      << "what was accepted is stored";
-  EXPECT_EQ(add_job(2, "ann", quotas, "{}"), StatusCode::storage_quota);
-  EXPECT_EQ(add_sweep(3, "ann", 1, quotas), StatusCode::storage_quota);
-  EXPECT_EQ(add_job(4, "bob", quotas, document), StatusCode::ok);
-  ASSERT_TRUE(*store_->remove(id_number(1)));
-  EXPECT_EQ(add_job(2, "ann", quotas, document), StatusCode::ok);
-  EXPECT_EQ(add_job(5, "ann", quotas, document), StatusCode::ok);
-  EXPECT_EQ(add_job(6, "ann", quotas, document), StatusCode::storage_quota);
-}
-
-TEST_F(Quota, ManyAtATimeDoNotPassIt) {
-  std::atomic<int> stored = 0;
-  std::vector<std::jthread> clients;
-  for (int client = 0; client < 8; ++client) {
-    clients.emplace_back([&, client] {
-      for (int i = 0; i < 10; ++i) {
-        stored += add_job(1 + client * 10 + i, "ann", {7, 0, 0}) == StatusCode::ok ? 1 : 0;
-      }
-    });
-  }
-  clients.clear();
-  EXPECT_EQ(stored, 7);
-}
-
-class RandomQuota : public Quota {
- protected:
   int draw(int below) { return std::uniform_int_distribution<int>(0, below - 1)(random_); }
   std::string owner() { return draw(2) == 0 ? "ann" : "b\xc3\xb6\xc3\xb6"; }
   std::string some() { return id_number(1 + draw(made_ + 1)); }
@@ -194,7 +193,7 @@ class RandomQuota : public Quota {
       case 4:
         return draw(9) > 0 ? Status() : store_->recover(2, at_second(9)).status();
       default:
-        return draw(9) > 0 ? end_some_job() : store_->retire(at_second(3), 1).status();
+        return draw(9) > 0 ? end_some_job() : store_->retire(0s, 1, at_second(3)).status();
     }
   }
   Status change_some_sweep() {
@@ -207,7 +206,7 @@ class RandomQuota : public Quota {
       case 1:
       case 2:
         if (sweep->has_value() && !is_final((*sweep)->state)) {
-          put_rows(id, draw(2) == 0 ? std::vector<std::uint64_t>{0, 1} : std::vector<std::uint64_t>{1, 2, 3});
+          put_rows(id, draw(2) == 0 ? 2 : 3);
         }
         return {};
       case 3:
@@ -217,7 +216,7 @@ class RandomQuota : public Quota {
       case 5:
         return draw(3) > 0 ? Status() : sweeps().remove(id).status();
       default:
-        return draw(9) > 0 ? sweeps().purge(3).status() : sweeps().retire(at_second(5)).status();
+        return draw(9) > 0 ? sweeps().purge(3).status() : sweeps().retire(0s, at_second(5)).status();
     }
   }
 
@@ -227,7 +226,7 @@ class RandomQuota : public Quota {
 };
 
 /// Whatever happens to jobs and sweeps, the counts are those of a scan.
-TEST_F(RandomQuota, CountsAreThoseOfAScan) {
+TEST_P(RandomQuota, CountsAreThoseOfAScan) {
   SCOPED_TRACE("seed " + std::to_string(seed_));
   for (int step = 0; step < 400; ++step) {
     const Status status = draw(2) == 0 ? change_some_job() : change_some_sweep();
@@ -236,6 +235,9 @@ TEST_F(RandomQuota, CountsAreThoseOfAScan) {
   }
   EXPECT_FALSE(usage(false).empty());
 }
+
+INSTANTIATE_TEST_SUITE_P(Drivers, Quota, testing::ValuesIn(store_drivers()), driver_name);
+INSTANTIATE_TEST_SUITE_P(Sqlite, RandomQuota, testing::Values(store_drivers().front()), driver_name);
 
 TEST(QuotaMigration, WhatWaitsInAnOlderStoreCountsAndWhatItKeepsDoesNot) {
   const TempDir folder;

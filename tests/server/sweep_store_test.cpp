@@ -3,17 +3,21 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <functional>
 
-#include "server/store/sqlite/sqlite_store.h"
 #include "tests/server/support/samples.h"
 #include "tests/server/support/store_driver.h"
 
 namespace snapthrough::server::test {
 namespace {
 
+using std::chrono_literals::operator""s;
 using testing::ElementsAre;
 using testing::IsEmpty;
+
+/// Longer than any test.
+const Lease kLease{"worker", at_second(1'000'000)};
 
 class SweepStoreConformance : public StoreTest {
  protected:
@@ -24,10 +28,15 @@ class SweepStoreConformance : public StoreTest {
     EXPECT_TRUE(sweeps().submit(sweep).ok());
     return sweep.id;
   }
-  PointClaim claim(const std::string& id, const std::vector<std::uint64_t>& points) {
-    const auto claim = sweeps().claim(id, points, at_second(50));
-    EXPECT_TRUE(claim.ok()) << claim.status().message();
-    return claim.ok() ? *claim : PointClaim{};
+  /// Claims units, of which there must be some.
+  UnitClaim claim(const std::string& id, std::uint64_t most, const Lease& lease = kLease) {
+    const auto claim = sweeps().claim(id, most, lease, at_second(50));
+    EXPECT_TRUE(claim.ok() && claim->has_value()) << claim.status().message();
+    return claim.ok() ? claim->value_or(UnitClaim{}) : UnitClaim{};
+  }
+  bool none_left(const std::string& id) {
+    const auto claim = sweeps().claim(id, 1, kLease, at_second(50));
+    return claim.ok() && !claim->has_value();
   }
   static PointRow good(std::uint64_t point, const std::string& key = "") {
     return {point, {"[" + std::to_string(point) + ".5]", "", ""}, key};
@@ -68,7 +77,7 @@ TEST_P(SweepStoreConformance, ASweepIsThereAsItWasHandedIn) {
 
 TEST_P(SweepStoreConformance, RowsAreReadForAsLongAsTheyAreWanted) {
   const std::string id = submit(1, 4);
-  ASSERT_TRUE(sweeps().put(claim(id, {0, 1, 2, 3}), {good(0), good(1), good(2), good(3)}, at_second(3)).ok());
+  ASSERT_TRUE(sweeps().put(claim(id, 4), {good(0), good(1), good(2), good(3)}, at_second(3)).ok());
   int read = 0;
   ASSERT_TRUE(
       sweeps().each_row(id, {}, [&](std::uint64_t, const api::PointOutcome&) { return ++read < 2; }).ok());
@@ -77,39 +86,72 @@ TEST_P(SweepStoreConformance, RowsAreReadForAsLongAsTheyAreWanted) {
 
 TEST_P(SweepStoreConformance, RowsComeInAnyOrderAndTheLastEndsIt) {
   const std::string id = submit(1, 4);
-  const PointClaim late = claim(id, {2, 3});
-  const PointClaim early = claim(id, {0, 1});
+  const UnitClaim early = claim(id, 2);
+  const UnitClaim late = claim(id, 9);
+  EXPECT_EQ(early.units, (UnitRun{0, 2}));
+  EXPECT_EQ(late.units, (UnitRun{2, 2}));
+  EXPECT_TRUE(none_left(id));
   EXPECT_EQ(record(id).state, JobState::running);
   EXPECT_EQ(record(id).started, at_second(50));
-  ASSERT_TRUE(sweeps().put(late, {good(3), good(2)}, at_second(60)).ok());
-  EXPECT_EQ(record(id).done(), 2);
-  const auto last = sweeps().put(early, {good(0), good(1)}, at_second(70));
-  ASSERT_TRUE(last.ok());
-  EXPECT_EQ(last->state, JobState::successful);
-  EXPECT_EQ(record(id).finished, at_second(70));
+  EXPECT_EQ(sweeps().put(late, {good(3), good(2)}, at_second(60))->done(), 2);
+  const auto ended = sweeps().put(early, {good(0), good(1)}, at_second(70));
+  EXPECT_EQ(ended->state, JobState::successful);
+  EXPECT_EQ(ended->finished, at_second(70));
+  EXPECT_EQ(record(id).successful, 4);
   EXPECT_THAT(rows(id), ElementsAre("0 [0.5]", "1 [1.5]", "2 [2.5]", "3 [3.5]"));
   EXPECT_THAT(rows(id, {1, 2, {}}), ElementsAre("1 [1.5]", "2 [2.5]"));
   EXPECT_THAT(*sweeps().unfinished(), IsEmpty());
-  EXPECT_EQ(sweeps().claim(id, {0}, at_second(80)).status().code(), StatusCode::conflict);
+  EXPECT_EQ(sweeps().claim(id, 1, kLease, at_second(80)).status().code(), StatusCode::conflict);
 }
 
-TEST_P(SweepStoreConformance, AClaimStoresItsRowsOnce) {
-  const std::string id = submit(1, 4);
-  const PointClaim held = claim(id, {0, 1});
-  ASSERT_TRUE(sweeps().put(held, {good(0)}, at_second(60)).ok());
-  EXPECT_EQ(sweeps().put(held, {good(1)}, at_second(61)).status().code(), StatusCode::conflict);
-  EXPECT_THAT(rows(id), ElementsAre("0 [0.5]"));
-  const PointClaim again = claim(id, {0, 1});
-  ASSERT_TRUE(sweeps().put(again, {bad(0), good(1)}, at_second(62)).ok());
-  EXPECT_THAT(rows(id), ElementsAre("0 [0.5]", "1 [1.5]")) << "a point that has a row keeps it";
-  EXPECT_EQ(record(id).successful, 2);
-  EXPECT_EQ(record(id).failed, 0);
+TEST_P(SweepStoreConformance, AClaimStoresItsRowsOnceAndItsOtherUnitsAreGivenOutAgain) {
+  const std::string id = submit(1, 5);
+  const UnitClaim held = claim(id, 4);
+  ASSERT_TRUE(sweeps().put(held, {good(1), bad(3)}, at_second(60)).ok());
+  EXPECT_EQ(sweeps().put(held, {good(0)}, at_second(61)).status().code(), StatusCode::conflict);
+  EXPECT_THAT(rows(id), ElementsAre("1 [1.5]", "3 no_convergence"));
+  EXPECT_EQ(record(id).successful, 1);
+  EXPECT_EQ(record(id).failed, 1);
+  std::vector<UnitRun> runs{claim(id, 4).units, claim(id, 4).units, claim(id, 4).units};
+  std::sort(runs.begin(), runs.end(), [](const UnitRun& a, const UnitRun& b) { return a.first < b.first; });
+  EXPECT_THAT(runs, ElementsAre(UnitRun{0, 1}, UnitRun{2, 1}, UnitRun{4, 1}));
+  EXPECT_TRUE(none_left(id));
+}
+
+TEST_P(SweepStoreConformance, ACurveIsComputedAndTriedAgainWholly) {
+  NewSweep sweep{id_number(1), "", "{}", 6, at_second(1)};
+  sweep.unit_points = 3;
+  ASSERT_TRUE(sweeps().submit(sweep).ok());
+  EXPECT_EQ(claim(sweep.id, 1).units, (UnitRun{0, 1}));
+  const UnitClaim second = claim(sweep.id, 5);
+  EXPECT_EQ(second.units, (UnitRun{1, 1}));
+  ASSERT_TRUE(sweeps().put(second, {good(3), bad(4), good(5)}, at_second(60)).ok());
+  ASSERT_TRUE(sweeps().dismiss(sweep.id, at_second(61))->changed);
+  ASSERT_TRUE(sweeps().retry(sweep.id, {})->changed);
+  EXPECT_THAT(rows(sweep.id), ElementsAre("3 [3.5]", "5 [5.5]"));
+  ASSERT_TRUE(sweeps().put(claim(sweep.id, 1), {good(0), good(1), good(2)}, at_second(62)).ok());
+  const auto ended = sweeps().put(claim(sweep.id, 1), {bad(3), good(4), bad(5)}, at_second(63));
+  EXPECT_EQ(ended->state, JobState::successful) << "a point that has a row keeps it";
+  EXPECT_EQ(record(sweep.id).successful, 6);
+  EXPECT_THAT(rows(sweep.id, {2, 3, {}}), ElementsAre("2 [2.5]", "3 [3.5]", "4 [4.5]"));
+}
+
+TEST_P(SweepStoreConformance, ALeaseOfUnitsHoldsAsLongAsItIsRenewed) {
+  const std::string id = submit(1, 3);
+  const UnitClaim renewed = claim(id, 1, {"worker", at_second(100)});
+  const UnitClaim late = claim(id, 1, {"worker", at_second(100)});
+  EXPECT_THAT(*sweeps().renew({renewed}, at_second(200), at_second(90)), IsEmpty());
+  EXPECT_THAT(*sweeps().renew({renewed, late}, at_second(200), at_second(110)), ElementsAre(late.number));
+  EXPECT_EQ(sweeps().put(late, {good(1)}, at_second(111)).status().code(), StatusCode::conflict);
+  EXPECT_EQ(*sweeps().rescue("worker", 1, at_second(112)), 1) << "its worker lives: no crash";
+  EXPECT_EQ(claim(id, 3).units, (UnitRun{1, 1})) << "units that came back are separate";
+  EXPECT_TRUE(sweeps().put(renewed, {good(0)}, at_second(113)).ok());
 }
 
 TEST_P(SweepStoreConformance, FailedPointsMakeItFailedAndAreTriedAgain) {
   const std::string id = submit(1, 3);
   EXPECT_FALSE(sweeps().retry(id, {})->changed);
-  ASSERT_TRUE(sweeps().put(claim(id, {0, 1, 2}), {good(0), bad(1), good(2)}, at_second(60)).ok());
+  ASSERT_TRUE(sweeps().put(claim(id, 3), {good(0), bad(1), good(2)}, at_second(60)).ok());
   EXPECT_EQ(record(id).state, JobState::failed);
   EXPECT_THAT(rows(id, {0, 9, true}), ElementsAre("1 no_convergence"));
   EXPECT_THAT(rows(id, {0, 9, false}), ElementsAre("0 [0.5]", "2 [2.5]"));
@@ -118,17 +160,18 @@ TEST_P(SweepStoreConformance, FailedPointsMakeItFailedAndAreTriedAgain) {
   EXPECT_EQ(change->before, JobState::failed);
   EXPECT_EQ(record(id).state, JobState::accepted);
   EXPECT_FALSE(record(id).finished);
-  const auto open = sweeps().open(id);
-  EXPECT_THAT((*open)->done, ElementsAre(true, false, true));
-  ASSERT_TRUE(sweeps().put(claim(id, {1}), {good(1)}, at_second(70)).ok());
+  EXPECT_EQ((*sweeps().open(id))->document, "{\"sweep\": 1}");
+  const UnitClaim again = claim(id, 3);
+  EXPECT_EQ(again.units, (UnitRun{1, 1}));
+  ASSERT_TRUE(sweeps().put(again, {good(1)}, at_second(70)).ok());
   EXPECT_EQ(record(id).state, JobState::successful);
   EXPECT_EQ(record(id).successful, 3);
 }
 
 TEST_P(SweepStoreConformance, ADismissedSweepKeepsItsRowsAndTakesNoMore) {
   const std::string id = submit(1, 3);
-  ASSERT_TRUE(sweeps().put(claim(id, {0}), {good(0)}, at_second(60)).ok());
-  const PointClaim held = claim(id, {1});
+  ASSERT_TRUE(sweeps().put(claim(id, 1), {good(0)}, at_second(60)).ok());
+  const UnitClaim held = claim(id, 1);
   EXPECT_TRUE(sweeps().dismiss(id, at_second(61))->changed);
   EXPECT_FALSE(sweeps().dismiss(id, at_second(62))->changed);
   EXPECT_EQ(sweeps().put(held, {good(1)}, at_second(63)).status().code(), StatusCode::conflict);
@@ -141,33 +184,48 @@ TEST_P(SweepStoreConformance, ADismissedSweepKeepsItsRowsAndTakesNoMore) {
 
 TEST_P(SweepStoreConformance, PointsAreFoundByContentUnlessTheyFailed) {
   const std::string id = submit(1, 3);
-  ASSERT_TRUE(sweeps().put(claim(id, {0, 1, 2}), {good(0, "a"), good(1, "b"), bad(2)}, at_second(60)).ok());
+  ASSERT_TRUE(sweeps().put(claim(id, 3), {good(0, "a"), good(1, "b"), bad(2)}, at_second(60)).ok());
   const auto found = sweeps().find_outputs({"b", "c", "k", "a", ""});
   ASSERT_TRUE(found.ok());
   EXPECT_THAT(*found, ElementsAre("[1.5]", std::nullopt, std::nullopt, "[0.5]", std::nullopt));
   const std::string second = submit(2, 1);
   PointRow row = good(0, "a");
   row.reused = true;
-  ASSERT_TRUE(sweeps().put(claim(second, {0}), {row}, at_second(61)).ok());
+  ASSERT_TRUE(sweeps().put(claim(second, 1), {row}, at_second(61)).ok());
   EXPECT_EQ(record(second).reused, 1);
 }
 
-TEST_P(SweepStoreConformance, PointsOfADeadProcessAreTriedAgainAndThenGivenUp) {
+TEST_P(SweepStoreConformance, UnitsOfADeadProcessAreTriedAgainAlone) {
   const std::string id = submit(1, 5);
-  ASSERT_TRUE(sweeps().put(claim(id, {0}), {good(0)}, at_second(60)).ok());
-  claim(id, {1, 2});
+  ASSERT_TRUE(sweeps().put(claim(id, 1), {good(0)}, at_second(60)).ok());
+  claim(id, 2, {"dead", at_second(90)});
   reopen();
-  EXPECT_EQ(*sweeps().recover(2, at_second(100)), 2);
-  EXPECT_EQ(*sweeps().recover(2, at_second(100)), 0) << "each death is counted once";
-  const auto open = sweeps().open(id);
-  EXPECT_THAT((*open)->done, ElementsAre(true, false, false, false, false));
-  EXPECT_THAT((*open)->crashes, testing::UnorderedElementsAre(testing::Pair(1, 1), testing::Pair(2, 1)));
-  claim(id, {2});
-  reopen();
-  EXPECT_EQ(*sweeps().recover(2, at_second(101)), 0);
-  EXPECT_THAT(rows(id), ElementsAre("0 [0.5]", "2 crashed"));
-  ASSERT_TRUE(sweeps().put(claim(id, {1, 3, 4}), {good(1), good(3), good(4)}, at_second(102)).ok());
+  EXPECT_EQ(recover_sweeps(2, at_second(100)), 2);
+  EXPECT_EQ(recover_sweeps(2, at_second(100)), 0) << "each death is counted once";
+  ASSERT_TRUE(sweeps().put(claim(id, 9), {good(3), good(4)}, at_second(102)).ok()) << "others come first";
+  EXPECT_EQ(claim(id, 9).units, (UnitRun{1, 1})) << "one at a time";
+  EXPECT_EQ(claim(id, 9).units, (UnitRun{2, 1}));
+}
+
+TEST_P(SweepStoreConformance, AUnitThatKillsItsProcessTwiceIsARow) {
+  const std::string id = submit(1, 2);
+  for (int death = 1; death <= 2; ++death) {
+    claim(id, 1, {"dead", at_second(90)});
+    reopen();
+    EXPECT_EQ(recover_sweeps(2, at_second(100)), death == 1 ? 1 : 0);
+    if (death == 1) {
+      ASSERT_TRUE(sweeps().put(claim(id, 1), {good(1)}, at_second(101)).ok());
+    }
+  }
+  EXPECT_THAT(rows(id), ElementsAre("0 crashed", "1 [1.5]"));
   EXPECT_EQ(record(id).state, JobState::failed);
+}
+
+TEST_P(SweepStoreConformance, TheFirstSweepOfEachOwnerComesFirst) {
+  submit(1, 1, "ann");
+  submit(2, 1, "ann");
+  submit(3, 1, "bob");
+  EXPECT_THAT(*sweeps().unfinished(), ElementsAre(id_number(1), id_number(3), id_number(2)));
 }
 
 TEST_P(SweepStoreConformance, ListsAreNewestFirstOfOneOwner) {
@@ -194,9 +252,7 @@ TEST_P(SweepStoreConformance, ListsAreNewestFirstOfOneOwner) {
 TEST_P(SweepStoreConformance, RemovedSweepsAreGoneAndTheirSpaceIsGivenBackInPieces) {
   const std::string id = submit(1, 5);
   ASSERT_TRUE(
-      sweeps()
-          .put(claim(id, {0, 1, 2, 3, 4}), {good(0, "a"), good(1), good(2), good(3), good(4)}, at_second(60))
-          .ok());
+      sweeps().put(claim(id, 5), {good(0, "a"), good(1), good(2), good(3), good(4)}, at_second(60)).ok());
   const std::string other = submit(2, 1);
   EXPECT_TRUE(*sweeps().remove(id));
   EXPECT_FALSE(*sweeps().remove(id));
@@ -210,8 +266,8 @@ TEST_P(SweepStoreConformance, RemovedSweepsAreGoneAndTheirSpaceIsGivenBackInPiec
   EXPECT_THAT(*sweeps().find_outputs({"a"}), ElementsAre(std::nullopt));
   EXPECT_EQ(record(other).points, 1);
   ASSERT_TRUE(sweeps().dismiss(other, at_second(70)).ok());
-  EXPECT_EQ(*sweeps().retire(at_second(70)), 0);
-  EXPECT_EQ(*sweeps().retire(at_second(71)), 1);
+  EXPECT_EQ(*sweeps().retire(10s, at_second(80)), 0);
+  EXPECT_EQ(*sweeps().retire(10s, at_second(81)), 1);
 }
 
 TEST_P(SweepStoreConformance, AnIdempotencyKeyIsOneSweep) {
@@ -224,17 +280,11 @@ TEST_P(SweepStoreConformance, AnIdempotencyKeyIsOneSweep) {
   EXPECT_EQ(with_key(2, "f").kind, Submitted::Kind::repeated);
   EXPECT_EQ(with_key(2, "f").id, id_number(1));
   EXPECT_EQ(with_key(2, "g").kind, Submitted::Kind::key_conflict);
-  ASSERT_TRUE(sweeps().forget_keys(at_second(2)).ok());
+  ASSERT_TRUE(sweeps().forget_keys(1s, at_second(3)).ok());
   EXPECT_EQ(with_key(3, "g").kind, Submitted::Kind::created);
 }
 
-INSTANTIATE_TEST_SUITE_P(Drivers, SweepStoreConformance,
-                         testing::Values(StoreDriver{"Sqlite",
-                                                     [](const TempDir& folder) {
-                                                       return sqlite::open_store(folder.file("store.db"),
-                                                                                 at_second(0));
-                                                     }}),
-                         [](const auto& driver) { return driver.param.name; });
+INSTANTIATE_TEST_SUITE_P(Drivers, SweepStoreConformance, testing::ValuesIn(store_drivers()), driver_name);
 
 }  // namespace
 }  // namespace snapthrough::server::test

@@ -4,7 +4,8 @@
 
 namespace snapthrough::server::sqlite {
 
-StatusOr<std::optional<Delivery>> SqliteDeliveryStore::next(std::string_view origin, Time now) {
+StatusOr<std::optional<Delivery>> SqliteDeliveryStore::next(std::string_view origin,
+                                                            std::chrono::milliseconds /*hold*/, Time now) {
   return database_.read<std::optional<Delivery>>(
       [&](const Connection& connection) -> std::optional<Delivery> {
         Statement row = connection.prepare(
@@ -20,11 +21,11 @@ StatusOr<std::optional<Delivery>> SqliteDeliveryStore::next(std::string_view ori
       });
 }
 
-Status SqliteDeliveryStore::postpone(std::int64_t number, Time due) {
+Status SqliteDeliveryStore::postpone(std::int64_t number, std::chrono::milliseconds pause, Time now) {
   return database_.write_only(
       [&](Connection& connection) {
         connection.prepare("UPDATE deliveries SET attempts = attempts + 1, due_us = ? WHERE number = ?")
-            .bind(to_row(due))
+            .bind(to_row(now + pause))
             .bind(number)
             .run();
         return Status();

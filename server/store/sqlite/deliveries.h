@@ -12,8 +12,9 @@ class SqliteDeliveryStore final : public DeliveryStore {
   /// The database must outlive this.
   explicit SqliteDeliveryStore(Database& database) : database_(database) {}
 
-  StatusOr<std::optional<Delivery>> next(std::string_view origin, Time now) override;
-  Status postpone(std::int64_t number, Time due) override;
+  StatusOr<std::optional<Delivery>> next(std::string_view origin, std::chrono::milliseconds hold,
+                                         Time now) override;
+  Status postpone(std::int64_t number, std::chrono::milliseconds pause, Time now) override;
   Status remove(std::int64_t number) override;
   StatusOr<std::int64_t> waiting() override;
 

@@ -36,8 +36,8 @@ class SqliteStore final : public Store {
   StatusOr<Recovery> rescue(std::string_view worker, int max_crashes, Time now) override;
   StatusOr<Dismissal> dismiss(std::string_view id, Time now) override;
   StatusOr<bool> remove(std::string_view id) override;
-  StatusOr<int> retire(Time ended_before, int most) override;
-  Status forget_keys(Time used_before) override;
+  StatusOr<int> retire(std::chrono::seconds age, int most, Time now) override;
+  Status forget_keys(std::chrono::seconds age, Time now) override;
   Status probe(Time now) override;
   StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
                                                    std::string_view owner) override;
@@ -54,6 +54,7 @@ class SqliteStore final : public Store {
 
  private:
   FileLock lock_;
+  std::string last_owner_;  ///< who had a turn; of the writing thread
   Database database_;
   SqliteSweepStore sweeps_;
   SqliteDeliveryStore deliveries_;
@@ -245,31 +246,49 @@ StatusOr<std::optional<Submitted>> SqliteStore::find_key(const IdempotencyKey& k
       [&](const Connection& connection) { return known_key(connection, key, owner); });
 }
 
+/// The oldest accepted job of the owner whose turn it is: the next that has one waiting, by name, after
+/// `last`.
+std::optional<Claim> next_in_turn(const Connection& connection, const std::string& last, std::int64_t& row,
+                                  std::string& owner) {
+  static const std::string kWaits = " status = " + literal(JobState::accepted);
+  static const std::string kSql =
+      "SELECT jobs.id, jobs.attempt, requests.document, jobs.created_us, jobs.seq, jobs.owner FROM jobs"
+      " JOIN requests ON requests.job = jobs.seq WHERE jobs.seq = (SELECT seq FROM jobs WHERE" +
+      kWaits + " AND owner = coalesce((SELECT min(owner) FROM jobs WHERE" + kWaits +
+      " AND owner > ?1),"
+      " (SELECT min(owner) FROM jobs WHERE" +
+      kWaits + ")) ORDER BY seq LIMIT 1)";
+  Statement found = connection.prepare(kSql);
+  found.bind(last);
+  if (!found.step()) {
+    return std::nullopt;
+  }
+  row = found.integer(4);
+  owner = found.text(5);
+  return Claim{found.text(0), static_cast<int>(found.integer(1)) + 1, found.text(2), time_in(found, 3)};
+}
+
 StatusOr<std::optional<Claim>> SqliteStore::claim(const Lease& lease, Time now) {
   using Outcome = StatusOr<std::optional<Claim>>;
   return database_.write<std::optional<Claim>>(
       [&](Connection& connection) -> Outcome {
-        static const std::string kOldest =
-            "SELECT jobs.seq, jobs.id, jobs.attempt, requests.document, jobs.created_us FROM jobs"
-            " JOIN requests ON requests.job = jobs.seq WHERE jobs.status = " +
-            literal(JobState::accepted) + " ORDER BY jobs.seq LIMIT 1";
-        Statement row = connection.prepare(kOldest);
-        if (!row.step()) {
-          return std::optional<Claim>();
+        std::int64_t row = 0;
+        std::optional<Claim> claim = next_in_turn(connection, last_owner_, row, last_owner_);
+        if (!claim) {
+          return claim;
         }
-        Claim claim{row.text(1), static_cast<int>(row.integer(2)) + 1, row.text(3), time_in(row, 4)};
         connection
             .prepare(
                 "UPDATE jobs SET status = ?, attempt = ?, started_us = ?, worker = ?, lease_until_us = ?"
                 " WHERE seq = ?")
             .bind(to_string(JobState::running))
-            .bind(claim.attempt)
+            .bind(claim->attempt)
             .bind(to_row(now))
             .bind(lease.worker)
             .bind(to_row(lease.until))
-            .bind(row.integer(0))
+            .bind(row)
             .run();
-        return std::optional<Claim>(std::move(claim));
+        return claim;
       },
       Durability::unsynced);
 }
@@ -431,22 +450,22 @@ StatusOr<bool> SqliteStore::remove(std::string_view id) {
   });
 }
 
-StatusOr<int> SqliteStore::retire(Time ended_before, int most) {
+StatusOr<int> SqliteStore::retire(std::chrono::seconds age, int most, Time now) {
   return database_.write<int>([&](Connection& connection) -> StatusOr<int> {
     connection
         .prepare(
             "DELETE FROM jobs WHERE seq IN (SELECT seq FROM jobs WHERE finished_us < ? ORDER BY finished_us"
             " LIMIT ?)")
-        .bind(to_row(ended_before))
+        .bind(to_row(now - age))
         .bind(most)
         .run();
     return static_cast<int>(connection.changes());
   });
 }
 
-Status SqliteStore::forget_keys(Time used_before) {
+Status SqliteStore::forget_keys(std::chrono::seconds age, Time now) {
   return database_.write_only([&](Connection& connection) {
-    connection.prepare("DELETE FROM idempotency_keys WHERE created_us < ?").bind(to_row(used_before)).run();
+    connection.prepare("DELETE FROM idempotency_keys WHERE created_us < ?").bind(to_row(now - age)).run();
     return Status();
   });
 }

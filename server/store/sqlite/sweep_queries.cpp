@@ -7,20 +7,6 @@
 #include "server/store/sqlite/sweeps.h"
 
 namespace snapthrough::server::sqlite {
-namespace {
-
-std::vector<bool> done_points(const Connection& connection, std::int64_t sweep, std::int64_t points) {
-  std::vector<bool> done(static_cast<std::size_t>(points));
-  Statement rows = connection.prepare("SELECT point FROM sweep_points WHERE sweep = ?");
-  rows.bind(sweep);
-  while (rows.step()) {
-    done.at(static_cast<std::size_t>(rows.integer(0))) = true;
-  }
-  return done;
-}
-
-}  // namespace
-
 const char* const kSweepColumns =
     "sweeps.id, sweeps.status, sweeps.owner, sweeps.title, sweeps.points, sweeps.successful, sweeps.failed,"
     " sweeps.reused, sweeps.created_us, sweeps.started_us, sweeps.finished_us, sweeps.analysis_type,"
@@ -47,7 +33,8 @@ SweepRecord read_sweep_record(const Statement& row) {
 StatusOr<std::vector<std::string>> SqliteSweepStore::unfinished() {
   return database_.read<std::vector<std::string>>([](const Connection& connection) {
     static const std::string kSql =
-        "SELECT id FROM sweeps WHERE " + unfinished_condition() + " AND removed = 0 ORDER BY seq";
+        "SELECT id FROM sweeps WHERE " + unfinished_condition() +
+        " AND removed = 0 ORDER BY row_number() OVER (PARTITION BY owner ORDER BY seq), seq";
     Statement rows = connection.prepare(kSql);
     std::vector<std::string> ids;
     while (rows.step()) {
@@ -58,27 +45,17 @@ StatusOr<std::vector<std::string>> SqliteSweepStore::unfinished() {
 }
 
 StatusOr<std::optional<OpenSweep>> SqliteSweepStore::open(std::string_view id) {
-  return database_.read<std::optional<OpenSweep>>([&](const Connection& connection)
-                                                      -> std::optional<OpenSweep> {
-    static const std::string kSql =
-        "SELECT seq, document, owner, reuse, points FROM sweeps JOIN sweep_documents ON sweep = seq"
-        " WHERE id = ? AND removed = 0 AND " +
-        unfinished_condition();
-    Statement row = connection.prepare(kSql);
-    row.bind(id);
-    if (!row.step()) {
-      return std::nullopt;
-    }
-    const std::int64_t sweep = row.integer(0);
-    OpenSweep open{
-        row.text(1), row.text(2), row.integer(3) == 1, done_points(connection, sweep, row.integer(4)), {}};
-    Statement crashes = connection.prepare("SELECT point, crashes FROM sweep_crashes WHERE sweep = ?");
-    crashes.bind(sweep);
-    while (crashes.step()) {
-      open.crashes[static_cast<std::uint64_t>(crashes.integer(0))] = static_cast<int>(crashes.integer(1));
-    }
-    return open;
-  });
+  return database_.read<std::optional<OpenSweep>>(
+      [&](const Connection& connection) -> std::optional<OpenSweep> {
+        static const std::string kSql =
+            "SELECT document, owner, reuse FROM sweeps JOIN sweep_documents ON sweep = seq"
+            " WHERE id = ? AND removed = 0 AND " +
+            unfinished_condition();
+        Statement row = connection.prepare(kSql);
+        row.bind(id);
+        return row.step() ? std::optional(OpenSweep{row.text(0), row.text(1), row.integer(2) == 1})
+                          : std::nullopt;
+      });
 }
 
 StatusOr<std::optional<SweepRecord>> SqliteSweepStore::get(std::string_view id) {

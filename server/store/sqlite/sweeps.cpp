@@ -2,10 +2,12 @@
 
 #include "server/store/sqlite/sweeps.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "server/store/sqlite/quotas.h"
 #include "server/store/sqlite/rows.h"
+#include "server/store/unit_runs.h"
 
 namespace snapthrough::server::sqlite {
 namespace {
@@ -31,11 +33,21 @@ std::optional<Submitted> known_key(const Connection& connection, const Idempoten
   return known_key(row, key);
 }
 
+/// Units that anybody may have.
+void insert_left(Connection& connection, std::int64_t sweep, const UnitRun& units, std::int64_t crashes) {
+  connection.prepare("INSERT INTO sweep_left (sweep, first, units, crashes) VALUES (?, ?, ?, ?)")
+      .bind(sweep)
+      .bind(static_cast<std::int64_t>(units.first))
+      .bind(static_cast<std::int64_t>(units.count))
+      .bind(crashes)
+      .run();
+}
+
 void insert_sweep(Connection& connection, const NewSweep& sweep) {
   connection
       .prepare(
           "INSERT INTO sweeps (id, owner, title, reuse, points, created_us, analysis_type, label, metadata,"
-          " callback) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+          " callback, unit_points) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(sweep.id)
       .bind(sweep.owner)
       .bind(sweep.title)
@@ -46,8 +58,10 @@ void insert_sweep(Connection& connection, const NewSweep& sweep) {
       .bind(text_or_null(sweep.annotations.label))
       .bind(text_or_null(sweep.annotations.metadata))
       .bind(text_or_null(sweep.annotations.callback))
+      .bind(sweep.unit_points)
       .run();
   const std::int64_t row = connection.last_row();
+  insert_left(connection, row, {0, static_cast<std::uint64_t>(sweep.points / sweep.unit_points)}, 0);
   connection.prepare("INSERT INTO sweep_documents (sweep, document) VALUES (?, ?)")
       .bind(row)
       .bind(sweep.document)
@@ -125,40 +139,131 @@ void insert_points(Connection& connection, std::int64_t sweep, const std::vector
       .run();
 }
 
-/// A point that was being computed when the process died.
-struct Suspect {
+/// A claim as it is stored.
+struct StoredClaim {
+  std::int64_t number = 0;
   std::int64_t sweep = 0;
-  std::uint64_t point = 0;
+  UnitRun units;
+  std::int64_t crashes = 0;
+  bool crashed = false;  ///< its process has died
 };
 
-std::vector<Suspect> suspects(const Connection& connection) {
-  std::vector<Suspect> all;
-  Statement claims = connection.prepare("SELECT sweep, points FROM sweep_claims ORDER BY number");
-  while (claims.step()) {
-    const std::int64_t sweep = claims.integer(0);
-    for (const double point : claims.series(1)) {
-      Statement there = connection.prepare("SELECT 1 FROM sweep_points WHERE sweep = ? AND point = ?");
-      there.bind(sweep).bind(static_cast<std::int64_t>(point));
-      if (!there.step()) {
-        all.push_back({sweep, static_cast<std::uint64_t>(point)});
-      }
-    }
+/// Units of a sweep that nobody has, at most `most`; taken out of what is left.
+std::optional<StoredClaim> take_left(Connection& connection, std::int64_t sweep, std::uint64_t most) {
+  Statement row = connection.prepare(
+      "SELECT first, units, crashes FROM sweep_left WHERE sweep = ? ORDER BY crashes, first LIMIT 1");
+  row.bind(sweep);
+  if (!row.step()) {
+    return std::nullopt;
   }
-  return all;
+  const UnitRun run{static_cast<std::uint64_t>(row.integer(0)), static_cast<std::uint64_t>(row.integer(1))};
+  const std::int64_t crashes = row.integer(2);
+  const std::uint64_t taken = crashes > 0 ? 1 : std::min(most, run.count);
+  connection.prepare("DELETE FROM sweep_left WHERE sweep = ? AND first = ?")
+      .bind(sweep)
+      .bind(static_cast<std::int64_t>(run.first))
+      .run();
+  if (taken < run.count) {
+    insert_left(connection, sweep, {run.first + taken, run.count - taken}, crashes);
+  }
+  return StoredClaim{0, sweep, {run.first, taken}, crashes};
 }
 
-/// Counts the crash; whether the point is given up.
-bool blame(Connection& connection, const Suspect& suspect, int max_crashes) {
-  connection
-      .prepare(
-          "INSERT INTO sweep_crashes (sweep, point, crashes) VALUES (?, ?, 1)"
-          " ON CONFLICT DO UPDATE SET crashes = crashes + 1")
-      .bind(suspect.sweep)
-      .bind(static_cast<std::int64_t>(suspect.point))
-      .run();
-  Statement row = connection.prepare("SELECT crashes FROM sweep_crashes WHERE sweep = ? AND point = ?");
-  row.bind(suspect.sweep).bind(static_cast<std::int64_t>(suspect.point));
-  return row.step() && row.integer(0) >= max_crashes;
+/// Gives the units of a claim out again, but for those that have rows.
+void put_rest_back(Connection& connection, const StoredClaim& claim, const std::vector<PointRow>& rows,
+                   std::int64_t unit_points) {
+  std::vector<bool> done(claim.units.count);
+  for (const PointRow& row : rows) {
+    done.at(row.point / static_cast<std::uint64_t>(unit_points) - claim.units.first) = true;
+  }
+  for (const UnitRun& run : runs_without(claim.units.first, done)) {
+    insert_left(connection, claim.sweep, run, claim.crashes);
+  }
+}
+
+/// The claim, taken out of the store; empty when it does not hold any more.
+std::optional<StoredClaim> end_claim(Connection& connection, const UnitClaim& claim, Time now) {
+  Statement row = connection.prepare(
+      "SELECT sweep, first, units, crashes FROM sweep_claims WHERE number = ? AND lease_until_us >= ?");
+  row.bind(claim.number).bind(to_row(now));
+  if (!row.step()) {
+    return std::nullopt;
+  }
+  const StoredClaim stored{
+      claim.number,
+      row.integer(0),
+      {static_cast<std::uint64_t>(row.integer(1)), static_cast<std::uint64_t>(row.integer(2))},
+      row.integer(3)};
+  connection.prepare("DELETE FROM sweep_claims WHERE number = ?").bind(claim.number).run();
+  return stored;
+}
+
+std::int64_t unit_points_of(const Connection& connection, std::int64_t sweep) {
+  Statement row = connection.prepare("SELECT unit_points FROM sweeps WHERE seq = ?");
+  row.bind(sweep).step();
+  return row.integer(0);
+}
+
+/// Rows that say that a process died too often with these units.
+std::vector<PointRow> crashed_rows(const UnitRun& units, std::int64_t unit_points, int max_crashes) {
+  const std::string detail = "the service died " + std::to_string(max_crashes) +
+                             " times while it worked on this point; it is not tried again";
+  std::vector<PointRow> rows;
+  const auto size = static_cast<std::uint64_t>(unit_points);
+  for (std::uint64_t point = units.first * size; point < (units.first + units.count) * size; ++point) {
+    rows.push_back({point, {"", "crashed", detail}});
+  }
+  return rows;
+}
+
+/// Ends claims whose lease ends before `ended_before`; those of `worker` don't count as crashed.
+std::int64_t take_claims_back(Connection& connection, Time ended_before, std::string_view worker,
+                              int max_crashes, Time now) {
+  std::vector<StoredClaim> claims;
+  {
+    Statement row = connection.prepare(
+        "SELECT number, sweep, first, units, crashes, worker FROM sweep_claims WHERE lease_until_us < ?"
+        " ORDER BY number");
+    row.bind(to_row(ended_before));
+    while (row.step()) {
+      claims.push_back(
+          {row.integer(0),
+           row.integer(1),
+           {static_cast<std::uint64_t>(row.integer(2)), static_cast<std::uint64_t>(row.integer(3))},
+           row.integer(4),
+           worker.empty() || row.text(5) != worker});
+    }
+  }
+  std::int64_t again = 0;
+  for (StoredClaim& claim : claims) {
+    connection.prepare("DELETE FROM sweep_claims WHERE number = ?").bind(claim.number).run();
+    claim.crashes += claim.crashed ? 1 : 0;
+    if (claim.crashed && claim.crashes >= max_crashes) {
+      const std::int64_t unit_points = unit_points_of(connection, claim.sweep);
+      insert_points(connection, claim.sweep, crashed_rows(claim.units, unit_points, max_crashes), now);
+      continue;
+    }
+    insert_left(connection, claim.sweep, claim.units, claim.crashes);
+    again += static_cast<std::int64_t>(claim.units.count);
+  }
+  return again;
+}
+
+/// Gives out again what a sweep that is tried again lacks: units with a point that failed.
+void failed_units_left(Connection& connection, std::int64_t sweep) {
+  std::vector<UnitRun> runs;
+  {
+    Statement row = connection.prepare(
+        "SELECT DISTINCT point / unit_points FROM sweep_points JOIN sweeps ON seq = sweep"
+        " WHERE sweep = ? AND code IS NOT NULL ORDER BY 1");
+    row.bind(sweep);
+    while (row.step()) {
+      add_unit(runs, static_cast<std::uint64_t>(row.integer(0)));
+    }
+  }
+  for (const UnitRun& run : runs) {
+    insert_left(connection, sweep, run, 0);
+  }
 }
 
 }  // namespace
@@ -185,14 +290,18 @@ StatusOr<std::optional<Submitted>> SqliteSweepStore::find_key(const IdempotencyK
       [&](const Connection& connection) { return known_key(connection, key, owner); });
 }
 
-StatusOr<PointClaim> SqliteSweepStore::claim(std::string_view id, const std::vector<std::uint64_t>& points,
-                                             Time now) {
-  const std::vector<double> numbers(points.begin(), points.end());
-  return database_.write<PointClaim>(
-      [&](Connection& connection) -> StatusOr<PointClaim> {
+StatusOr<std::optional<UnitClaim>> SqliteSweepStore::claim(std::string_view id, std::uint64_t most,
+                                                           const Lease& lease, Time now) {
+  using Outcome = StatusOr<std::optional<UnitClaim>>;
+  return database_.write<std::optional<UnitClaim>>(
+      [&](Connection& connection) -> Outcome {
         const std::optional<Place> place = find(connection, id);
         if (!place || is_final(place->state)) {
           return Status(StatusCode::conflict, "sweep " + std::string(id) + " is over");
+        }
+        const std::optional<StoredClaim> taken = take_left(connection, place->row, most);
+        if (!taken) {
+          return std::optional<UnitClaim>();
         }
         if (place->state == JobState::accepted) {
           connection.prepare("UPDATE sweeps SET status = ?, started_us = ifnull(started_us, ?) WHERE seq = ?")
@@ -201,24 +310,53 @@ StatusOr<PointClaim> SqliteSweepStore::claim(std::string_view id, const std::vec
               .bind(place->row)
               .run();
         }
-        connection.prepare("INSERT INTO sweep_claims (sweep, points) VALUES (?, ?)")
+        connection
+            .prepare(
+                "INSERT INTO sweep_claims (sweep, first, units, crashes, worker, lease_until_us)"
+                " VALUES (?, ?, ?, ?, ?, ?)")
             .bind(place->row)
-            .bind_series(numbers)
+            .bind(static_cast<std::int64_t>(taken->units.first))
+            .bind(static_cast<std::int64_t>(taken->units.count))
+            .bind(taken->crashes)
+            .bind(lease.worker)
+            .bind(to_row(lease.until))
             .run();
-        return PointClaim{connection.last_row(), std::string(id)};
+        return std::optional(UnitClaim{connection.last_row(), std::string(id), taken->units});
       },
       Durability::unsynced);
 }
 
-StatusOr<SweepRecord> SqliteSweepStore::put(const PointClaim& claim, const std::vector<PointRow>& rows,
+StatusOr<std::vector<std::int64_t>> SqliteSweepStore::renew(const std::vector<UnitClaim>& claims, Time until,
+                                                            Time now) {
+  return database_.write<std::vector<std::int64_t>>(
+      [&](Connection& connection) -> StatusOr<std::vector<std::int64_t>> {
+        std::vector<std::int64_t> lost;
+        for (const UnitClaim& claim : claims) {
+          connection
+              .prepare("UPDATE sweep_claims SET lease_until_us = ? WHERE number = ? AND lease_until_us >= ?")
+              .bind(to_row(until))
+              .bind(claim.number)
+              .bind(to_row(now))
+              .run();
+          if (connection.changes() == 0) {
+            lost.push_back(claim.number);
+          }
+        }
+        return lost;
+      },
+      Durability::unsynced);
+}
+
+StatusOr<SweepRecord> SqliteSweepStore::put(const UnitClaim& claim, const std::vector<PointRow>& rows,
                                             Time now) {
   return database_.write<SweepRecord>(
       [&](Connection& connection) -> StatusOr<SweepRecord> {
         const std::optional<Place> place = find(connection, claim.sweep);
-        connection.prepare("DELETE FROM sweep_claims WHERE number = ?").bind(claim.number).run();
-        if (!place || place->state != JobState::running || connection.changes() == 0) {
+        const std::optional<StoredClaim> held = end_claim(connection, claim, now);
+        if (!place || place->state != JobState::running || !held) {
           return Status(StatusCode::conflict, "sweep " + claim.sweep + " does not run any more");
         }
+        put_rest_back(connection, *held, rows, unit_points_of(connection, place->row));
         insert_points(connection, place->row, rows, now);
         Statement row =
             connection.prepare("SELECT " + std::string(kSweepColumns) + " FROM sweeps WHERE seq = ?");
@@ -231,18 +369,13 @@ StatusOr<SweepRecord> SqliteSweepStore::put(const PointClaim& claim, const std::
 
 StatusOr<std::int64_t> SqliteSweepStore::recover(int max_crashes, Time now) {
   return database_.write<std::int64_t>([&](Connection& connection) -> StatusOr<std::int64_t> {
-    std::int64_t again = 0;
-    for (const Suspect& suspect : suspects(connection)) {
-      if (!blame(connection, suspect, max_crashes)) {
-        ++again;
-        continue;
-      }
-      const std::string detail = "the service died " + std::to_string(max_crashes) +
-                                 " times while it worked on this point; it is not tried again";
-      insert_points(connection, suspect.sweep, {{suspect.point, {"", "crashed", detail}}}, now);
-    }
-    connection.execute("DELETE FROM sweep_claims");
-    return again;
+    return take_claims_back(connection, Time::max(), "", max_crashes, now);
+  });
+}
+
+StatusOr<std::int64_t> SqliteSweepStore::rescue(std::string_view worker, int max_crashes, Time now) {
+  return database_.write<std::int64_t>([&](Connection& connection) -> StatusOr<std::int64_t> {
+    return take_claims_back(connection, now, worker, max_crashes, now);
   });
 }
 
@@ -258,6 +391,12 @@ StatusOr<SweepChange> SqliteSweepStore::dismiss(std::string_view id, Time now) {
     connection.prepare("UPDATE sweeps SET status = ?, finished_us = ? WHERE seq = ?")
         .bind(to_string(JobState::dismissed))
         .bind(to_row(now))
+        .bind(place->row)
+        .run();
+    connection
+        .prepare(
+            "INSERT INTO sweep_left (sweep, first, units, crashes)"
+            " SELECT sweep, first, units, crashes FROM sweep_claims WHERE sweep = ?")
         .bind(place->row)
         .run();
     connection.prepare("DELETE FROM sweep_claims WHERE sweep = ?").bind(place->row).run();
@@ -288,10 +427,11 @@ StatusOr<SweepChange> SqliteSweepStore::retry(std::string_view id, const Quotas&
         .bind(to_string(JobState::accepted))
         .bind(place->row)
         .run();
+    failed_units_left(connection, place->row);
     connection.prepare("DELETE FROM sweep_points WHERE sweep = ? AND code IS NOT NULL")
         .bind(place->row)
         .run();
-    connection.prepare("DELETE FROM sweep_crashes WHERE sweep = ?").bind(place->row).run();
+    connection.prepare("UPDATE sweep_left SET crashes = 0 WHERE sweep = ?").bind(place->row).run();
     return SweepChange{place->state, true};
   });
 }
@@ -303,10 +443,10 @@ StatusOr<bool> SqliteSweepStore::remove(std::string_view id) {
   });
 }
 
-StatusOr<int> SqliteSweepStore::retire(Time ended_before) {
+StatusOr<int> SqliteSweepStore::retire(std::chrono::seconds age, Time now) {
   return database_.write<int>([&](Connection& connection) -> StatusOr<int> {
     connection.prepare("UPDATE sweeps SET removed = 1 WHERE finished_us < ? AND removed = 0")
-        .bind(to_row(ended_before))
+        .bind(to_row(now - age))
         .run();
     return static_cast<int>(connection.changes());
   });
@@ -334,9 +474,9 @@ StatusOr<bool> SqliteSweepStore::purge(int most) {
   });
 }
 
-Status SqliteSweepStore::forget_keys(Time used_before) {
+Status SqliteSweepStore::forget_keys(std::chrono::seconds age, Time now) {
   return database_.write_only([&](Connection& connection) {
-    connection.prepare("DELETE FROM sweep_keys WHERE created_us < ?").bind(to_row(used_before)).run();
+    connection.prepare("DELETE FROM sweep_keys WHERE created_us < ?").bind(to_row(now - age)).run();
     return Status();
   });
 }

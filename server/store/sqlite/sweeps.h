@@ -16,16 +16,19 @@ class SqliteSweepStore final : public SweepStore {
   StatusOr<std::vector<std::string>> unfinished() override;
   StatusOr<std::optional<OpenSweep>> open(std::string_view id) override;
   StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) override;
-  StatusOr<PointClaim> claim(std::string_view id, const std::vector<std::uint64_t>& points,
-                             Time now) override;
-  StatusOr<SweepRecord> put(const PointClaim& claim, const std::vector<PointRow>& rows, Time now) override;
+  StatusOr<std::optional<UnitClaim>> claim(std::string_view id, std::uint64_t most, const Lease& lease,
+                                           Time now) override;
+  StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>& claims, Time until,
+                                            Time now) override;
+  StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, Time now) override;
   StatusOr<std::int64_t> recover(int max_crashes, Time now) override;
+  StatusOr<std::int64_t> rescue(std::string_view worker, int max_crashes, Time now) override;
   StatusOr<SweepChange> dismiss(std::string_view id, Time now) override;
   StatusOr<SweepChange> retry(std::string_view id, const Quotas& quotas) override;
   StatusOr<bool> remove(std::string_view id) override;
-  StatusOr<int> retire(Time ended_before) override;
+  StatusOr<int> retire(std::chrono::seconds age, Time now) override;
   StatusOr<bool> purge(int most) override;
-  Status forget_keys(Time used_before) override;
+  Status forget_keys(std::chrono::seconds age, Time now) override;
   StatusOr<std::optional<SweepRecord>> get(std::string_view id) override;
   StatusOr<SweepPage> list(const ListQuery& query) override;
   StatusOr<std::optional<std::string>> document(std::string_view id) override;

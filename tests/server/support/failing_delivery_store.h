@@ -10,8 +10,10 @@ class FailingDeliveryStore final : public DeliveryStore {
  public:
   explicit FailingDeliveryStore(StatusCode code) : code_(code) {}
 
-  StatusOr<std::optional<Delivery>> next(std::string_view, Time) override { return status(); }
-  Status postpone(std::int64_t, Time) override { return status(); }
+  StatusOr<std::optional<Delivery>> next(std::string_view, std::chrono::milliseconds, Time) override {
+    return status();
+  }
+  Status postpone(std::int64_t, std::chrono::milliseconds, Time) override { return status(); }
   Status remove(std::int64_t) override { return status(); }
   StatusOr<std::int64_t> waiting() override { return status(); }
 

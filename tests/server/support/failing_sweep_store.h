@@ -19,19 +19,23 @@ class FailingSweepStore final : public SweepStore {
   }
   StatusOr<std::vector<std::string>> unfinished() override { return status(); }
   StatusOr<std::optional<OpenSweep>> open(std::string_view) override { return status(); }
-  StatusOr<PointClaim> claim(std::string_view, const std::vector<std::uint64_t>&, Time) override {
+  StatusOr<std::optional<UnitClaim>> claim(std::string_view, std::uint64_t, const Lease&, Time) override {
     return status();
   }
-  StatusOr<SweepRecord> put(const PointClaim&, const std::vector<PointRow>&, Time) override {
+  StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>&, Time, Time) override {
+    return status();
+  }
+  StatusOr<SweepRecord> put(const UnitClaim&, const std::vector<PointRow>&, Time) override {
     return status();
   }
   StatusOr<std::int64_t> recover(int, Time) override { return status(); }
+  StatusOr<std::int64_t> rescue(std::string_view, int, Time) override { return status(); }
   StatusOr<SweepChange> dismiss(std::string_view, Time) override { return status(); }
   StatusOr<SweepChange> retry(std::string_view, const Quotas&) override { return status(); }
   StatusOr<bool> remove(std::string_view) override { return status(); }
-  StatusOr<int> retire(Time) override { return status(); }
+  StatusOr<int> retire(std::chrono::seconds, Time) override { return status(); }
   StatusOr<bool> purge(int) override { return status(); }
-  Status forget_keys(Time) override { return status(); }
+  Status forget_keys(std::chrono::seconds, Time) override { return status(); }
   StatusOr<std::optional<SweepRecord>> get(std::string_view) override { return status(); }
   StatusOr<SweepPage> list(const ListQuery&) override { return status(); }
   StatusOr<std::optional<std::string>> document(std::string_view) override { return status(); }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "server/store/store.h"
 #include "tests/server/support/temp_dir.h"
@@ -17,7 +18,15 @@ namespace snapthrough::server::test {
 struct StoreDriver {
   const char* name;
   std::function<StatusOr<std::unique_ptr<Store>>(const TempDir&)> open;
+  bool shared = false;  ///< several processes may use a store at the same time
 };
+
+/// Every driver there is.
+[[nodiscard]] std::vector<StoreDriver> store_drivers();
+/// What a test of a driver is called.
+inline std::string driver_name(const testing::TestParamInfo<StoreDriver>& driver) {
+  return driver.param.name;
+}
 
 /// The whole result document; nothing when there is none.
 inline std::optional<std::string> result_of(Store& store, std::string_view id) {
@@ -40,6 +49,21 @@ class StoreTest : public testing::TestWithParam<StoreDriver> {
     StatusOr<std::unique_ptr<Store>> opened = GetParam().open(folder_);
     ASSERT_TRUE(opened.ok()) << opened.status().message();
     store_ = std::move(opened).value();
+  }
+  /// What the next process finds, whose predecessor died with leases that end before that time.
+  Recovery recover(int max_crashes, Time now) {
+    const StatusOr<Recovery> known = store_->recover(max_crashes, now);
+    EXPECT_TRUE(known.ok()) << known.status().message();
+    const StatusOr<Recovery> found = GetParam().shared ? store_->rescue("next", max_crashes, now) : known;
+    EXPECT_TRUE(found.ok()) << found.status().message();
+    return found.ok() ? *found : Recovery{};
+  }
+  std::int64_t recover_sweeps(int max_crashes, Time now) {
+    SweepStore& sweeps = store_->sweeps();
+    const StatusOr<std::int64_t> known = sweeps.recover(max_crashes, now);
+    const StatusOr<std::int64_t> found = GetParam().shared ? sweeps.rescue("next", max_crashes, now) : known;
+    EXPECT_TRUE(found.ok()) << found.status().message();
+    return found.ok() ? *found : -1;
   }
 
   TempDir folder_;
