@@ -4,22 +4,14 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "server/environment.h"
 #include "server/status.h"
+#include "server/store/migration.h"
 #include "server/store/sqlite/connection.h"
 
 namespace snapthrough::server::sqlite {
-
-/// One step, from the file migrations/sqlite/<name>.sql.
-struct Migration {
-  int version = 0;            ///< 1, 2, ... without gaps
-  std::string_view name;      ///< file name without ending, e.g. "0001_jobs"
-  std::string_view checksum;  ///< SHA-256 of the file, to notice that an applied step was edited later
-  std::string_view sql;
-};
 
 /// The steps this program knows, in order. Defined in a source generated at build time.
 [[nodiscard]] const std::vector<Migration>& embedded_migrations();

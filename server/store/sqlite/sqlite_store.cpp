@@ -226,7 +226,7 @@ StatusOr<Submitted> SqliteStore::submit(const NewJob& job, const std::function<v
     Submitted submitted{Submitted::Kind::reused, known ? known->id : ""};
     std::int64_t row = known ? known->row : 0;
     if (!will_do) {
-      const Addition addition{job.lease || known ? 0 : 1, 0, static_cast<std::int64_t>(job.document.size())};
+      const Usage addition{job.lease || known ? 0 : 1, 0, static_cast<std::int64_t>(job.document.size())};
       if (Status status = check_quotas(connection, job.owner, job.quotas, addition); !status.ok()) {
         return status;
       }

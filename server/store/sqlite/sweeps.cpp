@@ -275,7 +275,7 @@ StatusOr<Submitted> SqliteSweepStore::submit(const NewSweep& sweep) {
         return *known;
       }
     }
-    const Addition addition{0, sweep.points, static_cast<std::int64_t>(sweep.document.size())};
+    const Usage addition{0, sweep.points, static_cast<std::int64_t>(sweep.document.size())};
     if (Status status = check_quotas(connection, sweep.owner, sweep.quotas, addition); !status.ok()) {
       return status;
     }

@@ -21,6 +21,8 @@ struct StoreDriver {
   bool shared = false;  ///< several processes may use a store at the same time
 };
 
+inline void PrintTo(const StoreDriver& driver, std::ostream* out) { *out << driver.name; }
+
 /// Every driver there is.
 [[nodiscard]] std::vector<StoreDriver> store_drivers();
 /// What a test of a driver is called.

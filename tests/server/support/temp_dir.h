@@ -28,6 +28,8 @@ class TempDir {
   TempDir& operator=(TempDir&&) = delete;
 
   [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+  /// Its own name, which no other folder has.
+  [[nodiscard]] std::string name() const { return path_.filename().string(); }
 
  private:
   std::filesystem::path path_;

@@ -1,6 +1,7 @@
 # Turns the numbered files DIR/NNNN_name.sql into one C++ source that defines embedded_migrations(), in order.
 # The executable then carries its own schema and needs no file at run time.
-function(embed_migrations dir output)
+# HEADER declares it, in namespace snapthrough::server::NAMESPACE.
+function(embed_migrations dir namespace header output)
   file(GLOB files CONFIGURE_DEPENDS ${dir}/*.sql)
   list(SORT files)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
@@ -20,17 +21,17 @@ function(embed_migrations dir output)
     file(SHA256 ${file} checksum)
     string(APPEND rows "      {${version}, \"${name}\", \"${checksum}\", R\"sql(${sql})sql\"},\n")
   endforeach()
-  file(CONFIGURE OUTPUT ${output} @ONLY CONTENT "// Generated from migrations/sqlite by embed_migrations.cmake.
-#include \"server/store/sqlite/migrations.h\"
+  file(CONFIGURE OUTPUT ${output} CONTENT "// Generated from ${dir} by embed_migrations.cmake.
+#include \"${header}\"
 
-namespace snapthrough::server::sqlite {
+namespace snapthrough::server::${namespace} {
 
 const std::vector<Migration>& embedded_migrations() {
   static const std::vector<Migration> migrations{
-@rows@  };
+${rows}  };
   return migrations;
 }
 
-}  // namespace snapthrough::server::sqlite
+}  // namespace snapthrough::server::${namespace}
 ")
 endfunction()

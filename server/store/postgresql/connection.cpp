@@ -1,0 +1,314 @@
+#include "server/store/postgresql/connection.h"
+
+#include <libpq-fe.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+namespace snapthrough::server::postgresql {
+namespace {
+
+// Object identifiers of built-in types, which never change (PostgreSQL, pg_type.dat).
+constexpr unsigned kBool = 16;
+constexpr unsigned kBytes = 17;
+constexpr unsigned kInt8 = 20;
+constexpr unsigned kText = 25;
+constexpr unsigned kFloat8 = 701;
+constexpr unsigned kTextArray = 1009;
+constexpr unsigned kInt8Array = 1016;
+
+template <class Unsigned>
+void append_big_endian(std::string& bytes, Unsigned value) {
+  for (int shift = 8 * static_cast<int>(sizeof value) - 8; shift >= 0; shift -= 8) {
+    bytes.push_back(static_cast<char>(static_cast<unsigned char>(value >> shift)));
+  }
+}
+
+std::uint64_t big_endian(std::string_view bytes) {
+  std::uint64_t value = 0;
+  for (const char byte : bytes) {
+    value = value << 8 | static_cast<unsigned char>(byte);
+  }
+  return value;
+}
+
+/// The wire's form of an array of one dimension without NULLs.
+std::string array_bytes(unsigned type, const std::vector<std::string>& elements) {
+  std::string bytes;
+  append_big_endian(bytes, std::uint32_t{elements.empty() ? 0U : 1U});
+  append_big_endian(bytes, std::uint32_t{0});
+  append_big_endian(bytes, std::uint32_t{type});
+  if (!elements.empty()) {
+    append_big_endian(bytes, static_cast<std::uint32_t>(elements.size()));
+    append_big_endian(bytes, std::uint32_t{1});
+  }
+  for (const std::string& element : elements) {
+    append_big_endian(bytes, static_cast<std::uint32_t>(element.size()));
+    bytes += element;
+  }
+  return bytes;
+}
+
+std::string series_bytes(std::span<const double> values) {
+  static_assert(std::endian::native == std::endian::little);
+  std::string bytes(values.size() * sizeof(double), '\0');
+  if (!values.empty()) {
+    std::memcpy(bytes.data(), values.data(), bytes.size());
+  }
+  return bytes;
+}
+
+/// A server that is gone is noticed within about 15 s; what it does with this connection then ends, too.
+/// What the location says, which comes last, wins.
+constexpr std::array kKeywords{"application_name",    "connect_timeout",  "keepalives_idle",
+                               "keepalives_interval", "keepalives_count", "tcp_user_timeout",
+                               "client_encoding",     "dbname",           static_cast<const char*>(nullptr)};
+constexpr std::array kDefaults{
+    "snapthrough", "5", "5", "3", "3", "15000", "UTF8", "", static_cast<const char*>(nullptr)};
+
+}  // namespace
+
+Parameters& Parameters::add_value(unsigned type, std::string value) {
+  types_.push_back(type);
+  values_.emplace_back(std::move(value));
+  return *this;
+}
+
+Parameters& Parameters::add(std::int64_t value) {
+  std::string bytes;
+  append_big_endian(bytes, static_cast<std::uint64_t>(value));
+  return add_value(kInt8, std::move(bytes));
+}
+
+Parameters& Parameters::add(double value) {
+  std::string bytes;
+  append_big_endian(bytes, std::bit_cast<std::uint64_t>(value));
+  return add_value(kFloat8, std::move(bytes));
+}
+
+Parameters& Parameters::add(bool value) { return add_value(kBool, std::string(1, value ? '\1' : '\0')); }
+
+Parameters& Parameters::add(std::string_view text) { return add_value(kText, std::string(text)); }
+
+Parameters& Parameters::add_bytes(std::string_view bytes) { return add_value(kBytes, std::string(bytes)); }
+
+Parameters& Parameters::add_bytes_or_null(std::string_view bytes) {
+  add_bytes(bytes);
+  if (bytes.empty()) {
+    values_.back().reset();
+  }
+  return *this;
+}
+
+Parameters& Parameters::add(std::span<const std::int64_t> values) {
+  std::vector<std::string> elements(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    append_big_endian(elements[i], static_cast<std::uint64_t>(values[i]));
+  }
+  return add_value(kInt8Array, array_bytes(kInt8, elements));
+}
+
+Parameters& Parameters::add(std::span<const std::string> texts) {
+  return add_value(kTextArray, array_bytes(kText, {texts.begin(), texts.end()}));
+}
+
+Parameters& Parameters::add_series(std::span<const double> values) {
+  return add_value(kBytes, series_bytes(values));
+}
+
+Rows::Rows(pg_result* result) : result_(result) {}
+
+void Rows::Clear::operator()(pg_result* result) const { PQclear(result); }
+
+int Rows::count() const { return PQntuples(result_.get()); }
+
+std::int64_t Rows::changed() const {
+  const std::string_view text = PQcmdTuples(result_.get());
+  return text.empty() ? 0 : std::stoll(std::string(text));
+}
+
+bool Rows::is_null(int row, int column) const { return PQgetisnull(result_.get(), row, column) == 1; }
+
+std::string_view Rows::bytes(int row, int column) const {
+  return {PQgetvalue(result_.get(), row, column),
+          static_cast<std::size_t>(PQgetlength(result_.get(), row, column))};
+}
+
+std::int64_t Rows::integer(int row, int column) const {
+  const std::string_view value = bytes(row, column);
+  switch (value.size()) {
+    case 2:
+      return static_cast<std::int16_t>(big_endian(value));
+    case 4:
+      return static_cast<std::int32_t>(big_endian(value));
+    case 8:
+      return static_cast<std::int64_t>(big_endian(value));
+    default:
+      throw Error("XX001", "column " + std::to_string(column) + " of the store is no integer");
+  }
+}
+
+double Rows::real(int row, int column) const {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(integer(row, column)));
+}
+
+bool Rows::boolean(int row, int column) const { return bytes(row, column) == std::string_view("\1", 1); }
+
+std::string Rows::text(int row, int column) const { return std::string(bytes(row, column)); }
+
+std::vector<double> Rows::series(int row, int column) const {
+  const std::string_view value = bytes(row, column);
+  std::vector<double> values(value.size() / sizeof(double));
+  if (!values.empty()) {
+    std::memcpy(values.data(), value.data(), values.size() * sizeof(double));
+  }
+  return values;
+}
+
+std::vector<std::int64_t> Rows::integers(int row, int column) const {
+  constexpr std::size_t kHead = 20;  // dimensions, whether there are NULLs, type; length, lower bound
+  std::string_view value = bytes(row, column);
+  std::vector<std::int64_t> all;
+  for (value.remove_prefix(std::min(kHead, value.size())); value.size() >= 12; value.remove_prefix(12)) {
+    if (big_endian(value.substr(0, 4)) != 8) {
+      throw Error("XX001", "an array of the store has another type, or NULLs");
+    }
+    all.push_back(static_cast<std::int64_t>(big_endian(value.substr(4, 8))));
+  }
+  return all;
+}
+
+std::optional<std::int64_t> Rows::optional_integer(int row, int column) const {
+  return is_null(row, column) ? std::nullopt : std::optional(integer(row, column));
+}
+
+std::optional<double> Rows::optional_real(int row, int column) const {
+  return is_null(row, column) ? std::nullopt : std::optional(real(row, column));
+}
+
+void Connection::Close::operator()(pg_conn* connection) const { PQfinish(connection); }
+
+Connection::Connection(const std::string& location) {
+  std::array<const char*, kDefaults.size()> values = kDefaults;
+  values[values.size() - 2] = location.c_str();
+  handle_.reset(PQconnectdbParams(kKeywords.data(), values.data(), 1));
+  if (PQstatus(handle_.get()) != CONNECTION_OK) {
+    throw Error("", handle_ ? PQerrorMessage(handle_.get()) : "no memory");
+  }
+  execute("SET idle_in_transaction_session_timeout = '15s'; SET lock_timeout = '10s'");
+}
+
+bool Connection::good() const { return PQstatus(handle_.get()) == CONNECTION_OK; }
+
+bool Connection::in_transaction() const { return PQtransactionStatus(handle_.get()) != PQTRANS_IDLE; }
+
+void Connection::fail(pg_result* result) const {
+  const Rows owned(result);
+  const char* state = result == nullptr ? nullptr : PQresultErrorField(result, PG_DIAG_SQLSTATE);
+  const char* message = result == nullptr ? nullptr : PQresultErrorField(result, PG_DIAG_MESSAGE_PRIMARY);
+  throw Error(state == nullptr || !good() ? "" : state,
+              message == nullptr ? PQerrorMessage(handle_.get()) : message);
+}
+
+void Connection::send(const Statement& statement) {
+  const Parameters& all = statement.parameters;
+  std::vector<const char*> values;
+  std::vector<int> lengths;
+  for (const std::optional<std::string>& value : all.values_) {
+    values.push_back(value ? value->data() : nullptr);
+    lengths.push_back(value ? static_cast<int>(value->size()) : 0);
+  }
+  const std::vector<int> binary(values.size(), 1);
+  if (PQsendQueryParams(handle_.get(), std::string(statement.sql).c_str(), static_cast<int>(values.size()),
+                        all.types_.data(), values.data(), lengths.data(), binary.data(), 1) != 1) {
+    throw Error("", PQerrorMessage(handle_.get()));
+  }
+}
+
+Rows Connection::run(std::string_view sql, const Parameters& parameters) {
+  send({sql, parameters});
+  PGresult* result = PQgetResult(handle_.get());
+  while (PGresult* more = PQgetResult(handle_.get())) {
+    PQclear(more);
+  }
+  const ExecStatusType status = PQresultStatus(result);
+  if (status != PGRES_TUPLES_OK && status != PGRES_COMMAND_OK) {
+    fail(result);
+  }
+  return Rows(result);
+}
+
+std::vector<Rows> Connection::run_all(std::span<const Statement> statements) {
+  if (PQenterPipelineMode(handle_.get()) != 1) {
+    throw Error("", PQerrorMessage(handle_.get()));
+  }
+  for (const Statement& statement : statements) {
+    send(statement);
+  }
+  PQpipelineSync(handle_.get());
+  std::vector<Rows> all;
+  PGresult* failed = nullptr;
+  for (std::size_t i = 0; i < statements.size() && good(); ++i) {
+    PGresult* result = PQgetResult(handle_.get());
+    const ExecStatusType status = PQresultStatus(result);
+    if (status == PGRES_TUPLES_OK || status == PGRES_COMMAND_OK) {
+      all.emplace_back(result);
+    } else if (failed == nullptr && status != PGRES_PIPELINE_ABORTED) {
+      failed = result;
+    } else {
+      PQclear(result);
+    }
+    PQclear(PQgetResult(handle_.get()));  // the end of this statement's results
+  }
+  PQclear(PQgetResult(handle_.get()));  // of the synchronisation
+  PQexitPipelineMode(handle_.get());
+  if (all.size() != statements.size()) {
+    fail(failed);
+  }
+  return all;
+}
+
+void Connection::execute(const std::string& sql) {
+  PGresult* result = PQexec(handle_.get(), sql.c_str());
+  const ExecStatusType status = PQresultStatus(result);
+  if (status != PGRES_TUPLES_OK && status != PGRES_COMMAND_OK && status != PGRES_EMPTY_QUERY) {
+    fail(result);
+  }
+  PQclear(result);
+}
+
+bool Connection::wait_for_notification(int milliseconds) {
+  pollfd waiting{PQsocket(handle_.get()), POLLIN, 0};
+  if (::poll(&waiting, 1, milliseconds) > 0 && PQconsumeInput(handle_.get()) != 1) {
+    throw Error("", PQerrorMessage(handle_.get()));
+  }
+  bool any = false;
+  while (PGnotify* notification = PQnotifies(handle_.get())) {
+    PQfreemem(notification);
+    any = true;
+  }
+  return any;
+}
+
+Transaction::Transaction(Connection& connection, bool synced) : connection_(connection) {
+  connection_.execute(synced ? "BEGIN" : "BEGIN; SET LOCAL synchronous_commit = off");
+}
+
+Transaction::~Transaction() {
+  if (open_ && connection_.good()) {
+    try {
+      connection_.execute("ROLLBACK");
+    } catch (const Error&) {  // the connection is lost: the server rolls back
+    }
+  }
+}
+
+void Transaction::commit() {
+  connection_.execute("COMMIT");
+  open_ = false;
+}
+
+}  // namespace snapthrough::server::postgresql

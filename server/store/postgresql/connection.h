@@ -1,0 +1,148 @@
+#pragma once
+/// @file
+/// Thin owners of libpq's handles. Inside the driver an error is an exception; the store's verbs turn it into
+/// a Status. libpq-fe.h is not included here.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct pg_conn;
+struct pg_result;
+
+namespace snapthrough::server::postgresql {
+
+/// PostgreSQL refused something, or is not there.
+class Error : public std::runtime_error {
+ public:
+  /// @param state SQLSTATE, five characters; empty: the connection is lost
+  Error(std::string state, const std::string& message)
+      : std::runtime_error(message), state_(std::move(state)) {}
+  [[nodiscard]] const std::string& state() const { return state_; }
+  /// Nobody knows whether what was asked last was done.
+  [[nodiscard]] bool lost() const { return state_.empty(); }
+
+ private:
+  std::string state_;
+};
+
+/// @brief Parameters of a statement, $1 first, in the wire's binary form, each with its type.
+class Parameters {
+ public:
+  Parameters& add(std::int64_t value);
+  Parameters& add(int value) { return add(static_cast<std::int64_t>(value)); }
+  Parameters& add(double value);
+  Parameters& add(bool value);
+  Parameters& add(std::string_view text);
+  Parameters& add(const char* text) { return add(std::string_view(text)); }
+  Parameters& add_bytes(std::string_view bytes);
+  /// NULL for an empty text.
+  Parameters& add_bytes_or_null(std::string_view bytes);
+  Parameters& add(std::span<const std::int64_t> values);
+  Parameters& add(std::span<const std::string> texts);
+  /// Little-endian float64, one after the other.
+  Parameters& add_series(std::span<const double> values);
+  template <class T>
+  Parameters& add(const std::optional<T>& value) {
+    if (value) {
+      return add(*value);
+    }
+    add(T{});  // for its type
+    values_.back().reset();
+    return *this;
+  }
+
+ private:
+  friend class Connection;
+  Parameters& add_value(unsigned type, std::string value);
+
+  std::vector<unsigned> types_;
+  std::vector<std::optional<std::string>> values_;
+};
+
+/// A statement that is to be run.
+struct Statement {
+  std::string_view sql;
+  Parameters parameters = {};
+};
+
+/// @brief The rows that a statement gave. Columns and rows count from 0. Throws Error where a value is NULL
+/// or of another type.
+class Rows {
+ public:
+  explicit Rows(pg_result* result);
+
+  [[nodiscard]] int count() const;
+  [[nodiscard]] bool empty() const { return count() == 0; }
+  /// Rows that an insert, update or delete changed.
+  [[nodiscard]] std::int64_t changed() const;
+  [[nodiscard]] bool is_null(int row, int column) const;
+  [[nodiscard]] std::int64_t integer(int row, int column) const;  ///< of any integer type
+  [[nodiscard]] double real(int row, int column) const;
+  [[nodiscard]] bool boolean(int row, int column) const;
+  [[nodiscard]] std::string text(int row, int column) const;  ///< text or bytes; empty for NULL
+  [[nodiscard]] std::vector<double> series(int row, int column) const;
+  [[nodiscard]] std::vector<std::int64_t> integers(int row, int column) const;  ///< of an array of bigint
+  [[nodiscard]] std::optional<std::int64_t> optional_integer(int row, int column) const;
+  [[nodiscard]] std::optional<double> optional_real(int row, int column) const;
+
+ private:
+  [[nodiscard]] std::string_view bytes(int row, int column) const;
+  struct Clear {
+    void operator()(pg_result* result) const;
+  };
+  std::unique_ptr<pg_result, Clear> result_;
+};
+
+/// @brief One connection. Not thread-safe. Members throw Error; after one that is lost() nothing works any
+/// more.
+class Connection {
+ public:
+  /// Connects. @param location a connection URI (postgresql://...)
+  explicit Connection(const std::string& location);
+
+  /// Runs one statement.
+  Rows run(std::string_view sql, const Parameters& parameters = {});
+  /// @brief Runs statements one after the other in one round trip, as one transaction if none is open. When
+  /// one fails, those after it are not run, and its Error is thrown.
+  std::vector<Rows> run_all(std::span<const Statement> statements);
+  /// Runs statements that have no parameters and give nothing, with semicolons between.
+  void execute(const std::string& sql);
+  [[nodiscard]] bool in_transaction() const;
+  [[nodiscard]] bool good() const;
+  /// Waits for notifications, at most so long; whether any came. @pre it listens
+  bool wait_for_notification(int milliseconds);
+
+ private:
+  void send(const Statement& statement);
+  [[noreturn]] void fail(pg_result* result) const;
+
+  struct Close {
+    void operator()(pg_conn* connection) const;
+  };
+  std::unique_ptr<pg_conn, Close> handle_;
+};
+
+/// @brief A transaction: rolled back when it is destroyed without commit().
+class Transaction {
+ public:
+  /// @param synced false: the commit does not wait for the disk
+  Transaction(Connection& connection, bool synced);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  Transaction(Transaction&&) = delete;
+  Transaction& operator=(Transaction&&) = delete;
+  void commit();
+
+ private:
+  Connection& connection_;
+  bool open_ = true;
+};
+
+}  // namespace snapthrough::server::postgresql

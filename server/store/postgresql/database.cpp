@@ -1,0 +1,76 @@
+#include "server/store/postgresql/database.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace snapthrough::server::postgresql {
+namespace {
+
+/// Between two tries to reach a database that is gone.
+constexpr std::chrono::milliseconds kBetweenTries{500};
+
+}  // namespace
+
+std::unique_ptr<Connection> Pool::take() {
+  std::unique_lock lock(mutex_);
+  while (idle_.empty() && open_ >= most_) {
+    returned_.wait(lock);
+  }
+  if (!idle_.empty()) {
+    std::unique_ptr<Connection> connection = std::move(idle_.back());
+    idle_.pop_back();
+    return connection;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_try_) {
+    throw Error("", "the database could not be reached a moment ago");
+  }
+  ++open_;
+  lock.unlock();
+  return connect();
+}
+
+std::unique_ptr<Connection> Pool::connect() {
+  try {
+    return std::make_unique<Connection>(location_);
+  } catch (const Error&) {
+    const std::lock_guard guard(mutex_);
+    --open_;
+    next_try_ = std::chrono::steady_clock::now() + kBetweenTries;
+    returned_.notify_one();
+    throw;
+  }
+}
+
+void Pool::give_back(std::unique_ptr<Connection> connection) {
+  std::vector<std::unique_ptr<Connection>> lost;
+  {
+    const std::lock_guard guard(mutex_);
+    if (connection->good() && !connection->in_transaction()) {
+      idle_.push_back(std::move(connection));
+    } else {
+      // the server is gone or was started anew: so are the others
+      lost = std::exchange(idle_, {});
+      lost.push_back(std::move(connection));
+      open_ -= static_cast<int>(lost.size());
+    }
+  }
+  returned_.notify_all();
+}
+
+Status to_status(const Error& error) {
+  if (error.state() == kLostClaim) {
+    return {StatusCode::conflict, error.what()};
+  }
+  // Classes and codes of PostgreSQL, appendix A: not enough resources (53), intervention of an operator (57),
+  // a lock that did not come (55P03), a database that only reads (25006), an idle transaction that was ended
+  // (25P03), the two of again_if_in_the_way().
+  constexpr std::array<std::string_view, 6> kMayWorkLater{"53", "57", "55P03", "25006", "25P03", "40"};
+  const bool later =
+      error.lost() || std::any_of(kMayWorkLater.begin(), kMayWorkLater.end(),
+                                  [&](std::string_view start) { return error.state().starts_with(start); });
+  return {later ? StatusCode::unavailable : StatusCode::io_error, error.what()};
+}
+
+}  // namespace snapthrough::server::postgresql

@@ -1,0 +1,158 @@
+#pragma once
+/// @file
+/// A few connections to one database, for the parts of the driver.
+
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "server/metrics/metrics.h"
+#include "server/status.h"
+#include "server/store/postgresql/connection.h"
+
+namespace snapthrough::server::postgresql {
+
+/// @brief Connections that are shared by the threads of a process: one is opened when all are in use and
+/// there may be more; else a thread waits. Thread-safe.
+///
+/// While the database can't be reached, one thread a moment tries; the others are told at once.
+class Pool {
+ public:
+  Pool(std::string location, int most) : location_(std::move(location)), most_(most) {}
+
+  /// A connection of the caller's until it is destroyed. A lost one is not used again.
+  class Lent {
+   public:
+    /// Throws Error.
+    explicit Lent(Pool& pool) : pool_(pool), connection_(pool.take()) {}
+    ~Lent() { pool_.give_back(std::move(connection_)); }
+    Lent(const Lent&) = delete;
+    Lent& operator=(const Lent&) = delete;
+    Lent(Lent&&) = delete;
+    Lent& operator=(Lent&&) = delete;
+    [[nodiscard]] Connection& operator*() const { return *connection_; }
+
+   private:
+    Pool& pool_;
+    std::unique_ptr<Connection> connection_;
+  };
+
+  [[nodiscard]] const std::string& location() const { return location_; }
+
+ private:
+  std::unique_ptr<Connection> take();
+  void give_back(std::unique_ptr<Connection> connection);
+  std::unique_ptr<Connection> connect();
+
+  const std::string location_;
+  const int most_;
+  std::mutex mutex_;
+  std::condition_variable returned_;
+  std::vector<std::unique_ptr<Connection>> idle_;
+  int open_ = 0;
+  std::chrono::steady_clock::time_point next_try_{};
+};
+
+/// Whether a write has to survive the death of the database's machine before its caller goes on.
+enum class Durability { synced, unsynced };
+
+/// SQLSTATE that held_job() and held_units() of the schema raise.
+inline constexpr std::string_view kLostClaim = "ST001";
+
+/// The status that an error of PostgreSQL amounts to.
+[[nodiscard]] Status to_status(const Error& error);
+
+/// @brief Pieces of work on one database. Thread-safe.
+class Database {
+ public:
+  Database(std::string location, int connections) : pool_(std::move(location), connections) {}
+
+  /// @brief Runs `work(connection)`, which gives a StatusOr<T>, in a transaction; undone when its status is
+  /// not ok. Runs it again when another transaction stood in its way.
+  template <class T, class Work>
+  StatusOr<T> write(const Work& work, Durability durability = Durability::synced) {
+    const Timed timed(commit_seconds_);
+    return again_if_in_the_way<T>([&](Connection& connection) -> StatusOr<T> {
+      Transaction transaction(connection, durability == Durability::synced);
+      StatusOr<T> outcome = work(connection);
+      if (outcome.ok()) {
+        transaction.commit();
+      }
+      return outcome;
+    });
+  }
+
+  /// Work that gives nothing but a status.
+  template <class Work>
+  Status write_only(const Work& work, Durability durability = Durability::synced) {
+    return write<bool>(
+               [&](Connection& connection) -> StatusOr<bool> {
+                 Status status = work(connection);
+                 return status.ok() ? StatusOr<bool>(true) : std::move(status);
+               },
+               durability)
+        .status();
+  }
+
+  /// @brief Runs statements as one transaction in one round trip, and gives `use(rows)`, a StatusOr<T>, of
+  /// what each of them gave. It is committed whatever that is.
+  template <class T, class Use>
+  StatusOr<T> write_at_once(std::vector<Statement> statements, Durability durability, const Use& use) {
+    const Timed timed(commit_seconds_);
+    const bool unsynced = durability == Durability::unsynced;
+    if (unsynced) {
+      statements.insert(statements.begin(), {"SELECT set_config('synchronous_commit', 'off', true)"});
+    }
+    return again_if_in_the_way<T>([&](Connection& connection) -> StatusOr<T> {
+      const std::vector<Rows> all = connection.run_all(statements);
+      return use(std::span(all).subspan(unsynced ? 1 : 0));
+    });
+  }
+
+  /// The same for statements of which nothing is wanted.
+  Status write_at_once(std::vector<Statement> statements, Durability durability = Durability::synced) {
+    return write_at_once<bool>(std::move(statements), durability, [](const auto&) { return true; }).status();
+  }
+
+  /// Runs `work(connection)`, which gives a T; each of its statements is a transaction.
+  template <class T, class Work>
+  StatusOr<T> read(const Work& work) {
+    const Timed timed(read_seconds_);
+    return again_if_in_the_way<T>([&](Connection& connection) -> StatusOr<T> { return work(connection); });
+  }
+
+  void write_metrics(std::string& text) const {
+    commit_seconds_.write(text);
+    read_seconds_.write(text);
+  }
+  [[nodiscard]] const std::string& location() const { return pool_.location(); }
+
+ private:
+  static constexpr int kTries = 5;
+
+  template <class T, class Run>
+  StatusOr<T> again_if_in_the_way(const Run& run) {
+    for (int attempt = 1;; ++attempt) {
+      try {
+        const Pool::Lent connection(pool_);
+        return run(*connection);
+      } catch (const Error& error) {
+        // a deadlock, or two transactions that can't both come first; nothing was done
+        if ((error.state() != "40P01" && error.state() != "40001") || attempt == kTries) {
+          return to_status(error);
+        }
+      }
+    }
+  }
+
+  Pool pool_;
+  Histogram commit_seconds_{"snapthrough_store_commit_seconds",
+                            "Of one transaction that writes, with its sync."};
+  Histogram read_seconds_{"snapthrough_store_read_seconds", "Of one read of the store."};
+};
+
+}  // namespace snapthrough::server::postgresql

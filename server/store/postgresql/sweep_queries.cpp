@@ -1,0 +1,149 @@
+/// What is known of sweeps: verbs that read.
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "server/store/postgresql/list.h"
+#include "server/store/postgresql/row_pack.h"
+#include "server/store/postgresql/sweeps.h"
+
+namespace snapthrough::server::postgresql {
+namespace {
+
+/// Leases' rows that are read at a time: no transaction is open for long.
+constexpr int kReadAtOnce = 16;
+/// Of the same outputs there may be many copies; so many are looked at.
+constexpr int kMostFound = 200;
+
+}  // namespace
+
+StatusOr<std::vector<std::string>> PostgresqlSweepStore::unfinished() {
+  return database_.read<std::vector<std::string>>([](Connection& connection) {
+    const Rows rows = connection.run(
+        "SELECT id FROM sweeps WHERE status IN ('accepted', 'running') AND NOT removed"
+        " ORDER BY row_number() OVER (PARTITION BY owner ORDER BY seq), seq");
+    std::vector<std::string> ids;
+    for (int row = 0; row < rows.count(); ++row) {
+      ids.push_back(rows.text(row, 0));
+    }
+    return ids;
+  });
+}
+
+StatusOr<std::optional<OpenSweep>> PostgresqlSweepStore::open(std::string_view id) {
+  return database_.read<std::optional<OpenSweep>>([&](Connection& connection) -> std::optional<OpenSweep> {
+    const Rows rows = connection.run(
+        "SELECT document, owner, reuse FROM sweeps JOIN sweep_documents ON sweep = seq"
+        " WHERE id = $1 AND NOT removed AND status IN ('accepted', 'running')",
+        Parameters().add(id));
+    return rows.empty() ? std::nullopt
+                        : std::optional(OpenSweep{rows.text(0, 0), rows.text(0, 1), rows.boolean(0, 2)});
+  });
+}
+
+StatusOr<std::optional<SweepRecord>> PostgresqlSweepStore::get(std::string_view id) {
+  static const std::string kSql =
+      "SELECT " + std::string(kSweepColumns) + " FROM sweeps WHERE id = $1 AND NOT removed";
+  return database_.read<std::optional<SweepRecord>>(
+      [&](Connection& connection) -> std::optional<SweepRecord> {
+        const Rows rows = connection.run(kSql, Parameters().add(id));
+        return rows.empty() ? std::nullopt : std::optional(read_sweep(rows, 0));
+      });
+}
+
+StatusOr<SweepPage> PostgresqlSweepStore::list(const ListQuery& query) {
+  return database_.read<SweepPage>([&](Connection& connection) {
+    static const ListedTable kSweeps{"sweeps", kSweepColumns, kSweepColumnCount, " AND NOT removed"};
+    auto [sweeps, next] = read_page<SweepRecord>(connection, kSweeps, query, read_sweep);
+    return SweepPage{std::move(sweeps), next};
+  });
+}
+
+StatusOr<std::optional<std::string>> PostgresqlSweepStore::document(std::string_view id) {
+  return database_.read<std::optional<std::string>>(
+      [&](Connection& connection) -> std::optional<std::string> {
+        const Rows rows = connection.run(
+            "SELECT document FROM sweep_documents JOIN sweeps ON seq = sweep WHERE id = $1 AND NOT removed",
+            Parameters().add(id));
+        return rows.empty() ? std::nullopt : std::optional(rows.text(0, 0));
+      });
+}
+
+Status PostgresqlSweepStore::each_row(
+    std::string_view id, const PointQuery& query,
+    const std::function<bool(std::uint64_t, const api::PointOutcome&)>& use) {
+  static constexpr std::string_view kSql =
+      "SELECT sweep_rows.first, rows FROM sweep_rows JOIN sweeps ON seq = sweep WHERE id = $1 AND NOT removed"
+      " AND first >= coalesce((SELECT max(first) FROM sweep_rows JOIN sweeps ON seq = sweep WHERE id = $1"
+      "   AND first <= $2), 0)"
+      " AND first > $3 AND first < $4 AND (failed > 0 OR NOT $5) ORDER BY first LIMIT $6";
+  const auto largest = static_cast<std::uint64_t>(INT64_MAX);
+  const std::uint64_t first = std::min(query.first, largest);
+  const std::uint64_t end = first + std::min(query.count, largest - first);
+  std::int64_t last = -1;
+  for (;;) {
+    Parameters page;
+    page.add(id).add(static_cast<std::int64_t>(first)).add(last).add(static_cast<std::int64_t>(end));
+    page.add(query.failed.value_or(false)).add(kReadAtOnce);
+    const StatusOr<std::vector<PointRow>> read =
+        database_.read<std::vector<PointRow>>([&](Connection& connection) {
+          const Rows rows = connection.run(kSql, page);
+          std::vector<PointRow> points;
+          for (int row = 0; row < rows.count(); ++row) {
+            last = rows.integer(row, 0);
+            std::vector<PointRow> some = unpack_rows(rows.text(row, 1));
+            points.insert(points.end(), std::make_move_iterator(some.begin()),
+                          std::make_move_iterator(some.end()));
+          }
+          if (rows.count() < kReadAtOnce) {
+            last = INT64_MAX;
+          }
+          return points;
+        });
+    if (!read.ok()) {
+      return read.status();
+    }
+    for (const PointRow& row : *read) {
+      const bool wanted =
+          row.point >= first && row.point < end && (!query.failed || *query.failed == row.outcome.failed());
+      if (wanted && !use(row.point, row.outcome)) {
+        return {};
+      }
+    }
+    if (last == INT64_MAX) {
+      return {};
+    }
+  }
+}
+
+StatusOr<std::vector<std::optional<std::string>>> PostgresqlSweepStore::find_outputs(
+    const std::vector<std::string>& keys) {
+  std::unordered_map<std::string_view, std::size_t> wanted;
+  std::vector<std::int64_t> some;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (!keys[i].empty()) {
+      wanted.emplace(keys[i], i);
+      some.push_back(short_key(keys[i]));
+    }
+  }
+  using Found = std::vector<std::optional<std::string>>;
+  return database_.read<Found>([&](Connection& connection) {
+    Found found(keys.size());
+    const Rows rows = some.empty() ? Rows(nullptr)
+                                   : connection.run(
+                                         "SELECT rows FROM sweep_rows JOIN sweeps ON seq = sweep"
+                                         " WHERE keys && $1 AND NOT removed LIMIT $2",
+                                         Parameters().add(some).add(kMostFound));
+    for (int row = 0; row < (some.empty() ? 0 : rows.count()); ++row) {
+      for (PointRow& point : unpack_rows(rows.text(row, 0))) {
+        if (const auto place = wanted.find(point.key); place != wanted.end() && !point.outcome.failed()) {
+          found[place->second] = std::move(point.outcome.outputs);
+        }
+      }
+    }
+    return found;
+  });
+}
+
+}  // namespace snapthrough::server::postgresql
