@@ -8,11 +8,13 @@
 #include "server/authority.h"
 #include "server/front/cross_origin.h"
 #include "server/jobs/callback.h"
+#include "server/store/open_store.h"
 
 namespace snapthrough::server {
 namespace {
 
 constexpr int kMostWorkers = 1024;
+constexpr int kMostConnections = 64;
 constexpr std::size_t kMostCallbackHosts = 16;  // each has a thread, or two
 
 bool is_digest(const std::string& text) {
@@ -34,7 +36,7 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
       mistakes.push_back({field, detail});
     }
   };
-  require(!keys.empty() || is_loopback(listener.host), "listener.host",
+  require(!front || !keys.empty() || is_loopback(listener.host), "listener.host",
           "without keys requests are not authenticated, so the service listens on loopback only (127.0.0.1, "
           "::1, localhost)");
   require(listener.port >= 0 && listener.port <= 65535, "listener.port", "must be 0 (any) to 65535");
@@ -46,8 +48,16 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
           "must be >= listener.limits.body_bytes");
   require(waits.default_wait.count() >= 0, "waits.default_wait", "must be >= 0");
   require(waits.longest_wait >= waits.default_wait, "waits.longest_wait", "must be >= waits.default_wait");
-  require(!store_path.empty(), "store_path", "must name a file");
-  require(workers >= 1 && workers <= kMostWorkers, "workers", "must be 1 to 1024");
+  require(!store_path.empty(), "store_path", "must name a file, or a database as postgresql://...");
+  require(store_connections >= 1 && store_connections <= kMostConnections, "store_connections",
+          "must be 1 to 64");
+  const bool shared = is_shared_location(store_path);
+  require(
+      front || shared, "store_path",
+      "must be a store that other processes use, too: postgresql://..., since this one answers no requests");
+  require(workers >= 1 || (workers == 0 && front && shared), "workers",
+          "must be >= 1; 0 where other processes share the store (postgresql://...) and work on it");
+  require(workers <= kMostWorkers, "workers", "must be <= 1024");
   require(jobs.max_crashes >= 1, "jobs.max_crashes", "must be >= 1");
   require(jobs.queue >= 1, "jobs.queue", "must be >= 1");
   require(jobs.sweeps >= 1, "jobs.sweeps", "must be >= 1");

@@ -25,12 +25,13 @@ struct ConfigMistake {
 
 /// Settings of the service; every field has a working default.
 struct ServiceConfig {
-  http::ListenerOptions listener;                    ///< without keys a loopback address
-  http::WaitLimits waits;                            ///< how long clients may wait for results
-  std::vector<http::ApiKey> keys;                    ///< empty: requests are not authenticated
-  std::vector<std::string> allowed_origins;          ///< pages of these may use the service, too; exact
-  std::string store_path = "snapthrough.db";         ///< SQLite file; its folder must exist
-  int workers = 1;                                   ///< analyses at the same time, 1 to 1024
+  http::ListenerOptions listener;             ///< without keys a loopback address
+  http::WaitLimits waits;                     ///< how long clients may wait for results
+  std::vector<http::ApiKey> keys;             ///< empty: requests are not authenticated
+  std::vector<std::string> allowed_origins;   ///< pages of these may use the service, too; exact
+  std::string store_path = "snapthrough.db";  ///< SQLite file, its folder must exist; or postgresql://...
+  int store_connections = 4;                  ///< to a database, of this process
+  int workers = 1;  ///< analyses at the same time, to 1024; 0: others that share the store work
   std::string runner_executable = "/proc/self/exe";  ///< snapthrough; what computes is started from it
   JobLimits jobs;                                    ///< queue, leases, retention, hosts of callbacks
   std::string callback_secret_file;  ///< what callbacks are signed with; empty: there are none
@@ -40,6 +41,8 @@ struct ServiceConfig {
   std::int64_t least_free_bytes = 64 * 1024 * 1024;  ///< with less on that disk no jobs are taken
   std::chrono::seconds drain_delay{0};               ///< from SIGTERM until workers are stopped
   LogLevel log_level = LogLevel::info;
+  bool front =
+      true;  ///< answers requests; else it only works on what others, who share the store, were given
 
   /// One worker for each core.
   [[nodiscard]] static ServiceConfig defaults();

@@ -15,8 +15,9 @@
 #include "server/jobs/job_service.h"
 #include "server/maintenance/upkeep.h"
 #include "server/metrics/request_metrics.h"
+#include "server/neighbours/neighbours.h"
 #include "server/resources/routes.h"
-#include "server/store/sqlite/sqlite_store.h"
+#include "server/store/open_store.h"
 #include "server/webhooks/signature.h"
 #include "server/webhooks/webhooks.h"
 #include "server/worker/child_runner.h"
@@ -77,9 +78,18 @@ ChildRunnerOptions runner_options(const ServiceConfig& config) {
   return {config.runner_executable, config.jobs.job_memory, config.jobs.max_crashes};
 }
 
+/// Of the disk that the store is on, if it is a file here.
+std::optional<DiskGuard> disk_guard(const ServiceConfig& config) {
+  if (is_shared_location(config.store_path)) {
+    return std::nullopt;
+  }
+  return DiskGuard(config.store_path, static_cast<std::uint64_t>(config.ballast_bytes),
+                   static_cast<std::uint64_t>(config.least_free_bytes));
+}
+
 /// What callbacks are signed with; empty when there are none.
 StatusOr<std::string> callback_key(const ServiceConfig& config) {
-  if (config.jobs.callback_hosts.empty()) {
+  if (config.jobs.callback_hosts.empty() || !config.front) {
     return std::string();
   }
   std::ifstream file(config.callback_secret_file);
@@ -100,8 +110,7 @@ struct Service::Parts {
         std::unique_ptr<Store> opened, std::string callback_key)
       : store(std::move(opened)),
         jobs(*store, environment, log, config.jobs),
-        upkeep(jobs.context(), DiskGuard(config.store_path, static_cast<std::uint64_t>(config.ballast_bytes),
-                                         static_cast<std::uint64_t>(config.least_free_bytes))),
+        upkeep(jobs.context(), disk_guard(config)),
         workers(config.workers, jobs.context(),
                 runners ? runners : child_runners(runner_options(config), runner_counters)),
         routes(jobs, config.waits,
@@ -112,7 +121,12 @@ struct Service::Parts {
         listener(config.listener, gateway),
         upkeep_thread(upkeep, environment),
         webhooks({*store, environment, log, config.callback_times, webhook_counters},
-                 callback_origins(config.jobs.callback_hosts), std::move(callback_key)) {}
+                 config.front ? callback_origins(config.jobs.callback_hosts) : std::vector<std::string>(),
+                 std::move(callback_key)) {
+    if (NeighbourStore* const others = store->neighbours()) {
+      neighbours = std::make_unique<Neighbours>(*others, jobs.context());
+    }
+  }
 
   [[nodiscard]] std::string metrics_text();
   [[nodiscard]] std::string not_ready();
@@ -130,6 +144,7 @@ struct Service::Parts {
   UpkeepThread upkeep_thread;
   WebhookCounters webhook_counters;
   Webhooks webhooks;
+  std::unique_ptr<Neighbours> neighbours;
 };
 
 std::string Service::Parts::metrics_text() {
@@ -208,7 +223,8 @@ Status Service::start() {
   if (!key.ok()) {
     return key.status();
   }
-  StatusOr<std::unique_ptr<Store>> store = sqlite::open_store(config_.store_path, environment_.now());
+  StatusOr<std::unique_ptr<Store>> store =
+      open_store(config_.store_path, config_.store_connections, environment_.now());
   if (!store.ok()) {
     return store.status();
   }
@@ -225,22 +241,23 @@ Status Service::start() {
   }
   if (*points > 0) {
     log_.write(LogLevel::warning, "sweep",
-               {{"points", *points},
-                {"detail", std::string_view("the service died while it worked on these points")}});
+               {{"units", *points},
+                {"detail", std::string_view("the service died while it worked on these units")}});
   }
   parts_ = std::make_unique<Parts>(config_, environment_, runners_, log_, std::move(opened),
                                    std::move(key).value());
   for (std::size_t i = 0; i < recovery->failed.size(); ++i) {
     parts_->jobs.context().metrics.job_ended("crashed");
   }
-  if (Status status = parts_->listener.start(); !status.ok()) {
+  if (Status status = config_.front ? parts_->listener.start() : Status(); !status.ok()) {
     stop();
     return status;
   }
-  log_.write(LogLevel::info, "listening",
-             {{"host", std::string_view(config_.listener.host)},
-              {"port", static_cast<std::int64_t>(port())},
-              {"store", std::string_view(config_.store_path)},
+  const std::string location = shown_location(config_.store_path);
+  log_.write(LogLevel::info, config_.front ? "listening" : "working",
+             {{"host", std::string_view(config_.front ? config_.listener.host : "")},
+              {"port", static_cast<std::int64_t>(config_.front ? port() : 0)},
+              {"store", std::string_view(location)},
               {"workers", static_cast<std::int64_t>(config_.workers)},
               {"keys", static_cast<std::int64_t>(config_.keys.size())}});
   return {};

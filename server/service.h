@@ -26,7 +26,8 @@ class Service {
   Service(Service&&) = delete;
   Service& operator=(Service&&) = delete;
 
-  /// @brief Opens the store, puts jobs that a dead process left running back, starts workers, listens.
+  /// @brief Opens the store, puts jobs that a dead process left running back, starts workers, and listens if
+  /// it is a front.
   Status start();
   /// The port that is listened to, once started.
   [[nodiscard]] int port() const;

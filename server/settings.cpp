@@ -9,6 +9,8 @@
 
 #include <toml++/toml.h>
 
+#include "server/store/open_store.h"
+
 namespace snapthrough::server {
 namespace {
 
@@ -76,12 +78,15 @@ Setting listen_setting() {
 }
 
 Setting store_setting() {
-  return {"store", "Database file, created if need be; its folder must exist",
-          [](ServiceConfig& config, const std::string& text) -> Mistake {
-            config.store_path = text;
-            return std::nullopt;
-          },
-          [](const ServiceConfig& config) { return config.store_path; }};
+  return {
+      "store",
+      "Database file, created if need be, its folder must exist; or a database that several processes share:"
+      " postgresql://user@host/name",
+      [](ServiceConfig& config, const std::string& text) -> Mistake {
+        config.store_path = text;
+        return std::nullopt;
+      },
+      [](const ServiceConfig& config) { return shown_location(config.store_path); }};
 }
 
 /// A setting that is a list of texts with commas between.
@@ -188,7 +193,10 @@ std::vector<Setting> front_settings() {
 std::vector<Setting> job_settings() {
   return {
       store_setting(),
-      whole("workers", "Analyses at the same time", [](ServiceConfig& c) -> int& { return c.workers; }),
+      whole("store_connections", "Connections to a store that is a database, of this process",
+            [](ServiceConfig& c) -> int& { return c.store_connections; }),
+      whole("workers", "Analyses at the same time; 0: other processes that share the store work",
+            [](ServiceConfig& c) -> int& { return c.workers; }),
       whole("max_queue", "Jobs that may wait; the next is refused with 429",
             [](ServiceConfig& c) -> int& { return c.jobs.queue; }),
       whole("max_sweeps", "Sweeps that may be unfinished; the next is refused with 429",
@@ -345,8 +353,9 @@ const std::vector<Setting>& settings() {
   return all;
 }
 
-std::pair<ServiceConfig, std::vector<ConfigMistake>> load_config(const SettingSources& sources) {
+std::pair<ServiceConfig, std::vector<ConfigMistake>> load_config(const SettingSources& sources, bool front) {
   ServiceConfig config = ServiceConfig::defaults();
+  config.front = front;
   std::vector<ConfigMistake> mistakes;
   if (!sources.file.empty()) {
     read_file(sources.file, config, mistakes);

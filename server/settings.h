@@ -41,8 +41,9 @@ inline constexpr std::string_view kVariablePrefix = "SNAPTHROUGH_";
 inline constexpr const char* kConfigVariable = "SNAPTHROUGH_CONFIG";
 
 /// @brief Reads all sources. Every mistake is listed with the place it comes from; the configuration is not
-/// to be used then.
-[[nodiscard]] std::pair<ServiceConfig, std::vector<ConfigMistake>> load_config(const SettingSources& sources);
+/// to be used then. @param front see ServiceConfig
+[[nodiscard]] std::pair<ServiceConfig, std::vector<ConfigMistake>> load_config(const SettingSources& sources,
+                                                                               bool front = true);
 
 /// The name of the variable of a setting: SNAPTHROUGH_NAME.
 [[nodiscard]] std::string variable_name(const std::string& setting);

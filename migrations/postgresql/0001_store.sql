@@ -46,9 +46,13 @@ CREATE TABLE job_leases (
 
 -- Where running analyses stand, for other hosts; lost when the database crashes.
 CREATE UNLOGGED TABLE job_progress (
-  id text PRIMARY KEY,
+  job bigint PRIMARY KEY,
   attempt integer NOT NULL,
-  document text NOT NULL                             -- JSON
+  number bigint NOT NULL,                            -- how often it told something in this attempt
+  branch integer NOT NULL,
+  step integer NOT NULL,
+  load_factor double precision NOT NULL,
+  negative_eigenvalues integer NOT NULL
 ) WITH (fillfactor = 50);
 
 CREATE TABLE requests (

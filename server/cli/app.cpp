@@ -78,8 +78,9 @@ CLI::App* add_sweep_command(CLI::App& app, Arguments& arguments) {
 }
 
 /// Every setting is a flag: log_level is --log-level.
-void add_serve_command(CLI::App& app, Arguments& arguments) {
-  CLI::App* command = app.add_subcommand("serve", "Run the service");
+CLI::App* add_service_command(CLI::App& app, const char* name, const char* description,
+                              Arguments& arguments) {
+  CLI::App* command = app.add_subcommand(name, description);
   command->add_option("--config", arguments.config_file,
                       "Settings (TOML); environment and flags win over it");
   const ServiceConfig defaults = ServiceConfig::defaults();
@@ -95,6 +96,13 @@ void add_serve_command(CLI::App& app, Arguments& arguments) {
       ->add_flag_callback(
           "--no-web", [&arguments] { arguments.settings["web"] = http::kNoPage; }, "No page at /")
       ->excludes("--web");
+  return command;
+}
+
+void add_migrate_command(CLI::App& app, Arguments& arguments) {
+  app.add_subcommand("migrate", "Bring the schema of a store up to date, and end")
+      ->add_option("--store", arguments.store, "Database file, or postgresql://...")
+      ->capture_default_str();
 }
 
 void add_backup_command(CLI::App& app, Arguments& arguments) {
@@ -109,14 +117,15 @@ void add_health_command(CLI::App& app, Arguments& arguments) {
   command->add_flag("--ready", arguments.ready, "Ask whether it takes work, too");
 }
 
-int serve(const Arguments& arguments, const Streams& streams) {
+/// @param front it answers requests
+int serve(const Arguments& arguments, bool front, const Streams& streams) {
   SettingSources sources{arguments.config_file, own_variables(), {}};
   const auto file = sources.environment.find(kConfigVariable);
   if (sources.file.empty() && file != sources.environment.end()) {
     sources.file = file->second;
   }
   sources.flags.assign(arguments.settings.begin(), arguments.settings.end());
-  return serve_command(sources, streams);
+  return serve_command(sources, front, streams);
 }
 
 }  // namespace
@@ -129,7 +138,10 @@ int run(int argc, const char* const* argv, const Streams& streams) {
   const CLI::App* solve = add_solve_command(app, arguments);
   const CLI::App* check = add_request_command(app, "check", "Validate a request", arguments);
   const CLI::App* sweep = add_sweep_command(app, arguments);
-  add_serve_command(app, arguments);
+  add_service_command(app, "serve", "Run the service", arguments);
+  const CLI::App* work = add_service_command(
+      app, "work", "Work on what the service was given on other hosts, which share the store", arguments);
+  add_migrate_command(app, arguments);
   add_backup_command(app, arguments);
   add_health_command(app, arguments);
   try {
@@ -160,7 +172,10 @@ int run(int argc, const char* const* argv, const Streams& streams) {
     if (app.got_subcommand("health")) {
       return health_command(arguments.address, arguments.ready, streams);
     }
-    return serve(arguments, streams);
+    if (app.got_subcommand("migrate")) {
+      return migrate_command(arguments.store, streams);
+    }
+    return serve(arguments, !*work, streams);
   } catch (const std::exception& error) {
     streams.err << "snapthrough: " << error.what() << '\n';
     return kOther;

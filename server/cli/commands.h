@@ -40,7 +40,11 @@ int sweep_command(const std::string& path, const Streams& streams, const SweepOp
 
 /// Runs the service until SIGTERM or SIGINT. SIGHUP reads the keys of the configuration file again; without
 /// such a file it ends the service, too.
-int serve_command(const SettingSources& sources, const Streams& streams);
+/// @param front it answers requests; else it only works for others that share the store
+int serve_command(const SettingSources& sources, bool front, const Streams& streams);
+
+/// Brings the schema of a store up to date.
+int migrate_command(const std::string& store, const Streams& streams);
 
 /// Copies the store of a service, which may be running, to a new file.
 int backup_command(const std::string& store, const std::string& target, const Streams& streams);

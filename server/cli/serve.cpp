@@ -64,7 +64,7 @@ void log_config(Log& log, const ServiceConfig& config) {
 
 /// Reads the sources again and uses their keys; when something is wrong, all stays as it is.
 void reload_keys(const SettingSources& sources, const ServiceConfig& running, Service& service, Log& log) {
-  auto [config, mistakes] = load_config(sources);
+  auto [config, mistakes] = load_config(sources, running.front);
   const std::size_t count = config.keys.size();
   if (mistakes.empty()) {
     if (const Status status = service.replace_keys(std::move(config.keys)); !status.ok()) {
@@ -91,8 +91,8 @@ void reload_keys(const SettingSources& sources, const ServiceConfig& running, Se
 
 }  // namespace
 
-int serve_command(const SettingSources& sources, const Streams& streams) {
-  const auto [config, mistakes] = load_config(sources);
+int serve_command(const SettingSources& sources, bool front, const Streams& streams) {
+  const auto [config, mistakes] = load_config(sources, front);
   for (const ConfigMistake& mistake : mistakes) {
     streams.err << mistake.field << ": " << mistake.detail << '\n';
   }

@@ -10,6 +10,7 @@
 
 #include "server/cli/commands.h"
 #include "server/front/sockets.h"
+#include "server/store/open_store.h"
 #include "server/store/sqlite/sqlite_store.h"
 
 namespace snapthrough::server::cli {
@@ -37,7 +38,21 @@ http::Descriptor connect_to(const std::string& host, int port) {
 
 }  // namespace
 
+int migrate_command(const std::string& store, const Streams& streams) {
+  const StatusOr<std::unique_ptr<Store>> opened = open_store(store, 1, Environment::system().now());
+  if (!opened.ok()) {
+    streams.err << "snapthrough: " << opened.status().message() << '\n';
+    return kOther;
+  }
+  streams.out << shown_location(store) << " has the schema of this version\n";
+  return kDone;
+}
+
 int backup_command(const std::string& store, const std::string& target, const Streams& streams) {
+  if (is_shared_location(store)) {
+    streams.err << "snapthrough: a database is backed up by its own tools: pg_dump or pg_basebackup\n";
+    return kOther;
+  }
   if (const Status status = sqlite::back_up(store, target); !status.ok()) {
     streams.err << "snapthrough: " << status.message() << '\n';
     return kOther;

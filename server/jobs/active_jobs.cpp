@@ -64,6 +64,11 @@ std::vector<Claim> ActiveJobs::older(Time since) const {
   return claims;
 }
 
+bool ActiveJobs::has(const std::string& id) const {
+  const std::lock_guard guard(mutex_);
+  return entries_.contains(id);
+}
+
 std::size_t ActiveJobs::count() const {
   const std::lock_guard guard(mutex_);
   return entries_.size();

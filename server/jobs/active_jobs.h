@@ -51,6 +51,7 @@ class ActiveJobs {
   /// The claims that are held since before that time.
   [[nodiscard]] std::vector<Claim> older(Time since) const;
   [[nodiscard]] std::size_t count() const;
+  [[nodiscard]] bool has(const std::string& id) const;
 
  private:
   static void stop_entry(Entry& entry, StopReason reason);

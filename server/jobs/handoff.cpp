@@ -10,6 +10,11 @@ void HandoffQueue::ring() {
   changed_.notify_one();
 }
 
+std::size_t HandoffQueue::idle() {
+  const std::lock_guard guard(mutex_);
+  return idle_;
+}
+
 bool HandoffQueue::offer(Handoff& handoff) {
   const std::lock_guard guard(mutex_);
   if (idle_ <= given_.size()) {

@@ -30,6 +30,8 @@ class HandoffQueue {
   void ring();
   /// Gives the job to an idle worker; false (and the job is left alone) when none is idle.
   bool offer(Handoff& handoff);
+  /// Workers that wait.
+  [[nodiscard]] std::size_t idle();
   /// Waits for a job that is given, a ring since `seen` (which it updates), a stop, or the end of the time.
   std::optional<Handoff> wait(std::uint64_t& seen, std::stop_token stop, std::chrono::duration<double> time);
 

@@ -46,6 +46,22 @@ void JobCompletions::call(Ticket& ticket) {
 }
 
 void JobCompletions::announce(const std::string& id) {
+  end(id);
+  bell_.ring();
+}
+
+std::vector<std::string> JobCompletions::waited() {
+  const std::lock_guard guard(mutex_);
+  std::vector<std::string> ids;
+  for (const auto& [id, ticket] : tickets_) {
+    if (!ticket->ended_) {
+      ids.push_back(id);
+    }
+  }
+  return ids;
+}
+
+void JobCompletions::end(const std::string& id) {
   const std::lock_guard guard(mutex_);
   const auto [first, last] = tickets_.equal_range(id);
   for (auto it = first; it != last; ++it) {

@@ -6,6 +6,9 @@
 #include <mutex>
 #include <string>
 #include <unordered_map>
+#include <vector>
+
+#include "server/jobs/bell.h"
 
 namespace snapthrough::server {
 
@@ -14,6 +17,9 @@ namespace snapthrough::server {
 /// A waiter makes its Ticket before it looks at the store, so that an end in between is not missed.
 class JobCompletions {
  public:
+  /// @param bell rung with each announcement
+  explicit JobCompletions(Bell& bell) : bell_(bell) {}
+
   class Ticket {
    public:
     Ticket(JobCompletions& completions, std::string id);
@@ -35,13 +41,18 @@ class JobCompletions {
     std::function<void()> callback_;
   };
 
-  /// The job is in a final state, or gone, and the store says so.
+  /// The job is in a final state, or gone, and the store says so: for those who wait here and elsewhere.
   void announce(const std::string& id);
+  /// The same, as others know already.
+  void end(const std::string& id);
+  /// What is waited for.
+  [[nodiscard]] std::vector<std::string> waited();
   /// Nobody shall wait any longer, now or later.
   void close();
 
  private:
   static void call(Ticket& ticket);
+  Bell& bell_;
   std::mutex mutex_;
   bool closed_ = false;
   std::unordered_multimap<std::string, Ticket*> tickets_;

@@ -68,9 +68,9 @@ JobService::JobService(Store& store, const Environment& environment, Log& log, J
       limits_(limits),
       instance_(new_id(environment)),
       sweeps_({store_.sweeps(), environment_, log_, limits_, health_, waiting_, handoffs_, completions_,
-               metrics_, instance_}),
+               metrics_, bell_, instance_}),
       context_{store_,    environment_, log_,      limits_,        health_,  waiting_, completions_,
-               handoffs_, active_,      progress_, sweeps_.work(), metrics_, instance_} {}
+               handoffs_, active_,      progress_, sweeps_.work(), metrics_, bell_,    instance_} {}
 
 StatusOr<Submission> JobService::submit(const Order& order) {
   if (Status status = health_.takes_work(); !status.ok()) {
@@ -148,6 +148,7 @@ StatusOr<Submission> JobService::store_new(const Order& order, NewJob job) {
   if (!job.lease) {
     ++waiting_;
     handoffs_.ring();
+    bell_.ring();
   }
   return Submission{Submission::Kind::stored, {}, std::move(job.id)};
 }
@@ -166,6 +167,21 @@ StatusOr<std::optional<Job>> JobService::get(const std::string& id, std::string_
     return std::optional<Job>();
   }
   return job;
+}
+
+std::optional<Progress> JobService::progress(const Job& job) const {
+  if (job.state != JobState::running) {
+    return std::nullopt;
+  }
+  if (const auto here = progress_.get(job.id, &JobNews::progress); here && *here) {
+    return *here;
+  }
+  NeighbourStore* const others = store_.neighbours();
+  if (others == nullptr) {
+    return std::nullopt;
+  }
+  const StatusOr<std::vector<ToldProgress>> told = others->told({job.id});
+  return told.ok() && !told->empty() ? std::optional(told->front().progress) : std::nullopt;
 }
 
 StatusOr<Dismissal> JobService::dismiss(const std::string& id) {

@@ -35,10 +35,9 @@ class JobService {
   /// Removes a job, after stopping its analysis. @pre get() found it
   Status remove(const std::string& id);
 
-  /// Where a running analysis stands; nothing before its first step.
-  [[nodiscard]] std::optional<Progress> progress(const std::string& id) const {
-    return progress_.get(id, &JobNews::progress).value_or(std::nullopt);
-  }
+  /// Where the analysis of a running job stands; nothing before its first step. What runs in another process
+  /// tells it once a second.
+  [[nodiscard]] std::optional<Progress> progress(const Job& job) const;
   [[nodiscard]] Store& store() { return store_; }
   [[nodiscard]] const Environment& environment() const { return environment_; }
   [[nodiscard]] const JobLimits& limits() const { return limits_; }
@@ -59,7 +58,8 @@ class JobService {
   std::atomic<std::int64_t> waiting_ = 0;
   std::mutex keys_mutex_;
   std::set<std::pair<std::string, std::string>> keys_in_use_;
-  JobCompletions completions_;
+  Bell bell_;
+  JobCompletions completions_{bell_};
   HandoffQueue handoffs_;
   ActiveJobs active_;
   JobProgress progress_;

@@ -73,6 +73,15 @@ class ProgressTopic {
     const std::lock_guard guard(mutex_);
     latest_.erase(id);
   }
+  /// The ids that somebody follows.
+  [[nodiscard]] std::vector<std::string> followed() const {
+    const std::lock_guard guard(mutex_);
+    std::vector<std::string> ids;
+    for (const auto& [id, follower] : followers_) {
+      ids.push_back(id);
+    }
+    return ids;
+  }
   /// One field of what is remembered.
   template <class Field>
   [[nodiscard]] std::optional<Field> get(const std::string& id, Field News::*field) const {

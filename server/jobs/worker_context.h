@@ -8,6 +8,7 @@
 
 #include "server/environment.h"
 #include "server/jobs/active_jobs.h"
+#include "server/jobs/bell.h"
 #include "server/jobs/handoff.h"
 #include "server/jobs/job_completions.h"
 #include "server/jobs/job_metrics.h"
@@ -33,6 +34,7 @@ struct WorkerContext {
   JobProgress& progress;
   SweepWork& sweeps;
   JobMetrics& metrics;
+  Bell& bell;                  ///< for other processes
   const std::string instance;  ///< of the service: the name that leases bear
 
   /// A lease from now on.

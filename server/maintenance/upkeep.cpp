@@ -1,5 +1,6 @@
 #include "server/maintenance/upkeep.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -8,6 +9,7 @@ namespace snapthrough::server {
 namespace {
 
 constexpr std::chrono::seconds kPause{1};
+constexpr std::chrono::milliseconds kBetweenSharedRenewals{900};  // each time that upkeep looks
 constexpr std::chrono::seconds kBetweenRetirements{10};
 /// Jobs that are removed in one transaction, so that it stays short.
 constexpr int kRetiredAtOnce = 200;
@@ -35,9 +37,14 @@ void Upkeep::run_once(Time now) {
   context_.active.stop_older(now - context_.limits.longest_run, StopReason::time_limit);
   context_.sweeps.stop_older(now - context_.limits.longest_run);
   if (now >= next_renewal_) {
-    next_renewal_ = now + context_.limits.lease / 4;
-    renew_leases(now);
-    context_.sweeps.renew_leases(now);
+    // A claim that was dismissed in another process is lost at the next renewal: soon.
+    const bool shared = context_.store.neighbours() != nullptr;
+    const auto quarter = std::chrono::milliseconds(context_.limits.lease) / 4;
+    next_renewal_ = now + (shared ? std::min(kBetweenSharedRenewals, quarter) : quarter);
+    renew_leases(now - (shared ? kPause : quarter / 2), now);
+  }
+  if (now >= next_rescue_) {
+    next_rescue_ = now + context_.limits.lease / 4;
     rescue(now);
     context_.sweeps.rescue(now);
   }
@@ -49,8 +56,10 @@ void Upkeep::run_once(Time now) {
   }
 }
 
-void Upkeep::renew_leases(Time now) {
-  const std::vector<Claim> held = context_.active.older(now - context_.limits.lease / 8);
+/// Of what is held since before that time.
+void Upkeep::renew_leases(Time since, Time now) {
+  context_.sweeps.renew_leases(since, now);
+  const std::vector<Claim> held = context_.active.older(since);
   if (held.empty()) {
     return;
   }
@@ -87,12 +96,12 @@ void Upkeep::look_at_disk(Time now) {
   const bool before = health.writable && health.has_space;
   const Status probe = context_.store.probe(now);
   health.writable = probe.ok();
-  health.has_space = guard_.check(probe.ok());
+  health.has_space = guard_ ? guard_->check(probe.ok()) : probe.ok();
   if (const bool after = health.writable && health.has_space; after != before) {
     context_.log.write(after ? LogLevel::info : LogLevel::error, "disk",
                        {{"writable", health.writable.load()},
                         {"has_space", health.has_space.load()},
-                        {"free_bytes", static_cast<std::int64_t>(guard_.free_bytes())},
+                        {"free_bytes", static_cast<std::int64_t>(guard_ ? guard_->free_bytes() : 0)},
                         {"detail", std::string_view(probe.message())}});
   }
 }
@@ -135,8 +144,8 @@ void Upkeep::retire_sweeps(Time now) {
 }
 
 void Upkeep::count_waiting() {
-  if (const StatusOr<JobCounts> counts = context_.store.counts(); counts.ok()) {
-    context_.waiting = (*counts)[static_cast<std::size_t>(JobState::accepted)];
+  if (const StatusOr<std::int64_t> waiting = context_.store.waiting(); waiting.ok()) {
+    context_.waiting = *waiting;
   }
 }
 

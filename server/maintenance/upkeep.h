@@ -2,7 +2,9 @@
 /// @file
 /// What has to be done again and again, whatever the requests: leases, retention, the state of the disk.
 
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "server/jobs/worker_context.h"
 #include "server/log/log.h"
@@ -13,13 +15,15 @@ namespace snapthrough::server {
 /// @brief The recurring work. run_once() from one thread; the parts it is given must outlive it.
 class Upkeep {
  public:
-  Upkeep(const WorkerContext& context, DiskGuard guard) : context_(context), guard_(std::move(guard)) {}
+  /// @param guard of the disk of a store that is a file here
+  Upkeep(const WorkerContext& context, std::optional<DiskGuard> guard)
+      : context_(context), guard_(std::move(guard)) {}
 
   /// Does what is due at that time.
   void run_once(Time now);
 
  private:
-  void renew_leases(Time now);
+  void renew_leases(Time since, Time now);
   void rescue(Time now);
   void look_at_disk(Time now);
   void retire(Time now);
@@ -27,8 +31,9 @@ class Upkeep {
   void count_waiting();
 
   const WorkerContext& context_;
-  DiskGuard guard_;
+  std::optional<DiskGuard> guard_;
   Time next_renewal_{};
+  Time next_rescue_{};
   Time next_retirement_{};
 };
 

@@ -51,7 +51,7 @@ class FollowingJob final : public Following {
       return end_at_once();
     }
     send_status(static_cast<std::uint64_t>((*job)->attempt) * kAttempt,
-                job_status_document(**job, jobs_.progress(id_)));
+                job_status_document(**job, jobs_.progress(**job)));
     follower_.emplace(jobs_.context().progress, id_, [this](const JobNews& news) { on_news(news); });
     listen_for_end();
   }

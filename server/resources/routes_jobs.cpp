@@ -182,7 +182,7 @@ Response Routes::answer_of_post(const Request& request, const std::string& id, S
   if (with_result) {
     response = result_of(request, **job);
   } else {
-    response = json_response(201, job_status_document(**job, jobs_.progress(id)));
+    response = json_response(201, job_status_document(**job, jobs_.progress(**job)));
     if (preferences.wants_job()) {
       const bool is_new = kind == Submission::Kind::stored || kind == Submission::Kind::copied;
       response.status = is_new ? 201 : 200;
@@ -206,7 +206,7 @@ Response Routes::status_of_job(const Request& request, const std::string& id) {
   if (!job.ok()) {
     return store_trouble(request, job.status());
   }
-  return job->has_value() ? json_response(200, job_status_document(**job, jobs_.progress(id)))
+  return job->has_value() ? json_response(200, job_status_document(**job, jobs_.progress(**job)))
                           : job_missing(request, id);
 }
 

@@ -3,7 +3,6 @@
 /// What the service needs from a database, as verbs. Each database has a driver in its own folder, which
 /// holds all of its SQL; one conformance suite (tests/server/store_conformance.h) runs on every driver.
 
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -16,6 +15,7 @@
 #include "server/status.h"
 #include "server/store/delivery_store.h"
 #include "server/store/list_query.h"
+#include "server/store/neighbour_store.h"
 #include "server/store/sweep_store.h"
 
 namespace snapthrough::server {
@@ -31,9 +31,6 @@ struct Recovery {
   std::vector<std::string> requeued;
   std::vector<std::string> failed;  ///< they had been left so too often
 };
-
-/// How many jobs there are, by state in the order of kJobStates.
-using JobCounts = std::array<std::int64_t, kJobStates.size()>;
 
 /// What dismissing a job met.
 struct Dismissal {
@@ -119,7 +116,8 @@ class Store {
   /// any); empty when there is none.
   virtual StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
                                                            std::string_view owner) = 0;
-  virtual StatusOr<JobCounts> counts() = 0;
+  /// How many jobs are accepted.
+  virtual StatusOr<std::int64_t> waiting() = 0;
   /// When the oldest accepted job was handed in; empty when none waits.
   virtual StatusOr<std::optional<Time>> oldest_waiting() = 0;
   /// Appends what the driver measures of itself, in the text format of Prometheus.
@@ -141,6 +139,9 @@ class Store {
   virtual SweepStore& sweeps() = 0;
   /// Who is still to be told of an end; lives as long as this.
   virtual DeliveryStore& deliveries() = 0;
+  /// What processes that share the store tell each other; lives as long as this. Null: one process at a time
+  /// owns the store.
+  virtual NeighbourStore* neighbours() { return nullptr; }
 };
 
 }  // namespace snapthrough::server

@@ -135,8 +135,8 @@ StatusOr<SweepChange> SweepWork::dismiss(const std::string& id) {
   return change;
 }
 
-void SweepWork::renew_leases(Time now) {
-  const std::vector<UnitClaim> held = scheduler_.older(now - world_.limits.lease / 8);
+void SweepWork::renew_leases(Time since, Time now) {
+  const std::vector<UnitClaim> held = scheduler_.older(since);
   if (held.empty()) {
     return;
   }
@@ -155,8 +155,12 @@ void SweepWork::rescue(Time now) {
   }
 }
 
-/// Workers that sleep look at the store.
 void SweepWork::wake() {
+  look_again();
+  world_.bell.ring();
+}
+
+void SweepWork::look_again() {
   unloaded_ = true;
   world_.handoffs.ring();
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "server/environment.h"
+#include "server/jobs/bell.h"
 #include "server/jobs/handoff.h"
 #include "server/jobs/job_completions.h"
 #include "server/jobs/job_metrics.h"
@@ -35,6 +36,7 @@ struct SweepSurroundings {
   HandoffQueue& handoffs;
   JobCompletions& completions;  ///< of sweeps, too
   JobMetrics& metrics;
+  Bell& bell;
   const std::string instance;  ///< of the service: the name that leases bear
 };
 
@@ -55,14 +57,16 @@ class SweepWork {
   bool do_next(Runner& runner, const std::stop_token& stop);
   /// Whether do_next() may find something.
   [[nodiscard]] bool is_left() const { return scheduler_.has_units() || unloaded_; }
-  /// There is more: a worker that sleeps looks at the store.
+  /// There is more: a worker that sleeps looks at the store, here and in other processes.
   void wake();
+  /// There is more, as others know already.
+  void look_again();
   /// Stops the sweep; its rows stay. Who works on it is asked to stop.
   StatusOr<SweepChange> dismiss(const std::string& id);
   /// Stops units that began before that time: they took longer than an analysis may.
   void stop_older(Time since) { scheduler_.stop_older(since); }
-  /// Renews leases that are held for a while; who works on one that was lost is asked to stop.
-  void renew_leases(Time now);
+  /// Renews leases that are held since before that time; who works on one that was lost is asked to stop.
+  void renew_leases(Time since, Time now);
   /// Takes units back whose lease has run out.
   void rescue(Time now);
   /// Sweeps that are worked on in turn.

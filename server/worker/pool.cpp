@@ -14,8 +14,10 @@ namespace {
 
 using std::chrono::duration;
 
-/// How long a worker without work waits at most before it looks at the queue again.
+/// How long a worker without work waits at most before it looks at the queue again, though nobody said that
+/// there is more. Where the store is shared, Neighbours looks for all workers of the process.
 constexpr duration<double> kLongestNap{1.0};
+constexpr duration<double> kLongestSharedNap{10.0};
 /// How long a worker waits before it tries again to store an outcome.
 constexpr std::chrono::milliseconds kRetryPause{200};
 
@@ -228,6 +230,7 @@ void WorkerPool::run(const std::stop_token& stop) {
   const std::unique_ptr<Runner> own = make_();
   Runner& runner = *own;
   std::uint64_t seen = 0;
+  const auto nap = context_.store.neighbours() == nullptr ? kLongestNap : kLongestSharedNap;
   while (!stop.stop_requested()) {
     // In turn: neither jobs nor sweeps wait for the end of the other. While sweeps go on the store is not
     // asked for jobs that nobody submitted.
@@ -239,7 +242,7 @@ void WorkerPool::run(const std::stop_token& stop) {
     }
     // Jobs that are given directly come before those that wait: nobody is idle while some wait.
     std::optional<Handoff> handoff;
-    while ((handoff = context_.handoffs.wait(seen, stop, kLongestNap))) {
+    while ((handoff = context_.handoffs.wait(seen, stop, nap))) {
       work_on(*handoff, context_, runner, stop);
       if (context_.waiting > 0 || context_.sweeps.is_left() || stop.stop_requested()) {
         break;

@@ -122,7 +122,7 @@ class FuzzedStore final : public Store {
   StatusOr<std::optional<std::string>> find_result(std::string_view, std::string_view) override {
     return std::optional<std::string>();
   }
-  StatusOr<JobCounts> counts() override { return JobCounts{}; }
+  StatusOr<std::int64_t> waiting() override { return 0; }
   StatusOr<std::optional<Time>> oldest_waiting() override { return std::optional<Time>(); }
   StatusOr<std::optional<Job>> get(std::string_view id) override {
     return id == kFuzzedJob ? std::optional(job()) : std::nullopt;

@@ -20,14 +20,9 @@ StatusOr<std::optional<std::string>> PostgresqlStore::find_result(std::string_vi
       });
 }
 
-StatusOr<JobCounts> PostgresqlStore::counts() {
-  return database_.read<JobCounts>([](Connection& connection) {
-    const Rows rows = connection.run("SELECT status, count(*) FROM jobs GROUP BY status");
-    JobCounts counts{};
-    for (int row = 0; row < rows.count(); ++row) {
-      counts[static_cast<std::size_t>(state_in(rows, row, 0))] = rows.integer(row, 1);
-    }
-    return counts;
+StatusOr<std::int64_t> PostgresqlStore::waiting() {
+  return database_.read<std::int64_t>([](Connection& connection) {
+    return connection.run("SELECT count(*) FROM jobs WHERE status = 'accepted'").integer(0, 0);
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "server/store/postgresql/database.h"
 #include "server/store/postgresql/deliveries.h"
+#include "server/store/postgresql/neighbours.h"
 #include "server/store/postgresql/rows.h"
 #include "server/store/postgresql/sweeps.h"
 #include "server/store/store.h"
@@ -20,7 +21,8 @@ class PostgresqlStore final : public Store {
       : database_(location, connections),
         clock_(clock),
         sweeps_(database_, clock),
-        deliveries_(database_, clock) {}
+        deliveries_(database_, clock),
+        neighbours_(database_) {}
 
   using Store::submit;
   StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) override;
@@ -39,7 +41,7 @@ class PostgresqlStore final : public Store {
   Status probe(Time now) override;
   StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
                                                    std::string_view owner) override;
-  StatusOr<JobCounts> counts() override;
+  StatusOr<std::int64_t> waiting() override;
   StatusOr<std::optional<Time>> oldest_waiting() override;
   void write_metrics(std::string& text) const override { database_.write_metrics(text); }
   StatusOr<std::optional<Job>> get(std::string_view id) override;
@@ -49,6 +51,7 @@ class PostgresqlStore final : public Store {
   StatusOr<StoredPath> path(std::string_view id) override;
   SweepStore& sweeps() override { return sweeps_; }
   DeliveryStore& deliveries() override { return deliveries_; }
+  NeighbourStore* neighbours() override { return &neighbours_; }
 
  private:
   StatusOr<Submitted> submit_only(const NewJob& job);
@@ -61,6 +64,7 @@ class PostgresqlStore final : public Store {
   std::string last_owner_;  ///< whose job was claimed last
   PostgresqlSweepStore sweeps_;
   PostgresqlDeliveryStore deliveries_;
+  PostgresqlNeighbourStore neighbours_;
 };
 
 }  // namespace snapthrough::server::postgresql

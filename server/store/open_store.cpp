@@ -1,0 +1,21 @@
+#include "server/store/open_store.h"
+
+#include "server/store/postgresql/postgresql_store.h"
+#include "server/store/sqlite/sqlite_store.h"
+
+namespace snapthrough::server {
+
+bool is_shared_location(const std::string& location) { return postgresql::is_location(location); }
+
+std::string shown_location(const std::string& location) { return postgresql::without_password(location); }
+
+StatusOr<std::unique_ptr<Store>> open_store(const std::string& location, int connections, Time now) {
+  if (!is_shared_location(location)) {
+    return sqlite::open_store(location, now);
+  }
+  postgresql::Options options;
+  options.connections = connections;
+  return postgresql::open_store(location, options);
+}
+
+}  // namespace snapthrough::server

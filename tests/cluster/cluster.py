@@ -1,0 +1,274 @@
+"""Hosts that share one PostgreSQL, each a process of its own: started, harmed and asked, for tests and measurements."""
+
+import hashlib
+import http.client
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+POSTGRESQL = max(pathlib.Path("/usr/lib/postgresql").glob("*/bin"), key=lambda path: int(path.parent.name))
+OWNERS = {"ann": "key-of-ann-0123456789", "bob": "key-of-bob-0123456789"}
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def unprivileged(command):
+    """PostgreSQL refuses to run as root."""
+    if os.geteuid() == 0:
+        return ["setpriv", "--reuid=nobody", "--regid=nogroup", "--clear-groups", *map(str, command)]
+    return list(map(str, command))
+
+
+class Database:
+    """A server of PostgreSQL in a folder of its own. It syncs to disk, as it does in earnest."""
+
+    def __init__(self, folder, settings=()):
+        self.folder = pathlib.Path(folder)
+        self.folder.mkdir(parents=True)
+        if os.geteuid() == 0:
+            shutil.chown(self.folder, "nobody", "nogroup")
+        self.port = free_port()
+        self.settings = list(settings)
+
+    def initialise(self):
+        self._run("initdb", "-D", self.folder / "data", "-U", "snapthrough", "-A", "trust", "-E", "UTF8", "--locale=C",
+                  "--no-sync")
+        self.start()
+        self._run("createdb", "-h", self.folder, "-p", self.port, "-U", "snapthrough", "snapthrough")
+        return self
+
+    def replica_of(self, primary):
+        """A standby that streams from another one."""
+        self._run("pg_basebackup", "-h", primary.folder, "-p", primary.port, "-U", "snapthrough", "-D",
+                  self.folder / "data", "-R", "-X", "stream", "-c", "fast")
+        with open(self.folder / "data" / "postgresql.auto.conf", "a", encoding="utf-8") as conf:
+            conf.write("primary_conninfo = 'host=%s port=%d user=snapthrough application_name=replica'\n"
+                       % (primary.folder, primary.port))
+        self.start()
+        return self
+
+    def start(self, wait=True):
+        options = [f"-c port={self.port}", f"-c unix_socket_directories={self.folder}", "-c listen_addresses=127.0.0.1",
+                   "-c max_connections=300", *(f"-c {setting}" for setting in self.settings)]
+        self._run("pg_ctl", "-D", self.folder / "data", "-l", self.folder / "server.log", "-W" if not wait else "-w",
+                  "-o", " ".join(options), "start")
+
+    def promote(self):
+        self._run("pg_ctl", "-D", self.folder / "data", "-w", "promote")
+
+    def kill(self):
+        pid = int((self.folder / "data" / "postmaster.pid").read_text().split()[0])
+        os.kill(pid, signal.SIGKILL)
+        subprocess.run(["pkill", "-KILL", "-P", str(pid)], check=False)
+        deadline = time.time() + 20
+        while time.time() < deadline:  # its children end by themselves when it is gone
+            if not subprocess.run(["pgrep", "-f", str(self.folder)], capture_output=True, check=False).stdout:
+                break
+            time.sleep(0.05)
+
+    def stop(self):
+        if (self.folder / "data" / "postmaster.pid").exists():
+            self._run("pg_ctl", "-D", self.folder / "data", "-m", "immediate", "-w", "stop", check=False)
+
+    def query(self, sql):
+        """Rows as lists of texts."""
+        out = subprocess.run([POSTGRESQL / "psql", "-h", self.folder, "-p", str(self.port), "-U", "snapthrough", "-AtF", "\t",
+                              "-c", sql, "snapthrough"], capture_output=True, text=True, check=True).stdout
+        return [line.split("\t") for line in out.splitlines()]
+
+    def location(self, host="127.0.0.1"):
+        return f"postgresql://snapthrough@{host}:{self.port}/snapthrough"
+
+    def _run(self, program, *arguments, check=True):
+        done = subprocess.run(unprivileged([POSTGRESQL / program, *arguments]), cwd=self.folder, capture_output=True, text=True,
+                              check=False)
+        if check and done.returncode != 0:
+            raise RuntimeError(f"{program}: {done.stdout}{done.stderr}")
+
+
+class Host:
+    """A process of the service: with a port it answers requests."""
+
+    def __init__(self, program, folder, name, store, workers, front, options=()):
+        self.name = name
+        self.log = pathlib.Path(folder) / f"{name}.log"
+        self.port = free_port() if front else None
+        config = pathlib.Path(folder) / f"{name}.toml"
+        keys = "".join(f'[[keys]]\nowner = "{owner}"\nsha256 = "{hashlib.sha256(key.encode()).hexdigest()}"\n'
+                       for owner, key in OWNERS.items())
+        config.write_text(f'store = "{store}"\nworkers = {workers}\nlisten = "127.0.0.1:{self.port or 0}"\n' + keys)
+        self.command = [str(program), "serve" if front else "work", "--config", str(config), *options]
+        self.process = None
+        self.start()
+
+    def start(self):
+        self.process = subprocess.Popen(self.command, stdout=open(self.log, "a"), stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+        deadline = time.time() + 20
+        while time.time() < deadline:
+            if self.process.poll() is not None:
+                raise RuntimeError(f"{self.name} ended: {self.log.read_text()[-500:]}")
+            if '"event":"listening"' in self.log.read_text() or '"event":"working"' in self.log.read_text():
+                return
+            time.sleep(0.02)
+        raise RuntimeError(f"{self.name} did not start")
+
+    def signal(self, number):
+        self.process.send_signal(number)
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+    def stop(self):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGCONT)
+            self.process.terminate()
+            try:
+                self.process.wait(20)
+            except subprocess.TimeoutExpired:
+                self.kill()
+
+    def events(self, name):
+        """What it logged under that name."""
+        found = []
+        for line in self.log.read_text().splitlines():
+            if f'"event":"{name}"' in line:
+                try:
+                    found.append(json.loads(line))
+                except json.JSONDecodeError:
+                    pass  # cut where it was killed
+        return found
+
+
+class Client:
+    """Asks the fronts in turn, and the next one when one does not answer."""
+
+    def __init__(self, hosts, owner="ann"):
+        self.hosts = hosts
+        self.owner = owner
+        self.turn = random.randrange(len(hosts))
+
+    def ask(self, method, path, body=None, headers=None, tries=1, timeout=30):
+        """Status, body and headers; status 0 when nobody answered."""
+        for attempt in range(tries):
+            host = self.hosts[(self.turn + attempt) % len(self.hosts)]
+            try:
+                connection = http.client.HTTPConnection("127.0.0.1", host.port, timeout=timeout)
+                connection.request(method, path, body, {"Content-Type": "application/json",
+                                                        "Authorization": f"Bearer {OWNERS[self.owner]}", **(headers or {})})
+                response = connection.getresponse()
+                text = response.read()
+                connection.close()
+                if response.status < 500:
+                    self.turn += attempt
+                    return response.status, text, response.headers
+            except (OSError, http.client.HTTPException):
+                pass
+            time.sleep(0.05)
+        return 0, b"", {}
+
+
+def column(stiffness, elements=4, analysis="critical"):
+    """A request that takes some milliseconds; more with more elements."""
+    return {"model": {"title": "column", "nodes": [{"id": "a", "x": 0, "y": 0}, {"id": "b", "x": 1, "y": 0}],
+                      "sections": [{"id": "s", "EA": 1e6, "EI": stiffness}],
+                      "members": [{"id": "m", "start": "a", "end": "b", "section": "s"}],
+                      "supports": [{"node": "a", "fixed": ["x", "y", "rotation"]}],
+                      "loads": [{"type": "point", "at": {"node": "b"}, "force": [-1, 0]}]},
+            "analysis": {"type": analysis} if analysis == "buckling" else
+                        {"type": analysis, "discretization": {"elements": elements, "order": 2}}}
+
+
+def sweep(points, elements=4, analysis="critical"):
+    """That column over as many stiffnesses."""
+    return {**column(1, elements, analysis), "design": "grid", "outputs": ["/summary/critical_load_factor"],
+            "parameters": [{"name": "EI", "targets": [{"pointer": "/model/sections/0/EI"}],
+                            "range": {"from": 1, "to": 2, "count": points}}]}
+
+
+class Load:
+    """Clients that hand jobs in, one after the other, until they are stopped; what was acknowledged is kept."""
+
+    def __init__(self, hosts, clients=4, elements=24):
+        self.hosts = hosts
+        self.elements = elements
+        self.lock = threading.Lock()
+        self.acknowledged = []  # (when, owner, path)
+        self.stopping = False
+        self.threads = [threading.Thread(target=self._run, args=(number,), daemon=True) for number in range(clients)]
+        for thread in self.threads:
+            thread.start()
+
+    def _run(self, number):
+        client = Client(self.hosts, list(OWNERS)[number % 2])
+        made = 0
+        while not self.stopping:
+            made += 1
+            key = f'"{os.getpid()}-{id(self)}-{number}-{made}"'
+            body = json.dumps(column(1 + number + made * 1e-4, self.elements))
+            status = 0
+            while status == 0 and not self.stopping:  # the same again, with its key, until somebody answers
+                status, _, headers = client.ask("POST", "/v1/jobs", body, {"Idempotency-Key": key, "Prefer": "respond-async"},
+                                                tries=len(self.hosts))
+            if status in (200, 201):
+                with self.lock:
+                    self.acknowledged.append((time.time(), client.owner, headers["Location"]))
+            time.sleep(0.05)
+
+    def stop(self):
+        self.stopping = True
+        for thread in self.threads:
+            thread.join()
+        return list(self.acknowledged)
+
+
+def wait_for(condition, seconds, pause=0.05):
+    """Seconds until it held, or None."""
+    start = time.time()
+    while time.time() - start < seconds:
+        if condition():
+            return time.time() - start
+        time.sleep(pause)
+    return None
+
+
+class Cluster:
+    """A database, fronts and workers."""
+
+    def __init__(self, program, fronts=2, workers=4, options=(), settings=()):
+        self.folder = tempfile.mkdtemp(prefix="snapthrough-cluster-")
+        os.chmod(self.folder, 0o755)
+        self.database = Database(pathlib.Path(self.folder) / "database", settings).initialise()
+        self.hosts = []
+        store = self.database.location()
+        self.fronts = [self._add(program, f"front{i}", store, 0, True, options) for i in range(fronts)]
+        self.workers = [self._add(program, f"worker{i}", store, 1, False, options) for i in range(workers)]
+
+    def _add(self, program, name, store, workers, front, options):
+        host = Host(program, self.folder, name, store, workers, front, options)
+        self.hosts.append(host)
+        return host
+
+    def stop(self):
+        for host in self.hosts:
+            host.stop()
+        self.database.stop()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    sys.exit("cluster.py is used by faults.py and rates.py")
