@@ -21,6 +21,27 @@ bool is_digest(const std::string& text) {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
+/// What is wrong with where work is kept, and who does it.
+void check_store(const ServiceConfig& config, std::vector<ConfigMistake>& mistakes) {
+  const auto require = [&](bool holds, const char* field, const char* detail) {
+    if (!holds) {
+      mistakes.push_back({field, detail});
+    }
+  };
+  require(!config.store_path.empty(), "store_path", "must name a file, or a database as postgresql://...");
+  require(config.store_connections >= 1 && config.store_connections <= kMostConnections, "store_connections",
+          "must be 1 to 64");
+  const bool shared = is_shared_location(config.store_path);
+  require(
+      config.front || shared, "store_path",
+      "must be a store that other processes use, too: postgresql://..., since this one answers no requests");
+  require(config.workers >= 1 || (config.workers == 0 && config.front && shared), "workers",
+          "must be >= 1; 0 where other processes share the store (postgresql://...) and work on it");
+  require(config.workers <= kMostWorkers, "workers", "must be <= 1024");
+  require(config.jobs.lease.count() >= (shared ? 3 : 1), "jobs.lease",
+          "must be >= 1 s; >= 3 s where other processes share the store, since it is renewed each second");
+}
+
 }  // namespace
 
 ServiceConfig ServiceConfig::defaults() {
@@ -48,16 +69,7 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
           "must be >= listener.limits.body_bytes");
   require(waits.default_wait.count() >= 0, "waits.default_wait", "must be >= 0");
   require(waits.longest_wait >= waits.default_wait, "waits.longest_wait", "must be >= waits.default_wait");
-  require(!store_path.empty(), "store_path", "must name a file, or a database as postgresql://...");
-  require(store_connections >= 1 && store_connections <= kMostConnections, "store_connections",
-          "must be 1 to 64");
-  const bool shared = is_shared_location(store_path);
-  require(
-      front || shared, "store_path",
-      "must be a store that other processes use, too: postgresql://..., since this one answers no requests");
-  require(workers >= 1 || (workers == 0 && front && shared), "workers",
-          "must be >= 1; 0 where other processes share the store (postgresql://...) and work on it");
-  require(workers <= kMostWorkers, "workers", "must be <= 1024");
+  check_store(*this, mistakes);
   require(jobs.max_crashes >= 1, "jobs.max_crashes", "must be >= 1");
   require(jobs.queue >= 1, "jobs.queue", "must be >= 1");
   require(jobs.sweeps >= 1, "jobs.sweeps", "must be >= 1");
@@ -67,7 +79,6 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   require(jobs.quotas.jobs_waiting >= 0, "jobs.quotas.jobs_waiting", "must be >= 0");
   require(jobs.quotas.points_waiting >= 0, "jobs.quotas.points_waiting", "must be >= 0");
   require(jobs.quotas.bytes_kept >= 0, "jobs.quotas.bytes_kept", "must be >= 0");
-  require(jobs.lease.count() >= 1, "jobs.lease", "must be >= 1 s");
   require(jobs.longest_run.count() >= 1, "jobs.longest_run", "must be >= 1 s");
   require(jobs.job_memory >= kLeastJobMemory, "jobs.job_memory", "must be >= 1048576 bytes");
   require(jobs.keep_jobs.count() >= 0, "jobs.keep_jobs", "must be >= 0");

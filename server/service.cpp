@@ -258,6 +258,7 @@ Status Service::start() {
              {{"host", std::string_view(config_.front ? config_.listener.host : "")},
               {"port", static_cast<std::int64_t>(config_.front ? port() : 0)},
               {"store", std::string_view(location)},
+              {"instance", std::string_view(parts_->jobs.context().instance)},
               {"workers", static_cast<std::int64_t>(config_.workers)},
               {"keys", static_cast<std::int64_t>(config_.keys.size())}});
   return {};

@@ -41,7 +41,7 @@ void Upkeep::run_once(Time now) {
     const bool shared = context_.store.neighbours() != nullptr;
     const auto quarter = std::chrono::milliseconds(context_.limits.lease) / 4;
     next_renewal_ = now + (shared ? std::min(kBetweenSharedRenewals, quarter) : quarter);
-    renew_leases(now - (shared ? kPause : quarter / 2), now);
+    renew_leases(shared ? now : now - quarter / 2, now);
   }
   if (now >= next_rescue_) {
     next_rescue_ = now + context_.limits.lease / 4;

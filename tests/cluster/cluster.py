@@ -47,6 +47,8 @@ class Database:
     def initialise(self):
         self._run("initdb", "-D", self.folder / "data", "-U", "snapthrough", "-A", "trust", "-E", "UTF8", "--locale=C",
                   "--no-sync")
+        with open(self.folder / "data" / "pg_hba.conf", "a", encoding="utf-8") as rules:
+            rules.write(f"host all all {Network.INSIDE}/32 trust\n")
         self.start()
         self._run("createdb", "-h", self.folder, "-p", self.port, "-U", "snapthrough", "snapthrough")
         return self
@@ -62,7 +64,7 @@ class Database:
         return self
 
     def start(self, wait=True):
-        options = [f"-c port={self.port}", f"-c unix_socket_directories={self.folder}", "-c listen_addresses=127.0.0.1",
+        options = [f"-c port={self.port}", f"-c unix_socket_directories={self.folder}", "-c listen_addresses=*",
                    "-c max_connections=300", *(f"-c {setting}" for setting in self.settings)]
         self._run("pg_ctl", "-D", self.folder / "data", "-l", self.folder / "server.log", "-W" if not wait else "-w",
                   "-o", " ".join(options), "start")
@@ -72,13 +74,18 @@ class Database:
 
     def kill(self):
         pid = int((self.folder / "data" / "postmaster.pid").read_text().split()[0])
-        os.kill(pid, signal.SIGKILL)
-        subprocess.run(["pkill", "-KILL", "-P", str(pid)], check=False)
-        deadline = time.time() + 20
-        while time.time() < deadline:  # its children end by themselves when it is gone
-            if not subprocess.run(["pgrep", "-f", str(self.folder)], capture_output=True, check=False).stdout:
-                break
-            time.sleep(0.05)
+        children = subprocess.run(["pgrep", "-P", str(pid)], capture_output=True, text=True, check=False).stdout.split()
+        for one in [pid, *map(int, children)]:
+            os.kill(one, signal.SIGKILL)
+
+    def start_again(self):
+        """After a kill: its memory may be in use for a moment."""
+        for _ in range(100):
+            try:
+                return self.start()
+            except RuntimeError:
+                time.sleep(0.1)
+        return self.start()
 
     def stop(self):
         if (self.folder / "data" / "postmaster.pid").exists():
@@ -100,10 +107,49 @@ class Database:
             raise RuntimeError(f"{program}: {done.stdout}{done.stderr}")
 
 
+class Network:
+    """A network namespace with one cable to this machine, which can be cut. Needs root."""
+
+    OUTSIDE, INSIDE = "10.213.77.1", "10.213.77.2"
+
+    def __init__(self):
+        self.name = f"snapthrough{os.getpid() % 10000}"
+        self.prefix = ["ip", "netns", "exec", self.name]
+        self._ip("netns", "add", self.name)
+        self._ip("link", "add", "st-out", "type", "veth", "peer", "name", "st-in", "netns", self.name)
+        self._ip("addr", "add", f"{self.OUTSIDE}/30", "dev", "st-out")
+        self._ip("link", "set", "st-out", "up")
+        for words in (["addr", "add", f"{self.INSIDE}/30", "dev", "st-in"], ["link", "set", "st-in", "up"], ["link", "set", "lo", "up"]):
+            subprocess.run([*self.prefix, "ip", *words], check=True)
+
+    @staticmethod
+    def possible():
+        """Whether this machine lets us make one."""
+        if os.geteuid() != 0 or not shutil.which("ip"):
+            return False
+        made = subprocess.run(["ip", "netns", "add", "snapthroughtry"], capture_output=True, check=False).returncode == 0
+        subprocess.run(["ip", "netns", "delete", "snapthroughtry"], capture_output=True, check=False)
+        return made
+
+    def cut(self):
+        self._ip("link", "set", "st-out", "down")
+
+    def mend(self):
+        self._ip("link", "set", "st-out", "up")
+
+    def remove(self):
+        subprocess.run(["ip", "link", "delete", "st-out"], capture_output=True, check=False)
+        subprocess.run(["ip", "netns", "delete", self.name], capture_output=True, check=False)
+
+    @staticmethod
+    def _ip(*words):
+        subprocess.run(["ip", *words], check=True)
+
+
 class Host:
     """A process of the service: with a port it answers requests."""
 
-    def __init__(self, program, folder, name, store, workers, front, options=()):
+    def __init__(self, program, folder, name, store, workers, front, options=(), prefix=()):
         self.name = name
         self.log = pathlib.Path(folder) / f"{name}.log"
         self.port = free_port() if front else None
@@ -111,7 +157,7 @@ class Host:
         keys = "".join(f'[[keys]]\nowner = "{owner}"\nsha256 = "{hashlib.sha256(key.encode()).hexdigest()}"\n'
                        for owner, key in OWNERS.items())
         config.write_text(f'store = "{store}"\nworkers = {workers}\nlisten = "127.0.0.1:{self.port or 0}"\n' + keys)
-        self.command = [str(program), "serve" if front else "work", "--config", str(config), *options]
+        self.command = [*prefix, str(program), "serve" if front else "work", "--config", str(config), *options]
         self.process = None
         self.start()
 
@@ -128,6 +174,10 @@ class Host:
 
     def signal(self, number):
         self.process.send_signal(number)
+
+    def instance(self):
+        """The name that its leases bear."""
+        return (self.events("listening") + self.events("working"))[-1]["instance"]
 
     def kill(self):
         self.process.kill()
@@ -219,7 +269,8 @@ class Load:
         while not self.stopping:
             made += 1
             key = f'"{os.getpid()}-{id(self)}-{number}-{made}"'
-            body = json.dumps(column(1 + number + made * 1e-4, self.elements))
+            # every fourth takes longer, so that whoever is harmed has something
+            body = json.dumps(column(1 + number + made * 1e-4, 1200 if made % 4 == 0 else self.elements))
             status = 0
             while status == 0 and not self.stopping:  # the same again, with its key, until somebody answers
                 status, _, headers = client.ask("POST", "/v1/jobs", body, {"Idempotency-Key": key, "Prefer": "respond-async"},
@@ -227,7 +278,7 @@ class Load:
             if status in (200, 201):
                 with self.lock:
                     self.acknowledged.append((time.time(), client.owner, headers["Location"]))
-            time.sleep(0.05)
+            time.sleep(0.1)
 
     def stop(self):
         self.stopping = True
@@ -249,14 +300,27 @@ def wait_for(condition, seconds, pause=0.05):
 class Cluster:
     """A database, fronts and workers."""
 
-    def __init__(self, program, fronts=2, workers=4, options=(), settings=()):
+    def __init__(self, program, fronts=2, workers=4, options=(), settings=(), replica=False, synced=False, apart=False):
         self.folder = tempfile.mkdtemp(prefix="snapthrough-cluster-")
         os.chmod(self.folder, 0o755)
         self.database = Database(pathlib.Path(self.folder) / "database", settings).initialise()
         self.hosts = []
+        self.replica = Database(pathlib.Path(self.folder) / "replica").replica_of(self.database) if replica else None
+        if synced:
+            self.database.query("ALTER SYSTEM SET synchronous_standby_names = 'replica'")
+            self.database.query("SELECT pg_reload_conf()")
+        self.network = Network() if apart else None
         store = self.database.location()
+        if replica:  # hosts take whichever of the two can be written
+            store = (f"postgresql://snapthrough@127.0.0.1:{self.database.port},127.0.0.1:{self.replica.port}/snapthrough"
+                     "?target_session_attrs=read-write")
         self.fronts = [self._add(program, f"front{i}", store, 0, True, options) for i in range(fronts)]
         self.workers = [self._add(program, f"worker{i}", store, 1, False, options) for i in range(workers)]
+        if self.network:
+            self.workers[0].stop()
+            self.workers[0] = Host(program, self.folder, "apart", self.database.location(Network.OUTSIDE), 1, False, options,
+                                   self.network.prefix)
+            self.hosts.append(self.workers[0])
 
     def _add(self, program, name, store, workers, front, options):
         host = Host(program, self.folder, name, store, workers, front, options)
@@ -267,6 +331,10 @@ class Cluster:
         for host in self.hosts:
             host.stop()
         self.database.stop()
+        if self.replica:
+            self.replica.stop()
+        if self.network:
+            self.network.remove()
         shutil.rmtree(self.folder, ignore_errors=True)
 
 

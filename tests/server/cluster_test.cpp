@@ -1,0 +1,153 @@
+/// @file
+/// Processes that share a store: one that answers and one that works. Here they are two services of one
+/// process.
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/server/support/postgresql.h"
+#include "tests/server/support/running_service.h"
+
+namespace snapthrough::server::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class ClusterTest : public ServiceTest {
+ protected:
+  void SetUp() override {
+    ServiceConfig front = config();
+    front.store_path = location_;
+    front.workers = 0;
+    service_ = std::make_unique<Service>(front, Environment::system(), local_runners(gated(solver_)), log_);
+    const Status status = service_->start();
+    ASSERT_TRUE(status.ok()) << status.message();
+  }
+  void start_worker(const Environment& environment = Environment::system()) {
+    ServiceConfig config = this->config();
+    config.store_path = location_;
+    config.front = false;
+    config.jobs.lease = std::chrono::seconds(3);
+    worker_ = std::make_unique<Service>(config, environment, local_runners(gated(solver_)), log_);
+    const Status status = worker_->start();
+    ASSERT_TRUE(status.ok()) << status.message();
+  }
+  /// What a job or sweep says of itself once that holds; the last when it does not within 10 s.
+  json when(const std::string& path, const std::function<bool(const json&)>& holds) const {
+    json status;
+    for (int i = 0; i < 500; ++i) {
+      status = json::parse(get(port(), path).body);
+      if (holds(status)) {
+        return status;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return status;
+  }
+  std::string submit_sweep(int points) const {
+    const Reply reply = post(port(), "/v1/sweeps", column_sweep(points));
+    EXPECT_EQ(reply.status, 201) << reply.body;
+    return reply.header("Location");
+  }
+
+  const std::string location_ = postgresql_location(folder_.name());
+  std::shared_ptr<GatedSolver> solver_ = std::make_shared<GatedSolver>();
+  std::unique_ptr<Service> worker_;
+};
+
+TEST_F(ClusterTest, WhoWaitsIsAnsweredWhenAnotherProcessHasTheResult) {
+  solver_->open();
+  start_worker();
+  const Reply reply =
+      post(port(), "/v1/jobs", column_request("t"), {"Content-Type: application/json", "Prefer: wait=20"});
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  EXPECT_EQ(json::parse(reply.body)["summary"]["termination"], "steps");
+}
+
+TEST_F(ClusterTest, EventsTellWhatAnotherProcessDoes) {
+  start_worker();
+  const std::string job = submit();
+  solver_->wait_started(1);
+  Socket stream(port());
+  follow(stream, job);
+  EXPECT_THAT(stream.read_until("event: progress"), HasSubstr("event: status"));
+  EXPECT_THAT(stream.read_until("\n\n"), HasSubstr("\"load_factor\":3.5"));
+  EXPECT_THAT(std::string(json::parse(get(port(), job).body)["message"]), HasSubstr("3.5"));
+  solver_->open();
+  EXPECT_THAT(stream.rest(), testing::AllOf(HasSubstr("event: critical_point"), HasSubstr("event: end")));
+}
+
+TEST_F(ClusterTest, ADismissalReachesTheProcessThatWorks) {
+  start_worker();
+  const std::string job = submit();
+  solver_->wait_started(1);
+  const std::string second = submit("another");
+  solver_->wait_started(2);  // both workers are busy, and the gate is shut
+  EXPECT_EQ(post(port(), job + "/dismiss", "").status, 200);
+  const auto dismissed = std::chrono::steady_clock::now();
+  submit("a third");
+  solver_->wait_started(3);
+  EXPECT_LT(std::chrono::steady_clock::now() - dismissed, std::chrono::seconds(10)) << "it was stopped";
+  EXPECT_EQ(json::parse(get(port(), job).body)["status"], "dismissed");
+}
+
+TEST_F(ClusterTest, ASweepIsComputedElsewhereAndItsEndIsToldHere) {
+  solver_->open();
+  const std::string sweep = submit_sweep(300);
+  start_worker();
+  const Reply ended = get(port(), sweep, {"Prefer: wait=20"});
+  EXPECT_EQ(json::parse(ended.body)["status"], "successful") << ended.body;
+  EXPECT_EQ(json::parse(get(port(), sweep + "/table").body)["rows"].size(), 300U);
+}
+
+/// Its leases of three seconds neither hold for an hour nor are over at once, and what it writes is on time.
+TEST_F(ClusterTest, TheClockOfAProcessDoesNotMatter) {
+  for (const int hours : {-1, 1}) {
+    Environment skewed = Environment::system();
+    skewed.now = [now = skewed.now, hours] { return now() + std::chrono::hours(hours); };
+    start_worker(skewed);
+    const std::string job = submit("at " + std::to_string(hours));
+    solver_->wait_started(hours < 0 ? 1 : 2);
+    std::this_thread::sleep_for(std::chrono::seconds(4));  // longer than the lease, which is renewed
+    json status = json::parse(get(port(), job).body);
+    EXPECT_EQ(status["status"], "running");
+    EXPECT_EQ(status["attempt"], 1);
+    // in UTC and in one form, so that texts compare as times do
+    const std::string started = status["started"];
+    EXPECT_GE(started, rfc3339(Environment::system().now() - std::chrono::minutes(1)));
+    EXPECT_LE(started, rfc3339(Environment::system().now() + std::chrono::minutes(1)));
+    worker_->stop();
+    status = when(job, [](const json& now) { return now["status"] == "accepted"; });
+    EXPECT_EQ(status["status"], "accepted") << "it was given back";
+    EXPECT_EQ(call(port(), "DELETE", job, "", {}).status / 100, 2);
+  }
+}
+
+TEST_F(ClusterTest, WithoutAWorkerAJobWaits) {
+  const std::string job = submit();
+  EXPECT_EQ(json::parse(get(port(), job).body)["status"], "accepted");
+  solver_->open();
+  start_worker();
+  EXPECT_EQ(when(job, [](const json& now) { return now["status"] == "successful"; })["attempt"], 1);
+}
+
+TEST(ClusterConfig, OnlyASharedStoreMayDoWithoutWorkersOrFront) {
+  ServiceConfig config;
+  config.workers = 0;
+  ASSERT_EQ(config.check().size(), 1U);
+  EXPECT_EQ(config.check()[0].field, "workers");
+  config.store_path = "postgresql://host/name";
+  EXPECT_TRUE(config.check().empty());
+  config.front = false;
+  EXPECT_EQ(config.check().size(), 1U) << "it would do nothing";
+  config.workers = 1;
+  EXPECT_TRUE(config.check().empty());
+  config.store_path = "store.db";
+  ASSERT_EQ(config.check().size(), 1U);
+  EXPECT_THAT(config.check()[0].detail, HasSubstr("postgresql://"));
+}
+
+}  // namespace
+}  // namespace snapthrough::server::test
