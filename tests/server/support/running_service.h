@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <condition_variable>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <ostream>
@@ -14,6 +15,7 @@
 #include "server/service.h"
 #include "server/worker/local_runner.h"
 #include "tests/server/support/client.h"
+#include "tests/server/support/postgresql.h"
 #include "tests/server/support/samples.h"
 #include "tests/server/support/temp_dir.h"
 
@@ -109,7 +111,8 @@ class ServiceTest : public testing::Test {
     config.listener.port = 0;
     config.listener.threads = 16;
     config.listener.limits.body_bytes = 100'000;
-    config.store_path = folder_.file("store.db");
+    config.store_path = std::getenv("TEST_SHARED_STORES") == nullptr ? folder_.file("store.db")
+                                                                     : postgresql_location(folder_.name());
     config.workers = workers_;
     return config;
   }
