@@ -173,33 +173,41 @@ auto ElementWorkOf<P>::kinematics(const Shape& shape, const ElementDofs& dofs, c
     -> Kinematics {
   Kinematics kin;
   const double* v = y + dofs.v;
-  const double ba = y[dofs.a[2]];
+  Gauss b;
   for (int q = 0; q < P; ++q) {
-    double b = 0.0;
-    for (int r = 0; r < P; ++r) b += a_[q][r] * v[2 * P + r];
-    b = ba + shape.h * b;
-    if (linear_) {
+    double sum = 0.0;
+    for (int r = 0; r < P; ++r) sum += a_[q][r] * v[2 * P + r];
+    b[q] = y[dofs.a[2]] + shape.h * sum;
+  }
+  if (linear_) {
+    for (int q = 0; q < P; ++q) {
       kin.c[q] = shape.cos0[q];
       kin.s[q] = shape.sin0[q];
       kin.xp[q] = shape.tx[q];
       kin.yp[q] = shape.ty[q];
-      kin.e[q] = shape.cos0[q] * v[q] + shape.sin0[q] * v[P + q] + shape.g0[q] * b;
-      kin.g[q] = -shape.sin0[q] * v[q] + shape.cos0[q] * v[P + q] - shape.e0[q] * b;
+      kin.e[q] = shape.cos0[q] * v[q] + shape.sin0[q] * v[P + q] + shape.g0[q] * b[q];
+      kin.g[q] = -shape.sin0[q] * v[q] + shape.cos0[q] * v[P + q] - shape.e0[q] * b[q];
       kin.E[q] = shape.e0[q] + kin.e[q];
       kin.G[q] = shape.g0[q] + kin.g[q];
       kin.px[q] = -shape.ty[q];
       kin.py[q] = shape.tx[q];
-      continue;
     }
-    const double cb = std::cos(b);
-    const double sb = std::sin(b);
-    const double less = cb > 0.0 ? -sb * sb / (1.0 + cb) : cb - 1.0;  // cb - 1, no digits lost
-    kin.c[q] = shape.cos0[q] * cb - shape.sin0[q] * sb;
-    kin.s[q] = shape.sin0[q] * cb + shape.cos0[q] * sb;
+    return kin;
+  }
+  Gauss cb;
+  Gauss sb;
+  for (int q = 0; q < P; ++q) {
+    cb[q] = std::cos(b[q]);
+    sb[q] = std::sin(b[q]);
+  }
+  for (int q = 0; q < P; ++q) {
+    const double less = cb[q] > 0.0 ? -sb[q] * sb[q] / (1.0 + cb[q]) : cb[q] - 1.0;  // cb - 1, no digits lost
+    kin.c[q] = shape.cos0[q] * cb[q] - shape.sin0[q] * sb[q];
+    kin.s[q] = shape.sin0[q] * cb[q] + shape.cos0[q] * sb[q];
     kin.xp[q] = shape.tx[q] + v[q];
     kin.yp[q] = shape.ty[q] + v[P + q];
-    kin.e[q] = v[q] * kin.c[q] + v[P + q] * kin.s[q] + less * shape.e0[q] + sb * shape.g0[q];
-    kin.g[q] = -v[q] * kin.s[q] + v[P + q] * kin.c[q] + less * shape.g0[q] - sb * shape.e0[q];
+    kin.e[q] = v[q] * kin.c[q] + v[P + q] * kin.s[q] + less * shape.e0[q] + sb[q] * shape.g0[q];
+    kin.g[q] = -v[q] * kin.s[q] + v[P + q] * kin.c[q] + less * shape.g0[q] - sb[q] * shape.e0[q];
     kin.E[q] = shape.e0[q] + kin.e[q];
     kin.G[q] = shape.g0[q] + kin.g[q];
     kin.px[q] = -kin.yp[q];
