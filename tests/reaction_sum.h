@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
@@ -18,6 +19,7 @@ struct ReactionSum {
   double moment = 0.0;
   double largest_force = 0.0;
   double largest_moment = 0.0;
+  double extent = 0.0;  ///< farthest from the origin that members reach
 
   void add(double fx, double fy, double about_origin) {
     force[0] += fx;
@@ -27,11 +29,13 @@ struct ReactionSum {
     largest_moment = std::max(largest_moment, std::abs(about_origin));
   }
   void add(const Resultant& r) { add(r.fx, r.fy, r.moment); }
-  /// What is left over, of the largest; zero where nothing acts.
+  /// What is left over, of the largest; zero where nothing acts. Where all forces pass through the origin
+  /// their moments are what rounding makes of them, all alike.
   [[nodiscard]] double imbalance() const {
     const double forces = std::max(std::abs(force[0]), std::abs(force[1]));
+    const double rounding = std::numeric_limits<double>::epsilon() * largest_force * extent;
     return std::max(largest_force > 0.0 ? forces / largest_force : 0.0,
-                    largest_moment > 0.0 ? std::abs(moment) / largest_moment : 0.0);
+                    largest_moment > rounding ? std::abs(moment) / largest_moment : 0.0);
   }
 };
 
@@ -42,6 +46,7 @@ inline void add_sizes(const State& state, ReactionSum& sum) {
     for (std::size_t i = 0; i < member.s.size(); ++i) {
       const double force = std::hypot(member.axial_force[i], member.shear_force[i]);
       sum.largest_force = std::max(sum.largest_force, force);
+      sum.extent = std::max(sum.extent, std::hypot(member.x[i], member.y[i]));
       sum.largest_moment = std::max({sum.largest_moment, std::abs(member.bending_moment[i]),
                                      force * std::hypot(member.x[i], member.y[i])});
     }

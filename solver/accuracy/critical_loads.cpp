@@ -81,10 +81,13 @@ CriticalLoads::Answer CriticalLoads::answer_for(const Target& target) {
     if (mesh == nullptr) break;
     const auto next = mesh->find(structure_of(number - 1), at.event, structure_, target.before);
     meshes.push_back(said_by(mesh->structure(), next ? &*next : nullptr));
-    if (!next) break;
+    if (!next) {
+      answer.error.reset();  // that meshes before agree was chance
+      break;
+    }
     const double error = differences.add(at.event.point.lambda, next->event.point.lambda);
     answer = {at, number - 1, error, {}};
-    if (error <= accuracy) break;
+    if (differences.confirm(accuracy)) break;
     at = *next;
   }
   answer.meshes = std::move(meshes);

@@ -35,6 +35,15 @@ void fail_to_start(const Model& model, const Structure& structure, const Continu
   fail(result, loose ? "loose_part" : "no_start", nothing_found(model, structure, continuation));
 }
 
+/// The end of the constant actions' path as the start of the next, where they act in full: its load factor is
+/// one to a share of its last step, which may be far longer.
+PathPoint fully_loaded(Continuation& continuation, const PathPoint& end) {
+  PathPoint full = end;
+  full.lambda = 0.0;
+  const double moved = continuation.metric().norm(end.y, 0.0);
+  return moved > 0.0 && continuation.correct_at_load(moved, full) ? full : end;
+}
+
 }  // namespace
 
 std::optional<PathPoint> start_of_path(const Model& model, const Structure& structure,
@@ -79,7 +88,8 @@ std::optional<PathPoint> start_of_path(const Model& model, const Structure& stru
              " of them");
     return std::nullopt;
   }
-  auto start = continuation.start_at(outcome.last.y, direction, outcome.last.holds);
+  auto start =
+      continuation.start_at(fully_loaded(continuation, outcome.last).y, direction, outcome.last.holds);
   if (!start) fail_to_start(model, structure, continuation, result);
   return start;
 }

@@ -61,9 +61,10 @@ class ElementWorkOf final : public ElementWork {
   static constexpr int kRow = padded(kZeta);  ///< whole blocks; what is beyond kZeta is zero
   using ZetaVector = Eigen::Matrix<double, kRow, 1>;
 
-  /// Rotations and axis derivatives at the Gauss points.
+  /// Rotations, axis derivatives and strains at the Gauss points.
   struct Kinematics {
     Gauss c, s, xp, yp, E, G, px, py;
+    Gauss e, g;  ///< E and G less those of the stress-free axis, to a rounding of themselves
   };
   /// What solve needs of the last linearisation: H as it is made, not its entries.
   struct Tangent {
@@ -172,30 +173,43 @@ auto ElementWorkOf<P>::kinematics(const Shape& shape, const ElementDofs& dofs, c
     -> Kinematics {
   Kinematics kin;
   const double* v = y + dofs.v;
-  const double ba = y[dofs.a[2]];
+  Gauss b;
   for (int q = 0; q < P; ++q) {
-    double b = 0.0;
-    for (int r = 0; r < P; ++r) b += a_[q][r] * v[2 * P + r];
-    b = ba + shape.h * b;
-    if (linear_) {
+    double sum = 0.0;
+    for (int r = 0; r < P; ++r) sum += a_[q][r] * v[2 * P + r];
+    b[q] = y[dofs.a[2]] + shape.h * sum;
+  }
+  if (linear_) {
+    for (int q = 0; q < P; ++q) {
       kin.c[q] = shape.cos0[q];
       kin.s[q] = shape.sin0[q];
       kin.xp[q] = shape.tx[q];
       kin.yp[q] = shape.ty[q];
-      kin.E[q] = shape.cos0[q] * v[q] + shape.sin0[q] * v[P + q] + shape.g0[q] * b + shape.e0[q];
-      kin.G[q] = -shape.sin0[q] * v[q] + shape.cos0[q] * v[P + q] - shape.e0[q] * b + shape.g0[q];
+      kin.e[q] = shape.cos0[q] * v[q] + shape.sin0[q] * v[P + q] + shape.g0[q] * b[q];
+      kin.g[q] = -shape.sin0[q] * v[q] + shape.cos0[q] * v[P + q] - shape.e0[q] * b[q];
+      kin.E[q] = shape.e0[q] + kin.e[q];
+      kin.G[q] = shape.g0[q] + kin.g[q];
       kin.px[q] = -shape.ty[q];
       kin.py[q] = shape.tx[q];
-      continue;
     }
-    const double cb = std::cos(b);
-    const double sb = std::sin(b);
-    kin.c[q] = shape.cos0[q] * cb - shape.sin0[q] * sb;
-    kin.s[q] = shape.sin0[q] * cb + shape.cos0[q] * sb;
+    return kin;
+  }
+  Gauss cb;
+  Gauss sb;
+  for (int q = 0; q < P; ++q) {
+    cb[q] = std::cos(b[q]);
+    sb[q] = std::sin(b[q]);
+  }
+  for (int q = 0; q < P; ++q) {
+    const double less = cb[q] > 0.0 ? -sb[q] * sb[q] / (1.0 + cb[q]) : cb[q] - 1.0;  // cb - 1, no digits lost
+    kin.c[q] = shape.cos0[q] * cb[q] - shape.sin0[q] * sb[q];
+    kin.s[q] = shape.sin0[q] * cb[q] + shape.cos0[q] * sb[q];
     kin.xp[q] = shape.tx[q] + v[q];
     kin.yp[q] = shape.ty[q] + v[P + q];
-    kin.E[q] = kin.xp[q] * kin.c[q] + kin.yp[q] * kin.s[q];
-    kin.G[q] = -kin.xp[q] * kin.s[q] + kin.yp[q] * kin.c[q];
+    kin.e[q] = v[q] * kin.c[q] + v[P + q] * kin.s[q] + less * shape.e0[q] + sb[q] * shape.g0[q];
+    kin.g[q] = -v[q] * kin.s[q] + v[P + q] * kin.c[q] + less * shape.g0[q] - sb[q] * shape.e0[q];
+    kin.E[q] = shape.e0[q] + kin.e[q];
+    kin.G[q] = shape.g0[q] + kin.g[q];
     kin.px[q] = -kin.yp[q];
     kin.py[q] = kin.xp[q];
   }
@@ -218,8 +232,8 @@ void ElementWorkOf<P>::add_strain_residual(const Shape& shape, const ElementDofs
     const double hb = shape.hb[q];
     const double N = s[q];
     const double Q = s[P + q];
-    fs[q] += hb * (kin.E[q] - shape.e0[q] - shape.compliance[q] * N);
-    fs[P + q] += hb * (kin.G[q] - shape.g0[q] - shape.compliance[P + q] * Q);
+    fs[q] += hb * (kin.e[q] - shape.compliance[q] * N);
+    fs[P + q] += hb * (kin.g[q] - shape.compliance[P + q] * Q);
     fs[2 * P + q] += hb * (v[2 * P + q] - shape.compliance[2 * P + q] * s[2 * P + q]);
     fv[q] += hb * (N * kin.c[q] - Q * kin.s[q] - m[0]);
     fv[P + q] += hb * (N * kin.s[q] + Q * kin.c[q] - m[1]);

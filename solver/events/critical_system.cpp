@@ -131,8 +131,10 @@ class CriticalNewton {
   VectorXd residual_;
   double dlambda_ = 0.0;
   double moved_ = 0.0;
-  double previous_ = 0.0;  ///< size of the last correction
-  bool stalled_ = false;   ///< corrections have ceased to fall
+  double previous_ = 0.0;                                  ///< size of the last correction
+  double left_ = std::numeric_limits<double>::infinity();  ///< relative residual of settled_
+  std::optional<CriticalSolution> settled_;                ///< a solution whose residual may still fall
+  bool stalled_ = false;                                   ///< corrections have ceased to fall
   /// Relative difference of the stiffnesses by the factors and by quotients, when they agreed best.
   double least_doubt_ = std::numeric_limits<double>::infinity();
 };
@@ -358,10 +360,10 @@ bool CriticalNewton::converged() {
                       std::abs(dlambda_) * ratio <= options_.tolerance * size);
 }
 
-/// Whether the forces balance at the solution. Where supports act on one side only the last correction,
-/// however small, may have changed what touches.
+/// Whether the forces balance at the solution: where its state is returned, to rounding or as far as they
+/// go. Where supports act on one side only the last correction, however small, may have changed what touches.
 bool CriticalNewton::balances() {
-  if (!problem_.one_sided()) return true;
+  if (!problem_.one_sided() && !options_.to_rounding) return true;
   problem_.residual(at_.y, at_.lambda, residual_);
   VectorXd column;
   for (Index i = 0; i < at_.unfolding.size(); ++i) {
@@ -369,7 +371,13 @@ bool CriticalNewton::balances() {
     residual_ += at_.unfolding[i] * column;
   }
   const double size = problem_.relative_residual(residual_, at_.y, at_.lambda);
-  return size <= std::max(options_.largest_residual, problem_.residual_rounding(at_.y, at_.lambda));
+  const double rounding = std::max(kResidualFloor, problem_.residual_rounding(at_.y, at_.lambda));
+  if (problem_.one_sided() && size > std::max(options_.largest_residual, rounding)) return false;
+  const bool falls = size <= 0.5 * left_;
+  left_ = size;
+  if (!options_.to_rounding || !falls || size <= rounding) return true;
+  settled_ = at_;
+  return false;
 }
 
 std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
@@ -382,15 +390,15 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
       // a tangent that is singular to the last bit has factors next to here
       at_.y += kAside * options_.reach * at_.null.col(0);
       ++factorisations;
-      if (!factorise()) return std::nullopt;
+      if (!factorise()) break;
     }
     differentiate();
-    if (!step()) return std::nullopt;
+    if (!step()) break;
     const bool broken = bifurcation_ && at_.imperfection() > options_.largest_imperfection;
-    if (broken && it >= kSettling) return std::nullopt;
+    if (broken && it >= kSettling) break;
     if (converged() && balances()) return std::move(at_);
   }
-  return std::nullopt;
+  return std::move(settled_);
 }
 
 /// A motion that loses its stiffness at a bifurcation, too, and is none of those that it was solved for;

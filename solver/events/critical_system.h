@@ -66,6 +66,7 @@ struct CriticalOptions {
   double least_load = 0.0;             ///< load that the tolerance is relative to at least
   double reach = 0.1;                  ///< farthest from the guess, in the metric
   double place = 1e-6;                 ///< of the reach: error left in the displacements
+  bool to_rounding = true;             ///< iterates until the forces balance as far as rounding allows
   double largest_residual = 1e-8;      ///< relative residual that one-sided supports may leave
   double largest_imperfection = 1e-2;  ///< of a bifurcation that is worth going on for
 };

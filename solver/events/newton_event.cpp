@@ -18,7 +18,10 @@ namespace {
 CriticalOptions options_for(const Continuation& continuation, double tolerance, double reach) {
   constexpr double kPlaceOfNoState = 1e-3;  // where only the load is reported, which errs by the square
   CriticalOptions options;
-  if (continuation.options().corrector.tangent_tolerance > 0.0) options.place = kPlaceOfNoState;
+  if (continuation.options().corrector.tangent_tolerance > 0.0) {
+    options.place = kPlaceOfNoState;
+    options.to_rounding = false;
+  }
   options.tolerance = 0.1 * tolerance;
   options.least_load = continuation.least_load();
   options.reach = reach;

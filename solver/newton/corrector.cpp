@@ -44,12 +44,6 @@ constexpr double kLargestRoundingShare = 1e-4;
 /// The same for a correction that is not taken.
 constexpr double kLargestLeft = 1e-8;
 
-/// A correction (displacement gradient) that is rounding's, of sums of direction cosines, and its share of
-/// the step; and how many come first. Very stiff supports make a large residual of it.
-constexpr double kRoundingSize = 2e-15;
-constexpr double kRoundingShare = 1e-10;
-constexpr int kLeastIterations = 3;
-
 /// Share of the correction at which the forces do no work on it any more. At a given load and small
 /// displacements one-sided supports have a convex energy, of which this is the least along the correction:
 /// so Newton's method can't cycle between contact patterns.
@@ -101,8 +95,7 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
   if (exact || problem.one_sided()) {
     problem.residual(work.trial, lambda + dlambda, work.residual, options.regime);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
-    const double rounding =
-        std::max(options.residual_floor, problem.residual_rounding(work.trial, lambda + dlambda));
+    const double rounding = std::max(kResidualFloor, problem.residual_rounding(work.trial, lambda + dlambda));
     const double most = std::min(out.relative_residual, options.largest_residual);
     if (problem.one_sided() && size > std::max(most, rounding))
       return correction <= kLargestLeft && out.relative_residual <= options.stagnant_residual;
@@ -135,14 +128,13 @@ class Progress {
     stagnant_ = iteration >= kStagnantIterations && residual <= options_.stagnant_residual &&
                 residual > kStagnantShare * last_residual_;
     last_residual_ = residual;
-    return iteration > 0 && (small || (rounding && (stagnant_ || residual <= options_.residual_floor)));
+    return iteration > 0 && (small || (rounding && (stagnant_ || residual <= kResidualFloor)));
   }
   /// Whether the correction is rounding's: however large it is where the tangent is nearly singular, or
   /// however much residual very stiff supports make of it.
   [[nodiscard]] bool is_rounding(int iteration, double size, double residual) const {
     if (iteration == 0) return residual <= kRoundingResidual && size > options_.tangent_tolerance * scale_;
-    return iteration >= kLeastIterations && size <= std::min(kRoundingSize, kRoundingShare * displacement_) &&
-           residual <= options_.largest_residual;
+    return false;
   }
   /// Whether corrections converge, and do not merely happen to be small.
   [[nodiscard]] bool closes_in(double size) const { return size <= kClosingShare * previous_; }

@@ -15,6 +15,8 @@ namespace snapthrough {
 inline constexpr double kSingularResponse = 1e13;
 /// Relative residual that rounding always leaves: a state with it is as good as exact.
 inline constexpr double kRoundingResidual = 1e-14;
+/// Relative residual that rounding allows: iterations for a state that is returned stop there.
+inline constexpr double kResidualFloor = 2e-13;
 
 /// @brief Norm of a step (dy, dlambda): sqrt(dy.W dy + weight dlambda^2), W the problem's metric.
 struct PathMetric {
@@ -56,7 +58,6 @@ struct CorrectorOptions {
   double largest_growth = std::numeric_limits<double>::infinity();  ///< from one correction to the next
   Regime regime;                                                    ///< how supports are taken
   bool least_energy = false;         ///< shortens corrections to where the energy is least, see correct()
-  double residual_floor = 2e-13;     ///< relative residual that rounding allows; the iteration stops there
   double stagnant_residual = 1e-11;  ///< below it, one that no longer falls is rounding's, too
 };
 

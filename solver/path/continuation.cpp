@@ -273,16 +273,20 @@ bool Continuation::may_be_neutral(const PathPoint& from, const PathPoint& to) co
   return problem_.free_motions().cols() > 0 && to.log_abs_det < from.log_abs_det - kFall;
 }
 
+bool Continuation::correct_at_load(double scale, PathPoint& at) {
+  problem_.set_holds(at.holds);
+  const auto outcome = correct(problem_, metric_, {}, scale, options_.corrector, at.y, at.lambda, work_);
+  count(outcome);
+  return outcome.status == CorrectorStatus::converged;
+}
+
 bool Continuation::hold_neutral(const PathPoint& from, PathPoint& at) {
   const Eigen::MatrixXd& motions = problem_.free_motions();
   const double bound = neutral_bound(at);
   const double scale = std::max(distance(from, at), kLeastNoise);
   const auto settle_with = [&](const SharedHolds& holds, PathPoint& point) {
-    problem_.set_holds(holds);
-    const auto outcome =
-        correct(problem_, metric_, {}, scale, options_.corrector, point.y, point.lambda, work_);
-    count(outcome);
-    return outcome.status == CorrectorStatus::converged;
+    point.holds = holds;
+    return correct_at_load(scale, point);
   };
   // where the structure is free, supports that it leaves may still touch it on one side, pressed by rounding
   const auto all =

@@ -77,6 +77,9 @@ class Continuation {
   [[nodiscard]] std::optional<PathPoint> start_at(const Eigen::VectorXd& y, double direction = 1.0,
                                                   const SharedHolds& holds = {});
 
+  /// @brief Corrects a point at its load, as far as rounding allows.
+  /// @return whether that converged; else the point is what the last correction left
+  [[nodiscard]] bool correct_at_load(double scale, PathPoint& at);
   /// @brief Holds the structure against the motions that nothing resists at a point, more than are held
   /// there, where they were at `from`; corrects the point at its load.
   /// @return whether there are such motions; else the point stays as it is

@@ -44,6 +44,22 @@ bool has_free_pressed_end(const Model& model) {
   });
 }
 
+/// Largest slope of a mode over its root mean square, at least one.
+double steepness(const Mode& mode) {
+  double sum = 0.0;
+  double length = 0.0;
+  double largest = 0.0;
+  for (const MemberMode& m : mode.members)
+    for (std::size_t i = 1; i < m.s.size(); ++i) {
+      const double ds = m.s[i] - m.s[i - 1];
+      const double slope = std::hypot(m.u[i] - m.u[i - 1], m.v[i] - m.v[i - 1]) / ds;
+      sum += slope * slope * ds;
+      length += ds;
+      largest = std::max(largest, slope);
+    }
+  return sum > 0.0 ? std::max(1.0, largest / std::sqrt(sum / length)) : 1.0;
+}
+
 bool has_mode_imperfection(const Model& model) {
   return std::ranges::any_of(
       model.imperfections, [](const Imperfection& i) { return std::holds_alternative<ModeImperfection>(i); });
@@ -84,7 +100,12 @@ class Check {
   [[nodiscard]] static CountRange count(const ConstrainedTangent& t);
   void determinant(std::size_t index, const ConstrainedTangent& t, CountRange negative);
   void contact(const State& state, const RodState& at);
-  [[nodiscard]] double imperfection_at(std::size_t index) const;
+  /// Root mean square slope of an imperfection, and its largest.
+  struct Slope {
+    double size = 0.0;
+    double largest = 0.0;
+  };
+  [[nodiscard]] Slope imperfection_at(std::size_t index) const;
   void reactions();
   void springs(const State& state, const RodState& at);
   void finite_series(std::span<const double> values, const std::string& what);
@@ -241,12 +262,13 @@ void Check::reactions() {
   double bending = 0.0;
   for (const auto& axis : rod_.axes) length = std::max(length, axis->length());
   for (const Section& section : model_.sections) bending = std::max(bending, section.EI);
-  for (const State& state : result_.states) {
+  for (std::size_t i = 0; i < result_.states.size(); ++i) {
+    const State& state = result_.states[i];
     const ReactionSum sum = reaction_sum(model_, state, analysis_.geometry);
     if (sum.largest_force <= kNoForce * bending / (length * length)) continue;
     const double imbalance = sum.imbalance();
     out_.imbalance = std::max(out_.imbalance, imbalance);
-    if (!(imbalance <= kBalance))
+    if (!(imbalance <= kBalance + imperfection_at(i).size))
       fail("reactions: at load factor " + text(state.load_factor) + " they add up to " + text(imbalance) +
            " of the largest");
   }
@@ -294,14 +316,20 @@ void Check::contact(const State& state, const RodState& at) {
   }
 }
 
-/// The imperfection that a state is in equilibrium without: that of the bifurcation that it is.
-double Check::imperfection_at(std::size_t index) const {
+/// The imperfection that a state is in equilibrium without: that of the bifurcation that it is, or that the
+/// point's first mesh had where the path ended.
+Check::Slope Check::imperfection_at(std::size_t index) const {
   const State& state = result_.states[index];
-  double size = 0.0;
-  for (const CriticalPoint& c : result_.critical_points)
-    if (c.branch == state.branch && c.load_factor == state.load_factor)
-      size = std::max(size, c.imperfection.value_or(0.0));
-  return size;
+  Slope out;
+  for (const CriticalPoint& c : result_.critical_points) {
+    const auto is_here = [&](const MeshAnswer& mesh) { return mesh.load_factor == state.load_factor; };
+    if (c.branch != state.branch || !c.imperfection ||
+        !(c.load_factor == state.load_factor || std::ranges::any_of(c.meshes, is_here)))
+      continue;
+    out.size = std::max(out.size, *c.imperfection);
+    out.largest = std::max(out.largest, *c.imperfection * (c.mode ? steepness(*c.mode) : 1.0));
+  }
+  return out;
 }
 
 void Check::state(std::size_t index, std::optional<CountRange> negative) {
@@ -311,7 +339,7 @@ void Check::state(std::size_t index, std::optional<CountRange> negative) {
     ++out_.uncovered;
     return;
   }
-  RodState at = evaluate(rod_, s, 0.0, imperfection_at(index));
+  RodState at = evaluate(rod_, s, 0.0, imperfection_at(index).largest);
   ++out_.points;
   out_.residual = std::max(out_.residual, at.residual);
   if (at.roughness > 100.0)

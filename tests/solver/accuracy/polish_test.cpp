@@ -29,6 +29,17 @@ TEST(Differences, AreTwiceTheDistanceToTheFinerMesh) {
   EXPECT_DOUBLE_EQ(to_zero.add(1e-9, 0.0), 2.0) << "nothing to be relative to";
 }
 
+/// Two meshes that err alike agree by chance: one difference confirms with four times as much room as those
+/// that were seen to fall.
+TEST(Differences, ConfirmByTheFirstOneWithMoreRoom) {
+  Differences first;
+  EXPECT_NEAR(first.add(1.0001, 1.0), 2e-4, 1e-12);
+  EXPECT_FALSE(first.confirm(7e-4));
+  EXPECT_TRUE(first.confirm(9e-4));
+  EXPECT_NEAR(first.add(1.0, 1.00001), 2e-5, 1e-9);
+  EXPECT_TRUE(first.confirm(3e-5)) << "it fell";
+}
+
 /// On nested elements of the same order or a higher one the polynomials are the same.
 TEST(Transfer, KeepsEveryDisplacement) {
   const Model model = testing::arch(120.0, 1e4, 10.0);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -50,6 +51,30 @@ Model everything(bool shearable) {
 /// Random unknowns with rotations of order one.
 Eigen::VectorXd random_state(const StructuralProblem& problem, double size) {
   return size * Eigen::VectorXd::Random(problem.size());
+}
+
+/// Strains are no differences of direction cosines: where displacements are small their equations are those
+/// of small displacements, to roundings of the displacements.
+TEST(Residual, KeepsTheDigitsOfSmallDisplacements) {
+  constexpr double kSize = 1e-12;
+  std::srand(5u);
+  const Structure structure =
+      make_structure(testing::arch(120.0, 1e4, 10.0), fixed_mesh(6, 3), Geometry::nonlinear);
+  StructuralProblem problem(structure);
+  const Eigen::VectorXd y = random_state(problem, kSize);
+  Regime small;
+  small.small_displacements = true;
+  Eigen::VectorXd exact;
+  Eigen::VectorXd linear;
+  problem.residual(y, 0.0, exact);
+  problem.residual(y, 0.0, linear, small);
+  double strains = 0.0;
+  double differences = 0.0;
+  for (const ElementDofs& dofs : structure.dofs) {
+    strains = std::max(strains, linear.segment(dofs.s, 9).lpNorm<Eigen::Infinity>());
+    differences = std::max(differences, (exact - linear).segment(dofs.s, 9).lpNorm<Eigen::Infinity>());
+  }
+  EXPECT_LT(differences, 1e2 * kSize * strains);
 }
 
 class Tangent : public ::testing::TestWithParam<std::tuple<int, bool, FoundationRule>> {};

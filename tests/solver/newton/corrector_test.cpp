@@ -170,22 +170,6 @@ TEST(Corrector, SettlesAtTheRoundingOfStiffSupports) {
   EXPECT_NEAR(at.outcome.relative_residual, 8e-11, 1e-14);
 }
 
-/// A correction of a rounding of positions is one, however large the residual that stiffness makes of it; but
-/// not beyond `largest_residual`.
-TEST(Corrector, TakesCorrectionsOfRoundingForRounding) {
-  CorrectorOptions options;
-  options.tolerance = 1e-13;
-  ScalarProblem rounding = noisy(1e7, 1e-9);
-  const Corrected at = correct_at(rounding, 0.0, 0.0, 1e-4, options);
-  EXPECT_EQ(at.outcome.status, CorrectorStatus::converged);
-  EXPECT_EQ(at.outcome.factorisations, 4);
-  ScalarProblem softer = noisy(1e5, 1e-9);
-  EXPECT_EQ(correct_at(softer, 0.0, 0.0, 1e-4, options).outcome.status, CorrectorStatus::too_many_iterations);
-  ScalarProblem stiffer = noisy(1e12, 1e-6);
-  EXPECT_EQ(correct_at(stiffer, 0.0, 0.0, 1e-4, options).outcome.status,
-            CorrectorStatus::too_many_iterations);
-}
-
 /// Newton's method on y^3 - 2 y + 2 goes from 0 to 1 and back for ever.
 TEST(Corrector, GivesUpACycle) {
   ScalarProblem problem([](double y) { return y * y * y - 2.0 * y + 2.0; },
