@@ -99,10 +99,10 @@ CLI::App* add_service_command(CLI::App& app, const char* name, const char* descr
   return command;
 }
 
-void add_migrate_command(CLI::App& app, Arguments& arguments) {
-  app.add_subcommand("migrate", "Bring the schema of a store up to date, and end")
-      ->add_option("--store", arguments.store, "Database file, or postgresql://...")
-      ->capture_default_str();
+void add_copy_command(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand("copy", "Copy what one store keeps to another, again to go on");
+  command->add_option("source", arguments.store, "Database file, or postgresql://...")->required();
+  command->add_option("target", arguments.target, "Database file, or postgresql://...")->required();
 }
 
 void add_backup_command(CLI::App& app, Arguments& arguments) {
@@ -117,15 +117,14 @@ void add_health_command(CLI::App& app, Arguments& arguments) {
   command->add_flag("--ready", arguments.ready, "Ask whether it takes work, too");
 }
 
-/// @param front it answers requests
-int serve(const Arguments& arguments, bool front, const Streams& streams) {
+SettingSources sources_of(const Arguments& arguments) {
   SettingSources sources{arguments.config_file, own_variables(), {}};
   const auto file = sources.environment.find(kConfigVariable);
   if (sources.file.empty() && file != sources.environment.end()) {
     sources.file = file->second;
   }
   sources.flags.assign(arguments.settings.begin(), arguments.settings.end());
-  return serve_command(sources, front, streams);
+  return sources;
 }
 
 }  // namespace
@@ -141,7 +140,8 @@ int run(int argc, const char* const* argv, const Streams& streams) {
   add_service_command(app, "serve", "Run the service", arguments);
   const CLI::App* work = add_service_command(
       app, "work", "Work on what the service was given on other hosts, which share the store", arguments);
-  add_migrate_command(app, arguments);
+  add_service_command(app, "migrate", "Bring the schema of the store up to date, and end", arguments);
+  add_copy_command(app, arguments);
   add_backup_command(app, arguments);
   add_health_command(app, arguments);
   try {
@@ -172,10 +172,13 @@ int run(int argc, const char* const* argv, const Streams& streams) {
     if (app.got_subcommand("health")) {
       return health_command(arguments.address, arguments.ready, streams);
     }
-    if (app.got_subcommand("migrate")) {
-      return migrate_command(arguments.store, streams);
+    if (app.got_subcommand("copy")) {
+      return copy_command(arguments.store, arguments.target, streams);
     }
-    return serve(arguments, !*work, streams);
+    if (app.got_subcommand("migrate")) {
+      return migrate_command(sources_of(arguments), streams);
+    }
+    return serve_command(sources_of(arguments), !*work, streams);
   } catch (const std::exception& error) {
     streams.err << "snapthrough: " << error.what() << '\n';
     return kOther;

@@ -43,8 +43,11 @@ int sweep_command(const std::string& path, const Streams& streams, const SweepOp
 /// @param front it answers requests; else it only works for others that share the store
 int serve_command(const SettingSources& sources, bool front, const Streams& streams);
 
-/// Brings the schema of a store up to date.
-int migrate_command(const std::string& store, const Streams& streams);
+/// Copies what one store keeps to another; what is there already is left alone.
+int copy_command(const std::string& source, const std::string& target, const Streams& streams);
+
+/// Brings the schema of the store that is set up to date.
+int migrate_command(const SettingSources& sources, const Streams& streams);
 
 /// Copies the store of a service, which may be running, to a new file.
 int backup_command(const std::string& store, const std::string& target, const Streams& streams);

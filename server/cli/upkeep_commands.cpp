@@ -10,6 +10,7 @@
 
 #include "server/cli/commands.h"
 #include "server/front/sockets.h"
+#include "server/store/copy.h"
 #include "server/store/open_store.h"
 #include "server/store/sqlite/sqlite_store.h"
 
@@ -38,13 +39,50 @@ http::Descriptor connect_to(const std::string& host, int port) {
 
 }  // namespace
 
-int migrate_command(const std::string& store, const Streams& streams) {
-  const StatusOr<std::unique_ptr<Store>> opened = open_store(store, 1, Environment::system().now());
+int copy_command(const std::string& source, const std::string& target, const Streams& streams) {
+  const Time now = Environment::system().now();
+  const StatusOr<std::unique_ptr<Store>> from = open_store(source, 1, now);
+  if (!from.ok()) {
+    streams.err << "snapthrough: " << from.status().message() << '\n';
+    return kOther;
+  }
+  const StatusOr<std::unique_ptr<Store>> to = open_store(target, 1, now, true);
+  if (!to.ok()) {
+    streams.err << "snapthrough: " << to.status().message() << '\n';
+    return kOther;
+  }
+  CopyCounts counts;
+  const auto tell = [&](const CopyCounts& sofar) {
+    if ((sofar.jobs + sofar.sweeps + sofar.there) % 1000 == 0) {
+      streams.err << sofar.jobs + sofar.sweeps + sofar.there << " of " << sofar.all << '\n';
+    }
+  };
+  const Status status = copy_store(**from, **to, counts, tell);
+  streams.out << "copied " << counts.jobs << " jobs and " << counts.sweeps << " sweeps from "
+              << shown_location(source) << " to " << shown_location(target) << "; " << counts.there
+              << " were there\n";
+  if (!status.ok()) {
+    streams.err << "snapthrough: " << status.message() << "; run it again to go on\n";
+    return kOther;
+  }
+  return kDone;
+}
+
+int migrate_command(const SettingSources& sources, const Streams& streams) {
+  const auto [config, mistakes] = load_config(sources);
+  for (const ConfigMistake& mistake : mistakes) {
+    streams.err << mistake.field << ": " << mistake.detail << '\n';
+  }
+  if (!mistakes.empty()) {
+    return kOther;
+  }
+  const StatusOr<std::unique_ptr<Store>> opened =
+      open_store(config.store_path, 1, Environment::system().now());
   if (!opened.ok()) {
     streams.err << "snapthrough: " << opened.status().message() << '\n';
     return kOther;
   }
-  streams.out << shown_location(store) << " has the schema of this version\n";
+  streams.out << shown_location(config.store_path) << " has the schema of this version\n";
   return kDone;
 }
 

@@ -33,9 +33,10 @@ struct Annotations {
 struct Job {
   std::string id;
   JobState state = JobState::accepted;
-  int attempt = 0;    ///< how often it was claimed
-  int crashes = 0;    ///< how many of these claims ended with the death of the process
-  std::string owner;  ///< name of the key that handed it in; empty: none was asked for
+  int attempt = 0;          ///< how often it was claimed
+  int crashes = 0;          ///< how many of these claims ended with the death of the process
+  std::string owner;        ///< name of the key that handed it in; empty: none was asked for
+  std::string content_key;  ///< see NewJob
   std::string title;
   std::string analysis_type;
   Time created;

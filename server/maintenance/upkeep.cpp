@@ -11,8 +11,10 @@ namespace {
 constexpr std::chrono::seconds kPause{1};
 constexpr std::chrono::milliseconds kBetweenSharedRenewals{900};  // each time that upkeep looks
 constexpr std::chrono::seconds kBetweenRetirements{10};
-/// Jobs that are removed in one transaction, so that it stays short.
+/// Jobs that are removed in one transaction, so that it stays short, and such transactions in a row, so that
+/// leases are renewed in between.
 constexpr int kRetiredAtOnce = 200;
+constexpr int kRetirementsAtOnce = 100;
 /// Rows of removed sweeps that are given back in one transaction, and such transactions in a row.
 constexpr int kPurgedRows = 2000;
 constexpr int kPurgesAtOnce = 100;
@@ -111,7 +113,7 @@ void Upkeep::retire(Time now) {
   if (limits.keep_jobs.count() > 0) {
     StatusOr<int> retired = kRetiredAtOnce;
     int total = 0;
-    while (retired.ok() && *retired == kRetiredAtOnce) {
+    for (int i = 0; i < kRetirementsAtOnce && retired.ok() && *retired == kRetiredAtOnce; ++i) {
       retired = context_.store.retire(limits.keep_jobs, kRetiredAtOnce, now);
       total += retired.ok() ? *retired : 0;
     }

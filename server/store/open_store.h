@@ -19,8 +19,9 @@ namespace snapthrough::server {
 
 /// @brief Opens a store, creates it if need be, and brings its schema up to date.
 /// @param connections to a database that is not a file, at most
+/// @param time_of_caller whatever the driver, it goes by the `now` of verbs: for a copy, which keeps times
 /// @return `unsupported` when a newer version wrote it, `unavailable` when it can't be had at the moment
 [[nodiscard]] StatusOr<std::unique_ptr<Store>> open_store(const std::string& location, int connections,
-                                                          Time now);
+                                                          Time now, bool time_of_caller = false);
 
 }  // namespace snapthrough::server

@@ -123,6 +123,8 @@ class Store {
   /// Appends what the driver measures of itself, in the text format of Prometheus.
   virtual void write_metrics(std::string& /*text*/) const {}
 
+  /// Who has jobs or sweeps, in order.
+  virtual StatusOr<std::vector<std::string>> owners() = 0;
   /// The job, or empty when there is none of that id.
   virtual StatusOr<std::optional<Job>> get(std::string_view id) = 0;
   virtual StatusOr<JobPage> list(const ListQuery& query) = 0;

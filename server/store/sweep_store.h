@@ -42,8 +42,11 @@ class SweepStore {
   virtual StatusOr<Submitted> submit(const NewSweep& sweep) = 0;
   /// What is known of an idempotency key of an owner; empty when it is new.
   virtual StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) = 0;
-  /// Ids of sweeps that are accepted or running: the oldest of each owner, the second of each, and so on.
-  virtual StatusOr<std::vector<std::string>> unfinished() = 0;
+  /// How many sweeps are accepted or running.
+  virtual StatusOr<std::int64_t> unfinished() = 0;
+  /// Ids of sweeps of which there are units that nobody has: the oldest of each owner, the second of each,
+  /// and so on.
+  virtual StatusOr<std::vector<std::string>> with_units() = 0;
   /// What a worker needs to go on with an accepted or running sweep; empty when there is none.
   virtual StatusOr<std::optional<OpenSweep>> open(std::string_view id) = 0;
 

@@ -90,6 +90,7 @@ void SweepScheduler::exhausted(const SweepTurn& turn) {
 
 void SweepScheduler::refresh() {
   const std::lock_guard guard(mutex_);
+  std::erase_if(sweeps_, [](const auto& sweep) { return sweep->exhausted_ && sweep.use_count() == 1; });
   for (const std::shared_ptr<ActiveSweep>& sweep : sweeps_) {
     ++sweep->changes_;
     sweep->exhausted_ = false;

@@ -77,7 +77,7 @@ class SweepScheduler {
   std::optional<SweepTurn> next();
   /// The store had no units for that turn.
   void exhausted(const SweepTurn& turn);
-  /// Units of any sweep may have come back.
+  /// Units of any sweep may have come back; sweeps of which none were left, and nobody here has any, leave.
   void refresh();
   /// Ends a chunk. @param computed units, in that many seconds
   void give_back(const Chunk& chunk, std::uint64_t computed, double seconds);

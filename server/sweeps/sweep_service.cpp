@@ -23,7 +23,7 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
   if (std::vector<Finding> findings = in_envelope(envelope, std::move(read.findings)); !findings.empty()) {
     return Submission{Submission::Kind::invalid, std::move(findings)};
   }
-  const StatusOr<std::int64_t> waiting = unfinished();
+  const StatusOr<std::int64_t> waiting = world_.store.unfinished();
   if (!waiting.ok()) {
     return waiting.status();
   }
@@ -58,11 +58,6 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
                     {"request_id", order.request_id}});
   work_.wake();
   return Submission{Submission::Kind::stored, {}, std::move(sweep.id)};
-}
-
-StatusOr<std::int64_t> SweepService::unfinished() {
-  const StatusOr<std::vector<std::string>> ids = world_.store.unfinished();
-  return ids.ok() ? StatusOr<std::int64_t>(static_cast<std::int64_t>(ids->size())) : ids.status();
 }
 
 StatusOr<std::optional<SweepRecord>> SweepService::get(const std::string& id, std::string_view owner) {

@@ -34,8 +34,6 @@ class SweepService {
   [[nodiscard]] SweepWork& work() { return work_; }
 
  private:
-  StatusOr<std::int64_t> unfinished();
-
   const SweepSurroundings world_;
   SweepWork work_;
 };

@@ -172,7 +172,7 @@ void SweepWork::load() {
     return;  // somebody is at it
   }
   scheduler_.refresh();
-  const StatusOr<std::vector<std::string>> ids = world_.store.unfinished();
+  const StatusOr<std::vector<std::string>> ids = world_.store.with_units();
   bool all = ids.ok();
   for (const std::string& id : ids.ok() ? *ids : std::vector<std::string>()) {
     if (scheduler_.has(id)) {
@@ -205,7 +205,7 @@ bool SweepWork::load_one(const std::string& id) {
 }
 
 std::optional<Chunk> SweepWork::take() {
-  if (unloaded_ && scheduler_.has_room()) {
+  if (unloaded_) {
     load();
   }
   while (const std::optional<SweepTurn> turn = scheduler_.next()) {

@@ -218,8 +218,8 @@ class Client:
             host = self.hosts[(self.turn + attempt) % len(self.hosts)]
             try:
                 connection = http.client.HTTPConnection("127.0.0.1", host.port, timeout=timeout)
-                connection.request(method, path, body, {"Content-Type": "application/json",
-                                                        "Authorization": f"Bearer {OWNERS[self.owner]}", **(headers or {})})
+                key = {"Authorization": f"Bearer {OWNERS[self.owner]}"} if OWNERS else {}
+                connection.request(method, path, body, {"Content-Type": "application/json", **key, **(headers or {})})
                 response = connection.getresponse()
                 text = response.read()
                 connection.close()

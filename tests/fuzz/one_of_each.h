@@ -27,7 +27,8 @@ class FuzzedSweeps final : public SweepStore {
   StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey&, std::string_view) override {
     return std::optional<Submitted>();
   }
-  StatusOr<std::vector<std::string>> unfinished() override { return std::vector<std::string>(); }
+  StatusOr<std::int64_t> unfinished() override { return 0; }
+  StatusOr<std::vector<std::string>> with_units() override { return std::vector<std::string>(); }
   StatusOr<std::optional<OpenSweep>> open(std::string_view) override { return std::optional<OpenSweep>(); }
   StatusOr<std::optional<UnitClaim>> claim(std::string_view, std::uint64_t, const Lease&, Time) override {
     return store_is_full();
@@ -123,6 +124,7 @@ class FuzzedStore final : public Store {
     return std::optional<std::string>();
   }
   StatusOr<std::int64_t> waiting() override { return 0; }
+  StatusOr<std::vector<std::string>> owners() override { return std::vector<std::string>(); }
   StatusOr<std::optional<Time>> oldest_waiting() override { return std::optional<Time>(); }
   StatusOr<std::optional<Job>> get(std::string_view id) override {
     return id == kFuzzedJob ? std::optional(job()) : std::nullopt;

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/store/open_store.h"
+#include "server/sweeps/scheduler.h"
 #include "tests/server/support/postgresql.h"
 #include "tests/server/support/running_service.h"
 
@@ -131,6 +133,37 @@ TEST_F(ClusterTest, WithoutAWorkerAJobWaits) {
   solver_->open();
   start_worker();
   EXPECT_EQ(when(job, [](const json& now) { return now["status"] == "successful"; })["attempt"], 1);
+}
+
+/// Others have what is left of as many sweeps as one process works on in turn: the next one is not kept
+/// waiting.
+TEST(SharedSweeps, ThoseThatOthersWorkOnLeaveRoom) {
+  SweepScheduler scheduler;
+  const auto add = [&](int number) {
+    const std::string document = column_sweep(4);
+    return scheduler.add(std::make_shared<ActiveSweep>(id_number(number), *api::read_sweep(document).sweep,
+                                                       OpenSweep{document, "", true}));
+  };
+  for (int number = 0; number < static_cast<int>(SweepScheduler::kMost); ++number) {
+    ASSERT_TRUE(add(number));
+    scheduler.exhausted(*scheduler.next());
+  }
+  EXPECT_FALSE(scheduler.has_room());
+  EXPECT_FALSE(scheduler.has_units());
+  scheduler.refresh();
+  EXPECT_TRUE(scheduler.has_room());
+  EXPECT_TRUE(add(100));
+  EXPECT_EQ(scheduler.next()->sweep->id, id_number(100));
+}
+
+TEST(ClusterConfig, LocationsAreShownWithoutPasswords) {
+  EXPECT_EQ(shown_location("postgresql://u:secret@h:5432/n?sslmode=require"),
+            "postgresql://u@h:5432/n?sslmode=require");
+  EXPECT_EQ(shown_location("postgresql://u@h/n?password=secret&sslpassword=secret&user=u"),
+            "postgresql://u@h/n?password=&sslpassword=&user=u");
+  EXPECT_EQ(shown_location("/data/a:b@c.db"), "/data/a:b@c.db");
+  const auto wrong = open_store("postgresql://u:sec%ret@h/n", 1, at_second(0));
+  EXPECT_THAT(wrong.status().message(), testing::Not(HasSubstr("sec%ret")));
 }
 
 TEST(ClusterConfig, OnlyASharedStoreMayDoWithoutWorkersOrFront) {

@@ -37,6 +37,7 @@ class FailingStore : public Store {
   StatusOr<std::optional<std::string>> find_result(std::string_view, std::string_view) override {
     return status();
   }
+  StatusOr<std::vector<std::string>> owners() override { return status(); }
   StatusOr<std::int64_t> waiting() override { return status(); }
   StatusOr<std::optional<Time>> oldest_waiting() override { return status(); }
   Status finish(const Claim&, const JobResult&, Time) override { return status(); }

@@ -71,7 +71,8 @@ TEST_P(SweepStoreConformance, ASweepIsThereAsItWasHandedIn) {
   EXPECT_EQ(sweep.created, at_second(1));
   EXPECT_FALSE(sweep.started || sweep.finished);
   EXPECT_EQ(**sweeps().document(id), "{\"sweep\": 1}");
-  EXPECT_THAT(*sweeps().unfinished(), ElementsAre(id));
+  EXPECT_THAT(*sweeps().with_units(), ElementsAre(id));
+  EXPECT_EQ(*sweeps().unfinished(), 1);
   EXPECT_FALSE(sweeps().get(id_number(9))->has_value());
 }
 
@@ -100,7 +101,7 @@ TEST_P(SweepStoreConformance, RowsComeInAnyOrderAndTheLastEndsIt) {
   EXPECT_EQ(record(id).successful, 4);
   EXPECT_THAT(rows(id), ElementsAre("0 [0.5]", "1 [1.5]", "2 [2.5]", "3 [3.5]"));
   EXPECT_THAT(rows(id, {1, 2, {}}), ElementsAre("1 [1.5]", "2 [2.5]"));
-  EXPECT_THAT(*sweeps().unfinished(), IsEmpty());
+  EXPECT_EQ(*sweeps().unfinished(), 0);
   EXPECT_EQ(sweeps().claim(id, 1, kLease, at_second(80)).status().code(), StatusCode::conflict);
 }
 
@@ -225,7 +226,11 @@ TEST_P(SweepStoreConformance, TheFirstSweepOfEachOwnerComesFirst) {
   submit(1, 1, "ann");
   submit(2, 1, "ann");
   submit(3, 1, "bob");
-  EXPECT_THAT(*sweeps().unfinished(), ElementsAre(id_number(1), id_number(3), id_number(2)));
+  EXPECT_THAT(*sweeps().with_units(), ElementsAre(id_number(1), id_number(3), id_number(2)));
+  claim(id_number(1), 1);
+  EXPECT_THAT(*sweeps().with_units(), testing::UnorderedElementsAre(id_number(3), id_number(2)))
+      << "others have its units";
+  EXPECT_EQ(*sweeps().unfinished(), 3);
 }
 
 TEST_P(SweepStoreConformance, ListsAreNewestFirstOfOneOwner) {

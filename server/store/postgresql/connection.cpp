@@ -192,6 +192,12 @@ std::optional<double> Rows::optional_real(int row, int column) const {
 void Connection::Close::operator()(pg_conn* connection) const { PQfinish(connection); }
 
 Connection::Connection(const std::string& location) {
+  // What is wrong with it is not said: that would quote it, and it may have a password.
+  PQconninfoOption* const parsed = PQconninfoParse(location.c_str(), nullptr);
+  if (parsed == nullptr) {
+    throw Error("", "this is no connection URI of PostgreSQL");
+  }
+  PQconninfoFree(parsed);
   std::array<const char*, kDefaults.size()> values = kDefaults;
   values[values.size() - 2] = location.c_str();
   handle_.reset(PQconnectdbParams(kKeywords.data(), values.data(), 1));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace snapthrough::server::postgresql {
@@ -9,38 +10,54 @@ namespace {
 
 /// Between two tries to reach a database that is gone.
 constexpr std::chrono::milliseconds kBetweenTries{500};
+/// For a connection that others use.
+constexpr std::chrono::seconds kLongestWait{10};
 
 }  // namespace
 
 std::unique_ptr<Connection> Pool::take() {
   std::unique_lock lock(mutex_);
-  while (idle_.empty() && open_ >= most_) {
-    returned_.wait(lock);
+  const auto may_go_on = [&] {
+    return !idle_.empty() || (open_ < most_ && !connecting_) || std::chrono::steady_clock::now() < next_try_;
+  };
+  if (!returned_.wait_for(lock, kLongestWait, may_go_on)) {
+    throw Error("", "every connection to the database is in use");
   }
   if (!idle_.empty()) {
     std::unique_ptr<Connection> connection = std::move(idle_.back());
     idle_.pop_back();
     return connection;
   }
-  const auto now = std::chrono::steady_clock::now();
-  if (now < next_try_) {
+  if (std::chrono::steady_clock::now() < next_try_) {
     throw Error("", "the database could not be reached a moment ago");
   }
   ++open_;
+  connecting_ = true;
   lock.unlock();
   return connect();
 }
 
 std::unique_ptr<Connection> Pool::connect() {
+  std::unique_ptr<Connection> connection;
+  std::optional<Error> trouble;
   try {
-    return std::make_unique<Connection>(location_);
-  } catch (const Error&) {
-    const std::lock_guard guard(mutex_);
-    --open_;
-    next_try_ = std::chrono::steady_clock::now() + kBetweenTries;
-    returned_.notify_one();
-    throw;
+    connection = std::make_unique<Connection>(location_);
+  } catch (const Error& error) {
+    trouble = error;
   }
+  {
+    const std::lock_guard guard(mutex_);
+    connecting_ = false;
+    if (trouble) {
+      --open_;
+      next_try_ = std::chrono::steady_clock::now() + kBetweenTries;
+    }
+  }
+  returned_.notify_all();
+  if (trouble) {
+    throw *trouble;
+  }
+  return connection;
 }
 
 void Pool::give_back(std::unique_ptr<Connection> connection) {
@@ -64,9 +81,10 @@ Status to_status(const Error& error) {
     return {StatusCode::conflict, error.what()};
   }
   // Classes and codes of PostgreSQL, appendix A: not enough resources (53), intervention of an operator (57),
+  // trouble of its system (58),
   // a lock that did not come (55P03), a database that only reads (25006), an idle transaction that was ended
   // (25P03), the two of again_if_in_the_way().
-  constexpr std::array<std::string_view, 6> kMayWorkLater{"53", "57", "55P03", "25006", "25P03", "40"};
+  constexpr std::array<std::string_view, 7> kMayWorkLater{"53", "57", "58", "55P03", "25006", "25P03", "40"};
   const bool later =
       error.lost() || std::any_of(kMayWorkLater.begin(), kMayWorkLater.end(),
                                   [&](std::string_view start) { return error.state().starts_with(start); });

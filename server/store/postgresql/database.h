@@ -19,7 +19,8 @@ namespace snapthrough::server::postgresql {
 /// @brief Connections that are shared by the threads of a process: one is opened when all are in use and
 /// there may be more; else a thread waits. Thread-safe.
 ///
-/// While the database can't be reached, one thread a moment tries; the others are told at once.
+/// One thread at a time connects. While the database can't be reached, one tries now and then; the others are
+/// told at once. Nobody waits longer than 10 s.
 class Pool {
  public:
   Pool(std::string location, int most) : location_(std::move(location)), most_(most) {}
@@ -54,6 +55,7 @@ class Pool {
   std::condition_variable returned_;
   std::vector<std::unique_ptr<Connection>> idle_;
   int open_ = 0;
+  bool connecting_ = false;
   std::chrono::steady_clock::time_point next_try_{};
 };
 

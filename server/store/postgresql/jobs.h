@@ -44,6 +44,7 @@ class PostgresqlStore final : public Store {
   StatusOr<std::int64_t> waiting() override;
   StatusOr<std::optional<Time>> oldest_waiting() override;
   void write_metrics(std::string& text) const override { database_.write_metrics(text); }
+  StatusOr<std::vector<std::string>> owners() override;
   StatusOr<std::optional<Job>> get(std::string_view id) override;
   StatusOr<JobPage> list(const ListQuery& query) override;
   StatusOr<std::optional<std::string>> request(std::string_view id) override;

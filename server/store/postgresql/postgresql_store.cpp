@@ -1,5 +1,6 @@
 #include "server/store/postgresql/postgresql_store.h"
 
+#include <regex>
 #include <utility>
 
 #include "server/store/postgresql/jobs.h"
@@ -12,14 +13,13 @@ bool is_location(const std::string& location) {
 }
 
 std::string without_password(const std::string& location) {
-  const std::size_t authority = location.find("://") + 3;
-  const std::size_t end = std::min(location.find('/', authority), location.size());
-  const std::size_t at = location.rfind('@', end);
-  const std::size_t colon = location.find(':', authority);
-  if (!is_location(location) || at == std::string::npos || at < authority || colon > at) {
+  if (!is_location(location)) {
     return location;
   }
-  return location.substr(0, colon) + location.substr(at);
+  // postgresql://user:password@host/name?password=...&sslpassword=...
+  static const std::regex kOfUser("^([a-z]+://[^/?@:]*):[^/?@]*@");
+  static const std::regex kParameter("([?&][a-z]*password=)[^&]*");
+  return std::regex_replace(std::regex_replace(location, kOfUser, "$1@"), kParameter, "$1");
 }
 
 StatusOr<std::unique_ptr<Store>> open_store(const std::string& location, const Options& options,

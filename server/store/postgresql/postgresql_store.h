@@ -14,7 +14,7 @@ namespace snapthrough::server::postgresql {
 
 struct Options {
   int connections = 4;          ///< at most, of this process; beside one that listens
-  bool time_of_caller = false;  ///< go by the `now` that verbs are given: for tests, which decide the time
+  bool time_of_caller = false;  ///< go by the `now` that verbs are given: for who decides the time
 };
 
 /// Whether a store's location names a database of PostgreSQL: postgresql://... or postgres://...

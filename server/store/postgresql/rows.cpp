@@ -77,7 +77,7 @@ const char* const kJobColumns =
     "jobs.id, jobs.status, jobs.attempt, jobs.crashes, jobs.title, jobs.analysis_type, jobs.created_us,"
     " jobs.started_us, jobs.finished_us, jobs.owner, jobs.label, jobs.metadata, jobs.callback,"
     " (SELECT code FROM failures WHERE failures.job = jobs.seq),"
-    " (SELECT detail FROM failures WHERE failures.job = jobs.seq)";
+    " (SELECT detail FROM failures WHERE failures.job = jobs.seq), jobs.content_key";
 
 const char* const kSweepColumns =
     "sweeps.id, sweeps.status, sweeps.owner, sweeps.title, sweeps.points,"
@@ -134,6 +134,7 @@ Job read_job(const Rows& rows, int row) {
   if (!rows.is_null(row, 13)) {
     job.failure = JobFailure{rows.text(row, 13), rows.text(row, 14), ""};
   }
+  job.content_key = rows.text(row, 15);
   return job;
 }
 

@@ -42,7 +42,7 @@ class Clock {
 
 /// The columns that read_job() reads, for SELECT; needs the table `jobs`.
 extern const char* const kJobColumns;
-inline constexpr int kJobColumnCount = 15;
+inline constexpr int kJobColumnCount = 16;
 [[nodiscard]] Job read_job(const Rows& rows, int row);
 
 /// The columns that read_sweep() reads, for SELECT; needs the table `sweeps`.

@@ -1,6 +1,7 @@
 /// What is known of sweeps: verbs that read.
 
 #include <algorithm>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -13,15 +14,52 @@ namespace {
 
 /// Leases' rows that are read at a time: no transaction is open for long.
 constexpr int kReadAtOnce = 16;
-/// Of the same outputs there may be many copies; so many are looked at.
-constexpr int kMostFound = 200;
+/// Keys of a sample, by which it is seen whether it is worth to look for all.
+constexpr std::size_t kSample = 32;
+
+/// Some of them, the first and the last among them.
+std::vector<std::int64_t> sample(const std::vector<std::int64_t>& keys) {
+  if (keys.size() <= kSample) {
+    return keys;
+  }
+  std::vector<std::int64_t> some;
+  for (std::size_t i = 0; i < kSample; ++i) {
+    some.push_back(keys[i * (keys.size() - 1) / (kSample - 1)]);
+  }
+  return some;
+}
+
+/// Where rows with these keys are stored: sweep and first point, each once. One search of the index for each
+/// key: for all of them at once the planner would rather read the table.
+std::set<std::pair<std::int64_t, std::int64_t>> places_of(Connection& connection,
+                                                          const std::vector<std::int64_t>& keys) {
+  const Rows rows = connection.run(
+      "SELECT DISTINCT sweep, first FROM unnest($1) AS wanted (key) CROSS JOIN LATERAL"
+      " (SELECT sweep, first FROM sweep_rows JOIN sweeps ON seq = sweep"
+      "  WHERE keys @> ARRAY[wanted.key] AND NOT removed LIMIT 1) AS place",
+      Parameters().add(keys));
+  std::set<std::pair<std::int64_t, std::int64_t>> places;
+  for (int row = 0; row < rows.count(); ++row) {
+    places.emplace(rows.integer(row, 0), rows.integer(row, 1));
+  }
+  return places;
+}
 
 }  // namespace
 
-StatusOr<std::vector<std::string>> PostgresqlSweepStore::unfinished() {
+StatusOr<std::int64_t> PostgresqlSweepStore::unfinished() {
+  return database_.read<std::int64_t>([](Connection& connection) {
+    return connection
+        .run("SELECT count(*) FROM sweeps WHERE status IN ('accepted', 'running') AND NOT removed")
+        .integer(0, 0);
+  });
+}
+
+StatusOr<std::vector<std::string>> PostgresqlSweepStore::with_units() {
   return database_.read<std::vector<std::string>>([](Connection& connection) {
     const Rows rows = connection.run(
         "SELECT id FROM sweeps WHERE status IN ('accepted', 'running') AND NOT removed"
+        " AND EXISTS (SELECT FROM sweep_left WHERE sweep = seq)"
         " ORDER BY row_number() OVER (PARTITION BY owner ORDER BY seq), seq");
     std::vector<std::string> ids;
     for (int row = 0; row < rows.count(); ++row) {
@@ -119,7 +157,7 @@ Status PostgresqlSweepStore::each_row(
 
 StatusOr<std::vector<std::optional<std::string>>> PostgresqlSweepStore::find_outputs(
     const std::vector<std::string>& keys) {
-  std::unordered_map<std::string_view, std::size_t> wanted;
+  std::unordered_multimap<std::string_view, std::size_t> wanted;
   std::vector<std::int64_t> some;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     if (!keys[i].empty()) {
@@ -130,15 +168,16 @@ StatusOr<std::vector<std::optional<std::string>>> PostgresqlSweepStore::find_out
   using Found = std::vector<std::optional<std::string>>;
   return database_.read<Found>([&](Connection& connection) {
     Found found(keys.size());
-    const Rows rows = some.empty() ? Rows(nullptr)
-                                   : connection.run(
-                                         "SELECT rows FROM sweep_rows JOIN sweeps ON seq = sweep"
-                                         " WHERE keys && $1 AND NOT removed LIMIT $2",
-                                         Parameters().add(some).add(kMostFound));
-    for (int row = 0; row < (some.empty() ? 0 : rows.count()); ++row) {
-      for (PointRow& point : unpack_rows(rows.text(row, 0))) {
-        if (const auto place = wanted.find(point.key); place != wanted.end() && !point.outcome.failed()) {
-          found[place->second] = std::move(point.outcome.outputs);
+    if (places_of(connection, sample(some)).empty()) {
+      return found;  // where none of a sample is known, they are computed
+    }
+    for (const auto& [sweep, first] : places_of(connection, some)) {
+      const Rows rows = connection.run("SELECT rows FROM sweep_rows WHERE sweep = $1 AND first = $2",
+                                       Parameters().add(sweep).add(first));
+      for (PointRow& point : rows.empty() ? std::vector<PointRow>() : unpack_rows(rows.text(0, 0))) {
+        const auto [begin, end] = wanted.equal_range(point.key);
+        for (auto place = begin; place != end && !point.outcome.failed(); ++place) {
+          found[place->second] = point.outcome.outputs;
         }
       }
     }

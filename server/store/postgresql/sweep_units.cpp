@@ -112,7 +112,7 @@ void end_if_done(Connection& connection, std::int64_t sweep, const std::optional
     return;
   }
   connection.run_all(
-      std::vector<Statement>{{"SELECT FROM sweeps WHERE seq = $1 FOR UPDATE", row},
+      std::vector<Statement>{{"SELECT FROM sweeps WHERE seq = $1 FOR NO KEY UPDATE", row},
                              {"UPDATE sweeps SET finished_us = coalesce($2, snapthrough_now()),"
                               " status = CASE WHEN failed > 0 THEN 'failed' ELSE 'successful' END"
                               " FROM (SELECT sum(successful) AS good, sum(failed) AS failed FROM "
@@ -205,11 +205,15 @@ StatusOr<SweepRecord> PostgresqlSweepStore::put(const UnitClaim& claim, const st
                                                 Time now) {
   static constexpr std::string_view kEnd =
       "DELETE FROM sweep_leases USING sweeps WHERE seq = sweep AND number = $1 AND NOT removed"
-      " AND until_us >= coalesce($2, snapthrough_now())"
+      " AND id = $3 AND first = $4 AND units = $5 AND until_us >= coalesce($2, snapthrough_now())"
       " RETURNING sweep, first, units, crashes, unit_points";
   static const std::string kRecord = "SELECT " + std::string(kSweepColumns) + " FROM sweeps WHERE seq = $1";
+  // The units, too: a number whose claim was lost with the database's machine may be another's now.
+  Parameters held;
+  held.add(claim.number).add(clock_.at(now)).add(claim.sweep);
+  held.add(static_cast<std::int64_t>(claim.units.first)).add(static_cast<std::int64_t>(claim.units.count));
   const auto work = [&](Connection& connection) -> StatusOr<SweepRecord> {
-    const Rows ended = connection.run(kEnd, Parameters().add(claim.number).add(clock_.at(now)));
+    const Rows ended = connection.run(kEnd, held);
     if (ended.empty()) {
       return Status(StatusCode::conflict, "sweep " + claim.sweep + " does not run any more");
     }

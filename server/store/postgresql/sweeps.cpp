@@ -27,7 +27,7 @@ std::optional<Place> lock(Connection& connection, std::string_view id) {
       "sweep_leases",
       sweep);
   const Rows rows =
-      connection.run("SELECT seq, status FROM sweeps WHERE id = $1 AND NOT removed FOR UPDATE", sweep);
+      connection.run("SELECT seq, status FROM sweeps WHERE id = $1 AND NOT removed FOR NO KEY UPDATE", sweep);
   return rows.empty() ? std::nullopt : std::optional(Place{rows.integer(0, 0), state_in(rows, 0, 1)});
 }
 

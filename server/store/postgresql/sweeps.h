@@ -18,7 +18,8 @@ class PostgresqlSweepStore final : public SweepStore {
 
   StatusOr<Submitted> submit(const NewSweep& sweep) override;
   StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) override;
-  StatusOr<std::vector<std::string>> unfinished() override;
+  StatusOr<std::int64_t> unfinished() override;
+  StatusOr<std::vector<std::string>> with_units() override;
   StatusOr<std::optional<OpenSweep>> open(std::string_view id) override;
   StatusOr<std::optional<UnitClaim>> claim(std::string_view id, std::uint64_t most, const Lease& lease,
                                            Time now) override;

@@ -92,7 +92,7 @@ const char* const kJobColumns =
     "jobs.id, jobs.status, jobs.attempt, jobs.crashes, jobs.title, jobs.analysis_type, jobs.created_us,"
     " jobs.started_us, jobs.finished_us, jobs.owner, jobs.label, jobs.metadata, jobs.callback,"
     " (SELECT code FROM failures WHERE failures.job = jobs.seq),"
-    " (SELECT detail FROM failures WHERE failures.job = jobs.seq)";
+    " (SELECT detail FROM failures WHERE failures.job = jobs.seq), jobs.content_key";
 
 std::int64_t to_row(Time time) { return time.time_since_epoch().count(); }
 
@@ -152,6 +152,7 @@ Job read_job(const Statement& row) {
   if (!row.is_null(13)) {
     job.failure = JobFailure{row.text(13), row.text(14), ""};
   }
+  job.content_key = row.text(15);
   return job;
 }
 

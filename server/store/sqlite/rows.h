@@ -37,7 +37,7 @@ namespace snapthrough::server::sqlite {
 extern const char* const kJobColumns;
 /// The job in the current row of a statement that selects kJobColumns first, and the column after the last.
 [[nodiscard]] Job read_job(const Statement& row);
-inline constexpr int kJobColumnCount = 15;
+inline constexpr int kJobColumnCount = 16;
 
 /// Inserts branches with their series, and critical points.
 void insert_path(Connection& connection, std::int64_t job, const std::vector<Branch>& branches,

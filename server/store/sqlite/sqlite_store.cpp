@@ -44,6 +44,7 @@ class SqliteStore final : public Store {
   StatusOr<std::int64_t> waiting() override;
   StatusOr<std::optional<Time>> oldest_waiting() override;
   void write_metrics(std::string& text) const override { database_.write_metrics(text); }
+  StatusOr<std::vector<std::string>> owners() override;
   StatusOr<std::optional<Job>> get(std::string_view id) override;
   StatusOr<JobPage> list(const ListQuery& query) override;
   StatusOr<std::optional<std::string>> request(std::string_view id) override;
@@ -501,6 +502,17 @@ StatusOr<std::optional<Time>> SqliteStore::oldest_waiting() {
         "SELECT created_us FROM jobs WHERE status = " + literal(JobState::accepted) + " ORDER BY seq LIMIT 1";
     Statement row = connection.prepare(kSql);
     return row.step() ? std::optional(time_in(row, 0)) : std::nullopt;
+  });
+}
+
+StatusOr<std::vector<std::string>> SqliteStore::owners() {
+  return database_.read<std::vector<std::string>>([](const Connection& connection) {
+    Statement row = connection.prepare("SELECT owner FROM owners ORDER BY owner");
+    std::vector<std::string> all;
+    while (row.step()) {
+      all.push_back(row.text(0));
+    }
+    return all;
   });
 }
 

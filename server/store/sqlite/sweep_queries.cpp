@@ -30,11 +30,21 @@ SweepRecord read_sweep_record(const Statement& row) {
   return sweep;
 }
 
-StatusOr<std::vector<std::string>> SqliteSweepStore::unfinished() {
-  return database_.read<std::vector<std::string>>([](const Connection& connection) {
+StatusOr<std::int64_t> SqliteSweepStore::unfinished() {
+  return database_.read<std::int64_t>([](const Connection& connection) {
     static const std::string kSql =
-        "SELECT id FROM sweeps WHERE " + unfinished_condition() +
-        " AND removed = 0 ORDER BY row_number() OVER (PARTITION BY owner ORDER BY seq), seq";
+        "SELECT count(*) FROM sweeps WHERE " + unfinished_condition() + " AND removed = 0";
+    Statement row = connection.prepare(kSql);
+    row.step();
+    return row.integer(0);
+  });
+}
+
+StatusOr<std::vector<std::string>> SqliteSweepStore::with_units() {
+  return database_.read<std::vector<std::string>>([](const Connection& connection) {
+    static const std::string kSql = "SELECT id FROM sweeps WHERE " + unfinished_condition() +
+                                    " AND removed = 0 AND EXISTS (SELECT 1 FROM sweep_left WHERE sweep = seq)"
+                                    " ORDER BY row_number() OVER (PARTITION BY owner ORDER BY seq), seq";
     Statement rows = connection.prepare(kSql);
     std::vector<std::string> ids;
     while (rows.step()) {

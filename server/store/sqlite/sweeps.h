@@ -13,7 +13,8 @@ class SqliteSweepStore final : public SweepStore {
   explicit SqliteSweepStore(Database& database) : database_(database) {}
 
   StatusOr<Submitted> submit(const NewSweep& sweep) override;
-  StatusOr<std::vector<std::string>> unfinished() override;
+  StatusOr<std::int64_t> unfinished() override;
+  StatusOr<std::vector<std::string>> with_units() override;
   StatusOr<std::optional<OpenSweep>> open(std::string_view id) override;
   StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) override;
   StatusOr<std::optional<UnitClaim>> claim(std::string_view id, std::uint64_t most, const Lease& lease,

@@ -1,0 +1,263 @@
+#include "server/store/copy.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "api/names.h"
+#include "api/sweep.h"
+
+namespace snapthrough::server {
+namespace {
+
+constexpr int kPage = 500;
+/// Units whose rows are stored at a time.
+constexpr std::uint64_t kUnitsAtOnce = 4096;
+/// Of a copy, which is alone with its target: longer than it takes.
+constexpr std::chrono::hours kLease{24 * 365 * 100};
+
+/// Something to copy, by its place in the order of arrival.
+struct Entry {
+  Time created;
+  std::string id;
+  bool sweep = false;
+};
+
+/// Every job (or sweep) of an owner, as `list` pages them.
+template <class List, class Items>
+Status add_all(const std::string& owner, bool sweep, const List& list, const Items& items,
+               std::vector<Entry>& entries) {
+  ListQuery query;
+  query.owner = owner;
+  query.limit = kPage;
+  do {
+    const auto page = list(query);
+    if (!page.ok()) {
+      return page.status();
+    }
+    for (const auto& one : items(*page)) {
+      entries.push_back({one.created, one.id, sweep});
+    }
+    query.before = page->next;
+  } while (query.before);
+  return {};
+}
+
+StatusOr<std::vector<Entry>> entries_of(Store& store) {
+  const StatusOr<std::vector<std::string>> owners = store.owners();
+  if (!owners.ok()) {
+    return owners.status();
+  }
+  std::vector<Entry> entries;
+  for (const std::string& owner : *owners) {
+    Status status = add_all(
+        owner, false, [&](const ListQuery& query) { return store.list(query); },
+        [](const JobPage& page) -> auto& { return page.jobs; }, entries);
+    if (status.ok()) {
+      status = add_all(
+          owner, true, [&](const ListQuery& query) { return store.sweeps().list(query); },
+          [](const SweepPage& page) -> auto& { return page.sweeps; }, entries);
+    }
+    if (!status.ok()) {
+      return status;
+    }
+  }
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return std::pair(a.created, std::string_view(a.id)) < std::pair(b.created, std::string_view(b.id));
+  });
+  return entries;
+}
+
+Status missing(const std::string& id) {
+  return {StatusCode::conflict, id + " is gone from the source: is it still in use?"};
+}
+
+StatusOr<std::string> whole_result(Store& store, const std::string& id) {
+  std::string document;
+  for (;;) {
+    const StatusOr<DocumentPiece> piece = store.result_piece(id, document.size(), std::size_t{1} << 22);
+    if (!piece.ok()) {
+      return piece.status();
+    }
+    if (piece->bytes.empty()) {
+      return document.size() == piece->size ? StatusOr<std::string>(std::move(document)) : missing(id);
+    }
+    document += piece->bytes;
+  }
+}
+
+/// What a result document says of itself.
+JobResult result_of(std::string document, StoredPath path) {
+  const nlohmann::json read = nlohmann::json::parse(document, nullptr, false);
+  const nlohmann::json summary =
+      read.is_object() ? read.value("summary", nlohmann::json()) : nlohmann::json();
+  const auto field = [&](const char* name) {
+    return summary.is_object() ? summary.value(name, nlohmann::json()) : nlohmann::json();
+  };
+  JobResult result;
+  if (const auto load = field("critical_load_factor"); load.is_number()) {
+    result.summary.critical_load_factor = load.get<double>();
+  }
+  if (const auto type = field("critical_type"); type.is_string()) {
+    result.summary.critical_type = api::value_of(api::kCriticalTypes, type.get<std::string>());
+  }
+  if (const auto termination = field("termination"); termination.is_string()) {
+    result.summary.termination = termination.get<std::string>();
+  }
+  if (read.is_object() && read.contains("wall_time_s") && read["wall_time_s"].is_number()) {
+    result.wall_time_s = read["wall_time_s"].get<double>();
+  }
+  result.document = std::move(document);
+  result.branches = std::move(path.branches);
+  result.critical_points = std::move(path.critical_points);
+  return result;
+}
+
+/// Ends a job in the target as it ended in the source.
+Status end_job(Store& from, Store& to, const Job& job, const Claim& claim) {
+  StatusOr<StoredPath> path = from.path(job.id);
+  if (!path.ok()) {
+    return path.status();
+  }
+  if (job.state == JobState::dismissed) {
+    return to.dismiss(job.id, *job.finished).status();
+  }
+  if (job.state == JobState::failed) {
+    return to.fail(claim, job.failure.value_or(JobFailure{"unknown", "", ""}), *path, *job.finished);
+  }
+  StatusOr<std::string> document = whole_result(from, job.id);
+  if (!document.ok()) {
+    return document.status();
+  }
+  return to.finish(claim, result_of(*std::move(document), *std::move(path)), *job.finished);
+}
+
+Status copy_job(Store& from, Store& to, const Job& job) {
+  const StatusOr<std::optional<std::string>> request = from.request(job.id);
+  if (!request.ok() || !*request) {
+    return request.ok() ? missing(job.id) : request.status();
+  }
+  NewJob copy{job.id, job.title, job.analysis_type, **request, job.created, job.owner, job.content_key};
+  copy.annotations = job.annotations;
+  const bool ended = is_final(job.state);
+  if (ended) {
+    copy.annotations.callback.clear();  // it was told
+    copy.lease = Lease{"copy", job.created + kLease};
+  }
+  const StatusOr<Submitted> submitted = to.submit(copy);
+  return submitted.ok() && ended ? end_job(from, to, job, {job.id, 1}) : submitted.status();
+}
+
+/// Puts the rows of a sweep that has ended; the last of them end it.
+Status copy_rows(Store& from, Store& to, const SweepRecord& sweep, std::uint64_t unit_points) {
+  const Time started = sweep.started.value_or(sweep.created);
+  const bool whole = sweep.done() == sweep.points;
+  const std::uint64_t units = static_cast<std::uint64_t>(sweep.points) / unit_points;
+  for (std::uint64_t done = 0; done < units;) {
+    const StatusOr<std::optional<UnitClaim>> claim =
+        to.sweeps().claim(sweep.id, whole ? kUnitsAtOnce : units, {"copy", started + kLease}, started);
+    if (!claim.ok() || !*claim) {
+      return claim.ok() ? Status(StatusCode::conflict, "others use the target") : claim.status();
+    }
+    const UnitRun& run = (*claim)->units;
+    std::vector<PointRow> rows;
+    Status read = from.sweeps().each_row(sweep.id, {run.first * unit_points, run.count * unit_points, {}},
+                                         [&](std::uint64_t point, const api::PointOutcome& outcome) {
+                                           rows.push_back({point, outcome});
+                                           return true;
+                                         });
+    if (read.ok()) {
+      read = to.sweeps().put(**claim, rows, sweep.finished.value_or(started)).status();
+    }
+    if (!read.ok()) {
+      return read;
+    }
+    done += run.count;
+  }
+  return {};
+}
+
+Status copy_sweep(Store& from, Store& to, const SweepRecord& sweep) {
+  const StatusOr<std::optional<std::string>> document = from.sweeps().document(sweep.id);
+  if (!document.ok() || !*document) {
+    return document.ok() ? missing(sweep.id) : document.status();
+  }
+  const api::SweepOutcome read = api::read_sweep(**document);
+  const std::uint64_t unit_points = read.sweep ? read.sweep->unit_size() : 1;
+  NewSweep copy{sweep.id, sweep.title, **document, sweep.points, sweep.created, sweep.owner};
+  copy.unit_points = static_cast<std::int64_t>(unit_points);
+  copy.analysis_type = sweep.analysis_type;
+  copy.annotations = sweep.annotations;
+  const bool ended = is_final(sweep.state);
+  if (ended) {
+    copy.annotations.callback.clear();
+  }
+  if (const StatusOr<Submitted> submitted = to.sweeps().submit(copy); !submitted.ok() || !ended) {
+    return submitted.status();
+  }
+  if (Status status = sweep.done() > 0 ? copy_rows(from, to, sweep, unit_points) : Status(); !status.ok()) {
+    return status;
+  }
+  return sweep.state == JobState::dismissed ? to.sweeps().dismiss(sweep.id, *sweep.finished).status()
+                                            : Status();
+}
+
+/// Whether the target's copy is as far as the source; one that is not is removed.
+template <class Record, class Remove>
+StatusOr<bool> is_there(const Record& source, const StatusOr<std::optional<Record>>& target,
+                        const Remove& remove) {
+  if (!target.ok()) {
+    return target.status();
+  }
+  if (!*target) {
+    return false;
+  }
+  if (is_final((*target)->state) || !is_final(source.state)) {
+    return true;
+  }
+  const StatusOr<bool> removed = remove();
+  return removed.ok() ? StatusOr<bool>(false) : removed.status();
+}
+
+/// Whether it was copied now: false when it was there.
+template <class Record, class AnyStore, class Copy>
+StatusOr<bool> copy_one(AnyStore& from, AnyStore& to, const std::string& id, const Copy& copy) {
+  const StatusOr<std::optional<Record>> source = from.get(id);
+  if (!source.ok() || !*source) {
+    return source.ok() ? missing(id) : source.status();
+  }
+  const StatusOr<bool> there = is_there<Record>(**source, to.get(id), [&] { return to.remove(id); });
+  if (!there.ok() || *there) {
+    return there.ok() ? StatusOr<bool>(false) : there.status();
+  }
+  const Status status = copy(**source);
+  return status.ok() ? StatusOr<bool>(true) : Status(status.code(), id + ": " + status.message());
+}
+
+}  // namespace
+
+Status copy_store(Store& from, Store& to, CopyCounts& counts,
+                  const std::function<void(const CopyCounts&)>& tell) {
+  const StatusOr<std::vector<Entry>> entries = entries_of(from);
+  if (!entries.ok()) {
+    return entries.status();
+  }
+  counts.all = static_cast<std::int64_t>(entries->size());
+  for (const Entry& entry : *entries) {
+    const StatusOr<bool> copied =
+        entry.sweep
+            ? copy_one<SweepRecord>(from.sweeps(), to.sweeps(), entry.id,
+                                    [&](const SweepRecord& sweep) { return copy_sweep(from, to, sweep); })
+            : copy_one<Job>(from, to, entry.id, [&](const Job& job) { return copy_job(from, to, job); });
+    if (!copied.ok()) {
+      return copied.status();
+    }
+    (*copied ? entry.sweep ? counts.sweeps : counts.jobs : counts.there) += 1;
+    tell(counts);
+  }
+  return {};
+}
+
+}  // namespace snapthrough::server
