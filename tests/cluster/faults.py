@@ -127,7 +127,10 @@ class Trial:
             wrong.append(f"sweep: {counts}")
         if len(rows) != POINTS or len({row[0] for row in rows}) != POINTS:
             wrong.append(f"sweep: {len(rows)} rows, {len({row[0] for row in rows})} of them different")
-        if any(abs(row[1] / row[0] - rows[0][1] / rows[0][0]) > 1e-4 * rows[0][1] for row in rows):
+        failed = collections.Counter(row[-1] for row in rows if row[1] is None)
+        if failed:
+            wrong.append(f"sweep: points failed: {failed.most_common(3)}")
+        elif any(abs(row[1] / row[0] - rows[0][1] / rows[0][0]) > 1e-4 * rows[0][1] for row in rows):
             wrong.append("sweep: rows belong to other points")
         return wrong
 

@@ -1,0 +1,100 @@
+"""How far one PostgreSQL carries workers: a discrete-event model of a sweep, from costs that were measured.
+
+  bench/cluster_simulation.py [--claim-cpu MS] [--put-cpu MS] [--lock MS] [--commit MS] [--svg FILE]
+
+Each worker core takes a lease, computes for about a tenth of a second, stores its rows, and begins again. The database has
+cores that claims and puts take turns on; claims of one sweep take turns on the row they split; a commit takes its time besides.
+Prints a table; the plot shows computed time as a share of what the cores could do."""
+
+import argparse
+import heapq
+import random
+
+
+class Servers:
+    """So many that serve one after the other."""
+
+    def __init__(self, count):
+        self.free = [0.0] * count
+
+    def serve(self, now, seconds):
+        """When it is done."""
+        start = max(now, heapq.heappop(self.free))
+        heapq.heappush(self.free, start + seconds)
+        return start + seconds
+
+
+def simulate(workers, cores, costs, lease=0.1, sweeps=1, until=20.0, seed=1):
+    """Share of the workers' time that they compute, and the seconds of a round of the database: median, 99 %."""
+    draw = random.Random(seed)
+    database = Servers(cores)
+    locks = [Servers(1) for _ in range(sweeps)]
+    events = [(draw.random() * lease, worker) for worker in range(workers)]
+    heapq.heapify(events)
+    computed, rounds = 0.0, []
+    while events:
+        now, worker = heapq.heappop(events)
+        if now > until:
+            break
+        stored = database.serve(now, costs["put_cpu"]) + costs["commit"]
+        claimed = database.serve(locks[worker % sweeps].serve(stored, costs["lock"]), costs["claim_cpu"])
+        length = lease * draw.uniform(0.75, 1.25)
+        if now > 0.25 * until:  # after it has settled
+            rounds.append(claimed - now)
+            computed += length
+        heapq.heappush(events, (claimed + length, worker))
+    rounds.sort()
+    return computed / (0.75 * until * workers), rounds[len(rounds) // 2], rounds[int(0.99 * len(rounds))]
+
+
+def svg(curves, file):
+    """Efficiency over worker cores, on a logarithmic scale."""
+    import math
+    width, height, left, bottom = 640, 360, 60, 40
+    def place(workers, share):
+        return (left + (width - left - 20) * (math.log10(workers) - 1) / 3, height - bottom - (height - bottom - 20) * share)
+    colours = ["#1b6ca8", "#c44e52", "#55a868", "#8172b2"]
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="12">',
+           f'<rect width="{width}" height="{height}" fill="white"/>']
+    for share in (0, 0.25, 0.5, 0.75, 1):
+        y = place(10, share)[1]
+        out.append(f'<line x1="{left}" x2="{width - 20}" y1="{y:.1f}" y2="{y:.1f}" stroke="#ddd"/>'
+                   f'<text x="{left - 8}" y="{y + 4:.1f}" text-anchor="end">{share:.0%}</text>')
+    for workers in (10, 100, 1000, 10000):
+        x = place(workers, 0)[0]
+        out.append(f'<text x="{x:.1f}" y="{height - bottom + 18}" text-anchor="middle">{workers}</text>')
+    out.append(f'<text x="{(left + width) / 2}" y="{height - 6}" text-anchor="middle">worker cores</text>')
+    for number, (name, points) in enumerate(curves):
+        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in (place(*point) for point in points))
+        out.append(f'<polyline points="{path}" fill="none" stroke="{colours[number]}" stroke-width="2"/>'
+                   f'<text x="{left + 10}" y="{height - bottom - 70 + 16 * number}" fill="{colours[number]}">{name}</text>')
+    out.append("</svg>\n")
+    with open(file, "w", encoding="utf-8") as target:
+        target.write("\n".join(out))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name, default in (("claim-cpu", 0.4), ("put-cpu", 1.2), ("lock", 0.3), ("commit", 3.0)):
+        parser.add_argument(f"--{name}", type=float, default=default, help="milliseconds")
+    parser.add_argument("--svg")
+    given = parser.parse_args()
+    costs = {"claim_cpu": given.claim_cpu / 1e3, "put_cpu": given.put_cpu / 1e3, "lock": given.lock / 1e3, "commit": given.commit / 1e3}
+    cases = [("2 cores, leases of 0.1 s, one sweep", 2, 0.1, 1), ("8 cores, one sweep", 8, 0.1, 1),
+             ("8 cores, eight sweeps", 8, 0.1, 8), ("8 cores, eight sweeps, leases of 1 s", 8, 1.0, 8)]
+    print("| worker cores | " + " | ".join(name for name, *_ in cases) + " |\n|" + " --- |" * (len(cases) + 1))
+    curves = [(name, []) for name, *_ in cases]
+    for workers in (10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000):
+        cells = []
+        for (_, cores, lease, sweeps), (_, points) in zip(cases, curves):
+            until = 20.0 if workers <= 1000 else 8.0
+            share, median, worst = simulate(workers, cores, costs, lease, sweeps, max(until, 40 * lease))
+            points.append((workers, share))
+            cells.append(f"{share:.0%}, {1e3 * median:.0f} / {1e3 * worst:.0f} ms")
+        print(f"| {workers} | " + " | ".join(cells) + " |", flush=True)
+    if given.svg:
+        svg(curves, given.svg)
+
+
+if __name__ == "__main__":
+    main()
