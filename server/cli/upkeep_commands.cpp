@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -40,6 +41,10 @@ http::Descriptor connect_to(const std::string& host, int port) {
 }  // namespace
 
 int copy_command(const std::string& source, const std::string& target, const Streams& streams) {
+  if (!is_shared_location(source) && !std::filesystem::exists(source)) {
+    streams.err << "snapthrough: " << source << ": there is no such file\n";
+    return kOther;
+  }
   const Time now = Environment::system().now();
   const StatusOr<std::unique_ptr<Store>> from = open_store(source, 1, now);
   if (!from.ok()) {

@@ -202,6 +202,15 @@ TEST_F(CommandLine, ABackupLeavesNothingButTheCopy) {
   EXPECT_EQ(run({"backup", "--store", folder_.file("jobs.db"), folder_.file("no/copy.db")}), 1);
 }
 
+TEST_F(CommandLine, ACopyOfWhatIsNotThereIsRefusedAndLeavesNothing) {
+  EXPECT_EQ(run({"copy", folder_.file("nowhere.db"), folder_.file("copy.db")}), 1);
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("nowhere.db")));
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("copy.db")));
+  EXPECT_EQ(run({"migrate", "--store", folder_.file("new.db")}), 0);
+  EXPECT_EQ(run({"copy", folder_.file("new.db"), folder_.file("copy.db")}), 0);
+  EXPECT_EQ(run({"work", "--store", folder_.file("new.db")}), 1) << "nobody else could use it";
+}
+
 /// The block of a document that begins with a line and ends with three backquotes.
 std::string block_of(const std::string& document, const std::string& first_line) {
   const std::string text = read_file(std::string(SNAPTHROUGH_SOURCE_DIR "/") + document);

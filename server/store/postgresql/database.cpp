@@ -80,11 +80,11 @@ Status to_status(const Error& error) {
   if (error.state() == kLostClaim) {
     return {StatusCode::conflict, error.what()};
   }
-  // Classes and codes of PostgreSQL, appendix A: the connection (08), not enough resources (53), intervention of an operator (57),
-  // trouble of its system (58),
-  // a lock that did not come (55P03), a database that only reads (25006), an idle transaction that was ended
-  // (25P03), the two of again_if_in_the_way().
-  constexpr std::array<std::string_view, 8> kMayWorkLater{"08", "53", "57", "58", "55P03", "25006", "25P03", "40"};
+  // Classes and codes of PostgreSQL, appendix A: the connection (08), not enough resources (53), intervention
+  // of an operator (57), trouble of its system (58), a lock that did not come (55P03), a database that only
+  // reads (25006), an idle transaction that was ended (25P03), the two of again_if_in_the_way().
+  constexpr std::array<std::string_view, 8> kMayWorkLater{"08",    "53",    "57",    "58",
+                                                          "55P03", "25006", "25P03", "40"};
   const bool later =
       error.lost() || std::any_of(kMayWorkLater.begin(), kMayWorkLater.end(),
                                   [&](std::string_view start) { return error.state().starts_with(start); });
