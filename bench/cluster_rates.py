@@ -20,12 +20,15 @@ import cluster  # noqa: E402
 from cluster import Client, Cluster, Host, column, sweep  # noqa: E402
 
 
+MANY = ["--max-sweep-points", "1000000"]
+
+
 class Single:
     """One process on SQLite."""
 
     def __init__(self, program):
         self.folder = tempfile.TemporaryDirectory()
-        self.hosts = [Host(program, self.folder.name, "single", f"{self.folder.name}/store.db", 2, True)]
+        self.hosts = [Host(program, self.folder.name, "single", f"{self.folder.name}/store.db", 2, True, MANY)]
         self.fronts = self.hosts
 
     def stop(self):
@@ -137,7 +140,7 @@ def main():
     cluster.OWNERS = {}  # the loader has no key
     rows = {}
     for round_number in range(arguments.rounds):
-        for name, make in (("sqlite", Single), ("postgresql", lambda program: Cluster(program, 1, 2))):
+        for name, make in (("sqlite", Single), ("postgresql", lambda program: Cluster(program, 1, 2, MANY))):
             service = make(arguments.program)
             try:
                 submitted, solved = job_rates(service, arguments.loader)

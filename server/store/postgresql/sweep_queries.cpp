@@ -12,8 +12,24 @@
 namespace snapthrough::server::postgresql {
 namespace {
 
-/// Leases' rows that are read at a time: no transaction is open for long.
+/// Leases' rows that are read at a time, at most: no transaction is open for long. It begins with one, since
+/// who sends a table asks for little at a time.
 constexpr int kReadAtOnce = 16;
+
+/// Calls `use` with the rows that are asked for; false when it wants no more.
+StatusOr<bool> use_rows(const std::string& pack, const PointQuery& query,
+                        const std::function<bool(std::uint64_t, const api::PointOutcome&)>& use) try {
+  for (const PointRow& row : unpack_rows(pack)) {
+    const bool wanted = row.point >= query.first && row.point - query.first < query.count &&
+                        (!query.failed || *query.failed == row.outcome.failed());
+    if (wanted && !use(row.point, row.outcome)) {
+      return false;
+    }
+  }
+  return true;
+} catch (const Error& error) {
+  return to_status(error);
+}
 /// Keys of a sample, by which it is seen whether it is worth to look for all.
 constexpr std::size_t kSample = 32;
 
@@ -120,36 +136,30 @@ Status PostgresqlSweepStore::each_row(
   const std::uint64_t first = std::min(query.first, largest);
   const std::uint64_t end = first + std::min(query.count, largest - first);
   std::int64_t last = -1;
-  for (;;) {
+  for (int most = 1;; most = std::min(2 * most, kReadAtOnce)) {
     Parameters page;
     page.add(id).add(static_cast<std::int64_t>(first)).add(last).add(static_cast<std::int64_t>(end));
-    page.add(query.failed.value_or(false)).add(kReadAtOnce);
-    const StatusOr<std::vector<PointRow>> read =
-        database_.read<std::vector<PointRow>>([&](Connection& connection) {
+    page.add(query.failed.value_or(false)).add(most);
+    const StatusOr<std::vector<std::string>> read =
+        database_.read<std::vector<std::string>>([&](Connection& connection) {
           const Rows rows = connection.run(kSql, page);
-          std::vector<PointRow> points;
+          std::vector<std::string> packs;
           for (int row = 0; row < rows.count(); ++row) {
             last = rows.integer(row, 0);
-            std::vector<PointRow> some = unpack_rows(rows.text(row, 1));
-            points.insert(points.end(), std::make_move_iterator(some.begin()),
-                          std::make_move_iterator(some.end()));
+            packs.push_back(rows.text(row, 1));
           }
-          if (rows.count() < kReadAtOnce) {
-            last = INT64_MAX;
-          }
-          return points;
+          return packs;
         });
     if (!read.ok()) {
       return read.status();
     }
-    for (const PointRow& row : *read) {
-      const bool wanted =
-          row.point >= first && row.point < end && (!query.failed || *query.failed == row.outcome.failed());
-      if (wanted && !use(row.point, row.outcome)) {
-        return {};
+    for (const std::string& pack : *read) {
+      const StatusOr<bool> more = use_rows(pack, {first, end - first, query.failed}, use);
+      if (!more.ok() || !*more) {
+        return more.status();
       }
     }
-    if (last == INT64_MAX) {
+    if (read->size() < static_cast<std::size_t>(most)) {
       return {};
     }
   }
