@@ -45,4 +45,5 @@ CREATE TABLE sweep_claims (
 CREATE INDEX sweep_claims_by_sweep ON sweep_claims (sweep);
 
 -- Owners take turns: of one owner the oldest job that waits.
-CREATE INDEX jobs_in_turn ON jobs (owner, seq) WHERE status = 'accepted';
+DROP INDEX jobs_waiting;
+CREATE INDEX jobs_in_turn ON jobs (owner, seq, created_us) WHERE status = 'accepted';

@@ -499,9 +499,10 @@ StatusOr<std::int64_t> SqliteStore::waiting() {
 StatusOr<std::optional<Time>> SqliteStore::oldest_waiting() {
   return database_.read<std::optional<Time>>([](const Connection& connection) {
     static const std::string kSql =
-        "SELECT created_us FROM jobs WHERE status = " + literal(JobState::accepted) + " ORDER BY seq LIMIT 1";
+        "SELECT min(created_us) FROM jobs WHERE status = " + literal(JobState::accepted);
     Statement row = connection.prepare(kSql);
-    return row.step() ? std::optional(time_in(row, 0)) : std::nullopt;
+    row.step();
+    return optional_time_in(row, 0);
   });
 }
 
