@@ -146,8 +146,10 @@ void Upkeep::retire_sweeps(Time now) {
 }
 
 void Upkeep::count_waiting() {
+  std::int64_t before = context_.waiting;
   if (const StatusOr<std::int64_t> waiting = context_.store.waiting(); waiting.ok()) {
-    context_.waiting = *waiting;
+    // where jobs came or went meanwhile the count is of neither moment: the next will do
+    context_.waiting.compare_exchange_strong(before, *waiting);
   }
 }
 

@@ -81,11 +81,13 @@ bool Neighbours::look_for_ends() {
 }
 
 bool Neighbours::look_for_work() {
+  std::int64_t before = context_.waiting;
   const StatusOr<WaitingWork> work = store_.work(kMany);
   if (!work.ok()) {
     return false;
   }
-  context_.waiting = work->jobs < kMany ? work->jobs : std::max(context_.waiting.load(), kMany);
+  // unless jobs came or went here meanwhile: then the next look will do
+  context_.waiting.compare_exchange_strong(before, work->jobs < kMany ? work->jobs : std::max(before, kMany));
   const std::size_t idle = context_.handoffs.idle();
   for (std::size_t i = 0; i < std::min(idle, static_cast<std::size_t>(work->jobs)); ++i) {
     context_.handoffs.ring();
