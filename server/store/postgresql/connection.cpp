@@ -181,6 +181,14 @@ std::vector<std::int64_t> Rows::integers(int row, int column) const {
   return all;
 }
 
+std::vector<std::string> Rows::texts(int column) const {
+  std::vector<std::string> all(static_cast<std::size_t>(count()));
+  for (int row = 0; row < count(); ++row) {
+    all[static_cast<std::size_t>(row)] = text(row, column);
+  }
+  return all;
+}
+
 std::optional<std::int64_t> Rows::optional_integer(int row, int column) const {
   return is_null(row, column) ? std::nullopt : std::optional(integer(row, column));
 }

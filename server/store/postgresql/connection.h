@@ -88,6 +88,8 @@ class Rows {
   [[nodiscard]] std::string text(int row, int column) const;  ///< text or bytes; empty for NULL
   [[nodiscard]] std::vector<double> series(int row, int column) const;
   [[nodiscard]] std::vector<std::int64_t> integers(int row, int column) const;  ///< of an array of bigint
+  /// A column of all rows.
+  [[nodiscard]] std::vector<std::string> texts(int column) const;
   [[nodiscard]] std::optional<std::int64_t> optional_integer(int row, int column) const;
   [[nodiscard]] std::optional<double> optional_real(int row, int column) const;
 

@@ -35,12 +35,7 @@ StatusOr<std::optional<Time>> PostgresqlStore::oldest_waiting() {
 
 StatusOr<std::vector<std::string>> PostgresqlStore::owners() {
   return database_.read<std::vector<std::string>>([](Connection& connection) {
-    const Rows rows = connection.run("SELECT DISTINCT owner FROM owner_bytes ORDER BY owner");
-    std::vector<std::string> all;
-    for (int row = 0; row < rows.count(); ++row) {
-      all.push_back(rows.text(row, 0));
-    }
-    return all;
+    return connection.run("SELECT DISTINCT owner FROM owner_bytes ORDER BY owner").texts(0);
   });
 }
 

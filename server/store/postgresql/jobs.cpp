@@ -227,11 +227,7 @@ StatusOr<std::vector<std::string>> PostgresqlStore::renew(const std::vector<Clai
   Parameters held;
   held.add(ids).add(attempts).add(clock_.at(now)).add(microseconds(until - now));
   const auto use = [&](std::span<const Rows> all) -> StatusOr<std::vector<std::string>> {
-    std::vector<std::string> lost;
-    for (int row = 0; row < all.front().count(); ++row) {
-      lost.push_back(all.front().text(row, 0));
-    }
-    return lost;
+    return all.front().texts(0);
   };
   // In the order of rows, so that two that renew the same do not wait for each other.
   static constexpr std::string_view kSql =

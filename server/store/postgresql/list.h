@@ -31,6 +31,7 @@ std::pair<std::vector<Entry>, std::optional<ListPlace>> read_page(Connection& co
   const Rows rows = list_rows(connection, table, query);
   std::vector<Entry> page;
   const int count = std::min(rows.count(), query.limit);
+  page.reserve(static_cast<std::size_t>(count));
   for (int row = 0; row < count; ++row) {
     page.push_back(read(rows, row));
   }

@@ -12,14 +12,6 @@ constexpr std::chrono::seconds kBetweenTries{5};
 /// How soon a stop is seen while nobody rings.
 constexpr std::chrono::milliseconds kSlice{100};
 
-std::vector<std::string> ids_in(const Rows& rows) {
-  std::vector<std::string> ids;
-  for (int row = 0; row < rows.count(); ++row) {
-    ids.push_back(rows.text(row, 0));
-  }
-  return ids;
-}
-
 }  // namespace
 
 StatusOr<WaitingWork> PostgresqlNeighbourStore::work(std::int64_t most) {
@@ -35,16 +27,19 @@ StatusOr<WaitingWork> PostgresqlNeighbourStore::work(std::int64_t most) {
 
 StatusOr<std::vector<std::string>> PostgresqlNeighbourStore::ended(const std::vector<std::string>& ids) {
   return database_.read<std::vector<std::string>>([&](Connection& connection) {
-    return ids_in(connection.run(
-        "SELECT asked FROM unnest($1) AS asked WHERE"
-        " NOT EXISTS (SELECT FROM jobs WHERE id = asked AND finished_us IS NULL) AND"
-        " NOT EXISTS (SELECT FROM sweeps WHERE id = asked AND finished_us IS NULL AND NOT removed)",
-        Parameters().add(ids)));
+    return connection
+        .run(
+            "SELECT asked FROM unnest($1) AS asked WHERE"
+            " NOT EXISTS (SELECT FROM jobs WHERE id = asked AND finished_us IS NULL) AND"
+            " NOT EXISTS (SELECT FROM sweeps WHERE id = asked AND finished_us IS NULL AND NOT removed)",
+            Parameters().add(ids))
+        .texts(0);
   });
 }
 
 Status PostgresqlNeighbourStore::tell(const std::vector<ToldProgress>& progress) {
   std::vector<Statement> statements;
+  statements.reserve(progress.size() + 1);
   for (const ToldProgress& one : progress) {
     statements.push_back(
         {"INSERT INTO job_progress (job, attempt, number, branch, step, load_factor, negative_eigenvalues)"

@@ -73,15 +73,12 @@ StatusOr<std::int64_t> PostgresqlSweepStore::unfinished() {
 
 StatusOr<std::vector<std::string>> PostgresqlSweepStore::with_units() {
   return database_.read<std::vector<std::string>>([](Connection& connection) {
-    const Rows rows = connection.run(
-        "SELECT id FROM sweeps WHERE status IN ('accepted', 'running') AND NOT removed"
-        " AND EXISTS (SELECT FROM sweep_left WHERE sweep = seq)"
-        " ORDER BY row_number() OVER (PARTITION BY owner ORDER BY seq), seq");
-    std::vector<std::string> ids;
-    for (int row = 0; row < rows.count(); ++row) {
-      ids.push_back(rows.text(row, 0));
-    }
-    return ids;
+    return connection
+        .run(
+            "SELECT id FROM sweeps WHERE status IN ('accepted', 'running') AND NOT removed"
+            " AND EXISTS (SELECT FROM sweep_left WHERE sweep = seq)"
+            " ORDER BY row_number() OVER (PARTITION BY owner ORDER BY seq), seq")
+        .texts(0);
   });
 }
 
@@ -184,7 +181,7 @@ StatusOr<std::vector<std::optional<std::string>>> PostgresqlSweepStore::find_out
     for (const auto& [sweep, first] : places_of(connection, some)) {
       const Rows rows = connection.run("SELECT rows FROM sweep_rows WHERE sweep = $1 AND first = $2",
                                        Parameters().add(sweep).add(first));
-      for (PointRow& point : rows.empty() ? std::vector<PointRow>() : unpack_rows(rows.text(0, 0))) {
+      for (const PointRow& point : rows.empty() ? std::vector<PointRow>() : unpack_rows(rows.text(0, 0))) {
         const auto [begin, end] = wanted.equal_range(point.key);
         for (auto place = begin; place != end && !point.outcome.failed(); ++place) {
           found[place->second] = point.outcome.outputs;

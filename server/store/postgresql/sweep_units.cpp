@@ -179,6 +179,7 @@ StatusOr<std::optional<UnitClaim>> PostgresqlSweepStore::claim(std::string_view 
 StatusOr<std::vector<std::int64_t>> PostgresqlSweepStore::renew(const std::vector<UnitClaim>& claims,
                                                                 Time until, Time now) {
   std::vector<std::int64_t> numbers;
+  numbers.reserve(claims.size());
   for (const UnitClaim& claim : claims) {
     numbers.push_back(claim.number);
   }
@@ -191,6 +192,7 @@ StatusOr<std::vector<std::int64_t>> PostgresqlSweepStore::renew(const std::vecto
       " SELECT claimed FROM unnest($1) AS claimed WHERE claimed NOT IN (SELECT number FROM held)";
   const auto use = [](std::span<const Rows> all) -> StatusOr<std::vector<std::int64_t>> {
     std::vector<std::int64_t> lost;
+    lost.reserve(static_cast<std::size_t>(all.front().count()));
     for (int row = 0; row < all.front().count(); ++row) {
       lost.push_back(all.front().integer(row, 0));
     }
