@@ -54,7 +54,7 @@ def timed_sweep(service, document):
     status, body, headers = client.ask("POST", "/v1/sweeps", json.dumps(document), {"Cache-Control": "no-cache"})
     assert status == 201, body
     path = headers["Location"]
-    while json.loads(client.ask("GET", path + "", headers={"Prefer": "wait=30"}, timeout=60)[1])["status"] in ("accepted", "running"):
+    while json.loads(client.ask("GET", path, headers={"Prefer": "wait=30"}, timeout=60)[1])["status"] in ("accepted", "running"):
         pass
     seconds = time.time() - start
     counts = json.loads(client.ask("GET", path)[1])["counts"]

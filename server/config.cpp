@@ -21,13 +21,9 @@ bool is_digest(const std::string& text) {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-/// What is wrong with where work is kept, and who does it.
-void check_store(const ServiceConfig& config, std::vector<ConfigMistake>& mistakes) {
-  const auto require = [&](bool holds, const char* field, const char* detail) {
-    if (!holds) {
-      mistakes.push_back({field, detail});
-    }
-  };
+/// What must hold of where work is kept, and of who does it.
+template <class Require>
+void check_store(const ServiceConfig& config, const Require& require) {
   require(!config.store_path.empty(), "store_path", "must name a file, or a database as postgresql://...");
   require(config.store_connections >= 1 && config.store_connections <= kMostConnections, "store_connections",
           "must be 1 to 64");
@@ -69,7 +65,7 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
           "must be >= listener.limits.body_bytes");
   require(waits.default_wait.count() >= 0, "waits.default_wait", "must be >= 0");
   require(waits.longest_wait >= waits.default_wait, "waits.longest_wait", "must be >= waits.default_wait");
-  check_store(*this, mistakes);
+  check_store(*this, require);
   require(jobs.max_crashes >= 1, "jobs.max_crashes", "must be >= 1");
   require(jobs.queue >= 1, "jobs.queue", "must be >= 1");
   require(jobs.sweeps >= 1, "jobs.sweeps", "must be >= 1");

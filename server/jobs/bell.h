@@ -2,7 +2,6 @@
 /// @file
 /// How a process says that other processes should look at the store.
 
-#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <stop_token>

@@ -1,6 +1,5 @@
 #include "server/maintenance/upkeep.h"
 
-#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -9,7 +8,6 @@ namespace snapthrough::server {
 namespace {
 
 constexpr std::chrono::seconds kPause{1};
-constexpr std::chrono::milliseconds kBetweenSharedRenewals{900};  // each time that upkeep looks
 constexpr std::chrono::seconds kBetweenRetirements{10};
 /// Jobs that are removed in one transaction, so that it stays short, and such transactions in a row, so that
 /// leases are renewed in between.
@@ -38,11 +36,11 @@ void Upkeep::run_once(Time now) {
   look_at_disk(now);
   context_.active.stop_older(now - context_.limits.longest_run, StopReason::time_limit);
   context_.sweeps.stop_older(now - context_.limits.longest_run);
-  if (now >= next_renewal_) {
-    // A claim that was dismissed in another process is lost at the next renewal: soon.
-    const bool shared = context_.store.neighbours() != nullptr;
-    const auto quarter = std::chrono::milliseconds(context_.limits.lease) / 4;
-    next_renewal_ = now + (shared ? std::min(kBetweenSharedRenewals, quarter) : quarter);
+  const bool shared = context_.store.neighbours() != nullptr;
+  if (const auto quarter = std::chrono::milliseconds(context_.limits.lease) / 4;
+      shared || now >= next_renewal_) {
+    // Shared, each time: a claim that was dismissed in another process is seen to be lost then.
+    next_renewal_ = now + quarter;
     renew_leases(shared ? now : now - quarter / 2, now);
   }
   if (now >= next_rescue_) {

@@ -130,11 +130,9 @@ class Progress {
     last_residual_ = residual;
     return iteration > 0 && (small || (rounding && (stagnant_ || residual <= kResidualFloor)));
   }
-  /// Whether the correction is rounding's: however large it is where the tangent is nearly singular, or
-  /// however much residual very stiff supports make of it.
+  /// Whether the first correction is rounding's, however large it is where the tangent is nearly singular.
   [[nodiscard]] bool is_rounding(int iteration, double size, double residual) const {
-    if (iteration == 0) return residual <= kRoundingResidual && size > options_.tangent_tolerance * scale_;
-    return false;
+    return iteration == 0 && residual <= kRoundingResidual && size > options_.tangent_tolerance * scale_;
   }
   /// Whether corrections converge, and do not merely happen to be small.
   [[nodiscard]] bool closes_in(double size) const { return size <= kClosingShare * previous_; }

@@ -256,6 +256,9 @@ Rows Connection::run(std::string_view sql, const Parameters& parameters) {
 }
 
 std::vector<Rows> Connection::run_all(std::span<const Statement> statements) {
+  if (statements.empty()) {
+    return {};
+  }
   if (PQenterPipelineMode(handle_.get()) != 1) {
     throw Error("", PQerrorMessage(handle_.get()));
   }
