@@ -323,6 +323,21 @@ BEGIN
   RETURN found_seq;
 END $$;
 
+-- To be called before claims of a sweep are ended, in order of sweeps; lasts as long as the transaction. While units are
+-- left that nobody has, many may end claims at a time: the last is another's. When none is left, each has the sweep alone,
+-- after all before are done: so the last of them sees that nothing is left. Returns whether the caller has it alone.
+CREATE FUNCTION hold_claims(sweep_row bigint) RETURNS boolean LANGUAGE plpgsql AS $$
+DECLARE
+  key integer := sweep_row % 2147483647;
+BEGIN
+  IF EXISTS (SELECT FROM sweep_left WHERE sweep = sweep_row) THEN
+    PERFORM pg_advisory_xact_lock_shared(1, key);
+    RETURN false;
+  END IF;
+  PERFORM pg_advisory_xact_lock(1, key);
+  RETURN true;
+END $$;
+
 -- Gives units of a sweep to a worker: the first that nobody has; those with which a process died come last and
 -- one at a time. No row when others have all that is left; raises ST001 when the sweep is over.
 CREATE FUNCTION claim_units(sweep_id text, most bigint, new_worker text, lease_us bigint, now_us bigint)

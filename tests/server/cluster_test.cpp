@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "server/store/open_store.h"
+#include "server/store/postgresql/connection.h"
 #include "server/sweeps/scheduler.h"
 #include "tests/server/support/postgresql.h"
 #include "tests/server/support/running_service.h"
@@ -154,6 +156,47 @@ TEST(SharedSweeps, ThoseThatOthersWorkOnLeaveRoom) {
   EXPECT_TRUE(scheduler.has_room());
   EXPECT_TRUE(add(100));
   EXPECT_EQ(scheduler.next()->sweep->id, id_number(100));
+}
+
+/// Claims and stores until nobody has any units left to give.
+void work_on(SweepStore& sweeps, const std::string& id) {
+  const Time now = Environment::system().now();
+  while (true) {
+    const auto claim = sweeps.claim(id, 1, {"worker", now + std::chrono::hours(1)}, now);
+    if (!claim.ok() || !claim->has_value()) {
+      return;
+    }
+    const std::uint64_t point = (*claim)->units.first;
+    EXPECT_TRUE(sweeps.put(**claim, {{point, {"[1]", "", ""}, ""}}, now).ok());
+  }
+}
+
+/// The last units may be claimed while those before are being stored, and be stored before those are: one of
+/// those who store has to see that nothing is left. Commits are made slow, so that they meet.
+TEST(SharedSweeps, WhoeverStoresTheLastUnitEndsTheSweep) {
+  const TempDir folder;
+  const std::string location = postgresql_location(folder.name());
+  const auto store = open_store(location, 4, at_second(0));
+  ASSERT_TRUE(store.ok()) << store.status().message();
+  postgresql::Connection(location).execute(
+      "CREATE FUNCTION slow() RETURNS trigger LANGUAGE plpgsql AS"
+      " $$ BEGIN PERFORM pg_sleep(0.02 * random()); RETURN NULL; END $$;"
+      "CREATE CONSTRAINT TRIGGER slow_claim AFTER INSERT ON sweep_leases DEFERRABLE INITIALLY DEFERRED"
+      " FOR EACH ROW EXECUTE FUNCTION slow();"
+      "CREATE CONSTRAINT TRIGGER slow_put AFTER INSERT ON sweep_rows DEFERRABLE INITIALLY DEFERRED"
+      " FOR EACH ROW EXECUTE FUNCTION slow();");
+  SweepStore& sweeps = (*store)->sweeps();
+  for (int number = 1; number <= 40; ++number) {
+    NewSweep sweep{id_number(number), "", "{}", 3, at_second(number), ""};
+    ASSERT_TRUE(sweeps.submit(sweep).ok());
+    {
+      std::vector<std::jthread> workers;
+      for (int i = 0; i < 3; ++i) {
+        workers.emplace_back([&] { work_on(sweeps, sweep.id); });
+      }
+    }
+    EXPECT_EQ((*sweeps.get(sweep.id))->state, JobState::successful) << number;
+  }
 }
 
 TEST(ClusterConfig, LocationsAreShownWithoutPasswords) {

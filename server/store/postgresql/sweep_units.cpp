@@ -104,26 +104,21 @@ Statement insert_rows(const EndedLease& lease, const std::vector<PointRow>& rows
               .add_bytes(pack_rows(rows))};
 }
 
-/// @brief Ends the sweep when all points have a row. Who finds no units left locks the sweep before it looks
-/// at leases, so that of two who end the last ones the second sees that both are gone.
-void end_if_done(Connection& connection, std::int64_t sweep, const std::optional<std::int64_t>& now) {
-  const Parameters row = Parameters().add(sweep);
-  if (!connection.run("SELECT FROM sweep_left WHERE sweep = $1 LIMIT 1", row).empty()) {
-    return;
-  }
-  connection.run_all(
-      std::vector<Statement>{{"SELECT FROM sweeps WHERE seq = $1 FOR NO KEY UPDATE", row},
-                             {"UPDATE sweeps SET finished_us = coalesce($2, snapthrough_now()),"
-                              " status = CASE WHEN failed > 0 THEN 'failed' ELSE 'successful' END"
-                              " FROM (SELECT sum(successful) AS good, sum(failed) AS failed FROM "
-                              "sweep_counts WHERE sweep = $1) AS sums"
-                              " WHERE seq = $1 AND status = 'running' AND good + failed = points"
-                              " AND NOT EXISTS (SELECT FROM sweep_leases WHERE sweep = $1)",
-                              Parameters().add(sweep).add(now)}});
+/// Ends the sweep when all points have a row.
+Statement end_if_done(std::int64_t sweep, const std::optional<std::int64_t>& now) {
+  return {
+      "UPDATE sweeps SET finished_us = coalesce($2, snapthrough_now()),"
+      " status = CASE WHEN failed > 0 THEN 'failed' ELSE 'successful' END"
+      " FROM (SELECT sum(successful) AS good, sum(failed) AS failed FROM sweep_counts WHERE sweep = $1) AS "
+      "sums"
+      " WHERE seq = $1 AND status = 'running' AND good + failed = points"
+      " AND NOT EXISTS (SELECT FROM sweep_leases WHERE sweep = $1)",
+      Parameters().add(sweep).add(now)};
 }
 
 /// Stores rows of a lease that was ended, and gives its other units out again.
-void settle(Connection& connection, const EndedLease& lease, std::vector<PointRow> rows,
+/// @param alone what hold_claims() of the schema gave
+void settle(Connection& connection, const EndedLease& lease, std::vector<PointRow> rows, bool alone,
             const std::optional<std::int64_t>& now) {
   std::sort(rows.begin(), rows.end(), [](const PointRow& a, const PointRow& b) { return a.point < b.point; });
   std::vector<bool> done(lease.units.count);
@@ -139,8 +134,10 @@ void settle(Connection& connection, const EndedLease& lease, std::vector<PointRo
     statements.push_back(there.empty() ? insert_rows(lease, rows) : merge_rows(there, lease, rows));
     statements.push_back(add_counts(lease.sweep, count(rows)));
   }
+  if (alone) {
+    statements.push_back(end_if_done(lease.sweep, now));
+  }
   connection.run_all(statements);
-  end_if_done(connection, lease.sweep, now);
 }
 
 /// Rows that say that a process died too often with these units.
@@ -214,13 +211,16 @@ StatusOr<SweepRecord> PostgresqlSweepStore::put(const UnitClaim& claim, const st
   Parameters held;
   held.add(claim.number).add(clock_.at(now)).add(claim.sweep);
   held.add(static_cast<std::int64_t>(claim.units.first)).add(static_cast<std::int64_t>(claim.units.count));
+  const std::vector<Statement> end{
+      {"SELECT hold_claims(seq) FROM sweeps WHERE id = $1", Parameters().add(claim.sweep)}, {kEnd, held}};
   const auto work = [&](Connection& connection) -> StatusOr<SweepRecord> {
-    const Rows ended = connection.run(kEnd, held);
+    const std::vector<Rows> held_and_ended = connection.run_all(end);
+    const Rows& ended = held_and_ended.back();
     if (ended.empty()) {
       return Status(StatusCode::conflict, "sweep " + claim.sweep + " does not run any more");
     }
     const EndedLease lease = read_lease(ended, 0);
-    settle(connection, lease, rows, clock_.at(now));
+    settle(connection, lease, rows, held_and_ended.front().boolean(0, 0), clock_.at(now));
     return read_sweep(connection.run(kRecord, Parameters().add(lease.sweep)), 0);
   };
   return database_.write<SweepRecord>(work, rows.empty() ? Durability::unsynced : Durability::synced);
@@ -232,21 +232,27 @@ StatusOr<std::int64_t> PostgresqlSweepStore::recover(int /*max_crashes*/, Time /
 
 StatusOr<std::int64_t> PostgresqlSweepStore::rescue(std::string_view worker, int max_crashes, Time now) {
   static constexpr std::string_view kLate =
-      "SELECT sweep, first, units, crashes, unit_points, worker, number FROM sweep_leases JOIN sweeps ON seq "
-      "= sweep"
-      " WHERE until_us < coalesce($1, snapthrough_now()) ORDER BY number FOR UPDATE OF sweep_leases SKIP "
-      "LOCKED";
+      "SELECT number, sweep FROM sweep_leases WHERE until_us < coalesce($1, snapthrough_now()) ORDER BY "
+      "sweep";
+  static constexpr std::string_view kEnd =  // unless it was renewed, or somebody else was faster
+      "DELETE FROM sweep_leases USING sweeps WHERE seq = sweep AND number = $1"
+      " AND until_us < coalesce($2, snapthrough_now())"
+      " RETURNING sweep, first, units, crashes, unit_points, worker";
   return database_.write<std::int64_t>([&](Connection& connection) -> StatusOr<std::int64_t> {
     const Rows late = connection.run(kLate, Parameters().add(clock_.at(now)));
     std::int64_t again = 0;
     for (int row = 0; row < late.count(); ++row) {
-      EndedLease lease = read_lease(late, row);
-      const bool crashed = late.text(row, 5) != worker;
+      const Rows held = connection.run("SELECT hold_claims($1)", Parameters().add(late.integer(row, 1)));
+      const Rows ended = connection.run(kEnd, Parameters().add(late.integer(row, 0)).add(clock_.at(now)));
+      if (ended.empty()) {
+        continue;
+      }
+      EndedLease lease = read_lease(ended, 0);
+      const bool crashed = ended.text(0, 5) != worker;
       lease.crashes += crashed ? 1 : 0;
       const bool give_up = crashed && lease.crashes >= max_crashes;
-      connection.run("DELETE FROM sweep_leases WHERE number = $1", Parameters().add(late.integer(row, 6)));
       settle(connection, lease, give_up ? crashed_rows(lease, max_crashes) : std::vector<PointRow>(),
-             clock_.at(now));
+             held.boolean(0, 0), clock_.at(now));
       again += give_up ? 0 : static_cast<std::int64_t>(lease.units.count);
     }
     return again;
