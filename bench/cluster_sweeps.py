@@ -25,13 +25,17 @@ from cluster import Client, Cluster, sweep  # noqa: E402
 from cluster_rates import cpu_seconds  # noqa: E402
 
 
+def with_children(pids):
+    listed = ",".join(map(str, pids))
+    return [*pids, *subprocess.run(["pgrep", "-P", listed], capture_output=True, text=True, check=False).stdout.split()]
+
+
 def database_processes(fleet):
-    postmaster = (fleet.database.folder / "data" / "postmaster.pid").read_text().split()[0]
-    return [postmaster] + subprocess.run(["pgrep", "-P", postmaster], capture_output=True, text=True, check=False).stdout.split()
+    return with_children([(fleet.database.folder / "data" / "postmaster.pid").read_text().split()[0]])
 
 
-def hand_in(client, document):
-    status, body, headers = client.ask("POST", "/v1/sweeps", json.dumps(document), {"Cache-Control": "no-cache"})
+def hand_in(client, document, headers=None):
+    status, body, headers = client.ask("POST", "/v1/sweeps", json.dumps(document), headers)
     assert status == 201, body
     return headers["Location"]
 
@@ -44,10 +48,10 @@ def ended(client, path):
 def through_hosts(fleet, document):
     """Wall time, and processor time of the hosts and of the database."""
     client = Client(fleet.fronts)
-    hosts = [host.process.pid for host in fleet.hosts]
+    hosts = with_children([host.process.pid for host in fleet.hosts])  # who solves is a child
     before = cpu_seconds(hosts), cpu_seconds(database_processes(fleet))
     start = time.time()
-    path = hand_in(client, document)
+    path = hand_in(client, document, {"Cache-Control": "no-cache"})
     while (state := ended(client, path)) is None:
         pass
     wall = time.time() - start
@@ -85,10 +89,18 @@ def overhead(arguments):
     print("wall, hosts over command line, round by round: " + ", ".join(f"{ratio:.3f}" for ratio in ratios))
 
 
-def memory_mib(pid):
-    """Resident now, and the most so far."""
-    text = pathlib.Path(f"/proc/{pid}/status").read_text()
-    return tuple(int(re.search(rf"{name}:\s+(\d+) kB", text)[1]) / 1024 for name in ("VmRSS", "VmHWM"))
+def memory_mib(host, name="VmRSS"):
+    """Of a host with its children: resident now, or with VmHWM the most so far."""
+    total = 0
+    for pid in with_children([host.process.pid]):
+        try:
+            total += int(re.search(rf"{name}:\s+(\d+) kB", pathlib.Path(f"/proc/{pid}/status").read_text())[1]) / 1024
+        except OSError:
+            pass  # it has ended
+    return total
+
+
+PART = 200_000  # rows of a table in one answer
 
 
 VACUUM = ("SELECT relname, n_tup_ins, n_tup_upd, n_tup_del, n_dead_tup, autovacuum_count, autoanalyze_count,"
@@ -117,7 +129,7 @@ def watch_million(fleet, document, points):
         state = json.loads(client.ask("GET", path)[1])
         done = state["counts"]["successful"]
         print(f"| {time.time() - start:.1f} | {done} | "
-              + " | ".join(f"{memory_mib(host.process.pid)[0]:.0f}" for host in fleet.hosts) + " |", flush=True)
+              + " | ".join(f"{memory_mib(host):.0f}" for host in fleet.hosts) + " |", flush=True)
         if kills and done >= kills[0] * points:
             kills.pop(0)
             victim.kill()
@@ -127,13 +139,16 @@ def watch_million(fleet, document, points):
     wall = time.time() - start
     assert state["counts"]["successful"] == points and state["counts"]["failed"] == 0, state["counts"]
     start = time.time()
-    table = client.ask("GET", path + "/table?format=csv", timeout=300)[1]
-    assert table.count(b"\n") == points + 1
-    values = [float(line.split(b",", 1)[0]) for line in table.splitlines()[1:]]
+    parts = [client.ask("GET", f"{path}/table?format=csv&first={first}&count={PART}", timeout=300)[1]
+             for first in range(0, points, PART)]
+    table = b"".join(part.split(b"\n", 1)[1] for part in parts)
+    seconds = time.time() - start
+    assert table.count(b"\n") == points
+    values = [float(line.split(b",", 1)[0]) for line in table.splitlines()]
     assert all(one < other for one, other in zip(values, values[1:])), "rows are not each once, in order"
-    print(f"complete in {wall:.1f} s, each row once; table as CSV: {len(table) / 1e6:.0f} MB in {time.time() - start:.1f} s")
+    print(f"complete in {wall:.1f} s, each row once; table as CSV: {len(table) / 1e6:.0f} MB in {seconds:.1f} s")
     for host in fleet.hosts:
-        print(f"{host.name}: at most {memory_mib(host.process.pid)[1]:.0f} MiB")
+        print(f"{host.name}: at most {memory_mib(host, 'VmHWM'):.0f} MiB")
     time.sleep(65 if points > 100_000 else 0)  # a round of autovacuum
     print("| table | inserted | updated | deleted | dead | vacuums | analyzes | bytes |\n|" + " --- |" * 8)
     for row in fleet.database.query(VACUUM):
@@ -148,7 +163,7 @@ def main():
         command = commands.add_parser(name)
         command.add_argument("program")
         command.add_argument("--points", type=int, default=points)
-        command.add_argument("--elements", type=int, default=24)
+        command.add_argument("--elements", type=int, default=32)
         command.add_argument("--rounds", type=int, default=5)
         command.set_defaults(run=run)
     arguments = parser.parse_args()
