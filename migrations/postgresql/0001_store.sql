@@ -196,7 +196,8 @@ CREATE TABLE sweep_rows (
   PRIMARY KEY (sweep, first)
 );
 ALTER TABLE sweep_rows ALTER COLUMN rows SET STORAGE EXTERNAL;
-CREATE INDEX sweep_rows_by_key ON sweep_rows USING gin (keys);
+-- Not first into a list: who looks for a key would have to read the whole of it.
+CREATE INDEX sweep_rows_by_key ON sweep_rows USING gin (keys) WITH (fastupdate = off);
 
 -- Counts of a sweep are the sums of its rows here: several, so that workers do not wait for one another.
 CREATE TABLE sweep_counts (
@@ -339,7 +340,7 @@ BEGIN
 END $$;
 
 -- Gives units of a sweep to a worker: the first that nobody has; those with which a process died come last and
--- one at a time. No row when others have all that is left; raises ST001 when the sweep is over.
+-- in smaller numbers, see server/store/unit_runs.h. No row when others have all that is left; raises ST001 when the sweep is over.
 CREATE FUNCTION claim_units(sweep_id text, most bigint, new_worker text, lease_us bigint, now_us bigint)
   RETURNS TABLE (claim_number bigint, claim_first bigint, claim_units bigint) LANGUAGE plpgsql AS $$
 DECLARE
@@ -359,7 +360,7 @@ BEGIN
   IF NOT FOUND THEN
     RETURN;
   END IF;
-  taken := CASE WHEN run.crashes > 0 THEN 1 ELSE least(most, run.units) END;
+  taken := least(greatest(1, most >> least(63, 6 * run.crashes)), run.units);
   IF taken < run.units THEN
     UPDATE sweep_left SET first = first + taken, units = units - taken WHERE number = run.number;
   ELSE

@@ -51,9 +51,9 @@ class SweepStore {
   virtual StatusOr<std::optional<OpenSweep>> open(std::string_view id) = 0;
 
   /// @brief Gives units that nobody has to the caller, at most `most`, and makes the sweep running. Units
-  /// during which a process died are given one at a time. Empty when others have all that is left; `conflict`
-  /// when the sweep is neither accepted nor running. It survives the death of the process, not that of the
-  /// machine.
+  /// during which a process died come last, and fewer at a time (server/store/unit_runs.h). Empty when others
+  /// have all that is left; `conflict` when the sweep is neither accepted nor running. It survives the death
+  /// of the process, not that of the machine.
   virtual StatusOr<std::optional<UnitClaim>> claim(std::string_view id, std::uint64_t most,
                                                    const Lease& lease, Time now) = 0;
   /// Renews the leases of claims that still hold; the numbers of those that don't.
@@ -65,8 +65,8 @@ class SweepStore {
   /// @param rows of all points of some of its units
   virtual StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, Time now) = 0;
   /// Deals with the claims of a process that is known to be gone (see Store::recover()): their units are
-  /// given out again, or their points get rows with the code "crashed" when that happened `max_crashes`
-  /// times.
+  /// given out again, or a unit's points get rows with the code "crashed" when that happened `max_crashes`
+  /// times, the last time with it alone.
   /// @return how many units are given out again
   virtual StatusOr<std::int64_t> recover(int max_crashes, Time now) = 0;
   /// The same for claims whose lease has run out, see Store::rescue().

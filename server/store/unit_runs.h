@@ -1,8 +1,10 @@
 #pragma once
 /// @file
-/// Runs of units of a sweep, for drivers of stores.
+/// Units of sweeps and what processes died with, for drivers of stores.
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/sweeps/sweep.h"
@@ -10,23 +12,27 @@
 namespace snapthrough::server {
 
 /// Adds a unit to runs in order. @pre it comes after all of them
-inline void add_unit(std::vector<UnitRun>& runs, std::uint64_t unit) {
-  if (!runs.empty() && runs.back().first + runs.back().count == unit) {
-    ++runs.back().count;
-  } else {
-    runs.push_back({unit, 1});
-  }
-}
+void add_unit(std::vector<UnitRun>& runs, std::uint64_t unit);
 
-/// The units that are not done, in order. @param done by unit, from `first` on
-inline std::vector<UnitRun> runs_without(std::uint64_t first, const std::vector<bool>& done) {
-  std::vector<UnitRun> runs;
-  for (std::size_t i = 0; i < done.size(); ++i) {
-    if (!done[i]) {
-      add_unit(runs, first + i);
-    }
-  }
-  return runs;
-}
+/// The units of a claim of which there are no rows, in order.
+/// @param rows of all points of some of its units
+/// @param unit_points points of a unit
+[[nodiscard]] std::vector<UnitRun> units_without_rows(const UnitRun& claim, const std::vector<PointRow>& rows,
+                                                      std::int64_t unit_points);
+
+/// @brief How many units a claim has at most, of units during which a process has died that often: each death
+/// makes it 64 times smaller, so that one unit of thousands is found with three.
+[[nodiscard]] std::uint64_t most_after_crashes(std::uint64_t most, std::int64_t crashes);
+
+/// Whether a claim during which a process has died, its units' `crashes`-th time, is not tried again: often
+/// enough, and it can't have been another unit's fault.
+[[nodiscard]] bool is_given_up(const UnitRun& claim, std::int64_t crashes, int max_crashes);
+
+/// The detail of the code "crashed". @param what the "job" or "point"
+[[nodiscard]] std::string crashed_detail(std::int64_t crashes, std::string_view what);
+
+/// Rows of units that are given up.
+[[nodiscard]] std::vector<PointRow> crashed_rows(const UnitRun& units, std::int64_t unit_points,
+                                                 std::int64_t crashes);
 
 }  // namespace snapthrough::server

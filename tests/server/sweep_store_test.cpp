@@ -222,6 +222,33 @@ TEST_P(SweepStoreConformance, AUnitThatKillsItsProcessTwiceIsARow) {
   EXPECT_EQ(record(id).state, JobState::failed);
 }
 
+/// One unit of thousands kills whoever has it: it is found with a few deaths, and nobody else's points fail.
+TEST_P(SweepStoreConformance, OneUnitOfManyThatKillsIsFound) {
+  constexpr std::uint64_t kPoints = 5000;
+  constexpr std::uint64_t kKiller = 1234;
+  const std::string id = submit(1, kPoints);
+  int deaths = 0;
+  int claims = 0;
+  while (!is_final(record(id).state)) {
+    ASSERT_LT(++claims, 200);
+    const UnitClaim units = claim(id, 2048, {"dead", at_second(90)});
+    if (units.units.first <= kKiller && kKiller < units.units.first + units.units.count) {
+      ++deaths;
+      recover_sweeps(2, at_second(100));
+      continue;
+    }
+    std::vector<PointRow> done;
+    for (std::uint64_t i = 0; i < units.units.count; ++i) {
+      done.push_back(good(units.units.first + i));
+    }
+    ASSERT_TRUE(sweeps().put(units, done, at_second(60)).ok());
+  }
+  EXPECT_EQ(deaths, 3) << "with 2048, with 32, and alone";
+  EXPECT_EQ(record(id).failed, 1);
+  EXPECT_EQ(record(id).successful, kPoints - 1);
+  EXPECT_THAT(rows(id, {.failed = true}), ElementsAre("1234 crashed"));
+}
+
 TEST_P(SweepStoreConformance, TheFirstSweepOfEachOwnerComesFirst) {
   submit(1, 1, "ann");
   submit(2, 1, "ann");

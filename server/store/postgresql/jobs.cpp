@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/store/postgresql/quotas.h"
+#include "server/store/unit_runs.h"
 
 namespace snapthrough::server::postgresql {
 namespace {
@@ -318,8 +319,7 @@ StatusOr<Recovery> PostgresqlStore::rescue(std::string_view worker, int max_cras
         statements.push_back(
             {"INSERT INTO failures (job, code, detail)"
              " VALUES ((SELECT seq FROM jobs WHERE id = $1), 'crashed', $2)",
-             Parameters().add(id).add_bytes("the service died " + std::to_string(max_crashes) +
-                                            " times while it worked on this job; it is not tried again")});
+             Parameters().add(id).add_bytes(crashed_detail(max_crashes, "job"))});
         statements.push_back(
             {"UPDATE jobs SET status = 'failed', finished_us = coalesce($2, snapthrough_now())"
              " WHERE id = $1",

@@ -121,12 +121,8 @@ Statement end_if_done(std::int64_t sweep, const std::optional<std::int64_t>& now
 void settle(Connection& connection, const EndedLease& lease, std::vector<PointRow> rows, bool alone,
             const std::optional<std::int64_t>& now) {
   std::sort(rows.begin(), rows.end(), [](const PointRow& a, const PointRow& b) { return a.point < b.point; });
-  std::vector<bool> done(lease.units.count);
-  for (const PointRow& row : rows) {
-    done.at(row.point / static_cast<std::uint64_t>(lease.unit_points) - lease.units.first) = true;
-  }
   std::vector<Statement> statements;
-  for (const UnitRun& run : runs_without(lease.units.first, done)) {
+  for (const UnitRun& run : units_without_rows(lease.units, rows, lease.unit_points)) {
     statements.push_back(insert_left(lease, run));
   }
   if (!rows.empty()) {
@@ -138,18 +134,6 @@ void settle(Connection& connection, const EndedLease& lease, std::vector<PointRo
     statements.push_back(end_if_done(lease.sweep, now));
   }
   connection.run_all(statements);
-}
-
-/// Rows that say that a process died too often with these units.
-std::vector<PointRow> crashed_rows(const EndedLease& lease, int max_crashes) {
-  const std::string detail = "the service died " + std::to_string(max_crashes) +
-                             " times while it worked on this point; it is not tried again";
-  std::vector<PointRow> rows;
-  const auto first = static_cast<std::uint64_t>(lease.first_point());
-  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(lease.points()); ++i) {
-    rows.push_back({first + i, {"", "crashed", detail}});
-  }
-  return rows;
 }
 
 }  // namespace
@@ -250,8 +234,9 @@ StatusOr<std::int64_t> PostgresqlSweepStore::rescue(std::string_view worker, int
       EndedLease lease = read_lease(ended, 0);
       const bool crashed = ended.text(0, 5) != worker;
       lease.crashes += crashed ? 1 : 0;
-      const bool give_up = crashed && lease.crashes >= max_crashes;
-      settle(connection, lease, give_up ? crashed_rows(lease, max_crashes) : std::vector<PointRow>(),
+      const bool give_up = crashed && is_given_up(lease.units, lease.crashes, max_crashes);
+      settle(connection, lease,
+             give_up ? crashed_rows(lease.units, lease.unit_points, lease.crashes) : std::vector<PointRow>(),
              held.boolean(0, 0), clock_.at(now));
       again += give_up ? 0 : static_cast<std::int64_t>(lease.units.count);
     }

@@ -12,6 +12,7 @@
 #include "server/store/sqlite/quotas.h"
 #include "server/store/sqlite/rows.h"
 #include "server/store/sqlite/sweeps.h"
+#include "server/store/unit_runs.h"
 
 namespace snapthrough::server::sqlite {
 namespace {
@@ -378,11 +379,7 @@ void take_back(Connection& connection, const TakenBack& job, bool crashed, int m
     connection.prepare("UPDATE jobs SET crashes = crashes + 1 WHERE seq = ?").bind(job.row).run();
   }
   if (job.give_up) {
-    insert_failure(connection, job.row,
-                   {"crashed",
-                    "the service died " + std::to_string(max_crashes) +
-                        " times while it worked on this job; it is not tried again",
-                    ""});
+    insert_failure(connection, job.row, {"crashed", crashed_detail(max_crashes, "job"), ""});
     return end_job(connection, job.row, JobEvent::fail, now);
   }
   put_back(connection, job.row);

@@ -158,7 +158,7 @@ std::optional<StoredClaim> take_left(Connection& connection, std::int64_t sweep,
   }
   const UnitRun run{static_cast<std::uint64_t>(row.integer(0)), static_cast<std::uint64_t>(row.integer(1))};
   const std::int64_t crashes = row.integer(2);
-  const std::uint64_t taken = crashes > 0 ? 1 : std::min(most, run.count);
+  const std::uint64_t taken = std::min(most_after_crashes(most, crashes), run.count);
   connection.prepare("DELETE FROM sweep_left WHERE sweep = ? AND first = ?")
       .bind(sweep)
       .bind(static_cast<std::int64_t>(run.first))
@@ -172,11 +172,7 @@ std::optional<StoredClaim> take_left(Connection& connection, std::int64_t sweep,
 /// Gives the units of a claim out again, but for those that have rows.
 void put_rest_back(Connection& connection, const StoredClaim& claim, const std::vector<PointRow>& rows,
                    std::int64_t unit_points) {
-  std::vector<bool> done(claim.units.count);
-  for (const PointRow& row : rows) {
-    done.at(row.point / static_cast<std::uint64_t>(unit_points) - claim.units.first) = true;
-  }
-  for (const UnitRun& run : runs_without(claim.units.first, done)) {
+  for (const UnitRun& run : units_without_rows(claim.units, rows, unit_points)) {
     insert_left(connection, claim.sweep, run, claim.crashes);
   }
 }
@@ -204,18 +200,6 @@ std::int64_t unit_points_of(const Connection& connection, std::int64_t sweep) {
   return row.integer(0);
 }
 
-/// Rows that say that a process died too often with these units.
-std::vector<PointRow> crashed_rows(const UnitRun& units, std::int64_t unit_points, int max_crashes) {
-  const std::string detail = "the service died " + std::to_string(max_crashes) +
-                             " times while it worked on this point; it is not tried again";
-  std::vector<PointRow> rows;
-  const auto size = static_cast<std::uint64_t>(unit_points);
-  for (std::uint64_t point = units.first * size; point < (units.first + units.count) * size; ++point) {
-    rows.push_back({point, {"", "crashed", detail}});
-  }
-  return rows;
-}
-
 /// Ends claims whose lease ends before `ended_before`; those of `worker` don't count as crashed.
 std::int64_t take_claims_back(Connection& connection, Time ended_before, std::string_view worker,
                               int max_crashes, Time now) {
@@ -238,9 +222,9 @@ std::int64_t take_claims_back(Connection& connection, Time ended_before, std::st
   for (StoredClaim& claim : claims) {
     connection.prepare("DELETE FROM sweep_claims WHERE number = ?").bind(claim.number).run();
     claim.crashes += claim.crashed ? 1 : 0;
-    if (claim.crashed && claim.crashes >= max_crashes) {
+    if (claim.crashed && is_given_up(claim.units, claim.crashes, max_crashes)) {
       const std::int64_t unit_points = unit_points_of(connection, claim.sweep);
-      insert_points(connection, claim.sweep, crashed_rows(claim.units, unit_points, max_crashes), now);
+      insert_points(connection, claim.sweep, crashed_rows(claim.units, unit_points, claim.crashes), now);
       continue;
     }
     insert_left(connection, claim.sweep, claim.units, claim.crashes);
