@@ -53,9 +53,11 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
       mistakes.push_back({field, detail});
     }
   };
-  require(!front || !keys.empty() || is_loopback(listener.host), "listener.host",
-          "without keys requests are not authenticated, so the service listens on loopback only (127.0.0.1, "
-          "::1, localhost)");
+  static constexpr const char* kLoopback =
+      "without keys requests are not authenticated, so the service listens on loopback only (127.0.0.1, "
+      "::1, localhost)";
+  require(!front || !keys.empty() || is_loopback(listener.host), "listener.host", kLoopback);
+  require(front || !observe || !keys.empty() || is_loopback(observe->first), "observe", kLoopback);
   require(listener.port >= 0 && listener.port <= 65535, "listener.port", "must be 0 (any) to 65535");
   require(listener.threads >= 1 && listener.threads <= 900, "listener.threads", "must be 1 to 900");
   require(listener.connections >= 1, "listener.connections", "must be >= 1");

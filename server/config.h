@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/front/keys.h"
@@ -41,6 +42,8 @@ struct ServiceConfig {
   std::int64_t least_free_bytes = 64 * 1024 * 1024;  ///< with less on that disk no jobs are taken
   std::chrono::seconds drain_delay{0};               ///< from SIGTERM until workers are stopped
   LogLevel log_level = LogLevel::info;
+  std::optional<std::pair<std::string, int>>
+      observe;  ///< host and port at which one that is no front tells how it is; empty: nowhere
   bool front =
       true;  ///< answers requests; else it only works on what others, who share the store, were given
 

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -102,6 +103,15 @@ StatusOr<std::string> callback_key(const ServiceConfig& config) {
   return *std::move(key);
 }
 
+/// Where it listens, if it does.
+http::ListenerOptions listener_options(const ServiceConfig& config) {
+  http::ListenerOptions options = config.listener;
+  if (!config.front && config.observe) {
+    std::tie(options.host, options.port) = *config.observe;
+  }
+  return options;
+}
+
 }  // namespace
 
 /// Built bottom up; destroyed top down.
@@ -117,8 +127,9 @@ struct Service::Parts {
                {[this] { return metrics_text(); }, [this] { return not_ready(); }, published_limits(config),
                 http::Page(config.web)}),
         keys(config.keys),
-        gateway(routes, environment, log, keys, metrics, http::CrossOrigin(config.allowed_origins)),
-        listener(config.listener, gateway),
+        gateway(routes, environment, log, keys, metrics, http::CrossOrigin(config.allowed_origins),
+                config.front ? http::Answers::all : http::Answers::state),
+        listener(listener_options(config), gateway),
         upkeep_thread(upkeep, environment),
         webhooks({*store, environment, log, config.callback_times, webhook_counters},
                  config.front ? callback_origins(config.jobs.callback_hosts) : std::vector<std::string>(),
@@ -249,14 +260,15 @@ Status Service::start() {
   for (std::size_t i = 0; i < recovery->failed.size(); ++i) {
     parts_->jobs.context().metrics.job_ended("crashed");
   }
-  if (Status status = config_.front ? parts_->listener.start() : Status(); !status.ok()) {
+  const bool listens = config_.front || config_.observe;
+  if (Status status = listens ? parts_->listener.start() : Status(); !status.ok()) {
     stop();
     return status;
   }
   const std::string location = shown_location(config_.store_path);
   log_.write(LogLevel::info, config_.front ? "listening" : "working",
-             {{"host", std::string_view(config_.front ? config_.listener.host : "")},
-              {"port", static_cast<std::int64_t>(config_.front ? port() : 0)},
+             {{"host", std::string_view(listens ? listener_options(config_).host : "")},
+              {"port", static_cast<std::int64_t>(listens ? port() : 0)},
               {"store", std::string_view(location)},
               {"instance", std::string_view(parts_->jobs.context().instance)},
               {"workers", static_cast<std::int64_t>(config_.workers)},

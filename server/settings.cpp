@@ -59,21 +59,34 @@ Setting duration(std::string name, std::string help, Field field) {
           }};
 }
 
+std::string address_text(const std::string& host, int port) {
+  const bool v6 = host.find(':') != std::string::npos;
+  return (v6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+}
+
 Setting listen_setting() {
-  return {"listen",
-          "Address and port, host:port; port 0 takes a free one; loopback only unless there are keys",
+  return {
+      "listen", "Address and port, host:port; port 0 takes a free one; loopback only unless there are keys",
+      [](ServiceConfig& config, const std::string& text) -> Mistake {
+        const auto address = parse_address(text);
+        if (!address) {
+          return "expected host:port, got " + text;
+        }
+        std::tie(config.listener.host, config.listener.port) = *address;
+        return std::nullopt;
+      },
+      [](const ServiceConfig& config) { return address_text(config.listener.host, config.listener.port); }};
+}
+
+Setting observe_setting() {
+  return {"observe",
+          "host:port at which a process that only works answers /livez, /readyz and /metrics; empty: nowhere",
           [](ServiceConfig& config, const std::string& text) -> Mistake {
-            const auto address = parse_address(text);
-            if (!address) {
-              return "expected host:port, got " + text;
-            }
-            std::tie(config.listener.host, config.listener.port) = *address;
-            return std::nullopt;
+            config.observe = parse_address(text);
+            return config.observe || text.empty() ? Mistake() : "expected host:port, got " + text;
           },
           [](const ServiceConfig& config) {
-            const bool v6 = config.listener.host.find(':') != std::string::npos;
-            const std::string host = v6 ? "[" + config.listener.host + "]" : config.listener.host;
-            return host + ":" + std::to_string(config.listener.port);
+            return config.observe ? address_text(config.observe->first, config.observe->second) : "";
           }};
 }
 
@@ -135,6 +148,7 @@ Setting log_level_setting() {
 std::vector<Setting> front_settings() {
   return {
       listen_setting(),
+      observe_setting(),
       whole("threads", "Requests worked on at the same time",
             [](ServiceConfig& c) -> int& { return c.listener.threads; }),
       whole("max_connections", "Open connections; the next is refused with 503",

@@ -36,6 +36,9 @@ std::string request_id(const Request& request, const Environment& environment) {
 
 bool is_probe(std::string_view path) { return path == "/livez" || path == "/readyz"; }
 
+/// What tells how the process is.
+bool is_state(std::string_view path) { return is_probe(path) || path == "/metrics"; }
+
 /// What tells nothing about anybody's jobs is answered without a key.
 bool is_public(std::string_view path) {
   return is_probe(path) || path == "/v1/openapi.json" || is_page_path(path);
@@ -119,6 +122,18 @@ Response Gateway::guarded(const Request& request, const std::function<Response()
 }
 
 std::optional<Response> Gateway::without_resource(const Request& request, bool known) const {
+  if (answers_ == Answers::state && !is_state(request.path)) {
+    return problem_response(
+        {404,
+         "not-found",
+         "Not found",
+         "This process only works on what others were given; it answers /livez, /readyz and "
+         "/metrics.",
+         {},
+         "",
+         ""},
+        request);
+  }
   if (keys_.open() && !is_public(request.path) && comes_from_elsewhere(request, cross_origin_)) {
     return problem_response(
         {403,

@@ -15,17 +15,21 @@
 
 namespace snapthrough::server::http {
 
+/// What is answered: everything, or only how the process is (/livez, /readyz, /metrics).
+enum class Answers { all, state };
+
 /// @brief Serves requests through the routes. Thread-safe; the parts it is given must outlive it.
 class Gateway {
  public:
   Gateway(Routes& routes, const Environment& environment, Log& log, const KeyRing& keys,
-          RequestMetrics& metrics, CrossOrigin cross_origin = CrossOrigin())
+          RequestMetrics& metrics, CrossOrigin cross_origin = CrossOrigin(), Answers answers = Answers::all)
       : routes_(routes),
         environment_(environment),
         log_(log),
         keys_(keys),
         metrics_(metrics),
-        cross_origin_(std::move(cross_origin)) {}
+        cross_origin_(std::move(cross_origin)),
+        answers_(answers) {}
 
   /// Never throws for a request: what a resource throws is logged and becomes status 500 without particulars.
   /// A deferred response comes back deferred; what its `resume` gives is complete and was logged.
@@ -49,6 +53,7 @@ class Gateway {
   const KeyRing& keys_;
   RequestMetrics& metrics_;
   CrossOrigin cross_origin_;
+  const Answers answers_;
 };
 
 }  // namespace snapthrough::server::http

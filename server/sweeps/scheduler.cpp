@@ -7,10 +7,11 @@
 namespace snapthrough::server {
 namespace {
 
-/// How long a worker computes before it stores rows and looks for jobs.
-constexpr double kChunkSeconds = 0.1;
+constexpr double kShortestChunk = 0.1;
+constexpr double kLongestChunk = 1.0;
+constexpr double kStoreShare = 0.05;
 constexpr std::uint64_t kFirstChunk = 2;
-constexpr std::uint64_t kLargestChunk = 2048;
+constexpr std::uint64_t kLargestChunk = 8192;  // they are prepared before the first is computed
 
 }  // namespace
 
@@ -50,14 +51,24 @@ void SweepScheduler::look() {
       std::any_of(sweeps_.begin(), sweeps_.end(), [](const auto& sweep) { return !sweep->exhausted_; });
 }
 
-/// How many units a chunk has at most.
-std::uint64_t SweepScheduler::most_units(const ActiveSweep& sweep) {
+double SweepScheduler::chunk_seconds() const {
+  return std::clamp(store_seconds_ / kStoreShare, kShortestChunk, kLongestChunk);
+}
+
+void SweepScheduler::store_took(double seconds) {
+  const double before = store_seconds_;
+  store_seconds_ =
+      before > 0.0 ? 0.5 * (before + seconds) : seconds;  // which of two that meet counts is no matter
+}
+
+/// How many units a chunk of so many seconds has at most.
+std::uint64_t SweepScheduler::most_units(const ActiveSweep& sweep, double seconds) {
   if (sweep.sweep.unit_size() > 1) {
     return 1;  // it takes long: another worker may have the next
   }
   if (sweep.seconds_per_unit_ > 0.0) {
     return static_cast<std::uint64_t>(
-        std::clamp(kChunkSeconds / sweep.seconds_per_unit_, 1.0, static_cast<double>(kLargestChunk)));
+        std::clamp(seconds / sweep.seconds_per_unit_, 1.0, static_cast<double>(kLargestChunk)));
   }
   return kFirstChunk;
 }
@@ -67,7 +78,7 @@ std::uint64_t SweepScheduler::served(const std::string& owner) const {
   return found == served_.end() ? 0 : found->second;
 }
 
-std::optional<SweepTurn> SweepScheduler::next() {
+std::optional<SweepTurn> SweepScheduler::next(double seconds) {
   const std::lock_guard guard(mutex_);
   const auto order = [&](const auto& sweep) {
     return std::tuple(sweep->exhausted_, served(sweep->owner), sweep->served_);
@@ -79,7 +90,7 @@ std::optional<SweepTurn> SweepScheduler::next() {
   }
   ActiveSweep& sweep = **first;
   served_[sweep.owner] = sweep.served_ = ++turns_;
-  return SweepTurn{*first, most_units(sweep), sweep.changes_};
+  return SweepTurn{*first, most_units(sweep, seconds), sweep.changes_};
 }
 
 void SweepScheduler::exhausted(const SweepTurn& turn) {

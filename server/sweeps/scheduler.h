@@ -55,6 +55,7 @@ struct SweepTurn {
 struct Chunk {
   std::shared_ptr<ActiveSweep> sweep;
   UnitClaim claim;
+  double claim_seconds = 0.0;  ///< that the store took to give them
 };
 
 /// @brief Gives turns to several sweeps: owners take turns, and of each owner its sweeps. Thread-safe.
@@ -73,12 +74,18 @@ class SweepScheduler {
   [[nodiscard]] bool has_units() const { return available_; }
   [[nodiscard]] std::size_t count() const;
 
-  /// The next sweep in turn of which units may be left, and as many as take about a tenth of a second.
-  std::optional<SweepTurn> next();
+  /// The next sweep in turn of which units may be left, and as many as take about so long.
+  std::optional<SweepTurn> next(double seconds);
   /// The store had no units for that turn.
   void exhausted(const SweepTurn& turn);
   /// Units of any sweep may have come back; sweeps of which none were left, and nobody here has any, leave.
   void refresh();
+  /// @brief How long a worker computes before it stores rows and looks for jobs: a tenth of a second, up to a
+  /// second where the store takes more than a twentieth of that to give units out and to take rows: so
+  /// workers hardly wait for the store, and one that many work on is asked less often.
+  [[nodiscard]] double chunk_seconds() const;
+  /// What it took the store to give out the units of a chunk and to take its rows.
+  void store_took(double seconds);
   /// Ends a chunk. @param computed units, in that many seconds
   void give_back(const Chunk& chunk, std::uint64_t computed, double seconds);
   /// Nothing of it is wanted any more: those who work on it are asked to stop.
@@ -123,7 +130,7 @@ class SweepScheduler {
   void remove_if(Is is);
   template <class Is>
   void stop_if(Is is, StopReason reason);
-  static std::uint64_t most_units(const ActiveSweep& sweep);
+  static std::uint64_t most_units(const ActiveSweep& sweep, double seconds);
   [[nodiscard]] std::uint64_t served(const std::string& owner) const;
   void look();
 
@@ -133,6 +140,7 @@ class SweepScheduler {
   std::uint64_t turns_ = 0;
   std::vector<Watch*> watches_;
   std::atomic<bool> available_ = false;
+  std::atomic<double> store_seconds_ = 0.0;  ///< of one chunk, about
 };
 
 }  // namespace snapthrough::server

@@ -12,9 +12,10 @@
 namespace snapthrough::server {
 namespace {
 
-/// A chunk that takes longer ends after the unit it is at; when jobs wait, sooner.
-constexpr double kLongest = 0.25;
-constexpr double kLongestWhileJobsWait = 0.02;
+/// A chunk that takes so many times longer than it should ends after the unit it is at.
+constexpr double kLongest = 2.5;
+/// Seconds of a chunk while jobs wait.
+constexpr double kWhileJobsWait = 0.02;
 constexpr std::chrono::milliseconds kRetryPause{200};
 
 /// Rows that say that the store did not take them.
@@ -80,8 +81,9 @@ void look_up(const Chunk& chunk, const SweepSurroundings& world, Work& work) {
   work.pending = std::move(unknown);
 }
 
-bool is_late(double seconds, const SweepSurroundings& world) {
-  return seconds > kLongest || (seconds > kLongestWhileJobsWait && world.waiting > 0);
+/// @param chunk seconds that a chunk should take
+bool is_late(double seconds, double chunk, const SweepSurroundings& world) {
+  return seconds > kLongest * chunk || (seconds > kWhileJobsWait && world.waiting > 0);
 }
 
 /// The rows of a unit that was computed, or stopped for its time.
@@ -96,15 +98,16 @@ void add_rows(Pending& pending, std::vector<api::PointOutcome> outcomes, const S
 }
 
 /// Computes what is pending, as far as it comes.
-void compute(const Chunk& chunk, const SweepSurroundings& world, Runner& runner, SweepScheduler::Watch& watch,
-             Work& work) {
+/// @param seconds that it should take
+void compute(const Chunk& chunk, double seconds, const SweepSurroundings& world, Runner& runner,
+             SweepScheduler::Watch& watch, Work& work) {
   const double start = world.environment.monotonic_seconds();
   std::vector<std::uint64_t> units;
   for (const Pending& pending : work.pending) {
     units.push_back(pending.number);
   }
   std::size_t next = 0;
-  const auto late = [&] { return is_late(world.environment.monotonic_seconds() - start, world); };
+  const auto late = [&] { return is_late(world.environment.monotonic_seconds() - start, seconds, world); };
   const auto take = [&](std::vector<api::PointOutcome> outcomes) {
     if (is_cut_short(outcomes) && watch.reason() != StopReason::time_limit) {
       return;
@@ -208,16 +211,18 @@ std::optional<Chunk> SweepWork::take() {
   if (unloaded_) {
     load();
   }
-  while (const std::optional<SweepTurn> turn = scheduler_.next()) {
+  const double seconds = world_.waiting > 0 ? kWhileJobsWait : scheduler_.chunk_seconds();
+  while (const std::optional<SweepTurn> turn = scheduler_.next(seconds)) {
     const std::string& id = turn->sweep->id;
     const Time now = world_.environment.now();
+    const double start = world_.environment.monotonic_seconds();
     const Lease lease{world_.instance, now + world_.limits.lease};
     StatusOr<std::optional<UnitClaim>> claim = world_.store.claim(id, turn->most, lease, now);
     if (claim.ok() && claim->has_value()) {
       if (scheduler_.has_units()) {
         world_.handoffs.ring();  // the next worker
       }
-      return Chunk{turn->sweep, **std::move(claim)};
+      return Chunk{turn->sweep, **std::move(claim), world_.environment.monotonic_seconds() - start};
     }
     if (claim.ok()) {
       scheduler_.exhausted(*turn);
@@ -243,7 +248,7 @@ bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
   Work work;
   work.pending = pending_units(*chunk);
   look_up(*chunk, world_, work);
-  compute(*chunk, world_, runner, watch, work);
+  compute(*chunk, scheduler_.chunk_seconds(), world_, runner, watch, work);
   const double seconds = world_.environment.monotonic_seconds() - start;
   Status status = settle(*chunk, work.rows, seconds);
   while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
@@ -259,7 +264,11 @@ bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
 }
 
 Status SweepWork::settle(const Chunk& chunk, const std::vector<PointRow>& rows, double seconds) {
+  const double start = world_.environment.monotonic_seconds();
   StatusOr<SweepRecord> record = world_.store.put(chunk.claim, rows, world_.environment.now());
+  if (record.ok()) {
+    scheduler_.store_took(chunk.claim_seconds + world_.environment.monotonic_seconds() - start);
+  }
   if (!record.ok() && record.status().code() == StatusCode::io_error) {
     record = world_.store.put(chunk.claim, not_stored(rows, record.status()), world_.environment.now());
   }

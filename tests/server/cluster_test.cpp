@@ -34,6 +34,7 @@ class ClusterTest : public ServiceTest {
     config.store_path = location_;
     config.front = false;
     config.jobs.lease = std::chrono::seconds(3);
+    config.observe = {"127.0.0.1", 0};
     worker_ = std::make_unique<Service>(config, environment, local_runners(gated(solver_)), log_);
     const Status status = worker_->start();
     ASSERT_TRUE(status.ok()) << status.message();
@@ -106,6 +107,21 @@ TEST_F(ClusterTest, ASweepIsComputedElsewhereAndItsEndIsToldHere) {
   EXPECT_EQ(json::parse(get(port(), sweep + "/table").body)["rows"].size(), 300U);
 }
 
+TEST_F(ClusterTest, AProcessThatOnlyWorksTellsHowItIsAndNothingElse) {
+  solver_->open();
+  start_worker();
+  const std::string job = submit();
+  when(job, [](const json& now) { return now["status"] == "successful"; });
+  EXPECT_EQ(get(worker_->port(), "/livez").status, 200);
+  EXPECT_EQ(get(worker_->port(), "/readyz").status, 200);
+  EXPECT_THAT(get(worker_->port(), "/metrics").body,
+              HasSubstr("snapthrough_jobs_ended_total{code=\"successful\"} 1"));
+  for (const char* path : {"/", "/v1/jobs", "/v1/openapi.json"}) {
+    EXPECT_EQ(get(worker_->port(), path).status, 404) << path;
+  }
+  EXPECT_EQ(get(worker_->port(), job).status, 404);
+}
+
 /// Its leases of three seconds neither hold for an hour nor are over at once, and what it writes is on time.
 TEST_F(ClusterTest, TheClockOfAProcessDoesNotMatter) {
   for (const int hours : {-1, 1}) {
@@ -148,14 +164,33 @@ TEST(SharedSweeps, ThoseThatOthersWorkOnLeaveRoom) {
   };
   for (int number = 0; number < static_cast<int>(SweepScheduler::kMost); ++number) {
     ASSERT_TRUE(add(number));
-    scheduler.exhausted(*scheduler.next());
+    scheduler.exhausted(*scheduler.next(0.1));
   }
   EXPECT_FALSE(scheduler.has_room());
   EXPECT_FALSE(scheduler.has_units());
   scheduler.refresh();
   EXPECT_TRUE(scheduler.has_room());
   EXPECT_TRUE(add(100));
-  EXPECT_EQ(scheduler.next()->sweep->id, id_number(100));
+  EXPECT_EQ(scheduler.next(0.1)->sweep->id, id_number(100));
+}
+
+/// Who waits for the store half of the time asks it less often.
+TEST(SharedSweeps, ASlowerStoreGivesMoreUnitsAtATime) {
+  SweepScheduler scheduler;
+  EXPECT_DOUBLE_EQ(scheduler.chunk_seconds(), 0.1);
+  scheduler.store_took(0.002);
+  EXPECT_DOUBLE_EQ(scheduler.chunk_seconds(), 0.1);
+  scheduler.store_took(0.018);
+  EXPECT_DOUBLE_EQ(scheduler.chunk_seconds(), 0.2) << "it takes a twentieth of that, in the mean";
+  scheduler.store_took(10.0);
+  EXPECT_DOUBLE_EQ(scheduler.chunk_seconds(), 1.0);
+  const std::string document = column_sweep(100'000);
+  const auto sweep = std::make_shared<ActiveSweep>(id_number(1), *api::read_sweep(document).sweep,
+                                                   OpenSweep{document, "", true});
+  scheduler.add(sweep);
+  scheduler.give_back({sweep, {1, id_number(1), {0, 2}}}, 2, 2e-3);
+  EXPECT_EQ(scheduler.next(0.1)->most, 100U) << "a millisecond each";
+  EXPECT_EQ(scheduler.next(1.0)->most, 1000U);
 }
 
 /// Claims and stores until nobody has any units left to give.
@@ -252,6 +287,10 @@ TEST(ClusterConfig, OnlyASharedStoreMayDoWithoutWorkersOrFront) {
   EXPECT_EQ(config.check().size(), 1U) << "it would do nothing";
   config.workers = 1;
   EXPECT_TRUE(config.check().empty());
+  config.observe = {"0.0.0.0", 9464};
+  ASSERT_EQ(config.check().size(), 1U) << "there are no keys";
+  EXPECT_EQ(config.check()[0].field, "observe");
+  config.observe.reset();
   config.store_path = "store.db";
   ASSERT_EQ(config.check().size(), 1U);
   EXPECT_THAT(config.check()[0].detail, HasSubstr("postgresql://"));
