@@ -2,6 +2,7 @@
 /// @file
 /// A few connections to one database, for the parts of the driver.
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -127,6 +128,10 @@ class Database {
     return again_if_in_the_way<T>([&](Connection& connection) -> StatusOr<T> { return work(connection); });
   }
 
+  /// Whether its disk was full when something was written, and nobody found room since.
+  [[nodiscard]] bool is_full() const { return full_; }
+  void found_room() { full_ = false; }
+
   void write_metrics(std::string& text) const {
     commit_seconds_.write(text);
     read_seconds_.write(text);
@@ -135,6 +140,7 @@ class Database {
 
  private:
   static constexpr int kTries = 5;
+  static constexpr std::string_view kDiskFull = "53100";
 
   template <class T, class Run>
   StatusOr<T> again_if_in_the_way(const Run& run) {
@@ -143,6 +149,7 @@ class Database {
         const Pool::Lent connection(pool_);
         return run(*connection);
       } catch (const Error& error) {
+        full_ = full_ || error.state() == kDiskFull;
         // a deadlock, or two transactions that can't both come first; nothing was done
         if ((error.state() != "40P01" && error.state() != "40001") || attempt == kTries) {
           return to_status(error);
@@ -152,6 +159,7 @@ class Database {
   }
 
   Pool pool_;
+  std::atomic<bool> full_ = false;
   Histogram commit_seconds_{"snapthrough_store_commit_seconds",
                             "Of one transaction that writes, with its sync."};
   Histogram read_seconds_{"snapthrough_store_read_seconds", "Of one read of the store."};

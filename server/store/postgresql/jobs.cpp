@@ -374,7 +374,8 @@ Status PostgresqlStore::forget_keys(std::chrono::seconds age, Time now) {
         Parameters().add(clock_.at(now)).add(microseconds(age))}});
 }
 
-/// A database that only reads (a standby, a disk that is full) says so without a row that is written.
+/// @brief A database that only reads (a standby) says so without a row that is written. After its disk was
+/// full there has to be room for a megabyte again: what is small finds some now and then before.
 Status PostgresqlStore::probe(Time /*now*/) {
   const StatusOr<bool> writes = database_.read<bool>([](Connection& connection) {
     return connection
@@ -384,7 +385,19 @@ Status PostgresqlStore::probe(Time /*now*/) {
   if (!writes.ok()) {
     return writes.status();
   }
-  return *writes ? Status() : Status(StatusCode::unavailable, "the database only reads");
+  if (!*writes) {
+    return {StatusCode::unavailable, "the database only reads"};
+  }
+  if (!database_.is_full()) {
+    return {};
+  }
+  Status room = database_.write_at_once({{"CREATE TEMP TABLE probe ON COMMIT DROP AS"
+                                          " SELECT gen_random_uuid()::text FROM generate_series(1, 16384)"}},
+                                        Durability::unsynced);
+  if (room.ok()) {
+    database_.found_room();
+  }
+  return room;
 }
 
 }  // namespace snapthrough::server::postgresql
