@@ -193,6 +193,30 @@ TEST(SharedSweeps, ASlowerStoreGivesMoreUnitsAtATime) {
   EXPECT_EQ(scheduler.next(1.0)->most, 1000U);
 }
 
+/// All statements may go well, and their transaction not: then nothing is stored.
+TEST(SharedStore, StatementsWhoseCommitFailsHaveFailed) {
+  const TempDir folder;
+  postgresql::Connection connection(postgresql_location(folder.name()));
+  connection.execute(
+      "CREATE TABLE things (number integer);"
+      "CREATE FUNCTION refuse() RETURNS trigger LANGUAGE plpgsql AS"
+      " $$ BEGIN RAISE EXCEPTION 'at the commit' USING ERRCODE = '53100'; END $$;"
+      "CREATE CONSTRAINT TRIGGER refuses AFTER INSERT ON things DEFERRABLE INITIALLY DEFERRED"
+      " FOR EACH ROW EXECUTE FUNCTION refuse();");
+  const std::vector<postgresql::Statement> insert{{"INSERT INTO things VALUES (1)"}};
+  try {
+    connection.run_all(insert);
+    ADD_FAILURE() << "it was not stored";
+  } catch (const postgresql::Error& error) {
+    EXPECT_EQ(error.state(), "53100");
+    EXPECT_THAT(error.what(), HasSubstr("at the commit"));
+  }
+  EXPECT_EQ(connection.run("SELECT count(*) FROM things").integer(0, 0), 0);
+
+  const std::vector<postgresql::Statement> end{{"SELECT pg_terminate_backend(pg_backend_pid())"}};
+  EXPECT_THROW(connection.run_all(end), postgresql::Error);
+}
+
 /// Claims and stores until nobody has any units left to give.
 void work_on(SweepStore& sweeps, const std::string& id) {
   const Time now = Environment::system().now();

@@ -268,24 +268,41 @@ std::vector<Rows> Connection::run_all(std::span<const Statement> statements) {
   PQpipelineSync(handle_.get());
   std::vector<Rows> all;
   PGresult* failed = nullptr;
-  for (std::size_t i = 0; i < statements.size() && good(); ++i) {
-    PGresult* result = PQgetResult(handle_.get());
-    const ExecStatusType status = PQresultStatus(result);
-    if (status == PGRES_TUPLES_OK || status == PGRES_COMMAND_OK) {
-      all.emplace_back(result);
-    } else if (failed == nullptr && status != PGRES_PIPELINE_ABORTED) {
-      failed = result;
-    } else {
-      PQclear(result);
-    }
-    PQclear(PQgetResult(handle_.get()));  // the end of this statement's results
-  }
-  PQclear(PQgetResult(handle_.get()));  // of the synchronisation
+  const bool synced = read_pipeline(all, failed);
   PQexitPipelineMode(handle_.get());
-  if (all.size() != statements.size()) {
+  if (!synced || failed != nullptr || all.size() != statements.size()) {
     fail(failed);
   }
   return all;
+}
+
+/// @brief Reads what the statements of a pipeline gave until it is synchronised, which is after their commit:
+/// a commit that fails tells it then, and who does not hear of it does not know.
+/// @param failed the first error, if there is one; the caller's
+/// @return whether it came to that
+bool Connection::read_pipeline(std::vector<Rows>& all, PGresult*& failed) {
+  while (good()) {
+    PGresult* result = PQgetResult(handle_.get());
+    switch (PQresultStatus(result)) {  // of none: PGRES_FATAL_ERROR
+      case PGRES_PIPELINE_SYNC:
+        PQclear(result);
+        return true;
+      case PGRES_TUPLES_OK:
+      case PGRES_COMMAND_OK:
+        all.emplace_back(result);
+        break;
+      case PGRES_PIPELINE_ABORTED:
+        PQclear(result);
+        break;
+      default:
+        if (failed == nullptr) {
+          failed = result;  // none ends the results of a statement
+        } else {
+          PQclear(result);
+        }
+    }
+  }
+  return false;
 }
 
 void Connection::execute(const std::string& sql) {

@@ -122,6 +122,7 @@ class Connection {
 
  private:
   void send(const Statement& statement);
+  bool read_pipeline(std::vector<Rows>& all, pg_result*& failed);
   [[noreturn]] void fail(pg_result* result) const;
 
   struct Close {
