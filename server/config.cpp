@@ -38,6 +38,14 @@ void check_store(const ServiceConfig& config, const Require& require) {
           "must be >= 1 s; >= 3 s where other processes share the store, since it is renewed each second");
 }
 
+template <class Require>
+void check_quotas(const Quotas& quotas, const Require& require) {
+  require(quotas.jobs_waiting >= 0, "jobs.quotas.jobs_waiting", "must be >= 0");
+  require(quotas.points_waiting >= 0, "jobs.quotas.points_waiting", "must be >= 0");
+  require(quotas.points_per_hour >= 0, "jobs.quotas.points_per_hour", "must be >= 0");
+  require(quotas.bytes_kept >= 0, "jobs.quotas.bytes_kept", "must be >= 0");
+}
+
 }  // namespace
 
 ServiceConfig ServiceConfig::defaults() {
@@ -74,9 +82,7 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   require(jobs.sweep_points >= 1 && static_cast<std::uint64_t>(jobs.sweep_points) <= api::kMaxSweepPoints,
           "jobs.sweep_points", "must be 1 to 1000000");
   require(jobs.table_rows >= 1, "jobs.table_rows", "must be >= 1");
-  require(jobs.quotas.jobs_waiting >= 0, "jobs.quotas.jobs_waiting", "must be >= 0");
-  require(jobs.quotas.points_waiting >= 0, "jobs.quotas.points_waiting", "must be >= 0");
-  require(jobs.quotas.bytes_kept >= 0, "jobs.quotas.bytes_kept", "must be >= 0");
+  check_quotas(jobs.quotas, require);
   require(jobs.longest_run.count() >= 1, "jobs.longest_run", "must be >= 1 s");
   require(jobs.job_memory >= kLeastJobMemory, "jobs.job_memory", "must be >= 1048576 bytes");
   require(jobs.keep_jobs.count() >= 0, "jobs.keep_jobs", "must be >= 0");

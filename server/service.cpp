@@ -63,6 +63,7 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"queue", number(config.jobs.queue)},
           {"quota_jobs_waiting", number(config.jobs.quotas.jobs_waiting)},
           {"quota_points_waiting", number(config.jobs.quotas.points_waiting)},
+          {"quota_points_per_hour", number(config.jobs.quotas.points_per_hour)},
           {"quota_bytes_kept", number(config.jobs.quotas.bytes_kept)},
           {"workers", number(config.workers)},
           {"max_run_s", number(config.jobs.longest_run.count())},

@@ -224,6 +224,10 @@ std::vector<Setting> job_settings() {
             [](ServiceConfig& c) -> std::int64_t& { return c.jobs.quotas.jobs_waiting; }),
       whole("quota_points_waiting", "Points of one owner's sweeps that may wait, else 429; 0: any number",
             [](ServiceConfig& c) -> std::int64_t& { return c.jobs.quotas.points_waiting; }),
+      whole(
+          "quota_points_per_hour",
+          "Points of sweeps that one owner may hand in or try again within an hour, else 429; 0: any number",
+          [](ServiceConfig& c) -> std::int64_t& { return c.jobs.quotas.points_per_hour; }),
       whole("quota_bytes_kept", "Documents of one owner that are kept, else 403; 0: any size",
             [](ServiceConfig& c) -> std::int64_t& { return c.jobs.quotas.bytes_kept; }),
       whole("max_crashes", "A job during which the service died so often is given up",

@@ -15,6 +15,7 @@ enum class StatusCode {
   unavailable,    ///< it may work later: busy, disk full, address in use
   stopping,       ///< nothing new is taken: the service is about to end
   waiting_quota,  ///< the owner has as much waiting as it may
+  rate_quota,     ///< the owner has handed in as much as it may at the moment
   storage_quota,  ///< the owner keeps as much as it may
   unsupported,    ///< written by a newer version, or by something else
   io_error,       ///< everything else

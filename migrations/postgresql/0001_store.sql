@@ -222,6 +222,14 @@ CREATE TABLE sweep_keys (
 );
 CREATE INDEX sweep_keys_by_sweep ON sweep_keys (sweep);
 
+-- Points of sweeps that an owner with a quota of them has handed in or tried again, by minute since 1970; of an hour.
+CREATE TABLE owner_points (
+  owner text NOT NULL,
+  minute bigint NOT NULL,
+  points bigint NOT NULL,
+  PRIMARY KEY (owner, minute)
+);
+
 -- Bytes that each owner keeps: the sum of its rows.
 CREATE TABLE owner_bytes (
   owner text NOT NULL,

@@ -47,3 +47,11 @@ CREATE INDEX sweep_claims_by_sweep ON sweep_claims (sweep);
 -- Owners take turns: of one owner the oldest job that waits.
 DROP INDEX jobs_waiting;
 CREATE INDEX jobs_in_turn ON jobs (owner, seq, created_us) WHERE status = 'accepted';
+
+-- Points of sweeps that an owner with a quota of them has handed in or tried again, by minute since 1970; of an hour.
+CREATE TABLE owner_points (
+  owner TEXT NOT NULL,
+  minute INTEGER NOT NULL,
+  points INTEGER NOT NULL,
+  PRIMARY KEY (owner, minute)
+) STRICT, WITHOUT ROWID;

@@ -54,6 +54,10 @@ Response store_trouble(const Request& request, const Status& status) {
       response = simple_problem(request, 429, "waiting-quota", "Quota of waiting work", status.message());
       response.headers.emplace_back("Retry-After", "10");
       return response;
+    case StatusCode::rate_quota:
+      response = simple_problem(request, 429, "rate-quota", "Quota of an hour", status.message());
+      response.headers.emplace_back("Retry-After", "60");
+      return response;
     case StatusCode::storage_quota:
       return simple_problem(request, 403, "storage-quota", "Quota of storage", status.message());
     case StatusCode::unavailable:

@@ -22,8 +22,12 @@ Status check_quotas(const Quotas& quotas, const Usage& has, const Usage& more) {
     status = check_one(StatusCode::waiting_quota, "quota_points_waiting", quotas.points_waiting, has.points,
                        more.points);
   }
-  return status.ok() ? check_one(StatusCode::storage_quota, "quota_bytes_kept", quotas.bytes_kept, has.bytes,
-                                 more.bytes)
+  if (status.ok()) {
+    status =
+        check_one(StatusCode::storage_quota, "quota_bytes_kept", quotas.bytes_kept, has.bytes, more.bytes);
+  }
+  return status.ok() ? check_one(StatusCode::rate_quota, "quota_points_per_hour", quotas.points_per_hour,
+                                 has.points_this_hour, more.points)
                      : status;
 }
 

@@ -75,8 +75,8 @@ class SweepStore {
   /// Makes an accepted or running sweep dismissed; its rows stay.
   virtual StatusOr<SweepChange> dismiss(std::string_view id, Time now) = 0;
   /// Takes the failed rows out of a failed or dismissed sweep and makes it accepted, unless its owner would
-  /// have more points waiting than its quota: `waiting_quota`.
-  virtual StatusOr<SweepChange> retry(std::string_view id, const Quotas& quotas) = 0;
+  /// have more points waiting, or of this hour, than its quota: `waiting_quota`, `rate_quota`.
+  virtual StatusOr<SweepChange> retry(std::string_view id, const Quotas& quotas, Time now) = 0;
   /// Nobody shall find the sweep any more; purge() gives its space back. False when there is none.
   virtual StatusOr<bool> remove(std::string_view id) = 0;
   /// Removes sweeps that ended longer ago than that; how many.

@@ -72,7 +72,7 @@ StatusOr<SweepChange> SweepService::retry(const std::string& id) {
   if (Status status = world_.health.takes_work(); !status.ok()) {
     return status;
   }
-  StatusOr<SweepChange> change = world_.store.retry(id, world_.limits.quotas);
+  StatusOr<SweepChange> change = world_.store.retry(id, world_.limits.quotas, world_.environment.now());
   if (change.ok() && change->changed) {
     log_sweep(world_.log, id, to_string(JobState::accepted), "tried again");
     work_.wake();

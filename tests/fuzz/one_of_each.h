@@ -42,7 +42,7 @@ class FuzzedSweeps final : public SweepStore {
   StatusOr<std::int64_t> recover(int, Time) override { return 0; }
   StatusOr<std::int64_t> rescue(std::string_view, int, Time) override { return 0; }
   StatusOr<SweepChange> dismiss(std::string_view id, Time) override { return changed(id); }
-  StatusOr<SweepChange> retry(std::string_view id, const Quotas&) override { return changed(id); }
+  StatusOr<SweepChange> retry(std::string_view id, const Quotas&, Time) override { return changed(id); }
   StatusOr<bool> remove(std::string_view id) override { return record(id).has_value(); }
   StatusOr<int> retire(std::chrono::seconds, Time) override { return 0; }
   StatusOr<bool> purge(int) override { return false; }

@@ -141,7 +141,7 @@ TEST_P(DeliveryStoreConformance, ASweepIsToldOncePerEnd) {
   EXPECT_TRUE(failed->sweep);
   EXPECT_EQ(failed->id, id_number(1));
   EXPECT_EQ((*store_->sweeps().get(id_number(1)))->annotations.callback, kAddress);
-  ASSERT_TRUE(store_->sweeps().retry(id_number(1), {})->changed);
+  ASSERT_TRUE(store_->sweeps().retry(id_number(1), {}, at_second(200))->changed);
   EXPECT_EQ(waiting(), 0) << "it has not ended any more";
   put(1, 1);
   EXPECT_EQ(waiting(), 1);

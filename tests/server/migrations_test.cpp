@@ -236,7 +236,7 @@ TEST_F(Migrations, UnfinishedSweepsOfTheEighthVersionGoOnWhereTheyWere) {
   auto opened = open_store(path, at_second(1));
   ASSERT_TRUE(opened.ok()) << opened.status().message();
   SweepStore& sweeps = (*opened)->sweeps();
-  ASSERT_TRUE(sweeps.retry(test::id_number(2), {})->changed);
+  ASSERT_TRUE(sweeps.retry(test::id_number(2), {}, test::at_second(200))->changed);
   const auto left = [&](int number) {
     std::vector<std::string> runs;
     for (;;) {

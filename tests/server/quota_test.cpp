@@ -91,10 +91,34 @@ TEST_P(Quota, PointsThatWaitAreBoundedAlsoWhenASweepIsTriedAgain) {
   ASSERT_TRUE(sweeps().dismiss(id_number(1), at_second(7))->changed);
   EXPECT_EQ(add_sweep(3, "ann", 6, ten), StatusCode::waiting_quota);
   EXPECT_EQ(add_sweep(3, "ann", 5, ten), StatusCode::ok);
-  EXPECT_EQ(sweeps().retry(id_number(1), ten).status().code(), StatusCode::waiting_quota);
+  EXPECT_EQ(sweeps().retry(id_number(1), ten, at_second(200)).status().code(), StatusCode::waiting_quota);
   EXPECT_EQ((*sweeps().get(id_number(1)))->failed, 1) << "it is as it was";
   ASSERT_TRUE(*sweeps().remove(id_number(3)));
-  EXPECT_TRUE(sweeps().retry(id_number(1), ten)->changed);
+  EXPECT_TRUE(sweeps().retry(id_number(1), ten, at_second(200))->changed);
+}
+
+TEST_P(Quota, PointsOfAnHourAreBoundedWhateverBecomesOfThem) {
+  Quotas quotas;
+  quotas.points_per_hour = 10;
+  const auto add = [&](int number, std::int64_t points, int minutes) {
+    NewSweep sweep{id_number(number), "", "{}", points, at_second(60 * minutes), "ann"};
+    sweep.quotas = quotas;
+    return sweeps().submit(sweep).status().code();
+  };
+  EXPECT_EQ(add(1, 6, 100), StatusCode::ok);
+  put_rows(id_number(1), 6);
+  EXPECT_EQ(add(2, 5, 101), StatusCode::rate_quota) << "six points are done, and count";
+  EXPECT_EQ(add(2, 4, 130), StatusCode::ok);
+  ASSERT_TRUE(*sweeps().remove(id_number(2)));
+  EXPECT_EQ(add(3, 1, 131), StatusCode::rate_quota) << "so do those that were removed";
+  EXPECT_EQ(add_sweep(4, "bob", 9, quotas), StatusCode::ok);
+  EXPECT_EQ(add(5, 6, 161), StatusCode::ok) << "an hour after the first";
+  EXPECT_EQ(add(6, 1, 161), StatusCode::rate_quota);
+  EXPECT_EQ(sweeps().retry(id_number(1), quotas, at_second(60 * 162)).status().code(),
+            StatusCode::rate_quota);
+  EXPECT_TRUE(sweeps().retry(id_number(1), quotas, at_second(60 * 300))->changed) << "three points failed";
+  EXPECT_EQ(add(7, 8, 301), StatusCode::rate_quota);
+  EXPECT_EQ(add(7, 7, 301), StatusCode::ok);
 }
 
 TEST_P(Quota, BytesThatAreKeptAreBounded) {
@@ -212,7 +236,7 @@ class RandomQuota : public Quota {
       case 3:
         return sweeps().dismiss(id, at_second(4)).status();
       case 4:
-        return sweeps().retry(id, {}).status();
+        return sweeps().retry(id, {}, at_second(200)).status();
       case 5:
         return draw(3) > 0 ? Status() : sweeps().remove(id).status();
       default:
@@ -301,7 +325,7 @@ class QuotaOverHttp : public ServiceTest {
 };
 
 TEST_F(QuotaOverHttp, WaitingWorkBeyondItIs429AndNamesIt) {
-  start_with({1, 4, 0});
+  start_with({1, 4, 0, 12});
   EXPECT_EQ(hand_in("ann", "/v1/jobs", column_request("running")).status, 201);
   solver_->wait_started(1);
   EXPECT_EQ(hand_in("ann", "/v1/jobs", column_request("waiting")).status, 201);
@@ -317,9 +341,19 @@ TEST_F(QuotaOverHttp, WaitingWorkBeyondItIs429AndNamesIt) {
   expect_problem(call(port(), "POST", sweep + "/retry", "", key), 429, "waiting-quota",
                  "quota_points_waiting");
   const json limits = json::parse(get(port(), "/v1/limits", key).body);
+  EXPECT_EQ(limits["quota_points_per_hour"], 12);
   EXPECT_EQ(limits["quota_jobs_waiting"], 1);
   EXPECT_EQ(limits["quota_points_waiting"], 4);
   EXPECT_EQ(limits["quota_bytes_kept"], 0);
+}
+
+TEST_F(QuotaOverHttp, PointsBeyondThoseOfAnHourAre429) {
+  start_with({0, 0, 0, 5});
+  EXPECT_EQ(hand_in("ann", "/v1/sweeps", column_sweep(4)).status, 201);
+  const Reply refused = hand_in("ann", "/v1/sweeps", column_sweep(3, "another"));
+  expect_problem(refused, 429, "rate-quota", "quota_points_per_hour (see /v1/limits) is 5: this owner has 4");
+  EXPECT_FALSE(refused.header("Retry-After").empty());
+  EXPECT_EQ(hand_in("bob", "/v1/sweeps", column_sweep(3)).status, 201);
 }
 
 TEST_F(QuotaOverHttp, MoreThanMayBeKeptIs403UntilSomethingIsRemoved) {

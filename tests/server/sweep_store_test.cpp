@@ -128,7 +128,7 @@ TEST_P(SweepStoreConformance, ACurveIsComputedAndTriedAgainWholly) {
   EXPECT_EQ(second.units, (UnitRun{1, 1}));
   ASSERT_TRUE(sweeps().put(second, {good(3), bad(4), good(5)}, at_second(60)).ok());
   ASSERT_TRUE(sweeps().dismiss(sweep.id, at_second(61))->changed);
-  ASSERT_TRUE(sweeps().retry(sweep.id, {})->changed);
+  ASSERT_TRUE(sweeps().retry(sweep.id, {}, at_second(200))->changed);
   EXPECT_THAT(rows(sweep.id), ElementsAre("3 [3.5]", "5 [5.5]"));
   ASSERT_TRUE(sweeps().put(claim(sweep.id, 1), {good(0), good(1), good(2)}, at_second(62)).ok());
   const auto ended = sweeps().put(claim(sweep.id, 1), {bad(3), good(4), bad(5)}, at_second(63));
@@ -151,12 +151,12 @@ TEST_P(SweepStoreConformance, ALeaseOfUnitsHoldsAsLongAsItIsRenewed) {
 
 TEST_P(SweepStoreConformance, FailedPointsMakeItFailedAndAreTriedAgain) {
   const std::string id = submit(1, 3);
-  EXPECT_FALSE(sweeps().retry(id, {})->changed);
+  EXPECT_FALSE(sweeps().retry(id, {}, at_second(200))->changed);
   ASSERT_TRUE(sweeps().put(claim(id, 3), {good(0), bad(1), good(2)}, at_second(60)).ok());
   EXPECT_EQ(record(id).state, JobState::failed);
   EXPECT_THAT(rows(id, {0, 9, true}), ElementsAre("1 no_convergence"));
   EXPECT_THAT(rows(id, {0, 9, false}), ElementsAre("0 [0.5]", "2 [2.5]"));
-  const auto change = sweeps().retry(id, {});
+  const auto change = sweeps().retry(id, {}, at_second(200));
   EXPECT_TRUE(change->changed);
   EXPECT_EQ(change->before, JobState::failed);
   EXPECT_EQ(record(id).state, JobState::accepted);
@@ -177,7 +177,7 @@ TEST_P(SweepStoreConformance, ADismissedSweepKeepsItsRowsAndTakesNoMore) {
   EXPECT_FALSE(sweeps().dismiss(id, at_second(62))->changed);
   EXPECT_EQ(sweeps().put(held, {good(1)}, at_second(63)).status().code(), StatusCode::conflict);
   EXPECT_THAT(rows(id), ElementsAre("0 [0.5]"));
-  EXPECT_TRUE(sweeps().retry(id, {})->changed);
+  EXPECT_TRUE(sweeps().retry(id, {}, at_second(200))->changed);
   EXPECT_EQ(sweeps().put(held, {good(1)}, at_second(64)).status().code(), StatusCode::conflict)
       << "a claim from before";
   EXPECT_FALSE(sweeps().dismiss(id_number(9), at_second(1))->before);

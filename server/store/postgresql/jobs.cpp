@@ -143,7 +143,8 @@ StatusOr<Submitted> PostgresqlStore::submit_or_known(Connection& connection, con
   Submitted submitted{Submitted::Kind::reused, known ? known->id : ""};
   if (!will_do) {
     const Usage addition{job.lease || known ? 0 : 1, 0, static_cast<std::int64_t>(job.document.size())};
-    if (Status status = check_quotas(connection, job.owner, job.quotas, addition); !status.ok()) {
+    if (Status status = admit(connection, job.owner, job.quotas, addition, clock_.at(job.created));
+        !status.ok()) {
       return status;
     }
     submitted = {known ? Submitted::Kind::copied : Submitted::Kind::created, job.id};

@@ -9,9 +9,10 @@
 
 namespace snapthrough::server::postgresql {
 
-/// @brief As check_quotas() of server/store/quota_check.h, of what the owner has at this moment. Others who
-/// would add to what it has wait until this transaction ends.
-[[nodiscard]] Status check_quotas(Connection& connection, std::string_view owner, const Quotas& quotas,
-                                  const Usage& addition);
+/// @brief Counts what an owner hands in, or says as check_quotas() of server/store/quota_check.h why it may
+/// not. Others who would add to what it has wait until this transaction ends.
+/// @param now microseconds; empty: the database's
+[[nodiscard]] Status admit(Connection& connection, std::string_view owner, const Quotas& quotas,
+                           const Usage& addition, const std::optional<std::int64_t>& now);
 
 }  // namespace snapthrough::server::postgresql

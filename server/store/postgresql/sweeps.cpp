@@ -146,7 +146,8 @@ StatusOr<Submitted> PostgresqlSweepStore::submit(const NewSweep& sweep) {
       }
     }
     const Usage addition{0, sweep.points, static_cast<std::int64_t>(sweep.document.size())};
-    if (Status status = check_quotas(connection, sweep.owner, sweep.quotas, addition); !status.ok()) {
+    if (Status status = admit(connection, sweep.owner, sweep.quotas, addition, clock_.at(sweep.created));
+        !status.ok()) {
       return status;
     }
     insert_sweep(connection, sweep, clock_);
@@ -181,7 +182,7 @@ StatusOr<SweepChange> PostgresqlSweepStore::dismiss(std::string_view id, Time no
   });
 }
 
-StatusOr<SweepChange> PostgresqlSweepStore::retry(std::string_view id, const Quotas& quotas) {
+StatusOr<SweepChange> PostgresqlSweepStore::retry(std::string_view id, const Quotas& quotas, Time now) {
   return database_.write<SweepChange>([&](Connection& connection) -> StatusOr<SweepChange> {
     const std::optional<Place> place = lock(connection, id);
     if (!place) {
@@ -195,7 +196,8 @@ StatusOr<SweepChange> PostgresqlSweepStore::retry(std::string_view id, const Quo
         "seq)::bigint"
         " FROM sweeps WHERE seq = $1",
         Parameters().add(place->row));
-    if (Status status = check_quotas(connection, sweep.text(0, 0), quotas, {0, sweep.integer(0, 2), 0});
+    if (Status status =
+            admit(connection, sweep.text(0, 0), quotas, {0, sweep.integer(0, 2), 0}, clock_.at(now));
         !status.ok()) {
       return status;
     }

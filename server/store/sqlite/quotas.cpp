@@ -1,17 +1,52 @@
 #include "server/store/sqlite/quotas.h"
 
 namespace snapthrough::server::sqlite {
+namespace {
 
-Status check_quotas(const Connection& connection, std::string_view owner, const Quotas& quotas,
-                    const Usage& addition) {
+std::int64_t minute_of(Time now) {
+  return std::chrono::duration_cast<std::chrono::minutes>(now.time_since_epoch()).count();
+}
+
+std::int64_t points_since(const Connection& connection, std::string_view owner, std::int64_t minute) {
+  Statement row =
+      connection.prepare("SELECT ifnull(sum(points), 0) FROM owner_points WHERE owner = ? AND minute > ?");
+  row.bind(owner).bind(minute).step();
+  return row.integer(0);
+}
+
+void add_points(Connection& connection, std::string_view owner, std::int64_t minute, std::int64_t points) {
+  connection.prepare("DELETE FROM owner_points WHERE owner = ? AND minute <= ?")
+      .bind(owner)
+      .bind(minute - 60)
+      .run();
+  connection
+      .prepare(
+          "INSERT INTO owner_points (owner, minute, points) VALUES (?, ?, ?)"
+          " ON CONFLICT (owner, minute) DO UPDATE SET points = points + excluded.points")
+      .bind(owner)
+      .bind(minute)
+      .bind(points)
+      .run();
+}
+
+}  // namespace
+
+Status admit(Connection& connection, std::string_view owner, const Quotas& quotas, const Usage& addition,
+             Time now) {
   if (!quotas.any()) {
     return {};
   }
   Statement row =
       connection.prepare("SELECT jobs_waiting, points_waiting, bytes_kept FROM owners WHERE owner = ?");
   row.bind(owner);
-  const Usage has = row.step() ? Usage{row.integer(0), row.integer(1), row.integer(2)} : Usage{};
-  return server::check_quotas(quotas, has, addition);
+  Usage has = row.step() ? Usage{row.integer(0), row.integer(1), row.integer(2)} : Usage{};
+  const bool by_hour = quotas.points_per_hour > 0 && addition.points > 0;
+  has.points_this_hour = by_hour ? points_since(connection, owner, minute_of(now) - 60) : 0;
+  Status status = check_quotas(quotas, has, addition);
+  if (status.ok() && by_hour) {
+    add_points(connection, owner, minute_of(now), addition.points);
+  }
+  return status;
 }
 
 }  // namespace snapthrough::server::sqlite

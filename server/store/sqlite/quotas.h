@@ -9,8 +9,8 @@
 
 namespace snapthrough::server::sqlite {
 
-/// As check_quotas() of server/store/quota_check.h, of what the owner has at this moment.
-[[nodiscard]] Status check_quotas(const Connection& connection, std::string_view owner, const Quotas& quotas,
-                                  const Usage& addition);
+/// Counts what an owner hands in, or says as check_quotas() of server/store/quota_check.h why it may not.
+[[nodiscard]] Status admit(Connection& connection, std::string_view owner, const Quotas& quotas,
+                           const Usage& addition, Time now);
 
 }  // namespace snapthrough::server::sqlite

@@ -229,7 +229,7 @@ StatusOr<Submitted> SqliteStore::submit(const NewJob& job, const std::function<v
     std::int64_t row = known ? known->row : 0;
     if (!will_do) {
       const Usage addition{job.lease || known ? 0 : 1, 0, static_cast<std::int64_t>(job.document.size())};
-      if (Status status = check_quotas(connection, job.owner, job.quotas, addition); !status.ok()) {
+      if (Status status = admit(connection, job.owner, job.quotas, addition, job.created); !status.ok()) {
         return status;
       }
       submitted = {known ? Submitted::Kind::copied : Submitted::Kind::created, job.id};

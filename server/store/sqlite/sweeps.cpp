@@ -260,7 +260,7 @@ StatusOr<Submitted> SqliteSweepStore::submit(const NewSweep& sweep) {
       }
     }
     const Usage addition{0, sweep.points, static_cast<std::int64_t>(sweep.document.size())};
-    if (Status status = check_quotas(connection, sweep.owner, sweep.quotas, addition); !status.ok()) {
+    if (Status status = admit(connection, sweep.owner, sweep.quotas, addition, sweep.created); !status.ok()) {
       return status;
     }
     insert_sweep(connection, sweep);
@@ -388,7 +388,7 @@ StatusOr<SweepChange> SqliteSweepStore::dismiss(std::string_view id, Time now) {
   });
 }
 
-StatusOr<SweepChange> SqliteSweepStore::retry(std::string_view id, const Quotas& quotas) {
+StatusOr<SweepChange> SqliteSweepStore::retry(std::string_view id, const Quotas& quotas, Time now) {
   return database_.write<SweepChange>([&](Connection& connection) -> StatusOr<SweepChange> {
     const std::optional<Place> place = find(connection, id);
     if (!place) {
@@ -399,7 +399,7 @@ StatusOr<SweepChange> SqliteSweepStore::retry(std::string_view id, const Quotas&
     }
     Statement sweep = connection.prepare("SELECT owner, points - successful FROM sweeps WHERE seq = ?");
     sweep.bind(place->row).step();
-    if (Status status = check_quotas(connection, sweep.text(0), quotas, {0, sweep.integer(1), 0});
+    if (Status status = admit(connection, sweep.text(0), quotas, {0, sweep.integer(1), 0}, now);
         !status.ok()) {
       return status;
     }

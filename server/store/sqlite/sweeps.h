@@ -25,7 +25,7 @@ class SqliteSweepStore final : public SweepStore {
   StatusOr<std::int64_t> recover(int max_crashes, Time now) override;
   StatusOr<std::int64_t> rescue(std::string_view worker, int max_crashes, Time now) override;
   StatusOr<SweepChange> dismiss(std::string_view id, Time now) override;
-  StatusOr<SweepChange> retry(std::string_view id, const Quotas& quotas) override;
+  StatusOr<SweepChange> retry(std::string_view id, const Quotas& quotas, Time now) override;
   StatusOr<bool> remove(std::string_view id) override;
   StatusOr<int> retire(std::chrono::seconds age, Time now) override;
   StatusOr<bool> purge(int most) override;

@@ -32,7 +32,7 @@ class FailingSweepStore final : public SweepStore {
   StatusOr<std::int64_t> recover(int, Time) override { return status(); }
   StatusOr<std::int64_t> rescue(std::string_view, int, Time) override { return status(); }
   StatusOr<SweepChange> dismiss(std::string_view, Time) override { return status(); }
-  StatusOr<SweepChange> retry(std::string_view, const Quotas&) override { return status(); }
+  StatusOr<SweepChange> retry(std::string_view, const Quotas&, Time) override { return status(); }
   StatusOr<bool> remove(std::string_view) override { return status(); }
   StatusOr<int> retire(std::chrono::seconds, Time) override { return status(); }
   StatusOr<bool> purge(int) override { return status(); }
