@@ -141,7 +141,7 @@ struct Service::Parts {
   }
 
   [[nodiscard]] std::string metrics_text();
-  [[nodiscard]] std::string not_ready();
+  [[nodiscard]] std::string not_ready() const;
 
   std::unique_ptr<Store> store;
   JobService jobs;
@@ -205,7 +205,7 @@ std::string Service::Parts::metrics_text() {
   return text;
 }
 
-std::string Service::Parts::not_ready() {
+std::string Service::Parts::not_ready() const {
   const StoreHealth& health = jobs.context().health;
   if (health.draining) {
     return "The service is stopping.";

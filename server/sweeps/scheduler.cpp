@@ -192,7 +192,7 @@ void SweepScheduler::stop_if(Is is, StopReason reason) {
       }
     }
   }
-  for (std::stop_source& source : found) {
+  for (const std::stop_source& source : found) {
     source.request_stop();
   }
 }

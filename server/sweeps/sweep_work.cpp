@@ -74,8 +74,7 @@ void look_up(const Chunk& chunk, const SweepSurroundings& world, Work& work) {
       continue;
     }
     for (std::size_t i = 0; i < pending.keys.size(); ++i, ++outputs) {
-      work.rows.push_back(
-          {pending.unit->first() + i, {*std::move(*outputs), "", ""}, std::move(pending.keys[i]), true});
+      work.rows.push_back({pending.unit->first() + i, {**outputs, "", ""}, std::move(pending.keys[i]), true});
     }
   }
   work.pending = std::move(unknown);
@@ -103,6 +102,7 @@ void compute(const Chunk& chunk, double seconds, const SweepSurroundings& world,
              SweepScheduler::Watch& watch, Work& work) {
   const double start = world.environment.monotonic_seconds();
   std::vector<std::uint64_t> units;
+  units.reserve(work.pending.size());
   for (const Pending& pending : work.pending) {
     units.push_back(pending.number);
   }
@@ -193,7 +193,7 @@ void SweepWork::load() {
 
 /// False when the store failed.
 bool SweepWork::load_one(const std::string& id) {
-  StatusOr<std::optional<OpenSweep>> open = world_.store.open(id);
+  const StatusOr<std::optional<OpenSweep>> open = world_.store.open(id);
   if (!open.ok() || !open->has_value()) {
     return open.ok();  // it has ended meanwhile
   }
