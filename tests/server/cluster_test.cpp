@@ -215,6 +215,28 @@ TEST(SharedStore, StatementsWhoseCommitFailsHaveFailed) {
 
   const std::vector<postgresql::Statement> end{{"SELECT pg_terminate_backend(pg_backend_pid())"}};
   EXPECT_THROW(connection.run_all(end), postgresql::Error);
+  EXPECT_FALSE(connection.good());
+}
+
+/// A server that ends a connection while a pipeline waits: who asked is told, and not kept waiting.
+TEST(SharedStore, AConnectionThatIsEndedWhileItWaitsIsLost) {
+  const TempDir folder;
+  const std::string location = postgresql_location(folder.name());
+  postgresql::Connection connection(location);
+  postgresql::Connection other(location);
+  const std::int64_t server = connection.run("SELECT pg_backend_pid()::bigint").integer(0, 0);
+  std::jthread ends([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    other.run("SELECT pg_terminate_backend(" + std::to_string(server) + ")");
+  });
+  const std::vector<postgresql::Statement> waits{{"SELECT 1"}, {"SELECT pg_sleep(60)"}, {"SELECT 2"}};
+  try {
+    connection.run_all(waits);
+    ADD_FAILURE();
+  } catch (const postgresql::Error& error) {
+    EXPECT_TRUE(error.lost()) << error.state();
+  }
+  EXPECT_FALSE(connection.good());
 }
 
 /// Claims and stores until nobody has any units left to give.

@@ -215,7 +215,7 @@ Connection::Connection(const std::string& location) {
   execute("SET idle_in_transaction_session_timeout = '15s'; SET lock_timeout = '10s'");
 }
 
-bool Connection::good() const { return PQstatus(handle_.get()) == CONNECTION_OK; }
+bool Connection::good() const { return !cut_ && PQstatus(handle_.get()) == CONNECTION_OK; }
 
 bool Connection::in_transaction() const { return PQtransactionStatus(handle_.get()) != PQTRANS_IDLE; }
 
@@ -268,9 +268,9 @@ std::vector<Rows> Connection::run_all(std::span<const Statement> statements) {
   PQpipelineSync(handle_.get());
   std::vector<Rows> all;
   PGresult* failed = nullptr;
-  const bool synced = read_pipeline(all, failed);
+  cut_ = !read_pipeline(all, failed);
   PQexitPipelineMode(handle_.get());
-  if (!synced || failed != nullptr || all.size() != statements.size()) {
+  if (cut_ || failed != nullptr || all.size() != statements.size()) {
     fail(failed);
   }
   return all;
@@ -281,8 +281,13 @@ std::vector<Rows> Connection::run_all(std::span<const Statement> statements) {
 /// @param failed the first error, if there is one; the caller's
 /// @return whether it came to that
 bool Connection::read_pipeline(std::vector<Rows>& all, PGresult*& failed) {
+  bool ended = false;  // of the results of a statement; none twice: the server has gone
   while (good()) {
     PGresult* result = PQgetResult(handle_.get());
+    if (result == nullptr && ended) {
+      return false;
+    }
+    ended = result == nullptr;
     switch (PQresultStatus(result)) {  // of none: PGRES_FATAL_ERROR
       case PGRES_PIPELINE_SYNC:
         PQclear(result);
@@ -296,7 +301,7 @@ bool Connection::read_pipeline(std::vector<Rows>& all, PGresult*& failed) {
         break;
       default:
         if (failed == nullptr) {
-          failed = result;  // none ends the results of a statement
+          failed = result;
         } else {
           PQclear(result);
         }

@@ -129,6 +129,7 @@ class Connection {
     void operator()(pg_conn* connection) const;
   };
   std::unique_ptr<pg_conn, Close> handle_;
+  bool cut_ = false;  ///< the server went away while a pipeline was read
 };
 
 /// @brief A transaction: rolled back when it is destroyed without commit().
