@@ -221,6 +221,7 @@ CREATE TABLE sweep_keys (
   PRIMARY KEY (owner, key)
 );
 CREATE INDEX sweep_keys_by_sweep ON sweep_keys (sweep);
+CREATE INDEX sweep_keys_by_age ON sweep_keys (created_us);
 
 -- Points of sweeps that an owner with a quota of them has handed in or tried again, by minute since 1970; of an hour.
 CREATE TABLE owner_points (
@@ -334,17 +335,22 @@ END $$;
 
 -- To be called before claims of a sweep are ended, in order of sweeps; lasts as long as the transaction. While units are
 -- left that nobody has, many may end claims at a time: the last is another's. When none is left, each has the sweep alone,
--- after all before are done: so the last of them sees that nothing is left. Returns whether the caller has it alone.
-CREATE FUNCTION hold_claims(sweep_row bigint) RETURNS boolean LANGUAGE plpgsql AS $$
+-- after all before are done: so the last of them sees that nothing is left. Returns whether the caller has it alone; raises
+-- 40001, to be tried again, where the last units were taken before it had its share of the lock. (By the index whatever the
+-- planner thinks: where one sweep has most of what is left, it would read the table for the others.)
+CREATE FUNCTION hold_claims(sweep_row bigint) RETURNS boolean LANGUAGE plpgsql SET enable_seqscan = off AS $$
 DECLARE
   key integer := sweep_row % 2147483647;
 BEGIN
-  IF EXISTS (SELECT FROM sweep_left WHERE sweep = sweep_row) THEN
-    PERFORM pg_advisory_xact_lock_shared(1, key);
-    RETURN false;
+  IF NOT EXISTS (SELECT FROM sweep_left WHERE sweep = sweep_row) THEN
+    PERFORM pg_advisory_xact_lock(1, key);
+    RETURN true;
   END IF;
-  PERFORM pg_advisory_xact_lock(1, key);
-  RETURN true;
+  PERFORM pg_advisory_xact_lock_shared(1, key);
+  IF NOT EXISTS (SELECT FROM sweep_left WHERE sweep = sweep_row) THEN
+    RAISE EXCEPTION 'the last units of a sweep were taken at this moment' USING ERRCODE = '40001';
+  END IF;
+  RETURN false;
 END $$;
 
 -- Gives units of a sweep to a worker: the first that nobody has; those with which a process died come last and

@@ -182,7 +182,8 @@ StatusOr<std::optional<Submitted>> PostgresqlStore::find_key(const IdempotencyKe
 
 StatusOr<std::optional<Claim>> PostgresqlStore::claim(const Lease& lease, Time now) {
   // Of the next owner by name that has a job waiting, after the one that had a turn here, the oldest that
-  // nobody is about to take; if others are about to take all of those, the oldest of anybody.
+  // nobody is about to take; if others are about to take all of those, that of any owner (in the order of the
+  // index: the oldest of all would be looked for among all jobs that are kept).
   static const std::string kSql =
       "WITH turn AS (SELECT coalesce((SELECT min(owner) FROM jobs WHERE status = 'accepted' AND owner > $1),"
       "  (SELECT min(owner) FROM jobs WHERE status = 'accepted')) AS owner),"
@@ -191,7 +192,7 @@ StatusOr<std::optional<Claim>> PostgresqlStore::claim(const Lease& lease, Time n
       "  ORDER BY seq LIMIT 1 FOR UPDATE SKIP LOCKED),"
       " other AS MATERIALIZED (SELECT seq FROM jobs WHERE status = 'accepted' AND NOT EXISTS (SELECT FROM "
       "mine)"
-      "  ORDER BY seq LIMIT 1 FOR UPDATE SKIP LOCKED),"
+      "  ORDER BY owner, seq LIMIT 1 FOR UPDATE SKIP LOCKED),"
       " taken AS (UPDATE jobs SET status = 'running', attempt = attempt + 1,"
       "  started_us = coalesce($2, snapthrough_now())"
       "  WHERE seq = (SELECT seq FROM mine UNION ALL SELECT seq FROM other)"

@@ -129,9 +129,10 @@ Status PostgresqlSweepStore::each_row(
     std::string_view id, const PointQuery& query,
     const std::function<bool(std::uint64_t, const api::PointOutcome&)>& use) {
   static constexpr std::string_view kSql =
-      "SELECT sweep_rows.first, rows FROM sweep_rows JOIN sweeps ON seq = sweep WHERE id = $1 AND NOT removed"
-      " AND first >= coalesce((SELECT max(first) FROM sweep_rows JOIN sweeps ON seq = sweep WHERE id = $1"
-      "   AND first <= $2), 0)"
+      "SELECT first, rows FROM sweep_rows WHERE sweep = (SELECT seq FROM sweeps WHERE id = $1 AND NOT "
+      "removed)"
+      " AND first >= coalesce((SELECT first FROM sweep_rows WHERE first <= $2"
+      "   AND sweep = (SELECT seq FROM sweeps WHERE id = $1) ORDER BY first DESC LIMIT 1), 0)"
       " AND first > $3 AND first < $4 AND (failed > 0 OR NOT $5) ORDER BY first LIMIT $6";
   const auto largest = static_cast<std::uint64_t>(INT64_MAX);
   const std::uint64_t first = std::min(query.first, largest);

@@ -65,11 +65,12 @@ Statement insert_left(const EndedLease& lease, const UnitRun& run) {
   return {"INSERT INTO sweep_left (sweep, first, units, crashes) VALUES ($1, $2, $3, $4)", std::move(row)};
 }
 
-/// What an earlier lease of the same units came to, if there was one; locked.
+/// What an earlier lease of the same units came to, if there was one; locked. Rows of a sweep do not overlap,
+/// so it is the nearest before or none.
 Rows rows_there(Connection& connection, const EndedLease& lease) {
   return connection.run(
-      "SELECT first, rows FROM sweep_rows WHERE sweep = $1 AND first <= $2 AND first + points > $2"
-      " ORDER BY first DESC LIMIT 1 FOR UPDATE",
+      "SELECT first, rows FROM sweep_rows WHERE sweep = $1 AND first + points > $2"
+      " AND first = (SELECT max(first) FROM sweep_rows WHERE sweep = $1 AND first <= $2) FOR UPDATE",
       Parameters().add(lease.sweep).add(lease.first_point()));
 }
 
@@ -83,13 +84,14 @@ Statement merge_rows(const Rows& there, const EndedLease& lease, std::vector<Poi
   all.insert(all.end(), rows.begin(), rows.end());
   std::inplace_merge(all.begin(), all.begin() + middle, all.end(), order);
   const std::vector<std::int64_t> keys = short_keys(rows);
+  Parameters row;
+  row.add(lease.sweep).add(there.integer(0, 0)).add_bytes(pack_rows(all)).add(count(all).failed);
+  if (keys.empty()) {  // all keys would go into the index again
+    return {"UPDATE sweep_rows SET rows = $3, failed = $4 WHERE sweep = $1 AND first = $2", std::move(row)};
+  }
+  row.add(keys);
   return {"UPDATE sweep_rows SET rows = $3, failed = $4, keys = keys || $5 WHERE sweep = $1 AND first = $2",
-          Parameters()
-              .add(lease.sweep)
-              .add(there.integer(0, 0))
-              .add_bytes(pack_rows(all))
-              .add(count(all).failed)
-              .add(keys)};
+          std::move(row)};
 }
 
 Statement insert_rows(const EndedLease& lease, const std::vector<PointRow>& rows) {
@@ -217,7 +219,7 @@ StatusOr<std::int64_t> PostgresqlSweepStore::recover(int /*max_crashes*/, Time /
 StatusOr<std::int64_t> PostgresqlSweepStore::rescue(std::string_view worker, int max_crashes, Time now) {
   static constexpr std::string_view kLate =
       "SELECT number, sweep FROM sweep_leases WHERE until_us < coalesce($1, snapthrough_now()) ORDER BY "
-      "sweep";
+      "sweep, number";
   static constexpr std::string_view kEnd =  // unless it was renewed, or somebody else was faster
       "DELETE FROM sweep_leases USING sweeps WHERE seq = sweep AND number = $1"
       " AND until_us < coalesce($2, snapthrough_now())"
@@ -225,8 +227,12 @@ StatusOr<std::int64_t> PostgresqlSweepStore::rescue(std::string_view worker, int
   return database_.write<std::int64_t>([&](Connection& connection) -> StatusOr<std::int64_t> {
     const Rows late = connection.run(kLate, Parameters().add(clock_.at(now)));
     std::int64_t again = 0;
+    bool alone = false;
     for (int row = 0; row < late.count(); ++row) {
-      const Rows held = connection.run("SELECT hold_claims($1)", Parameters().add(late.integer(row, 1)));
+      if (row == 0 || late.integer(row, 1) != late.integer(row - 1, 1)) {
+        alone =
+            connection.run("SELECT hold_claims($1)", Parameters().add(late.integer(row, 1))).boolean(0, 0);
+      }
       const Rows ended = connection.run(kEnd, Parameters().add(late.integer(row, 0)).add(clock_.at(now)));
       if (ended.empty()) {
         continue;
@@ -237,7 +243,7 @@ StatusOr<std::int64_t> PostgresqlSweepStore::rescue(std::string_view worker, int
       const bool give_up = crashed && is_given_up(lease.units, lease.crashes, max_crashes);
       settle(connection, lease,
              give_up ? crashed_rows(lease.units, lease.unit_points, lease.crashes) : std::vector<PointRow>(),
-             held.boolean(0, 0), clock_.at(now));
+             alone, clock_.at(now));
       again += give_up ? 0 : static_cast<std::int64_t>(lease.units.count);
     }
     return again;

@@ -237,8 +237,8 @@ StatusOr<bool> PostgresqlSweepStore::purge(int most) {
     const std::int64_t sweep = removed.integer(0, 0);
     const Rows deleted = connection.run(
         "DELETE FROM sweep_rows WHERE sweep = $1 AND first IN (SELECT first FROM (SELECT first,"
-        " sum(points) OVER (ORDER BY first) - points AS before FROM sweep_rows WHERE sweep = $1) AS sums"
-        " WHERE before < $2)",
+        " sum(points) OVER (ORDER BY first) - points AS before FROM (SELECT first, points FROM sweep_rows"
+        " WHERE sweep = $1 ORDER BY first LIMIT $2) AS next) AS sums WHERE before < $2)",
         Parameters().add(sweep).add(most));
     if (deleted.changed() == 0) {
       connection.run("DELETE FROM sweeps WHERE seq = $1", Parameters().add(sweep));
