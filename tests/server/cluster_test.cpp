@@ -280,6 +280,39 @@ TEST(SharedSweeps, WhoeverStoresTheLastUnitEndsTheSweep) {
   }
 }
 
+/// Between the look at what is left and its share of the lock the last units may be taken: it looks again.
+TEST(SharedSweeps, WhoWaitsForItsShareOfASweepLooksAgain) {
+  const TempDir folder;
+  const std::string location = postgresql_location(folder.name());
+  const auto store = open_store(location, 1, at_second(0));
+  ASSERT_TRUE(store.ok()) << store.status().message();
+  ASSERT_TRUE((*store)->sweeps().submit({id_number(1), "", "{}", 3, at_second(1), ""}).ok());
+  postgresql::Connection holder(location);
+  postgresql::Connection waiter(location);
+  postgresql::Connection other(location);
+  const std::string sweep = std::to_string(other.run("SELECT seq FROM sweeps").integer(0, 0));
+  holder.execute("BEGIN; SELECT pg_advisory_xact_lock(1, " + sweep + ")");
+  std::string state;
+  {
+    const std::jthread waits([&] {
+      try {
+        waiter.run("SELECT hold_claims(" + sweep + ")");
+      } catch (const postgresql::Error& error) {
+        state = error.state();
+      }
+    });
+    const std::string waiting =
+        "SELECT count(*) FROM pg_locks WHERE locktype = 'advisory' AND NOT granted AND objid = " + sweep;
+    for (int i = 0; i < 500 && other.run(waiting).integer(0, 0) == 0; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    other.execute("DELETE FROM sweep_left");
+    holder.execute("COMMIT");
+  }
+  EXPECT_EQ(state, "40001") << "it is tried again, and has the sweep alone then";
+  EXPECT_TRUE(waiter.run("SELECT hold_claims(" + sweep + ")").boolean(0, 0));
+}
+
 /// Keys are arrays that are stored apart from their rows, which the planner doesn't count: it would read them
 /// all for each key, and a sweep of a million points took hours.
 TEST(SharedSweeps, WhatIsKnownIsFoundByItsIndex) {
