@@ -23,7 +23,8 @@ constexpr double kLargeGradient = 0.3;
 /// Smallest displacement gradient that one load scale counts for in the path's norm: a structure that hardly
 /// moves before it buckles (a straight column) still has its load seen.
 constexpr double kSmallGradient = 0.003;
-/// Smallest factor from one step size to the next.
+/// Smallest factor from one step size to the next. Below this share of the last size that was accepted at
+/// once a step may take all corrections it needs; a larger one is shortened first, which costs less.
 constexpr double kLeastGrowth = 0.3;
 /// First correction, over the step, beyond which the predictor said nothing about where the path goes.
 constexpr double kLargestCorrection = 0.5;
@@ -37,19 +38,9 @@ constexpr int kMostStalled = 2;
 /// their stiffness: then steps grow by this much, so long as they stay this far from what limits them.
 constexpr double kFastGrowth = 8.0;
 constexpr double kFarFromLimits = 0.1;
-/// Distance to a point beyond a kink, over the step that should have led there, that only a jump to another
-/// path takes.
-constexpr double kKinkLength = 4.0;
 /// Share of the last size that was accepted at once to which steps must have shrunk before a turn is looked
 /// for.
 constexpr double kKinkShrink = 1e-3;
-
-/// Turn of the tangent, rad, below which there is no kink.
-constexpr double kLeastTurn = 1e-3;
-
-/// Share of the last size that was accepted at once below which a step may take all corrections it needs; a
-/// larger one is shortened first, which costs less.
-constexpr double kPatientShare = 0.2;
 
 /// A path's load bound over the scale of the member that buckles first, and of that which does so last.
 constexpr double kAboveWeakest = 1e4;
@@ -58,17 +49,11 @@ constexpr double kAboveStrongest = 30.0;
 /// What an accepted step leaves of the memory of larger ones.
 constexpr double kForget = 0.7;
 
-/// Corrections of this size are rounding's where the tangent is nearly singular, however close two points
-/// are.
-constexpr double kNoise = 1e-6;
-constexpr double kLeastNoise = 1e-12;
-/// Size (displacement gradient) of the first, very small step where supports act on one side only.
-constexpr double kSmallStart = 1e-7;
-/// Largest share of the critical load's scale for that step.
-constexpr double kSmallLoad = 1e-4;
+/// Displacement gradient at which a structure has hardly moved: that of the first, very small step where
+/// supports act on one side only; what two points lie apart at least, where corrections are rounding's
+/// because the tangent is nearly singular; and what the load is weighed against at least.
+constexpr double kSmallDisplacement = 1e-7;
 
-/// Displacement gradient that the load is never weighed below.
-constexpr double kLeastDisplacement = 1e-8;
 /// Share of the load in the path's norm, over that of the displacement, at which the load is weighed anew.
 constexpr double kLoadDominates = 3.0;
 
@@ -81,6 +66,13 @@ bool keeps_orientation(const PathPoint& from, const PathPoint& to) {
 void reverse(PathPoint& point) {
   point.tangent = -point.tangent;
   point.tangent_lambda = -point.tangent_lambda;
+}
+
+/// A load that is small by what it moves and, since a thin column hardly moves before it buckles, by what the
+/// load counts for in the path's norm at least.
+/// @param response size of the displacement by unit load
+double small_load(double response, double load_scale) {
+  return kSmallDisplacement * std::min(1.0 / response, load_scale / kSmallGradient);
 }
 
 /// Negative eigenvalues next to a point that has `before` of them. Where the tangent is not symmetric, real
@@ -141,7 +133,6 @@ bool Continuation::is_loose() {
 /// glued to them. So the load falls until the displacement is small, or no longer falls with it: then the
 /// structure moves until gaps close, and the path begins where it comes to rest.
 std::optional<PathPoint> Continuation::one_sided_start(double direction) {
-  constexpr int kMostLoads = 8;
   constexpr double kLargestFall = 1e-3;
   VectorXd response;
   TangentReport report;
@@ -149,24 +140,23 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
   if (!unit_response(zero, 0.0, Regime::Contact::bilateral, response, report)) return std::nullopt;
   const double norm = metric_.norm(response, 0.0);
   if (norm == 0.0) return first_point(zero, 0.0, response, direction, report);
-  // small in both: a thin column hardly moves before it buckles
-  double lambda =
-      direction * std::min({kSmallStart / norm, kSmallLoad * problem_.critical_load_scale(response),
-                            options_.largest_first_load});
+  double lambda = direction * std::min(small_load(norm, problem_.critical_load_scale(response)),
+                                       options_.largest_first_load);
   double last = std::numeric_limits<double>::infinity();
   VectorXd guess;
   PathPoint rest;  // at the load before, which holds the structure better than this one
-  for (int i = 0; i < kMostLoads; ++i) {
+  const double least = kRoundingResidual * std::abs(lambda);
+  while (std::abs(lambda) >= least) {
     const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations,
                                           guess.size() > 0 ? &guess : nullptr);
     const double size = state ? metric_.norm(state->y, 0.0) : 0.0;
-    if (state && size <= 10.0 * kSmallStart) {
+    if (state && size <= 10.0 * kSmallDisplacement) {
       if (is_loose()) return std::nullopt;
       loosening_ = size / std::abs(lambda * norm);
       return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
     }
     if (state && size > 0.5 * last) return start_at_rest(std::move(rest), direction);
-    const double fall = state ? std::max(kSmallStart / size, kLargestFall) : 0.01;
+    const double fall = state ? std::max(kSmallDisplacement / size, kLargestFall) : 0.01;
     if (state) {
       last = size;
       rest.y = state->y;
@@ -250,8 +240,8 @@ std::optional<PathPoint> Continuation::softly_held_start(const SharedHolds& soft
   auto start = one_sided_start(direction);
   if (start) {
     const double moved = metric_.norm(start->tangent, 0.0);
-    double size = kSmallLoad * load_scale_ / std::abs(start->tangent_lambda);
-    if (moved > 0.0) size = std::min(size, kSmallStart / moved);
+    const double rate = std::abs(start->tangent_lambda);
+    const double size = small_load(moved / rate, load_scale_) / rate;
     held = softly_held(problem_, soft, start->y + size * start->tangent,
                        start->lambda + size * start->tangent_lambda);
     ++statistics_.factorizations;
@@ -262,15 +252,15 @@ std::optional<PathPoint> Continuation::softly_held_start(const SharedHolds& soft
 }
 
 /// Stiffness (and force by unit load) below which nothing resists a motion.
+constexpr double kNeutral = 1e-6;
+
 double Continuation::neutral_bound(const PathPoint& at) const {
-  constexpr double kNeutral = 1e-6;
   return kNeutral * std::max(1.0, std::abs(at.lambda));
 }
 
 bool Continuation::may_be_neutral(const PathPoint& from, const PathPoint& to) const {
-  constexpr double kFall =
-      20.0;  // of the determinant's logarithm; smooth steps end this near to no critical point
-  return problem_.free_motions().cols() > 0 && to.log_abs_det < from.log_abs_det - kFall;
+  // a motion that loses its stiffness takes the determinant down by as much
+  return problem_.free_motions().cols() > 0 && to.log_abs_det < from.log_abs_det + std::log(kNeutral);
 }
 
 bool Continuation::correct_at_load(double scale, PathPoint& at) {
@@ -283,7 +273,7 @@ bool Continuation::correct_at_load(double scale, PathPoint& at) {
 bool Continuation::hold_neutral(const PathPoint& from, PathPoint& at) {
   const Eigen::MatrixXd& motions = problem_.free_motions();
   const double bound = neutral_bound(at);
-  const double scale = std::max(distance(from, at), kLeastNoise);
+  const double scale = std::max(distance(from, at), kRoundingResidual);
   const auto settle_with = [&](const SharedHolds& holds, PathPoint& point) {
     point.holds = holds;
     return correct_at_load(scale, point);
@@ -385,8 +375,8 @@ CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, 
   CorrectorOptions options = options_.corrector;
   // supports act on a structure that hardly moves under much load, too
   if (problem_.one_sided())
-    options.displacement = std::max(step * metric_.norm(from.tangent, 0.0), kLeastNoise);
-  if (step >= kPatientShare * easy_size_) {
+    options.displacement = std::max(step * metric_.norm(from.tangent, 0.0), kRoundingResidual);
+  if (step >= kLeastGrowth * easy_size_) {
     options.largest_first = kLargestCorrection;
     options.largest_growth = kLargestGrowth;
     options.most_stalled = std::min(options.most_stalled, kMostStalled);
@@ -404,7 +394,8 @@ double Continuation::unexplained(const PathPoint& from, double step, const Vecto
   const double along = metric_.inner(rise, 0.0, turn, 0.0);
   const double turned = metric_.inner(turn, 0.0, turn, 0.0);
   const double share = along > 0.0 ? std::min(along / turned, step / std::abs(cosine)) : 0.0;
-  return metric_.norm(rise - share * turn, 0.0) / std::max(metric_.norm(to.y - from.y, 0.0), kNoise);
+  return metric_.norm(rise - share * turn, 0.0) /
+         std::max(metric_.norm(to.y - from.y, 0.0), kSmallDisplacement);
 }
 
 Continuation::Trial Continuation::try_step(const PathPoint& from, double step, PathPoint& to) {
@@ -438,6 +429,11 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   return trial;
 }
 
+bool Continuation::is_smooth(const Trial& trial) const {
+  return trial.converged && trial.angle <= options_.max_angle && trial.correction <= kLargestCorrection &&
+         trial.unexplained <= kLargestUnexplained;
+}
+
 /// A point beyond a kink that is less than `depth` from `from`, with the path's direction there: that of
 /// the supports which act beyond, in the sense that keeps the orientation.
 std::optional<PathPoint> Continuation::beyond_kink(const PathPoint& from, double depth) {
@@ -453,7 +449,6 @@ std::optional<PathPoint> Continuation::beyond_kink(const PathPoint& from, double
   beyond.tangent = response / norm;
   beyond.tangent_lambda = 1.0 / norm;
   if (!keeps_orientation(from, beyond)) reverse(beyond);
-  if (angle_between(from, beyond) < kLeastTurn) return std::nullopt;
   return beyond;
 }
 
@@ -484,9 +479,7 @@ bool Continuation::step_from_beyond(const PathPoint& from, const PathPoint& beyo
                                     PathPoint& to) {
   const Trial trial = try_step(beyond, step, to);
   to.arc_length = from.arc_length + arc(from, to);
-  if (trial.converged && trial.angle <= options_.max_angle && trial.correction <= kKinkLength &&
-      distance(from, to) <= kKinkLength * step && to.negative == beyond.negative)
-    return true;
+  if (is_smooth(trial) && to.negative == beyond.negative) return true;
   return beyond.negative == 0 && settle_beyond(from, beyond, step, to);
 }
 
@@ -530,9 +523,7 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
   while (size >= options_.min_step) {
     const Trial trial = try_step(from, size, to);
     bend_ = {};
-    const bool smooth = trial.angle <= options_.max_angle && trial.correction <= kLargestCorrection &&
-                        trial.unexplained <= kLargestUnexplained;
-    if (trial.converged && smooth) {
+    if (is_smooth(trial)) {
       ++statistics_.steps;
       ++statistics_.corrections[std::min<std::size_t>(trial.corrections, statistics_.corrections.size() - 1)];
       easy_ = size == first_size;
@@ -556,16 +547,13 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
 }
 
 PathPoint Continuation::last_before_kink(const PathPoint& from, double size) {
-  constexpr int kHalvings = 30;
   problem_.set_holds(from.holds);
   PathPoint last = from;
   PathPoint probe;
   probe.holds = from.holds;
-  for (int i = 0; i < kHalvings; ++i) {
-    size *= 0.5;
+  while ((size *= 0.5) >= options_.min_step) {
     const Trial trial = try_step(last, size, probe);
-    if (trial.converged && probe.negative == from.negative && trial.angle < kLeastTurn)
-      std::swap(last, probe);
+    if (is_smooth(trial) && probe.negative == from.negative) std::swap(last, probe);
   }
   return last;
 }
@@ -591,8 +579,8 @@ void Continuation::find_modes(PathPoint& at, const SharedModes& start) {
 
 void Continuation::find_first_modes(PathPoint& start) {
   problem_.set_holds(start.holds);
-  problem_.linearise(start.y + kSmallStart * start.tangent, start.lambda + kSmallStart * start.tangent_lambda,
-                     work_.residual);
+  problem_.linearise(start.y + kSmallDisplacement * start.tangent,
+                     start.lambda + kSmallDisplacement * start.tangent_lambda, work_.residual);
   ++statistics_.factorizations;
   find_modes(start, nullptr);
 }
@@ -628,7 +616,7 @@ void Continuation::weigh_load(bool to_limit, PathPoint& at, StepSize& step) {
   const bool stuck = step.wanted < kKinkShrink * easy_size_;
   if (!to_limit && !stuck && !problem_.one_sided()) return;
   const double loaded = std::sqrt(metric_.load_weight) * std::abs(at.lambda);
-  const double moved = std::max(metric_.norm(at.y, 0.0), stuck ? kLeastDisplacement : kSmallGradient);
+  const double moved = std::max(metric_.norm(at.y, 0.0), stuck ? kSmallDisplacement : kSmallGradient);
   if (loaded <= kLoadDominates * moved) return;
   metric_.load_weight *= (moved / loaded) * (moved / loaded);
   const double length = metric_.norm(at.tangent, at.tangent_lambda);
@@ -712,7 +700,8 @@ std::optional<PathPoint> Continuation::between(const Chord& chord, const PathPoi
   interpolate(chord, lo, hi, share, point);
   side_.normal = metric_.weights->cwiseProduct(chord.y);
   side_.normal_lambda = metric_.load_weight * chord.lambda;
-  const double scale = std::max(distance_in(chord, lo, hi), chord.displacement_only ? kLeastNoise : kNoise);
+  const double scale =
+      std::max(distance_in(chord, lo, hi), chord.displacement_only ? kRoundingResidual : kSmallDisplacement);
   const auto outcome =
       correct(problem_, metric_, side_, scale, options_.corrector, point.y, point.lambda, work_);
   count(outcome);

@@ -98,8 +98,8 @@ class Continuation {
   void extrapolate(const PathPoint& before, const PathPoint& from);
   /// The next step is predicted by its tangent.
   void extrapolate_nothing() { bend_ = {}; }
-  /// @brief The last point before a kink that is within `size` of `from`, to rounding: found by halving
-  /// steps which either meet the same contact or do not.
+  /// @brief The last point before a kink that is within `size` of `from`, to the smallest step: found by
+  /// halving steps, which may be taken before the kink and not over it.
   [[nodiscard]] PathPoint last_before_kink(const PathPoint& from, double size);
   /// @brief Bounds the step sizes from now on by the caller's, which are fractions of the load scale.
   /// @param load_rate d lambda / ds at the start, positive
@@ -223,6 +223,8 @@ class Continuation {
   [[nodiscard]] bool settle_beyond(const PathPoint& from, const PathPoint& beyond, double size,
                                    PathPoint& to);
   [[nodiscard]] Trial try_step(const PathPoint& from, double step, PathPoint& to);
+  /// Whether a step may be taken: its end is on the path that it started on, as far as both ends tell.
+  [[nodiscard]] bool is_smooth(const Trial& trial) const;
   /// Corrects y downhill in the energy at its load.
   [[nodiscard]] CorrectorOutcome correct_downhill(double scale, int iterations, PathPoint& at);
   void count(const CorrectorOutcome& outcome);

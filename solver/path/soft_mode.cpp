@@ -36,7 +36,6 @@ struct Block {
 /// Makes the motions orthonormal in the metric; columns that depend on earlier ones are dropped.
 void orthonormalise(const VectorXd& weights, Block& block) {
   constexpr double kDependent = 1e-12;
-  constexpr double kCancelled = 0.1;  // of a column: then what is left is made orthogonal once more
   Index kept = 0;
   for (Index i = 0; i < block.z.cols(); ++i) {
     auto z = block.z.col(i);
@@ -44,8 +43,7 @@ void orthonormalise(const VectorXd& weights, Block& block) {
     const auto norm = [&] { return std::sqrt((z.array().square() * weights.array()).sum()); };
     const double size = norm();
     double left = size;
-    for (double before = std::numeric_limits<double>::infinity(); left < kCancelled * before;) {
-      before = left;
+    for (int pass = 0; pass < 2; ++pass) {  // twice is enough where the first cancelled most of the column
       for (Index j = 0; j < kept; ++j) {
         const double along = (block.z.col(j).array() * weights.array() * z.array()).sum();
         z -= along * block.z.col(j);
