@@ -354,7 +354,7 @@ BEGIN
 END $$;
 
 -- Gives units of a sweep to a worker: the first that nobody has; those with which a process died come last and
--- in smaller numbers, see server/store/unit_runs.h. No row when others have all that is left; raises ST001 when the sweep is over.
+-- in smaller numbers, see server/store/crashes.h. No row when others have all that is left; raises ST001 when the sweep is over.
 CREATE FUNCTION claim_units(sweep_id text, most bigint, new_worker text, lease_us bigint, now_us bigint)
   RETURNS TABLE (claim_number bigint, claim_first bigint, claim_units bigint) LANGUAGE plpgsql AS $$
 DECLARE

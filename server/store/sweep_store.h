@@ -51,7 +51,7 @@ class SweepStore {
   virtual StatusOr<std::optional<OpenSweep>> open(std::string_view id) = 0;
 
   /// @brief Gives units that nobody has to the caller, at most `most`, and makes the sweep running. Units
-  /// during which a process died come last, and fewer at a time (server/store/unit_runs.h). Empty when others
+  /// during which a process died come last, and fewer at a time (server/store/crashes.h). Empty when others
   /// have all that is left; `conflict` when the sweep is neither accepted nor running. It survives the death
   /// of the process, not that of the machine.
   virtual StatusOr<std::optional<UnitClaim>> claim(std::string_view id, std::uint64_t most,

@@ -146,7 +146,7 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
   VectorXd guess;
   PathPoint rest;  // at the load before, which holds the structure better than this one
   const double least = kRoundingResidual * std::abs(lambda);
-  while (std::abs(lambda) >= least) {
+  while (std::abs(lambda) > least) {
     const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations,
                                           guess.size() > 0 ? &guess : nullptr);
     const double size = state ? metric_.norm(state->y, 0.0) : 0.0;

@@ -149,7 +149,9 @@ class Database {
         const Pool::Lent connection(pool_);
         return run(*connection);
       } catch (const Error& error) {
-        full_ = full_ || error.state() == kDiskFull;
+        if (error.state() == kDiskFull) {
+          full_ = true;
+        }
         // a deadlock, or two transactions that can't both come first; nothing was done
         if ((error.state() != "40P01" && error.state() != "40001") || attempt == kTries) {
           return to_status(error);

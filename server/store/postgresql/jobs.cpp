@@ -4,8 +4,8 @@
 
 #include <utility>
 
+#include "server/store/crashes.h"
 #include "server/store/postgresql/quotas.h"
-#include "server/store/unit_runs.h"
 
 namespace snapthrough::server::postgresql {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/store/crashes.h"
 #include "server/store/postgresql/row_pack.h"
 #include "server/store/postgresql/sweeps.h"
 #include "server/store/unit_runs.h"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/names.h"
+#include "server/store/crashes.h"
 #include "server/store/sqlite/database.h"
 #include "server/store/sqlite/deliveries.h"
 #include "server/store/sqlite/file_lock.h"
@@ -12,7 +13,6 @@
 #include "server/store/sqlite/quotas.h"
 #include "server/store/sqlite/rows.h"
 #include "server/store/sqlite/sweeps.h"
-#include "server/store/unit_runs.h"
 
 namespace snapthrough::server::sqlite {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/store/crashes.h"
 #include "server/store/sqlite/quotas.h"
 #include "server/store/sqlite/rows.h"
 #include "server/store/unit_runs.h"
