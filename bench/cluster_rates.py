@@ -47,18 +47,40 @@ def cpu_seconds(pids):
     return total
 
 
+def with_children(pids):
+    listed = ",".join(map(str, pids))
+    return [*pids, *subprocess.run(["pgrep", "-P", listed], capture_output=True, text=True, check=False).stdout.split()]
+
+
+def database_processes(fleet):
+    return with_children([(fleet.database.folder / "data" / "postmaster.pid").read_text().split()[0]])
+
+
+def hand_in(client, document, headers=None):
+    status, body, headers = client.ask("POST", "/v1/sweeps", json.dumps(document), headers)
+    assert status == 201, body
+    return headers["Location"]
+
+
+def ended(client, path):
+    state = json.loads(client.ask("GET", path, headers={"Prefer": "wait=30"}, timeout=60)[1])
+    return state if state["status"] not in ("accepted", "running") else None
+
+
+def wait_until_ended(client, path):
+    while (state := ended(client, path)) is None:
+        pass
+    assert state["counts"]["successful"] == sum(state["counts"].values()), state["counts"]
+    return state
+
+
 def timed_sweep(service, document):
     """Points a second, and seconds for its table as CSV."""
     client = Client(service.fronts)
     start = time.time()
-    status, body, headers = client.ask("POST", "/v1/sweeps", json.dumps(document), {"Cache-Control": "no-cache"})
-    assert status == 201, body
-    path = headers["Location"]
-    while json.loads(client.ask("GET", path, headers={"Prefer": "wait=30"}, timeout=60)[1])["status"] in ("accepted", "running"):
-        pass
+    path = hand_in(client, document, {"Cache-Control": "no-cache"})
+    counts = wait_until_ended(client, path)["counts"]
     seconds = time.time() - start
-    counts = json.loads(client.ask("GET", path)[1])["counts"]
-    assert counts["failed"] == 0 and counts["remaining"] == 0, counts
     start = time.time()
     table = client.ask("GET", path + "/table?format=csv", timeout=120)[1]
     assert table.count(b"\n") == counts["successful"] + 1
@@ -115,16 +137,13 @@ def idle(program, workers=20, seconds=20):
     fleet = Cluster(program, 2, workers)
     try:
         time.sleep(5)
-        pid = (fleet.database.folder / "data" / "postmaster.pid").read_text().split()[0]
-        def processes():
-            return [pid] + subprocess.run(["pgrep", "-P", pid], capture_output=True, text=True, check=False).stdout.split()
         def transactions():
             return int(fleet.database.query("SELECT xact_commit FROM pg_stat_database WHERE datname = 'snapthrough'")[0][0])
         transactions()
         time.sleep(1.5)
-        used, done = cpu_seconds(processes()), transactions()
+        used, done = cpu_seconds(database_processes(fleet)), transactions()
         time.sleep(seconds)
-        return (transactions() - done) / seconds, (cpu_seconds(processes()) - used) / seconds
+        return (transactions() - done) / seconds, (cpu_seconds(database_processes(fleet)) - used) / seconds
     finally:
         fleet.stop()
 

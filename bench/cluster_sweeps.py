@@ -22,27 +22,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests" / "cluster"))
 import cluster  # noqa: E402
 from cluster import Client, Cluster, sweep  # noqa: E402
-from cluster_rates import cpu_seconds  # noqa: E402
-
-
-def with_children(pids):
-    listed = ",".join(map(str, pids))
-    return [*pids, *subprocess.run(["pgrep", "-P", listed], capture_output=True, text=True, check=False).stdout.split()]
-
-
-def database_processes(fleet):
-    return with_children([(fleet.database.folder / "data" / "postmaster.pid").read_text().split()[0]])
-
-
-def hand_in(client, document, headers=None):
-    status, body, headers = client.ask("POST", "/v1/sweeps", json.dumps(document), headers)
-    assert status == 201, body
-    return headers["Location"]
-
-
-def ended(client, path):
-    state = json.loads(client.ask("GET", path, headers={"Prefer": "wait=30"}, timeout=60)[1])
-    return state if state["status"] not in ("accepted", "running") else None
+from cluster_rates import cpu_seconds, database_processes, hand_in, wait_until_ended, with_children  # noqa: E402
 
 
 def through_hosts(fleet, document):
@@ -52,10 +32,8 @@ def through_hosts(fleet, document):
     before = cpu_seconds(hosts), cpu_seconds(database_processes(fleet))
     start = time.time()
     path = hand_in(client, document, {"Cache-Control": "no-cache"})
-    while (state := ended(client, path)) is None:
-        pass
+    wait_until_ended(client, path)
     wall = time.time() - start
-    assert state["counts"]["successful"] == sum(state["counts"].values()), state["counts"]
     return wall, cpu_seconds(hosts) - before[0], cpu_seconds(database_processes(fleet)) - before[1]
 
 
