@@ -38,7 +38,20 @@ json read(const std::string& situation) {
 
 class Regression : public ::testing::TestWithParam<std::string> {};
 
-void expect_points(const std::vector<CriticalPoint>& found, const json& expected) {
+/// How many broken bifurcations a path passes by, and where, depends on its steps: takes out those before the
+/// last point.
+std::vector<CriticalPoint> without_broken_before_last(std::vector<CriticalPoint> points) {
+  if (points.empty()) return points;
+  points.erase(std::remove_if(
+                   points.begin(), points.end() - 1,
+                   [](const CriticalPoint& point) { return point.type == CriticalType::broken_bifurcation; }),
+               points.end() - 1);
+  return points;
+}
+
+void expect_points(const std::vector<CriticalPoint>& all, const json& expected) {
+  const std::vector<CriticalPoint> found =
+      expected.value("broken_before_last", false) ? without_broken_before_last(all) : all;
   const json& points = expected.at("critical_points");
   if (expected.value("more", false)) {
     ASSERT_GE(found.size(), points.size());
