@@ -69,6 +69,7 @@ TraceRules rules_of(const Model& model, const Analysis& analysis, const Structur
   if (analysis.control.type == ControlType::displacement) {
     const SparseRow* row = row_of(structure, analysis.control.monitor);
     rules.monitor_turns = true;
+    rules.controlled = [row](const PathPoint& at) { return row->dot(at.y); };
     rules.monitor_rate = [row](const PathPoint& at) { return row->dot(at.tangent); };
   }
   return rules;

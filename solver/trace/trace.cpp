@@ -32,6 +32,13 @@ constexpr double kSameLoad = 1e-3;
 
 bool is_near(double load, double other) { return std::abs(load - other) <= kSameLoad * std::abs(load); }
 
+/// Whether a displacement has moved against its rate, which has one sign at both ends: there are two turns
+/// between.
+bool went_back(double from, double to, bool goes_up) {
+  constexpr double kRounding = 1e-12;
+  return (goes_up ? from - to : to - from) > kRounding * std::abs(from);
+}
+
 /// The state that changes while a path is traced.
 class Tracer {
  public:
@@ -126,7 +133,11 @@ std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const Pa
   if (rules_.monitor_turns) {
     // the monitor is linear in the unknowns: its rate is its value on the tangent
     const auto rate = [this](const PathPoint& at) { return rules_.monitor_rate(at); };
-    if ((rate(from) > 0.0) != (rate(to) > 0.0)) crossings.push_back({TraceEnd::monitor_turned, rate});
+    const bool goes_up = rate(from) > 0.0;
+    if (goes_up != (rate(to) > 0.0))
+      crossings.push_back({TraceEnd::monitor_turned, rate});
+    else if (went_back(rules_.controlled(from), rules_.controlled(to), goes_up))
+      return Bound{to, false, TraceEnd::monitor_turned};
   }
   constexpr double kReached = 1e-9;  // of the step's change
   constexpr double kShort = 1e-6;

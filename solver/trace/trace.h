@@ -23,7 +23,8 @@ struct TraceRules {
   bool monitor_turns = false;                 ///< ends where the monitor stops growing (displacement control)
   std::optional<std::array<double, 2>> load;  ///< scaled load factor
   std::function<double(const PathPoint&)> monitor;       ///< with monitor_range
-  std::function<double(const PathPoint&)> monitor_rate;  ///< by arc length, with monitor_turns
+  std::function<double(const PathPoint&)> controlled;    ///< the displacement that monitor_turns looks at
+  std::function<double(const PathPoint&)> monitor_rate;  ///< of it by arc length
   std::optional<std::array<double, 2>> monitor_range;
   int steps = 1000;
   ZoneCounter zones;       ///< empty: contact that begins or ends is not looked for

@@ -57,6 +57,7 @@ TEST(TraceEnd, WhereTheMonitorTurns) {
   TraceRules rules;
   rules.monitor_turns = true;
   rules.monitor = [](const PathPoint& at) { return at.lambda; };
+  rules.controlled = [](const PathPoint& at) { return at.lambda; };
   rules.monitor_rate = [](const PathPoint& at) { return at.tangent_lambda; };
   rules.monitor_range = {{-10.0, 10.0}};
   const TraceOutcome outcome = follow(problem, rules);
