@@ -52,6 +52,10 @@ struct ElementData {
                                                     const double* y) const;
   [[nodiscard]] double value(const Functional& f, const ElementDofs& at, const double* y) const;
   [[nodiscard]] Functional functional_at(const FoundationContact& contact, double h, double xi) const;
+  /// Where a contact acts at displacements of its element; `out` is overwritten.
+  void acting_parts(std::size_t contact, const ContactDisplacement& u, std::vector<ElementPart>& out) const;
+  /// Whether a support acts at displacements y.
+  [[nodiscard]] bool acts(const Functional& f, const ElementDofs& at, const double* y) const;
 
   const CollocationRule* rule;
   Gauss b{};
@@ -83,6 +87,10 @@ class ElementSetOf final : public ElementSet {
   void set_pressure(int element, double proportional, double constant) override;
   [[nodiscard]] std::unique_ptr<ElementWork> make_work() const override;
   void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const override;
+  [[nodiscard]] MovingZones moving_zones(const Eigen::VectorXd& y,
+                                         const Eigen::VectorXd& rate) const override;
+  [[nodiscard]] double missed_contact(const FrozenContact& frozen, const Eigen::VectorXd& y) const override;
+  void freeze_zones(const MovingZones& zones, const Eigen::VectorXd& y, FrozenContact& out) const override;
   void mark_touching(const Eigen::VectorXd& y, const TouchingDistance& near,
                      TouchingMarks& out) const override;
   [[nodiscard]] std::vector<TouchingSpring> touching_springs(const TouchingMarks& marks,
@@ -126,6 +134,24 @@ double ElementData<P>::value(const Functional& f, const ElementDofs& at, const d
   for (int c = 0; c < 3; ++c)
     for (int q = 0; q < P; ++q) w += f.v[c][q] * v[c * P + q];
   return w;
+}
+
+template <int P>
+void ElementData<P>::acting_parts(std::size_t contact, const ContactDisplacement& u,
+                                  std::vector<ElementPart>& out) const {
+  const FoundationContact& part = contacts[contact];
+  const Touch touch = contact_touch[contact];
+  if (touch != Touch::none && part.is_near(u.start, u.dx, u.dy, kTouchBand))
+    out.assign(touch == Touch::acts ? 1 : 0, {part.range()[0], part.range()[1]});
+  else
+    part.contact_intervals(u.start, u.dx, u.dy, out);
+}
+
+template <int P>
+bool ElementData<P>::acts(const Functional& f, const ElementDofs& at, const double* y) const {
+  if (!f.law.one_sided) return true;
+  const double w = value(f, at, y) - f.law.gap;
+  return f.touch != Touch::none && std::abs(w) <= kTouchBand ? f.touch == Touch::acts : w > 0.0;
 }
 
 /// The penetration at a place of a contact, with neither stiffness nor gap.
@@ -301,3 +327,5 @@ double ElementSetOf<P>::frozen_share(const FrozenContact& frozen, int element, i
 }
 
 }  // namespace snapthrough
+
+#include "solver/element/element_zones.h"

@@ -160,6 +160,16 @@ class ElementSet {
 
   /// @brief Where one-sided supports touch at y (penetration above `-tolerance`): sets contacts and springs.
   virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const = 0;
+  /// @brief Where one-sided foundations act at y, which moves at `rate` along a path.
+  [[nodiscard]] virtual MovingZones moving_zones(const Eigen::VectorXd& y,
+                                                 const Eigen::VectorXd& rate) const = 0;
+  /// @brief One-sided supports that act: foundations in these zones, springs where they do at y. Sets
+  /// contacts and springs.
+  virtual void freeze_zones(const MovingZones& zones, const Eigen::VectorXd& y, FrozenContact& out) const = 0;
+  /// @brief Elements on which one-sided foundations act at y and not in `frozen`, or the other way, with a
+  /// pressure (or, in the gap, its like) that counts beside the largest.
+  [[nodiscard]] virtual double missed_contact(const FrozenContact& frozen,
+                                              const Eigen::VectorXd& y) const = 0;
   /// @brief The one-sided supports that touch without pressure at y: those no further from touching than
   /// `near` says of their stiffness, contacts on all of their range. Sets contacts and springs.
   virtual void mark_touching(const Eigen::VectorXd& y, const TouchingDistance& near,

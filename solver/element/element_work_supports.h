@@ -11,15 +11,12 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
                                        const Shape& shape) {
   const FoundationContact& contact = contacts_[index];
   const ContactDisplacement u = data_.displacement_of(shape, dofs, y);
-  const Touch touch = data_.contact_touch[index];
   if (regime_.is_frozen())
     intervals_ = regime_.frozen->contacts[index];
   else if (regime_.bilateral())
     intervals_.assign(1, {contact.range()[0], contact.range()[1]});
-  else if (touch != Touch::none && contact.is_near(u.start, u.dx, u.dy, kTouchBand))
-    intervals_.assign(touch == Touch::acts ? 1 : 0, {contact.range()[0], contact.range()[1]});
   else
-    contact.contact_intervals(u.start, u.dx, u.dy, intervals_);
+    data_.acting_parts(index, u, intervals_);
   for (const auto& interval : intervals_)
     add_interval(index, shape, interval, regime_.softness * contact.law().stiffness,
                  regime_.bilateral() ? 0.0 : contact.law().gap);
@@ -51,8 +48,7 @@ bool ElementWorkOf<P>::acts(const Functional& f, std::size_t support, const Elem
                             const double* y) const {
   if (!f.law.one_sided || regime_.bilateral()) return true;
   if (regime_.is_frozen()) return regime_.frozen->element_springs[support] != 0;
-  const double w = data_.value(f, dofs, y) - f.law.gap;
-  return f.touch != Touch::none && std::abs(w) <= kTouchBand ? f.touch == Touch::acts : w > 0.0;
+  return data_.acts(f, dofs, y);
 }
 
 template <int P>

@@ -183,8 +183,13 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
                          Workspace& work) {
   CorrectorOutcome out;
   Progress progress(options, scale);
+  Regime first = options.regime;
+  if (options.first_contact != nullptr) {
+    first.contact = Regime::Contact::frozen;
+    first.frozen = options.first_contact;
+  }
   for (int it = 0; it < options.max_iterations; ++it) {
-    out.tangent = problem.linearise(y, lambda, work.residual, options.regime);
+    out.tangent = problem.linearise(y, lambda, work.residual, it == 0 ? first : options.regime);
     ++out.factorisations;
     const double residual = problem.relative_residual(work.residual, y, lambda);
     out.relative_residual = residual;

@@ -57,6 +57,8 @@ struct CorrectorOptions {
   double largest_first = std::numeric_limits<double>::infinity();   ///< the same for the first
   double largest_growth = std::numeric_limits<double>::infinity();  ///< from one correction to the next
   Regime regime;                                                    ///< how supports are taken
+  /// Where supports are taken to act for the first correction; null: as for all.
+  const FrozenContact* first_contact = nullptr;
   bool least_energy = false;         ///< shortens corrections to where the energy is least, see correct()
   double stagnant_residual = 1e-11;  ///< below it, one that no longer falls is rounding's, too
 };

@@ -31,6 +31,10 @@ constexpr double kLargestCorrection = 0.5;
 /// Share of a step's displacement that may lie outside what the rates at its ends give: steps of smooth paths
 /// stay below 0.15, those that end on another path or pass over a snap are at 0.5 and more.
 constexpr double kLargestUnexplained = 0.4;
+/// Contact that a step's forecast should miss, in elements, and may miss: it is off by the third power of the
+/// step's length. A step that misses more may end on another path.
+constexpr double kContactMissed = 0.5;
+constexpr double kMostContactMissed = 2.0;
 /// What a step that was never shortened much is given up at, to try a shorter one, which costs less.
 constexpr double kLargestGrowth = 2.0;
 constexpr int kMostStalled = 2;
@@ -348,6 +352,7 @@ void Continuation::set_tangent(PathPoint& point, int before, const CorrectorOutc
 
 void Continuation::extrapolate(const PathPoint& before, const PathPoint& from) {
   bend_ = {};
+  forecast_.follow(distance(before, from));
   // where contact changes the cubic says less than the tangent
   if (problem_.one_sided() && !easy_) return;
   const double chord = distance(before, from);
@@ -371,7 +376,7 @@ void Continuation::predict(const PathPoint& from, double step, PathPoint& to) co
 
 /// Corrects `to` from the predictor under the side condition at hand.
 CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, double displacement,
-                                            PathPoint& to) {
+                                            PathPoint& to, ContactForecast* forecast) {
   CorrectorOptions options = options_.corrector;
   // supports act on a structure that hardly moves under much load, too
   if (problem_.one_sided())
@@ -382,6 +387,7 @@ CorrectorOutcome Continuation::correct_step(const PathPoint& from, double step, 
     options.most_stalled = std::min(options.most_stalled, kMostStalled);
   }
   predict(from, step, to);
+  if (forecast != nullptr) options.first_contact = forecast->at(problem_, step, to.y);
   const auto outcome = correct(problem_, metric_, side_, displacement, options, to.y, to.lambda, work_);
   count(outcome);
   return outcome;
@@ -398,12 +404,13 @@ double Continuation::unexplained(const PathPoint& from, double step, const Vecto
          std::max(metric_.norm(to.y - from.y, 0.0), kSmallDisplacement);
 }
 
-Continuation::Trial Continuation::try_step(const PathPoint& from, double step, PathPoint& to) {
+Continuation::Trial Continuation::try_step(const PathPoint& from, double step, PathPoint& to,
+                                           ContactForecast* forecast) {
   side_.normal = metric_.weights->cwiseProduct(from.tangent);
   side_.normal_lambda = metric_.load_weight * from.tangent_lambda;
   // where the load dwarfs the displacements, a step may be long while the structure hardly moves
   const double displacement = std::min(step, kLargeGradient);
-  const auto outcome = correct_step(from, step, displacement, to);
+  const auto outcome = correct_step(from, step, displacement, to, forecast);
   Trial trial;
   if (outcome.status != CorrectorStatus::converged) return trial;
   set_tangent(to, from.negative, outcome, from.tangent, from.tangent_lambda);
@@ -424,14 +431,22 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
                      kFarFromLimits * options_.target_correction * displacement / std::max(missed, 1e-300)});
   }
   trial.growth = std::clamp(room, kLeastGrowth, std::max(options_.max_growth, fast));
+  trial.largest_angle = options_.max_angle;
+  if (forecast != nullptr) {
+    // where a zone ends the path may turn back, and another be near
+    if (forecast->changes()) trial.largest_angle = options_.target_angle;
+    trial.missed = forecast->missed(problem_, to.y);
+    trial.growth = std::max(
+        kLeastGrowth, std::min(trial.growth, std::cbrt(kContactMissed / std::max(trial.missed, 1e-12))));
+  }
   to.arc_length = from.arc_length + arc(from, to);
   statistics_.max_relative_residual = std::max(statistics_.max_relative_residual, outcome.relative_residual);
   return trial;
 }
 
 bool Continuation::is_smooth(const Trial& trial) const {
-  return trial.converged && trial.angle <= options_.max_angle && trial.correction <= kLargestCorrection &&
-         trial.unexplained <= kLargestUnexplained;
+  return trial.converged && trial.angle <= trial.largest_angle && trial.correction <= kLargestCorrection &&
+         trial.unexplained <= kLargestUnexplained && trial.missed <= kMostContactMissed;
 }
 
 /// A point beyond a kink that is less than `depth` from `from`, with the path's direction there: that of
@@ -520,8 +535,12 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
   double size = std::min(step.wanted, options_.max_step);
   const double first_size = size;
   if (easy_size_ == 0.0) easy_size_ = size;
+  // where everything touches from nothing, contact is that of the first small load
+  const bool from_nothing = from.arc_length == 0.0 && problem_.one_sided();
+  forecast_.begin(problem_, from_nothing ? from.y + kSmallDisplacement * from.tangent : from.y, from.tangent);
   while (size >= options_.min_step) {
-    const Trial trial = try_step(from, size, to);
+    const bool forecast = problem_.one_sided() && size >= kKinkShrink * easy_size_;
+    const Trial trial = try_step(from, size, to, forecast ? &forecast_ : nullptr);
     bend_ = {};
     if (is_smooth(trial)) {
       ++statistics_.steps;
@@ -624,6 +643,7 @@ void Continuation::weigh_load(bool to_limit, PathPoint& at, StepSize& step) {
   at.tangent_lambda /= length;
   step.wanted *= length;
   easy_size_ *= length;
+  forecast_.scale(length);
   options_.min_step *= length;
   options_.max_step *= length;
   bend_ = {};

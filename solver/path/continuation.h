@@ -10,6 +10,7 @@
 #include "solver/model/analysis.h"
 #include "solver/newton/contact_state.h"
 #include "solver/newton/corrector.h"
+#include "solver/path/contact_forecast.h"
 #include "solver/path/path_point.h"
 
 namespace snapthrough {
@@ -97,7 +98,10 @@ class Continuation {
   /// tangents: where the path does not turn sharply between them.
   void extrapolate(const PathPoint& before, const PathPoint& from);
   /// The next step is predicted by its tangent.
-  void extrapolate_nothing() { bend_ = {}; }
+  void extrapolate_nothing() {
+    bend_ = {};
+    forecast_.forget();
+  }
   /// @brief The last point before a kink that is within `size` of `from`, to the smallest step: found by
   /// halving steps, which may be taken before the kink and not over it.
   [[nodiscard]] PathPoint last_before_kink(const PathPoint& from, double size);
@@ -200,14 +204,16 @@ class Continuation {
   /// What came of one attempt at a step.
   struct Trial {
     bool converged = false;
-    double angle = 0.0;        ///< between the tangents
-    double correction = 0.0;   ///< first correction over the step
-    double unexplained = 0.0;  ///< of the displacement, by both ends' rates
-    double growth = 0.3;       ///< wanted factor to the next step size
+    double angle = 0.0;          ///< between the tangents
+    double correction = 0.0;     ///< first correction over the step
+    double unexplained = 0.0;    ///< of the displacement, by both ends' rates
+    double largest_angle = 0.0;  ///< that the tangents may have
+    double missed = 0.0;         ///< contact that was not forecast, in elements
+    double growth = 0.3;         ///< wanted factor to the next step size
     int corrections = 0;
   };
   [[nodiscard]] CorrectorOutcome correct_step(const PathPoint& from, double step, double displacement,
-                                              PathPoint& to);
+                                              PathPoint& to, ContactForecast* forecast);
   void predict(const PathPoint& from, double step, PathPoint& to) const;
   /// @brief Share of a step's displacement that is not some mean of what its ends' rates give. A path that
   /// turns one way, or has one kink, leaves little; a snap in between, or an end on another path, does.
@@ -222,7 +228,9 @@ class Continuation {
   [[nodiscard]] double angle_between(const PathPoint& a, const PathPoint& b) const;
   [[nodiscard]] bool settle_beyond(const PathPoint& from, const PathPoint& beyond, double size,
                                    PathPoint& to);
-  [[nodiscard]] Trial try_step(const PathPoint& from, double step, PathPoint& to);
+  /// @param forecast begun at `from`; null: contact is taken from the predicted displacement
+  [[nodiscard]] Trial try_step(const PathPoint& from, double step, PathPoint& to,
+                               ContactForecast* forecast = nullptr);
   /// Whether a step may be taken: its end is on the path that it started on, as far as both ends tell.
   [[nodiscard]] bool is_smooth(const Trial& trial) const;
   /// Corrects y downhill in the energy at its load.
@@ -233,6 +241,7 @@ class Continuation {
   ContinuationOptions options_;
   ContinuationStatistics statistics_;
   PathMetric metric_;
+  ContactForecast forecast_;
   double load_scale_ = 1.0;
   double load_bound_ = 1.0;
   double loosening_ = 1.0;

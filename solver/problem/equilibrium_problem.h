@@ -50,6 +50,16 @@ class EquilibriumProblem {
   /// Whether some support can act on one side only, so that the response need not be differentiable at zero
   /// load.
   [[nodiscard]] virtual bool one_sided() const { return false; }
+  /// @brief Where one-sided foundations act at y, which moves at `rate` along a path.
+  [[nodiscard]] virtual MovingZones moving_zones(const Eigen::VectorXd&, const Eigen::VectorXd&) const {
+    return {};
+  }
+  /// @brief One-sided supports that act: foundations in these zones, springs where they do at y.
+  [[nodiscard]] virtual FrozenContact freeze(const MovingZones&, const Eigen::VectorXd&) const { return {}; }
+  /// @brief Elements on which foundations act at y and not in `frozen`, or the other way, so that it counts.
+  [[nodiscard]] virtual double missed_contact(const FrozenContact&, const Eigen::VectorXd&) const {
+    return 0.0;
+  }
   /// @brief Motions that nothing but one-sided supports can resist: orthonormal columns over the first
   /// unknowns; without columns where there are none.
   [[nodiscard]] virtual const Eigen::MatrixXd& free_motions() const;

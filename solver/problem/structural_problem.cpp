@@ -69,15 +69,19 @@ double StructuralProblem::penetration(const NodeSpring& spring, const VectorXd& 
   return w;
 }
 
+/// @param w displacement along its row
+bool StructuralProblem::node_spring_acts(const NodeSpring& spring, double w) {
+  const bool known = spring.touch != Touch::none && std::abs(w - spring.law.gap) <= kTouchBand;
+  return !spring.law.one_sided || (known ? spring.touch == Touch::acts : w > spring.law.gap);
+}
+
 /// Force of a spring at a node along its row; keeps its stiffness in the tangent.
 double StructuralProblem::node_spring_force(std::size_t index, const VectorXd& y, const Regime& regime) {
   const NodeSpring& spring = structure_.node_springs[index];
   const double stiffness = spring.law.stiffness;
   const double w = penetration(spring, y, 0.0);
   const double gap = regime.bilateral() ? 0.0 : spring.law.gap;
-  const bool known = spring.touch != Touch::none && std::abs(w - gap) <= kTouchBand;
-  bool acts = known ? spring.touch == Touch::acts : w > gap;
-  if (regime.bilateral() || !spring.law.one_sided) acts = true;
+  bool acts = regime.bilateral() || node_spring_acts(spring, w);
   if (regime.is_frozen()) acts = regime.frozen->node_springs[index] != 0;
   const double force = acts ? stiffness * (w - gap) : 0.0;
   spring_stiffness_[index] = acts ? stiffness : 0.0;
@@ -376,6 +380,22 @@ FrozenContact StructuralProblem::frozen_contact(const VectorXd& y) const {
   structure_.elements->freeze_contact(y, tolerance, out);
   for (const NodeSpring& spring : structure_.node_springs)
     out.node_springs.push_back(!spring.law.one_sided || penetration(spring, y, spring.law.gap) > -tolerance);
+  return out;
+}
+
+MovingZones StructuralProblem::moving_zones(const VectorXd& y, const VectorXd& rate) const {
+  return structure_.elements->moving_zones(y, rate);
+}
+
+double StructuralProblem::missed_contact(const FrozenContact& frozen, const VectorXd& y) const {
+  return structure_.elements->missed_contact(frozen, y);
+}
+
+FrozenContact StructuralProblem::freeze(const MovingZones& zones, const VectorXd& y) const {
+  FrozenContact out;
+  structure_.elements->freeze_zones(zones, y, out);
+  for (const NodeSpring& spring : structure_.node_springs)
+    out.node_springs.push_back(node_spring_acts(spring, penetration(spring, y, 0.0)));
   return out;
 }
 

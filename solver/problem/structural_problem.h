@@ -48,6 +48,10 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] double residual_rounding(const Eigen::VectorXd& y, double lambda) const override;
 
   [[nodiscard]] bool one_sided() const override { return structure_.one_sided; }
+  [[nodiscard]] MovingZones moving_zones(const Eigen::VectorXd& y,
+                                         const Eigen::VectorXd& rate) const override;
+  [[nodiscard]] double missed_contact(const FrozenContact& frozen, const Eigen::VectorXd& y) const override;
+  [[nodiscard]] FrozenContact freeze(const MovingZones& zones, const Eigen::VectorXd& y) const override;
   [[nodiscard]] const Eigen::MatrixXd& free_motions() const override { return structure_.free_motions; }
   void set_holds(const SharedHolds& holds) override;
   void force_along(const Eigen::VectorXd& motion, Eigen::VectorXd& out) const override;
@@ -103,6 +107,7 @@ class StructuralProblem final : public EquilibriumProblem {
   void add_node_products(double lambda, const Eigen::Ref<const Eigen::VectorXd>& direction,
                          Eigen::Ref<Eigen::VectorXd> out) const;
   [[nodiscard]] double penetration(const NodeSpring& spring, const Eigen::VectorXd& y, double gap) const;
+  [[nodiscard]] static bool node_spring_acts(const NodeSpring& spring, double w);
   double node_spring_force(std::size_t index, const Eigen::VectorXd& y, const Regime& regime);
   void add_node_springs(const Eigen::VectorXd& y, const Regime& regime, Eigen::VectorXd& f);
   void add_holds(const Eigen::VectorXd& y, Eigen::VectorXd& f) const;

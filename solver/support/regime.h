@@ -20,6 +20,16 @@ struct FrozenContact {
   std::vector<char> node_springs;                  ///< which springs at nodes act
 };
 
+/// A stretch of members on which a one-sided foundation acts, and how fast its ends move along a path.
+struct MovingZone {
+  double from = 0.0;  ///< length, counted from the first element on
+  double to = 0.0;
+  double from_rate = 0.0;  ///< by the path's arc length; 0 where the foundation itself ends
+  double to_rate = 0.0;
+};
+/// Those of each foundation, ascending.
+using MovingZones = std::vector<std::vector<MovingZone>>;
+
 /// One-sided supports that touch without pressure, in the same order.
 struct TouchingMarks {
   std::vector<char> contacts;

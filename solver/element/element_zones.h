@@ -1,0 +1,131 @@
+#pragma once
+/// @file
+/// The members of ElementSetOf that deal with zones of contact. Included by element_data.h only.
+
+#include <algorithm>
+#include <cstddef>
+
+namespace snapthrough {
+
+namespace zones {
+
+/// Appends a zone, or lengthens the last where the next element goes on with it.
+inline void append(const MovingZone& zone, double rounding, std::vector<MovingZone>& list) {
+  if (list.empty() || zone.from - list.back().to > rounding) {
+    list.push_back(zone);
+    return;
+  }
+  list.back().to = zone.to;
+  list.back().to_rate = zone.to_rate;
+}
+
+/// Calls take(part) for each part that is in one of two lists but not in both.
+template <class Take>
+void for_each_difference(const std::vector<ElementPart>& a, const std::vector<ElementPart>& b,
+                         const Take& take) {
+  const auto same = [](const ElementPart& p, const ElementPart& q) {
+    return p.from == q.from && p.to == q.to;
+  };
+  if (std::equal(a.begin(), a.end(), b.begin(), b.end(), same)) return;  // most elements
+  std::vector<double> ends;
+  for (const auto* list : {&a, &b})
+    for (const ElementPart& part : *list) ends.insert(ends.end(), {part.from, part.to});
+  std::sort(ends.begin(), ends.end());
+  const auto covers = [](const std::vector<ElementPart>& list, double xi) {
+    return std::any_of(list.begin(), list.end(),
+                       [xi](const ElementPart& part) { return part.from < xi && xi < part.to; });
+  };
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const double middle = 0.5 * (ends[i] + ends[i + 1]);
+    if (covers(a, middle) != covers(b, middle)) take(ElementPart{ends[i], ends[i + 1]});
+  }
+}
+
+}  // namespace zones
+
+template <int P>
+double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen::VectorXd& y) const {
+  // in a boundary layer the gap's sign changes as it decays, and far from its start is rounding's
+  constexpr double kCounts = 1e-6;
+  struct Missed {
+    double length, pressure;
+  };
+  std::vector<Missed> missed;
+  std::vector<ElementPart> parts;
+  double largest = 0.0;
+  for (int e = 0; e < size(); ++e) {
+    const auto& shape = data_.shapes[e];
+    const auto u = data_.displacement_of(shape, data_.dofs[e], y.data());
+    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
+      const FoundationContact& contact = data_.contacts[i];
+      const auto pressure = [&](const ElementPart& part) {
+        return contact.law().stiffness / shape.h *
+               std::abs(contact.penetration(0.5 * (part.from + part.to), u.start, u.dx, u.dy));
+      };
+      data_.acting_parts(i, u, parts);
+      for (const ElementPart& part : parts) largest = std::max(largest, pressure(part));
+      zones::for_each_difference(parts, frozen.contacts[i], [&](const ElementPart& part) {
+        missed.push_back({part.to - part.from, pressure(part)});
+      });
+    }
+  }
+  double sum = 0.0;
+  for (const Missed& one : missed)
+    if (one.pressure > kCounts * largest) sum += one.length;
+  return sum;
+}
+
+template <int P>
+MovingZones ElementSetOf<P>::moving_zones(const Eigen::VectorXd& y, const Eigen::VectorXd& rate) const {
+  constexpr double kRounding = 1e-9;  // of an element
+  MovingZones out;
+  std::vector<ElementPart> parts;
+  double start = 0.0;
+  for (int e = 0; e < size(); ++e) {
+    const auto& shape = data_.shapes[e];
+    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
+      const FoundationContact& contact = data_.contacts[i];
+      const auto u = data_.displacement_of(shape, data_.dofs[e], y.data());
+      const auto v = data_.displacement_of(shape, data_.dofs[e], rate.data());
+      const auto moves = [&](double xi, double end) {
+        if (xi == end) return 0.0;
+        const double change = contact.penetration(xi, v.start, v.dx, v.dy) + contact.law().gap;
+        const double moved = -shape.h * change / contact.penetration_slope(xi, u.start, u.dx, u.dy);
+        return std::isfinite(moved) ? moved : 0.0;
+      };
+      const auto index = static_cast<std::size_t>(contact.foundation());
+      if (out.size() <= index) out.resize(index + 1);
+      data_.acting_parts(i, u, parts);
+      for (const ElementPart& part : parts)
+        zones::append({start + shape.h * part.from, start + shape.h * part.to,
+                       moves(part.from, contact.range()[0]), moves(part.to, contact.range()[1])},
+                      kRounding * shape.h, out[index]);
+    }
+    start += shape.h;
+  }
+  return out;
+}
+
+template <int P>
+void ElementSetOf<P>::freeze_zones(const MovingZones& zones, const Eigen::VectorXd& y,
+                                   FrozenContact& out) const {
+  out.contacts.assign(data_.contacts.size(), {});
+  out.element_springs.resize(data_.springs.size());
+  double start = 0.0;
+  for (int e = 0; e < size(); ++e) {
+    const auto& shape = data_.shapes[e];
+    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
+      const auto [first, last] = data_.contacts[i].range();
+      for (const MovingZone& zone : zones[data_.contacts[i].foundation()]) {
+        const double from = std::max(first, (zone.from - start) / shape.h);
+        const double to = std::min(last, (zone.to - start) / shape.h);
+        if (to > from) out.contacts[i].push_back({from, to});
+      }
+    }
+    for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i)
+      out.element_springs[i] = data_.acts(data_.springs[i], data_.dofs[e], y.data());
+    start += shape.h;
+  }
+}
+
+}  // namespace snapthrough
