@@ -77,6 +77,19 @@ TEST(LinearBuckling, HasNoLoadsInTension) {
   EXPECT_FALSE(found.at.is_mechanism);
 }
 
+/// Pulled with its shear stiffness, a column loses its resistance to shear: every mode does, n at
+/// GA (1 + n^2 pi^2 EI / (GA L^2)), all within rounding here. The lowest few of them need no more than a few.
+TEST(LinearBuckling, FindsSomeOfHundredsAtOneLoad) {
+  constexpr double kShear = 1e10;
+  Model model = testing::column(1.0, 1.0, 1e14, 0.0);
+  model.sections[0].GA = kShear;
+  std::get<PointLoad>(model.loads[0]).force = {1.0, 0.0};
+  const Buckled found = buckle(model, 2);
+  ASSERT_EQ(found.at.loads.size(), 2U);
+  for (const double load : found.at.loads) EXPECT_NEAR(load / found.unit, kShear, 1e-3 * kShear);
+  EXPECT_LT(found.at.factorizations, 1000);
+}
+
 /// A base that the load presses is glued, one that it leaves is absent: an eccentric transverse force decides
 /// which. Glued, K = 4 pi^4 doubles to 5 pi^2; absent, Euler's load is left.
 TEST(LinearBuckling, GluesOnlyWhatThePrestressPresses) {
