@@ -215,6 +215,9 @@ struct MeshReport {
   /// Paths followed, the last of them reported; each but the first on the mesh before with every element cut
   /// in four, because finer meshes did not confirm what was found.
   int paths = 1;
+  /// Where the elements of the reported path's own mesh end along each member, in fractions of it; empty for
+  /// analyses that follow no path.
+  std::vector<std::vector<double>> ends;
 };
 
 struct Diagnostics {

@@ -345,7 +345,7 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, reached);
     const int factorizations = reached.diagnostics.factorizations - result.diagnostics.factorizations;
     result = std::move(reached);
-    result.discretization.paths = paths;
+    report_path_mesh(*mesh, paths, result);
     if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
     auto quartered = much_finer(mesh->mesh);
     if (paths == kMostPaths || !quartered) break;

@@ -26,6 +26,13 @@ void report_mesh(const Structure& structure, int refinements, Result& result) {
   report.refinements = refinements;
 }
 
+void report_path_mesh(const Structure& structure, int paths, Result& result) {
+  const Mesh& mesh = structure.mesh;
+  result.discretization.paths = paths;
+  result.discretization.ends.assign(mesh.first.size() - 1, {0.0});
+  for (const MeshElement& e : mesh.elements) result.discretization.ends[e.member].push_back(e.to);
+}
+
 void withdraw_critical_load(Result& result) {
   result.summary.critical_load_factor.reset();
   result.summary.critical_type.reset();

@@ -23,6 +23,8 @@ namespace snapthrough {
 void add_statistics(const ContinuationStatistics& statistics, Result& result);
 /// Reports the mesh that the reported loads are from, and how often it was refined.
 void report_mesh(const Structure& structure, int refinements, Result& result);
+/// Reports the mesh of a path: how many were followed up to it, and where its elements end.
+void report_path_mesh(const Structure& structure, int paths, Result& result);
 /// A critical load that finer meshes do not confirm is none.
 void withdraw_critical_load(Result& result);
 /// Makes a result that of a failed analysis.

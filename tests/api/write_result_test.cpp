@@ -71,7 +71,7 @@ Result full_result() {
   r.extremes = {{"m", {least, most}, {most, most}, {least, least}, most}};
   r.warnings = {{"large_strain", "much"}};
   r.buckling = BucklingResult{{1.5, 2.5}, {1e-6, {}}, {{{{"m", {0.0}, {1.0}, {2.0}, {3.0}}}}}};
-  r.discretization = {16, 3, 142, 2, 1e-3, 1e-4, 3};
+  r.discretization = {16, 3, 142, 2, 1e-3, 1e-4, 3, {}};
   r.diagnostics = {20, 1, 60, 61, 1e-12, {"foundation soil: stiffness 0"}};
   return r;
 }
