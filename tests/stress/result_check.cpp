@@ -83,7 +83,7 @@ class Check {
       : model_(model),
         analysis_(analysis),
         result_(result),
-        rod_(make_rod_model(model, analysis, result.discretization.paths)) {}
+        rod_(make_rod_model(model, analysis, result.discretization)) {}
   ResultCheck run();
 
  private:
@@ -419,8 +419,8 @@ ResultCheck Check::run() {
 
 }  // namespace
 
-int points_needed(const Model& model, const Analysis& analysis, int paths) {
-  return make_rod_model(model, analysis, paths).points;
+int points_needed(const Model& model, const Analysis& analysis, const MeshReport& told) {
+  return make_rod_model(model, analysis, told).points;
 }
 
 ResultCheck check_result(const Model& model, const Analysis& analysis, const Result& result) {

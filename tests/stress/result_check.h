@@ -24,8 +24,8 @@ struct ResultCheck {
 };
 
 /// Points per member that the checks need of `analysis.output` (with `states: all`); 0: not coverable.
-/// @param paths that are followed, of which the last is reported
-[[nodiscard]] int points_needed(const Model& model, const Analysis& analysis, int paths = 1);
+/// @param told of a path after the first, whose mesh is not known before it was followed
+[[nodiscard]] int points_needed(const Model& model, const Analysis& analysis, const MeshReport& told = {});
 
 [[nodiscard]] ResultCheck check_result(const Model& model, const Analysis& analysis, const Result& result);
 

@@ -328,25 +328,26 @@ Eigen::Vector3d direction_of(const RodModel& rod, const RodElement& element, con
 
 namespace {
 
-void cut_in_four(Mesh& mesh) {
-  std::vector<MeshElement> pieces;
-  for (const MeshElement& e : mesh.elements)
-    for (int i = 0; i < 4; ++i)
-      pieces.push_back(
-          {e.member, e.from + (e.to - e.from) * i / 4.0, e.from + (e.to - e.from) * (i + 1) / 4.0});
-  mesh.elements = std::move(pieces);
-  for (int& first : mesh.first) first *= 4;
+/// The elements between the ends that a result tells.
+void set_elements(const std::vector<std::vector<double>>& ends, Mesh& mesh) {
+  mesh.elements.clear();
+  mesh.first = {0};
+  for (std::size_t m = 0; m < ends.size(); ++m) {
+    for (std::size_t i = 0; i + 1 < ends[m].size(); ++i)
+      mesh.elements.push_back({static_cast<int>(m), ends[m][i], ends[m][i + 1]});
+    mesh.first.push_back(static_cast<int>(mesh.elements.size()));
+  }
 }
 
 }  // namespace
 
-RodModel make_rod_model(const Model& model, const Analysis& analysis, int paths) {
+RodModel make_rod_model(const Model& model, const Analysis& analysis, const MeshReport& told) {
   RodModel rod;
   Maker maker(model, rod);
   maker.scales();
   const MeshUse use = analysis.type == AnalysisType::critical ? MeshUse::first : MeshUse::path;
   rod.mesh = make_mesh(model, analysis.discretization, rod.axes, use);
-  for (int path = 1; path < paths; ++path) cut_in_four(rod.mesh);
+  if (told.paths > 1) set_elements(told.ends, rod.mesh);
   rod.lagrange = Lagrange(rod.mesh.order);
   rod.concentrated =
       rod.mesh.foundation == FoundationRule::lumped ||

@@ -12,6 +12,7 @@
 #include "solver/mesh/mesh.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
+#include "solver/result.h"
 #include "tests/stress/rod_rule.h"
 
 namespace snapthrough::testing {
@@ -91,8 +92,8 @@ struct RodModel {
 
 /// @brief The discrete structure of a request without mode imperfections, geometry nonlinear, on the mesh of
 /// its path.
-/// @param paths that were followed (MeshReport::paths), each on a mesh four times finer
-[[nodiscard]] RodModel make_rod_model(const Model& model, const Analysis& analysis, int paths);
+/// @param told where the elements of a path after the first end; those of the first are the request's
+[[nodiscard]] RodModel make_rod_model(const Model& model, const Analysis& analysis, const MeshReport& told);
 
 /// @brief Functional of the displacement at xi, times the components of `row`.
 [[nodiscard]] Functional functional_at(const RodModel& rod, const RodElement& element, double xi,

@@ -124,8 +124,8 @@ StressOutcome run_request(RandomRequest request, double time_bound_s) {
   // a path that was followed anew has more elements than could be known: once more, sampled finely enough for
   // them
   constexpr int kMostPoints = 5000;
-  const int paths = result.discretization.paths;
-  const int points = paths > 1 ? points_needed(request.model, request.analysis, paths) : 0;
+  const MeshReport& mesh = result.discretization;
+  const int points = mesh.paths > 1 ? points_needed(request.model, request.analysis, mesh) : 0;
   if (points > 0 && points <= kMostPoints) {
     request.analysis.output.points_per_member = points;
     result = solve(request.model, request.analysis);
