@@ -213,7 +213,7 @@ struct MeshReport {
   std::optional<double> requested_accuracy;
   std::optional<double> estimated_accuracy;
   /// Paths followed, the last of them reported; each but the first on the mesh before with every element cut
-  /// in four, because finer meshes did not confirm what was found.
+  /// in four or more, because finer meshes did not confirm what was found.
   int paths = 1;
   /// Where the elements of the reported path's own mesh end along each member, in fractions of it; empty for
   /// analyses that follow no path.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/accuracy/critical_loads.h"
+#include "solver/accuracy/layers.h"
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/recorder.h"
 #include "solver/events/branch.h"
@@ -278,15 +279,17 @@ namespace {
 
 /// Follows the path on one mesh.
 /// @param earlier critical points of the path on a coarser mesh
+/// @param decays of bending at the path's end
 /// @return whether finer meshes confirm what was found, or nothing is left to confirm
 bool follow_on(const Model& model, const Analysis& analysis, const Structure& structure,
-               const std::vector<CriticalPoint>& earlier, const Hooks& hooks, Result& result) {
+               const std::vector<CriticalPoint>& earlier, const Hooks& hooks, Result& result,
+               std::vector<double>& decays) {
   StructuralProblem problem(structure);
   Continuation continuation(problem, options_of(analysis));
   const auto start = start_of_path(model, structure, problem, continuation, 1.0, hooks, result);
   if (const auto touching = with_least_piece(model, structure, problem, continuation, start, result)) {
     result.failure.reset();
-    return follow_on(model, analysis, *touching, earlier, hooks, result);
+    return follow_on(model, analysis, *touching, earlier, hooks, result, decays);
   }
   if (!start) return true;
   Recorder recorder(model, analysis, structure, continuation, result);
@@ -320,14 +323,19 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   describe_end(analysis, outcome, at, result);
   result.summary.message += branches + meshes;
   recorder.finish();
+  decays = bending_decays(structure, model, outcome.last.y);
   return confirmed || result.failure;
 }
 
 /// Every element cut in four: a mesh whose points finer ones do not share is too coarse by far, and a path on
-/// few elements is cheap beside the last.
-std::optional<Mesh> much_finer(const Mesh& mesh) {
-  const auto halved = finer_mesh(mesh);
-  return halved ? finer_mesh(*halved) : std::nullopt;
+/// few elements is cheap beside the last. What the path's end needs beside places where something acts is far
+/// finer where thin members are pulled.
+std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
+                               const std::vector<double>& decays) {
+  const auto halved = finer_mesh(structure.mesh);
+  const auto quartered = halved ? finer_mesh(*halved) : std::nullopt;
+  if (!quartered) return std::nullopt;
+  return layered_mesh(*quartered, model, structure.axes, decays);
 }
 
 }  // namespace
@@ -342,17 +350,18 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
   for (int paths = 1;; ++paths) {
     Result reached;
     reached.diagnostics = result.diagnostics;
-    const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, reached);
+    std::vector<double> decays;
+    const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, reached, decays);
     const int factorizations = reached.diagnostics.factorizations - result.diagnostics.factorizations;
     result = std::move(reached);
     report_path_mesh(*mesh, paths, result);
     if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
-    auto quartered = much_finer(mesh->mesh);
-    if (paths == kMostPaths || !quartered) break;
-    if (static_cast<double>(factorizations) * static_cast<double>(quartered->elements.size()) > kMostWork)
-      break;
+    if (paths == kMostPaths) break;
+    auto next = much_finer(*mesh, model, decays);
+    if (!next) break;
+    if (static_cast<double>(factorizations) * static_cast<double>(next->elements.size()) > kMostWork) break;
     earlier = result.critical_points;
-    finer = on_mesh(structure, model, *std::move(quartered));
+    finer = on_mesh(structure, model, *std::move(next));
     mesh = &*finer;
   }
   fail_unconfirmed(result);

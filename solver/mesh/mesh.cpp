@@ -119,6 +119,18 @@ void add_elements(Mesh& mesh, int member, const std::vector<double>& breaks, con
   }
 }
 
+/// Halves an element towards its ends that are places, down to a width there.
+void add_layered(std::vector<MeshElement>& out, const MeshElement& element, bool at_start, bool at_end,
+                 double width) {
+  const double middle = 0.5 * (element.from + element.to);
+  if (!(at_start || at_end) || element.to - element.from <= width) {
+    out.push_back(element);
+    return;
+  }
+  add_layered(out, {element.member, element.from, middle}, at_start, false, width);
+  add_layered(out, {element.member, middle, element.to}, false, at_end, width);
+}
+
 }  // namespace
 
 std::array<double, 2> part_of(const MeshElement& element, std::array<double, 2> range) {
@@ -166,6 +178,26 @@ std::optional<Mesh> finer_mesh(const Mesh& mesh) {
     out.elements.push_back({e.member, middle, e.to});
   }
   for (int& first : out.first) first *= 2;
+  return out;
+}
+
+Mesh layered_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const std::vector<double>& decays) {
+  constexpr double kLeastWidth = 1e-6;  // of a member: its ends keep ten digits
+  Mesh out = mesh;
+  out.elements.clear();
+  for (std::size_t m = 0; m < axes.size(); ++m) {
+    const std::vector<double> breaks = breaks_of(model, static_cast<int>(m), *axes[m]);
+    const auto is_break = [&breaks](double at) {
+      return std::any_of(breaks.begin(), breaks.end(),
+                         [at](double b) { return std::abs(at - b) <= kOnePlace; });
+    };
+    const double width = std::max(kLeastWidth, kFirst.decay_lengths * decays[m] / axes[m]->length());
+    for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
+      const MeshElement& element = mesh.elements[static_cast<std::size_t>(e)];
+      add_layered(out.elements, element, is_break(element.from), is_break(element.to), width);
+    }
+    out.first[m + 1] = static_cast<int>(out.elements.size());
+  }
   return out;
 }
 

@@ -54,4 +54,11 @@ enum class MeshUse {
 /// @return empty when it would have too many elements
 [[nodiscard]] std::optional<Mesh> finer_mesh(const Mesh& mesh);
 
+/// @brief The same mesh with the elements beside each place where something acts on a member halved towards
+/// it, until they resolve what decays from there.
+/// @param decays a length of each member, in the model's units, over which it does; infinite: there is
+/// nothing
+[[nodiscard]] Mesh layered_mesh(const Mesh& mesh, const Model& model, const Axes& axes,
+                                const std::vector<double>& decays);
+
 }  // namespace snapthrough

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "solver/model/id_index.h"
@@ -156,6 +157,28 @@ TEST(Mesh, BecomesFinerByHalves) {
     EXPECT_EQ(fine[2 * i], coarse[i]);
     EXPECT_EQ(fine[2 * i + 1], 0.5 * (coarse[i] + coarse[i + 1]));
   }
+}
+
+/// Halved towards each place until an element there has at most three decay lengths; elsewhere as it was.
+TEST(Mesh, IsLayeredTowardsWhereSomethingActs) {
+  const Model model = crowded();
+  const Axes axes = make_axes(model);
+  const Mesh mesh = mesh_of(model, {}, MeshUse::path);
+  const auto ends = ends_of(layered_mesh(mesh, model, axes, {1e-3}), 0);
+  for (const double place : {0.0, 0.1, 0.2, 0.35, 0.6, 0.8, 1.0}) {
+    const auto at = std::ranges::find_if(ends, [place](double end) { return std::abs(end - place) < 1e-12; });
+    ASSERT_NE(at, ends.end()) << place;
+    const auto n = static_cast<std::size_t>(at - ends.begin());
+    for (std::size_t i = std::max<std::size_t>(n, 1); i <= std::min(n + 1, ends.size() - 1); ++i)
+      EXPECT_LE(ends[i] - ends[i - 1], 3e-3) << place;
+  }
+  const auto before = ends_of(mesh, 0);
+  for (const double end : before) EXPECT_TRUE(has_end(ends, end)) << end;
+  EXPECT_LE(ends.size(), before.size() + 12U * 6U);
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(ends_of(layered_mesh(mesh, model, axes, {infinite}), 0), before);
+  EXPECT_EQ(ends_of(layered_mesh(layered_mesh(mesh, model, axes, {1e-3}), model, axes, {1e-3}), 0), ends);
+  EXPECT_LE(layered_mesh(mesh, model, axes, {0.0}).elements.size(), before.size() + 12U * 20U);
 }
 
 TEST(Mesh, IsNotRefinedWithoutEnd) {

@@ -1418,7 +1418,7 @@ export interface components {
             unknowns: number | null;
             /** @description How often the mesh was refined; null when the analysis has none */
             refinements: number | null;
-            /** @description Paths followed, of which the last is reported: each but the first on a mesh with every element cut in four, because finer meshes did not confirm what was found */
+            /** @description Paths followed, of which the last is reported: each but the first on a mesh with every element cut in four or more, because finer meshes did not confirm what was found */
             paths: number;
             /** @description Relative error of load factors */
             accuracy: {

@@ -1,0 +1,27 @@
+#include "solver/accuracy/layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "solver/model/id_index.h"
+
+namespace snapthrough {
+
+std::vector<double> bending_decays(const Structure& structure, const Model& model, const Eigen::VectorXd& y) {
+  std::vector<double> decays;
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    const Member& member = model.members[m];
+    const Section& section = model.sections[index_of(model.sections, member.section)];
+    double tension = 0.0;
+    for (int e = structure.mesh.first[m]; e < structure.mesh.first[m + 1]; ++e)
+      tension = std::max(tension, y.segment(structure.dofs[e].s, structure.mesh.order).maxCoeff());
+    double squared = tension * structure.scales.force / section.EI;
+    for (const Foundation& foundation : model.foundations)
+      if (section.GA && foundation.member == member.id) squared += foundation.stiffness / *section.GA;
+    decays.push_back(1.0 / std::sqrt(squared));
+  }
+  return decays;
+}
+
+}  // namespace snapthrough
