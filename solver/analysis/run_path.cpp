@@ -335,7 +335,9 @@ std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
   const auto halved = finer_mesh(structure.mesh);
   const auto quartered = halved ? finer_mesh(*halved) : std::nullopt;
   if (!quartered) return std::nullopt;
-  return layered_mesh(*quartered, model, structure.axes, decays);
+  Mesh next = layered_mesh(*quartered, model, structure.axes, decays);
+  // what no finer mesh can confirm is not followed
+  return finer_mesh(next) ? std::optional(std::move(next)) : std::nullopt;
 }
 
 }  // namespace
