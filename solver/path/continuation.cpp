@@ -38,6 +38,10 @@ constexpr double kMostContactMissed = 2.0;
 /// What a step that was never shortened much is given up at, to try a shorter one, which costs less.
 constexpr double kLargestGrowth = 2.0;
 constexpr int kMostStalled = 2;
+/// Where supports act on one side only the first step may be far too short, as its scale knows nothing of
+/// their stiffness: then steps grow by this much, so long as they stay this far from what limits them.
+constexpr double kFastGrowth = 8.0;
+constexpr double kFarFromLimits = 0.1;
 /// Share of the last size that was accepted at once to which steps must have shrunk before a turn is looked
 /// for.
 constexpr double kKinkShrink = 1e-3;
@@ -419,7 +423,14 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   if (outcome.first_residual > kRoundingResidual) trial.correction = outcome.first_correction / displacement;
   const double room = std::min(options_.target_angle / std::max(trial.angle, 1e-12),
                                options_.target_correction / std::max(trial.correction, 1e-12));
-  trial.growth = std::clamp(room, kLeastGrowth, options_.max_growth);
+  double fast = 0.0;
+  if (problem_.one_sided()) {
+    // contact may end anywhere beyond: only where the tangent alone would have done
+    const double missed = metric_.norm(rise, to.lambda - from.lambda - step * from.tangent_lambda);
+    fast = std::min({kFastGrowth, kFarFromLimits * room,
+                     kFarFromLimits * options_.target_correction * displacement / std::max(missed, 1e-300)});
+  }
+  trial.growth = std::clamp(room, kLeastGrowth, std::max(options_.max_growth, fast));
   trial.largest_angle = options_.max_angle;
   if (forecast != nullptr) {
     // where a zone ends the path may turn back, and another be near
