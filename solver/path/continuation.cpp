@@ -554,7 +554,10 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
     }
     ++statistics_.rejected_steps;
     size *= std::min(trial.growth, 0.5);
-    if (problem_.one_sided() && size < kKinkShrink * easy_size_ && step_round_kink(from, size, to)) {
+    // a smooth turn that a shorter step will follow is no kink, however small
+    const bool smooth = trial.converged && trial.angle <= options_.max_angle;
+    if (problem_.one_sided() && !smooth && size < kKinkShrink * easy_size_ &&
+        step_round_kink(from, size, to)) {
       ++statistics_.steps;
       step.taken = size;
       step.wanted = std::min(size * options_.max_growth, options_.max_step);
