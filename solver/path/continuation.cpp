@@ -352,10 +352,12 @@ void Continuation::set_tangent(PathPoint& point, int before, const CorrectorOutc
 
 void Continuation::extrapolate(const PathPoint& before, const PathPoint& from) {
   bend_ = {};
-  forecast_.follow(distance(before, from));
-  // where contact changes the cubic says less than the tangent
-  if (problem_.one_sided() && !easy_) return;
   const double chord = distance(before, from);
+  if (problem_.one_sided()) {
+    forecast_.follow(chord);
+    // where contact changes the cubic says less than the tangent
+    if (!easy_) return;
+  }
   if (!(chord > 0.0)) return;
   const double half = 0.5 * angle_between(before, from);
   const double d = half > 0.0 ? chord * half / std::sin(half) : chord;
@@ -528,6 +530,12 @@ bool Continuation::settle_beyond(const PathPoint& from, const PathPoint& beyond,
          (to.tangent_lambda > 0.0) == (dlambda > 0.0);
 }
 
+void Continuation::begin_forecast(const PathPoint& from) {
+  if (from.arc_length > 0.0) return forecast_.begin(problem_, from.y, from.tangent);
+  // where everything touches from nothing, contact is that of the first small load
+  forecast_.begin(problem_, from.y + kSmallDisplacement * from.tangent, from.tangent);
+}
+
 StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint& to) {
   problem_.set_holds(from.holds);
   to.holds = from.holds;
@@ -535,9 +543,7 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
   double size = std::min(step.wanted, options_.max_step);
   const double first_size = size;
   if (easy_size_ == 0.0) easy_size_ = size;
-  // where everything touches from nothing, contact is that of the first small load
-  const bool from_nothing = from.arc_length == 0.0 && problem_.one_sided();
-  forecast_.begin(problem_, from_nothing ? from.y + kSmallDisplacement * from.tangent : from.y, from.tangent);
+  if (problem_.one_sided()) begin_forecast(from);
   while (size >= options_.min_step) {
     const bool forecast = problem_.one_sided() && size >= kKinkShrink * easy_size_;
     const Trial trial = try_step(from, size, to, forecast ? &forecast_ : nullptr);

@@ -214,6 +214,7 @@ class Continuation {
   };
   [[nodiscard]] CorrectorOutcome correct_step(const PathPoint& from, double step, double displacement,
                                               PathPoint& to, ContactForecast* forecast);
+  void begin_forecast(const PathPoint& from);
   void predict(const PathPoint& from, double step, PathPoint& to) const;
   /// @brief Share of a step's displacement that is not some mean of what its ends' rates give. A path that
   /// turns one way, or has one kink, leaves little; a snap in between, or an end on another path, does.

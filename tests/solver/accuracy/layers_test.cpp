@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/problem/structural_problem.h"
+#include "tests/solver/linear_response.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {
@@ -15,13 +15,8 @@ namespace {
 /// The linear response to an axial force at the end of a column of EI = 2.
 double decay_under(double force, const Model& model) {
   const Structure structure = make_structure(model, testing::fixed_mesh(4, 3), Geometry::nonlinear);
-  StructuralProblem problem(structure);
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(structure.size);
-  Eigen::VectorXd residual;
-  problem.linearise(y, 0.0, residual);
-  problem.load(y, 0.0, y);
-  problem.solve(y);
-  y *= -force * structure.scales.load;  // the load of the model is one, and presses
+  // the load of the model is one, and presses
+  const Eigen::VectorXd y = -force * structure.scales.load * testing::linear_response(structure);
   return bending_decays(structure, model, y).front();
 }
 

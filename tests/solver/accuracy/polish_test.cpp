@@ -12,6 +12,7 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/transfer.h"
 #include "solver/trace/trace.h"
+#include "tests/solver/linear_response.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {
@@ -45,12 +46,7 @@ TEST(Transfer, KeepsEveryDisplacement) {
   const Model model = testing::arch(120.0, 1e4, 10.0);
   const Structure coarse = make_structure(model, testing::fixed_mesh(4, 3), Geometry::nonlinear);
   // the response to a load, since displacements at ends of elements follow from their gradients
-  StructuralProblem problem(coarse);
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(coarse.size);
-  Eigen::VectorXd f;
-  problem.linearise(y, 0.0, f);
-  problem.load(y, 0.0, y);
-  problem.solve(y);
+  const Eigen::VectorXd y = testing::linear_response(coarse);
   Mesh finer = *finer_mesh(coarse.mesh);
   finer.order = 5;
   const Structure fine = on_mesh(coarse, model, finer);
