@@ -255,11 +255,12 @@ std::optional<PathPoint> Continuation::softly_held_start(const SharedHolds& soft
   return start;
 }
 
-/// Stiffness (and force by unit load) below which nothing resists a motion.
+/// Stiffness by unit load below which nothing resists a motion.
 constexpr double kNeutral = 1e-6;
 
-double Continuation::neutral_bound(const PathPoint& at) const {
-  return kNeutral * std::max(1.0, std::abs(at.lambda));
+NeutralBounds Continuation::neutral_bounds(const Holds& holds, const PathPoint& at) {
+  const double actions = std::max(1.0, std::abs(at.lambda));  // constant ones may be as large
+  return {kNeutral * actions, no_force(problem_, holds, at.y, at.lambda, actions)};
 }
 
 bool Continuation::may_be_neutral(const PathPoint& from, const PathPoint& to) const {
@@ -276,7 +277,6 @@ bool Continuation::correct_at_load(double scale, PathPoint& at) {
 
 bool Continuation::hold_neutral(const PathPoint& from, PathPoint& at) {
   const Eigen::MatrixXd& motions = problem_.free_motions();
-  const double bound = neutral_bound(at);
   const double scale = std::max(distance(from, at), kRoundingResidual);
   const auto settle_with = [&](const SharedHolds& holds, PathPoint& point) {
     point.holds = holds;
@@ -287,7 +287,7 @@ bool Continuation::hold_neutral(const PathPoint& from, PathPoint& at) {
       std::make_shared<const Holds>(Holds{motions, motions.transpose() * from.y.head(motions.rows()), 1.0});
   PathPoint held = at;
   if (!settle_with(all, held)) return false;
-  held.holds = neutral_part(problem_, all, held.y, held.lambda, bound, bound);
+  held.holds = neutral_part(problem_, all, held.y, held.lambda, neutral_bounds(*all, held));
   ++statistics_.factorizations;
   const Eigen::Index before = from.holds ? from.holds->motions.cols() : 0;
   if (!held.holds || held.holds->motions.cols() <= before || !settle_with(held.holds, held)) return false;
@@ -306,12 +306,12 @@ bool Continuation::hold_neutral(const PathPoint& from, PathPoint& at) {
 
 bool Continuation::release(PathPoint& from, const PathPoint& to) {
   if (!from.holds) return false;
-  const double bound = neutral_bound(to);
+  const NeutralBounds bounds = neutral_bounds(*from.holds, to);
   ++statistics_.factorizations;
   const MotionStiffness held = motion_stiffness(problem_, from.holds, to.y, to.lambda);
   std::vector<Eigen::Index> idle;
   for (Eigen::Index i = 0; i < held.stiffness.size(); ++i) {
-    if (std::abs(held.stiffness[i]) <= bound && std::abs(held.force[i]) <= bound)
+    if (std::abs(held.stiffness[i]) <= bounds.stiffness && std::abs(held.force[i]) <= bounds.force)
       idle.push_back(i);
     else if (from.arc_length == 0.0 && held.stiffness[i] < 0.0)
       ++from.negative;  // under the smallest load already

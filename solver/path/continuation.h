@@ -191,7 +191,7 @@ class Continuation {
   [[nodiscard]] std::optional<PathPoint> one_sided_start(double direction);
   [[nodiscard]] std::optional<PathPoint> softly_held_start(const SharedHolds& soft, double direction,
                                                            SoftlyHeld& held);
-  [[nodiscard]] double neutral_bound(const PathPoint& at) const;
+  [[nodiscard]] NeutralBounds neutral_bounds(const Holds& holds, const PathPoint& at);
   [[nodiscard]] bool is_loose();
   [[nodiscard]] std::optional<PathPoint> start_at_rest(PathPoint rest, double direction);
   [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, double lambda,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -42,11 +43,13 @@ constexpr double kSoft = 1e-6;         // stiffness of soft holds
 constexpr double kShareOfSoft = 1e-3;  // stiffness beside it that counts as none
 constexpr double kFirm = 1e5;          // stiffness beside it that leaves 1e-5 of what soft springs change
 constexpr double kShareOfLoad = 1e-6;  // force beside the load that counts as none
+constexpr double kRoundingOfForce = 1e-12;  // what solutions leave of all actions by unit load
 
-SharedHolds neutral_of(const MotionStiffness& all, const VectorXd& y, double stiffness, double force) {
+SharedHolds neutral_of(const MotionStiffness& all, const VectorXd& y, const NeutralBounds& bounds) {
   std::vector<Index> neutral;
   for (Index i = 0; i < all.stiffness.size(); ++i)
-    if (std::abs(all.stiffness[i]) <= stiffness && std::abs(all.force[i]) <= force) neutral.push_back(i);
+    if (std::abs(all.stiffness[i]) <= bounds.stiffness && std::abs(all.force[i]) <= bounds.force)
+      neutral.push_back(i);
   if (neutral.empty()) return nullptr;
   auto out = std::make_shared<Holds>();
   out->motions = all.motions(Eigen::all, neutral);
@@ -55,6 +58,19 @@ SharedHolds neutral_of(const MotionStiffness& all, const VectorXd& y, double sti
 }
 
 }  // namespace
+
+double no_force(EquilibriumProblem& problem, const Holds& holds, const VectorXd& y, double lambda,
+                double actions) {
+  VectorXd load;
+  problem.load(y, lambda, load);
+  VectorXd along;
+  double largest = 0.0;
+  for (Index i = 0; i < holds.motions.cols(); ++i) {
+    problem.force_along(holds.motions.col(i), along);
+    largest = std::max(largest, along.cwiseAbs().dot(load.cwiseAbs()));
+  }
+  return std::max(kShareOfLoad * largest, kRoundingOfForce) * actions;
+}
 
 SharedHolds held_softly(const EquilibriumProblem& problem) {
   const MatrixXd& motions = problem.free_motions();
@@ -65,13 +81,14 @@ SharedHolds held_softly(const EquilibriumProblem& problem) {
 SoftlyHeld softly_held(EquilibriumProblem& problem, const SharedHolds& soft, const VectorXd& y, double lambda,
                        const Regime& regime) {
   const MotionStiffness met = motion_stiffness(problem, soft, y, lambda, regime);
-  return {neutral_of(met, y, kShareOfSoft * soft->stiffness, kShareOfLoad * std::abs(lambda)),
-          met.stiffness.minCoeff() >= kFirm * soft->stiffness};
+  const NeutralBounds bounds{kShareOfSoft * soft->stiffness,
+                             no_force(problem, *soft, y, lambda, std::abs(lambda))};
+  return {neutral_of(met, y, bounds), met.stiffness.minCoeff() >= kFirm * soft->stiffness};
 }
 
 SharedHolds neutral_part(EquilibriumProblem& problem, const SharedHolds& holds, const VectorXd& y,
-                         double lambda, double stiffness, double force) {
-  return neutral_of(motion_stiffness(problem, holds, y, lambda), y, stiffness, force);
+                         double lambda, const NeutralBounds& bounds) {
+  return neutral_of(motion_stiffness(problem, holds, y, lambda), y, bounds);
 }
 
 }  // namespace snapthrough

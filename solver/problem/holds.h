@@ -52,12 +52,22 @@ struct SoftlyHeld {
 [[nodiscard]] SoftlyHeld softly_held(EquilibriumProblem& problem, const SharedHolds& soft,
                                      const Eigen::VectorXd& y, double lambda, const Regime& regime = {});
 
+/// Largest values that count as none.
+struct NeutralBounds {
+  double stiffness = 0.0;
+  double force = 0.0;
+};
+
+/// @brief Size of a force on the motions of `holds` that counts as none beside what acts on them at (y,
+/// lambda): the parts of the load along them, each by itself. Actions that do not move them, as strains of
+/// stiff members, say nothing.
+/// @param actions over the load of factor one
+[[nodiscard]] double no_force(EquilibriumProblem& problem, const Holds& holds, const Eigen::VectorXd& y,
+                              double lambda, double actions);
+
 /// @brief The motions of `holds` that nothing resists at (y, lambda): neither stiffness nor a force on them.
-/// @param stiffness largest that counts as none
-/// @param force largest that counts as none
 /// @return held where they are, with the stiffness 1; empty: there are none
 [[nodiscard]] SharedHolds neutral_part(EquilibriumProblem& problem, const SharedHolds& holds,
-                                       const Eigen::VectorXd& y, double lambda, double stiffness,
-                                       double force);
+                                       const Eigen::VectorXd& y, double lambda, const NeutralBounds& bounds);
 
 }  // namespace snapthrough
