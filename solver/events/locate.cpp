@@ -197,9 +197,35 @@ void search_dip(Search& search, const PathPoint& a, const PathPoint& b, int dept
   if (search.out.same_path) search_between(search, *middle, b, depth + 1);
 }
 
+/// Where the cubic through both ends' loads and load rates turns although it does not turn at the ends.
+/// Within a step that was looked into the load must have changed by less than both ends' rates make it, which
+/// a jump of the rate at a kink does not do, and by more than the tolerance.
+std::optional<double> hidden_turn(const Search& search, const PathPoint& a, const PathPoint& b, int depth) {
+  const Continuation& path = search.continuation;
+  const double length = path.distance_in(search.chord, a, b);
+  const Cubic load{a.lambda, length * path.load_rate(search.chord, a), b.lambda,
+                   length * path.load_rate(search.chord, b)};
+  const double less = std::min(std::abs(load.m0), std::abs(load.m1)) - std::abs(load.f1 - load.f0);
+  const double least = search.options.tolerance * std::max(std::abs(a.lambda), path.least_load());
+  if (depth > 0 && less <= least) return std::nullopt;
+  const auto at = load.inflection();
+  return at && (load.slope(*at) > 0.0) != (load.m0 > 0.0) ? at : std::nullopt;
+}
+
+/// Searches both sides of a turn that the ends do not show; false when there is none to be seen.
+bool search_turn(Search& search, const PathPoint& a, const PathPoint& b, int depth) {
+  const auto share = depth < kMaxDepth ? hidden_turn(search, a, b, depth) : std::nullopt;
+  const auto inside = share ? look(search, a, b, *share) : std::nullopt;
+  if (!inside) return false;
+  search_between(search, a, *inside, depth + 1);
+  if (search.out.same_path) search_between(search, *inside, b, depth + 1);
+  return true;
+}
+
 void search_between(Search& search, const PathPoint& a, const PathPoint& b, int depth) {
   const int change = std::abs(b.negative - a.negative);
   const bool turns = (a.tangent_lambda > 0.0) != (b.tangent_lambda > 0.0);
+  if (!turns && (change == 0 || depth == 0) && search_turn(search, a, b, depth)) return;
   if (change == 0 && !turns) {
     search_dip(search, a, b, depth);
     return;
@@ -226,16 +252,6 @@ void search_between(Search& search, const PathPoint& a, const PathPoint& b, int 
   }
   search_between(search, a, *middle, depth + 1);
   if (search.out.same_path) search_between(search, *middle, b, depth + 1);
-}
-
-/// Where the cubic through both ends' loads and load rates turns although it does not turn at the ends.
-std::optional<double> hidden_turn(const Continuation& continuation, const Chord& chord, const PathPoint& a,
-                                  const PathPoint& b) {
-  const double length = continuation.distance(a, b);
-  const Cubic load{a.lambda, length * continuation.load_rate(chord, a), b.lambda,
-                   length * continuation.load_rate(chord, b)};
-  const auto at = load.inflection();
-  return at && (load.slope(*at) > 0.0) != (load.m0 > 0.0) ? at : std::nullopt;
 }
 
 }  // namespace
@@ -351,18 +367,8 @@ LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint
   LocatedEvents out;
   Search search{continuation, continuation.chord(a, b),        a.log_abs_det, options,
                 out,          std::max(softest(a), softest(b))};
-  const double tolerance = options.tolerance;
-  const bool turns = (a.tangent_lambda > 0.0) != (b.tangent_lambda > 0.0);
-  if (const auto share = turns ? std::nullopt : hidden_turn(continuation, search.chord, a, b)) {
-    if (const auto inside = look(search, a, b, *share)) {
-      search_between(search, a, *inside, 0);
-      if (out.same_path) search_between(search, *inside, b, 0);
-      merge_events(continuation, tolerance, out.events);
-      return out;
-    }
-  }
   search_between(search, a, b, 0);
-  merge_events(continuation, tolerance, out.events);
+  merge_events(continuation, options.tolerance, out.events);
   return out;
 }
 

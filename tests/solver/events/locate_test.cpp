@@ -136,6 +136,27 @@ TEST_P(SimplePoint, IsNotFoundWhereThereIsNone) {
   }
 }
 
+/// Two limit points in the last third of a step, which the load's cubic through both ends does not show: it
+/// falls at both ends and where the cubic turns.
+TEST_P(SimplePoint, IsFoundBeforeAKnee) {
+  for (const double width : {0.02, 0.01, 0.005}) {
+    SCOPED_TRACE(width);
+    SmallProblem problem = testing::knee(width);
+    Follower path(problem);
+    const auto at = [&](double a) {
+      return point_of(path.continuation, problem, Eigen::VectorXd::Constant(1, a),
+                      testing::load_before_knee(a, width), Eigen::VectorXd::Ones(1),
+                      testing::rate_before_knee(a, width));
+    };
+    const LocatedEvents found = path.between(at(0.01), at(1.0), GetParam(), {kTolerance});
+    ASSERT_EQ(found.events.size(), 2U);
+    EXPECT_EQ(found.events[0].type, CriticalType::limit_min);
+    EXPECT_EQ(found.events[1].type, CriticalType::limit_max);
+    for (const CriticalEvent& event : found.events)
+      EXPECT_NEAR(testing::rate_before_knee(event.point.y[0], width), 0.0, 1e-4);
+  }
+}
+
 /// A bifurcation and a limit point within one step, in the order in which they are met.
 TEST_P(SimplePoint, IsSeparatedFromOthers) {
   for (const double c : {0.9, 0.99, 1.01, 1.1}) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -106,6 +107,25 @@ inline SmallProblem two_folds(double c, double d) {
           },
           [c, d](const Eigen::VectorXd& y) {
             return Eigen::MatrixXd(Eigen::MatrixXd::Constant(1, 1, (y[0] - c) * (y[0] - c) - d * d));
+          },
+          Eigen::VectorXd::Ones(1)};
+}
+
+/// Rate of the load on the way to a knee at 1, which is this wide: between two limit points before the knee
+/// the load rises a little.
+inline double rate_before_knee(double a, double width) {
+  return -1.0 + 2.0 * a * a - 4.0 * std::exp((a - 1.0) / width);
+}
+/// Load of the same path, which begins at zero.
+inline double load_before_knee(double a, double width) {
+  return -a + 2.0 / 3.0 * a * a * a - 4.0 * width * (std::exp((a - 1.0) / width) - std::exp(-1.0 / width));
+}
+inline SmallProblem knee(double width) {
+  return {[width](const Eigen::VectorXd& y) {
+            return Eigen::VectorXd(Eigen::VectorXd::Constant(1, load_before_knee(y[0], width)));
+          },
+          [width](const Eigen::VectorXd& y) {
+            return Eigen::MatrixXd(Eigen::MatrixXd::Constant(1, 1, rate_before_knee(y[0], width)));
           },
           Eigen::VectorXd::Ones(1)};
 }
