@@ -220,7 +220,7 @@ std::vector<CriticalEvent> Tracer::beyond(const PathPoint& from, Eigen::Index fi
 /// a step is taken over them, which could end on a path that crosses there.
 std::vector<CriticalEvent> Tracer::ahead(const PathPoint& from, double wanted) {
   constexpr double kSteps = 1.5;
-  constexpr double kMostAlong = 0.5;  // of the displacement along the motion: at a limit point it is all
+  constexpr double kMostAlong = 0.5;  // of the tangent along the motion: at a limit point it is all
   // what is held at the start may turn out to be resisted
   if (!from.modes || (from.holds && from.arc_length == 0.0)) return {};
   const SoftModes& modes = *from.modes;
@@ -230,7 +230,7 @@ std::vector<CriticalEvent> Tracer::ahead(const PathPoint& from, double wanted) {
   if (!(modes.distance_to_zero(first, 1.0) < kSteps * wanted)) return {};
   const PathMetric& metric = continuation_.metric();
   const double along = metric.inner(from.tangent, 0.0, modes.motions.col(first), 0.0);
-  if (std::abs(along) > kMostAlong * metric.norm(from.tangent, 0.0)) return {};
+  if (std::abs(along) > kMostAlong) return {};
   return beyond(from, first, 2.0 * wanted);
 }
 
