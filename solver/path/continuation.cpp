@@ -38,10 +38,6 @@ constexpr double kMostContactMissed = 2.0;
 /// What a step that was never shortened much is given up at, to try a shorter one, which costs less.
 constexpr double kLargestGrowth = 2.0;
 constexpr int kMostStalled = 2;
-/// Where supports act on one side only the first step may be far too short, as its scale knows nothing of
-/// their stiffness: then steps grow by this much, so long as they stay this far from what limits them.
-constexpr double kFastGrowth = 8.0;
-constexpr double kFarFromLimits = 0.1;
 /// Share of the last size that was accepted at once to which steps must have shrunk before a turn is looked
 /// for.
 constexpr double kKinkShrink = 1e-3;
@@ -425,14 +421,7 @@ Continuation::Trial Continuation::try_step(const PathPoint& from, double step, P
   if (outcome.first_residual > kRoundingResidual) trial.correction = outcome.first_correction / displacement;
   const double room = std::min(options_.target_angle / std::max(trial.angle, 1e-12),
                                options_.target_correction / std::max(trial.correction, 1e-12));
-  double fast = 0.0;
-  if (problem_.one_sided()) {
-    // contact may end anywhere beyond: only where the tangent alone would have done
-    const double missed = metric_.norm(rise, to.lambda - from.lambda - step * from.tangent_lambda);
-    fast = std::min({kFastGrowth, kFarFromLimits * room,
-                     kFarFromLimits * options_.target_correction * displacement / std::max(missed, 1e-300)});
-  }
-  trial.growth = std::clamp(room, kLeastGrowth, std::max(options_.max_growth, fast));
+  trial.growth = std::clamp(room, kLeastGrowth, options_.max_growth);
   trial.largest_angle = options_.max_angle;
   if (forecast != nullptr) {
     // where a zone ends the path may turn back, and another be near
@@ -540,11 +529,13 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
   problem_.set_holds(from.holds);
   to.holds = from.holds;
   to.perturbed = false;
-  double size = std::min(step.wanted, options_.max_step);
+  const double arc_rate = arc_per_step(from);
+  const double largest = options_.max_step / arc_rate;
+  double size = std::min(step.wanted, largest);
   const double first_size = size;
   if (easy_size_ == 0.0) easy_size_ = size;
   if (problem_.one_sided()) begin_forecast(from);
-  while (size >= options_.min_step) {
+  while (size * arc_rate >= options_.min_step) {
     const bool forecast = problem_.one_sided() && size >= kKinkShrink * easy_size_;
     const Trial trial = try_step(from, size, to, forecast ? &forecast_ : nullptr);
     bend_ = {};
@@ -555,7 +546,7 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
       if (easy_) easy_size_ = std::max(size, kForget * easy_size_);
       step.taken = size;
       const double growth = size < first_size ? std::min(trial.growth, 1.0) : trial.growth;
-      step.wanted = std::min(size * growth, options_.max_step);
+      step.wanted = std::min(size * growth, largest);
       return StepOutcome::advanced;
     }
     ++statistics_.rejected_steps;
@@ -566,7 +557,7 @@ StepOutcome Continuation::step(const PathPoint& from, StepSize& step, PathPoint&
         step_round_kink(from, size, to)) {
       ++statistics_.steps;
       step.taken = size;
-      step.wanted = std::min(size * options_.max_growth, options_.max_step);
+      step.wanted = std::min(size * options_.max_growth, largest);
       return StepOutcome::kinked;
     }
   }
@@ -579,7 +570,8 @@ PathPoint Continuation::last_before_kink(const PathPoint& from, double size) {
   PathPoint last = from;
   PathPoint probe;
   probe.holds = from.holds;
-  while ((size *= 0.5) >= options_.min_step) {
+  const double least = options_.min_step / arc_per_step(from);
+  while ((size *= 0.5) >= least) {
     const Trial trial = try_step(last, size, probe);
     if (is_smooth(trial) && probe.negative == from.negative) std::swap(last, probe);
   }
@@ -653,8 +645,6 @@ void Continuation::weigh_load(bool to_limit, PathPoint& at, StepSize& step) {
   step.wanted *= length;
   easy_size_ *= length;
   forecast_.scale(length);
-  options_.min_step *= length;
-  options_.max_step *= length;
   bend_ = {};
 }
 
@@ -671,6 +661,10 @@ double Continuation::angle_between(const PathPoint& a, const PathPoint& b) const
 
 double Continuation::arc(const PathPoint& a, const PathPoint& b) const {
   return PathMetric{metric_.weights, arc_weight_}.norm(b.y - a.y, b.lambda - a.lambda);
+}
+
+double Continuation::arc_per_step(const PathPoint& at) const {
+  return PathMetric{metric_.weights, arc_weight_}.norm(at.tangent, at.tangent_lambda);
 }
 
 double Continuation::path_length_to(const PathPoint& at) const {

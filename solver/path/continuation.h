@@ -17,8 +17,8 @@ namespace snapthrough {
 
 /// Constants of the step control. Dimensionless: the metric is scaled by the model's own length and load.
 struct ContinuationOptions {
-  double min_step = 1e-13;
-  double max_step = 1e12;           ///< a path that no longer turns soon meets the bound on its load
+  double min_step = 1e-13;  ///< in arc length
+  double max_step = 1e12;   ///< in arc length; a path that no longer turns soon meets the bound on its load
   double target_correction = 0.08;  ///< wanted ratio of the first correction to the step
   double target_angle = 0.30;       ///< wanted angle between successive tangents, rad
   double max_angle = 0.9;           ///< a larger angle rejects the step, rad
@@ -214,6 +214,8 @@ class Continuation {
   };
   [[nodiscard]] CorrectorOutcome correct_step(const PathPoint& from, double step, double displacement,
                                               PathPoint& to, ContactForecast* forecast);
+  /// Arc length by length of a step, which is measured with the load as it is weighed now.
+  [[nodiscard]] double arc_per_step(const PathPoint& at) const;
   void begin_forecast(const PathPoint& from);
   void predict(const PathPoint& from, double step, PathPoint& to) const;
   /// @brief Share of a step's displacement that is not some mean of what its ends' rates give. A path that
