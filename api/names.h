@@ -35,6 +35,14 @@ inline constexpr Named<CriticalType> kCriticalTypes[] = {
 inline constexpr Named<CriticalCause> kCriticalCauses[] = {{"smooth", CriticalCause::smooth},
                                                            {"contact", CriticalCause::contact}};
 
+inline constexpr Named<NoDerivative> kNoDerivatives[] = {
+    {"breaks_bifurcation", NoDerivative::breaks_bifurcation},
+    {"contact", NoDerivative::contact},
+    {"multiple", NoDerivative::multiple},
+    {"unsymmetric", NoDerivative::unsymmetric},
+    {"not_differentiable", NoDerivative::not_differentiable},
+    {"not_found", NoDerivative::not_found}};
+
 /// Those that are a text.
 inline constexpr Named<StateOutput> kStateOutputs[] = {
     {"none", StateOutput::none}, {"critical", StateOutput::critical}, {"all", StateOutput::all}};

@@ -137,6 +137,9 @@ static void read(const Value& value, OutputOptions& out) {
   in.finish();
 }
 
+/// Its pointer; the rest needs the model (read_sensitivities()).
+static void read(const Value& value, Variation& out) { read(value, out.pointer); }
+
 void read(const Value& value, Analysis& analysis) {
   Object in(value);
   in.required("type", analysis.type);
@@ -149,6 +152,7 @@ void read(const Value& value, Analysis& analysis) {
   in.optional("stop", analysis.stop);
   in.optional("branches", analysis.branches);
   in.optional("output", analysis.output);
+  in.optional("sensitivities", analysis.sensitivities);
   in.finish();
 }
 

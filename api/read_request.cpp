@@ -6,6 +6,7 @@
 #include "api/api.h"
 #include "api/json_text.h"
 #include "api/read_parts.h"
+#include "api/read_sensitivities.h"
 
 namespace snapthrough::api {
 
@@ -68,6 +69,7 @@ ReadOutcome read_request_document(std::shared_ptr<const nlohmann::json> document
   root.required("model", request.model);
   root.required("analysis", request.analysis);
   root.finish();
+  read_sensitivities(document, request.model, request.analysis, report);
   outcome.findings = merge_findings(report, check(request.model, request.analysis));
   if (outcome.findings.empty()) {
     request.document = std::move(document);

@@ -68,22 +68,36 @@ Json write(const Mode& mode) {
   return {{"members", std::move(members)}};
 }
 
+Json write(const std::vector<Sensitivity>& sensitivities) {
+  Json array = Json::array();
+  for (const Sensitivity& one : sensitivities) {
+    array.push_back({{"pointer", one.pointer},
+                     {"derivative", or_null(one.derivative)},
+                     {"reason", one.reason ? Json(name_of(kNoDerivatives, *one.reason)) : Json(nullptr)}});
+  }
+  return array;
+}
+
 Json write(const CriticalPoint& point) {
-  return {{"branch", point.branch},
-          {"type", name_of(kCriticalTypes, point.type)},
-          {"cause", name_of(kCriticalCauses, point.cause)},
-          {"load_factor", point.load_factor},
-          {"error_estimate", or_null(point.error_estimate)},
-          {"confirmed", point.confirmed},
-          {"meshes", write(point.meshes)},
-          {"arc_length", point.arc_length},
-          {"monitors", write(point.monitors)},
-          {"negative_before", count_or_null(point.negative_before)},
-          {"negative_after", count_or_null(point.negative_after)},
-          {"multiplicity", point.multiplicity},
-          {"imperfection", or_null(point.imperfection)},
-          {"state", or_null(point.state)},
-          {"mode", point.mode ? write(*point.mode) : Json(nullptr)}};
+  Json out{{"branch", point.branch},
+           {"type", name_of(kCriticalTypes, point.type)},
+           {"cause", name_of(kCriticalCauses, point.cause)},
+           {"load_factor", point.load_factor},
+           {"error_estimate", or_null(point.error_estimate)},
+           {"confirmed", point.confirmed},
+           {"meshes", write(point.meshes)},
+           {"arc_length", point.arc_length},
+           {"monitors", write(point.monitors)},
+           {"negative_before", count_or_null(point.negative_before)},
+           {"negative_after", count_or_null(point.negative_after)},
+           {"multiplicity", point.multiplicity},
+           {"imperfection", or_null(point.imperfection)},
+           {"state", or_null(point.state)},
+           {"mode", point.mode ? write(*point.mode) : Json(nullptr)}};
+  if (!point.sensitivities.empty()) {
+    out["sensitivities"] = write(point.sensitivities);
+  }
+  return out;
 }
 
 Json write(const NeutralMotion& motion) {

@@ -30,6 +30,23 @@ struct NamedValue {
   double value = 0.0;
 };
 
+/// Why a critical load has no derivative by a number of the model.
+enum class NoDerivative {
+  breaks_bifurcation,  ///< the path no longer meets it: its limit point goes by a power less than one
+  contact,             ///< a support that begins or ceases to act makes the point, not an eigenvalue
+  multiple,            ///< several eigenvalues vanish, and go apart
+  unsymmetric,         ///< follower pressure on a free end: the tangent has other left null vectors
+  not_differentiable,  ///< the equations have a kink or a jump there
+  not_found            ///< the point could not be found again to rounding
+};
+
+/// d load factor / d value of a number of the model, the load factor's and the value's units as given.
+struct Sensitivity {
+  std::string pointer;
+  std::optional<double> derivative;
+  std::optional<NoDerivative> reason;  ///< where there is none
+};
+
 /// What one mesh said of a critical point.
 struct MeshAnswer {
   int elements = -1;
@@ -68,6 +85,7 @@ struct CriticalPoint {
   /// Of a bifurcation: the size of what breaks it, about the root mean square slope of the imperfection's
   /// shape; empty: not measured.
   std::optional<double> imperfection = {};
+  std::vector<Sensitivity> sensitivities = {};  ///< in the order asked
 };
 
 /// A displacement of a node.

@@ -153,7 +153,8 @@ bool CriticalLoads::confirm_end(const PathPoint& end) {
   return finer == nullptr || finer->has(structure_, end);
 }
 
-bool CriticalLoads::confirm(const std::stop_token& stop, std::string& text) {
+bool CriticalLoads::confirm(const std::stop_token& stop, std::string& text,
+                            const Differentiate& differentiate) {
   bool all = true;
   int finest = 0;
   int without = 0;
@@ -163,6 +164,11 @@ bool CriticalLoads::confirm(const std::stop_token& stop, std::string& text) {
     Answer answer;
     if (!unless_cancelled([&] { answer = answer_for(target); })) return false;
     report(target, answer);
+    if (differentiate) {
+      std::vector<Sensitivity>& rates = result_.critical_points[target.index].sensitivities;
+      const auto find = [&] { rates = differentiate(structure_of(answer.level), answer.found.event); };
+      if (!unless_cancelled(find)) return false;
+    }
     all = all && result_.critical_points[target.index].confirmed;
     finest = std::max(finest, answer.level);
     largest = std::max(largest, answer.error.value_or(0.0));

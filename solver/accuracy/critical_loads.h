@@ -2,6 +2,7 @@
 /// @file
 /// Errors of critical loads: estimated on finer meshes, and brought down to what was asked for.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -13,6 +14,10 @@
 #include "solver/trace/trace.h"
 
 namespace snapthrough {
+
+/// Derivatives of a critical load by the model's numbers. @param event of the structure
+using Differentiate =
+    std::function<std::vector<Sensitivity>(const Structure& structure, const CriticalEvent& event)>;
 
 /// @brief Finds the critical points of a path again on ever finer meshes until their loads agree: only then
 /// they are confirmed.
@@ -45,7 +50,10 @@ class CriticalLoads {
   /// reports the meshes.
   /// @param text what is to be said of it is added
   /// @return whether every point is confirmed
-  [[nodiscard]] bool confirm(const std::stop_token& stop, std::string& text);
+  /// @param differentiate fills the sensitivities of each point, on the mesh that its load is from; may be
+  /// empty
+  [[nodiscard]] bool confirm(const std::stop_token& stop, std::string& text,
+                             const Differentiate& differentiate = {});
   /// @brief Whether the finer mesh is in equilibrium near the end of a path, with the same inertia there: so
   /// it has lost stability as often as the path has.
   [[nodiscard]] bool confirm_end(const PathPoint& end);

@@ -19,6 +19,7 @@
 #include "solver/report/result_parts.h"
 #include "solver/report/skipped.h"
 #include "solver/report/strain.h"
+#include "solver/sensitivity/load_sensitivities.h"
 #include "solver/trace/trace.h"
 
 namespace snapthrough {
@@ -277,6 +278,20 @@ std::string BranchFollower::run() {
 
 namespace {
 
+/// What finds the derivatives that were asked for; empty: none were.
+Differentiate differentiator(const Model& model, const Analysis& analysis, const Continuation& continuation,
+                             const Hooks& hooks, Result& result) {
+  if (analysis.sensitivities.empty()) return {};
+  return [&](const Structure& structure, const CriticalEvent& event) {
+    constexpr double kReach = 0.02;  // of the path so far
+    const LocatedPoint at{event, continuation.metric().load_weight,
+                          kReach * continuation.path_length_to(event.point), continuation.least_load()};
+    const auto offsets = [&](const Model& changed) { return mode_offsets(changed, analysis, hooks.stop); };
+    return load_sensitivities(model, analysis.sensitivities, structure, at, offsets,
+                              result.diagnostics.factorizations);
+  };
+}
+
 /// Follows the path on one mesh.
 /// @param earlier critical points of the path on a coarser mesh
 /// @param decays of bending at the path's end
@@ -317,7 +332,8 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
     if (confirmed && result.critical_points.empty())
       meshes = "; no critical point was met, and a finer mesh agrees at the path's end";
   }
-  confirmed = loads.confirm(hooks.stop, meshes) && confirmed;
+  const Differentiate differentiate = differentiator(model, analysis, continuation, hooks, result);
+  confirmed = loads.confirm(hooks.stop, meshes, differentiate) && confirmed;
   const double at = ends_on_critical(outcome) ? result.critical_points[primary - 1].load_factor
                                               : outcome.last.lambda / structure.scales.load;
   describe_end(analysis, outcome, at, result);

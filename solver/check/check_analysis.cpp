@@ -147,6 +147,7 @@ void check_analysis(const Place& root, const Model& model, const Analysis& analy
     require_between(place / "branches" / "limit", *analysis.branches.limit, 1, kMaxSteps);
   }
   check_output(place / "output", model, analysis.output);
+  require_count(place / "sensitivities", analysis.sensitivities.size(), kMaxSensitivities);
   if (analysis.type == AnalysisType::static_ && analysis.output.states == StateOutput::at_load_factors) {
     check_static_states(place / "output" / "states" / "at_load_factors", analysis);
   }

@@ -26,11 +26,12 @@ class Builder {
   /// @param laws the model with the supports that the equations have
   Builder(const Model& model, const Model& laws, Structure& out) : model_(model), laws_(laws), out_(out) {}
 
-  void set_scales();
+  /// @param known of another mesh or model; null: from the model itself
+  void set_scales(const Scales* known);
   void number_unknowns();
   void add_elements();
   void add_supports();
-  /// @param load_scale of another mesh of the model; empty: from the loads themselves
+  /// @param load_scale of another mesh or model; empty: from the loads themselves
   void add_loads(std::optional<double> load_scale);
   void set_metric();
   void add_monitors();
@@ -102,7 +103,7 @@ ElementShape shape_on(const Structure& out, const Model& model, int element, con
   return shape;
 }
 
-void Builder::set_scales() {
+void Builder::set_scales(const Scales* known) {
   double length = 0.0;
   double bending = 0.0;
   for (const auto& axis : out_.axes) length = std::max(length, axis->length());
@@ -110,6 +111,7 @@ void Builder::set_scales() {
     bending = std::max(bending, model_.sections[index_of(model_.sections, member.section)].EI);
   out_.scales.length = length;
   out_.scales.force = bending / (length * length);
+  if (known != nullptr) out_.scales = *known;
   for (const Foundation& foundation : model_.foundations)
     out_.foundation_laws.push_back(law_of(foundation, out_.scales));
   for (const Spring& spring : model_.springs) out_.spring_laws.push_back(law_of(spring, out_.scales));
@@ -495,15 +497,16 @@ SparseRow displacement_row(const Structure& structure, const Model& model, const
 namespace {
 
 /// Everything that follows from the model, the axes, the geometry and the mesh, which are set.
-void fill(const Model& model, std::optional<double> load_scale, Structure& out) {
+/// @param scales null: the model's own
+void fill(const Model& model, const Scales* scales, Structure& out) {
   const std::optional<Model> joined = with_joined_supports(model);
   const Model& laws = joined ? *joined : model;
   Builder builder(model, laws, out);
-  builder.set_scales();
+  builder.set_scales(scales);
   builder.number_unknowns();
   builder.add_elements();
   builder.add_supports();
-  builder.add_loads(load_scale);
+  builder.add_loads(scales != nullptr ? std::optional(scales->load) : std::nullopt);
   builder.set_metric();
   builder.add_monitors();
   builder.finish();
@@ -540,17 +543,25 @@ void fill(const Model& model, std::optional<double> load_scale, Structure& out) 
 
 }  // namespace
 
-Structure make_structure(const Model& model, const Discretization& discretization, Geometry geometry,
-                         const ModeOffsets& modes, MeshUse use) {
-  Structure out;
-  out.geometry = geometry;
+namespace {
+
+void set_axes(const Model& model, const ModeOffsets& modes, Structure& out) {
   out.axes = make_axes(model);
   out.origin = {model.nodes.front().x, model.nodes.front().y};
   for (std::size_t m = 0; m < model.members.size(); ++m)
     out.stress_free.push_back(std::make_shared<const StressFreeAxis>(
         model, static_cast<int>(m), out.axes[m], modes.empty() ? std::vector<CubicSpline>{} : modes[m]));
+}
+
+}  // namespace
+
+Structure make_structure(const Model& model, const Discretization& discretization, Geometry geometry,
+                         const ModeOffsets& modes, MeshUse use) {
+  Structure out;
+  out.geometry = geometry;
+  set_axes(model, modes, out);
   out.mesh = make_mesh(model, discretization, out.axes, use);
-  fill(model, std::nullopt, out);
+  fill(model, nullptr, out);
   return out;
 }
 
@@ -564,7 +575,7 @@ Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, 
   out.stress_free = structure.stress_free;
   out.mesh = std::move(mesh);
   out.touching = std::move(touching);
-  fill(model, structure.scales.load, out);
+  fill(model, &structure.scales, out);
   out.free_motions = structure.free_motions;
   out.stop = structure.stop;
   return out;
@@ -578,6 +589,19 @@ Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh) {
 
 Structure with_touching(const Structure& structure, const Model& model, TouchingSupports touching) {
   return built_anew(structure, model, structure.mesh, std::move(touching));
+}
+
+Structure with_changed_model(const Structure& structure, const Model& model, const Model& changed,
+                             const ModeOffsets& modes) {
+  Structure out;
+  out.geometry = structure.geometry;
+  set_axes(changed, modes, out);
+  out.mesh = moved_mesh(structure.mesh, model, structure.axes, changed, out.axes);
+  out.touching = structure.touching;
+  fill(changed, &structure.scales, out);
+  out.free_motions = structure.free_motions;
+  out.stop = structure.stop;
+  return out;
 }
 
 }  // namespace snapthrough

@@ -132,6 +132,14 @@ struct Structure {
 [[nodiscard]] Structure with_touching(const Structure& structure, const Model& model,
                                       TouchingSupports touching);
 
+/// @brief The structure of a changed model with the same members: its unknowns, elements and scales are those
+/// of the structure, so that one state means the same in both.
+/// @param model of the structure
+/// @param modes offsets of the changed model's mode imperfections
+/// @pre the changed model passed check()
+[[nodiscard]] Structure with_changed_model(const Structure& structure, const Model& model,
+                                           const Model& changed, const ModeOffsets& modes);
+
 /// @brief Foundations and springs that are left out because their stiffness is zero, in words.
 [[nodiscard]] std::vector<std::string> without_stiffness(const Model& model);
 

@@ -181,6 +181,35 @@ std::optional<Mesh> finer_mesh(const Mesh& mesh) {
   return out;
 }
 
+Mesh moved_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const Model& moved,
+                const Axes& moved_axes) {
+  Mesh out = mesh;
+  for (std::size_t m = 0; m < axes.size(); ++m) {
+    const std::vector<double> from = breaks_of(model, static_cast<int>(m), *axes[m]);
+    const std::vector<double> to = breaks_of(moved, static_cast<int>(m), *moved_axes[m]);
+    const auto first = mesh.elements.begin() + mesh.first[m];
+    const auto last = mesh.elements.begin() + mesh.first[m + 1];
+    const auto is_end = [&](double at) {
+      return std::any_of(first, last,
+                         [at](const MeshElement& e) { return std::abs(e.to - at) <= kOnePlace; });
+    };
+    if (from == to || from.size() != to.size() || !std::all_of(from.begin() + 1, from.end(), is_end))
+      continue;
+    const auto place = [&](double at) {
+      std::size_t i = 1;
+      while (i + 1 < from.size() && at > from[i]) ++i;
+      const double share = (at - from[i - 1]) / (from[i] - from[i - 1]);
+      return share == 1.0 ? to[i] : to[i - 1] + share * (to[i] - to[i - 1]);
+    };
+    for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
+      MeshElement& element = out.elements[static_cast<std::size_t>(e)];
+      element.from = place(element.from);
+      element.to = place(element.to);
+    }
+  }
+  return out;
+}
+
 Mesh layered_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const std::vector<double>& decays) {
   constexpr double kLeastWidth = 1e-6;  // of a member: its ends keep ten digits
   Mesh out = mesh;

@@ -54,6 +54,14 @@ enum class MeshUse {
 /// @return empty when it would have too many elements
 [[nodiscard]] std::optional<Mesh> finer_mesh(const Mesh& mesh);
 
+/// @brief The same elements on a changed model: their ends stay where something begins, ends or acts, which
+/// may have moved, and keep their shares of the pieces between.
+/// @param axes, moved_axes of the two models, which have the same members
+/// @return fractions as they were on members where such places have come or gone, or elements do not end
+/// there
+[[nodiscard]] Mesh moved_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const Model& moved,
+                              const Axes& moved_axes);
+
 /// @brief The same mesh with the elements beside each place where something acts on a member halved towards
 /// it, until they resolve what decays from there.
 /// @param decays a length of each member, in the model's units, over which it does; infinite: there is

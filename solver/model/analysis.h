@@ -3,11 +3,13 @@
 /// What is to be computed for a model. Plain data, one field for each field of the request's `analysis`.
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "solver/model/model.h"
 #include "solver/numeric/max_order.h"
 
 namespace snapthrough {
@@ -70,6 +72,16 @@ struct OutputOptions {
   bool modes = true;      ///< modes with the states of critical points
 };
 
+/// A number of the model that critical loads are differentiated by.
+struct Variation {
+  std::string pointer;  ///< what it is called in the result
+  double value = 0.0;   ///< of the model at hand
+  double size = 1.0;    ///< a change of this size is a large one; > 0, in the unit of the value
+  /// The model with another value; empty where it may not have that value. Called from the solving thread,
+  /// with values within `size` of the model's.
+  std::function<std::optional<Model>(double)> model_at;
+};
+
 struct Analysis {
   AnalysisType type = AnalysisType::critical;
   int modes = 1;
@@ -81,6 +93,7 @@ struct Analysis {
   StopRules stop;
   BranchOptions branches;
   OutputOptions output;
+  std::vector<Variation> sensitivities;  ///< of the critical points of a path
 };
 
 }  // namespace snapthrough

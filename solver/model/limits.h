@@ -18,7 +18,8 @@ inline constexpr std::size_t kMaxMonitors = 1'000;
 inline constexpr std::size_t kMaxCurvePoints =
     10'000;  ///< interior points of one spline, offsets of one imperfection
 inline constexpr std::size_t kMaxLoadFactors =
-    100'000;                                      ///< entries of `load_factors` and of `at_load_factors`
+    100'000;  ///< entries of `load_factors` and of `at_load_factors`
+inline constexpr std::size_t kMaxSensitivities = 10'000;
 inline constexpr std::size_t kMaxIdLength = 200;  ///< characters (code points) of an id
 inline constexpr int kMaxHalfWaves = 1'000;
 inline constexpr int kMaxModes = 1'000;  ///< buckling modes, and the number of a mode imperfection

@@ -84,6 +84,10 @@ class EquilibriumProblem {
   virtual void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
     out = metric().cwiseProduct(x);
   }
+  /// @brief The motion that has the displacements which stand in the rows of what is fixed, and no other.
+  [[nodiscard]] virtual Eigen::VectorXd imposed_motion(const Eigen::VectorXd& rows) const {
+    return Eigen::VectorXd::Zero(rows.size());
+  }
   /// @brief Work of forces, in the rows of linearise(), on a motion that keeps what is fixed in place.
   [[nodiscard]] virtual double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const {
     return forces.dot(motion);

@@ -111,6 +111,22 @@ void StructuralProblem::metric_forces(const VectorXd& x, VectorXd& out) const {
     if (row < 3 * structure_.nodes) out[row] = 0.0;
 }
 
+VectorXd StructuralProblem::imposed_motion(const VectorXd& rows) const {
+  VectorXd out = VectorXd::Zero(rows.size());
+  for (const Index row : fixed_) {
+    if (row >= 3 * structure_.nodes || rows[row] == 0.0) continue;
+    const auto [c, s] = turn_of(static_cast<int>(row));
+    const Index node = row - row % 3;
+    if (row % 3 == 2) {
+      out[row] += rows[row];
+    } else {
+      out[node] += (row % 3 == 0 ? c : -s) * rows[row];
+      out[node + 1] += (row % 3 == 0 ? s : c) * rows[row];
+    }
+  }
+  return out;
+}
+
 double StructuralProblem::work(const VectorXd& forces, const VectorXd& motion) const {
   double out = forces.dot(motion);
   for (int j = 0; j < structure_.nodes; ++j) {

@@ -64,6 +64,7 @@ class StructuralProblem final : public EquilibriumProblem {
   enum class Stage { proportional, constant };
   void set_stage(Stage stage) { stage_ = stage; }
   void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const override;
+  [[nodiscard]] Eigen::VectorXd imposed_motion(const Eigen::VectorXd& rows) const override;
   [[nodiscard]] double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const override;
   /// @brief One-sided supports glued where they touch at y, absent elsewhere.
   [[nodiscard]] FrozenContact frozen_contact(const Eigen::VectorXd& y) const;

@@ -28,7 +28,10 @@ std::vector<std::string> skipped_work(const Model& model, const Analysis& analys
   if (analysis.type != AnalysisType::path && analysis.output.path_points)
     out.emplace_back("path_points: only the branches of a path have points");
   const bool critical = analysis.type == AnalysisType::critical;
-  if (!critical && analysis.type != AnalysisType::path) return out;
+  const bool path = critical || analysis.type == AnalysisType::path;
+  if (!path && !analysis.sensitivities.empty())
+    out.emplace_back("sensitivities: only critical points on a path have them");
+  if (!path) return out;
   if (critical) out.emplace_back("path: points and contact changes, only the critical load was asked for");
   if (analysis.output.states == StateOutput::none) out.emplace_back("states: none were asked for");
   if (points_are_not_polished(analysis))

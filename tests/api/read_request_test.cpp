@@ -49,6 +49,41 @@ TEST(ReadRequest, DocumentInMemoryIsReadTheSame) {
   EXPECT_EQ(outcome.request->document, document);
 }
 
+TEST(ReadRequest, SensitivitiesAreNumbersOfTheModel) {
+  json document = sound();
+  document["analysis"]["sensitivities"] = {"/model/nodes/1/x", "/model/foundations/0/stiffness"};
+  const ReadOutcome outcome = read_request(document.dump());
+  ASSERT_TRUE(outcome.request.has_value());
+  const std::vector<Variation>& variations = outcome.request->analysis.sensitivities;
+  ASSERT_THAT(variations, SizeIs(2));
+  EXPECT_EQ(variations[0].pointer, "/model/nodes/1/x");
+  EXPECT_EQ(variations[0].value, 2.0);
+  EXPECT_EQ(variations[0].model_at(2.5)->nodes[1].x, 2.5);
+  EXPECT_EQ(variations[1].model_at(4.0)->foundations[0].stiffness, 4.0);
+  EXPECT_EQ(variations[1].model_at(-1.0), std::nullopt) << "a stiffness is not negative";
+}
+
+TEST(ReadRequest, SensitivitiesSayWhatTheyCannotBe) {
+  json document = sound();
+  document["analysis"]["sensitivities"] = {"/analysis/stop/steps",
+                                           "no pointer",
+                                           "/model/nodes/7/x",
+                                           "/model/foundations/0/gap",
+                                           "/model/nodes/0/id",
+                                           "/model/loads/0/force",
+                                           "/model/imperfections/0/half_waves",
+                                           "/model/monitors/0/at/fraction",
+                                           3};
+  const std::string at = "/analysis/sensitivities/";
+  EXPECT_THAT(
+      findings_of(document),
+      UnorderedElementsAre(is_finding(at + "0", "invalid_pointer"), is_finding(at + "1", "invalid_pointer"),
+                           is_finding(at + "2", "no_such_place"), is_finding(at + "3", "no_such_place"),
+                           is_finding(at + "4", "not_supported"), is_finding(at + "5", "not_supported"),
+                           is_finding(at + "6", "not_supported"), is_finding(at + "7", "not_supported"),
+                           is_finding(at + "8", "wrong_type")));
+}
+
 TEST(ReadRequest, MalformedTextIsNotARequest) {
   const ReadOutcome outcome = read_request("{\"model\": ");
   EXPECT_TRUE(outcome.malformed);

@@ -42,6 +42,8 @@ Result full_result() {
                        {0, CriticalType::limit_max, 76.5, {}, 2.5, {}, -1, -1, 1, {}},
                        {1, CriticalType::limit_min, 10.0, {}, 3.5, {}, 2, 1, 1, {}}};
   r.critical_points[0].imperfection = 0.125;
+  r.critical_points[0].sensitivities = {{"/model/nodes/0/x", 2.5, {}},
+                                        {"/model/nodes/0/y", {}, NoDerivative::breaks_bifurcation}};
   r.branches = {{0,
                  {},
                  {0.0, 1.0},
@@ -96,7 +98,9 @@ TEST(WriteResult, EveryFieldOfTheContract) {
        "monitors": {"crown": -0.5}, "negative_before": 0, "negative_after": 1, "multiplicity": 2, "imperfection": 0.125, "state": 0,
        "mode": {"members": {"m": {"s": [0.0], "u": [1.0], "v": [0.5], "rotation": [3.0]}}},
        "confirmed": true, "meshes": [{"elements": 4, "order": 5, "load_factor": 66.5},
-                                     {"elements": 8, "order": 5, "load_factor": null}]},
+                                     {"elements": 8, "order": 5, "load_factor": null}],
+       "sensitivities": [{"pointer": "/model/nodes/0/x", "derivative": 2.5, "reason": null},
+                         {"pointer": "/model/nodes/0/y", "derivative": null, "reason": "breaks_bifurcation"}]},
       {"branch": 0, "type": "limit_max", "cause": "smooth", "load_factor": 76.5, "error_estimate": null, "arc_length": 2.5,
        "monitors": {}, "negative_before": null, "negative_after": null, "multiplicity": 1, "imperfection": null, "state": null, "mode": null,
        "confirmed": false, "meshes": []},

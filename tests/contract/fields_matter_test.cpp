@@ -199,7 +199,8 @@ TEST(ResultFields, PathAnswersDependOnControlBranchesAndLimitPoints) {
        {Field{"/analysis/control", R"("load")"}, Field{"/analysis/control", R"({"displacement": "crown"})"},
         Field{"/analysis/branches", R"({"follow": "first"})"},
         Field{"/analysis/branches", R"({"follow": "all", "limit": 3})"},
-        Field{"/analysis/stop/limit_points", "1"}, Field{"/analysis/output/states", R"("critical")"}})
+        Field{"/analysis/stop/limit_points", "1"}, Field{"/analysis/output/states", R"("critical")"},
+        Field{"/analysis/sensitivities", R"(["/model/nodes/1/x"])"}})
     EXPECT_NE(answer(changed(base, field)), reference) << field.pointer << " = " << field.value;
 }
 

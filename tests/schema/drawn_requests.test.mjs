@@ -26,6 +26,9 @@ const kBetweenFields = {
   mechanism: 'the whole model',
   unsupported: 'geometry and type of analysis; reaction and shear_stiffness',
   not_increasing: 'a fraction and the one before it',
+  invalid_pointer: 'a pointer, which is to something in /model',
+  no_such_place: 'a pointer and the model',
+  not_supported: 'a pointer and what the model has there',
   too_many_findings: 'the number of findings',
   memory_limit: 'members, elements and order, against a setting of the service',
 };

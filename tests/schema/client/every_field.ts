@@ -72,6 +72,7 @@ const analyses: Schemas['Analysis'][] = discretizations.flatMap((discretization)
   stop: {limit_points: 2, load_factor: [-1, 5], monitor: {id: 'm0', range: [-1, 1]}, steps: 100},
   branches: {follow: 'all', limit: 3},
   output: {states: one, points_per_member: 51, path_points: 200, extremes: true},
+  sensitivities: ['/model/nodes/0/x'],
 })));
 
 const sweep: Schemas['SweepDocument'] = {
@@ -107,6 +108,10 @@ function readCriticalPoint(point: Schemas['CriticalPoint'], sum: Sum) {
   sum.flag(point.confirmed);
   for (const {elements, order, load_factor} of point.meshes) sum.number(elements, order, load_factor);
   if (point.mode !== null) readMode(point.mode, sum);
+  for (const {pointer, derivative, reason} of point.sensitivities ?? []) {
+    sum.text(pointer, reason);
+    sum.number(derivative);
+  }
 }
 
 function readBranch(branch: Schemas['Branch'], sum: Sum) {

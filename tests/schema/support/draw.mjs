@@ -144,6 +144,7 @@ export class Drawer {
     for (const one of model.imperfections ?? []) {
       if (one.offsets) one.offsets = one.offsets.map(([, offset], i) => [i / one.offsets.length, offset]);
     }
+    if (analysis.sensitivities) analysis.sensitivities = ['/model/nodes/0/x', '/model/loads/0/type'].slice(0, this.below(6) === 0 ? 2 : 1);
     if (analysis.geometry === 'linear') analysis.type = 'static';
     delete analysis.step;
     const monitor = this.pick(model.monitors?.map((one) => one.id) ?? []);

@@ -78,6 +78,28 @@ TEST(Mesh, SharesAFixedNumberByLength) {
   EXPECT_NEAR(longest(ends), 0.1, 1e-12);
 }
 
+/// Ends move with the places that they are at, those between in proportion; nothing moves where a place
+/// comes.
+TEST(Mesh, MovesWithWhatActsOnIt) {
+  const Model model = crowded();
+  const Axes axes = make_axes(model);
+  const Mesh mesh = make_mesh(model, {}, axes);
+  Model moved = model;
+  moved.springs[0].at.fraction = 0.22;
+  const auto before = ends_of(mesh, 0);
+  const auto after = ends_of(moved_mesh(mesh, model, axes, moved, axes), 0);
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double at = before[i];
+    const double expected = at > 0.1 && at < 0.2     ? 0.1 + 1.2 * (at - 0.1)
+                            : at >= 0.2 && at < 0.35 ? 0.22 + (at - 0.2) * 0.13 / 0.15
+                                                     : at;
+    EXPECT_NEAR(after[i], expected, 1e-15) << at;
+  }
+  moved.loads.push_back(PointLoad{{"", "column", 0.5}, {0.0, 1.0}, 0.0, Pattern::constant});
+  EXPECT_EQ(ends_of(moved_mesh(mesh, model, axes, moved, axes), 0), before);
+}
+
 /// With fewer elements than pieces they are equal, and what lies inside them acts inside.
 TEST(Mesh, CutsEquallyWhereThereAreTooFewElements) {
   const auto ends = ends_of(mesh_of(crowded(), fixed_mesh(4, 3)), 0);

@@ -56,10 +56,12 @@ TEST(Skipped, OutputsThatAnAnalysisDoesNotHave) {
   Analysis analysis = analysis_of(AnalysisType::buckling, StateOutput::critical);
   analysis.output.extremes = true;
   analysis.output.path_points = 10;
+  analysis.sensitivities.emplace_back();
   const Result result = solve(testing::arch(20.0, 420.0, 1.4), analysis);
   EXPECT_THAT(result.diagnostics.skipped,
               ElementsAre("extremes: linearised buckling reaches no states",
-                          "path_points: only the branches of a path have points"));
+                          "path_points: only the branches of a path have points",
+                          "sensitivities: only critical points on a path have them"));
   EXPECT_FALSE(result.extremes.has_value());
 }
 

@@ -1044,6 +1044,11 @@ export interface components {
             };
             /** @description What is given back */
             output?: components["schemas"]["Output"];
+            /**
+             * @description critical, path: numbers of the model by which the load factor of each critical point is differentiated
+             * @default []
+             */
+            sensitivities?: string[];
         };
         /** @description A structure and what to analyse about it. Rules of more than one field (references, mechanics) are checked beyond this schema; see docs/requests.md. */
         Request: {
@@ -1137,6 +1142,20 @@ export interface components {
             state: number | null;
             /** @description The null vector at a bifurcation, the path's direction at a limit point; null without a state */
             mode: components["schemas"]["Mode"] | null;
+            /** @description In the order of analysis.sensitivities; absent where none were asked for */
+            sensitivities?: components["schemas"]["Sensitivity"][];
+        };
+        /** @description Derivative of a critical load factor */
+        Sensitivity: {
+            /** @description The number of the model, as asked */
+            pointer: string;
+            /** @description d load_factor / d value, on the mesh of the load factor; null where there is none */
+            derivative: number | null;
+            /**
+             * @description Why there is none. breaks_bifurcation: the path no longer meets the point, and its load falls by a power less than one; contact: a support that begins or ceases to act makes the point; multiple: several eigenvalues vanish there and go apart; unsymmetric: follower pressure acts on a free end; not_differentiable: the equations have a kink or a jump there; not_found: the point could not be found again to rounding
+             * @enum {string|null}
+             */
+            reason: "breaks_bifurcation" | "contact" | "multiple" | "unsymmetric" | "not_differentiable" | "not_found" | null;
         };
         /** @description Motion of a node */
         NodeMotion: {

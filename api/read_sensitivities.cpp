@@ -1,0 +1,166 @@
+#include "api/read_sensitivities.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "api/read_parts.h"
+#include "api/sweep_data.h"
+#include "solver/check/check.h"
+#include "solver/model/id_index.h"
+
+namespace snapthrough::api {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Extent of the nodes; 1 where they are one.
+double extent_of(const Model& model) {
+  double extent = 0.0;
+  for (const Node& node : model.nodes) {
+    extent = std::max(extent, std::hypot(node.x - model.nodes[0].x, node.y - model.nodes[0].y));
+  }
+  return extent > 0.0 && std::isfinite(extent) ? extent : 1.0;
+}
+
+/// The shortest chord of a member at a node, which its coordinates change.
+double chord_at(const Model& model, std::size_t node) {
+  double least = extent_of(model);
+  for (const Member& member : model.members) {
+    const int start = index_of(model.nodes, member.start);
+    const int end = index_of(model.nodes, member.end);
+    const auto at = static_cast<int>(node);
+    if (start < 0 || end < 0 || (start != at && end != at)) {
+      continue;
+    }
+    const double chord =
+        std::hypot(model.nodes[end].x - model.nodes[start].x, model.nodes[end].y - model.nodes[start].y);
+    least = chord > 0.0 ? std::min(least, chord) : least;
+  }
+  return least;
+}
+
+double largest_load(const Model& model) {
+  double largest = 0.0;
+  const auto take = [&largest](double value) { largest = std::max(largest, std::abs(value)); };
+  for (const Load& load : model.loads) {
+    if (const auto* point = std::get_if<PointLoad>(&load)) {
+      take(point->force[0]);
+      take(point->force[1]);
+      take(point->moment);
+    } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
+      take(distributed->force[0]);
+      take(distributed->force[1]);
+    } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
+      take(pressure->value);
+    }
+  }
+  return largest > 0.0 ? largest : 1.0;
+}
+
+/// Size of a number that is zero, by what it is: the equations are linear in all but lengths and angles.
+double size_of_nothing(const std::vector<std::string>& tokens, const Model& model) {
+  static constexpr std::array<std::string_view, 6> kLengths{"x", "y", "rise", "amplitude", "gap", "points"};
+  constexpr double kRadian = 57.0;
+  const auto names = [&tokens](std::string_view name) {
+    return std::find(tokens.begin(), tokens.end(), name) != tokens.end();
+  };
+  const double extent = extent_of(model);
+  if (std::any_of(kLengths.begin(), kLengths.end(), names) || (names("offsets") && tokens.back() == "1")) {
+    return extent;
+  }
+  if (names("angle_degrees") || names("sweep_degrees")) {
+    return kRadian;
+  }
+  if (names("stiffness") || names("shear_stiffness")) {
+    double bending = 0.0;
+    for (const Section& section : model.sections) {
+      bending = std::max(bending, section.EI);
+    }
+    return bending / (extent * extent * extent);
+  }
+  if (names("curvature")) {
+    return 1.0 / extent;
+  }
+  return names("force") || names("moment") || names("value") ? largest_load(model) : 1.0;
+}
+
+/// Size of a change that is a large one.
+double size_of(const std::vector<std::string>& tokens, double value, const Model& model) {
+  if (tokens[1] == "nodes") {
+    return chord_at(model, *array_index(tokens[2]));
+  }
+  if (std::find(tokens.begin(), tokens.end(), "points") != tokens.end()) {
+    return 0.1 * extent_of(model);
+  }
+  return value != 0.0 ? std::abs(value) : size_of_nothing(tokens, model);
+}
+
+/// Why a critical load has no derivative by what a pointer names; empty: it may have one.
+std::string refusal(const std::vector<std::string>& tokens, const Json& value) {
+  if (!value.is_number()) {
+    return std::string("is not a number but ") + (value.is_array() ? "an array" : value.type_name());
+  }
+  if (tokens.back() == "half_waves" || tokens.back() == "number") {
+    return "is a count: between whole numbers there is nothing to differentiate by";
+  }
+  return tokens[1] == "monitors" ? "changes what is read from the structure, not the structure" : "";
+}
+
+/// The model with another value there, if it may have it.
+std::optional<Model> model_with(const Json& document, const Json::json_pointer& place, double value) {
+  Json changed = document.at("model");
+  changed[place] = value;
+  Report report;
+  Model model;
+  read(Value(changed, PointerPath("/model"), report), model);
+  return report.findings().empty() && check(model, Analysis()).empty() ? std::optional(std::move(model))
+                                                                       : std::nullopt;
+}
+
+void complete(const std::shared_ptr<const Json>& document, const Model& model, const Value& at,
+              Variation& variation) {
+  const auto tokens = pointer_tokens(variation.pointer);
+  if (!tokens || tokens->size() < 2 || tokens->front() != "model") {
+    at.report("invalid_pointer", "expected a JSON Pointer to a number in /model");
+    return;
+  }
+  const Json::json_pointer place(variation.pointer.substr(std::string_view("/model").size()));
+  const Json& whole = document->at("model");
+  if (!whole.contains(place)) {
+    at.report("no_such_place", "this request has no " + variation.pointer +
+                                   "; a value that is left out has to be written to be varied");
+    return;
+  }
+  const Json& value = whole.at(place);
+  if (const std::string why = refusal(*tokens, value); !why.empty()) {
+    at.report("not_supported", variation.pointer + " " + why);
+    return;
+  }
+  variation.value = value.get<double>();
+  variation.size = size_of(*tokens, variation.value, model);
+  variation.model_at = [document, place](double other) { return model_with(*document, place, other); };
+}
+
+}  // namespace
+
+void read_sensitivities(const std::shared_ptr<const Json>& document, const Model& model, Analysis& analysis,
+                        Report& report) {
+  if (analysis.sensitivities.empty() || !document->contains("model")) {
+    return;
+  }
+  const Json& list = document->at("analysis").at("sensitivities");
+  const PointerPath path = PointerPath().with("analysis").with("sensitivities");
+  for (std::size_t i = 0; i < analysis.sensitivities.size(); ++i) {
+    if (list[i].is_string()) {
+      complete(document, model, Value(list[i], path.with(i), report), analysis.sensitivities[i]);
+    }
+  }
+}
+
+}  // namespace snapthrough::api

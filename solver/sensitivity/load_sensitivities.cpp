@@ -1,0 +1,251 @@
+#include "solver/sensitivity/load_sensitivities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "solver/events/critical_mode.h"
+#include "solver/events/critical_sensitivity.h"
+#include "solver/numeric/pseudo_random.h"
+#include "solver/problem/structural_problem.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Rate = CriticalSensitivity::Rate;
+
+/// A critical point to rounding.
+struct ExactPoint {
+  CriticalSolution solution;
+  Index target = 0;
+};
+
+/// Of several motions that lose their stiffness close together, the one that does so nearest to a load.
+Index nearest_target(const CriticalSolution& solution, double lambda) {
+  const auto spectrum = solution.spectrum();
+  Index target = 0;
+  if (spectrum) (solution.lambda + spectrum->distances.array() - lambda).abs().minCoeff(&target);
+  return target;
+}
+
+std::optional<ExactPoint> to_rounding(EquilibriumProblem& problem, const PathMetric& metric,
+                                      const LocatedPoint& at, int& factorisations) {
+  constexpr double kPlace = 1e-9;
+  constexpr int kTimes = 2;  // the second for the derivatives, which are those of the last iteration but one
+  const CriticalEvent& event = at.event;
+  const bool limit = is_limit(event.type);
+  CriticalOptions options;
+  options.tolerance = 1e-13;
+  options.place = kPlace;
+  options.reach = at.reach;
+  options.least_load = at.least_load;
+  CriticalGuess guess{event.point.y, event.point.lambda, {}};
+  if (event.null.cols() > 0) {
+    guess.null = event.null.col(0);
+  } else {
+    ++factorisations;
+    guess.null =
+        null_vector(problem, event.point, limit ? event.point.tangent : pseudo_random(problem.size(), 1U));
+  }
+  std::optional<ExactPoint> best;
+  for (int time = 0; time < kTimes; ++time) {
+    auto found = limit ? solve_limit_point(problem, metric, guess, options, factorisations)
+                       : solve_bifurcation(problem, metric, guess, options, factorisations);
+    if (!found) break;
+    const Index target = nearest_target(*found, event.point.lambda);
+    guess = {found->y, found->lambda, found->null, target};
+    best = ExactPoint{*std::move(found), target};
+  }
+  return best;
+}
+
+/// The equations' derivative by one variation, and what follows from it.
+class VariationRate {
+ public:
+  /// @param here equations of the structure itself
+  VariationRate(const Model& model, const Structure& structure, const CriticalEvent& event,
+                const CriticalSensitivity& point, const MatrixXd& here, const Variation& variation,
+                const std::function<ModeOffsets(const Model&)>& offsets)
+      : model_(model),
+        structure_(structure),
+        event_(event),
+        point_(point),
+        here_(here),
+        variation_(variation),
+        offsets_(offsets) {}
+
+  /// @param lambda of the point
+  [[nodiscard]] Sensitivity find(double lambda);
+
+ private:
+  /// Equations a step to both sides; where the value may change one way only, one and two half steps that
+  /// way.
+  struct Sides {
+    MatrixXd less;
+    MatrixXd more;
+    double step = 0.0;
+  };
+  [[nodiscard]] std::optional<MatrixXd> equations_at(double value) const;
+  [[nodiscard]] std::optional<Sides> sides(double step);
+  [[nodiscard]] Rate difference(const Sides& at) const;
+  [[nodiscard]] std::optional<Rate> best_difference(double lambda);
+  [[nodiscard]] double mismatch(const Sides& at) const;
+  [[nodiscard]] bool has_kink(double lambda) const;
+
+  const Model& model_;
+  const Structure& structure_;
+  const CriticalEvent& event_;
+  const CriticalSensitivity& point_;
+  const MatrixXd& here_;
+  const Variation& variation_;
+  const std::function<ModeOffsets(const Model&)>& offsets_;
+  double way_ = 0.0;     ///< 1, -1: the value may change that way only
+  Sides coarse_, fine_;  ///< of the best difference
+};
+
+/// What the equations are with another value, at the point's state.
+std::optional<MatrixXd> VariationRate::equations_at(double value) const {
+  const std::optional<Model> changed = variation_.model_at(value);
+  if (!changed) return std::nullopt;
+  ModeOffsets modes;
+  try {
+    modes = offsets_(*changed);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+  const Structure structure = with_changed_model(structure_, model_, *changed, modes);
+  if (structure.size != structure_.size) return std::nullopt;
+  StructuralProblem problem(structure);
+  problem.set_holds(event_.point.holds);
+  return point_.equations(problem);
+}
+
+std::optional<VariationRate::Sides> VariationRate::sides(double step) {
+  const double value = variation_.value;
+  if (way_ == 0.0) {
+    auto more = equations_at(value + step);
+    auto less = equations_at(value - step);
+    if (more && less) return Sides{*std::move(less), *std::move(more), step};
+    if (!more && !less) return std::nullopt;
+    way_ = more ? 1.0 : -1.0;
+  }
+  auto near = equations_at(value + 0.5 * way_ * step);
+  auto far = equations_at(value + way_ * step);
+  if (!near || !far) return std::nullopt;
+  return Sides{*std::move(near), *std::move(far), step};
+}
+
+/// By a difference of second order.
+Rate VariationRate::difference(const Sides& at) const {
+  if (way_ == 0.0) return point_.rate((at.more - at.less) / (2.0 * at.step));
+  return point_.rate((4.0 * at.less - at.more - 3.0 * here_) / (way_ * at.step));
+}
+
+std::optional<Rate> VariationRate::best_difference(double lambda) {
+  constexpr double kFirst = 2.5e-4;  // of the size
+  constexpr double kShorter = 0.125;
+  constexpr int kMostSteps = 6;
+  constexpr double kAgree = 1e-6;      // of the rate: what extrapolation leaves is about its square
+  constexpr double kNothing = 1e-8;    // of the load, by a change of the size: the same
+  constexpr double kRounding = 1e-13;  // of the load, in a difference
+  constexpr double kDiffer = 1e-3;
+  constexpr double kCounts = 1e-6;
+  const double size = variation_.size;
+  std::optional<Rate> best;
+  double least = std::numeric_limits<double>::infinity();
+  double step = kFirst * size;
+  for (int n = 0; n < kMostSteps; ++n, step *= kShorter) {
+    auto coarse = sides(step);
+    auto fine = coarse ? sides(0.5 * step) : std::nullopt;
+    if (!fine) break;
+    const double first = difference(*coarse).lambda;
+    Rate rate = difference(*fine);
+    const double error = std::abs(rate.lambda - first) + kRounding * std::abs(lambda) / step;
+    if (!(error < least)) continue;
+    least = error;
+    rate.lambda = (4.0 * rate.lambda - first) / 3.0;
+    best = rate;
+    coarse_ = *std::move(coarse);
+    fine_ = *std::move(fine);
+    if (error <= kAgree * std::abs(rate.lambda) || error * size <= kNothing * std::abs(lambda)) break;
+  }
+  const bool settled =
+      best && (least <= kDiffer * std::abs(best->lambda) || least * size <= kCounts * std::abs(lambda));
+  return settled ? best : std::nullopt;
+}
+
+/// Difference of the rates to both sides.
+double VariationRate::mismatch(const Sides& at) const {
+  return point_.rate((at.more - 2.0 * here_ + at.less) / at.step).lambda;
+}
+
+/// Whether the rates to both sides differ, by no less over half the step: a support begins or ceases to act.
+bool VariationRate::has_kink(double lambda) const {
+  constexpr double kFalls = 0.75;
+  constexpr double kCounts = 1e-5;
+  if (!structure_.one_sided || way_ != 0.0) return false;
+  const double near = std::abs(mismatch(fine_));
+  return near * variation_.size > kCounts * std::abs(lambda) && near > kFalls * std::abs(mismatch(coarse_));
+}
+
+Sensitivity VariationRate::find(double lambda) {
+  constexpr double kShare = 1e-5;         // of the forces' work on the motion: what rounding and meshes leave
+  constexpr double kImperfection = 1e-9;  // by a change of the size
+  Sensitivity out{variation_.pointer, std::nullopt, std::nullopt};
+  const auto rate = best_difference(lambda);
+  if (rate && event_.type == CriticalType::bifurcation && rate->breaking_share > kShare &&
+      rate->breaking * variation_.size > kImperfection) {
+    out.reason = NoDerivative::breaks_bifurcation;
+  } else if (!rate || has_kink(lambda)) {
+    out.reason = NoDerivative::not_differentiable;
+  } else {
+    out.derivative = rate->lambda / structure_.scales.load;
+  }
+  return out;
+}
+
+std::optional<NoDerivative> refusal(const Structure& structure, const CriticalEvent& event) {
+  if (event.cause == CriticalCause::contact) return NoDerivative::contact;
+  if (event.multiplicity > 1) return NoDerivative::multiple;
+  if (!structure.follower_ends.empty()) return NoDerivative::unsymmetric;
+  return std::nullopt;
+}
+
+std::vector<Sensitivity> none(const std::vector<Variation>& variations, NoDerivative reason) {
+  std::vector<Sensitivity> out;
+  out.reserve(variations.size());
+  for (const Variation& variation : variations) out.push_back({variation.pointer, std::nullopt, reason});
+  return out;
+}
+
+}  // namespace
+
+std::vector<Sensitivity> load_sensitivities(const Model& model, const std::vector<Variation>& variations,
+                                            const Structure& structure, const LocatedPoint& at,
+                                            const std::function<ModeOffsets(const Model&)>& offsets,
+                                            int& factorisations) {
+  if (const auto reason = refusal(structure, at.event)) return none(variations, *reason);
+  StructuralProblem problem(structure);
+  problem.set_holds(at.event.point.holds);
+  const PathMetric metric{&structure.metric, at.load_weight};
+  const auto point = to_rounding(problem, metric, at, factorisations);
+  if (!point) return none(variations, NoDerivative::not_found);
+  const bool limit = is_limit(at.event.type);
+  const CriticalSensitivity sensitivity(problem, metric, point->solution, point->target, limit);
+  if (!limit) ++factorisations;
+  if (!sensitivity.is_ready()) return none(variations, NoDerivative::not_found);
+  const MatrixXd here = sensitivity.equations(problem);
+  std::vector<Sensitivity> out;
+  out.reserve(variations.size());
+  for (const Variation& variation : variations)
+    out.push_back(VariationRate(model, structure, at.event, sensitivity, here, variation, offsets)
+                      .find(point->solution.lambda));
+  return out;
+}
+
+}  // namespace snapthrough
