@@ -43,6 +43,11 @@ inline constexpr Named<NoDerivative> kNoDerivatives[] = {
     {"not_differentiable", NoDerivative::not_differentiable},
     {"not_found", NoDerivative::not_found}};
 
+inline constexpr Named<BifurcationKind> kBifurcationKinds[] = {
+    {"asymmetric", BifurcationKind::asymmetric},
+    {"stable_symmetric", BifurcationKind::stable_symmetric},
+    {"unstable_symmetric", BifurcationKind::unstable_symmetric}};
+
 /// Those that are a text.
 inline constexpr Named<StateOutput> kStateOutputs[] = {
     {"none", StateOutput::none}, {"critical", StateOutput::critical}, {"all", StateOutput::all}};

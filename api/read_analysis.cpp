@@ -153,6 +153,7 @@ void read(const Value& value, Analysis& analysis) {
   in.optional("branches", analysis.branches);
   in.optional("output", analysis.output);
   in.optional("sensitivities", analysis.sensitivities);
+  in.optional("koiter", analysis.koiter);
   in.finish();
 }
 

@@ -78,6 +78,13 @@ Json write(const std::vector<Sensitivity>& sensitivities) {
   return array;
 }
 
+Json write(const std::optional<KoiterCoefficients>& koiter) {
+  if (!koiter) {
+    return nullptr;
+  }
+  return {{"a", koiter->a}, {"b", or_null(koiter->b)}, {"kind", name_of(kBifurcationKinds, koiter->kind)}};
+}
+
 Json write(const CriticalPoint& point) {
   Json out{{"branch", point.branch},
            {"type", name_of(kCriticalTypes, point.type)},
@@ -300,7 +307,13 @@ nlohmann::json write_result(const Request& request, const Result& result, double
   };
   add("model", [&] { return write(request.model); });
   add("summary", [&] { return write(result.summary); });
-  add("critical_points", [&] { return write_all(result.critical_points); });
+  add("critical_points", [&] {
+    Json points = write_all(result.critical_points);
+    for (std::size_t i = 0; request.analysis.koiter && i < points.size(); ++i) {
+      points[i]["koiter"] = write(result.critical_points[i].koiter);
+    }
+    return points;
+  });
   add("neutral_motion", [&] { return write_all(result.neutral_motion); });
   add("contact_events", [&] { return write_all(result.contact_events); });
   add("branches", [&] { return write_all(result.branches); });

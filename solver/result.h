@@ -47,6 +47,16 @@ struct Sensitivity {
   std::optional<NoDerivative> reason;  ///< where there is none
 };
 
+/// How the path that crosses at a bifurcation leaves it.
+enum class BifurcationKind { asymmetric, stable_symmetric, unstable_symmetric };
+
+/// load_factor = critical (1 + a s + b s^2) along that path, s the amplitude of the mode, a length.
+struct KoiterCoefficients {
+  double a = 0.0;           ///< exactly 0 where the bifurcation is symmetric
+  std::optional<double> b;  ///< where it is
+  BifurcationKind kind = BifurcationKind::asymmetric;
+};
+
 /// What one mesh said of a critical point.
 struct MeshAnswer {
   int elements = -1;
@@ -86,6 +96,7 @@ struct CriticalPoint {
   /// shape; empty: not measured.
   std::optional<double> imperfection = {};
   std::vector<Sensitivity> sensitivities = {};  ///< in the order asked
+  std::optional<KoiterCoefficients> koiter = {};
 };
 
 /// A displacement of a node.

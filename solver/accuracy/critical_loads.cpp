@@ -153,8 +153,7 @@ bool CriticalLoads::confirm_end(const PathPoint& end) {
   return finer == nullptr || finer->has(structure_, end);
 }
 
-bool CriticalLoads::confirm(const std::stop_token& stop, std::string& text,
-                            const Differentiate& differentiate) {
+bool CriticalLoads::confirm(const std::stop_token& stop, std::string& text, const Complete& complete) {
   bool all = true;
   int finest = 0;
   int without = 0;
@@ -164,10 +163,11 @@ bool CriticalLoads::confirm(const std::stop_token& stop, std::string& text,
     Answer answer;
     if (!unless_cancelled([&] { answer = answer_for(target); })) return false;
     report(target, answer);
-    if (differentiate) {
-      std::vector<Sensitivity>& rates = result_.critical_points[target.index].sensitivities;
-      const auto find = [&] { rates = differentiate(structure_of(answer.level), answer.found.event); };
-      if (!unless_cancelled(find)) return false;
+    if (complete) {
+      const auto add = [&] {
+        complete(structure_of(answer.level), answer.found.event, result_.critical_points[target.index]);
+      };
+      if (!unless_cancelled(add)) return false;
     }
     all = all && result_.critical_points[target.index].confirmed;
     finest = std::max(finest, answer.level);

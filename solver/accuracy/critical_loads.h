@@ -15,9 +15,9 @@
 
 namespace snapthrough {
 
-/// Derivatives of a critical load by the model's numbers. @param event of the structure
-using Differentiate =
-    std::function<std::vector<Sensitivity>(const Structure& structure, const CriticalEvent& event)>;
+/// Adds to a critical point what was asked for beside its load. @param event the point on that structure
+using Complete =
+    std::function<void(const Structure& structure, const CriticalEvent& event, CriticalPoint& point)>;
 
 /// @brief Finds the critical points of a path again on ever finer meshes until their loads agree: only then
 /// they are confirmed.
@@ -50,10 +50,8 @@ class CriticalLoads {
   /// reports the meshes.
   /// @param text what is to be said of it is added
   /// @return whether every point is confirmed
-  /// @param differentiate fills the sensitivities of each point, on the mesh that its load is from; may be
-  /// empty
-  [[nodiscard]] bool confirm(const std::stop_token& stop, std::string& text,
-                             const Differentiate& differentiate = {});
+  /// @param complete called for each point, on the mesh that its load is from; may be empty
+  [[nodiscard]] bool confirm(const std::stop_token& stop, std::string& text, const Complete& complete = {});
   /// @brief Whether the finer mesh is in equilibrium near the end of a path, with the same inertia there: so
   /// it has lost stability as often as the path has.
   [[nodiscard]] bool confirm_end(const PathPoint& end);

@@ -19,6 +19,7 @@
 #include "solver/report/result_parts.h"
 #include "solver/report/skipped.h"
 #include "solver/report/strain.h"
+#include "solver/sensitivity/koiter_coefficients.h"
 #include "solver/sensitivity/load_sensitivities.h"
 #include "solver/trace/trace.h"
 
@@ -278,17 +279,22 @@ std::string BranchFollower::run() {
 
 namespace {
 
-/// What finds the derivatives that were asked for; empty: none were.
-Differentiate differentiator(const Model& model, const Analysis& analysis, const Continuation& continuation,
-                             const Hooks& hooks, Result& result) {
-  if (analysis.sensitivities.empty()) return {};
-  return [&](const Structure& structure, const CriticalEvent& event) {
+/// What adds to critical points what was asked for beside their loads; empty: nothing was.
+Complete completer(const Model& model, const Analysis& analysis, const Continuation& continuation,
+                   const Hooks& hooks, Result& result) {
+  if (analysis.sensitivities.empty() && !analysis.koiter) return {};
+  return [&](const Structure& structure, const CriticalEvent& event, CriticalPoint& point) {
     constexpr double kReach = 0.02;  // of the path so far
     const LocatedPoint at{event, continuation.metric().load_weight,
                           kReach * continuation.path_length_to(event.point), continuation.least_load()};
+    int& factorisations = result.diagnostics.factorizations;
     const auto offsets = [&](const Model& changed) { return mode_offsets(changed, analysis, hooks.stop); };
-    return load_sensitivities(model, analysis.sensitivities, structure, at, offsets,
-                              result.diagnostics.factorizations);
+    if (!analysis.sensitivities.empty())
+      point.sensitivities =
+          load_sensitivities(model, analysis.sensitivities, structure, at, offsets, factorisations);
+    if (analysis.koiter)
+      point.koiter =
+          koiter_coefficients(model, structure, at, analysis.output.points_per_member, factorisations);
   };
 }
 
@@ -332,8 +338,8 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
     if (confirmed && result.critical_points.empty())
       meshes = "; no critical point was met, and a finer mesh agrees at the path's end";
   }
-  const Differentiate differentiate = differentiator(model, analysis, continuation, hooks, result);
-  confirmed = loads.confirm(hooks.stop, meshes, differentiate) && confirmed;
+  const Complete complete = completer(model, analysis, continuation, hooks, result);
+  confirmed = loads.confirm(hooks.stop, meshes, complete) && confirmed;
   const double at = ends_on_critical(outcome) ? result.critical_points[primary - 1].load_factor
                                               : outcome.last.lambda / structure.scales.load;
   describe_end(analysis, outcome, at, result);

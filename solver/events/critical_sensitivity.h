@@ -3,10 +3,8 @@
 /// How a critical load changes with the equations.
 
 #include <Eigen/Core>
-#include <optional>
 
-#include "solver/events/critical_system.h"
-#include "solver/newton/corrector.h"
+#include "solver/events/bordered_point.h"
 #include "solver/problem/equilibrium_problem.h"
 
 namespace snapthrough {
@@ -23,10 +21,10 @@ namespace snapthrough {
 /// the changes of the eigenvalue and of the condition l.load = 0 that another path crosses.
 class CriticalSensitivity {
  public:
-  /// @param solution to rounding, of that problem
+  /// @param point kept by reference; solves at a bifurcation
   /// @param limit whether it is a limit point, with one null motion; else the target of several is meant
-  CriticalSensitivity(EquilibriumProblem& problem, const PathMetric& metric, const CriticalSolution& solution,
-                      Eigen::Index target, bool limit);
+  CriticalSensitivity(const BorderedPoint& point, Eigen::Index target, bool limit)
+      : point_(point), target_(target), limit_(limit) {}
 
   /// @brief Columns of what a change of the equations is told by, for any problem of the same unknowns: F,
   /// and at a bifurcation J n for each null motion, and J q - load.
@@ -41,31 +39,13 @@ class CriticalSensitivity {
   };
   /// @param change derivative of equations(problem) by p
   [[nodiscard]] Rate rate(const Eigen::MatrixXd& change) const;
-  /// Whether the factors that solves need were found.
-  [[nodiscard]] bool is_ready() const { return ready_; }
 
  private:
-  /// Forces with those that hold what is fixed where their rows say, and that motion.
-  struct Held {
-    Eigen::VectorXd forces;
-    Eigen::VectorXd motion;
-    bool moves = false;
-  };
-  [[nodiscard]] Held held(const Eigen::VectorXd& rows) const;
-  [[nodiscard]] Eigen::VectorXd works(const Eigen::VectorXd& forces) const;
-  [[nodiscard]] Eigen::VectorXd response(const Held& to) const;
-  [[nodiscard]] bool factorise();
-  void differentiate();
   [[nodiscard]] Eigen::MatrixXd share_of_target() const;
 
-  EquilibriumProblem& problem_;
-  const PathMetric& metric_;
-  CriticalSolution at_;
+  const BorderedPoint& point_;
   Eigen::Index target_;
   bool limit_;
-  bool ready_ = false;
-  Eigen::VectorXd load_along_;  ///< n.load
-  Eigen::MatrixXd metric_rows_;
 };
 
 }  // namespace snapthrough

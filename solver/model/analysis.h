@@ -94,6 +94,7 @@ struct Analysis {
   BranchOptions branches;
   OutputOptions output;
   std::vector<Variation> sensitivities;  ///< of the critical points of a path
+  bool koiter = false;                   ///< Koiter's coefficients of the bifurcations of a path
 };
 
 }  // namespace snapthrough

@@ -30,7 +30,7 @@ Mode mode_displacements(const Structure& structure, const Model& model, const Ei
   return out;
 }
 
-void scale_to_largest(Mode& mode) {
+double scale_to_largest(Mode& mode) {
   constexpr double kNothing = 1e-12;      // of what the rotations would move over a member's length
   constexpr double kLarger = 1.0 + 1e-6;  // equal ones differ by rounding: the first gives the sign
   double largest = 0.0;
@@ -57,6 +57,7 @@ void scale_to_largest(Mode& mode) {
   for (MemberMode& member : mode.members)
     for (auto* values : {&member.u, &member.v, &member.rotation})
       for (double& value : *values) value *= scale;
+  return scale;
 }
 
 std::vector<CubicSpline> normal_offsets(const Structure& structure, const Model& model,

@@ -19,7 +19,8 @@ namespace snapthrough {
 
 /// @brief Scales a mode so that its largest displacement at the sampled places is one, its first large
 /// component positive; one that only turns members at these places, by its largest rotation.
-void scale_to_largest(Mode& mode);
+/// @return what it was multiplied by
+double scale_to_largest(Mode& mode);
 
 /// @brief Offsets along the initial left normals, over the arc length in the model's units, of an eigenvector
 /// scaled so that the largest is `amplitude` (and positive with it); one spline a member.

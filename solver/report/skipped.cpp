@@ -31,6 +31,8 @@ std::vector<std::string> skipped_work(const Model& model, const Analysis& analys
   const bool path = critical || analysis.type == AnalysisType::path;
   if (!path && !analysis.sensitivities.empty())
     out.emplace_back("sensitivities: only critical points on a path have them");
+  if (!path && analysis.koiter)
+    out.emplace_back("koiter: only bifurcations of a path have Koiter's coefficients");
   if (!path) return out;
   if (critical) out.emplace_back("path: points and contact changes, only the critical load was asked for");
   if (analysis.output.states == StateOutput::none) out.emplace_back("states: none were asked for");

@@ -7,62 +7,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solver/events/critical_mode.h"
 #include "solver/events/critical_sensitivity.h"
-#include "solver/numeric/pseudo_random.h"
 #include "solver/problem/structural_problem.h"
 
 namespace snapthrough {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Rate = CriticalSensitivity::Rate;
-
-/// A critical point to rounding.
-struct ExactPoint {
-  CriticalSolution solution;
-  Index target = 0;
-};
-
-/// Of several motions that lose their stiffness close together, the one that does so nearest to a load.
-Index nearest_target(const CriticalSolution& solution, double lambda) {
-  const auto spectrum = solution.spectrum();
-  Index target = 0;
-  if (spectrum) (solution.lambda + spectrum->distances.array() - lambda).abs().minCoeff(&target);
-  return target;
-}
-
-std::optional<ExactPoint> to_rounding(EquilibriumProblem& problem, const PathMetric& metric,
-                                      const LocatedPoint& at, int& factorisations) {
-  constexpr double kPlace = 1e-9;
-  constexpr int kTimes = 2;  // the second for the derivatives, which are those of the last iteration but one
-  const CriticalEvent& event = at.event;
-  const bool limit = is_limit(event.type);
-  CriticalOptions options;
-  options.tolerance = 1e-13;
-  options.place = kPlace;
-  options.reach = at.reach;
-  options.least_load = at.least_load;
-  CriticalGuess guess{event.point.y, event.point.lambda, {}};
-  if (event.null.cols() > 0) {
-    guess.null = event.null.col(0);
-  } else {
-    ++factorisations;
-    guess.null =
-        null_vector(problem, event.point, limit ? event.point.tangent : pseudo_random(problem.size(), 1U));
-  }
-  std::optional<ExactPoint> best;
-  for (int time = 0; time < kTimes; ++time) {
-    auto found = limit ? solve_limit_point(problem, metric, guess, options, factorisations)
-                       : solve_bifurcation(problem, metric, guess, options, factorisations);
-    if (!found) break;
-    const Index target = nearest_target(*found, event.point.lambda);
-    guess = {found->y, found->lambda, found->null, target};
-    best = ExactPoint{*std::move(found), target};
-  }
-  return best;
-}
 
 /// The equations' derivative by one variation, and what follows from it.
 class VariationRate {
@@ -233,12 +185,13 @@ std::vector<Sensitivity> load_sensitivities(const Model& model, const std::vecto
   StructuralProblem problem(structure);
   problem.set_holds(at.event.point.holds);
   const PathMetric metric{&structure.metric, at.load_weight};
-  const auto point = to_rounding(problem, metric, at, factorisations);
+  const auto point = exact_point(problem, metric, at, factorisations);
   if (!point) return none(variations, NoDerivative::not_found);
   const bool limit = is_limit(at.event.type);
-  const CriticalSensitivity sensitivity(problem, metric, point->solution, point->target, limit);
+  const BorderedPoint bordered(problem, metric, point->solution, !limit);
   if (!limit) ++factorisations;
-  if (!sensitivity.is_ready()) return none(variations, NoDerivative::not_found);
+  if (!bordered.is_ready()) return none(variations, NoDerivative::not_found);
+  const CriticalSensitivity sensitivity(bordered, point->target, limit);
   const MatrixXd here = sensitivity.equations(problem);
   std::vector<Sensitivity> out;
   out.reserve(variations.size());

@@ -6,20 +6,12 @@
 #include <vector>
 
 #include "solver/discrete/structure.h"
-#include "solver/events/locate.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
 #include "solver/result.h"
+#include "solver/sensitivity/exact_point.h"
 
 namespace snapthrough {
-
-/// A critical point and the measures of the path that it was found on.
-struct LocatedPoint {
-  const CriticalEvent& event;
-  double load_weight = 0.0;  ///< of the path's metric
-  double reach = 0.1;        ///< farthest that the point may be off, in the metric
-  double least_load = 0.0;   ///< load that tolerances are relative to at least
-};
 
 /// @brief d load factor / d value, both in the user's units, for each variation, in order; or why there is
 /// none.

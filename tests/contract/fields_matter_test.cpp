@@ -200,7 +200,7 @@ TEST(ResultFields, PathAnswersDependOnControlBranchesAndLimitPoints) {
         Field{"/analysis/branches", R"({"follow": "first"})"},
         Field{"/analysis/branches", R"({"follow": "all", "limit": 3})"},
         Field{"/analysis/stop/limit_points", "1"}, Field{"/analysis/output/states", R"("critical")"},
-        Field{"/analysis/sensitivities", R"(["/model/nodes/1/x"])"}})
+        Field{"/analysis/sensitivities", R"(["/model/nodes/1/x"])"}, Field{"/analysis/koiter", "true"}})
     EXPECT_NE(answer(changed(base, field)), reference) << field.pointer << " = " << field.value;
 }
 

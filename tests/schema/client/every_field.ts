@@ -72,7 +72,7 @@ const analyses: Schemas['Analysis'][] = discretizations.flatMap((discretization)
   stop: {limit_points: 2, load_factor: [-1, 5], monitor: {id: 'm0', range: [-1, 1]}, steps: 100},
   branches: {follow: 'all', limit: 3},
   output: {states: one, points_per_member: 51, path_points: 200, extremes: true},
-  sensitivities: ['/model/nodes/0/x'],
+  sensitivities: ['/model/nodes/0/x'], koiter: true,
 })));
 
 const sweep: Schemas['SweepDocument'] = {
@@ -108,6 +108,10 @@ function readCriticalPoint(point: Schemas['CriticalPoint'], sum: Sum) {
   sum.flag(point.confirmed);
   for (const {elements, order, load_factor} of point.meshes) sum.number(elements, order, load_factor);
   if (point.mode !== null) readMode(point.mode, sum);
+  if (point.koiter) {
+    sum.text(point.koiter.kind);
+    sum.number(point.koiter.a, point.koiter.b);
+  }
   for (const {pointer, derivative, reason} of point.sensitivities ?? []) {
     sum.text(pointer, reason);
     sum.number(derivative);

@@ -75,6 +75,7 @@ export function answerable() {
     add(`${type}, extremes`, arch(), {type, stop: rule, output: {extremes: true, states: 'none'}});
     add(`${type}, sensitivities`, arch(),
         {type, stop: rule, sensitivities: ['/model/sections/0/EI', '/model/nodes/0/y', '/model/loads/0/force/1']});
+    add(`${type}, koiter`, arch(), {type, stop: rule, koiter: true});
     add(`${type}, fixed mesh`, arch(), {type, stop: rule, discretization: fixed});
   }
   add('path, every branch', arch(), {type: 'path', stop: {steps: 30}, branches: {follow: 'all', limit: 2}});

@@ -57,11 +57,13 @@ TEST(Skipped, OutputsThatAnAnalysisDoesNotHave) {
   analysis.output.extremes = true;
   analysis.output.path_points = 10;
   analysis.sensitivities.emplace_back();
+  analysis.koiter = true;
   const Result result = solve(testing::arch(20.0, 420.0, 1.4), analysis);
   EXPECT_THAT(result.diagnostics.skipped,
               ElementsAre("extremes: linearised buckling reaches no states",
                           "path_points: only the branches of a path have points",
-                          "sensitivities: only critical points on a path have them"));
+                          "sensitivities: only critical points on a path have them",
+                          "koiter: only bifurcations of a path have Koiter's coefficients"));
   EXPECT_FALSE(result.extremes.has_value());
 }
 

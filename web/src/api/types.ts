@@ -1049,6 +1049,11 @@ export interface components {
              * @default []
              */
             sensitivities?: string[];
+            /**
+             * @description critical, path: Koiter's coefficients of bifurcations
+             * @default false
+             */
+            koiter?: boolean;
         };
         /** @description A structure and what to analyse about it. Rules of more than one field (references, mechanics) are checked beyond this schema; see docs/requests.md. */
         Request: {
@@ -1144,6 +1149,20 @@ export interface components {
             mode: components["schemas"]["Mode"] | null;
             /** @description In the order of analysis.sensitivities; absent where none were asked for */
             sensitivities?: components["schemas"]["Sensitivity"][];
+            /** @description load_factor (1 + a s + b s^2) along the path that crosses, s the amplitude of the mode; null where it has none; absent where it was not asked for */
+            koiter?: components["schemas"]["Koiter"] | null;
+        };
+        /** @description How the path that crosses leaves a simple bifurcation */
+        Koiter: {
+            /** @description 0 at a symmetric bifurcation */
+            a: number;
+            /** @description Null at an asymmetric bifurcation */
+            b: number | null;
+            /**
+             * @description asymmetric: an imperfection takes away by its power 1/2; stable_symmetric: the state at the load itself is stable; unstable_symmetric: an imperfection takes away by its power 2/3
+             * @enum {string}
+             */
+            kind: "asymmetric" | "stable_symmetric" | "unstable_symmetric";
         };
         /** @description Derivative of a critical load factor */
         Sensitivity: {

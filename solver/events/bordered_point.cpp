@@ -1,0 +1,107 @@
+#include "solver/events/bordered_point.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include "solver/path/soft_mode.h"
+
+namespace snapthrough {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+BorderedPoint::BorderedPoint(EquilibriumProblem& problem, const PathMetric& metric,
+                             const CriticalSolution& solution, bool solves)
+    : problem_(problem), metric_(metric), at_(solution) {
+  const Index k = at_.null.cols();
+  metric_rows_.resize(at_.y.size(), k);
+  VectorXd column;
+  for (Index i = 0; i < k; ++i) {
+    problem_.metric_forces(at_.null.col(i), column);
+    metric_rows_.col(i) = column;
+  }
+  problem_.load(at_.y, at_.lambda, column);
+  const Held load = held(column);
+  load_along_ = works(load.forces);
+  ready_ = !solves || factorise();
+  if (!solves || !ready_) return;
+  at_.response = response(load);
+  differentiate();
+}
+
+BorderedPoint::Held BorderedPoint::held(const VectorXd& rows) const {
+  Held out{rows, problem_.imposed_motion(rows)};
+  out.moves = !out.motion.isZero(0.0);
+  if (out.moves) out.forces -= problem_.tangent_product(at_.y, at_.lambda, out.motion);
+  return out;
+}
+
+VectorXd BorderedPoint::works(const VectorXd& forces) const {
+  VectorXd out(at_.null.cols());
+  for (Index i = 0; i < out.size(); ++i) out[i] = problem_.work(forces, at_.null.col(i));
+  return out;
+}
+
+/// Factors of the tangent beside the point, where it is regular.
+bool BorderedPoint::factorise() {
+  constexpr double kBeside = 1e-6;  // of the load
+  const double step = kBeside * at_.lambda;
+  VectorXd residual;
+  problem_.linearise(at_.y + step * at_.response, at_.lambda + step, residual);
+  VectorXd probe = metric_rows_.col(0);
+  problem_.solve(probe);
+  return probe.allFinite();
+}
+
+/// By the factors beside the point, corrected by what they leave.
+VectorXd BorderedPoint::response(const Held& to) const {
+  constexpr int kMostCorrections = 6;
+  constexpr double kSmall = 1e-15;
+  const MatrixXd border = problem_.metric().asDiagonal() * at_.null;
+  VectorXd out = VectorXd::Zero(to.forces.size());
+  VectorXd left = to.forces;
+  double before = std::numeric_limits<double>::infinity();
+  for (int it = 0; it < kMostCorrections; ++it) {
+    left -= metric_rows_ * works(left);
+    problem_.solve(left);
+    left -= at_.null * (border.transpose() * left);
+    const double size = size_of(left);
+    if (!(size < before)) break;  // what is left is rounding's
+    before = size;
+    out += left;
+    if (size <= kSmall * size_of(out)) break;
+    left = to.forces - problem_.tangent_product(at_.y, at_.lambda, out);
+  }
+  return to.moves ? VectorXd(out + to.motion) : out;
+}
+
+double BorderedPoint::size_of(const VectorXd& motion) const {
+  const double share = motion.lpNorm<Eigen::Infinity>() / std::max(1.0, at_.y.lpNorm<Eigen::Infinity>());
+  return std::max(metric_.norm(motion, 0.0), share);
+}
+
+MatrixXd BorderedPoint::tangent_change_along(const VectorXd& motion,
+                                             const Eigen::Ref<const MatrixXd>& b) const {
+  const double norm = size_of(motion);
+  if (!(norm > 0.0)) return MatrixXd::Zero(b.rows(), b.cols());
+  return tangent_change(problem_, at_.y, at_.lambda, {motion, 0.0, norm}, b);
+}
+
+/// Second derivatives with the response to the load as it is here.
+void BorderedPoint::differentiate() {
+  const Index k = at_.null.cols();
+  for (Index j = 0; j < k; ++j) {
+    const MatrixXd change = tangent_change_along(at_.null.col(j), at_.null);
+    for (Index i = 0; i < k; ++i) at_.A[static_cast<std::size_t>(j)].col(i) = works(change.col(i));
+  }
+  MatrixXd all(at_.y.size(), k + 1);
+  all << at_.null, at_.response;
+  const PathDirection z{at_.response, 1.0, metric_.norm(at_.response, 1.0)};
+  const MatrixXd change = tangent_change(problem_, at_.y, at_.lambda, z, all);
+  for (Index i = 0; i < k; ++i) at_.B.col(i) = works(change.col(i));
+  at_.C = works(change.col(k) - load_change(problem_, at_.y, at_.lambda, z));
+}
+
+}  // namespace snapthrough

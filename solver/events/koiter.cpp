@@ -1,0 +1,61 @@
+#include "solver/events/koiter.h"
+
+#include <cmath>
+
+namespace snapthrough {
+
+using Eigen::VectorXd;
+
+namespace {
+
+/// n.F'''[n, n, n] by second differences of tangent products, extrapolated; empty when it does not settle.
+std::optional<double> third_derivative(const BorderedPoint& point) {
+  constexpr double kLongest = 2e-2;  // displacement gradient: differences of second order keep their digits
+  constexpr double kShorter = 0.25;
+  constexpr int kMostSteps = 4;
+  constexpr double kSettled = 1e-3;  // what extrapolation leaves is about its square
+  const CriticalSolution& at = point.at();
+  const VectorXd n = at.null.col(0);
+  const auto product = [&](double e) {
+    return point.works(point.problem().tangent_product(at.y + e * n, at.lambda, n))[0];
+  };
+  const double here = product(0.0);
+  const auto second = [&](double e) { return (product(e) - 2.0 * here + product(-e)) / (e * e); };
+  double e = kLongest;
+  for (int step = 0; step < kMostSteps; ++step, e *= kShorter) {
+    const double coarse = second(e);
+    const double fine = second(0.5 * e);
+    const double rounding = 1e-14 * std::abs(at.lambda * at.B(0, 0)) / (e * e);
+    if (std::abs(fine - coarse) <= kSettled * std::abs(fine) + rounding) return (4.0 * fine - coarse) / 3.0;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<KoiterExpansion> koiter_expansion(const BorderedPoint& point, double along_path) {
+  constexpr double kSymmetric = 1e-5;  // of the load, by a slope of one: what differences and meshes leave
+  const CriticalSolution& at = point.at();
+  const double A = at.A[0](0, 0);
+  const double B = at.B(0, 0);
+  const double C = at.C[0];
+  const double root = B * B - A * C;
+  if (!(root > 0.0)) return std::nullopt;
+  // the tangents (1, a) of both paths: A a^2 + 2 B a + C = 0
+  const double big = B + std::copysign(std::sqrt(root), B);
+  double along = -C / big;
+  if (A != 0.0 && std::abs(-big / A - along_path) < std::abs(along - along_path)) along = -big / A;
+  const double rate = B + A * along;
+  KoiterExpansion out{-A / (2.0 * rate), std::nullopt, 0.0};
+  if (std::abs(out.slope) > kSymmetric * std::abs(at.lambda)) return out;
+  out.slope = 0.0;
+  const auto third = third_derivative(point);
+  if (!third) return out;
+  const VectorXd n = at.null.col(0);
+  const VectorXd bent = point.response(point.held(-0.5 * point.tangent_change_along(n, n)));
+  out.stiffening = point.works(point.tangent_change_along(bent, n))[0] + *third / 6.0;
+  out.curvature = -out.stiffening / rate;
+  return out;
+}
+
+}  // namespace snapthrough
