@@ -18,6 +18,8 @@ namespace {
 
 constexpr int kMaxEvaluations = 100;
 constexpr int kMaxDepth = 48;
+/// Looks into a step that only cubics ask for: rounding may make them ask again on every part of a plateau.
+constexpr int kMostGuesses = 12;
 /// Points this near (in the path's norm, a displacement gradient) are on one path: rounding leaves about
 /// 1e-16 over the relative distance to the bifurcation, a broken bifurcation about the cube root of its
 /// imperfection.
@@ -34,6 +36,7 @@ struct Search {
   const LocateOptions& options;
   LocatedEvents& out;
   double stiffness = 0.0;  ///< of the softest motion at the ends of the step
+  int guesses = 0;         ///< looks at places where cubics through ends lie beyond zero
 };
 
 bool loads_agree(double l0, double l1, double tolerance, double least) {
@@ -182,12 +185,29 @@ std::optional<PathPoint> look(Search& search, const PathPoint& a, const PathPoin
   return middle;
 }
 
+/// Where the cubic through a motion's stiffnesses and their rates at both ends lies farthest beyond zero. It
+/// does next to a knee, where the stiffness falls faster at one end than from what it is at the other.
+std::optional<double> cubic_dip(const PathPoint& a, const PathPoint& b, double length) {
+  if (!a.modes || !b.modes) return std::nullopt;
+  for (Index i = 0; i < std::min(a.modes->count(), b.modes->count()); ++i) {
+    const double sign = std::copysign(1.0, a.modes->stiffness[i]);
+    const Cubic stiffness{sign * a.modes->stiffness[i], sign * length * a.modes->rate[i],
+                          sign * b.modes->stiffness[i], sign * length * b.modes->rate[i]};
+    const auto least = stiffness.f1 > 0.0 ? stiffness.minimum() : std::nullopt;
+    if (least && stiffness.value(*least) < 0.0) return least;
+  }
+  return std::nullopt;
+}
+
 /// Looks into a dip of a motion's stiffness.
 void search_dip(Search& search, const PathPoint& a, const PathPoint& b, int depth) {
   constexpr double kRounding = 1e-10;  // of a stiffness, beside that at the ends of the step
-  const auto dip = find_dip(a, b, search.continuation.distance_along(search.chord, a, b));
-  if (!dip || depth >= kMaxDepth) return;
-  const auto middle = look(search, a, b, dip->share);
+  const double length = search.continuation.distance_along(search.chord, a, b);
+  const auto dip = find_dip(a, b, length);
+  auto share = dip ? std::optional(dip->share) : std::nullopt;
+  if (!share && search.guesses < kMostGuesses && (share = cubic_dip(a, b, length))) ++search.guesses;
+  if (!share || depth >= kMaxDepth) return;
+  const auto middle = look(search, a, b, *share);
   if (!middle || !middle->modes) return;
   if (softest(*middle) <= kRounding * search.stiffness) {
     search.out.touching.push_back(*middle);
@@ -214,9 +234,11 @@ std::optional<double> hidden_turn(const Search& search, const PathPoint& a, cons
 
 /// Searches both sides of a turn that the ends do not show; false when there is none to be seen.
 bool search_turn(Search& search, const PathPoint& a, const PathPoint& b, int depth) {
-  const auto share = depth < kMaxDepth ? hidden_turn(search, a, b, depth) : std::nullopt;
+  if (search.guesses >= kMostGuesses) return false;
+  const auto share = hidden_turn(search, a, b, depth);
   const auto inside = share ? look(search, a, b, *share) : std::nullopt;
   if (!inside) return false;
+  ++search.guesses;
   search_between(search, a, *inside, depth + 1);
   if (search.out.same_path) search_between(search, *inside, b, depth + 1);
   return true;
