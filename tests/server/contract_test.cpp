@@ -63,7 +63,8 @@ TEST(Contract, EveryReferenceLeadsSomewhere) {
 
 /// Whether a finding is of a rule between several fields, which a schema does not say.
 bool needs_several_fields(const Finding& finding) {
-  static const std::set<std::string> kCodes{"unknown_reference", "duplicate_id",  // ids of other entities
+  static const std::set<std::string> kCodes{"unknown_reference", "duplicate_id",   // ids of other entities
+                                            "invalid_pointer",   "no_such_place",  // sensitivities
                                             "unreached_node",    "zero_length",
                                             "coincident_points",  // positions of several nodes or points
                                             "needs_one_sided",    // gap and reaction
