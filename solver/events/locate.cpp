@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kMaxEvaluations = 100;
 constexpr int kMaxDepth = 48;
-/// Looks into a step that only cubics ask for: rounding may make them ask again on every part of a plateau.
+/// Looks into a step that ask for no more than a suspicion: on a plateau rounding makes it anew on every
+/// part.
 constexpr int kMostGuesses = 12;
 /// Points this near (in the path's norm, a displacement gradient) are on one path: rounding leaves about
 /// 1e-16 over the relative distance to the bifurcation, a broken bifurcation about the cube root of its
@@ -36,7 +37,7 @@ struct Search {
   const LocateOptions& options;
   LocatedEvents& out;
   double stiffness = 0.0;  ///< of the softest motion at the ends of the step
-  int guesses = 0;         ///< looks at places where cubics through ends lie beyond zero
+  int guesses = 0;         ///< looks at places where nothing but a suspicion asks for
 };
 
 bool loads_agree(double l0, double l1, double tolerance, double least) {
@@ -185,16 +186,40 @@ std::optional<PathPoint> look(Search& search, const PathPoint& a, const PathPoin
   return middle;
 }
 
-/// Where the cubic through a motion's stiffnesses and their rates at both ends lies farthest beyond zero. It
-/// does next to a knee, where the stiffness falls faster at one end than from what it is at the other.
-std::optional<double> cubic_dip(const PathPoint& a, const PathPoint& b, double length) {
+/// Distance at which a value with this rate vanishes when it bends towards zero by this much a squared
+/// distance.
+double bent_to_zero(double value, double rate, double bend) {
+  return 2.0 * value / (std::sqrt(rate * rate + 4.0 * bend * value) - rate);
+}
+
+/// Where between the ends a stiffness may lie beyond zero although its tangents do not: when it bends, at
+/// either end, as sharply as a change between the ends asks for that half of the way brings about.
+std::optional<double> bent_dip(const Cubic& stiffness) {
+  constexpr double kHalf = 4.0;  // a change in half of the way, by the square of the way
+  const double change = stiffness.f1 - stiffness.f0;
+  const double bend = kHalf * std::max(std::abs(change - stiffness.m0), std::abs(change - stiffness.m1));
+  const double from = bent_to_zero(stiffness.f0, stiffness.m0, bend);
+  const double to = 1.0 - bent_to_zero(stiffness.f1, -stiffness.m1, bend);
+  return from < to ? std::optional(0.5 * (from + to)) : std::nullopt;
+}
+
+/// A place to look at where the stiffness of a motion that both ends have may lie beyond zero, as before a
+/// knee, where it falls from what it was and rises faster than the tangents at the ends tell.
+std::optional<double> dip_before_knee(const Search& search, const PathPoint& a, const PathPoint& b,
+                                      double length) {
+  constexpr double kSame = 0.7;  // of a motion that is the other's
   if (!a.modes || !b.modes) return std::nullopt;
-  for (Index i = 0; i < std::min(a.modes->count(), b.modes->count()); ++i) {
+  const PathMetric& metric = search.continuation.metric();
+  for (Index i = 0; i < a.modes->count(); ++i) {
     const double sign = std::copysign(1.0, a.modes->stiffness[i]);
-    const Cubic stiffness{sign * a.modes->stiffness[i], sign * length * a.modes->rate[i],
-                          sign * b.modes->stiffness[i], sign * length * b.modes->rate[i]};
-    const auto least = stiffness.f1 > 0.0 ? stiffness.minimum() : std::nullopt;
-    if (least && stiffness.value(*least) < 0.0) return least;
+    for (Index j = 0; j < b.modes->count(); ++j) {
+      if (sign * b.modes->stiffness[j] <= 0.0) continue;
+      if (std::abs(metric.inner(a.modes->motions.col(i), 0.0, b.modes->motions.col(j), 0.0)) < kSame)
+        continue;
+      const auto share = bent_dip({sign * a.modes->stiffness[i], sign * length * a.modes->rate[i],
+                                   sign * b.modes->stiffness[j], sign * length * b.modes->rate[j]});
+      if (share) return share;
+    }
   }
   return std::nullopt;
 }
@@ -205,7 +230,8 @@ void search_dip(Search& search, const PathPoint& a, const PathPoint& b, int dept
   const double length = search.continuation.distance_along(search.chord, a, b);
   const auto dip = find_dip(a, b, length);
   auto share = dip ? std::optional(dip->share) : std::nullopt;
-  if (!share && search.guesses < kMostGuesses && (share = cubic_dip(a, b, length))) ++search.guesses;
+  if (!share && search.guesses < kMostGuesses && (share = dip_before_knee(search, a, b, length)))
+    ++search.guesses;
   if (!share || depth >= kMaxDepth) return;
   const auto middle = look(search, a, b, *share);
   if (!middle || !middle->modes) return;
@@ -332,10 +358,11 @@ LocatedRoot find_root(Continuation& continuation, const Chord& chord, const Path
 
 namespace {
 
+constexpr double kSamePlace = 1e-3;  ///< distance within which rounding tells no two apart
+
 /// Whether two events are at one place, as far as rounding near singular points lets one say.
 bool at_one_place(const Continuation& continuation, double tolerance, const CriticalEvent& a,
                   const CriticalEvent& b) {
-  constexpr double kSamePlace = 1e-3;
   const double agree = 10.0 * std::max(tolerance, 1e-9);
   return loads_agree(a.point.lambda, b.point.lambda, agree, continuation.least_load()) &&
          continuation.distance(a.point, b.point) <= kSamePlace;
@@ -391,6 +418,10 @@ LocatedEvents locate_critical_points(Continuation& continuation, const PathPoint
                 out,          std::max(softest(a), softest(b))};
   search_between(search, a, b, 0);
   merge_events(continuation, options.tolerance, out.events);
+  const auto same = [&](const PathPoint& one, const PathPoint& other) {
+    return continuation.distance(one, other) <= kSamePlace;
+  };
+  out.touching.erase(std::unique(out.touching.begin(), out.touching.end(), same), out.touching.end());
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -127,6 +128,45 @@ TEST(Trace, FindsPairsInsideAStep) {
         EXPECT_NEAR(outcome.critical[0].point.y[0], c - d, 1e-2 * d + 1e-8) << folds << " " << c << " " << d;
         EXPECT_NEAR(outcome.critical[1].point.y[0], c + d, 1e-2 * d + 1e-8) << folds << " " << c << " " << d;
       }
+    }
+  }
+}
+
+/// A straight path x = lambda beside which a motion has the stiffness 1 - b q(a) + c / (1 + exp((1 - a) /
+/// w)), a = x - x0, where q rises smoothly from 0 at a = 0 to 1 at a = 1: it is lost before a support acts at
+/// a = 1.
+SmallProblem knee(double b, double c, double w, double x0) {
+  const auto stiffness = [=](double x) {
+    const double a = std::clamp(x - x0, 0.0, 1.0);
+    return 1.0 - b * a * a * (3.0 - 2.0 * a) + c / (1.0 + std::exp((1.0 + x0 - x) / w));
+  };
+  const auto gradient = [=](const Eigen::VectorXd& y) {
+    return Eigen::VectorXd(Eigen::Vector2d(y[0], stiffness(y[0]) * y[1]));
+  };
+  const auto hessian = [=](const Eigen::VectorXd& y) {
+    return Eigen::MatrixXd(Eigen::Vector2d(1.0, stiffness(y[0])).asDiagonal());
+  };
+  return {gradient, hessian, Eigen::Vector2d(1.0, 0.0)};
+}
+
+void expect_pair_before_knee(double b, double c, double w, double x0) {
+  SmallProblem problem = knee(b, c, w, x0);
+  TraceRules rules;
+  rules.monitor = [](const PathPoint& at) { return at.y[0]; };
+  rules.monitor_range = {{-1.0, x0 + 3.0}};
+  rules.gradient = 10.0;
+  const TraceOutcome outcome = follow(problem, rules);
+  EXPECT_EQ(outcome.critical.size(), 2u) << b << " " << c << " " << w << " " << x0;
+}
+
+/// Steps of a straight path grow, and one of them holds the loss of stability and its end.
+TEST(Trace, FindsPairsBeforeAKnee) {
+  for (const double b : {1.4, 1.8}) {
+    for (const double x0 : {0.5, 1.3, 2.9}) {
+      expect_pair_before_knee(b, 10.0, 0.01, x0);
+      expect_pair_before_knee(b, 10.0, 0.03, x0);
+      expect_pair_before_knee(b, 100.0, 0.01, x0);
+      expect_pair_before_knee(b, 100.0, 0.03, x0);
     }
   }
 }
