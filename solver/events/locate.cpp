@@ -230,8 +230,10 @@ void search_dip(Search& search, const PathPoint& a, const PathPoint& b, int dept
   const double length = search.continuation.distance_along(search.chord, a, b);
   const auto dip = find_dip(a, b, length);
   auto share = dip ? std::optional(dip->share) : std::nullopt;
-  if (!share && search.guesses < kMostGuesses && (share = dip_before_knee(search, a, b, length)))
-    ++search.guesses;
+  if (!share && search.guesses < kMostGuesses) {
+    share = dip_before_knee(search, a, b, length);
+    search.guesses += share ? 1 : 0;
+  }
   if (!share || depth >= kMaxDepth) return;
   const auto middle = look(search, a, b, *share);
   if (!middle || !middle->modes) return;
