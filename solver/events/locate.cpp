@@ -18,8 +18,7 @@ namespace {
 
 constexpr int kMaxEvaluations = 100;
 constexpr int kMaxDepth = 48;
-/// Looks into a step that ask for no more than a suspicion: on a plateau rounding makes it anew on every
-/// part.
+/// Looks into a step that nothing but a suspicion asks for: on a plateau rounding does so on every part.
 constexpr int kMostGuesses = 12;
 /// Points this near (in the path's norm, a displacement gradient) are on one path: rounding leaves about
 /// 1e-16 over the relative distance to the bifurcation, a broken bifurcation about the cube root of its
@@ -37,7 +36,7 @@ struct Search {
   const LocateOptions& options;
   LocatedEvents& out;
   double stiffness = 0.0;  ///< of the softest motion at the ends of the step
-  int guesses = 0;         ///< looks at places where nothing but a suspicion asks for
+  int guesses = 0;         ///< looks that nothing but a suspicion asked for
 };
 
 bool loads_agree(double l0, double l1, double tolerance, double least) {
