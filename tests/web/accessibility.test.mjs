@@ -148,6 +148,25 @@ test('the keyboard alone opens a problem, closes the gallery, and takes a table'
   await close(page);
 });
 
+test('the gallery opens again at once after the browser has closed it, before the page is told', async () => {
+  const page = await openPage(browser, `${service.url}/#/studio?problem=buried_pipe`);
+  await settled(page);
+  await page.getByRole('button', { name: 'Gallery' }).click();
+  const gallery = page.getByRole('dialog', { name: 'Gallery' });
+  await gallery.waitFor();
+  await page.evaluate(async () => {
+    const told = new Promise((done) => document.querySelector('dialog.gallery').addEventListener('close', done, { once: true }));
+    document.querySelector('dialog.gallery').close();
+    [...document.querySelectorAll('.controls button')].find((one) => one.textContent === 'Gallery').click();
+    await told;
+  });
+  await page.waitForTimeout(100);
+  assert.ok(await gallery.isVisible());
+  await gallery.getByRole('button', { name: 'Tunnel arch in the ground' }).click();
+  await page.getByRole('heading', { level: 1, name: 'Tunnel arch in the ground' }).waitFor();
+  await close(page);
+});
+
 for (const colorScheme of ['light', 'dark']) {
   test(`no violation where something is wrong or asked for (${colorScheme})`, async () => {
     const page = await openPage(browser, service.url, { colorScheme });

@@ -1,6 +1,7 @@
 // The gallery: every problem with its drawing, opened with one click.
 
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import type { VNode } from "preact";
+import { useMemo, useRef, useState } from "preact/hooks";
 import type { RequestDocument } from "../api/documents";
 import { shapeNode } from "../app/shape_view";
 import { drawingFigure } from "../figures";
@@ -19,39 +20,38 @@ function Thumb({ request }: { request: RequestDocument | undefined }) {
   return <div class="thumb" aria-hidden="true">{picture}</div>;
 }
 
-interface GalleryProps {
-  open: boolean;
-  onClose: () => void;
-  onChoose: (problem: Problem) => void;
-  chosen: Problem | null;
+interface Gallery {
+  open: () => void;
+  dialog: VNode;
 }
 
-export function GalleryDialog({ open, onClose, onChoose, chosen }: GalleryProps) {
+/** The gallery's dialog, to be put on the page, and what opens it. Whether it is open is known to the dialog alone: the browser
+ *  closes it on its own, and tells it later, so that a copy of what it knows would be wrong in between. */
+export function useGallery(chosen: Problem | null, onChoose: (problem: Problem) => void): Gallery {
   const dialog = useRef<HTMLDialogElement>(null);
   const [examples, setExamples] = useState<Map<string, RequestDocument> | null>(null);
-  useEffect(() => {
-    if (!open) {
-      dialog.current?.close();
-      return;
-    }
-    if (!dialog.current?.open) dialog.current?.showModal();
+  const open = (): void => {
+    dialog.current?.showModal();
     loadExamples().then(setExamples, () => undefined);
-  }, [open]);
-  return (
-    <dialog ref={dialog} class="gallery" aria-label="Gallery" onClose={onClose}
-            onClick={(event) => (event.target === dialog.current ? onClose() : undefined)}>
-      <header class="card-head"><h2>Gallery</h2><button type="button" onClick={onClose}>Close</button></header>
+  };
+  const close = (): void => dialog.current?.close();
+  return { open, dialog: (
+    <dialog ref={dialog} class="gallery" aria-label="Gallery" onClick={(event) => (event.target === dialog.current ? close() : undefined)}>
+      <header class="card-head"><h2>Gallery</h2><button type="button" onClick={close}>Close</button></header>
       <ul>
-        {open ? kProblems.map((problem) => (
+        {kProblems.map((problem) => (
           <li key={problem.example}>
-            <button type="button" aria-current={problem === chosen} onClick={() => onChoose(problem)}>
+            <button type="button" aria-current={problem === chosen} onClick={() => {
+              close();
+              onChoose(problem);
+            }}>
               <Thumb request={examples?.get(problem.example)} />
               <strong>{problem.heading}</strong>
               <span>{problem.text}</span>
             </button>
           </li>
-        )) : null}
+        ))}
       </ul>
     </dialog>
-  );
+  ) };
 }

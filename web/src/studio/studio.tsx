@@ -13,7 +13,7 @@ import { withValue } from "../model/pointer";
 import { useStore } from "../store";
 import { Card } from "../views/card";
 import { ResultViews } from "../views/result_views";
-import { GalleryDialog } from "./gallery_dialog";
+import { useGallery } from "./gallery_dialog";
 import { JsonPanel } from "./json_panel";
 import { ModelForm } from "./model_form";
 import { isStale, keep, openAny, openExample, openFirst, openProblem, pin, restore, setRequest, setSlider, setSliders, studio, unpin, type Studio } from "./session";
@@ -139,7 +139,6 @@ function usePanel(view: string): [Panel, (panel: Panel) => void] {
 
 export function StudioView({ view, query }: { view: string; query: URLSearchParams }) {
   const state = useStore(studio);
-  const [gallery, setGallery] = useState(false);
   const [panel, setPanel] = usePanel(view);
   const wanted = query.get("problem");
   const example = query.get("example");
@@ -154,11 +153,15 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
   }, [wanted, job, example]);
   const shadows = useMemo(() => shadowsOf(state), [state.shadow, state.pins, state.run, state.sliders]);
   const { request, problem } = state;
+  const gallery = useGallery(problem, (next) => {
+    go(`#/studio?problem=${next.example}`);
+    if (studio.get().problem === next) void openProblem(next);
+  });
   const narrow = useNarrow();
   const editing = <Editing panel={panel} onPanel={setPanel} state={state} />;
   return (
     <main id="main" tabIndex={-1} class={`studio ${panel === "json" ? "wide" : ""} ${isStale(state) ? "stale" : ""}`}>
-      <Card title="Model" class="controls" tools={<button type="button" onClick={() => setGallery(true)}>Gallery</button>}>
+      <Card title="Model" class="controls" tools={<button type="button" onClick={gallery.open}>Gallery</button>}>
         <div class="scroll">
           <h1 class={problem ? "" : "long"}>{problem?.heading ?? request?.model.title ?? "Model"}</h1>
           {problem ? <p class="text">{problem.text} <a href={documentAddress("gallery", sectionName(problem.heading))}>More about it</a></p> : null}
@@ -176,11 +179,7 @@ export function StudioView({ view, query }: { view: string; query: URLSearchPara
                        ? () => setRequest(withValue(request, "/analysis/branches/follow", "first")) : undefined} />
       ) : <Card title="Drawing" class="drawing-card"><p class="hint">Loading…</p></Card>}
       {narrow ? <Card title="Edit" class="editing">{editing}</Card> : null}
-      <GalleryDialog open={gallery} chosen={problem} onClose={() => setGallery(false)} onChoose={(next) => {
-        setGallery(false);
-        go(`#/studio?problem=${next.example}`);
-        if (studio.get().problem === next) void openProblem(next);
-      }} />
+      {gallery.dialog}
     </main>
   );
 }
