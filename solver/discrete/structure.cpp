@@ -13,6 +13,7 @@
 #include "solver/geometry/stress_free_axis.h"
 #include "solver/model/id_index.h"
 #include "solver/numeric/max_order.h"
+#include "solver/numeric/number_text.h"
 #include "solver/support/joined_supports.h"
 
 namespace snapthrough {
@@ -28,6 +29,8 @@ class Builder {
 
   /// @param known of another mesh or model; null: from the model itself
   void set_scales(const Scales* known);
+  void bound_stiffness();
+  void add_unresolved();
   void number_unknowns();
   void add_elements();
   void add_supports();
@@ -117,6 +120,14 @@ void Builder::set_scales(const Scales* known) {
   for (const Spring& spring : model_.springs) out_.spring_laws.push_back(law_of(spring, out_.scales));
 }
 
+void Builder::bound_stiffness() {
+  for (const MeshElement& e : out_.mesh.elements) {
+    const double EI = model_.sections[index_of(model_.sections, model_.members[e.member].section)].EI;
+    const double decay = (e.to - e.from) * out_.axes[e.member]->length() / out_.mesh.decay_lengths;
+    out_.stiffest.push_back(out_.scales.scaled_modulus(4.0 * EI / std::pow(decay, 4)));
+  }
+}
+
 void Builder::number_unknowns() {
   const Mesh& mesh = out_.mesh;
   const int p = mesh.order;
@@ -158,7 +169,7 @@ FoundationContact Builder::make_contact(int element, const FoundationLaw& founda
                                         std::array<double, 2> range) const {
   const MeshElement& e = out_.mesh.elements[element];
   const std::shared_ptr<const AxisCurve>& axis = out_.axes[e.member];
-  Law law = foundation.law;
+  Law law = law_on(out_, foundation, element).law;
   law.stiffness *= element_length(element);
   return FoundationContact(out_.mesh.order, foundation.direction,
                            {axis, e.from * axis->length(), (e.to - e.from) * axis->length()}, range, law,
@@ -249,6 +260,22 @@ void Builder::add_elements() {
     }
   }
   out_.skipped = without_stiffness(model_);
+  add_unresolved();
+}
+
+/// Says which foundations are stiffer than they act.
+void Builder::add_unresolved() {
+  for (std::size_t i = 0; i < model_.foundations.size(); ++i) {
+    const FoundationLaw& foundation = out_.foundation_laws[i];
+    double least = foundation.law.stiffness;
+    for (const FoundationPart& part : out_.foundation_parts)
+      if (part.foundation == static_cast<int>(i))
+        least = std::min(least, law_on(out_, foundation, part.element).law.stiffness);
+    if (least < foundation.law.stiffness)
+      out_.skipped.push_back("foundation " + model_.foundations[i].id + ": stiffness beyond " +
+                             rounded(least / out_.scales.scaled_modulus(1.0)) +
+                             ", which the elements do not resolve");
+  }
 }
 
 void Builder::add_supports() {
@@ -449,6 +476,13 @@ std::vector<std::string> without_stiffness(const Model& model) {
   return out;
 }
 
+FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element) {
+  FoundationLaw law = foundation;
+  if (law.law.one_sided)
+    law.law.stiffness = std::min(law.law.stiffness, structure.stiffest[static_cast<std::size_t>(element)]);
+  return law;
+}
+
 ElementShape shape_of_element(const Structure& structure, const Model& model, int element) {
   const int member = structure.mesh.elements[element].member;
   return shape_on(structure, model, element, *structure.stress_free[member]);
@@ -503,6 +537,7 @@ void fill(const Model& model, const Scales* scales, Structure& out) {
   const Model& laws = joined ? *joined : model;
   Builder builder(model, laws, out);
   builder.set_scales(scales);
+  builder.bound_stiffness();
   builder.number_unknowns();
   builder.add_elements();
   builder.add_supports();

@@ -102,7 +102,10 @@ struct Structure {
   std::vector<FoundationLaw>
       foundation_laws;                 ///< of each foundation of the model, as results are read from it
   std::vector<SpringLaw> spring_laws;  ///< of each spring of the model
-  Eigen::VectorXd proportional_load;   ///< by unit scaled load factor
+  /// Of each element: the largest stiffness of a one-sided foundation that acts on it
+  /// (`Mesh::decay_lengths`).
+  std::vector<double> stiffest;
+  Eigen::VectorXd proportional_load;  ///< by unit scaled load factor
   Eigen::VectorXd constant_load;
   Eigen::VectorXd metric;
   std::vector<MonitorRow> monitors;
@@ -120,6 +123,9 @@ struct Structure {
   /// nothing; orthonormal columns.
   Eigen::MatrixXd free_motions;
 };
+
+/// The law of a foundation as it acts on an element.
+[[nodiscard]] FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element);
 
 /// @brief Builds the structure.
 /// @pre the model passed the reference and range checks of check()

@@ -3,6 +3,7 @@
 /// Members cut into elements.
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct MeshElement {
 struct Mesh {
   int order = 1;
   FoundationRule foundation = FoundationRule::consistent;
+  /// Decay lengths that an element resolves: a one-sided foundation acts with the stiffness that makes it so
+  /// many, at most. Infinite where the mesh was given.
+  double decay_lengths = std::numeric_limits<double>::infinity();
   std::vector<MeshElement> elements;
   std::vector<int> first;  ///< first element of each member; one entry more than there are members
 };

@@ -80,10 +80,10 @@ void SectionForces::add_load(const Load& load, double factor) {
 void SectionForces::add_foundations() {
   for (const FoundationPart& part : structure_.foundation_parts) {
     if (part.element != element_) continue;
-    const FoundationLaw& law = structure_.foundation_laws[part.foundation];
+    const FoundationLaw law = law_on(structure_, structure_.foundation_laws[part.foundation], element_);
     const bool lumped = structure_.mesh.foundation == FoundationRule::lumped;
     if (lumped) add_lumped(law, part.range);
-    FoundationHere out{&law, lumped, part.range, {{part.range[0], part.range[1]}}};
+    FoundationHere out{law, lumped, part.range, {{part.range[0], part.range[1]}}};
     if (part.contact)
       part.contact->contact_intervals({reader_.start()[0], reader_.start()[1]}, reader_.gradient(0),
                                       reader_.gradient(1), out.contact);
@@ -152,8 +152,8 @@ Vec2 SectionForces::density(double xi) const {
   }
   for (const FoundationHere& foundation : foundations_) {
     if (foundation.lumped || xi < foundation.range[0] || xi > foundation.range[1]) continue;
-    const Vec2 n = normal_into(*foundation.law, xi);
-    const double reaction = foundation.law->law.reaction(penetration(*foundation.law, xi));
+    const Vec2 n = normal_into(foundation.law, xi);
+    const double reaction = foundation.law.law.reaction(penetration(foundation.law, xi));
     for (int c = 0; c < 2; ++c) f[c] -= reaction * n[c];
   }
   return f;
@@ -172,15 +172,14 @@ double SectionForces::shear_layer(const FoundationLaw& foundation, double xi) co
 void SectionForces::add_shear_layers(double xi, double from, double to, std::array<double, 3>& sum) const {
   const Vec2 x0 = position(xi);
   for (const FoundationHere& foundation : foundations_) {
-    if (foundation.law->shear == 0.0) continue;
+    if (foundation.law.shear == 0.0) continue;
     const double lo = std::max(from, foundation.range[0]);
     const double hi = std::min(to, foundation.range[1]);
     for (std::size_t i = 0; lo < hi && i < gauss_.points.size(); ++i) {
       const double at = lo + (hi - lo) * gauss_.points[i];
-      const double force =
-          shear_layer(*foundation.law, at) * gauss_.weights[i] * (hi - lo) * reader_.length();
-      const Vec2 n = normal_into(*foundation.law, at);
-      const Vec2 dn = normal_rate(*foundation.law, at);
+      const double force = shear_layer(foundation.law, at) * gauss_.weights[i] * (hi - lo) * reader_.length();
+      const Vec2 n = normal_into(foundation.law, at);
+      const Vec2 dn = normal_rate(foundation.law, at);
       const double angle = axis_at(at).angle;
       const Vec2 x = position(at);
       const auto du =
@@ -247,9 +246,9 @@ std::array<double, 3> SectionForces::at(double xi) const {
     add_shear_layers(xi, breaks[b], breaks[b + 1], sum);
   }
   for (const FoundationHere& foundation : foundations_) {
-    if (foundation.law->shear == 0.0 || xi < foundation.range[0] || xi > foundation.range[1]) continue;
-    const Vec2 n = normal_into(*foundation.law, xi);
-    const double cut = shear_layer(*foundation.law, xi);
+    if (foundation.law.shear == 0.0 || xi < foundation.range[0] || xi > foundation.range[1]) continue;
+    const Vec2 n = normal_into(foundation.law, xi);
+    const double cut = shear_layer(foundation.law, xi);
     sum[0] -= cut * n[0];
     sum[1] -= cut * n[1];
   }

@@ -38,7 +38,7 @@ class SectionForces {
     Vec2 range;  ///< of the element
   };
   struct FoundationHere {
-    const FoundationLaw* law;
+    FoundationLaw law;
     bool lumped;  ///< its reaction is that of point actions
     Vec2 range;
     std::vector<FoundationContact::Interval> contact;

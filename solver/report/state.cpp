@@ -56,6 +56,14 @@ MemberState member_state(const Structure& structure, const Model& model, const E
   return out;
 }
 
+/// The place of a fraction, on an element that the foundation acts on.
+MeshPlace place_under(const Mesh& mesh, int member, const Foundation& foundation, double fraction) {
+  const MeshPlace place = place_of(mesh, member, fraction);
+  const bool is_beyond = place.xi == 0.0 && place.element > mesh.first[static_cast<std::size_t>(member)] &&
+                         fraction >= foundation.range[1] - kOnePlace;
+  return is_beyond ? MeshPlace{place.element - 1, 1.0} : place;
+}
+
 FoundationState foundation_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
                                  int index, int points) {
   const Foundation& foundation = model.foundations[index];
@@ -67,15 +75,17 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
   for (int i = 0; i < points; ++i) {
     const double fraction =
         foundation.range[0] + (foundation.range[1] - foundation.range[0]) * i / (points - 1);
-    const MeshPlace place = place_of(structure.mesh, member, fraction);
+    const MeshPlace place = place_under(structure.mesh, member, foundation, fraction);
     const auto u = ElementReader(structure, y, place.element).displacement(place.xi);
     const double angle = axis.at(fraction * axis.length()).angle;
     // results are in the user's sense: a medium that pushes has a positive reaction, one that pulls a
     // negative
     const auto d = law.direction.at(angle);
-    const double w = u[0] * d[0] + u[1] * d[1];
+    double w = u[0] * d[0] + u[1] * d[1];
+    const double reaction = law_on(structure, law, place.element).law.reaction(w);
+    if (law.law.acts(w)) w = law.law.one_sided ? law.law.gap + reaction / law.law.stiffness : w;
     out.s.push_back(fraction * axis.length());
-    out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * law.law.reaction(w)));
+    out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * reaction));
     out.displacement.push_back(in_users_sense(law.sense, structure.scales.length * w));
   }
   out.contact = contact_intervals(structure, model, y, index);

@@ -136,7 +136,8 @@ void add_foundations(const Structure& structure, const Model& model, const Vecto
   const std::size_t first = bearings.size();
   bearings.resize(first + model.foundations.size());
   for (const FoundationPart& part : structure.foundation_parts) {
-    const FoundationLaw& foundation = structure.foundation_laws[part.foundation];
+    const FoundationLaw foundation =
+        law_on(structure, structure.foundation_laws[part.foundation], part.element);
     Bearing& sum = bearings[first + static_cast<std::size_t>(part.foundation)];
     if (foundation.shear > 0.0)
       add_springs_of(shear_layer_springs(structure, foundation, part.element, part.range), y, rigid, sum);
