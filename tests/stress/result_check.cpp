@@ -294,7 +294,8 @@ void Check::contact(const State& state, const RodState& at) {
     for (std::size_t i = 0; i < said.s.size(); ++i) {
       const double fraction = std::min(1.0, said.s[i] / length);
       int e = rod_.mesh.first[m];
-      while (e + 1 < rod_.mesh.first[m + 1] && rod_.elements[e].to < fraction) ++e;
+      const double last = std::min(fraction + 1e-9, base.range[1] - 1e-9);  // of two that meet, the further
+      while (e + 1 < rod_.mesh.first[m + 1] && rod_.elements[e].to <= last) ++e;
       const RodElement& element = rod_.elements[e];
       const double xi = (fraction - element.from) / (element.to - element.from);
       const Functional row = functional_at(rod_, element, xi, direction_of(rod_, element, strip, xi));
@@ -307,7 +308,7 @@ void Check::contact(const State& state, const RodState& at) {
         return said.s[i] > c[0] + 1e-6 * length && said.s[i] < c[1] - 1e-6 * length;
       });
       if (reaction < 0.0) fail("complementarity: base " + base.id + " pulls");
-      if (std::abs(reaction / base.stiffness - std::max(depth, 0.0)) > noise)
+      if (std::abs(reaction / acting_stiffness(rod_, element, base) - std::max(depth, 0.0)) > noise)
         fail("complementarity: base " + base.id + " reacts with " + text(reaction) + " at depth " +
              text(depth));
       if (inside && depth < -noise - 1e-6 * length)

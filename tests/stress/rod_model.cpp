@@ -115,7 +115,7 @@ void Maker::base(RodElement& element, const Foundation& base) const {
   const auto [lo, hi] = part_of(element, base.range);
   if (hi <= lo) return;
   RodStrip strip;
-  strip.modulus = base.stiffness * rod_.length * rod_.length / rod_.force;
+  strip.modulus = acting_stiffness(rod_, element, base) * rod_.length * rod_.length / rod_.force;
   strip.gap = base.reaction == Reaction::bilateral ? 0.0 : base.gap / rod_.length;
   strip.lo = lo;
   strip.hi = hi;
@@ -316,6 +316,13 @@ void Maker::sampling() {
 Functional functional_at(const RodModel& rod, const RodElement& element, double xi,
                          const Eigen::Vector3d& row) {
   return {row, row * (element.h * rod.lagrange.integrals(xi)).transpose()};
+}
+
+double acting_stiffness(const RodModel& rod, const RodElement& element, const Foundation& base) {
+  if (base.reaction == Reaction::bilateral) return base.stiffness;
+  const double shortest = element.h / rod.mesh.decay_lengths;
+  const double modulus = rod.force / (rod.length * rod.length);
+  return std::min(base.stiffness, 4.0 * modulus / (element.bending * std::pow(shortest, 4)));
 }
 
 Eigen::Vector3d direction_of(const RodModel& rod, const RodElement& element, const RodStrip& strip,

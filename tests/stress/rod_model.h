@@ -99,6 +99,10 @@ struct RodModel {
 [[nodiscard]] Functional functional_at(const RodModel& rod, const RodElement& element, double xi,
                                        const Eigen::Vector3d& row);
 
+/// @brief The stiffness of a base on an element, in the model's units: a one-sided one decays over no shorter
+/// length than its mesh resolves.
+[[nodiscard]] double acting_stiffness(const RodModel& rod, const RodElement& element, const Foundation& base);
+
 /// @brief Unit direction in which a base on this strip reacts, at xi of the element.
 [[nodiscard]] Eigen::Vector3d direction_of(const RodModel& rod, const RodElement& element,
                                            const RodStrip& strip, double xi);
