@@ -60,10 +60,14 @@ void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, R
     result.diagnostics.skipped.insert(result.diagnostics.skipped.begin(), absent.begin(), absent.end());
     return;
   }
+  // derivatives by a stiffness are those of the stiffness itself
+  const Discretization& asked = analysis.discretization;
   Structure structure =
-      make_structure(model, analysis.discretization, analysis.geometry, modes, mesh_use(analysis));
+      make_structure(model, analysis.sensitivities.empty() ? asked : as_stiff_as_given(asked),
+                     analysis.geometry, modes, mesh_use(analysis));
   structure.free_motions = free_motions(model);
   structure.stop = hooks.stop;
+  result.diagnostics.skipped = structure.skipped;
   switch (analysis.type) {
     case AnalysisType::critical:
     case AnalysisType::path:
@@ -77,7 +81,6 @@ void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, R
       run_buckling(model, analysis, structure, result);
       break;
   }
-  result.diagnostics.skipped = structure.skipped;
   for (std::string& what : skipped_work(model, analysis))
     result.diagnostics.skipped.push_back(std::move(what));
   report_unchecked_mesh(analysis, structure, result);

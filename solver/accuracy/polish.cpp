@@ -16,6 +16,15 @@ constexpr double kReach = 0.02;
 /// The same where there is nothing nearer.
 constexpr double kWidening = 6.0;
 
+/// Corrections at most: a base that the finer mesh takes as stiffer presses another way, and settles slowly.
+constexpr int kMostCorrections = 40;
+
+ContinuationOptions patient(ContinuationOptions options) {
+  options.corrector.max_iterations = kMostCorrections;
+  options.corrector.most_stalled = kMostCorrections;
+  return options;
+}
+
 /// The one of the found points that is the known one; nearest by load where several are alike.
 std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<CriticalEvent>& found) {
   const CriticalEvent* best = nullptr;
@@ -35,7 +44,7 @@ std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<
 FineMesh::FineMesh(Structure structure, const Continuation& measure, double tolerance)
     : structure_(std::move(structure)),
       problem_(structure_),
-      continuation_(problem_, measure.options()),
+      continuation_(problem_, patient(measure.options())),
       tolerance_(tolerance) {
   continuation_.measure_as(measure);
 }

@@ -350,14 +350,17 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
 }
 
 /// Every element cut in four: a mesh whose points finer ones do not share is too coarse by far, and a path on
-/// few elements is cheap beside the last. What the path's end needs beside places where something acts is far
-/// finer where thin members are pulled.
+/// few elements is cheap beside the last; fewer, where those resolve every foundation. What the path's end
+/// needs beside places where something acts is far finer where thin members are pulled.
 std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
                                const std::vector<double>& decays) {
   const auto halved = finer_mesh(structure.mesh);
   const auto quartered = halved ? finer_mesh(*halved) : std::nullopt;
   if (!quartered) return std::nullopt;
-  Mesh next = layered_mesh(*quartered, model, structure.axes, decays);
+  const Mesh resolved = make_mesh(model, as_stiff_as_given({}), structure.axes, MeshUse::first);
+  const bool is_enough = resolved.elements.size() > structure.mesh.elements.size() &&
+                         resolved.elements.size() < quartered->elements.size();
+  Mesh next = layered_mesh(is_enough ? resolved : *quartered, model, structure.axes, decays);
   // what no finer mesh can confirm is not followed
   return finer_mesh(next) ? std::optional(std::move(next)) : std::nullopt;
 }
@@ -379,6 +382,7 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     const int factorizations = reached.diagnostics.factorizations - result.diagnostics.factorizations;
     result = std::move(reached);
     report_path_mesh(*mesh, paths, result);
+    result.diagnostics.skipped = mesh->skipped;
     if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
     if (paths == kMostPaths) break;
     auto next = much_finer(*mesh, model, decays);

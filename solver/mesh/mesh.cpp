@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <variant>
 
 #include "solver/model/id_index.h"
+#include "solver/support/law.h"
 
 namespace snapthrough {
 namespace {
@@ -86,19 +88,22 @@ constexpr ChosenMesh kFinal{4, 25.0, 1.0, 8.0, false};
 constexpr double kMostElements = 4000;
 
 /// Elements for a piece of a member, by the rule of make_mesh.
+/// @param finest that a one-sided foundation asks for, as a multiple of what the axis does
 int default_count(const ChosenMesh& rule, const Model& model, int member, const AxisCurve& axis, double from,
-                  double to) {
+                  double to, double finest) {
   const Member& m = model.members[member];
   const double length = (to - from) * axis.length();
-  double n = rule.least * (to - from);
   const double turn = axis.turning(from * axis.length(), to * axis.length());
-  n = std::max(n, turn / (rule.turn * std::numbers::pi / 180.0));
+  const double turns = turn / (rule.turn * std::numbers::pi / 180.0);
+  const double enough = finest * std::max(kFirst.least * (to - from), turns);
+  double n = std::max(rule.least * (to - from), turns);
   const double EI = model.sections[index_of(model.sections, m.section)].EI;
   for (const Foundation& foundation : model.foundations) {
     if (foundation.member != m.id || foundation.stiffness <= 0.0 || foundation.range[1] <= from ||
         foundation.range[0] >= to)
       continue;
-    n = std::max(n, length / (rule.decay_lengths * std::pow(4.0 * EI / foundation.stiffness, 0.25)));
+    const double layers = length / (rule.decay_lengths * std::pow(4.0 * EI / foundation.stiffness, 0.25));
+    n = std::max(n, is_one_sided(foundation) ? std::min(layers, enough) : layers);
   }
   for (const Imperfection& imperfection : model.imperfections) {
     const auto* sine = std::get_if<SineImperfection>(&imperfection);
@@ -146,6 +151,10 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
   Mesh mesh;
   mesh.order = discretization.fixed_mesh ? discretization.order : rule.order;
   mesh.foundation = discretization.fixed_mesh ? discretization.foundation : FoundationRule::consistent;
+  const bool is_checked = !discretization.fixed_mesh && use != MeshUse::final;
+  if (is_checked) mesh.decay_lengths = rule.decay_lengths;
+  const double finest =
+      is_checked ? std::cbrt(1.0 / discretization.accuracy) : std::numeric_limits<double>::infinity();
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const int member = static_cast<int>(m);
     mesh.first.push_back(static_cast<int>(mesh.elements.size()));
@@ -157,7 +166,7 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
       counts = share(n, breaks);
     } else {
       for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
-        counts.push_back(default_count(rule, model, member, *axes[m], breaks[i], breaks[i + 1]));
+        counts.push_back(default_count(rule, model, member, *axes[m], breaks[i], breaks[i + 1], finest));
     }
     add_elements(mesh, member, breaks, counts);
   }

@@ -48,10 +48,18 @@ enum class MeshUse {
 /// fixed number of elements is shared out between those places by length, at least one each; where there are
 /// fewer elements than pieces, they are equal and what lies inside an element acts inside it. Without a fixed
 /// mesh the number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of the foundations
-/// and the half waves of imperfections.
+/// and the half waves of imperfections. Where finer meshes will check it, a one-sided foundation asks for no
+/// more elements than the accuracy does: beyond that it acts with the stiffness that they resolve
+/// (`Mesh::decay_lengths`), whose effect on a load is of the third order in their length.
 /// @param use of the mesh where it isn't fixed
 [[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
                              MeshUse use = MeshUse::final);
+
+/// The same, but that every foundation acts with the stiffness that it has.
+[[nodiscard]] inline Discretization as_stiff_as_given(Discretization discretization) {
+  discretization.accuracy = 0.0;  // which no stiffness is too large for
+  return discretization;
+}
 
 /// @brief The next finer mesh, on which the error is much less: every element cut in two. (One order more on
 /// the same elements is no witness where an element is too long for what it carries: both err together.)

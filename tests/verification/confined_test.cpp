@@ -170,7 +170,7 @@ TEST(EncasedRing, ReachesALimitAsItsHostStiffens) {
   std::vector<double> loads;
   for (const double host : {1e7, 1e8, 1e9, 1e10}) {
     Discretization mesh;
-    mesh.accuracy = 1e-4;
+    mesh.accuracy = 1e-6;
     Analysis analysis = path_on(mesh, 1);
     analysis.stop.steps = 3000;
     const Result result = solve_soundly(encased_ring(50.0, host), analysis);
@@ -184,6 +184,31 @@ TEST(EncasedRing, ReachesALimitAsItsHostStiffens) {
     EXPECT_LT(least * (loads[i] - loads[i - 1]), loads[i - 1] - loads[i - 2]);
   }
   expect_relative(loads.back(), 12.0 * std::pow(50.0, -2.2) * std::pow(25.0, 3), 0.03, "Glock");
+}
+
+/// On a host of 1e12 the converged limit load (741 elements, which resolve the patch) is 35.0768836, and
+/// hosts that are stiffer still are within 1e-6 of it.
+TEST(EncasedRing, CostsNoMoreInAStifferHost) {
+  constexpr double kRigid = 35.0768836;
+  int in_soft_host = 0;
+  for (const double host : {1e6, 1e8, 1e10, 1e12, 1e14, 1e16}) {
+    Discretization mesh;
+    mesh.accuracy = 1e-3;
+    Analysis analysis = path_on(mesh, 1);
+    const Result result = solve_soundly(encased_ring(50.0, host), analysis);
+    const auto limits = limits_of(result);
+    ASSERT_EQ(limits.size(), 1u) << host;
+    if (in_soft_host == 0) in_soft_host = result.diagnostics.factorizations;
+    EXPECT_LE(result.diagnostics.factorizations, 3 * in_soft_host) << host;
+    if (host < 1e12) continue;
+    ASSERT_TRUE(limits[0].error_estimate.has_value()) << host;
+    EXPECT_LE(std::abs(limits[0].load_factor / kRigid - 1.0), *limits[0].error_estimate + 1e-6) << host;
+    EXPECT_LE(*limits[0].error_estimate, 1e-3) << host;
+    const auto& skipped = result.diagnostics.skipped;
+    EXPECT_TRUE(std::any_of(skipped.begin(), skipped.end(), [](const std::string& what) {
+      return what.find("stiffness beyond") != std::string::npos;
+    })) << host;
+  }
 }
 
 }  // namespace

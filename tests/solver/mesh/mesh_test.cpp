@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "solver/discrete/structure.h"
 #include "solver/model/id_index.h"
 #include "tests/solver/structures.h"
 
@@ -150,6 +151,30 @@ TEST_P(Grading, FollowsTheDecayLengthOfTheBasesWhereTheyAre) {
     EXPECT_LE(longest({ends.begin(), middle + 1}), decay_lengths() * decay * (1.0 + 1e-9)) << K;
     // beside the base nothing asks for more
     EXPECT_LE(ends.end() - middle, 6) << K;
+  }
+}
+
+/// Where finer meshes follow, one-sided bases get the elements that the accuracy needs, and act as those
+/// resolve them.
+TEST_P(Grading, OfOneSidedBasesFollowsTheAccuracy) {
+  Model model = testing::column(1.0, 1.0, 1e6, 1e12);
+  model.foundations[0].reaction = Reaction::compression_only;
+  const bool is_checked = GetParam() != MeshUse::final;
+  const double decay = std::pow(4.0 / 1e12, 0.25);
+  for (const double accuracy : {1e-2, 1e-3, 1e-5}) {
+    Discretization asked;
+    asked.accuracy = accuracy;
+    const double width = longest(ends_of(mesh_of(model, asked, GetParam()), 0));
+    if (is_checked)
+      EXPECT_NEAR(width, std::cbrt(accuracy) / 3.0, 0.1 * width) << accuracy;
+    else
+      EXPECT_LE(width, decay_lengths() * decay * (1.0 + 1e-9)) << accuracy;
+    const double given = longest(ends_of(mesh_of(model, as_stiff_as_given(asked), GetParam()), 0));
+    EXPECT_LE(given, decay_lengths() * decay * (1.0 + 1e-9)) << accuracy;
+    const Structure structure = make_structure(model, asked, Geometry::nonlinear, {}, GetParam());
+    const FoundationLaw law = law_on(structure, structure.foundation_laws[0], 0);
+    const double acting = law.law.stiffness / structure.scales.scaled_modulus(1.0);
+    EXPECT_NEAR(acting / (is_checked ? 4.0 * std::pow(3.0 / width, 4) : 1e12), 1.0, 1e-9) << accuracy;
   }
 }
 
