@@ -103,7 +103,8 @@ int default_count(const ChosenMesh& rule, const Model& model, int member, const 
         foundation.range[0] >= to)
       continue;
     const double layers = length / (rule.decay_lengths * std::pow(4.0 * EI / foundation.stiffness, 0.25));
-    n = std::max(n, is_one_sided(foundation) ? std::min(layers, enough) : layers);
+    const bool is_bounded = is_one_sided(foundation) && !foundation.direction;
+    n = std::max(n, is_bounded ? std::min(layers, enough) : layers);
   }
   for (const Imperfection& imperfection : model.imperfections) {
     const auto* sine = std::get_if<SineImperfection>(&imperfection);
