@@ -1,8 +1,10 @@
 #include "solver/discrete/structure.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -31,6 +33,7 @@ class Builder {
   void set_scales(const Scales* known);
   void bound_stiffness();
   void add_unresolved();
+  [[nodiscard]] bool is_moved_by_constant_actions() const;
   void number_unknowns();
   void add_elements();
   void add_supports();
@@ -407,6 +410,24 @@ void Builder::scale_loads(std::optional<double> load_scale) {
   find_follower_ends(total);
 }
 
+/// Whether constant actions do more than press on what holds them.
+bool Builder::is_moved_by_constant_actions() const {
+  for (const ElementPressure& p : pressures_)
+    if (p.constant != 0.0) return true;
+  Eigen::VectorXd free = out_.constant_load;
+  for (int node = 0; node < out_.nodes; ++node) {
+    const NodeSupport& support = out_.supports[static_cast<std::size_t>(node)];
+    if (support.constant != Vec3{}) return true;
+    Eigen::Vector2d along = Eigen::Rotation2Dd(-support.angle) * Eigen::Vector2d(free.segment<2>(3 * node));
+    for (int c = 0; c < 2; ++c)
+      if (support.fixed[c]) along[c] = 0.0;
+    free.segment<2>(3 * node) = along;
+    if (support.fixed[2]) free[3 * node + 2] = 0.0;
+  }
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  return free.lpNorm<Eigen::Infinity>() > kRounding * out_.constant_load.lpNorm<Eigen::Infinity>();
+}
+
 /// Nodes that are free to move where the pressures of the lines that meet don't cancel.
 void Builder::find_follower_ends(double load_scale) {
   std::vector<FollowerEnd> sums(static_cast<std::size_t>(out_.nodes));
@@ -548,12 +569,7 @@ void fill(const Model& model, const Scales* scales, Structure& out) {
   const auto one_sided = [](const auto& support) { return is_one_sided(support); };
   out.one_sided = std::any_of(laws.foundations.begin(), laws.foundations.end(), one_sided) ||
                   std::any_of(laws.springs.begin(), laws.springs.end(), one_sided);
-  for (const Load& load : model.loads)
-    out.has_constant =
-        out.has_constant || std::visit([](const auto& l) { return l.pattern == Pattern::constant; }, load);
-  for (const Support& support : model.supports)
-    out.has_constant =
-        out.has_constant || (support.displacement && support.displacement->pattern == Pattern::constant);
+  out.has_constant = builder.is_moved_by_constant_actions();
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const double EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
     const double length = out.axes[m]->length();

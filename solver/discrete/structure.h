@@ -117,7 +117,7 @@ struct Structure {
       foundation_loads;  ///< 2 sqrt(K EI) + G of the foundations of each member: what they can add to that
   TouchingSupports touching;  ///< empty unless they were looked for
   bool one_sided = false;     ///< some foundation or spring is not bilateral
-  bool has_constant = false;  ///< some action has the constant pattern
+  bool has_constant = false;  ///< actions of the constant pattern move it
   std::stop_token stop;       ///< who computes with it looks at this
   /// Motions of the nodes (x, y, rotation each, scaled) that supports of one side alone can resist, or
   /// nothing; orthonormal columns.

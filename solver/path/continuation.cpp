@@ -56,6 +56,10 @@ constexpr double kSmallDisplacement = 1e-7;
 
 /// Share of the load in the path's norm, over that of the displacement, at which the load is weighed anew.
 constexpr double kLoadDominates = 3.0;
+/// Of a displacement: what the tangent at its end may miss it by where contact changes in proportion to it.
+constexpr double kProportional = 0.1;
+/// Corrections downhill in the energy.
+constexpr int kIterations = 60;
 
 /// Sign of det [J, -load; tangent]: parity of the negative eigenvalues times the sense of the load. It is the
 /// same on both sides of a kink, because both sides' tangents agree in the plane that separates them.
@@ -331,8 +335,23 @@ std::optional<PathPoint> Continuation::start_at(const VectorXd& y, double direct
   TangentReport report;
   if (!unit_response(y, 0.0, Regime::Contact::unilateral, response, report)) return std::nullopt;
   PathPoint start = first_point(y, 0.0, response, direction, report);
+  if (problem_.one_sided()) turn_where_supports_touch(start, direction, response);
   start.holds = holds;
   return start;
+}
+
+/// Where supports touch without pressure the tangent at the start takes them as absent. The direction is that
+/// of the equilibrium under a little load, if another.
+void Continuation::turn_where_supports_touch(PathPoint& start, double direction, const VectorXd& response) {
+  const double norm = metric_.norm(response, 0.0);
+  PathPoint next;
+  next.lambda = direction * small_load(norm, load_scale_);
+  next.y = start.y + next.lambda * response;
+  const auto outcome = correct_downhill(std::abs(next.lambda) * norm, kIterations, next);
+  if (outcome.status != CorrectorStatus::converged) return;
+  const VectorXd rate = (next.y - start.y) / next.lambda;
+  if (metric_.norm(rate - response, 0.0) > kProportional * metric_.norm(rate, 1.0))
+    start = first_point(start.y, 0.0, rate, direction, outcome.tangent);
 }
 
 void Continuation::set_tangent(PathPoint& point, int before, const CorrectorOutcome& outcome,
@@ -495,9 +514,7 @@ bool Continuation::step_from_beyond(const PathPoint& from, const PathPoint& beyo
 /// size.
 /// @param beyond a point with the direction in which the load and the guess lie
 bool Continuation::settle_beyond(const PathPoint& from, const PathPoint& beyond, double size, PathPoint& to) {
-  constexpr double kProportional = 0.1;  // of the displacement: what the end's tangent may miss it by
   if (beyond.tangent_lambda == 0.0) return false;
-  constexpr int kIterations = 60;
   to.y = beyond.y + size * beyond.tangent;
   to.lambda = beyond.lambda + size * beyond.tangent_lambda;
   auto outcome = correct_downhill(size, kIterations, to);

@@ -194,6 +194,7 @@ class Continuation {
   [[nodiscard]] NeutralBounds neutral_bounds(const Holds& holds, const PathPoint& at);
   [[nodiscard]] bool is_loose();
   [[nodiscard]] std::optional<PathPoint> start_at_rest(PathPoint rest, double direction);
+  void turn_where_supports_touch(PathPoint& start, double direction, const Eigen::VectorXd& response);
   [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, double lambda,
                                       const Eigen::VectorXd& response, double direction,
                                       const TangentReport& report);

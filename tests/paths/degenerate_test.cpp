@@ -26,6 +26,50 @@ TEST(Degenerate, LoadThatDoesNoWorkEndsAtTheLoadBound) {
   EXPECT_EQ(critical.summary.termination, "load_bound");
 }
 
+/// Constant actions on what holds them leave the structure at rest, where a base touches without pressure:
+/// the path is the one without them, and starts as that does.
+TEST(Degenerate, ConstantActionOnASupportChangesNothing) {
+  Model model = straight(1.0, 1.0, 1e6, "xyr", "");
+  Spring tip;
+  tip.id = "tip";
+  tip.at = at_node("b");
+  tip.stiffness = 1e3;
+  tip.direction = std::array{0.0, -1.0};
+  tip.reaction = Reaction::compression_only;
+  model.springs = {tip};
+  model.loads = {force_at(at_node("b"), -0.8, -1.0)};
+  const Result without = solve_soundly(model, analysis_of(AnalysisType::critical, {}));
+  model.loads.emplace_back(PointLoad{at_node("a"), {3.0, -2.0}, 5.0, Pattern::constant});
+  const Result with = solve_soundly(model, analysis_of(AnalysisType::critical, {}));
+  EXPECT_EQ(with.summary.termination, without.summary.termination);
+  ASSERT_TRUE(without.summary.critical_load_factor && with.summary.critical_load_factor);
+  expect_relative(*with.summary.critical_load_factor, *without.summary.critical_load_factor, 1e-9, "limit");
+}
+
+/// So does one on a part of its own: the other part starts as from rest.
+TEST(Degenerate, ConstantActionElsewhereChangesNothing) {
+  Model model = straight(1.0, 1.0, 1e6, "xyr", "");
+  Spring tip;
+  tip.id = "tip";
+  tip.at = at_node("b");
+  tip.stiffness = 1e3;
+  tip.direction = std::array{0.0, -1.0};
+  tip.reaction = Reaction::compression_only;
+  model.springs = {tip};
+  model.loads = {force_at(at_node("b"), -0.8, -1.0)};
+  const Result without = solve_soundly(model, analysis_of(AnalysisType::critical, {}));
+  Member other = model.members[0];
+  other.id = "other";
+  other.end = "c";
+  model.nodes.push_back({"c", -1.0, 0.0});
+  model.members.push_back(other);
+  model.loads.emplace_back(PointLoad{at_node("c"), {0.0, -1.0}, 0.0, Pattern::constant});
+  const Result with = solve_soundly(model, analysis_of(AnalysisType::critical, {}));
+  EXPECT_EQ(with.summary.termination, without.summary.termination);
+  ASSERT_TRUE(without.summary.critical_load_factor && with.summary.critical_load_factor);
+  expect_relative(*with.summary.critical_load_factor, *without.summary.critical_load_factor, 1e-3, "limit");
+}
+
 /// A base that the structure moves away from changes nothing.
 TEST(Degenerate, BaseThatNeverTouchesChangesNothing) {
   const ReferenceProblem free = shallow_arch(0.0, Side::left, 76.149346);
