@@ -124,10 +124,14 @@ void Builder::set_scales(const Scales* known) {
 }
 
 void Builder::bound_stiffness() {
-  for (const MeshElement& e : out_.mesh.elements) {
-    const double EI = model_.sections[index_of(model_.sections, model_.members[e.member].section)].EI;
-    const double decay = (e.to - e.from) * out_.axes[e.member]->length() / out_.mesh.decay_lengths;
-    out_.stiffest.push_back(out_.scales.scaled_modulus(4.0 * EI / std::pow(decay, 4)));
+  const Mesh& mesh = out_.mesh;
+  for (std::size_t m = 0; m < model_.members.size(); ++m) {
+    const double EI = model_.sections[index_of(model_.sections, model_.members[m].section)].EI;
+    for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
+      const MeshElement& cell = mesh.elements[static_cast<std::size_t>(e)];
+      const double decay = (cell.to - cell.from) * out_.axes[m]->length() / mesh.decay_lengths;
+      out_.stiffest.push_back(out_.scales.scaled_modulus(4.0 * EI / std::pow(decay, 4)));
+    }
   }
 }
 
@@ -268,17 +272,17 @@ void Builder::add_elements() {
 
 /// Says which foundations are stiffer than they act.
 void Builder::add_unresolved() {
-  for (std::size_t i = 0; i < model_.foundations.size(); ++i) {
-    const FoundationLaw& foundation = out_.foundation_laws[i];
-    double least = foundation.law.stiffness;
-    for (const FoundationPart& part : out_.foundation_parts)
-      if (part.foundation == static_cast<int>(i))
-        least = std::min(least, law_on(out_, foundation, part.element).law.stiffness);
-    if (least < foundation.law.stiffness)
-      out_.skipped.push_back("foundation " + model_.foundations[i].id + ": stiffness beyond " +
-                             rounded(least / out_.scales.scaled_modulus(1.0)) +
-                             ", which the elements do not resolve");
+  std::vector<double> least;
+  for (const FoundationLaw& foundation : out_.foundation_laws) least.push_back(foundation.law.stiffness);
+  for (const FoundationPart& part : out_.foundation_parts) {
+    const FoundationLaw acting = law_on(out_, out_.foundation_laws[part.foundation], part.element);
+    least[part.foundation] = std::min(least[part.foundation], acting.law.stiffness);
   }
+  for (std::size_t i = 0; i < least.size(); ++i)
+    if (least[i] < out_.foundation_laws[i].law.stiffness)
+      out_.skipped.push_back("foundation " + model_.foundations[i].id + ": stiffness beyond " +
+                             rounded(least[i] / out_.scales.scaled_modulus(1.0)) +
+                             ", which the elements do not resolve");
 }
 
 void Builder::add_supports() {

@@ -55,7 +55,7 @@ enum class MeshUse {
 [[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
                              MeshUse use = MeshUse::final);
 
-/// The same, but that every foundation acts with the stiffness that it has.
+/// What make_mesh() is to be asked for so that every foundation acts with the stiffness that it has.
 [[nodiscard]] inline Discretization as_stiff_as_given(Discretization discretization) {
   discretization.accuracy = 0.0;  // which no stiffness is too large for
   return discretization;

@@ -83,7 +83,8 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     const auto d = law.direction.at(angle);
     double w = u[0] * d[0] + u[1] * d[1];
     const double reaction = law_on(structure, law, place.element).law.reaction(w);
-    if (law.law.acts(w)) w = law.law.one_sided ? law.law.gap + reaction / law.law.stiffness : w;
+    // the surface of a base on which contact acts, however stiff the element takes it
+    if (law.law.one_sided && law.law.acts(w)) w = law.law.gap + reaction / law.law.stiffness;
     out.s.push_back(fraction * axis.length());
     out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * reaction));
     out.displacement.push_back(in_users_sense(law.sense, structure.scales.length * w));
