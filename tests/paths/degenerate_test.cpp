@@ -26,9 +26,8 @@ TEST(Degenerate, LoadThatDoesNoWorkEndsAtTheLoadBound) {
   EXPECT_EQ(critical.summary.termination, "load_bound");
 }
 
-/// Constant actions on what holds them leave the structure at rest, where a base touches without pressure:
-/// the path is the one without them, and starts as that does.
-TEST(Degenerate, ConstantActionOnASupportChangesNothing) {
+/// A cantilever that a force pushes onto a spring, which touches its tip.
+Model cantilever_on_a_touching_spring() {
   Model model = straight(1.0, 1.0, 1e6, "xyr", "");
   Spring tip;
   tip.id = "tip";
@@ -38,6 +37,13 @@ TEST(Degenerate, ConstantActionOnASupportChangesNothing) {
   tip.reaction = Reaction::compression_only;
   model.springs = {tip};
   model.loads = {force_at(at_node("b"), -0.8, -1.0)};
+  return model;
+}
+
+/// Constant actions on what holds them leave the structure at rest, where a spring touches without pressure:
+/// the path is the one without them, and starts as that does.
+TEST(Degenerate, ConstantActionOnASupportChangesNothing) {
+  Model model = cantilever_on_a_touching_spring();
   const Result without = solve_soundly(model, analysis_of(AnalysisType::critical, {}));
   model.loads.emplace_back(PointLoad{at_node("a"), {3.0, -2.0}, 5.0, Pattern::constant});
   const Result with = solve_soundly(model, analysis_of(AnalysisType::critical, {}));
@@ -48,15 +54,7 @@ TEST(Degenerate, ConstantActionOnASupportChangesNothing) {
 
 /// So does one on a part of its own: the other part starts as from rest.
 TEST(Degenerate, ConstantActionElsewhereChangesNothing) {
-  Model model = straight(1.0, 1.0, 1e6, "xyr", "");
-  Spring tip;
-  tip.id = "tip";
-  tip.at = at_node("b");
-  tip.stiffness = 1e3;
-  tip.direction = std::array{0.0, -1.0};
-  tip.reaction = Reaction::compression_only;
-  model.springs = {tip};
-  model.loads = {force_at(at_node("b"), -0.8, -1.0)};
+  Model model = cantilever_on_a_touching_spring();
   const Result without = solve_soundly(model, analysis_of(AnalysisType::critical, {}));
   Member other = model.members[0];
   other.id = "other";
