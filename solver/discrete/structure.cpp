@@ -273,16 +273,18 @@ void Builder::add_elements() {
 /// Says which foundations are stiffer than they act.
 void Builder::add_unresolved() {
   std::vector<double> least;
+  least.reserve(out_.foundation_laws.size());
   for (const FoundationLaw& foundation : out_.foundation_laws) least.push_back(foundation.law.stiffness);
   for (const FoundationPart& part : out_.foundation_parts) {
     const FoundationLaw acting = law_on(out_, out_.foundation_laws[part.foundation], part.element);
     least[part.foundation] = std::min(least[part.foundation], acting.law.stiffness);
   }
-  for (std::size_t i = 0; i < least.size(); ++i)
-    if (least[i] < out_.foundation_laws[i].law.stiffness)
-      out_.skipped.push_back("foundation " + model_.foundations[i].id + ": stiffness beyond " +
-                             rounded(least[i] / out_.scales.scaled_modulus(1.0)) +
-                             ", which the elements do not resolve");
+  for (std::size_t i = 0; i < least.size(); ++i) {
+    if (!(least[i] < out_.foundation_laws[i].law.stiffness)) continue;
+    out_.skipped.push_back("foundation " + model_.foundations[i].id + ": stiffness beyond " +
+                           rounded(least[i] / out_.scales.scaled_modulus(1.0)) +
+                           ", which the elements do not resolve");
+  }
 }
 
 void Builder::add_supports() {
