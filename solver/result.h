@@ -97,6 +97,8 @@ struct CriticalPoint {
   std::optional<double> imperfection = {};
   std::vector<Sensitivity> sensitivities = {};  ///< in the order asked
   std::optional<KoiterCoefficients> koiter = {};
+  /// Id of the member whose own buckling the point is: the motion lost there bends that member alone.
+  std::optional<std::string> member = {};
 };
 
 /// A displacement of a node.
@@ -133,6 +135,8 @@ struct Branch {
   std::vector<double> arc_length;  ///< dimensionless, from 0, increasing
   std::vector<NamedSeries> monitors;
   std::vector<int> negative_eigenvalues;
+  /// Least stiffness over that of the unloaded structure; empty: not known at that point.
+  std::vector<std::optional<double>> stiffness_ratio;
   std::vector<NamedSeries> contact_fraction;  ///< foundation id, fraction of its range in contact
   std::string termination = {};               ///< code as in Summary
 };
@@ -226,12 +230,31 @@ struct BucklingResult {
   std::vector<Mode> modes;
 };
 
+/// Where the structure is softest before it loses stability.
+struct Softest {
+  double load_factor = 0.0;
+  double stiffness_ratio = 0.0;  ///< least stiffness over that of the unloaded structure
+  std::optional<Mode> mode;      ///< motion with that stiffness
+};
+
+/// How far the structure has moved where it loses stability.
+struct AtCritical {
+  double displacement = 0.0;           ///< largest hypot(u, v)
+  double relative_displacement = 0.0;  ///< over the largest distance between two points of the structure
+  double rotation = 0.0;               ///< largest, rad
+  double strain = 0.0;                 ///< largest of |N| / EA, |Q| / GA, |M| / EI times sqrt(EI / EA)
+};
+
 struct Summary {
   std::optional<double> critical_load_factor;
   std::optional<CriticalType> critical_type;
   std::optional<double> error_estimate;
   std::string termination;  ///< code of the stop rule that ended the search, e.g. "limit_points", "steps"
   std::string message;      ///< a sentence with the deciding numbers
+  /// The lowest local minimum of the stiffness ratio before the critical load; where there is none, the
+  /// critical point itself; empty where neither was met.
+  std::optional<Softest> softest = {};
+  std::optional<AtCritical> at_critical = {};
 };
 
 struct MeshReport {

@@ -11,6 +11,7 @@
 
 #include "solver/model/model.h"
 #include "solver/numeric/max_order.h"
+#include "solver/result.h"
 
 namespace snapthrough {
 
@@ -19,6 +20,8 @@ enum class Geometry { nonlinear, linear };
 enum class FoundationRule { consistent, lumped };
 enum class ControlType { arc_length, load, displacement };
 enum class Follow { primary, first, all };
+/// What a static analysis does where its path loses stability before a load factor that was asked for.
+enum class Unstable { refuse, follow };
 enum class StateOutput { none, critical, all, every, at_load_factors };
 
 /// Either an accuracy (the mesh is the solver's business) or a fixed mesh.
@@ -41,6 +44,7 @@ struct StepOptions {
   std::optional<double> initial;
   std::optional<double> min;
   std::optional<double> max;
+  double direction = 1.0;  ///< of the load factor where the path begins: 1 growing, -1 falling
 };
 
 struct MonitorRange {
@@ -54,6 +58,8 @@ struct StopRules {
   std::optional<std::array<double, 2>> load_factor;
   std::optional<MonitorRange> monitor;
   std::optional<int> steps;
+  /// A point with more negative eigenvalues ends the path; empty: the solver's own bound.
+  std::optional<int> negative_eigenvalues;
 };
 
 struct BranchOptions {
@@ -85,7 +91,11 @@ struct Variation {
 struct Analysis {
   AnalysisType type = AnalysisType::critical;
   int modes = 1;
+  bool reversed =
+      false;  ///< `buckling`: loads of the opposite direction count, too, as negative load factors
   std::vector<double> load_factors{1.0};
+  Unstable unstable = Unstable::refuse;
+  std::optional<State> start;  ///< state that a path begins with; empty: the unloaded structure
   Geometry geometry = Geometry::nonlinear;
   Discretization discretization;
   Control control;
