@@ -50,9 +50,10 @@ Result full_result() {
                  {0.0, 0.5},
                  {{"crown", {0.0, -0.25}}},
                  {0, 1},
+                 {1.0, std::nullopt},
                  {{"soil", {1.0, 0.5}}},
                  "limit_points"},
-                {1, 0, {}, {}, {}, {}, {}}};
+                {1, 0, {}, {}, {}, {}, {}, {}}};
   r.neutral_motion = {{0, 0.5, {}, {{"n", 0.0, 1.0, 0.25}}}};
   r.contact_events = {{1, "soil", true, 2.5, 0.5, 2, 1}};
   State state;
@@ -176,7 +177,7 @@ TEST(WriteResult, NumbersSurviveTheText) {
   Result result;
   const std::vector<double> values = {1.0 / 3.0, 93.117814, 5e-324, 1.7976931348623157e308,
                                       -0.1,      1e22,      66.2628};
-  result.branches = {{0, {}, values, {}, {}, {}, {}}};
+  result.branches = {{0, {}, values, {}, {}, {}, {}, {}}};
   const std::string text = write_result(some_request(), result, 0.0).dump();
   EXPECT_EQ(json::parse(text)["branches"][0]["load_factor"].get<std::vector<double>>(), values);
   EXPECT_THAT(text, HasSubstr("93.117814,")) << "no more digits than the number needs";
