@@ -14,6 +14,11 @@ static void read(const Value& value, Geometry& out) {
   read_named(value, kNames, out);
 }
 
+static void read(const Value& value, Unstable& out) {
+  static constexpr Named<Unstable> kNames[] = {{"refuse", Unstable::refuse}, {"follow", Unstable::follow}};
+  read_named(value, kNames, out);
+}
+
 static void read(const Value& value, FoundationRule& out) {
   static constexpr Named<FoundationRule> kNames[] = {{"consistent", FoundationRule::consistent},
                                                      {"lumped", FoundationRule::lumped}};
@@ -145,6 +150,7 @@ void read(const Value& value, Analysis& analysis) {
   in.required("type", analysis.type);
   in.optional("modes", analysis.modes);
   in.optional("load_factors", analysis.load_factors);
+  in.optional("unstable", analysis.unstable);
   in.optional("geometry", analysis.geometry);
   in.optional("discretization", analysis.discretization);
   in.optional("control", analysis.control);

@@ -115,7 +115,7 @@ class Rows {
 std::string critical_points_csv(const Json& result) {
   const std::vector<std::string> fields{"branch",         "type",         "cause",      "load_factor",
                                         "error_estimate", "confirmed",    "arc_length", "negative_before",
-                                        "negative_after", "multiplicity", "state"};
+                                        "negative_after", "multiplicity", "state",      "member"};
   const Json& points = member(result, "critical_points");
   Rows rows(fields);
   const Json monitors = points.empty() ? Json() : member(points.front(), "monitors");
@@ -248,7 +248,7 @@ PointsTable::PointsTable(std::vector<Branch> branches)
       bases_(ids_of(branches_, &Branch::contact_fraction)) {}
 
 void PointsTable::append_head(std::string& csv) const {
-  csv += "branch,point,load_factor,arc_length,negative_eigenvalues";
+  csv += "branch,point,load_factor,arc_length,negative_eigenvalues,stiffness_ratio";
   for (const std::string& id : monitors_) {
     append_csv_text(csv += ',', id);
   }
@@ -262,7 +262,10 @@ void PointsTable::append_row(const Branch& branch, std::size_t point, std::strin
   csv += std::to_string(branch.id) + "," + std::to_string(point) + ",";
   append(csv, branch.load_factor[point]);
   append(csv += ',', branch.arc_length[point]);
-  csv += "," + std::to_string(branch.negative_eigenvalues[point]);
+  csv += "," + std::to_string(branch.negative_eigenvalues[point]) + ",";
+  if (point < branch.stiffness_ratio.size() && branch.stiffness_ratio[point]) {
+    append(csv, *branch.stiffness_ratio[point]);
+  }
   for (const std::string& id : monitors_) {
     append_value(csv, branch.monitors, id, point);
   }
@@ -291,7 +294,7 @@ bool PointsTable::append_rows(std::string& csv, std::size_t bytes) {
 std::size_t PointsTable::held_bytes() const {
   std::size_t numbers = 0;
   for (const Branch& branch : branches_) {
-    numbers += branch.load_factor.size() * (3 + branch.monitors.size() + branch.contact_fraction.size());
+    numbers += branch.load_factor.size() * (5 + branch.monitors.size() + branch.contact_fraction.size());
   }
   return numbers * sizeof(double);
 }

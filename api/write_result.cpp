@@ -26,11 +26,49 @@ Json count_or_null(T count) {
   return count < 0 ? Json(nullptr) : Json(count);
 }
 
+template <class T>
+Json write(const std::vector<std::optional<T>>& values) {
+  Json array = Json::array();
+  for (const std::optional<T>& value : values) {
+    array.push_back(or_null(value));
+  }
+  return array;
+}
+
+Json write(const Mode& mode) {
+  Json members = Json::object();
+  for (const MemberMode& member : mode.members) {
+    members[member.id] = {{"s", member.s}, {"u", member.u}, {"v", member.v}, {"rotation", member.rotation}};
+  }
+  return {{"members", std::move(members)}};
+}
+
+Json write(const std::optional<Softest>& softest) {
+  if (!softest) {
+    return nullptr;
+  }
+  return {{"load_factor", softest->load_factor},
+          {"stiffness_ratio", softest->stiffness_ratio},
+          {"mode", softest->mode ? write(*softest->mode) : Json(nullptr)}};
+}
+
+Json write(const std::optional<AtCritical>& at) {
+  if (!at) {
+    return nullptr;
+  }
+  return {{"displacement", at->displacement},
+          {"relative_displacement", at->relative_displacement},
+          {"rotation", at->rotation},
+          {"strain", at->strain}};
+}
+
 Json write(const Summary& summary) {
   return {{"critical_load_factor", or_null(summary.critical_load_factor)},
           {"critical_type",
            summary.critical_type ? Json(name_of(kCriticalTypes, *summary.critical_type)) : Json(nullptr)},
           {"error_estimate", or_null(summary.error_estimate)},
+          {"softest", write(summary.softest)},
+          {"at_critical", write(summary.at_critical)},
           {"termination", summary.termination},
           {"message", summary.message}};
 }
@@ -58,14 +96,6 @@ Json write(const std::vector<MeshAnswer>& meshes) {
         {{"elements", mesh.elements}, {"order", mesh.order}, {"load_factor", or_null(mesh.load_factor)}});
   }
   return array;
-}
-
-Json write(const Mode& mode) {
-  Json members = Json::object();
-  for (const MemberMode& member : mode.members) {
-    members[member.id] = {{"s", member.s}, {"u", member.u}, {"v", member.v}, {"rotation", member.rotation}};
-  }
-  return {{"members", std::move(members)}};
 }
 
 Json write(const std::vector<Sensitivity>& sensitivities) {
@@ -100,6 +130,7 @@ Json write(const CriticalPoint& point) {
            {"multiplicity", point.multiplicity},
            {"imperfection", or_null(point.imperfection)},
            {"state", or_null(point.state)},
+           {"member", or_null(point.member)},
            {"mode", point.mode ? write(*point.mode) : Json(nullptr)}};
   if (!point.sensitivities.empty()) {
     out["sensitivities"] = write(point.sensitivities);
@@ -135,6 +166,7 @@ Json write(const Branch& branch) {
           {"arc_length", branch.arc_length},
           {"monitors", write(branch.monitors)},
           {"negative_eigenvalues", branch.negative_eigenvalues},
+          {"stiffness_ratio", write(branch.stiffness_ratio)},
           {"contact_fraction", write(branch.contact_fraction)},
           {"termination", branch.termination}};
 }
@@ -197,15 +229,6 @@ Json write(const State& state) {
           {"springs", std::move(springs)},
           {"foundations", std::move(foundations)},
           {"loads", write(state.loads)}};
-}
-
-template <class T>
-Json write(const std::vector<std::optional<T>>& values) {
-  Json array = Json::array();
-  for (const std::optional<T>& value : values) {
-    array.push_back(or_null(value));
-  }
-  return array;
 }
 
 Json write(const StaticTable& table) {

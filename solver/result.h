@@ -240,7 +240,7 @@ struct Softest {
 /// How far the structure has moved where it loses stability.
 struct AtCritical {
   double displacement = 0.0;           ///< largest hypot(u, v)
-  double relative_displacement = 0.0;  ///< over the largest distance between two points of the structure
+  double relative_displacement = 0.0;  ///< over the diagonal of the structure's bounding box
   double rotation = 0.0;               ///< largest, rad
   double strain = 0.0;                 ///< largest of |N| / EA, |Q| / GA, |M| / EI times sqrt(EI / EA)
 };
@@ -251,8 +251,8 @@ struct Summary {
   std::optional<double> error_estimate;
   std::string termination;  ///< code of the stop rule that ended the search, e.g. "limit_points", "steps"
   std::string message;      ///< a sentence with the deciding numbers
-  /// The lowest local minimum of the stiffness ratio before the critical load; where there is none, the
-  /// critical point itself; empty where neither was met.
+  /// The first local minimum of the stiffness ratio below a tenth before the critical load, else the lowest;
+  /// where there is no minimum, the critical point itself; empty where neither was met.
   std::optional<Softest> softest = {};
   std::optional<AtCritical> at_critical = {};
 };

@@ -37,6 +37,7 @@ inline constexpr auto kFields<Branch> = std::tuple{&Branch::id,
                                                    &Branch::arc_length,
                                                    &Branch::monitors,
                                                    &Branch::negative_eigenvalues,
+                                                   &Branch::stiffness_ratio,
                                                    &Branch::contact_fraction,
                                                    &Branch::termination};
 /// As they are stored: without monitors, state, mode and meshes, which the result document has.

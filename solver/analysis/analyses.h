@@ -2,11 +2,13 @@
 /// @file
 /// The kinds of analysis, each from a checked request to its result. Called by solve().
 
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <vector>
 
 #include "solver/discrete/structure.h"
+#include "solver/events/locate.h"
 #include "solver/hooks.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
@@ -31,6 +33,10 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
 [[nodiscard]] bool run_exact_column(const Model& model, const Analysis& analysis, const Hooks& hooks,
                                     Result& result);
 
+/// @brief How critical points are located: a fixed mesh is read to the last digit, a chosen one to a small
+/// part of the accuracy; imperfections that only rounding or the mesh makes do not break a bifurcation.
+[[nodiscard]] LocateOptions locate_options(const Model& model, const Analysis& analysis);
+
 /// Buckling loads as results report them.
 struct FoundLoads {
   std::vector<double> loads;  ///< load factors of the model, ascending
@@ -50,9 +56,11 @@ void report_buckling(const Analysis& analysis, FoundLoads found, Result& result)
 /// @brief The start of the path: the unloaded state, or the equilibrium under the constant actions.
 ///
 /// Constant actions are put on by a path of their own, from nothing to their full size.
+/// @param on_unloaded receives that path's first point, the unloaded structure, with its modes; may be empty
 /// @return empty, with the failure in `result`, when there is no such state or it is not stable
-[[nodiscard]] std::optional<PathPoint> start_of_path(const Model& model, const Structure& structure,
-                                                     StructuralProblem& problem, Continuation& continuation,
-                                                     double direction, const Hooks& hooks, Result& result);
+[[nodiscard]] std::optional<PathPoint> start_of_path(
+    const Model& model, const Structure& structure, StructuralProblem& problem, Continuation& continuation,
+    double direction, const Hooks& hooks, Result& result,
+    const std::function<void(const PathPoint&)>& on_unloaded = {});
 
 }  // namespace snapthrough

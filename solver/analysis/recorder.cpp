@@ -9,6 +9,7 @@
 #include "solver/discrete/structure.h"
 #include "solver/hooks.h"
 #include "solver/numeric/number_text.h"
+#include "solver/report/mode.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/state.h"
 
@@ -49,6 +50,7 @@ void Recorder::add_point(const PathPoint& point) {
   observer_.note_strain(point.y, point.lambda, branch_);
   if (branch_ == 0 && !result_.summary.critical_load_factor)
     observer_.add_to_extremes(point.y, point.lambda, branch_);
+  if (branch_ == 0) softest_.set_unloaded(point);
   if (analysis_.type != AnalysisType::path) return;
   if (output.path_points)
     kept_.add(point);
@@ -61,6 +63,7 @@ void Recorder::add_row(const PathPoint& point) {
   branch.load_factor.push_back(user_load(point));
   branch.arc_length.push_back(point.arc_length);
   branch.negative_eigenvalues.push_back(point.negative);
+  branch.stiffness_ratio.push_back(softest_.ratio(point));
   for (std::size_t i = 0; i < structure_.monitors.size(); ++i)
     branch.monitors[i].values.push_back(structure_.monitors[i].row.dot(point.y));
   const auto contact = contact_fractions(structure_, model_, point.y);
@@ -101,6 +104,9 @@ void Recorder::add_critical(const CriticalEvent& event) {
   if (!passed_by && analysis_.output.states != StateOutput::none &&
       analysis_.output.states != StateOutput::at_load_factors)
     point.state = add_state(event.point);
+  if (event.null.size() > 0 && point.multiplicity == 1)
+    if (const auto member = member_that_buckles(structure_, model_, event.null.col(0)))
+      point.member = model_.members[*member].id;
   if (point.state && analysis_.output.modes)
     point.mode = mode_at(structure_, model_, continuation_.problem(), event, analysis_);
   if (!passed_by && analysis_.output.path_points && analysis_.type == AnalysisType::path)
@@ -111,6 +117,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
     if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
     result_.summary.critical_load_factor = point.load_factor;
     result_.summary.critical_type = point.type;
+    result_.summary.at_critical = at_critical(structure_, model_, event.point.y);
   }
   result_.critical_points.push_back(std::move(point));
 }
@@ -202,8 +209,10 @@ TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> pare
     add_critical(event);
     if (found) found(result_.critical_points.back());
   };
-  if (analysis_.output.states == StateOutput::at_load_factors)
-    sink.on_step = [this](const PathPoint& from, const PathPoint& to) { add_states_at_loads(from, to); };
+  sink.on_step = [this](const PathPoint& from, const PathPoint& to) {
+    if (branch_ == 0 && !result_.summary.critical_load_factor) softest_.add_step(from, to);
+    if (analysis_.output.states == StateOutput::at_load_factors) add_states_at_loads(from, to);
+  };
   return sink;
 }
 

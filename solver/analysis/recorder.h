@@ -7,6 +7,7 @@
 
 #include "solver/analysis/observer.h"
 #include "solver/analysis/path_points.h"
+#include "solver/analysis/softest_point.h"
 #include "solver/hooks.h"
 #include "solver/report/contact.h"
 #include "solver/report/neutral_motion.h"
@@ -20,11 +21,12 @@ struct Structure;
 class Recorder {
  public:
   Recorder(const Model& model, const Analysis& analysis, const Structure& structure,
-           Continuation& continuation, Result& result)
+           Continuation& continuation, SoftestPoint& softest, Result& result)
       : model_(model),
         analysis_(analysis),
         structure_(structure),
         continuation_(continuation),
+        softest_(softest),
         result_(result),
         zones_(structure, model),
         neutral_(structure, model, result.neutral_motion),
@@ -57,6 +59,7 @@ class Recorder {
   const Analysis& analysis_;
   const Structure& structure_;
   Continuation& continuation_;
+  SoftestPoint& softest_;
   Result& result_;
   ContactZones zones_;
   NeutralMotionLog neutral_;

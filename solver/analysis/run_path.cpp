@@ -37,18 +37,8 @@ const SparseRow* row_of(const Structure& structure, const std::string& monitor) 
 }
 
 TraceRules rules_of(const Model& model, const Analysis& analysis, const Structure& structure) {
-  constexpr double kRounding = 1e-13;  // imperfection that rounding of the nodes' coordinates makes at most
   TraceRules rules;
-  // one that was asked for is meant, however small
-  if (!model.imperfections.empty()) rules.locate.perfect = kRounding;
-  // a fixed mesh is read to the last digit, a chosen one to a small part of the accuracy that was asked for
-  if (!analysis.discretization.fixed_mesh) {
-    rules.locate.tolerance = std::min(1e-7, 1e-3 * analysis.discretization.accuracy);
-    // a broken bifurcation has its limit point, if any, lower by about 10 e^(2/3)
-    if (model.imperfections.empty())
-      rules.locate.perfect =
-          std::max(rules.locate.perfect, imperfection_of(analysis.discretization.accuracy));
-  }
+  rules.locate = locate_options(model, analysis);
   if (analysis.type == AnalysisType::critical) {
     rules.first_loss_of_stability = true;
     rules.steps = kMostStepsOfSearch;
@@ -307,13 +297,15 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
                std::vector<double>& decays) {
   StructuralProblem problem(structure);
   Continuation continuation(problem, options_of(analysis));
-  const auto start = start_of_path(model, structure, problem, continuation, 1.0, hooks, result);
+  SoftestPoint softest(continuation);
+  const auto start = start_of_path(model, structure, problem, continuation, 1.0, hooks, result,
+                                   [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
   if (const auto touching = with_least_piece(model, structure, problem, continuation, start, result)) {
     result.failure.reset();
     return follow_on(model, analysis, *touching, earlier, hooks, result, decays);
   }
   if (!start) return true;
-  Recorder recorder(model, analysis, structure, continuation, result);
+  Recorder recorder(model, analysis, structure, continuation, softest, result);
   CriticalLoads loads(model, analysis, structure, continuation, earlier, result);
   const TraceSink sink = loads.watch(recorder.sink(hooks));
   TraceRules rules = rules_of(model, analysis, structure);
@@ -345,6 +337,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   describe_end(analysis, outcome, at, result);
   result.summary.message += branches + meshes;
   recorder.finish();
+  softest.report(structure, model, analysis, result);
   decays = bending_decays(structure, model, outcome.last.y);
   return confirmed || result.failure;
 }
@@ -366,6 +359,19 @@ std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
 }
 
 }  // namespace
+
+LocateOptions locate_options(const Model& model, const Analysis& analysis) {
+  constexpr double kRounding = 1e-13;  // imperfection that rounding of the nodes' coordinates makes at most
+  LocateOptions options;
+  // an imperfection that was asked for is meant, however small
+  if (!model.imperfections.empty()) options.perfect = kRounding;
+  if (analysis.discretization.fixed_mesh) return options;
+  options.tolerance = std::min(1e-7, 1e-3 * analysis.discretization.accuracy);
+  // a broken bifurcation has its limit point, if any, lower by about 10 e^(2/3)
+  if (model.imperfections.empty())
+    options.perfect = std::max(options.perfect, imperfection_of(analysis.discretization.accuracy));
+  return options;
+}
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {

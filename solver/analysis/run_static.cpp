@@ -9,12 +9,15 @@
 
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/observer.h"
+#include "solver/analysis/softest_point.h"
+#include "solver/events/critical_mode.h"
 #include "solver/events/locate.h"
 #include "solver/events/touching.h"
 #include "solver/hooks.h"
 #include "solver/newton/contact_state.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/numeric/number_text.h"
+#include "solver/report/mode.h"
 #include "solver/report/neutral_motion.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/state.h"
@@ -130,6 +133,72 @@ std::optional<ContactState> solve_linear(const Structure& structure, StructuralP
   return state;
 }
 
+/// @brief A critical point that a static path met, as the result lists it: finer meshes were not asked.
+CriticalPoint critical_point(const Structure& structure, const Model& model, const CriticalEvent& event,
+                             const VectorXd& motion) {
+  CriticalPoint point;
+  point.type = event.type;
+  point.cause = event.cause;
+  point.load_factor = event.point.lambda / structure.scales.load;
+  point.arc_length = event.point.arc_length;
+  point.negative_before = event.negative_before;
+  point.negative_after = event.negative_after;
+  point.multiplicity = event.multiplicity;
+  for (const MonitorRow& monitor : structure.monitors)
+    point.monitors.push_back({monitor.id, monitor.row.dot(event.point.y)});
+  if (point.multiplicity == 1)
+    if (const auto member = member_that_buckles(structure, model, motion))
+      point.member = model.members[*member].id;
+  return point;
+}
+
+/// Lists the critical point at which a static path ends, and says what moves there.
+void fail_at(const Model& model, const Analysis& analysis, const Structure& structure,
+             StructuralProblem& problem, const CriticalEvent& event, Result& result) {
+  const VectorXd motion = mode_of(problem, event);
+  Mode mode = mode_displacements(structure, model, motion, analysis.output.points_per_member);
+  scale_to_largest(mode);
+  const CriticalPoint point = critical_point(structure, model, event, motion);
+  result.critical_points.push_back(point);
+  const bool is_turn = is_limit(event.type);
+  const std::string what = is_turn         ? "the path has a limit point"
+                           : !point.member ? "the structure becomes unstable (bifurcation)"
+                                           : "member \"" + *point.member + "\" buckles (bifurcation)";
+  fail(result, is_turn ? "beyond_limit_point" : "beyond_critical_point",
+       what + " at load factor " + number(point.load_factor) +
+           ", before the asked ones; the motion that loses its stiffness there " + motion_text(mode, model));
+}
+
+/// What a static path does with the critical points that it meets.
+TraceRules static_rules(const Model& model, const Analysis& analysis, double bound) {
+  TraceRules rules;
+  rules.load = {{-bound, bound}};
+  rules.limit_points = 1;
+  rules.first_loss_of_stability = analysis.unstable == Unstable::refuse;
+  rules.locate = locate_options(model, analysis);
+  return rules;
+}
+
+/// Sets the failure of a static path that ended before its last load factor.
+void fail_at_end(const Model& model, const Analysis& analysis, const Structure& structure,
+                 StructuralProblem& problem, const TraceOutcome& outcome, Result& result) {
+  const std::string where = number(outcome.last.lambda / structure.scales.load);
+  switch (outcome.end) {
+    case TraceEnd::cancelled:
+      fail(result, "cancelled", "cancelled at load factor " + where);
+      return;
+    case TraceEnd::critical_point:
+    case TraceEnd::limit_points:
+      fail_at(model, analysis, structure, problem, outcome.critical.back(), result);
+      return;
+    case TraceEnd::unstable_at_start:
+      fail(result, "beyond_critical_point", "the structure is unstable before the load grows");
+      return;
+    default:
+      fail(result, "no_convergence", "the path could not be followed beyond load factor " + where);
+  }
+}
+
 /// Follows the path towards the factors of one sign and keeps the states it passes; false when it ends before
 /// the last.
 bool follow(const Model& model, const Analysis& analysis, const Structure& structure, double direction,
@@ -139,7 +208,9 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
     if (factor * direction > 0.0 || factor == 0.0) last = std::max(last, factor * direction);
   StructuralProblem problem(structure);
   Continuation continuation(problem, {});
-  const auto start = start_of_path(model, structure, problem, continuation, direction, hooks, result);
+  SoftestPoint softest(continuation);
+  const auto start = start_of_path(model, structure, problem, continuation, direction, hooks, result,
+                                   [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
   if (const auto touching = with_least_piece(model, structure, problem, continuation, start, result)) {
     result.failure.reset();
     return follow(model, analysis, *touching, direction, hooks, states, result);
@@ -148,17 +219,20 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
     if (analysis.load_factors[i] == 0.0) states.set(i, start->y, start->negative);
   if (last == 0.0) return true;
-  TraceRules rules;
-  const double bound = last * structure.scales.load;
-  rules.load = {{-bound, bound}};
-  rules.limit_points = 1;
+  const TraceRules rules = static_rules(model, analysis, last * structure.scales.load);
   TraceSink sink;
   NeutralMotionLog neutral(structure, model, result.neutral_motion);
   sink.on_point = [&](const PathPoint& point) {
+    softest.set_unloaded(point);
     neutral.note(point.holds, point.lambda / structure.scales.load);
   };
   sink.on_holds = sink.on_point;
+  bool is_stable = true;
+  sink.on_critical = [&](const CriticalEvent& event) {
+    is_stable = is_stable && event.negative_after <= event.negative_before;
+  };
   sink.on_step = [&](const PathPoint& from, const PathPoint& to) {
+    if (is_stable) softest.add_step(from, to);
     for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
       const double target = analysis.load_factors[i] * structure.scales.load;
       const double size = std::abs(to.lambda - from.lambda);
@@ -180,15 +254,9 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   };
   const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);
   add_statistics(continuation.statistics(), result);
+  softest.report(structure, model, analysis, result);
   if (outcome.end == TraceEnd::load_factor) return true;
-  const std::string where = number(outcome.last.lambda / structure.scales.load);
-  if (outcome.end == TraceEnd::cancelled)
-    fail(result, "cancelled", "cancelled at load factor " + where);
-  else if (outcome.end == TraceEnd::limit_points)
-    fail(result, "beyond_limit_point",
-         "the path has a limit point at load factor " + where + ", before the asked ones");
-  else
-    fail(result, "no_convergence", "the path could not be followed beyond load factor " + where);
+  fail_at_end(model, analysis, structure, problem, outcome, result);
   return false;
 }
 
@@ -218,6 +286,30 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
   }
 }
 
+/// Says whether the rows are stable equilibria: in the message, or in a warning.
+void report_stability(const Analysis& analysis, Result& result) {
+  const StaticTable& table = *result.static_table;
+  std::size_t unstable = 0;
+  std::optional<double> first;
+  for (std::size_t i = 0; i < table.load_factor.size(); ++i) {
+    if (table.negative_eigenvalues[i].value_or(0) == 0) continue;
+    ++unstable;
+    if (!first || std::abs(table.load_factor[i]) < std::abs(*first)) first = table.load_factor[i];
+  }
+  if (analysis.geometry == Geometry::linear) {
+    result.summary.message += "; displacements are taken as small, and nothing is said about stability";
+  } else if (unstable == 0) {
+    if (!result.failure) result.summary.message += ", every one stable";
+  } else {
+    const std::string text = std::to_string(unstable) + " of " + std::to_string(table.load_factor.size()) +
+                             " load factors have unstable equilibria, the first of them " + number(*first);
+    result.warnings.push_back({"unstable", text});
+    if (analysis.unstable == Unstable::refuse && !result.failure)
+      fail(result, "beyond_critical_point",
+           text + "; the point where the path loses stability was not found");
+  }
+}
+
 }  // namespace
 
 void run_static(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
@@ -231,6 +323,7 @@ void run_static(const Model& model, const Analysis& analysis, const Structure& s
     if (!states.has(i))
       fail(result, "no_convergence", "load factor " + number(analysis.load_factors[i]) + " was not reached");
   states.move_to(result);
+  report_stability(analysis, result);
 }
 
 }  // namespace snapthrough

@@ -1,4 +1,5 @@
 #include <cstddef>
+#include <functional>
 #include <string>
 
 #include "solver/analysis/analyses.h"
@@ -48,7 +49,8 @@ PathPoint fully_loaded(Continuation& continuation, const PathPoint& end) {
 
 std::optional<PathPoint> start_of_path(const Model& model, const Structure& structure,
                                        StructuralProblem& problem, Continuation& continuation,
-                                       double direction, const Hooks& hooks, Result& result) {
+                                       double direction, const Hooks& hooks, Result& result,
+                                       const std::function<void(const PathPoint&)>& on_unloaded) {
   if (!structure.has_constant) {
     auto start = continuation.start(direction);
     if (!start) fail_to_start(model, structure, continuation, result);
@@ -61,7 +63,12 @@ std::optional<PathPoint> start_of_path(const Model& model, const Structure& stru
   TraceRules rules;
   rules.load = {{-1.0, 1.0}};
   rules.limit_points = 1;
-  const TraceOutcome outcome = trace(loading, loading.start(), rules, {}, {}, hooks.stop);
+  TraceSink sink;
+  if (on_unloaded)
+    sink.on_point = [&on_unloaded](const PathPoint& point) {
+      if (point.arc_length == 0.0) on_unloaded(point);
+    };
+  const TraceOutcome outcome = trace(loading, loading.start(), rules, {}, sink, hooks.stop);
   problem.set_stage(StructuralProblem::Stage::proportional);
   add_statistics(loading.statistics(), result);
   if (outcome.end == TraceEnd::cancelled) {

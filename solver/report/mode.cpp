@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include "solver/discrete/element_reader.h"
+#include "solver/model/id_index.h"
+#include "solver/numeric/number_text.h"
 
 namespace snapthrough {
 
@@ -58,6 +61,58 @@ double scale_to_largest(Mode& mode) {
     for (auto* values : {&member.u, &member.v, &member.rotation})
       for (double& value : *values) value *= scale;
   return scale;
+}
+
+std::string motion_text(const Mode& mode, const Model& model) {
+  constexpr double kLarger = 1.0 + 1e-6;  // of places that move alike the first
+  double largest = 0.0;
+  std::size_t moved = 0;  // number of the member
+  std::size_t place = 0;
+  for (std::size_t m = 0; m < mode.members.size(); ++m)
+    for (std::size_t i = 0; i < mode.members[m].s.size(); ++i) {
+      const double size = std::hypot(mode.members[m].u[i], mode.members[m].v[i]);
+      if (size <= largest * kLarger) continue;
+      largest = size;
+      moved = m;
+      place = i;
+    }
+  if (largest == 0.0) return "turns members only";
+  const MemberMode& along = mode.members[moved];
+  std::string where = "s = " + rounded(along.s[place]) + " of member \"" + along.id + "\"";
+  if (place == 0) where = "node \"" + model.members[moved].start + "\"";
+  if (place + 1 == along.s.size()) where = "node \"" + model.members[moved].end + "\"";
+  const auto component = [largest](double value) {
+    constexpr double kRounding = 1e-9;  // of the motion
+    return rounded(std::abs(value) < kRounding * largest ? 0.0 : value);
+  };
+  return "is largest at " + where + ", along (" + component(along.u[place]) + ", " +
+         component(along.v[place]) + ")";
+}
+
+std::optional<std::size_t> member_that_buckles(const Structure& structure, const Model& model,
+                                               const Eigen::VectorXd& mode) {
+  constexpr double kAlone = 0.9;  // share of the strain energy
+  const int p = structure.mesh.order;
+  const CollocationRule& rule = CollocationRule::of(p);
+  const double length = structure.scales.length;
+  std::vector<double> energy(model.members.size(), 0.0);
+  for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
+    const auto member = static_cast<std::size_t>(structure.mesh.elements[e].member);
+    const Section& section =
+        model.sections[static_cast<std::size_t>(index_of(model.sections, model.members[member].section))];
+    const double h = length_of_element(structure, static_cast<int>(e));
+    const auto forces = mode.segment(structure.dofs[e].s, 3 * p);
+    for (int q = 0; q < p; ++q) {
+      const double bending = length * forces[2 * p + q];
+      double density = forces[q] * forces[q] / section.EA + bending * bending / section.EI;
+      if (section.GA) density += forces[p + q] * forces[p + q] / *section.GA;
+      energy[member] += h * rule.weight(q) * density;
+    }
+  }
+  const auto most = std::max_element(energy.begin(), energy.end());
+  const double sum = std::accumulate(energy.begin(), energy.end(), 0.0);
+  if (!(sum > 0.0) || *most < kAlone * sum) return std::nullopt;
+  return static_cast<std::size_t>(most - energy.begin());
 }
 
 std::vector<CubicSpline> normal_offsets(const Structure& structure, const Model& model,

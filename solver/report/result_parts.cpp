@@ -37,6 +37,10 @@ void withdraw_critical_load(Result& result) {
   result.summary.critical_load_factor.reset();
   result.summary.critical_type.reset();
   result.summary.error_estimate.reset();
+  result.summary.at_critical.reset();
+  // without a minimum before the critical load the softest point was the critical one
+  if (result.summary.softest && result.summary.softest->stiffness_ratio == 0.0)
+    result.summary.softest.reset();
 }
 
 void fail(Result& result, const char* code, const std::string& detail) {

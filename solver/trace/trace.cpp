@@ -329,6 +329,8 @@ bool Tracer::accept(const PathPoint& from, PathPoint& to, const std::vector<Crit
   if (bound) {
     to = bound->point;
     to.arc_length = std::max(to.arc_length, from.arc_length + continuation_.arc(from, to));
+    static_cast<void>(continuation_.negative_at(to));  // its factors
+    find_modes(from, to);
   }
   // a turn within rounding's reach still is a step, and what is on it is not on the last one
   const auto beyond = [](double arc) { return std::nextafter(arc, std::numeric_limits<double>::infinity()); };
@@ -416,14 +418,16 @@ void Tracer::tell_passed(const PathPoint& to, bool may_end, std::vector<Critical
 
 /// From point to point, until something ends the path.
 void Tracer::go(PathPoint& from, const StepOptions& steps, const std::stop_token& stop) {
+  // where supports act on one side only, what they do under the first load is not foretold by these modes
+  continuation_.find_first_modes(from);
   if (sink_.on_point) sink_.on_point(from);
+  if (continuation_.problem().one_sided()) from.modes = nullptr;
   if (rules_.first_loss_of_stability && from.negative > 0) {
     finish(TraceEnd::unstable_at_start, from);
     return;
   }
   StepSize size{0.0, rules_.first_step ? *rules_.first_step : first_step(steps, from)};
   if (!rules_.first_step) continuation_.limit_steps(steps, std::abs(from.tangent_lambda));
-  if (!continuation_.problem().one_sided()) continuation_.find_first_modes(from);
   PathPoint to;
   for (int n = 0; !ends_here(from, n, stop);) {
     onto_ = false;

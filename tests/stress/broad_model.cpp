@@ -239,7 +239,7 @@ void Drawer::loads() {
 
 void Drawer::imperfections() {
   if (random_.chance(0.4))
-    model().imperfections.push_back(
+    model().imperfections.emplace_back(
         SineImperfection{any_member().id, 1 + random_.below(3), length_ * random_.decades(-8.0, -2.0)});
   if (random_.chance(0.15)) {
     PointsImperfection points{any_member().id, {}};

@@ -70,6 +70,12 @@ inline Analysis analysis_of(AnalysisType type, Discretization mesh) {
   return analysis;
 }
 
+inline Discretization accurate(double accuracy) {
+  Discretization mesh;
+  mesh.accuracy = accuracy;
+  return mesh;
+}
+
 inline Analysis buckling_on(Discretization mesh, int modes = 1) {
   Analysis analysis = analysis_of(AnalysisType::buckling, std::move(mesh));
   analysis.modes = modes;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "api/names.h"
+#include "server/store/known_values.h"
 
 namespace snapthrough::server::postgresql {
 namespace {
@@ -54,6 +55,7 @@ Branch read_branch(const Rows& rows, int row) {
   for (const double count : rows.series(row, 4)) {
     branch.negative_eigenvalues.push_back(static_cast<int>(count));
   }
+  branch.stiffness_ratio = without_nan(rows.series(row, 5), branch.load_factor.size());
   return branch;
 }
 
@@ -160,8 +162,9 @@ SweepRecord read_sweep(const Rows& rows, int row) {
 void add_path(std::vector<Statement>& statements, std::string_view job, const std::vector<Branch>& branches,
               const std::vector<CriticalPoint>& critical_points) {
   static const std::string kBranch =
-      "INSERT INTO branches (job, branch, parent, load_factor, arc_length, negative_eigenvalues) VALUES (" +
-      std::string(kJobOf) + ", $2, $3, $4, $5, $6)";
+      "INSERT INTO branches (job, branch, parent, load_factor, arc_length, negative_eigenvalues,"
+      " stiffness_ratio) VALUES (" +
+      std::string(kJobOf) + ", $2, $3, $4, $5, $6, $7)";
   static const std::string kPoint =
       "INSERT INTO critical_points (job, number, branch, type, load_factor, error_estimate, arc_length,"
       " negative_before, negative_after, multiplicity, imperfection) VALUES (" +
@@ -171,7 +174,7 @@ void add_path(std::vector<Statement>& statements, std::string_view job, const st
                                        branch.negative_eigenvalues.end());
     Parameters row;
     row.add(job).add(branch.id).add(branch.parent).add_series(branch.load_factor);
-    row.add_series(branch.arc_length).add_series(negative);
+    row.add_series(branch.arc_length).add_series(negative).add_series(with_nan(branch.stiffness_ratio));
     statements.push_back({kBranch, std::move(row)});
     add_series(statements, job, branch.id, "monitor", branch.monitors);
     add_series(statements, job, branch.id, "contact_fraction", branch.contact_fraction);
@@ -189,7 +192,7 @@ void add_path(std::vector<Statement>& statements, std::string_view job, const st
 StoredPath read_path(Connection& connection, std::string_view job) {
   const Parameters id = Parameters().add(job);
   const std::vector<Rows> all = connection.run_all(std::vector<Statement>{
-      {"SELECT branch, parent, load_factor, arc_length, negative_eigenvalues FROM branches"
+      {"SELECT branch, parent, load_factor, arc_length, negative_eigenvalues, stiffness_ratio FROM branches"
        " JOIN jobs ON seq = job WHERE id = $1 ORDER BY branch",
        id},
       {"SELECT branch, kind, branch_series.id, samples FROM branch_series JOIN jobs ON seq = job"

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "api/names.h"
+#include "server/store/known_values.h"
 
 namespace snapthrough::server::sqlite {
 namespace {
@@ -40,8 +41,8 @@ void insert_branch(Connection& connection, std::int64_t job, const Branch& branc
   const std::vector<double> negative(branch.negative_eigenvalues.begin(), branch.negative_eigenvalues.end());
   connection
       .prepare(
-          "INSERT INTO branches (job, branch, parent, points, load_factor, arc_length, negative_eigenvalues)"
-          " VALUES (?, ?, ?, ?, ?, ?, ?)")
+          "INSERT INTO branches (job, branch, parent, points, load_factor, arc_length, negative_eigenvalues,"
+          " stiffness_ratio) VALUES (?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(job)
       .bind(branch.id)
       .bind(branch.parent)
@@ -49,6 +50,7 @@ void insert_branch(Connection& connection, std::int64_t job, const Branch& branc
       .bind_series(branch.load_factor)
       .bind_series(branch.arc_length)
       .bind_series(negative)
+      .bind_series(with_nan(branch.stiffness_ratio))
       .run();
   insert_series(connection, job, branch.id, "monitor", branch.monitors);
   insert_series(connection, job, branch.id, "contact_fraction", branch.contact_fraction);
@@ -169,8 +171,8 @@ void insert_path(Connection& connection, std::int64_t job, const std::vector<Bra
 
 std::vector<Branch> read_branches(const Connection& connection, std::int64_t job) {
   Statement rows = connection.prepare(
-      "SELECT branch, parent, load_factor, arc_length, negative_eigenvalues FROM branches WHERE job = ?"
-      " ORDER BY branch");
+      "SELECT branch, parent, load_factor, arc_length, negative_eigenvalues, stiffness_ratio FROM branches"
+      " WHERE job = ? ORDER BY branch");
   rows.bind(job);
   std::vector<Branch> branches;
   while (rows.step()) {
@@ -182,6 +184,7 @@ std::vector<Branch> read_branches(const Connection& connection, std::int64_t job
     for (const double count : rows.series(4)) {
       branch.negative_eigenvalues.push_back(static_cast<int>(count));
     }
+    branch.stiffness_ratio = without_nan(rows.series(5), branch.load_factor.size());
     branch.monitors = read_series(connection, job, branch.id, "monitor");
     branch.contact_fraction = read_series(connection, job, branch.id, "contact_fraction");
     branches.push_back(std::move(branch));

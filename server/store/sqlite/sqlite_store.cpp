@@ -203,7 +203,7 @@ std::int64_t insert_copy(Connection& connection, NewJob job, std::int64_t origin
         "INSERT INTO result_pieces (job, number, bytes) SELECT ?, number, bytes FROM result_pieces"
         " WHERE job = ?",
         "INSERT INTO branches SELECT ?, branch, parent, points, load_factor, arc_length,"
-        " negative_eigenvalues FROM branches WHERE job = ?",
+        " negative_eigenvalues, stiffness_ratio FROM branches WHERE job = ?",
         "INSERT INTO branch_series SELECT ?, branch, kind, number, id, samples FROM branch_series"
         " WHERE job = ?",
         "INSERT INTO critical_points SELECT ?, number, branch, type, load_factor, error_estimate, arc_length,"

@@ -1015,6 +1015,12 @@ export interface components {
              */
             load_factors?: number[];
             /**
+             * @description static, nonlinear: what is done where the path loses stability before an asked load factor. refuse: the analysis ends there with the failure beyond_critical_point; follow: rows beyond a bifurcation are given, with their counts and a warning
+             * @default refuse
+             * @enum {string}
+             */
+            unstable?: "refuse" | "follow";
+            /**
              * @description nonlinear: large displacements; linear: small ones, for static only
              * @default nonlinear
              * @enum {string}
@@ -1075,13 +1081,37 @@ export interface components {
             critical_type: components["schemas"]["CriticalType"] | null;
             /** @description Estimated relative error of that load factor; null when none was made */
             error_estimate: number | null;
+            /** @description Where the stiffness ratio has its first local minimum below a tenth before the critical load factor, else its lowest; the critical point itself where it has no minimum; null when neither was met */
+            softest: components["schemas"]["Softest"] | null;
+            /** @description How far the structure has moved at the critical load factor; null when there is none, and in linearised analyses */
+            at_critical: components["schemas"]["AtCritical"] | null;
             /**
              * @description Code of what ended the analysis; see docs/requests.md, How an analysis ends
              * @enum {string}
              */
-            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
+            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
             /** @description The same as a sentence with the deciding numbers */
             message: string;
+        };
+        /** @description Where the structure is softest before it loses stability */
+        Softest: {
+            /** @description Load factor there, on the path's mesh */
+            load_factor: number;
+            /** @description Least stiffness there over that of the unloaded structure; 0 at a critical point */
+            stiffness_ratio: number;
+            /** @description The motion with that stiffness; null when no modes or states are asked for */
+            mode: components["schemas"]["Mode"] | null;
+        };
+        /** @description Largest movements of the state at the critical load factor */
+        AtCritical: {
+            /** @description Largest hypot(u, v) */
+            displacement: number;
+            /** @description The same over the diagonal of the structure's bounding box */
+            relative_displacement: number;
+            /** @description Largest rotation, of either sense */
+            rotation: number;
+            /** @description Largest of |N| / EA, |Q| / GA and |M| / EI times sqrt(EI / EA) */
+            strain: number;
         };
         /** @description A mode along a member; lists of equal length */
         ModeMember: {
@@ -1145,6 +1175,8 @@ export interface components {
             imperfection: number | null;
             /** @description Index of the point's state in states; null when there is none */
             state: number | null;
+            /** @description The member whose own buckling the point is: nine tenths of the strain energy of the motion lost there are its; null where that is no single member's */
+            member: components["schemas"]["Id"] | null;
             /** @description The null vector at a bifurcation, the path's direction at a limit point; null without a state */
             mode: components["schemas"]["Mode"] | null;
             /** @description In the order of analysis.sensitivities; absent where none were asked for */
@@ -1234,6 +1266,8 @@ export interface components {
             };
             /** @description Negative eigenvalues of the constrained tangent stiffness; 0 is stable */
             negative_eigenvalues: number[];
+            /** @description Least stiffness over that of the unloaded structure: 1 unloaded, 0 at a critical point; null where it is not known */
+            stiffness_ratio: (number | null)[];
             /** @description How much of each foundation is in contact, by id */
             contact_fraction: {
                 [key: string]: number[];
@@ -1242,7 +1276,7 @@ export interface components {
              * @description Code of what ended the branch
              * @enum {string}
              */
-            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
+            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
         };
         /** @description A member in a state; lists of equal length, points_per_member entries */
         MemberState: {
@@ -1439,10 +1473,10 @@ export interface components {
         /** @description Something that the reader of the result must know */
         Warning: {
             /**
-             * @description large_strain: strains beyond 0.05, where the elastic law for small strains is not valid; touching_supports: supports touch without pressure, and it is not certain that no motion has a lower load; touching_eigenvalue: a stiffness falls to zero within rounding and rises again, and whether two critical points lie there cannot be told; path_points: a path has fewer points than asked for
+             * @description large_strain: strains beyond 0.05, where the elastic law for small strains is not valid; touching_supports: supports touch without pressure, and it is not certain that no motion has a lower load; touching_eigenvalue: a stiffness falls to zero within rounding and rises again, and whether two critical points lie there cannot be told; path_points: a path has fewer points than asked for; nearly_unstable: the stiffness ratio falls below a tenth before the critical load factor; unstable: rows of a static analysis are unstable equilibria
              * @enum {string}
              */
-            code: "large_strain" | "touching_supports" | "touching_eigenvalue" | "path_points";
+            code: "large_strain" | "touching_supports" | "touching_eigenvalue" | "path_points" | "nearly_unstable" | "unstable";
             /** @description Where and how much */
             detail: string;
         };
@@ -1489,7 +1523,7 @@ export interface components {
              * @description Code; see docs/requests.md, How an analysis ends
              * @enum {string}
              */
-            code: "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
+            code: "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
             /** @description A sentence with the deciding numbers */
             detail: string;
         };
@@ -1555,7 +1589,7 @@ export interface components {
          * @description Code of an analysis that could not be completed: one of the result's, or one of the service's
          * @enum {string}
          */
-        FailureCode: "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled" | "time_limit" | "memory_limit" | "internal_error" | "out_of_memory" | "crashed" | "not_stored";
+        FailureCode: "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled" | "time_limit" | "memory_limit" | "internal_error" | "out_of_memory" | "crashed" | "not_stored";
         /** @description Why a job failed */
         JobError: {
             /** @description Code */

@@ -1,0 +1,175 @@
+#include "solver/analysis/softest_point.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "solver/discrete/element_reader.h"
+#include "solver/numeric/cubic.h"
+#include "solver/numeric/number_text.h"
+#include "solver/report/mode.h"
+#include "solver/report/strain.h"
+
+namespace snapthrough {
+namespace {
+
+/// Stiffness ratio below which a structure counts as nearly unstable: a deflection that the load causes is
+/// then some ten times what the unloaded stiffness lets expect.
+constexpr double kNearlyUnstable = 0.1;
+
+/// The column of the softest motion of a point; empty where modes are not known or some are beyond them.
+std::optional<Eigen::Index> least_mode(const PathPoint& point) {
+  if (!point.modes || point.modes->count() <= point.negative) return std::nullopt;
+  Eigen::Index mode = 0;
+  point.modes->stiffness.minCoeff(&mode);
+  return mode;
+}
+
+/// Least stiffness of a point and its derivative by arc length.
+struct Stiffness {
+  double value = 0.0;
+  double rate = 0.0;
+};
+
+std::optional<Stiffness> stiffness_of(const PathPoint& point) {
+  const auto mode = least_mode(point);
+  if (!mode || point.modes->rate.size() <= *mode) return std::nullopt;
+  return Stiffness{point.modes->stiffness[*mode], point.modes->rate[*mode]};
+}
+
+/// Where the line through an end's stiffness and rate meets that of the other end: no minimum of a function
+/// that bends one way is below.
+double lower_bound(const Stiffness& a, const Stiffness& b, double length) {
+  if (!(a.rate < 0.0 && b.rate > 0.0)) return -std::numeric_limits<double>::infinity();
+  const double place = (b.value - a.value - b.rate * length) / (a.rate - b.rate);
+  return a.value + a.rate * place;
+}
+
+/// Share of the way from a to b at which the cubic through both ends is least.
+double place_of_minimum(const Stiffness& a, const Stiffness& b, double length) {
+  constexpr double kLeastShare = 0.1;  // of the bracket, from either end: it shrinks from both
+  const Cubic cubic{a.value, length * a.rate, b.value, length * b.rate};
+  return std::clamp(cubic.minimum().value_or(0.5), kLeastShare, 1.0 - kLeastShare);
+}
+
+std::string warning_text(const Softest& softest, const Summary& summary, const std::string& motion) {
+  std::string text = "nearly unstable: at load factor " + number(softest.load_factor) +
+                     " the least stiffness is " + rounded(softest.stiffness_ratio) +
+                     " of the unloaded structure's, and the motion with it " + motion +
+                     "; use this load factor";
+  if (summary.critical_load_factor)
+    text += ", not the critical load factor " + number(*summary.critical_load_factor);
+  if (!summary.at_critical) return text + ", unless the displacements beyond it are acceptable";
+  return text + ", unless displacements of " + rounded(summary.at_critical->displacement) + " (" +
+         rounded(summary.at_critical->relative_displacement) +
+         " of the structure's size), which it has there, are acceptable";
+}
+
+}  // namespace
+
+void SoftestPoint::set_unloaded(const PathPoint& unloaded) {
+  const auto mode = least_mode(unloaded);
+  if (unloaded_ != 0.0 || !mode) return;
+  unloaded_ = std::max(0.0, unloaded.modes->stiffness[*mode]);
+}
+
+std::optional<double> SoftestPoint::ratio(const PathPoint& point) const {
+  const auto mode = least_mode(point);
+  if (!mode || !(unloaded_ > 0.0)) return std::nullopt;
+  return point.modes->stiffness[*mode] / unloaded_;
+}
+
+void SoftestPoint::add_step(const PathPoint& from, const PathPoint& to) {
+  if (from.negative > 0 || to.negative > 0) return;
+  if (lowest_ && ratio(*lowest_).value_or(1.0) < kNearlyUnstable) return;
+  const auto a = stiffness_of(from);
+  const auto b = stiffness_of(to);
+  if (!a || !b || !(a->rate < 0.0) || !(b->rate > 0.0 || b->value > a->value)) return;
+  if (lowest_ && lower_bound(*a, *b, continuation_.distance(from, to)) >= stiffness_of(*lowest_)->value)
+    return;
+  search(from, to);
+}
+
+void SoftestPoint::search(PathPoint low, PathPoint high) {
+  constexpr int kMostLooks = 8;
+  constexpr double kSameLoad = 1e-3;       // of the load factor: where the minimum is
+  constexpr double kSameStiffness = 1e-2;  // of the minimum's value
+  for (int i = 0; i < kMostLooks; ++i) {
+    const auto a = stiffness_of(low);
+    const auto b = stiffness_of(high);
+    const double length = continuation_.distance(low, high);
+    const double least = std::min(a->value, b->value);
+    const bool is_near = std::abs(high.lambda - low.lambda) <=
+                         kSameLoad * std::max(std::abs(low.lambda), std::abs(high.lambda));
+    if (is_near && lower_bound(*a, *b, length) >= (1.0 - kSameStiffness) * least) break;
+    auto middle =
+        continuation_.between(continuation_.chord(low, high), low, high, place_of_minimum(*a, *b, length));
+    if (!middle) break;
+    continuation_.find_modes(*middle, low.modes);
+    const auto m = stiffness_of(*middle);
+    if (!m || middle->negative > 0) break;
+    const bool is_before = m->rate < 0.0 && m->value <= a->value;
+    (is_before ? low : high) = *std::move(middle);
+  }
+  PathPoint& best = stiffness_of(low)->value <= stiffness_of(high)->value ? low : high;
+  if (!lowest_ || stiffness_of(best)->value < stiffness_of(*lowest_)->value) lowest_ = std::move(best);
+}
+
+void SoftestPoint::report(const Structure& structure, const Model& model, const Analysis& analysis,
+                          Result& result) const {
+  const bool with_mode = analysis.output.modes && analysis.output.states != StateOutput::none;
+  Summary& summary = result.summary;
+  const auto least = lowest_ ? ratio(*lowest_) : std::nullopt;
+  if (!least) {
+    if (!summary.critical_load_factor) return;
+    Softest softest{*summary.critical_load_factor, 0.0, {}};
+    const auto point = std::find_if(
+        result.critical_points.begin(), result.critical_points.end(),
+        [&](const CriticalPoint& one) { return one.load_factor == softest.load_factor && one.mode; });
+    if (with_mode && point != result.critical_points.end()) softest.mode = point->mode;
+    summary.softest = std::move(softest);
+    return;
+  }
+  Mode mode = mode_displacements(structure, model, lowest_->modes->motions.col(*least_mode(*lowest_)),
+                                 analysis.output.points_per_member);
+  scale_to_largest(mode);
+  Softest softest{lowest_->lambda / structure.scales.load, *least, {}};
+  if (*least < kNearlyUnstable) {
+    const std::string text = warning_text(softest, summary, motion_text(mode, model));
+    result.warnings.push_back({"nearly_unstable", text});
+    summary.message = text + "; " + summary.message;
+  }
+  if (with_mode) softest.mode = std::move(mode);
+  summary.softest = std::move(softest);
+}
+
+AtCritical at_critical(const Structure& structure, const Model& model, const Eigen::VectorXd& y) {
+  constexpr std::array<double, 5> kPlaces{0.0, 0.25, 0.5, 0.75, 1.0};
+  AtCritical out;
+  std::array<double, 2> least{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+  std::array<double, 2> most{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
+  for (std::size_t e = 0; e < structure.mesh.elements.size(); ++e) {
+    const MeshElement& cell = structure.mesh.elements[e];
+    const AxisCurve& axis = *structure.axes[static_cast<std::size_t>(cell.member)];
+    const ElementReader reader(structure, y, static_cast<int>(e));
+    for (const double xi : kPlaces) {
+      const auto u = reader.displacement(xi);
+      out.displacement = std::max(out.displacement, structure.scales.length * std::hypot(u[0], u[1]));
+      out.rotation = std::max(out.rotation, std::abs(u[2]));
+      const AxisPoint at = axis.at((cell.from + xi * (cell.to - cell.from)) * axis.length());
+      least = {std::min(least[0], at.x), std::min(least[1], at.y)};
+      most = {std::max(most[0], at.x), std::max(most[1], at.y)};
+    }
+  }
+  out.relative_displacement = out.displacement / std::hypot(most[0] - least[0], most[1] - least[1]);
+  LargestStrain strain;
+  static_cast<void>(StrainGauge(structure, model).raise(y, strain));
+  out.strain = strain.strain;
+  return out;
+}
+
+}  // namespace snapthrough
