@@ -62,7 +62,9 @@ TEST(PathPoints, AreEquilibria) {
     crown.push_back(branch.monitors[0].values[i]);
   }
   ASSERT_GT(loads.size(), 20u);
-  const Result rows = solve_soundly(model, static_on(fixed_mesh(8, 4), Geometry::nonlinear, loads));
+  Analysis beyond_bifurcation = static_on(fixed_mesh(8, 4), Geometry::nonlinear, loads);
+  beyond_bifurcation.unstable = Unstable::follow;
+  const Result rows = solve_soundly(model, beyond_bifurcation);
   ASSERT_TRUE(rows.static_table);
   EXPECT_EQ(rows.static_table->load_factor, loads);
   for (std::size_t i = 0; i < loads.size(); ++i)
@@ -144,8 +146,10 @@ TEST(StaticTable, ReturnsTheStatesAskedFor) {
 /// The arch turns back at its limit load: what lies beyond is listed, and the rest is there.
 TEST(NotReached, ListsLoadFactorsBeyondALimitPoint) {
   const Model model = arch(20.0, 420.0, 1.4);
-  const Result result =
-      solve(model, static_on(fixed_mesh(8, 4), Geometry::nonlinear, {200.0, 20.0, 100.0, 40.0}));
+  Analysis analysis = static_on(fixed_mesh(8, 4), Geometry::nonlinear, {200.0, 20.0, 100.0, 40.0});
+  EXPECT_EQ(solve(model, analysis).failure.value_or(Failure{}).code, "beyond_critical_point");
+  analysis.unstable = Unstable::follow;  // the bifurcation at 66.26
+  const Result result = solve(model, analysis);
   ASSERT_TRUE(result.failure);
   EXPECT_EQ(result.failure->code, "beyond_limit_point");
   EXPECT_EQ(result.not_reached, (std::vector<double>{200.0, 100.0}));
