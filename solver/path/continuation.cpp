@@ -595,17 +595,30 @@ PathPoint Continuation::last_before_kink(const PathPoint& from, double size) {
   return last;
 }
 
-void Continuation::find_modes(PathPoint& at, const SharedModes& start) {
+namespace {
+
+/// The softest motions with the factors at hand; null where there are none.
+/// @param negative eigenvalues there
+/// @param start modes of a neighbouring point; null: there are none
+std::shared_ptr<SoftModes> modes_at_hand(EquilibriumProblem& problem, int negative,
+                                         const SharedModes& start) {
   constexpr int kAhead = 2;  // motions that may lose their stiffness next, behind those that have lost it
   constexpr int kMost = 8;
   constexpr int kFromAfar = 3;  // iterations from drawn motions
-  const int count = std::min(kAhead + at.negative, kMost);
+  const int count = std::min(kAhead + negative, kMost);
+  const Eigen::MatrixXd none;
+  auto modes = std::make_shared<SoftModes>(start ? soft_modes(problem, start->motions, count, 1)
+                                                 : soft_modes(problem, none, count, kFromAfar));
+  return modes->count() == 0 ? nullptr : modes;
+}
+
+}  // namespace
+
+void Continuation::find_modes(PathPoint& at, const SharedModes& start) {
   at.modes = nullptr;
   if (!symmetric_) return;
-  const Eigen::MatrixXd none;
-  auto modes = std::make_shared<SoftModes>(start ? soft_modes(problem_, start->motions, count, 1)
-                                                 : soft_modes(problem_, none, count, kFromAfar));
-  if (modes->count() == 0) return;
+  auto modes = modes_at_hand(problem_, at.negative, start);
+  if (!modes) return;
   const Eigen::MatrixXd change =
       tangent_change(problem_, at.y, at.lambda, {at.tangent, at.tangent_lambda}, modes->motions);
   modes->rate.resize(modes->count());
@@ -619,7 +632,10 @@ void Continuation::find_first_modes(PathPoint& start) {
   problem_.linearise(start.y + kSmallDisplacement * start.tangent,
                      start.lambda + kSmallDisplacement * start.tangent_lambda, work_.residual);
   ++statistics_.factorizations;
-  find_modes(start, nullptr);
+  if (!problem_.one_sided())
+    find_modes(start, nullptr);
+  else if (symmetric_)
+    start.modes = modes_at_hand(problem_, start.negative, nullptr);
 }
 
 int Continuation::negative_at(const PathPoint& at) {

@@ -136,7 +136,8 @@ class Continuation {
   /// @pre the problem was factorised last at the point, or so near that it makes no difference
   /// @param start modes of a neighbouring point; null: there are none
   void find_modes(PathPoint& at, const SharedModes& start);
-  /// @brief The same at the beginning of a path, factorised just beyond it.
+  /// @brief The same at the beginning of a path, factorised just beyond it. Without rates on one-sided
+  /// supports: there contact changes within the first step.
   void find_first_modes(PathPoint& start);
   /// @brief Negative eigenvalues at a point, factorised there.
   [[nodiscard]] int negative_at(const PathPoint& at);

@@ -88,6 +88,7 @@ class Tracer {
   double travelled_ = 0.0;                  ///< sum of the displacements of all steps
   std::vector<ContactChange> changes_;      ///< on the step that is being taken
   std::optional<CriticalEvent> passed_by_;  ///< the last bifurcation that was found beside the path
+  SharedModes first_modes_;                 ///< softest motions where the path begins, on one-sided supports
   bool onto_ = false;                       ///< the step that is being taken ends on a bifurcation
   std::vector<CriticalEvent> beside_;       ///< those that are still to be told
 };
@@ -298,7 +299,8 @@ void Tracer::step_onto(const std::vector<CriticalEvent>& events, const PathPoint
 }
 
 void Tracer::find_modes(const PathPoint& from, PathPoint& to) {
-  continuation_.find_modes(to, from.holds == to.holds ? from.modes : nullptr);
+  const SharedModes& known = from.modes ? from.modes : first_modes_;
+  continuation_.find_modes(to, from.holds == to.holds ? known : nullptr);
 }
 
 /// The end of a step becomes the start of the next.
@@ -418,10 +420,9 @@ void Tracer::tell_passed(const PathPoint& to, bool may_end, std::vector<Critical
 
 /// From point to point, until something ends the path.
 void Tracer::go(PathPoint& from, const StepOptions& steps, const std::stop_token& stop) {
-  // where supports act on one side only, what they do under the first load is not foretold by these modes
   continuation_.find_first_modes(from);
   if (sink_.on_point) sink_.on_point(from);
-  if (continuation_.problem().one_sided()) from.modes = nullptr;
+  if (continuation_.problem().one_sided()) first_modes_ = std::exchange(from.modes, nullptr);
   if (rules_.first_loss_of_stability && from.negative > 0) {
     finish(TraceEnd::unstable_at_start, from);
     return;
