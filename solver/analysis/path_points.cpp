@@ -49,6 +49,7 @@ std::vector<PathPoint> PathPoints::spread(Continuation& continuation, int count,
         continue;
       }
       point->negative = negative_at(from, accepted_[i].then, point->arc_length);
+      continuation.find_modes(*point, from.modes);
       out.push_back(std::move(*point));
     }
     std::stable_sort(out.begin() + first, out.end(),

@@ -63,7 +63,8 @@ void Recorder::add_row(const PathPoint& point) {
   branch.load_factor.push_back(user_load(point));
   branch.arc_length.push_back(point.arc_length);
   branch.negative_eigenvalues.push_back(point.negative);
-  branch.stiffness_ratio.push_back(softest_.ratio(point));
+  const bool is_lost = branch_ == 0 && lost_ == point.arc_length;
+  branch.stiffness_ratio.push_back(is_lost ? 0.0 : softest_.ratio(point));
   for (std::size_t i = 0; i < structure_.monitors.size(); ++i)
     branch.monitors[i].values.push_back(structure_.monitors[i].row.dot(point.y));
   const auto contact = contact_fractions(structure_, model_, point.y);
@@ -117,6 +118,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
     if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
     result_.summary.critical_load_factor = point.load_factor;
     result_.summary.critical_type = point.type;
+    if (event.cause == CriticalCause::smooth) lost_ = event.point.arc_length;
     result_.summary.at_critical = at_critical(structure_, model_, event.point.y);
   }
   result_.critical_points.push_back(std::move(point));

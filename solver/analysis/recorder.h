@@ -69,6 +69,8 @@ class Recorder {
   std::stop_token stop_;
   int points_ = 0;
   int branch_ = 0;
+  /// Arc length of the point where stability was lost: there the stiffness is zero without being computed.
+  std::optional<double> lost_;
   bool at_branch_start_ = true;  ///< no step of the current branch was taken
 };
 

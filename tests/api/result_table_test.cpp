@@ -45,11 +45,11 @@ TEST(ResultTable, CriticalPointsHaveTheirMonitors) {
   const json result = json::parse(R"({"critical_points": [
     {"branch": 0, "type": "limit_max", "cause": "smooth", "load_factor": 2.5, "error_estimate": null,
      "confirmed": true, "arc_length": 1.5, "negative_before": 0, "negative_after": 1, "multiplicity": 1,
-     "state": 0, "monitors": {"crown": -0.3}}]})");
+     "state": 0, "member": "arch", "monitors": {"crown": -0.3}}]})");
   EXPECT_EQ(
       result_csv(result, ResultTable::critical_points),
       "branch,type,cause,load_factor,error_estimate,confirmed,arc_length,negative_before,negative_after,"
-      "multiplicity,state,crown\r\n0,limit_max,smooth,2.5,,true,1.5,0,1,1,0,-0.3\r\n");
+      "multiplicity,state,member,crown\r\n0,limit_max,smooth,2.5,,true,1.5,0,1,1,0,arch,-0.3\r\n");
   EXPECT_EQ(result_csv(json::object(), ResultTable::critical_points).find('\n'),
             result_csv(json::object(), ResultTable::critical_points).size() - 1)
       << "a header alone";

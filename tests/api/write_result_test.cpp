@@ -41,7 +41,10 @@ Result full_result() {
                         {{4, 5, 66.5}, {8, 5, {}}}},
                        {0, CriticalType::limit_max, 76.5, {}, 2.5, {}, -1, -1, 1, {}},
                        {1, CriticalType::limit_min, 10.0, {}, 3.5, {}, 2, 1, 1, {}}};
+  r.summary.softest = Softest{60.5, 0.0625, Mode{{{"m", {0.0}, {0.0}, {1.0}, {0.5}}}}};
+  r.summary.at_critical = AtCritical{0.75, 0.5, 0.25, 0.125};
   r.critical_points[0].imperfection = 0.125;
+  r.critical_points[0].member = "m";
   r.critical_points[0].sensitivities = {{"/model/nodes/0/x", 2.5, {}},
                                         {"/model/nodes/0/y", {}, NoDerivative::breaks_bifurcation}};
   r.branches = {{0,
@@ -93,27 +96,31 @@ TEST(WriteResult, EveryFieldOfTheContract) {
   const json expected = json::parse(R"({
     "model": {"title": "arch", "units": {"length": "m"}},
     "summary": {"critical_load_factor": 66.25, "critical_type": "bifurcation", "error_estimate": 1e-5,
+                "softest": {"load_factor": 60.5, "stiffness_ratio": 0.0625,
+                            "mode": {"members": {"m": {"s": [0.0], "u": [0.0], "v": [1.0], "rotation": [0.5]}}}},
+                "at_critical": {"displacement": 0.75, "relative_displacement": 0.5, "rotation": 0.25, "strain": 0.125},
                 "termination": "limit_points", "message": "one limit point"},
     "critical_points": [
       {"branch": 0, "type": "bifurcation", "cause": "contact", "load_factor": 66.25, "error_estimate": 1e-5, "arc_length": 1.5,
        "monitors": {"crown": -0.5}, "negative_before": 0, "negative_after": 1, "multiplicity": 2, "imperfection": 0.125, "state": 0,
+       "member": "m",
        "mode": {"members": {"m": {"s": [0.0], "u": [1.0], "v": [0.5], "rotation": [3.0]}}},
        "confirmed": true, "meshes": [{"elements": 4, "order": 5, "load_factor": 66.5},
                                      {"elements": 8, "order": 5, "load_factor": null}],
        "sensitivities": [{"pointer": "/model/nodes/0/x", "derivative": 2.5, "reason": null},
                          {"pointer": "/model/nodes/0/y", "derivative": null, "reason": "breaks_bifurcation"}]},
       {"branch": 0, "type": "limit_max", "cause": "smooth", "load_factor": 76.5, "error_estimate": null, "arc_length": 2.5,
-       "monitors": {}, "negative_before": null, "negative_after": null, "multiplicity": 1, "imperfection": null, "state": null, "mode": null,
+       "monitors": {}, "negative_before": null, "negative_after": null, "multiplicity": 1, "imperfection": null, "state": null, "member": null, "mode": null,
        "confirmed": false, "meshes": []},
       {"branch": 1, "type": "limit_min", "cause": "smooth", "load_factor": 10.0, "error_estimate": null, "arc_length": 3.5,
-       "monitors": {}, "negative_before": 2, "negative_after": 1, "multiplicity": 1, "imperfection": null, "state": null, "mode": null,
+       "monitors": {}, "negative_before": 2, "negative_after": 1, "multiplicity": 1, "imperfection": null, "state": null, "member": null, "mode": null,
        "confirmed": false, "meshes": []}],
     "branches": [
       {"id": 0, "parent": null, "load_factor": [0.0, 1.0], "arc_length": [0.0, 0.5],
-       "monitors": {"crown": [0.0, -0.25]}, "negative_eigenvalues": [0, 1], "contact_fraction": {"soil": [1.0, 0.5]},
+       "monitors": {"crown": [0.0, -0.25]}, "negative_eigenvalues": [0, 1], "stiffness_ratio": [1.0, null], "contact_fraction": {"soil": [1.0, 0.5]},
        "termination": "limit_points"},
       {"id": 1, "parent": 0, "load_factor": [], "arc_length": [], "monitors": {}, "negative_eigenvalues": [],
-       "contact_fraction": {}, "termination": ""}],
+       "stiffness_ratio": [], "contact_fraction": {}, "termination": ""}],
     "neutral_motion": [{"branch": 0, "from": 0.5, "to": null, "nodes": {"n": {"u": 0.0, "v": 1.0, "rotation": 0.25}}}],
     "contact_events": [{"branch": 1, "id": "soil", "type": "opened", "load_factor": 2.5, "arc_length": 0.5,
                         "zones_before": 2, "zones_after": 1}],

@@ -72,7 +72,9 @@ TEST_F(CommandLine, CtrlCOnSolveLeavesWhatWasReached) {
   EXPECT_EQ(result.at("failure").at("code"), "cancelled");
   EXPECT_GT(result.at("branches")[0].at("load_factor").size(), 1U);
   EXPECT_EQ(run_interrupted({"solve", "--csv", request}, SIGTERM, false), 128 + SIGTERM) << err_;
-  EXPECT_THAT(out_, StartsWith("branch,point,load_factor,arc_length,negative_eigenvalues,tip\r\n0,0,"));
+  EXPECT_THAT(
+      out_,
+      StartsWith("branch,point,load_factor,arc_length,negative_eigenvalues,stiffness_ratio,tip\r\n0,0,"));
   EXPECT_THAT(err_, HasSubstr("[cancelled]"));
 }
 
@@ -108,7 +110,8 @@ TEST(InterruptionDeathTest, ASecondSignalEndsTheProcessAtOnce) {
 TEST_F(CommandLine, SolveGivesTheTableOfTheAnalysis) {
   json request = json::parse(column_request());
   EXPECT_EQ(run({"solve", "--csv", "-"}, request.dump()), 0) << err_;
-  EXPECT_THAT(out_, StartsWith("branch,point,load_factor,arc_length,negative_eigenvalues,tip\r\n"));
+  EXPECT_THAT(out_,
+              StartsWith("branch,point,load_factor,arc_length,negative_eigenvalues,stiffness_ratio,tip\r\n"));
   EXPECT_EQ(run({"solve", "--table", "critical_points", "-"}, request.dump()), 0) << err_;
   EXPECT_THAT(out_, StartsWith("branch,type,cause,load_factor,"));
   EXPECT_THAT(out_, HasSubstr("\r\n0,bifurcation,smooth,2.46"));  // pi^2 / 4

@@ -155,6 +155,7 @@ TEST_P(StoreConformance, AFinishedJobHasItsResultPathAndCriticalPoints) {
   EXPECT_EQ(branch.load_factor, expected.branches[0].load_factor);  // bit for bit
   EXPECT_EQ(branch.arc_length, expected.branches[0].arc_length);
   EXPECT_EQ(branch.negative_eigenvalues, expected.branches[0].negative_eigenvalues);
+  EXPECT_EQ(branch.stiffness_ratio, expected.branches[0].stiffness_ratio);
   ASSERT_EQ(branch.monitors.size(), 2U);
   EXPECT_EQ(branch.monitors[0].id, "tip");
   EXPECT_EQ(branch.monitors[0].values, expected.branches[0].monitors[0].values);

@@ -72,6 +72,7 @@ inline JobResult sample_result() {
   primary.load_factor = {0.0, 0.1, 1.0 / 3.0, 66.2628, 1e-310};
   primary.arc_length = {0.0, 0.5, 1.0, 1.5, 2.0};
   primary.negative_eigenvalues = {0, 0, 0, 1, 2};
+  primary.stiffness_ratio = {1.0, 0.5, std::nullopt, 0.0, -0.25};
   primary.monitors = {{"tip", {0.0, -0.1, -0.2, -0.3, -1e300}}, {"crown", {5, 4, 3, 2, 1}}};
   primary.contact_fraction = {{"soil", {1.0, 1.0, 0.5, 0.25, 0.0}}};
   Branch secondary;
