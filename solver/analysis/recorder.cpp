@@ -118,6 +118,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
     if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
     result_.summary.critical_load_factor = point.load_factor;
     result_.summary.critical_type = point.type;
+    softest_.lose(event.point);
     if (event.cause == CriticalCause::smooth) lost_ = event.point.arc_length;
     result_.summary.at_critical = at_critical(structure_, model_, event.point.y);
   }
@@ -212,7 +213,7 @@ TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> pare
     if (found) found(result_.critical_points.back());
   };
   sink.on_step = [this](const PathPoint& from, const PathPoint& to) {
-    if (branch_ == 0 && !result_.summary.critical_load_factor) softest_.add_step(from, to);
+    if (branch_ == 0) softest_.add_step(from, to);
     if (analysis_.output.states == StateOutput::at_load_factors) add_states_at_loads(from, to);
   };
   return sink;

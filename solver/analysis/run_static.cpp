@@ -227,12 +227,11 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
     neutral.note(point.holds, point.lambda / structure.scales.load);
   };
   sink.on_holds = sink.on_point;
-  bool is_stable = true;
   sink.on_critical = [&](const CriticalEvent& event) {
-    is_stable = is_stable && event.negative_after <= event.negative_before;
+    if (event.negative_before == 0 && event.negative_after > 0) softest.lose(event.point);
   };
   sink.on_step = [&](const PathPoint& from, const PathPoint& to) {
-    if (is_stable) softest.add_step(from, to);
+    softest.add_step(from, to);
     for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
       const double target = analysis.load_factors[i] * structure.scales.load;
       const double size = std::abs(to.lambda - from.lambda);

@@ -84,14 +84,61 @@ std::optional<double> SoftestPoint::ratio(const PathPoint& point) const {
 }
 
 void SoftestPoint::add_step(const PathPoint& from, const PathPoint& to) {
+  if (ended_) return;
+  if (critical_) {
+    ended_ = true;
+    search_before_critical(from);
+    return;
+  }
   if (from.negative > 0 || to.negative > 0) return;
   if (lowest_ && ratio(*lowest_).value_or(1.0) < kNearlyUnstable) return;
   const auto a = stiffness_of(from);
   const auto b = stiffness_of(to);
-  if (!a || !b || !(a->rate < 0.0) || !(b->rate > 0.0 || b->value > a->value)) return;
+  if (!a || !b || !(a->rate < 0.0)) return;
+  if (!(b->rate > 0.0 || b->value > a->value)) {
+    search_before_fall(from, to);
+    return;
+  }
   if (lowest_ && lower_bound(*a, *b, continuation_.distance(from, to)) >= stiffness_of(*lowest_)->value)
     return;
   search(from, to);
+}
+
+void SoftestPoint::search_before_fall(const PathPoint& from, const PathPoint& to) {
+  const auto a = stiffness_of(from);
+  const auto b = stiffness_of(to);
+  const double length = continuation_.distance(from, to);
+  const Cubic cubic{a->value, length * a->rate, b->value, length * b->rate};
+  const auto steepest = cubic.inflection();
+  if (!steepest || cubic.slope(*steepest) <= 0.0) return;
+  auto middle = continuation_.between(continuation_.chord(from, to), from, to, *steepest);
+  if (!middle) return;
+  continuation_.find_modes(*middle, from.modes);
+  const auto m = stiffness_of(*middle);
+  if (m && middle->negative == 0 && m->rate > 0.0) search(from, *std::move(middle));
+}
+
+void SoftestPoint::search_before_critical(PathPoint from) {
+  constexpr int kMostLooks = 4;
+  constexpr double kStraight =
+      0.7;  // of the way: a stiffness that its tangent takes to zero before has a bend
+  for (int i = 0; i < kMostLooks; ++i) {
+    const auto a = stiffness_of(from);
+    if (!a || from.negative > 0 || !(a->rate < 0.0)) return;
+    if (lowest_ && ratio(*lowest_).value_or(1.0) < kNearlyUnstable) return;
+    const double share = a->value / (-a->rate * continuation_.distance(from, *critical_));
+    if (!(share < kStraight)) return;
+    auto middle =
+        continuation_.between(continuation_.chord(from, *critical_), from, *critical_, std::max(share, 0.1));
+    if (!middle) return;
+    continuation_.find_modes(*middle, from.modes);
+    const auto m = stiffness_of(*middle);
+    if (m && middle->negative == 0 && m->rate > 0.0) {
+      search(std::move(from), *std::move(middle));
+      return;
+    }
+    from = *std::move(middle);
+  }
 }
 
 void SoftestPoint::search(PathPoint low, PathPoint high) {

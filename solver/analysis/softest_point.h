@@ -37,6 +37,8 @@ class SoftestPoint {
   /// @brief Looks for a minimum on a step of the primary path.
   /// @param from, to ends of the step, on one path; with their modes
   void add_step(const PathPoint& from, const PathPoint& to);
+  /// Says that the path loses stability at a point of the step that add_step() gets next; it is the last one.
+  void lose(const PathPoint& critical) { critical_ = critical; }
 
   /// @brief Puts summary.softest into a result, and the warning and the sentence that begins its message
   /// where the ratio falls below a tenth.
@@ -48,9 +50,15 @@ class SoftestPoint {
  private:
   /// A local minimum of the stiffness between two points of the path.
   void search(PathPoint low, PathPoint high);
+  /// A local minimum before a maximum, where the stiffness falls at both points.
+  void search_before_fall(const PathPoint& from, const PathPoint& to);
+  /// A local minimum between a point and the critical point, where the stiffness is zero.
+  void search_before_critical(PathPoint from);
 
   Continuation& continuation_;
-  double unloaded_ = 0.0;            ///< least stiffness of the unloaded structure; 0: not known
+  double unloaded_ = 0.0;  ///< least stiffness of the unloaded structure; 0: not known
+  std::optional<PathPoint> critical_;
+  bool ended_ = false;
   std::optional<PathPoint> lowest_;  ///< with its modes; the first one below a tenth
 };
 
