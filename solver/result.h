@@ -218,7 +218,7 @@ struct MemberExtremes {
 };
 
 /// Something that the reader of a result has to know. Codes: "large_strain", "path_points",
-/// "touching_supports", "touching_eigenvalue".
+/// "touching_supports", "touching_eigenvalue", "contact_changes".
 struct Warning {
   std::string code;
   std::string detail;
@@ -285,7 +285,7 @@ struct Diagnostics {
 /// A numerical failure: what could not be done and where it stood. The rest of the result holds what was
 /// reached.
 struct Failure {
-  std::string code;  ///< "no_convergence", "step_underflow", "cancelled", "no_start", "loose_part", ...
+  std::string code;  ///< "no_convergence", "step_underflow", "cancelled", "no_start", "not_held", ...
   std::string detail;
 };
 

@@ -1,15 +1,18 @@
 #include "solver/solve.h"
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "solver/analysis/analyses.h"
-#include "solver/discrete/mechanism.h"
+#include "solver/analysis/held_loads.h"
+#include "solver/discrete/free_motions.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/skipped.h"
+#include "solver/support/law.h"
 
 namespace snapthrough {
 namespace {
@@ -45,8 +48,29 @@ std::vector<double> asked_load_factors(const Analysis& analysis) {
   return analysis.output.at_load_factors;
 }
 
+/// Static load factors that are not held beside those that are computed.
+void report_refused(const HeldLoads& held, Result& result) {
+  if (!held.refusal) return;
+  if (!result.failure) return fail(result, "not_held", *held.refusal);
+  result.failure->detail += "; " + *held.refusal;
+  result.summary.message += "; " + *held.refusal;
+}
+
 /// @throws Cancelled when nothing of it is worth keeping
 void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, Result& result) {
+  // what supports of both sides hold needs no look at its loads
+  std::optional<FreeMotions> motions;
+  std::optional<UnilateralBalance> balance;
+  HeldLoads held{{}, true, std::vector<char>(analysis.load_factors.size(), 1)};
+  if (has_one_sided_supports(model)) {
+    balance.emplace(motions.emplace(model));
+    held = held_loads(model, analysis, *balance);
+    if (!held.any) {
+      fail(result, "not_held", *held.refusal);
+      result.not_reached = asked_load_factors(analysis);
+      return;
+    }
+  }
   ModeOffsets modes;
   try {
     modes = mode_offsets(model, analysis, hooks.stop);
@@ -65,7 +89,7 @@ void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, R
   Structure structure =
       make_structure(model, analysis.sensitivities.empty() ? asked : as_stiff_as_given(asked),
                      analysis.geometry, modes, mesh_use(analysis));
-  structure.free_motions = free_motions(model);
+  structure.free_motions = motions ? motions->of_nodes() : free_motions(model);
   structure.stop = hooks.stop;
   result.diagnostics.skipped = structure.skipped;
   switch (analysis.type) {
@@ -75,10 +99,12 @@ void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, R
       report_stop(hooks, result);
       break;
     case AnalysisType::static_:
-      run_static(model, analysis, structure, hooks, result);
+      run_static(model, analysis, structure, held.factors, hooks, result);
+      report_refused(held, result);
       break;
     case AnalysisType::buckling:
       run_buckling(model, analysis, structure, result);
+      if (balance) withdraw_load_not_held(model, *balance, result);
       break;
   }
   for (std::string& what : skipped_work(model, analysis))

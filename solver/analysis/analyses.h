@@ -23,8 +23,9 @@ namespace snapthrough {
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result);
 /// `static`: equilibrium at given load factors, small displacements or not.
-void run_static(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
-                Result& result);
+/// @param held for each of them, whether it is computed; the others are listed as not reached
+void run_static(const Model& model, const Analysis& analysis, const Structure& structure,
+                const std::vector<char>& held, const Hooks& hooks, Result& result);
 /// `buckling`: linearised eigenvalues about the reference load.
 void run_buckling(const Model& model, const Analysis& analysis, const Structure& structure, Result& result);
 

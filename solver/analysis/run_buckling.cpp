@@ -11,7 +11,7 @@
 
 #include "solver/accuracy/buckling_loads.h"
 #include "solver/analysis/analyses.h"
-#include "solver/discrete/mechanism.h"
+#include "solver/discrete/free_motions.h"
 #include "solver/events/buckling.h"
 #include "solver/events/touching.h"
 #include "solver/model/id_index.h"
@@ -20,37 +20,104 @@
 #include "solver/report/neutral_motion.h"
 #include "solver/report/result_parts.h"
 #include "solver/support/joined_supports.h"
+#include "solver/support/law.h"
 
 namespace snapthrough {
 namespace {
 
 using Eigen::VectorXd;
 
-/// Which one-sided foundations count as glued, in words.
-std::string contact_text(const Structure& structure, const Model& model, const FrozenContact& contact) {
-  const std::optional<Model> joined = with_joined_supports(model);
-  const Model& laws = joined ? *joined : model;
-  struct Share {
-    double glued = 0.0;
-    double all = 0.0;
-  };
-  std::map<std::string, Share> shares;  // of foundations that were cut into parts, too
+/// Of a foundation's range: what is glued of it, and all of it, scaled lengths.
+struct GluedLength {
+  double glued = 0.0;
+  double all = 0.0;
+
+  [[nodiscard]] double share() const { return glued / all; }
+};
+
+/// Where one-sided supports act, by their ids: foundations that were cut into parts are one again.
+struct ContactShares {
+  std::map<std::string, GluedLength> foundations;
+  std::map<std::string, bool> springs;
+};
+
+/// @param laws the model, its opposite supports joined
+ContactShares shares_of(const Structure& structure, const Model& laws, const StructuralProblem& problem,
+                        const FrozenContact& contact) {
+  ContactShares out;
   for (std::size_t i = 0; i < laws.foundations.size(); ++i) {
     const Foundation& foundation = laws.foundations[i];
-    if (foundation.reaction == Reaction::bilateral || foundation.stiffness == 0.0) continue;
+    if (!is_one_sided(foundation)) continue;
     const int member = index_of(laws.members, foundation.member);
-    Share& share = shares[foundation.id];
-    share.all += (foundation.range[1] - foundation.range[0]) * structure.axes[member]->length() /
-                 structure.scales.length;
+    GluedLength& length = out.foundations[foundation.id];
+    length.all += (foundation.range[1] - foundation.range[0]) * structure.axes[member]->length() /
+                  structure.scales.length;
     for (int e = structure.mesh.first[member]; e < structure.mesh.first[member + 1]; ++e)
-      share.glued +=
+      length.glued +=
           length_of_element(structure, e) * structure.elements->frozen_share(contact, e, static_cast<int>(i));
   }
+  const TouchingMarks all_springs{std::vector<char>(contact.contacts.size(), 0),
+                                  std::vector<char>(contact.element_springs.size(), 1),
+                                  std::vector<char>(contact.node_springs.size(), 1)};
+  for (const TouchingSupports::Spring& spring : problem.touching(all_springs, &contact).springs) {
+    const Spring& law = laws.springs[static_cast<std::size_t>(spring.spring)];
+    if (is_one_sided(law)) out.springs[law.id] = spring.touch == Touch::acts;
+  }
+  return out;
+}
+
+/// A share in per cent; less than a millionth is the tolerance of touching.
+std::string percent(double share) {
+  constexpr double kNothing = 1e-6;
+  return rounded(share > kNothing ? 100.0 * share : 0.0) + " %";
+}
+
+/// Which one-sided foundations count as glued, in words.
+std::string contact_text(const ContactShares& shares, bool joined) {
   std::string text = joined ? "; one-sided supports that oppose one another act as bilateral ones" : "";
-  for (const auto& [id, share] : shares)
-    text += "; one-sided foundation " + id + " counted as glued on " +
-            rounded(100.0 * share.glued / share.all) + " % of its range";
+  for (const auto& [id, length] : shares.foundations)
+    text += "; one-sided foundation " + id + " counted as glued on " + rounded(100.0 * length.share()) +
+            " % of its range";
   return text;
+}
+
+/// Whether contact can differ between load factors: a linear response to one set of actions without gaps is
+/// proportional to them, imposed strains and displacements among them, and so is where it touches.
+bool contact_depends_on_load(const Structure& structure, const Model& laws) {
+  const auto has_gap = [](const auto& support) { return is_one_sided(support) && support.gap > 0.0; };
+  return structure.has_constant || std::any_of(laws.springs.begin(), laws.springs.end(), has_gap) ||
+         std::any_of(laws.foundations.begin(), laws.foundations.end(), has_gap);
+}
+
+/// Warns where one-sided supports touch elsewhere under the critical load than under the reference load,
+/// whose contact the linearised analysis keeps.
+void warn_of_changed_contact(const Structure& structure, const Model& laws, StructuralProblem& problem,
+                             const LinearBuckling& buckling, Result& result) {
+  constexpr double kSameShare = 0.01;  // of a foundation's range
+  if (!structure.one_sided || !result.summary.critical_load_factor ||
+      !contact_depends_on_load(structure, laws))
+    return;
+  const auto contact = linear_contact(problem, buckling.loads.front(), result.diagnostics.factorizations);
+  if (!contact) return;
+  const ContactShares reference = shares_of(structure, laws, problem, buckling.pressed);
+  const ContactShares critical = shares_of(structure, laws, problem, *contact);
+  std::string changes;
+  for (const auto& [id, length] : reference.foundations) {
+    const double then = critical.foundations.at(id).share();
+    if (std::abs(then - length.share()) <= kSameShare) continue;
+    changes += "; foundation " + id + " touches on " + percent(length.share()) +
+               " of its range under the reference load and on " + percent(then) + " under the critical load";
+  }
+  for (const auto& [id, acts] : reference.springs)
+    if (critical.springs.at(id) != acts)
+      changes += "; spring " + id + (acts ? " acts" : " does not act") + " under the reference load and " +
+                 (acts ? "not" : "acts") + " under the critical load";
+  if (changes.empty()) return;
+  result.warnings.push_back(
+      {"contact_changes", "the load factor " + number(*result.summary.critical_load_factor) +
+                              " is not to be relied on, because contact does not stay as "
+                              "the linearised analysis takes it" +
+                              changes + "; a path or a search for the critical load follows it"});
 }
 
 /// Reports the mesh of the loads and the largest error of them; loads that finer meshes do not confirm within
@@ -126,8 +193,13 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   }
   report_buckling(analysis, std::move(found), result);
   warn_of_touching(structure, buckling.piece, result);
-  result.summary.message += contact_text(structure, model, buckling.contact);
+  StructuralProblem problem(structure);
+  const std::optional<Model> joined = with_joined_supports(model);
+  const Model& laws = joined ? *joined : model;
+  result.summary.message +=
+      contact_text(shares_of(structure, laws, problem, buckling.contact), joined.has_value());
   report_errors(analysis, loads, result);
+  warn_of_changed_contact(structure, laws, problem, buckling, result);
 }
 
 ModeOffsets mode_offsets(const Model& model, const Analysis& analysis, const std::stop_token& stop) {

@@ -31,10 +31,13 @@ using Eigen::VectorXd;
 /// Keeps what was asked for at each load factor, in the order they were asked for.
 class StaticRows {
  public:
-  StaticRows(const Model& model, const Analysis& analysis, const Structure& structure)
+  /// @param asked for each load factor, whether a row is wanted
+  StaticRows(const Model& model, const Analysis& analysis, const Structure& structure,
+             const std::vector<char>& asked)
       : model_(model),
         analysis_(analysis),
         structure_(structure),
+        asked_(asked),
         observer_(model, analysis, structure),
         state_loads_(analysis.output.at_load_factors.begin(), analysis.output.at_load_factors.end()),
         rows_(analysis.load_factors.size()) {}
@@ -42,6 +45,15 @@ class StaticRows {
   /// @param negative eigenvalues of the tangent there
   void set(std::size_t index, const VectorXd& y, int negative);
   [[nodiscard]] bool has(std::size_t index) const { return rows_[index].has_value(); }
+  /// Whether a row is wanted that is not there yet.
+  [[nodiscard]] bool lacks(std::size_t index) const { return asked_[index] != 0 && !has(index); }
+  /// Whether a load factor that meets a condition is asked for.
+  template <class Condition>
+  [[nodiscard]] bool asks_for(const Condition& condition) const {
+    for (std::size_t i = 0; i < asked_.size(); ++i)
+      if (asked_[i] != 0 && condition(analysis_.load_factors[i])) return true;
+    return false;
+  }
   /// Fills the table, the states and the list of load factors that have none.
   void move_to(Result& result);
 
@@ -57,6 +69,7 @@ class StaticRows {
   const Model& model_;
   const Analysis& analysis_;
   const Structure& structure_;
+  const std::vector<char>& asked_;
   Observer observer_;
   std::set<double> state_loads_;  ///< where states are asked for by load factor
   std::vector<std::optional<Row>> rows_;
@@ -204,8 +217,8 @@ void fail_at_end(const Model& model, const Analysis& analysis, const Structure& 
 bool follow(const Model& model, const Analysis& analysis, const Structure& structure, double direction,
             const Hooks& hooks, StaticRows& states, Result& result) {
   double last = 0.0;
-  for (const double factor : analysis.load_factors)
-    if (factor * direction > 0.0 || factor == 0.0) last = std::max(last, factor * direction);
+  for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
+    if (states.lacks(i)) last = std::max(last, analysis.load_factors[i] * direction);
   StructuralProblem problem(structure);
   Continuation continuation(problem, {});
   SoftestPoint softest(continuation);
@@ -217,7 +230,7 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   }
   if (!start) return false;
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
-    if (analysis.load_factors[i] == 0.0) states.set(i, start->y, start->negative);
+    if (analysis.load_factors[i] == 0.0 && states.lacks(i)) states.set(i, start->y, start->negative);
   if (last == 0.0) return true;
   const TraceRules rules = static_rules(model, analysis, last * structure.scales.load);
   TraceSink sink;
@@ -236,7 +249,7 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
       const double target = analysis.load_factors[i] * structure.scales.load;
       const double size = std::abs(to.lambda - from.lambda);
       const bool reached = std::abs(to.lambda - target) <= 1e-11 * std::abs(target);
-      if (states.has(i) || (!reached && (from.lambda - target) * (to.lambda - target) > 0.0)) continue;
+      if (!states.lacks(i) || (!reached && (from.lambda - target) * (to.lambda - target) > 0.0)) continue;
       if (reached) {
         states.set(i, to.y, to.negative);
         continue;
@@ -266,6 +279,7 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
     StructuralProblem problem(structure);
     NeutralMotionLog neutral(structure, model, result.neutral_motion);
     for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
+      if (!states.lacks(i)) continue;
       SharedHolds holds;
       if (const auto state = solve_linear(structure, problem, analysis.load_factors[i], holds, result)) {
         states.set(i, state->y, state->tangent.negative);
@@ -276,10 +290,8 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
       }
     }
   } else {
-    const bool falling = std::any_of(analysis.load_factors.begin(), analysis.load_factors.end(),
-                                     [](double factor) { return factor < 0.0; });
-    const bool growing = std::any_of(analysis.load_factors.begin(), analysis.load_factors.end(),
-                                     [](double factor) { return factor >= 0.0; });
+    const bool falling = states.asks_for([](double factor) { return factor < 0.0; });
+    const bool growing = states.asks_for([](double factor) { return factor >= 0.0; });
     if (growing) static_cast<void>(follow(model, analysis, structure, 1.0, hooks, states, result));
     if (falling) static_cast<void>(follow(model, analysis, structure, -1.0, hooks, states, result));
   }
@@ -311,15 +323,15 @@ void report_stability(const Analysis& analysis, Result& result) {
 
 }  // namespace
 
-void run_static(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
-                Result& result) {
-  StaticRows states(model, analysis, structure);
+void run_static(const Model& model, const Analysis& analysis, const Structure& structure,
+                const std::vector<char>& held, const Hooks& hooks, Result& result) {
+  StaticRows states(model, analysis, structure, held);
   result.summary.termination = "load_factors";
   result.summary.message = "equilibrium at " + std::to_string(analysis.load_factors.size()) + " load factors";
   if (!unless_cancelled([&] { compute(model, analysis, structure, hooks, states, result); }))
     fail(result, "cancelled", "cancelled before all load factors were reached");
   for (std::size_t i = 0; i < analysis.load_factors.size() && !result.failure; ++i)
-    if (!states.has(i))
+    if (states.lacks(i))
       fail(result, "no_convergence", "load factor " + number(analysis.load_factors[i]) + " was not reached");
   states.move_to(result);
   report_stability(analysis, result);

@@ -2,7 +2,6 @@
 /// @file
 /// Detection of structures that can move without strain.
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "solver/model/finding.h"
@@ -20,12 +19,6 @@ namespace snapthrough {
 /// @brief Whether the unloaded structure, with one-sided supports counted as glued, can move without strain.
 /// @pre the model passed all other checks
 [[nodiscard]] bool can_move(const Model& model);
-
-/// @brief Motions without strain of the structure without its one-sided supports: displacements of the nodes
-/// (x, y over the longest member's length, rotation), orthonormal columns; without columns when there are
-/// none.
-/// @pre the model passed all other checks
-[[nodiscard]] Eigen::MatrixXd free_motions(const Model& model);
 
 /// @brief Whether a look at the supports is enough to see that find_mechanism() would find nothing: few
 /// straight members and arcs of comparable stiffnesses, all connected and without releases, whose rigid

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "solver/newton/contact_state.h"
 #include "solver/newton/corrector.h"
 #include "solver/numeric/bracket.h"
 #include "solver/numeric/pseudo_random.h"
@@ -371,7 +372,7 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
   Pencil pencil(structure, problem);
   pencil.set_prestress(reference);
   out.holds = pencil.holds();
-  out.contact = pencil.contact();
+  out.contact = out.pressed = pencil.contact();
   out.is_mechanism = !pencil.holds_are_idle(reference);
   if (out.is_mechanism) return out;
   const TouchingMarks& marks = pencil.marks();
@@ -383,6 +384,15 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
   out.marks = marks;
   out.contact = std::move(pencil.contact());
   return out;
+}
+
+std::optional<FrozenContact> linear_contact(StructuralProblem& problem, double lambda, int& factorizations) {
+  const PathMetric metric{&problem.metric(), 0.0};
+  Workspace work;
+  problem.set_holds(held_softly(problem));
+  const auto state = find_contact_state(problem, metric, lambda, work, factorizations, nullptr, true);
+  if (!state) return std::nullopt;
+  return problem.frozen_contact(state->y);
 }
 
 }  // namespace snapthrough

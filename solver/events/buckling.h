@@ -3,6 +3,7 @@
 /// Linearised buckling: the eigenvalues of the tangent about a linear prestress.
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "solver/events/least_piece.h"
@@ -25,6 +26,7 @@ struct LinearBuckling {
   LeastPiece piece;       ///< what was found for them
   TouchingMarks marks;    ///< of them
   FrozenContact contact;  ///< that the loads are of
+  FrozenContact pressed;  ///< where one-sided supports are pressed or touch under the reference load
 };
 
 /// @brief The lowest `count` buckling loads of a structure.
@@ -40,5 +42,14 @@ struct LinearBuckling {
 /// @param near the first mode on a coarser mesh, where supports touch without pressure; empty: not known
 [[nodiscard]] LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem,
                                              int count, double reference, const Eigen::VectorXd& near = {});
+
+/// @brief Where one-sided supports are pressed or touch at the equilibrium of small displacements under a
+/// load factor.
+/// @param problem its holds are set anew
+/// @param lambda scaled load factor
+/// @param factorizations counts are added to it
+/// @return empty when no such equilibrium was found
+[[nodiscard]] std::optional<FrozenContact> linear_contact(StructuralProblem& problem, double lambda,
+                                                          int& factorizations);
 
 }  // namespace snapthrough

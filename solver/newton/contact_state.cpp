@@ -25,6 +25,7 @@ struct Attempt {
   CorrectorOptions options;
   Workspace& work;
   int& factorisations;
+  bool small_displacements;
 };
 
 /// First correction from the unloaded state; false when the structure is singular.
@@ -33,6 +34,7 @@ bool first_guess(Attempt& attempt, bool bilateral, double softness, ContactState
   Regime regime;
   if (bilateral) regime.contact = Regime::Contact::bilateral;
   regime.softness = softness;
+  regime.small_displacements = attempt.small_displacements;
   state.tangent = attempt.problem.linearise(state.y, attempt.lambda, attempt.work.residual, regime);
   ++attempt.factorisations;
   state.y = -attempt.work.residual;
@@ -45,6 +47,7 @@ bool settle(Attempt& attempt, const Regime& regime, ContactState& state) {
   const SideCondition load_control;
   CorrectorOptions options = attempt.options;
   options.regime = regime;
+  options.regime.small_displacements = attempt.small_displacements;
   double lambda = attempt.lambda;
   constexpr double kSmaller = 0.1;
   constexpr double kLeastScale = 1e-14;
@@ -127,13 +130,13 @@ bool release_grip(Attempt& attempt, ContactState& state) {
 
 std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, const PathMetric& metric,
                                                double lambda, Workspace& work, int& factorisations,
-                                               const VectorXd* guess) {
+                                               const VectorXd* guess, bool small_displacements) {
   CorrectorOptions options = downhill({}, 25);
   // only the direction is taken from it, and the last correction squares this; forces of a very small load
   // are not known better where supports are stiff
   options.tangent_tolerance = 1e-5;
   options.largest_residual = options.tangent_tolerance;
-  Attempt attempt{problem, metric, lambda, options, work, factorisations};
+  Attempt attempt{problem, metric, lambda, options, work, factorisations, small_displacements};
   ContactState state;
   ContactState glued;
   if (guess != nullptr) {

@@ -26,12 +26,14 @@ struct ContactState {
 /// monotone and starts next to the last one's solution.
 ///
 /// @param guess tried first, if given
+/// @param small_displacements strains are linearised about the stress-free axis
 /// @param options its limits on iterations and corrections are the caller's to widen
 /// @param factorisations counts are added to it
 /// @return empty when no equilibrium was found
 [[nodiscard]] std::optional<ContactState> find_contact_state(EquilibriumProblem& problem,
                                                              const PathMetric& metric, double lambda,
                                                              Workspace& work, int& factorisations,
-                                                             const Eigen::VectorXd* guess = nullptr);
+                                                             const Eigen::VectorXd* guess = nullptr,
+                                                             bool small_displacements = false);
 
 }  // namespace snapthrough

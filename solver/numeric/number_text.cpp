@@ -10,10 +10,9 @@ std::string number(double value) {
   return {text, end.ptr};
 }
 
-std::string rounded(double value) {
-  constexpr int kDigits = 3;
+std::string rounded(double value, int digits) {
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, kDigits);
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
   return {text, end.ptr};
 }
 

@@ -58,6 +58,10 @@ constexpr double kSmallDisplacement = 1e-7;
 constexpr double kLoadDominates = 3.0;
 /// Of a displacement: what the tangent at its end may miss it by where contact changes in proportion to it.
 constexpr double kProportional = 0.1;
+/// Displacement gradients of a first state over those of small displacements, beyond which it is another
+/// state: a rotation that closes a gap is at most pi / 2 times its sine, which is that of small
+/// displacements.
+constexpr double kFarStart = 2.0;
 /// Corrections downhill in the energy.
 constexpr int kIterations = 60;
 
@@ -172,9 +176,22 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
   return std::nullopt;
 }
 
+/// Whether a state at rest lies farther from the unloaded one than gaps and elastic strains explain: than the
+/// state of small displacements under the same load does, by more than a factor.
+bool Continuation::is_far(const PathPoint& rest) {
+  const auto near =
+      find_contact_state(problem_, metric_, rest.lambda, work_, statistics_.factorizations, nullptr, true);
+  if (!near) return false;
+  const FarStart start{metric_.norm(rest.y, 0.0), metric_.norm(near->y, 0.0)};
+  if (start.moved <= kFarStart * start.explained) return false;
+  far_start_ = start;
+  return true;
+}
+
 /// From a state that the structure moved to under a very small load, corrected to the last digit.
 std::optional<PathPoint> Continuation::start_at_rest(PathPoint rest, double direction) {
   const auto outcome = correct_downhill(metric_.norm(rest.y, 0.0), 25, rest);
+  if (outcome.status == CorrectorStatus::converged && is_far(rest)) return std::nullopt;
   VectorXd response;
   TangentReport report;
   if (outcome.status != CorrectorStatus::converged ||
@@ -252,6 +269,7 @@ std::optional<PathPoint> Continuation::softly_held_start(const SharedHolds& soft
   }
   problem_.set_holds(nullptr);
   loose_motion_.resize(0);
+  far_start_.reset();
   return start;
 }
 

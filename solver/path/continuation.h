@@ -174,6 +174,14 @@ class Continuation {
   /// @brief Motion that nothing resists under the first small load, which start() found no path from: a part
   /// of the structure that one-sided supports touch without pressure, or not at all. Empty: none.
   [[nodiscard]] const Eigen::VectorXd& loose_motion() const { return loose_motion_; }
+  /// A first state, at rest under the first small load, that start() refused because it lies too far from the
+  /// unloaded one: displacement gradients (root mean square) there, and those of small displacements under
+  /// the same load, which gaps and elastic strains explain.
+  struct FarStart {
+    double moved = 0.0;
+    double explained = 0.0;
+  };
+  [[nodiscard]] const std::optional<FarStart>& far_start() const { return far_start_; }
   /// Size of the response to the first small load over that of the structure glued to its supports: what
   /// rounding presses against stiff supports moves far more.
   [[nodiscard]] double loosening() const { return loosening_; }
@@ -195,6 +203,7 @@ class Continuation {
   [[nodiscard]] NeutralBounds neutral_bounds(const Holds& holds, const PathPoint& at);
   [[nodiscard]] bool is_loose();
   [[nodiscard]] std::optional<PathPoint> start_at_rest(PathPoint rest, double direction);
+  [[nodiscard]] bool is_far(const PathPoint& rest);
   void turn_where_supports_touch(PathPoint& start, double direction, const Eigen::VectorXd& response);
   [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, double lambda,
                                       const Eigen::VectorXd& response, double direction,
@@ -252,6 +261,7 @@ class Continuation {
   double loosening_ = 1.0;
   double arc_weight_ = 1.0;  ///< of the load in arc lengths
   Eigen::VectorXd loose_motion_;
+  std::optional<FarStart> far_start_;
   bool symmetric_ = true;   ///< the tangent is, so that stiffnesses of motions are real
   bool easy_ = false;       ///< the last step was accepted at its first size
   double easy_size_ = 0.0;  ///< of the last step that was accepted at its first size

@@ -34,4 +34,10 @@ SpringLaw law_of(const Spring& spring, const Scales& scales) {
           sense};
 }
 
+bool has_one_sided_supports(const Model& model) {
+  const auto one_sided = [](const auto& support) { return is_one_sided(support); };
+  return std::any_of(model.springs.begin(), model.springs.end(), one_sided) ||
+         std::any_of(model.foundations.begin(), model.foundations.end(), one_sided);
+}
+
 }  // namespace snapthrough

@@ -64,6 +64,8 @@ template <class Support>
   return support.reaction != Reaction::bilateral && support.stiffness > 0.0;
 }
 
+[[nodiscard]] bool has_one_sided_supports(const Model& model);
+
 /// A foundation as it reacts, scaled.
 struct FoundationLaw {
   Direction direction;

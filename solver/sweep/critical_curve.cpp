@@ -11,10 +11,12 @@
 #include <utility>
 
 #include "solver/analysis/analyses.h"
-#include "solver/discrete/mechanism.h"
+#include "solver/analysis/held_loads.h"
+#include "solver/discrete/free_motions.h"
 #include "solver/events/touching.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/numeric/number_text.h"
+#include "solver/support/law.h"
 #include "solver/trace/trace.h"
 
 namespace snapthrough {
@@ -63,8 +65,10 @@ struct Family {
                                  mode_offsets(model, request.analysis), MeshUse::first)),
         problem(structure),
         continuation(problem, {}) {
-    structure.free_motions = free_motions(model);
+    const FreeMotions motions(model);
+    structure.free_motions = motions.of_nodes();
     structure.stop = request.stop;
+    is_held = !has_one_sided_supports(model) || !start_refusal(model, UnilateralBalance(motions));
   }
   Family(Model model_of_value, Structure known)
       : model(std::move(model_of_value)),
@@ -80,6 +84,7 @@ struct Family {
   Structure structure;
   StructuralProblem problem;
   Continuation continuation;
+  bool is_held = true;  ///< one-sided supports hold the loads that the path begins with
 };
 
 /// The path between two points as a cubic, in the distance along a chord from the first.
@@ -268,6 +273,7 @@ bool Follower::follow_to(double value, int halvings) {
   if (nodes_.empty()) return false;
   const double t = place_of(value);
   Family member(request_, value);
+  if (!member.is_held) return false;
   const Scales& scales = measure_->structure.scales;
   if (member.structure.size != measure_->structure.size || member.structure.scales.load != scales.load ||
       member.structure.scales.force != scales.force || member.structure.scales.length != scales.length)
@@ -292,6 +298,10 @@ CriticalCurvePoint Follower::trace_at(double value) {
   nodes_.clear();
   CriticalCurvePoint point{value, std::nullopt, CriticalType::limit_max, false, ""};
   auto member = std::make_unique<Family>(request_, value);
+  if (!member->is_held) {
+    point.failure = "not_held";
+    return point;
+  }
   Result result;
   auto start = member->start(result);
   auto touching = with_least_piece(member->model, member->structure, member->problem, member->continuation,

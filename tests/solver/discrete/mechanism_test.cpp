@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "solver/discrete/free_motions.h"
+
 namespace snapthrough {
 namespace {
 

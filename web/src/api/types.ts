@@ -1089,7 +1089,7 @@ export interface components {
              * @description Code of what ended the analysis; see docs/requests.md, How an analysis ends
              * @enum {string}
              */
-            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
+            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "not_held" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
             /** @description The same as a sentence with the deciding numbers */
             message: string;
         };
@@ -1276,7 +1276,7 @@ export interface components {
              * @description Code of what ended the branch
              * @enum {string}
              */
-            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
+            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "not_held" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
         };
         /** @description A member in a state; lists of equal length, points_per_member entries */
         MemberState: {
@@ -1473,10 +1473,10 @@ export interface components {
         /** @description Something that the reader of the result must know */
         Warning: {
             /**
-             * @description large_strain: strains beyond 0.05, where the elastic law for small strains is not valid; touching_supports: supports touch without pressure, and it is not certain that no motion has a lower load; touching_eigenvalue: a stiffness falls to zero within rounding and rises again, and whether two critical points lie there cannot be told; path_points: a path has fewer points than asked for; nearly_unstable: the stiffness ratio falls below a tenth before the critical load factor; unstable: rows of a static analysis are unstable equilibria
+             * @description large_strain: strains beyond 0.05, where the elastic law for small strains is not valid; touching_supports: supports touch without pressure, and it is not certain that no motion has a lower load; touching_eigenvalue: a stiffness falls to zero within rounding and rises again, and whether two critical points lie there cannot be told; path_points: a path has fewer points than asked for; contact_changes: a linearised analysis keeps the contact of its reference load, and under the critical load one-sided supports touch elsewhere; nearly_unstable: the stiffness ratio falls below a tenth before the critical load factor; unstable: rows of a static analysis are unstable equilibria
              * @enum {string}
              */
-            code: "large_strain" | "touching_supports" | "touching_eigenvalue" | "path_points" | "nearly_unstable" | "unstable";
+            code: "large_strain" | "touching_supports" | "touching_eigenvalue" | "path_points" | "contact_changes" | "nearly_unstable" | "unstable";
             /** @description Where and how much */
             detail: string;
         };
@@ -1523,7 +1523,7 @@ export interface components {
              * @description Code; see docs/requests.md, How an analysis ends
              * @enum {string}
              */
-            code: "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
+            code: "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "not_held" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
             /** @description A sentence with the deciding numbers */
             detail: string;
         };
@@ -1589,7 +1589,7 @@ export interface components {
          * @description Code of an analysis that could not be completed: one of the result's, or one of the service's
          * @enum {string}
          */
-        FailureCode: "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled" | "time_limit" | "memory_limit" | "internal_error" | "out_of_memory" | "crashed" | "not_stored";
+        FailureCode: "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "not_held" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled" | "time_limit" | "memory_limit" | "internal_error" | "out_of_memory" | "crashed" | "not_stored";
         /** @description Why a job failed */
         JobError: {
             /** @description Code */

@@ -1,0 +1,39 @@
+#include "solver/discrete/free_motions.h"
+
+#include <Eigen/QR>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "solver/discrete/mechanism.h"
+#include "solver/support/joined_supports.h"
+
+namespace snapthrough {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+FreeMotions::FreeMotions(const Model& model) {
+  if (is_plainly_held(model)) return;
+  if (std::optional<Model> joined = with_joined_supports(model))
+    joined_ = std::make_unique<const Model>(*std::move(joined));
+  mechanism_ = std::make_unique<const RigidMechanism>(joined_ ? *joined_ : model, false);
+  motions_.resize(mechanism_->parts().unknowns(), static_cast<Index>(mechanism_->motions().size()));
+  for (Index i = 0; i < motions_.cols(); ++i)
+    motions_.col(i) = mechanism_->motions()[static_cast<std::size_t>(i)];
+}
+
+MatrixXd FreeMotions::of_nodes() const {
+  if (empty()) return {};
+  MatrixXd nodes(3 * static_cast<Index>(joined_model().nodes.size()), motions_.cols());
+  for (Index i = 0; i < motions_.cols(); ++i) nodes.col(i) = mechanism_->of_nodes(motions_.col(i));
+  const Eigen::HouseholderQR<MatrixXd> orthonormal(nodes);
+  const MatrixXd motions = orthonormal.householderQ() * MatrixXd::Identity(nodes.rows(), motions_.cols());
+  // what rounding left where nothing moves would couple parts that have nothing to do with one another
+  constexpr double kRounding = 1e-14;
+  return (motions.array().abs() > kRounding).select(motions, 0.0);
+}
+
+MatrixXd free_motions(const Model& model) { return FreeMotions(model).of_nodes(); }
+
+}  // namespace snapthrough

@@ -1,0 +1,100 @@
+#include "solver/discrete/rigid_loads.h"
+
+#include <cmath>
+#include <cstddef>
+#include <variant>
+
+#include "solver/numeric/gauss_rule.h"
+
+namespace snapthrough {
+namespace {
+
+/// Sums up the work of one load.
+class Summing {
+ public:
+  explicit Summing(const RigidParts& parts) : parts_(parts) {}
+
+  void add(const PointLoad& load);
+  void add(const DistributedLoad& load);
+  void add(const PressureLoad& load);
+  void add(const InitialStrain&) {}
+  LoadWork work;
+
+ private:
+  void add(const RigidParts::Row& row, double force) {
+    work.size += std::abs(force);
+    for (const auto& [unknown, weight] : row) work.row.emplace_back(unknown, force * weight);
+  }
+  void add(int member, RigidParts::Point at, double x, double y) {
+    add(parts_.displacement(member, at, {1.0, 0.0}), x);
+    add(parts_.displacement(member, at, {0.0, 1.0}), y);
+  }
+
+  const RigidParts& parts_;
+};
+
+void Summing::add(const PointLoad& load) {
+  const double moment = load.moment / parts_.length();
+  if (!load.at.node.empty()) {
+    const int node = parts_.node(load.at.node);
+    add(parts_.displacement(node, {1.0, 0.0}), load.force[0]);
+    add(parts_.displacement(node, {0.0, 1.0}), load.force[1]);
+    add(parts_.node_rotation(node), moment);
+    return;
+  }
+  const int member = parts_.member(load.at.member);
+  const AxisPoint at = parts_.place(member, load.at.fraction);
+  add(member, {at.x, at.y}, load.force[0], load.force[1]);
+  add(parts_.rotation(member), moment);
+}
+
+void Summing::add(const DistributedLoad& load) {
+  const int member = parts_.member(load.member);
+  const AxisCurve& axis = *parts_.axes()[static_cast<std::size_t>(member)];
+  const Quadrature gauss = gauss_legendre(axis.straight() ? 2 : 8);
+  const int pieces = axis.straight() ? 1 : 4;
+  const double width = (load.range[1] - load.range[0]) / pieces;
+  for (int piece = 0; piece < pieces; ++piece) {
+    for (std::size_t i = 0; i < gauss.points.size(); ++i) {
+      const AxisPoint at = parts_.place(member, load.range[0] + width * (piece + gauss.points[i]));
+      double w = axis.length() * width * gauss.weights[i];
+      if (load.per == LoadMeasure::horizontal) w *= std::abs(std::cos(at.angle));
+      if (load.per == LoadMeasure::vertical) w *= std::abs(std::sin(at.angle));
+      add(member, {at.x, at.y}, w * load.force[0], w * load.force[1]);
+    }
+  }
+}
+
+/// With the right normal n = (t_y, -t_x), int n ds is the chord turned by -90 degrees, and the moment about
+/// the start int (x - x_a) x n ds = -|x_b - x_a|^2 / 2: pressure acts as if on the chord.
+void Summing::add(const PressureLoad& load) {
+  const int member = parts_.member(load.member);
+  const AxisPoint a = parts_.place(member, 0.0);
+  const AxisPoint b = parts_.place(member, 1.0);
+  const double force = (load.side == Side::left ? 1.0 : -1.0) * load.value * parts_.length();
+  add(member, {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, force * (b.y - a.y), -force * (b.x - a.x));
+}
+
+}  // namespace
+
+Pattern pattern_of(const Load& load) {
+  return std::visit([](const auto& l) { return l.pattern; }, load);
+}
+
+LoadWork work_of(const RigidParts& parts, const Load& load) {
+  Summing sum(parts);
+  std::visit([&sum](const auto& l) { sum.add(l); }, load);
+  return std::move(sum.work);
+}
+
+RigidLoads::RigidLoads(const RigidParts& parts, Pattern pattern)
+    : forces_(Eigen::VectorXd::Zero(parts.unknowns())) {
+  for (const Load& load : parts.model().loads) {
+    if (pattern_of(load) != pattern) continue;
+    const LoadWork work = work_of(parts, load);
+    size_ += work.size;
+    for (const auto& [unknown, force] : work.row) forces_[unknown] += force;
+  }
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,40 @@
+#pragma once
+/// @file
+/// Work of loads on the motions of rigid parts.
+
+#include <Eigen/Core>
+
+#include "solver/discrete/rigid_parts.h"
+#include "solver/model/model.h"
+
+namespace snapthrough {
+
+/// The pattern that a load follows.
+[[nodiscard]] Pattern pattern_of(const Load& load);
+
+/// Work of a load as a functional of the rigid parts' unknowns, on the undeformed geometry.
+struct LoadWork {
+  RigidParts::Row row;  ///< in the model's unit of force; entries are not summed up
+  double size = 0.0;    ///< sum of its forces' sizes, and of its moment over the unit of length
+};
+
+/// @brief Work of one load at its full size. Initial strains do none.
+[[nodiscard]] LoadWork work_of(const RigidParts& parts, const Load& load);
+
+/// @brief Forces of all loads of one pattern on the rigid parts' unknowns. Prescribed displacements exert
+/// none: what they hold does not move.
+class RigidLoads {
+ public:
+  RigidLoads(const RigidParts& parts, Pattern pattern);
+
+  /// By unknown.
+  [[nodiscard]] const Eigen::VectorXd& forces() const { return forces_; }
+  /// Sum of all forces' sizes.
+  [[nodiscard]] double size() const { return size_; }
+
+ private:
+  Eigen::VectorXd forces_;
+  double size_ = 0.0;
+};
+
+}  // namespace snapthrough

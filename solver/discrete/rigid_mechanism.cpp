@@ -1,0 +1,175 @@
+#include "solver/discrete/rigid_mechanism.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "solver/discrete/rigid_loads.h"
+#include "solver/numeric/gauss_rule.h"
+#include "solver/numeric/null_space.h"
+
+namespace snapthrough {
+namespace {
+
+/// Sine of an angle below which two directions are one: three hinges this near to a line can move, and so can
+/// a body whose supports' lines of action pass this near to one point.
+constexpr double kOneDirection = 1e-6;
+
+using Row = RigidParts::Row;
+
+/// What the supports, springs and foundations of a model hold: their stiffnesses say nothing of what can move
+/// without strain.
+class Holding {
+ public:
+  /// @param one_sided whether supports that act on one side only are there (they count as glued)
+  Holding(const RigidParts& parts, bool one_sided) : parts_(parts), one_sided_(one_sided) {
+    for (const Support& support : parts.model().supports) add(support);
+    for (const Spring& spring : parts.model().springs)
+      if (is_there(spring)) add(spring);
+    for (const Foundation& foundation : parts.model().foundations)
+      if (is_there(foundation)) add(foundation);
+  }
+
+  /// Rows that are zero in a motion that meets no support.
+  std::vector<Row> held;
+  /// Displacements of the places that are held.
+  std::vector<Row> moved;
+
+ private:
+  template <class Support>
+  [[nodiscard]] bool is_there(const Support& support) const {
+    return support.stiffness > 0.0 && (one_sided_ || support.reaction == Reaction::bilateral);
+  }
+  void add(const Support& support);
+  void add(const Spring& spring);
+  void add(const Foundation& foundation);
+  void hold(const Row& rotation, double radius);
+  void hold(int node, double x, double y);
+  void hold(int member, RigidParts::Point at, double x, double y);
+
+  const RigidParts& parts_;
+  bool one_sided_;
+};
+
+void Holding::hold(const Row& rotation, double radius) {
+  held.push_back(rotation);
+  for (auto& [unknown, weight] : held.back()) weight *= radius;
+}
+
+void Holding::hold(int node, double x, double y) {
+  const double size = std::hypot(x, y);
+  held.push_back(parts_.displacement(node, {x / size, y / size}));
+  moved.push_back(parts_.displacement(node, {1.0, 0.0}));
+  moved.push_back(parts_.displacement(node, {0.0, 1.0}));
+}
+
+void Holding::hold(int member, RigidParts::Point at, double x, double y) {
+  const double size = std::hypot(x, y);
+  held.push_back(parts_.displacement(member, at, {x / size, y / size}));
+  moved.push_back(parts_.displacement(member, at, {1.0, 0.0}));
+  moved.push_back(parts_.displacement(member, at, {0.0, 1.0}));
+}
+
+void Holding::add(const Support& support) {
+  const int node = parts_.node(support.node);
+  const double angle = support.angle_degrees * std::numbers::pi / 180.0;
+  if (support.x) hold(node, std::cos(angle), std::sin(angle));
+  if (support.y) hold(node, -std::sin(angle), std::cos(angle));
+  if (support.rotation) hold(parts_.node_rotation(node), parts_.node_radius(node));
+}
+
+void Holding::add(const Spring& spring) {
+  if (!spring.at.node.empty()) {
+    const int node = parts_.node(spring.at.node);
+    if (spring.direction)
+      hold(node, (*spring.direction)[0], (*spring.direction)[1]);
+    else
+      hold(parts_.node_rotation(node), parts_.node_radius(node));
+    return;
+  }
+  const int member = parts_.member(spring.at.member);
+  const AxisPoint at = parts_.place(member, spring.at.fraction);
+  if (spring.direction)
+    hold(member, {at.x, at.y}, (*spring.direction)[0], (*spring.direction)[1]);
+  else
+    hold(parts_.rotation(member), parts_.radius(member));
+}
+
+/// A foundation holds every point of its range; on a straight axis two points tell of all. The shear layer
+/// holds the derivative of the displacement n.u along the axis: n'.u and the rotation of its direction.
+void Holding::add(const Foundation& foundation) {
+  const int member = parts_.member(foundation.member);
+  const bool straight = parts_.axes()[static_cast<std::size_t>(member)]->straight();
+  const Quadrature points = gauss_legendre(straight ? 2 : 6);
+  for (const double point : points.points) {
+    const AxisPoint at =
+        parts_.place(member, foundation.range[0] + point * (foundation.range[1] - foundation.range[0]));
+    const double c = std::cos(at.angle);
+    const double s = std::sin(at.angle);
+    const auto [x, y] = foundation.direction.value_or(RigidParts::Point{-s, c});
+    hold(member, {at.x, at.y}, x, y);
+    if (!(foundation.shear_stiffness > 0.0)) continue;
+    const double turn = foundation.direction ? 0.0 : -at.curvature;
+    Row row = parts_.displacement(member, {at.x, at.y}, {turn * c, turn * s});
+    for (const auto& [unknown, weight] : parts_.rotation(member))
+      row.emplace_back(unknown, weight * (y * c - x * s) / std::hypot(x, y) * parts_.radius(member));
+    held.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+RigidMechanism::RigidMechanism(const Model& model, bool one_sided) : parts_(model) {
+  Holding holding(parts_, one_sided);
+  std::vector<Row> rows = parts_.joints();
+  rows.insert(rows.end(), holding.held.begin(), holding.held.end());
+  std::vector<Row> sizes = parts_.turns();
+  sizes.insert(sizes.end(), holding.moved.begin(), holding.moved.end());
+  NullSpace space(matrix_of(rows, parts_.unknowns()), matrix_of(sizes, parts_.unknowns()), kOneDirection);
+  unknown_ = space.too_dense();
+  while (motions_.size() < kMostMotions) {
+    std::optional<Eigen::VectorXd> motion = space.next();
+    if (!motion) break;
+    motions_.push_back(std::move(*motion));
+  }
+}
+
+Eigen::VectorXd RigidMechanism::of_nodes(const Eigen::VectorXd& motion) const {
+  const auto value = [&motion](const Row& row) {
+    double sum = 0.0;
+    for (const auto& [unknown, weight] : row) sum += weight * motion[unknown];
+    return sum;
+  };
+  const auto nodes = static_cast<int>(parts_.model().nodes.size());
+  Eigen::VectorXd out(3 * nodes);
+  for (int j = 0; j < nodes; ++j)
+    out.segment<3>(3 * j) << value(parts_.displacement(j, {1.0, 0.0})),
+        value(parts_.displacement(j, {0.0, 1.0})), value(parts_.node_rotation(j));
+  return out;
+}
+
+std::size_t RigidMechanism::node_of(const Eigen::VectorXd& motion) const {
+  constexpr double kMore = 1.0 + 1e-9;  // of those that move alike the first, whatever rounding says
+  const Eigen::VectorXd moved = of_nodes(motion);
+  Eigen::Index node = 0;
+  for (Eigen::Index j = 1; 3 * j < moved.size(); ++j)
+    if (moved.segment<3>(3 * j).lpNorm<Eigen::Infinity>() >
+        kMore * moved.segment<3>(3 * node).lpNorm<Eigen::Infinity>())
+      node = j;
+  return static_cast<std::size_t>(node);
+}
+
+std::optional<Eigen::VectorXd> RigidMechanism::driven_by(Pattern pattern) const {
+  constexpr double kRounding = 1e-9;
+  const RigidLoads loading(parts_, pattern);
+  Eigen::VectorXd driven = Eigen::VectorXd::Zero(parts_.unknowns());
+  for (const Eigen::VectorXd& motion : motions_) driven += loading.forces().dot(motion) * motion;
+  const double work = driven.norm();  // on the motion of length one
+  if (work == 0.0) return std::nullopt;
+  driven /= work;
+  if (!(work > kRounding * loading.size() * of_nodes(driven).lpNorm<Eigen::Infinity>())) return std::nullopt;
+  return driven;
+}
+
+}  // namespace snapthrough

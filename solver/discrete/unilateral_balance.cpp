@@ -1,0 +1,364 @@
+#include "solver/discrete/unilateral_balance.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "solver/discrete/rigid_loads.h"
+#include "solver/numeric/gauss_rule.h"
+#include "solver/numeric/nonnegative_least_squares.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Row = RigidParts::Row;
+
+/// Share of the loads on a group of supports that each of its independent supports must be able to press
+/// with: loads nearer than that to the limit of what is held count as not held. Far above rounding, and far
+/// below what is known of any load.
+constexpr double kMargin = 1e-8;
+/// Residual, over the load, below which pressures balance it: some thousand roundings, far below what the
+/// margin leaves of a load at the limit.
+constexpr double kBalanced = 1e-12;
+/// Share of the sizes of forces, or of a support's row, below which their sum on free motions is rounding of
+/// coordinates.
+constexpr double kNothing = 1e-9;
+/// Cosine of the angle between the rows of two supports below which they have nothing in common.
+constexpr double kUncoupled = 1e-9;
+/// Share of the constant actions that the first proportional ones count for, where both act.
+constexpr double kFirstLoad = 1e-6;
+
+void append(const VectorXd& column, MatrixXd& matrix) {
+  matrix.conservativeResize(column.size(), matrix.cols() + 1);
+  matrix.rightCols(1) = column;
+}
+
+/// The columns of a matrix that span it best, one by one (QR with pivoting).
+MatrixXd independent_columns(const MatrixXd& columns) {
+  Eigen::ColPivHouseholderQR<MatrixXd> factors(columns);
+  factors.setThreshold(kUncoupled);
+  MatrixXd out(columns.rows(), factors.rank());
+  for (Index i = 0; i < out.cols(); ++i) out.col(i) = columns.col(factors.colsPermutation().indices()[i]);
+  return out;
+}
+
+MatrixXd orthonormal_span(const MatrixXd& columns) {
+  Eigen::ColPivHouseholderQR<MatrixXd> factors(columns);
+  factors.setThreshold(kUncoupled);
+  return factors.householderQ() * MatrixXd::Identity(columns.rows(), factors.rank());
+}
+
+/// Place of the maximum of a smooth function that has one in an interval (golden section).
+template <class Function>
+double place_of_maximum(double lo, double hi, const Function& value) {
+  constexpr int kMostSteps = 48;  // 1e-10 of the interval: the value there is exact to rounding
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  double left = hi - golden * (hi - lo);
+  double right = lo + golden * (hi - lo);
+  double at_left = value(left);
+  double at_right = value(right);
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (at_left > at_right) {
+      hi = std::exchange(right, left);
+      at_right = at_left;
+      left = hi - golden * (hi - lo);
+      at_left = value(left);
+    } else {
+      lo = std::exchange(left, right);
+      at_left = at_right;
+      right = lo + golden * (hi - lo);
+      at_right = value(right);
+    }
+  }
+  return 0.5 * (lo + hi);
+}
+
+}  // namespace
+
+bool UnilateralBalance::Forces::vanish() const { return sum.norm() <= kNothing * size; }
+
+UnilateralBalance::UnilateralBalance(const FreeMotions& motions) : motions_(motions) {
+  if (motions.empty()) return;
+  for (const Spring& spring : motions.joined_model().springs)
+    if (is_one_sided(spring)) add(spring);
+  for (const Foundation& foundation : motions.joined_model().foundations)
+    if (is_one_sided(foundation)) add(foundation);
+  close_groups();
+  add_loads();
+}
+
+VectorXd UnilateralBalance::on_motions(const Row& row) const {
+  VectorXd out = VectorXd::Zero(motions_.motions().cols());
+  for (const auto& [unknown, weight] : row) out += weight * motions_.motions().row(unknown).transpose();
+  return out;
+}
+
+/// Empty where the free motions do not move the support.
+std::optional<VectorXd> UnilateralBalance::unit_row(const Row& row) const {
+  double size = 0.0;
+  for (const auto& [unknown, weight] : row) size += std::abs(weight);
+  VectorXd out = on_motions(row);
+  const double norm = out.norm();
+  if (!(norm > kNothing * size)) return std::nullopt;
+  return out / norm;
+}
+
+void UnilateralBalance::add(const Spring& spring) {
+  const RigidParts& parts = motions_.parts();
+  const double sense = sense_of(spring.reaction);
+  const bool at_node = !spring.at.node.empty();
+  const int node = at_node ? parts.node(spring.at.node) : -1;
+  const int member = at_node ? -1 : parts.member(spring.at.member);
+  Row row;
+  if (spring.direction) {
+    const Direction into = fixed_direction(*spring.direction, sense);
+    const AxisPoint at = at_node ? AxisPoint{} : parts.place(member, spring.at.fraction);
+    row =
+        at_node ? parts.displacement(node, into.fixed) : parts.displacement(member, {at.x, at.y}, into.fixed);
+  } else {
+    row = at_node ? parts.node_rotation(node) : parts.rotation(member);
+    for (auto& [unknown, weight] : row) weight *= sense;
+  }
+  add_support({row}, nullptr);
+}
+
+Row UnilateralBalance::row_at(const CurvedSupport& support, double fraction) const {
+  const AxisPoint at = motions_.parts().place(support.member, fraction);
+  return motions_.parts().displacement(support.member, {at.x, at.y}, support.direction.at(at.angle));
+}
+
+void UnilateralBalance::add(const Foundation& foundation) {
+  const int member = motions_.parts().member(foundation.member);
+  const CurvedSupport whole{member, foundation.range, direction_of(foundation)};
+  const auto [from, to] = foundation.range;
+  std::vector<Row> rows{row_at(whole, from), row_at(whole, to)};
+  if (motions_.parts().axes()[static_cast<std::size_t>(member)]->straight()) {
+    add_support(rows, nullptr);
+    return;
+  }
+  // enough to span the rows of all other places
+  constexpr int kFirstPlaces = 6;
+  for (const double point : gauss_legendre(kFirstPlaces).points)
+    rows.push_back(row_at(whole, from + point * (to - from)));
+  add_support(rows, &whole);
+}
+
+/// Adds a support's rows to the group that they belong to; groups that they couple become one.
+void UnilateralBalance::add_support(const std::vector<Row>& rows, const CurvedSupport* curved) {
+  Group joined;
+  joined.rows.resize(motions_.motions().cols(), 0);
+  for (const Row& row : rows)
+    if (const auto unit = unit_row(row)) append(*unit, joined.rows);
+  if (joined.rows.cols() == 0) return;
+  if (curved != nullptr) joined.curved.push_back(*curved);
+  MatrixXd span = joined.rows;
+  int absorbed = 0;
+  for (auto group = groups_.begin(); group != groups_.end();) {
+    const MatrixXd common = group->basis.transpose() * joined.rows;
+    if (common.lpNorm<Eigen::Infinity>() <= kUncoupled) {
+      ++group;
+      continue;
+    }
+    ++absorbed;
+    const bool spans = (joined.rows - group->basis * common).lpNorm<Eigen::Infinity>() <= kUncoupled;
+    if (absorbed == 1 && spans) {  // as most supports of many do: nothing else is coupled then
+      MatrixXd both(joined.rows.rows(), group->rows.cols() + joined.rows.cols());
+      both << group->rows, joined.rows;
+      group->rows = std::move(both);
+      group->curved.insert(group->curved.end(), joined.curved.begin(), joined.curved.end());
+      return;
+    }
+    MatrixXd both(span.rows(), span.cols() + group->basis.cols());
+    both << span, group->basis;
+    span = std::move(both);
+    MatrixXd all(span.rows(), joined.rows.cols() + group->rows.cols());
+    all << joined.rows, group->rows;
+    joined.rows = std::move(all);
+    joined.curved.insert(joined.curved.end(), group->curved.begin(), group->curved.end());
+    group = groups_.erase(group);
+  }
+  joined.basis = orthonormal_span(span);
+  groups_.push_back(std::move(joined));
+}
+
+void UnilateralBalance::close_groups() {
+  for (Group& group : groups_) {
+    group.rows = (group.basis.transpose() * group.rows).colwise().normalized().eval();
+    const MatrixXd independent = independent_columns(group.rows);
+    group.inside = independent.rowwise().sum() / static_cast<double>(independent.cols());
+  }
+}
+
+void UnilateralBalance::add_loads() {
+  const Index unknowns = motions_.motions().rows();
+  for (Group& group : groups_) {
+    MatrixXd seen = motions_.motions() * group.basis;  // work of unit forces on the unknowns
+    seen = (seen.array().abs() > kNothing).select(seen, 0.0).eval();
+    const VectorXd weights = seen.rowwise().norm();
+    VectorXd constant = VectorXd::Zero(unknowns);
+    VectorXd proportional = VectorXd::Zero(unknowns);
+    for (const Load& load : motions_.joined_model().loads) {
+      const bool is_constant = pattern_of(load) == Pattern::constant;
+      VectorXd& forces = is_constant ? constant : proportional;
+      double& size = is_constant ? group.constant.size : group.proportional.size;
+      for (const auto& [unknown, force] : work_of(motions_.parts(), load).row) {
+        forces[unknown] += force;
+        size += std::abs(force) * weights[unknown];
+      }
+    }
+    group.constant.sum = seen.transpose() * constant;
+    group.proportional.sum = seen.transpose() * proportional;
+  }
+}
+
+bool UnilateralBalance::is_proportional() const {
+  return std::all_of(groups_.begin(), groups_.end(),
+                     [](const Group& group) { return group.constant.vanish(); });
+}
+
+std::optional<VectorXd> UnilateralBalance::row_in(const Group& group, const CurvedSupport& support,
+                                                  double fraction) const {
+  const auto unit = unit_row(row_at(support, fraction));
+  if (!unit) return std::nullopt;
+  const VectorXd out = group.basis.transpose() * *unit;
+  return out / out.norm();
+}
+
+/// Adds the rows of the places on curved supports that a motion enters most: of each maximum.
+/// @param tolerance cosine that is none
+/// @return false: it enters none
+bool UnilateralBalance::add_entered(const Group& group, const VectorXd& motion, double tolerance,
+                                    MatrixXd& rows) const {
+  // places by half a turn of the axis, in which a motion into a support has one maximum or two
+  constexpr double kPlacesByHalfTurn = 16.0;
+  constexpr std::size_t kPlacesByKnot = 4;
+  const Index before = rows.cols();
+  for (const CurvedSupport& support : group.curved) {
+    const AxisCurve& axis = *motions_.parts().axes()[static_cast<std::size_t>(support.member)];
+    const double length = axis.length();
+    const auto [from, to] = support.range;
+    const double turns = axis.turning(from * length, to * length) / std::numbers::pi;
+    const auto places =
+        static_cast<std::size_t>(kPlacesByHalfTurn * (1.0 + turns)) + kPlacesByKnot * axis.knots().size();
+    const auto place = [&, from = from, to = to](std::size_t i) {
+      return from + (to - from) * static_cast<double>(i) / static_cast<double>(places);
+    };
+    const auto entered = [&](double fraction) {
+      const auto row = row_in(group, support, fraction);
+      return row ? row->dot(motion) : 0.0;
+    };
+    std::vector<double> values;
+    for (std::size_t i = 0; i <= places; ++i) values.push_back(entered(place(i)));
+    for (std::size_t i = 0; i <= places; ++i) {
+      if ((i > 0 && values[i - 1] > values[i]) || (i < places && values[i + 1] > values[i])) continue;
+      const double at = place_of_maximum(place(i > 0 ? i - 1 : 0), place(std::min(i + 1, places)), entered);
+      const double best = entered(at) > values[i] ? at : place(i);
+      if (entered(best) > tolerance) append(*row_in(group, support, best), rows);
+    }
+  }
+  return rows.cols() > before;
+}
+
+namespace {
+
+/// The direction of a residual, orthogonal to the rows with pressure to the last digit: a small one is known
+/// to a few digits only.
+VectorXd off_pressed(const MatrixXd& rows, const NonnegativeSolution& found) {
+  std::vector<Index> pressed;
+  for (Index j = 0; j < found.x.size(); ++j)
+    if (found.x[j] > 0.0) pressed.push_back(j);
+  const VectorXd direction = found.residual.normalized();
+  if (pressed.empty()) return direction;
+  const MatrixXd A = rows(Eigen::all, pressed);
+  return VectorXd(direction - A * A.colPivHouseholderQr().solve(direction)).normalized();
+}
+
+}  // namespace
+
+/// What no pressures of a group's supports balance of a force: a direction of length one that enters none of
+/// them; empty: they balance it.
+/// @param force zero: whether pressures can be in balance by themselves, each of them positive
+/// @param margin share of the force that each independent support must be able to press with
+std::optional<VectorXd> UnilateralBalance::unbalanced(const Group& group, const VectorXd& force,
+                                                      double margin) const {
+  constexpr int kMostRounds = 100;
+  constexpr double kShareOfResidual = 1e-3;  // by which a motion may enter a support, over what it misses
+  constexpr double kEntered = 1e-8;          // by which it may do so at most,
+  constexpr double kRounding = 1e-13;        // and what is rounding
+  const double size = force.norm();
+  const VectorXd wanted =
+      size > 0.0 ? VectorXd(force / size - margin * group.inside) : VectorXd(-group.inside.normalized());
+  MatrixXd rows = group.rows;
+  NonnegativeSolution found;
+  for (int round = 0; round < kMostRounds; ++round) {
+    found = nonnegative_least_squares(rows, wanted);
+    const double left = found.residual.norm();
+    if (left <= (size > 0.0 ? kBalanced : kUncoupled)) return std::nullopt;
+    const double tolerance = std::max(std::min(kShareOfResidual * left, kEntered), kRounding);
+    if (!add_entered(group, found.residual / left, tolerance, rows)) break;
+  }
+  return off_pressed(rows, found);
+}
+
+std::optional<Escape> UnilateralBalance::escape_of(const Group& group, const ActionFactors& actions,
+                                                   double margin) const {
+  const double constant = actions.constant;
+  const double proportional = actions.proportional;
+  Forces force{constant * group.constant.sum + proportional * group.proportional.sum,
+               std::abs(constant) * group.constant.size + std::abs(proportional) * group.proportional.size};
+  if (force.vanish()) force.sum.setZero();
+  const auto direction = unbalanced(group, force.sum, margin);
+  if (!direction) return std::nullopt;
+  Escape out;
+  out.motion = motions_.motions() * (group.basis * *direction);
+  out.driven = force.sum.dot(*direction) > kMargin * force.sum.norm();
+  out.actions = actions;
+  return out;
+}
+
+std::optional<Escape> UnilateralBalance::escape_with(double factor, double margin) const {
+  std::optional<Escape> first;
+  for (const Group& group : groups_) {
+    const bool unloaded = group.constant.vanish();
+    if (unloaded && factor == 0.0) continue;
+    auto found = escape_of(group, {unloaded ? 0.0 : 1.0, factor}, margin);
+    if (found && (!first || (found->driven && !first->driven))) first = std::move(found);
+  }
+  return first;
+}
+
+std::optional<Escape> UnilateralBalance::escape(double factor) const { return escape_with(factor, kMargin); }
+
+std::optional<Escape> UnilateralBalance::escape_at_start(double direction) const {
+  std::optional<Escape> first;
+  for (const Group& group : groups_) {
+    ActionFactors actions{0.0, direction};
+    if (!group.constant.vanish()) {
+      const double proportional = group.proportional.vanish() ? 0.0 : group.proportional.sum.norm();
+      actions = {
+          1.0, proportional > 0.0 ? direction * kFirstLoad * group.constant.sum.norm() / proportional : 0.0};
+    }
+    auto found = escape_of(group, actions, kMargin);
+    if (found && (!first || (found->driven && !first->driven))) first = std::move(found);
+  }
+  return first;
+}
+
+double UnilateralBalance::largest_held(double held, double beyond) const {
+  constexpr double kPrecision = 1e-11;  // relative; what counts as balanced is not more exact
+  while (std::abs(beyond - held) > kPrecision * std::abs(beyond)) {
+    const double middle = 0.5 * (held + beyond);
+    if (middle == held || middle == beyond) break;
+    (escape_with(middle, 0.0) ? beyond : held) = middle;
+  }
+  return held;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,105 @@
+#include "solver/numeric/nonnegative_least_squares.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace snapthrough {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The active set method's state: x is positive on `passive` and zero elsewhere.
+class ActiveSet {
+ public:
+  ActiveSet(const MatrixXd& A, const VectorXd& b)
+      : A_(A), b_(b), sizes_(A.colwise().norm()), x_(VectorXd::Zero(A.cols())), residual_(b) {}
+
+  /// Takes in the column that reduces the residual most. @return false: there is none
+  [[nodiscard]] bool advance();
+  [[nodiscard]] NonnegativeSolution solution() const { return {x_, residual_}; }
+
+ private:
+  [[nodiscard]] Index steepest(const std::vector<Index>& rejected) const;
+  [[nodiscard]] VectorXd least_squares() const {
+    return MatrixXd(A_(Eigen::all, passive_)).colPivHouseholderQr().solve(b_);
+  }
+  void move_to(VectorXd wanted);
+
+  const MatrixXd& A_;
+  const VectorXd& b_;
+  VectorXd sizes_;
+  VectorXd x_;
+  VectorXd residual_;
+  std::vector<Index> passive_;
+};
+
+/// The column whose direction has the largest part of the residual, beyond rounding; -1: none.
+Index ActiveSet::steepest(const std::vector<Index>& rejected) const {
+  constexpr double kRoundings = 16.0;  // units in the last place of the sums that the residual is left of
+  const double rounding = kRoundings * std::numeric_limits<double>::epsilon() * (b_.norm() + sizes_.dot(x_));
+  Index best = -1;
+  double largest = rounding;
+  for (Index j = 0; j < A_.cols(); ++j) {
+    if (!(sizes_[j] > 0.0) || x_[j] > 0.0) continue;
+    const double slope = A_.col(j).dot(residual_) / sizes_[j];
+    if (slope <= largest || std::find(rejected.begin(), rejected.end(), j) != rejected.end()) continue;
+    best = j;
+    largest = slope;
+  }
+  return best;
+}
+
+/// From x towards the least squares solution on the passive columns; columns whose unknown becomes zero on
+/// the way leave them, until that solution is positive.
+void ActiveSet::move_to(VectorXd wanted) {
+  while (!(wanted.array() > 0.0).all()) {
+    double share = 1.0;
+    Index first = -1;
+    for (Index i = 0; i < wanted.size(); ++i) {
+      const double now = x_[passive_[static_cast<std::size_t>(i)]];
+      if (wanted[i] > 0.0 || (first >= 0 && now >= share * (now - wanted[i]))) continue;
+      share = now > 0.0 ? now / (now - wanted[i]) : 0.0;
+      first = i;
+    }
+    for (Index i = 0; i < wanted.size(); ++i) {
+      double& x = x_[passive_[static_cast<std::size_t>(i)]];
+      x = i == first ? 0.0 : std::max(0.0, x + share * (wanted[i] - x));
+    }
+    passive_.erase(passive_.begin() + first);
+    if (passive_.empty()) return;
+    wanted = least_squares();
+  }
+  for (Index i = 0; i < wanted.size(); ++i) x_[passive_[static_cast<std::size_t>(i)]] = wanted[i];
+}
+
+bool ActiveSet::advance() {
+  std::vector<Index> rejected;
+  for (Index next = steepest(rejected); next >= 0; next = steepest(rejected)) {
+    passive_.push_back(next);
+    const VectorXd wanted = least_squares();
+    if (wanted[wanted.size() - 1] > 0.0) {
+      move_to(wanted);
+      residual_ = b_ - A_ * x_;
+      return true;
+    }
+    passive_.pop_back();  // its slope was rounding's
+    rejected.push_back(next);
+  }
+  return false;
+}
+
+}  // namespace
+
+NonnegativeSolution nonnegative_least_squares(const MatrixXd& A, const VectorXd& b) {
+  constexpr Index kMostSteps = 10;  // by column and row: the method ends after about twice the rows
+  ActiveSet set(A, b);
+  for (Index step = 0; step < kMostSteps * (A.cols() + A.rows()); ++step)
+    if (!set.advance()) break;
+  return set.solution();
+}
+
+}  // namespace snapthrough

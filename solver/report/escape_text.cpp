@@ -1,0 +1,200 @@
+#include "solver/report/escape_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <variant>
+#include <vector>
+
+#include "solver/discrete/rigid_loads.h"
+#include "solver/numeric/number_text.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::VectorXd;
+using Point = RigidParts::Point;
+
+/// Share of the structure's extent, or of the largest displacement, that is rounding of an escaping motion.
+constexpr double kSame = 1e-6;
+/// Distance of a turn's centre, over the structure's extent, from which on it is told as a shift.
+constexpr double kFar = 1e3;
+/// Ids of members that a message names.
+constexpr std::size_t kMostNamed = 3;
+
+double value_of(const RigidParts::Row& row, const VectorXd& motion) {
+  double sum = 0.0;
+  for (const auto& [unknown, weight] : row) sum += weight * motion[unknown];
+  return sum;
+}
+
+/// Small motion of a rigid body: displacements at a point, and the rotation.
+struct BodyMotion {
+  Point at{};
+  Point displacement{};
+  double rotation = 0.0;
+
+  [[nodiscard]] Point displacement_of(Point point) const {
+    return {displacement[0] - rotation * (point[1] - at[1]), displacement[1] + rotation * (point[0] - at[0])};
+  }
+};
+
+double distance(Point a, Point b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+/// What moves most in an escape, in lengths over that of the longest member, from the first node.
+class MovingPart {
+ public:
+  MovingPart(const Model& model, const RigidParts& parts, const VectorXd& motion);
+
+  /// Ids of its members.
+  [[nodiscard]] std::string members() const;
+  /// "turn clockwise about ..." or "shift in direction ...".
+  [[nodiscard]] std::string motion() const;
+
+ private:
+  [[nodiscard]] Point end(std::size_t member, bool start) const {
+    const Member& m = model_.members[member];
+    return parts_.place(parts_.node(start ? m.start : m.end));
+  }
+  [[nodiscard]] double size_of(std::size_t member, const BodyMotion& motion) const;
+  [[nodiscard]] bool moves_with(std::size_t member, const BodyMotion& motion) const;
+  [[nodiscard]] std::string place_text(Point point) const;
+
+  const Model& model_;
+  const RigidParts& parts_;
+  double extent_ = 0.0;
+  std::vector<BodyMotion> motions_;  ///< of each member
+  BodyMotion largest_;
+  double size_ = 0.0;  ///< largest displacement of its members' ends
+  std::vector<std::size_t> members_;
+};
+
+MovingPart::MovingPart(const Model& model, const RigidParts& parts, const VectorXd& motion)
+    : model_(model), parts_(parts) {
+  constexpr double kMore = 1.0 + 1e-9;  // of those that move alike the first, whatever rounding says
+  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point high{-low[0], -low[1]};
+  for (std::size_t j = 0; j < model.nodes.size(); ++j)
+    for (std::size_t c = 0; c < 2; ++c) {
+      low[c] = std::min(low[c], parts.place(static_cast<int>(j))[c]);
+      high[c] = std::max(high[c], parts.place(static_cast<int>(j))[c]);
+    }
+  extent_ = distance(low, high);
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    const auto member = static_cast<int>(m);
+    const Point at = end(m, true);
+    motions_.push_back({at,
+                        {value_of(parts.displacement(member, at, {1.0, 0.0}), motion),
+                         value_of(parts.displacement(member, at, {0.0, 1.0}), motion)},
+                        value_of(parts.rotation(member), motion)});
+    const double size = size_of(m, motions_.back());
+    if (size <= kMore * size_) continue;
+    largest_ = motions_.back();
+    size_ = size;
+  }
+  for (std::size_t m = 0; m < model.members.size(); ++m)
+    if (moves_with(m, largest_)) members_.push_back(m);
+}
+
+double MovingPart::size_of(std::size_t member, const BodyMotion& motion) const {
+  double size = 0.0;
+  for (const bool start : {true, false}) {
+    const Point moved = motion.displacement_of(end(member, start));
+    size = std::max(size, std::hypot(moved[0], moved[1]));
+  }
+  return size;
+}
+
+bool MovingPart::moves_with(std::size_t member, const BodyMotion& motion) const {
+  for (const bool start : {true, false}) {
+    const Point at = end(member, start);
+    if (distance(motions_[member].displacement_of(at), motion.displacement_of(at)) > kSame * size_)
+      return false;
+  }
+  return true;
+}
+
+std::string MovingPart::members() const {
+  if (members_.size() == model_.members.size()) return members_.size() == 1 ? "the member" : "all members";
+  const auto id = [this](std::size_t i) { return "\"" + model_.members[members_[i]].id + "\""; };
+  if (members_.size() == 1) return "member " + id(0);
+  const std::size_t named = members_.size() > kMostNamed + 1 ? kMostNamed : members_.size();
+  std::string text = "members " + id(0);
+  for (std::size_t i = 1; i < named; ++i) text += (i + 1 == members_.size() ? " and " : ", ") + id(i);
+  if (named < members_.size()) text += " and " + std::to_string(members_.size() - named) + " more";
+  return text;
+}
+
+std::string MovingPart::place_text(Point point) const {
+  for (std::size_t j = 0; j < model_.nodes.size(); ++j)
+    if (distance(point, parts_.place(static_cast<int>(j))) <= kSame * extent_)
+      return "node \"" + model_.nodes[j].id + "\"";
+  const Node& origin = model_.nodes.front();
+  const std::array coordinates{origin.x + parts_.length() * point[0], origin.y + parts_.length() * point[1]};
+  const auto cleaned = [this](double value) {
+    return std::abs(value) <= kSame * parts_.length() * extent_ ? 0.0 : value;
+  };
+  return "(" + rounded(cleaned(coordinates[0])) + ", " + rounded(cleaned(coordinates[1])) + ")";
+}
+
+std::string MovingPart::motion() const {
+  if (std::abs(largest_.rotation) * kFar * extent_ > size_) {
+    const Point centre{largest_.at[0] - largest_.displacement[1] / largest_.rotation,
+                       largest_.at[1] + largest_.displacement[0] / largest_.rotation};
+    return std::string("turn ") + (largest_.rotation > 0.0 ? "counter-clockwise" : "clockwise") + " about " +
+           place_text(centre);
+  }
+  const auto cleaned = [this](double value) {
+    return std::abs(value) <= kSame * size_ ? 0.0 : value / size_;
+  };
+  return "shift in direction (" + rounded(cleaned(largest_.displacement[0])) + ", " +
+         rounded(cleaned(largest_.displacement[1])) + ")";
+}
+
+std::string place_of_load(const Location& at) {
+  return at.node.empty() ? "on member \"" + at.member + "\"" : "at node \"" + at.node + "\"";
+}
+
+std::string name_of(const Load& load) {
+  struct Namer {
+    std::string operator()(const PointLoad& l) const { return "the point load " + place_of_load(l.at); }
+    std::string operator()(const DistributedLoad& l) const {
+      return "the distributed load on member \"" + l.member + "\"";
+    }
+    std::string operator()(const PressureLoad& l) const {
+      return "the pressure on member \"" + l.member + "\"";
+    }
+    std::string operator()(const InitialStrain& l) const {
+      return "the initial strain of member \"" + l.member + "\"";
+    }
+  };
+  return std::visit(Namer{}, load);
+}
+
+/// The load that does most work on the motion, of all that act.
+std::string driver(const RigidParts& parts, const Escape& escape) {
+  double most = 0.0;
+  std::string name = "the loads";
+  for (const Load& load : parts.model().loads) {
+    const double factor =
+        pattern_of(load) == Pattern::constant ? escape.actions.constant : escape.actions.proportional;
+    const double work = factor * value_of(work_of(parts, load).row, escape.motion);
+    if (work <= most) continue;
+    most = work;
+    name = name_of(load);
+  }
+  return name;
+}
+
+}  // namespace
+
+std::string escape_text(const Model& model, const FreeMotions& motions, const Escape& escape) {
+  const MovingPart part(model, motions.parts(), escape.motion);
+  const std::string motion = part.members() + " can " + part.motion() + ": no support resists this, ";
+  if (escape.driven) return motion + "and " + driver(motions.parts(), escape) + " drives it";
+  return motion + "no load drives it, and nothing presses " + part.members() + " onto one-sided supports";
+}
+
+}  // namespace snapthrough
