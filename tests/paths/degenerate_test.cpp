@@ -198,7 +198,7 @@ TEST(Degenerate, FreeEndUnderFollowerPressureHasNoFalseBifurcation) {
   for (const int count : result.branches[0].negative_eigenvalues) EXPECT_EQ(count, 0);
 }
 
-/// A bar on a hinge that nothing presses onto the spring beside it: any position is one of equilibrium.
+/// A bar on a hinge that nothing presses onto the spring beside it: it can leave it, and is named.
 TEST(Degenerate, PartThatNothingHoldsIsNamed) {
   Model model = straight(1.0, 1.0, 1e6, "xyr", "");
   model.nodes.push_back({"c", 0.0, 1.0});
@@ -211,11 +211,12 @@ TEST(Degenerate, PartThatNothingHoldsIsNamed) {
   stop.reaction = Reaction::compression_only;
   model.springs = {stop};
   model.loads = {force_at(at_node("b"), 0.0, -1.0)};
-  const Result result = solve_soundly(model, default_path(1));
-  ASSERT_EQ(result.neutral_motion.size(), 1u);
-  ASSERT_EQ(result.neutral_motion[0].nodes.size(), 1u);
-  EXPECT_EQ(result.neutral_motion[0].nodes[0].node, "c");
-  EXPECT_NEAR(result.neutral_motion[0].nodes[0].u, 1.0, 1e-9);
+  const Result result = solve(model, default_path(1));
+  ASSERT_TRUE(result.failure);
+  EXPECT_EQ(result.failure->code, "not_held");
+  for (const char* words :
+       {"member \"loose\" can turn counter-clockwise about node \"a\"", "nothing presses"})
+    EXPECT_NE(result.failure->detail.find(words), std::string::npos) << result.failure->detail;
   // pressed onto it, however lightly, it is held
   model.loads.push_back(force_at(at_node("c"), 1e-6, 0.0));
   Analysis analysis = analysis_of(AnalysisType::path, {});
@@ -245,9 +246,10 @@ TEST(Degenerate, ContactThatBeginsIsAnEvent) {
   expect_relative(result.contact_events[0].load_factor, 0.03, 2e-4, "closing load");
 }
 
-/// Three bars in a chain between two pins, held by a base of one side on the last alone: under the first
-/// small load it has several states of rest, and every mesh must begin in the same.
-TEST(Degenerate, LinkageOnAOneSidedBaseRestsAlikeOnEveryMesh) {
+/// Three bars in a chain between two pins, held by a base of one side on the last alone: pressed onto it, it
+/// is the same structure on every mesh; beside it, it has several states of rest, all far away, and is
+/// refused.
+TEST(Degenerate, LinkageOnAOneSidedBaseIsAlikeOnEveryMesh) {
   Model model;
   model.nodes = {{"n0", 0.0, 0.0}, {"n1", 0.456, 0.441}, {"n2", 1.003, 1.06}, {"n3", 0.79, 1.945}};
   model.sections = {{"s", 2e4, 1.0, {}}};
@@ -255,10 +257,10 @@ TEST(Degenerate, LinkageOnAOneSidedBaseRestsAlikeOnEveryMesh) {
                    {"m1", "n1", "n2", "s", ArcCurve{125.0}, false, true},
                    {"m2", "n2", "n3", "s", ArcCurve{27.0}, false, false}};
   model.supports = {support("n0", "xy"), support("n3", "xy")};
-  model.foundations = {one_sided("m2", 2.7, Side::right)};
   PointLoad load = force_at(at_member("m1", 0.19), -0.12, -0.64);
   load.moment = -0.0116;
   model.loads = {load};
+  model.foundations = {one_sided("m2", 2.7, Side::left)};
   const Result coarse = solve_soundly(model, analysis_of(AnalysisType::critical, fixed_mesh(4, 5)));
   ASSERT_TRUE(coarse.summary.critical_load_factor);
   for (const int elements : {6, 8, 16, 48}) {
@@ -266,6 +268,12 @@ TEST(Degenerate, LinkageOnAOneSidedBaseRestsAlikeOnEveryMesh) {
     ASSERT_TRUE(fine.summary.critical_load_factor) << elements;
     expect_relative(*fine.summary.critical_load_factor, *coarse.summary.critical_load_factor, 1e-6,
                     std::to_string(elements));
+  }
+  model.foundations[0].side = Side::right;
+  for (const int elements : {4, 6, 8, 16, 48}) {
+    const Result refused = solve(model, analysis_of(AnalysisType::critical, fixed_mesh(elements, 5)));
+    ASSERT_TRUE(refused.failure) << elements;
+    EXPECT_EQ(refused.failure->code, "not_held") << elements;
   }
 }
 

@@ -49,8 +49,8 @@ class Bound {
 bool reached(const Analysis& analysis, const std::string& termination) {
   // a structure that can't carry its constant actions, or has a part that nothing holds, has no path to
   // follow: that is the answer
-  constexpr std::array<std::string_view, 4> kBounds{"load_bound", "displacement_bound",
-                                                    "constant_actions_limit", "loose_part"};
+  constexpr std::array<std::string_view, 5> kBounds{"load_bound", "displacement_bound",
+                                                    "constant_actions_limit", "loose_part", "not_held"};
   constexpr std::array<std::string_view, 5> kPath{"limit_points", "load_factor", "monitor", "monitor_turned",
                                                   "steps"};
   constexpr std::array<std::string_view, 2> kCritical{"critical_point", "unstable_at_start"};
@@ -138,7 +138,8 @@ StressOutcome run_request(RandomRequest request, double time_bound_s) {
   if (!result.branches.empty()) out.end_load_factor = result.branches.front().load_factor.back();
   out.check = check_result(request.model, request.analysis, result);
   if (out.termination == "cancelled") out.check.failures.push_back("time: over the bound");
-  if (out.termination == "loose_part" && !needs_one_sided_supports(request))
+  const bool refused = out.termination == "loose_part" || out.termination == "not_held";
+  if (refused && !needs_one_sided_supports(request))
     out.check.failures.push_back("loose: supports that act both ways hold every part");
   if (!out.said_where) out.check.failures.push_back("silent: no termination or message");
   return out;
