@@ -1,10 +1,9 @@
 #include "api/result_schema.h"
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
-#include "api/openapi/document.h"
+#include "api/openapi/schemas.h"
 #include "api/sweep_data.h"
 #include "api/value.h"
 #include "solver/model/pointer.h"
@@ -14,35 +13,7 @@ namespace snapthrough::api {
 namespace {
 
 using Json = nlohmann::json;
-/// Schemas of which a value fulfils at least one.
 using Alternatives = std::vector<const Json*>;
-
-const Json& published() {
-  static const Json document = Json::parse(openapi_document());
-  return document;
-}
-
-constexpr std::array kChoices{"anyOf", "oneOf", "allOf"};
-
-bool has_choice(const Json& schema) {
-  return std::any_of(kChoices.begin(), kChoices.end(), [&](const char* one) { return schema.contains(one); });
-}
-
-/// Adds a schema and those that it refers to or chooses from.
-void expand(const Json& schema, Alternatives& out) {
-  if (const auto reference = schema.find("$ref"); reference != schema.end()) {
-    const std::string pointer = reference->get<std::string>().substr(1);  // without the #
-    expand(published().at(Json::json_pointer(pointer)), out);
-  }
-  for (const char* choice : kChoices) {
-    if (const auto list = schema.find(choice); list != schema.end()) {
-      for (const Json& one : *list) {
-        expand(one, out);
-      }
-    }
-  }
-  out.push_back(&schema);
-}
 
 /// Where one token leads.
 struct Step {
@@ -70,7 +41,7 @@ void step_into_object(const Json& schema, const std::string& token, Step& step) 
       step.list = schema.value("x-ids", "");
       expand(*others, step.next);
     }
-  } else if (!described && !has_choice(schema) && (others == schema.end() || *others == true)) {
+  } else if (!described && !is_choice(schema) && (others == schema.end() || *others == true)) {
     step.open = true;
   }
 }
@@ -156,7 +127,7 @@ NoSuchPlace nowhere(std::span<const std::string> tokens, std::size_t at, const S
 
 std::optional<NoSuchPlace> find_no_such_place(std::span<const std::string> tokens, const IdsIn& ids_in) {
   Alternatives here;
-  expand(published().at(Json::json_pointer("/components/schemas/Result")), here);
+  expand(published_schema("Result"), here);
   for (std::size_t at = 0; at < tokens.size(); ++at) {
     Step step = step_from(here, tokens[at]);
     if (step.open) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "api/request_schema.h"
 #include "solver/check/check_place.h"
 #include "solver/model/pointer.h"
 
@@ -38,17 +39,34 @@ std::string join(std::span<const std::string_view> names) {
   return all;
 }
 
-/// ' - did you mean "x"?' or what there is to choose from.
+/// '; did you mean "x"?' or, where no name is near, the names to choose from.
 std::string suggest(std::string_view nearest, std::span<const std::string_view> names) {
   return nearest.empty() ? "; known here: " + join(names) : "; did you mean " + in_quotes(nearest) + "?";
+}
+
+/// "a, b and c"
+std::string join_with_and(const std::vector<std::string>& names) {
+  std::string all;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    all += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  }
+  return all;
+}
+
+/// The objects that have a field of this name, unless they are so many that naming them tells nothing.
+std::vector<std::string> owners_of(const std::string& field, const std::string& pointer) {
+  constexpr std::size_t kMost = 3;
+  auto owners = objects_with_field(field, pointer);
+  return owners.size() > kMost ? std::vector<std::string>() : owners;
 }
 
 }  // namespace
 
 std::string_view nearest_name(std::string_view written, std::span<const std::string_view> names) {
   constexpr std::size_t kLongest = 40;
+  constexpr std::size_t kMostLetters = 2;  // that are wrong
   std::string_view best;
-  std::size_t best_distance = std::max<std::size_t>(2, written.size() / 3) + 1;
+  std::size_t best_distance = kMostLetters + 1;
   if (written.size() > kLongest) {
     return best;
   }
@@ -57,7 +75,7 @@ std::string_view nearest_name(std::string_view written, std::span<const std::str
       return name;  // its first words
     }
     const std::size_t distance = edit_distance(written, name);
-    if (distance < best_distance && distance < name.size()) {
+    if (distance < best_distance && 2 * distance < written.size()) {
       best = name;
       best_distance = distance;
     }
@@ -226,11 +244,16 @@ void Object::finish() const {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
       continue;
     }
-    const std::string_view nearest = nearest_name(key, known_);
+    // a name that is right elsewhere is in the wrong place, however near a field of this object is
+    const auto owners = owners_of(key, value_.pointer());
+    const std::string_view nearest = owners.empty() ? nearest_name(key, known_) : "";
+    const std::string hint = owners.empty()
+                                 ? suggest(nearest, known_)
+                                 : "; " + in_quotes(key) + " is a field of " + join_with_and(owners);
     value_.document_report().add_unknown_field(
         value_.pointer() + "/" + escape_pointer_token(key),
         nearest.empty() ? "" : value_.pointer() + "/" + std::string(nearest),
-        "unknown field " + in_quotes(key) + suggest(nearest, known_));
+        "unknown field " + in_quotes(key) + hint);
   }
 }
 

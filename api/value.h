@@ -183,7 +183,8 @@ void read_tagged(const Value& value, const Named<T (*)(Object&)> (&forms)[n], T&
   in.finish();
 }
 
-/// @brief The nearest of `names` to what was written, or empty when none is near enough to have been meant.
+/// @brief The one of `names` that was probably meant: one that begins with the words written, else the
+/// nearest within two letters and less than half of what was written; empty when there is none.
 [[nodiscard]] std::string_view nearest_name(std::string_view written,
                                             std::span<const std::string_view> names);
 

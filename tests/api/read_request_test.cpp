@@ -342,6 +342,46 @@ TEST(ReadRequest, UnknownFieldThatResemblesNothingListsWhatIsKnown) {
   EXPECT_THAT(findings[0].detail, HasSubstr("known here: id, x, y"));
 }
 
+/// Detail of the only finding of a document with one field more.
+std::string detail_with_field(const char* pointer, const json& value) {
+  json document = sound();
+  document[json::json_pointer(pointer)] = value;
+  const auto findings = findings_of(document);
+  EXPECT_EQ(findings.size(), 1U) << pointer;
+  return findings.empty() ? "" : findings.front().detail;
+}
+
+/// "reaction" was answered with 'did you mean "section"?'.
+TEST(ReadRequest, UnknownFieldOfOtherObjectsNamesThem) {
+  EXPECT_EQ(detail_with_field("/model/members/0/reaction", "bilateral"),
+            "unknown field \"reaction\"; \"reaction\" is a field of foundations and springs");
+  EXPECT_THAT(detail_with_field("/analysis/steps", 10), HasSubstr("\"steps\" is a field of analysis.stop"));
+  EXPECT_THAT(detail_with_field("/model/nodes/0/fixed", json::array({"x"})),
+              HasSubstr("\"fixed\" is a field of supports"));
+  EXPECT_THAT(detail_with_field("/model/analysis", json::object()),
+              HasSubstr("\"analysis\" is a field of the request"));
+}
+
+/// A form of the same object is named by its type.
+TEST(ReadRequest, UnknownFieldOfAnotherFormNamesItsType) {
+  json document = sound();
+  document["model"]["loads"][0] = {
+      {"type", "point"}, {"at", {{"node", "b"}}}, {"force", {0.0, -1.0}}, {"axial", 1e-4}};
+  auto findings = findings_of(document);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_THAT(findings[0].detail, HasSubstr("is a field of loads of type \"initial_strain\""));
+}
+
+/// A name is suggested within two letters and less than half of the word, or where it begins with the word.
+TEST(ReadRequest, OnlyNamesThatWereProbablyMeantAreSuggested) {
+  EXPECT_THAT(detail_with_field("/analysis/otuput", json::object()), HasSubstr("did you mean \"output\"?"));
+  EXPECT_THAT(detail_with_field("/analysis/output/points", 3),
+              HasSubstr("did you mean \"points_per_member\"?"));
+  EXPECT_THAT(detail_with_field("/analysis/oxpxtx", 1), HasSubstr("known here: "));
+  EXPECT_THAT(detail_with_field("/model/nodes/0/z", 1.0), HasSubstr("known here: "));
+  EXPECT_THAT(detail_with_field("/model/nodes/0/ix", 1.0), HasSubstr("known here: "));
+}
+
 TEST(ReadRequest, MisspeltListIsNotAlsoReportedAsMissing) {
   json document = sound();
   document["model"]["laods"] = document["model"]["loads"];
