@@ -101,8 +101,35 @@ std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
   for (const Support& support : model.supports)
     if (support.rotation) nodes.erase(support.node);
   for (const Spring& spring : model.springs)
-    if (!spring.direction) nodes.erase(spring.at.node);
+    if (!spring.direction && spring.stiffness > 0.0) nodes.erase(spring.at.node);
   return nodes;
+}
+
+/// The members that meet at a node, with the verb: 'member "a" is', 'members "a", "b" and 7 more are'.
+std::string members_at(const Model& model, const std::string& node) {
+  constexpr int kMostNames = 5;
+  std::string text;
+  int count = 0;
+  for (const Member& member : model.members) {
+    if (member.start != node && member.end != node) continue;
+    if (++count <= kMostNames) text += (count > 1 ? ", " : "") + in_quotes(member.id);
+  }
+  if (count > kMostNames) text += " and " + std::to_string(count - kMostNames) + " more";
+  return count == 1 ? "member " + text + " is" : "members " + text + " are";
+}
+
+/// A node whose members are all released there has no rotation of its own: a monitor of it would be 0.
+void check_rotations(const Place& monitors, const Model& data) {
+  const auto free = nodes_free_to_turn(data);
+  for (std::size_t i = 0; i < data.monitors.size(); ++i) {
+    const Monitor& monitor = data.monitors[i];
+    if (monitor.component != Component::rotation || !free.contains(monitor.at.node)) continue;
+    (monitors / i / "component")
+        .report("needs_member", "node " + in_quotes(monitor.at.node) +
+                                    " has no rotation: " + members_at(data, monitor.at.node) +
+                                    " hinged there, and no support or rotational spring turns with it; "
+                                    "component rotation needs a location on a member here");
+  }
 }
 
 /// A moment on a node whose members are all released there would turn the node and nothing else.
@@ -162,6 +189,7 @@ void check_monitors(const Place& model, const Model& data, Names& names) {
       (place / "component").report("needs_member", "component normal needs a location on a member");
     }
   }
+  check_rotations(monitors, data);
 }
 
 }  // namespace snapthrough::checks

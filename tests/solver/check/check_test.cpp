@@ -387,6 +387,49 @@ TEST(Check, PointsOfSplinesBelongToTheExtent) {
   EXPECT_THAT(findings, ::testing::Contains(is_finding("/model/members/0", "zero_length")));
 }
 
+/// Both members are hinged at b, where nothing has the node's rotation.
+testing::SoundRequest request_with_hinge() {
+  auto request = testing::sound_request();
+  request.model.members[0].release_end_rotation = true;
+  request.model.members[1].release_start_rotation = true;
+  request.model.springs[0] = {"s1", {"b", "", 0.0}, {{0.0, 1.0}}, 5.0, Reaction::bilateral, 0.0};
+  request.model.monitors.push_back({"turn", {"b", "", 0.0}, Component::rotation});
+  return request;
+}
+
+/// Such a monitor was 0 without a word.
+TEST(Check, RotationOfANodeWhereAllMembersAreHingedIsRefused) {
+  const auto [model, analysis] = request_with_hinge();
+  const auto findings = check(model, analysis);
+  ASSERT_THAT(findings, ElementsAre(is_finding("/model/monitors/2/component", "needs_member")));
+  EXPECT_EQ(
+      findings[0].detail,
+      "node \"b\" has no rotation: members \"ab\", \"bc\" are hinged there, and no support or rotational "
+      "spring turns with it; component rotation needs a location on a member here");
+}
+
+TEST(Check, RotationOfANodeIsWatchedWhereSomethingTurnsWithIt) {
+  auto request = request_with_hinge();
+  request.model.monitors[2].at = {"", "ab", 1.0};
+  EXPECT_THAT(check(request.model, request.analysis), IsEmpty()) << "a member's end turns";
+  request = request_with_hinge();
+  request.model.monitors[2].component = Component::y;
+  EXPECT_THAT(check(request.model, request.analysis), IsEmpty()) << "the node moves";
+  request = request_with_hinge();
+  request.model.members[1].release_start_rotation = false;
+  EXPECT_THAT(check(request.model, request.analysis), IsEmpty()) << "a member is not hinged";
+  request = request_with_hinge();
+  request.model.springs.push_back({"turning", {"b", "", 0.0}, {}, 1.0, Reaction::bilateral, 0.0});
+  EXPECT_THAT(check(request.model, request.analysis), IsEmpty()) << "a spring turns";
+  request.model.springs.back().stiffness = 0.0;
+  EXPECT_THAT(check(request.model, request.analysis),
+              ElementsAre(is_finding("/model/monitors/2/component", "needs_member")))
+      << "a spring without stiffness is left out";
+  request = request_with_hinge();
+  request.model.supports.push_back({"b", false, false, true, 0.0, {}});
+  EXPECT_THAT(check(request.model, request.analysis), IsEmpty()) << "a support holds it";
+}
+
 TEST(Check, StatePointsAreBounded) {
   auto [model, analysis] = testing::sound_request();
   for (int i = 0; i < 30; ++i) {
