@@ -149,6 +149,7 @@ void read(const Value& value, Analysis& analysis) {
   Object in(value);
   in.required("type", analysis.type);
   in.optional("modes", analysis.modes);
+  in.optional("reversed", analysis.reversed);
   in.optional("load_factors", analysis.load_factors);
   in.optional("unstable", analysis.unstable);
   in.optional("geometry", analysis.geometry);

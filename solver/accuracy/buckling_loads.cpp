@@ -17,12 +17,12 @@ struct Level {
 };
 
 /// @param coarser the mesh before; null: this is the first one
-Level solve_on(std::shared_ptr<const Structure> structure, int count, const Level* coarser) {
+Level solve_on(std::shared_ptr<const Structure> structure, int count, LoadSense sense, const Level* coarser) {
   StructuralProblem problem(*structure);
   Eigen::VectorXd near;
   if (coarser != nullptr && coarser->buckling.piece.motion.size() > 0)
     near = transfer(*coarser->structure, coarser->buckling.piece.motion, *structure);
-  LinearBuckling buckling = linear_buckling(*structure, problem, count, structure->scales.load, near);
+  LinearBuckling buckling = linear_buckling(*structure, problem, count, structure->scales.load, near, sense);
   return {std::move(structure), std::move(buckling)};
 }
 
@@ -33,10 +33,11 @@ bool within(const std::vector<std::optional<double>>& errors, double accuracy) {
 
 }  // namespace
 
-BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const Structure& structure) {
+BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const Structure& structure,
+                             LoadSense sense) {
   const bool fixed = analysis.discretization.fixed_mesh;
   BucklingLoads out;
-  Level now = solve_on({std::shared_ptr<const Structure>(), &structure}, analysis.modes, nullptr);
+  Level now = solve_on({std::shared_ptr<const Structure>(), &structure}, analysis.modes, sense, nullptr);
   int factorizations = now.buckling.factorizations;
   std::vector<Differences> differences(static_cast<std::size_t>(analysis.modes));
   for (int level = 0;; ++level) {
@@ -46,7 +47,7 @@ BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const
     auto mesh = finer_mesh(now.structure->mesh);
     if (!mesh) break;
     Level next = solve_on(std::make_shared<const Structure>(on_mesh(structure, model, *std::move(mesh))),
-                          analysis.modes, &now);
+                          analysis.modes, sense, &now);
     factorizations += next.buckling.factorizations;
     out.factorizations = factorizations;
     const bool same_count = next.buckling.loads.size() == now.buckling.loads.size();

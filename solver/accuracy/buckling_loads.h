@@ -25,7 +25,8 @@ struct BucklingLoads {
 /// @brief The lowest buckling loads, compared by their place in the order with those of the next finer mesh,
 /// until all estimates are within the accuracy. On a fixed mesh the estimate is made, but nothing refined.
 /// @param structure on the first mesh
+/// @param sense `reversed`: of the opposite actions, see linear_buckling()
 [[nodiscard]] BucklingLoads buckling_loads(const Model& model, const Analysis& analysis,
-                                           const Structure& structure);
+                                           const Structure& structure, LoadSense sense = LoadSense::as_given);
 
 }  // namespace snapthrough

@@ -38,15 +38,16 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
 /// part of the accuracy; imperfections that only rounding or the mesh makes do not break a bifurcation.
 [[nodiscard]] LocateOptions locate_options(const Model& model, const Analysis& analysis);
 
-/// Buckling loads as results report them.
+/// Buckling loads of one sense of the proportional actions: as they are, or reversed.
 struct FoundLoads {
-  std::vector<double> loads;  ///< load factors of the model, ascending
+  std::vector<double> loads;  ///< multiples of the actions in that sense, ascending
   std::vector<Mode> modes;
   std::vector<std::optional<double>> errors;  ///< relative, one a load
   int negative_at_start = 0;
 };
-/// Fills the summary and the list of modes.
-void report_buckling(const Analysis& analysis, FoundLoads found, Result& result);
+/// @brief Fills the summary and the list of modes: none where the constant actions exceed buckling loads.
+/// @param reversed loads of the opposite actions; empty where they were not asked for
+void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reversed, Result& result);
 
 /// @brief Offsets of the model's mode imperfections, from the linearised buckling of the same model without
 /// imperfections; empty when it has none.

@@ -120,56 +120,101 @@ void warn_of_changed_contact(const Structure& structure, const Model& laws, Stru
                               changes + "; a path or a search for the critical load follows it"});
 }
 
-/// Reports the mesh of the loads and the largest error of them; loads that finer meshes do not confirm within
-/// the accuracy are a failure.
-void report_errors(const Analysis& analysis, const BucklingLoads& loads, Result& result) {
-  report_mesh(*loads.structure, loads.level, result);
-  if (analysis.discretization.fixed_mesh || loads.errors.empty()) return;
-  const double accuracy = analysis.discretization.accuracy;
-  const auto is_confirmed = [accuracy](const std::optional<double>& error) {
-    return error && *error <= accuracy;
-  };
+/// Reports the largest error of the buckling loads; loads that finer meshes do not confirm within the
+/// accuracy are a failure.
+void report_errors(const Analysis& analysis, Result& result) {
+  const BucklingResult& buckling = *result.buckling;
+  if (analysis.discretization.fixed_mesh || buckling.load_factors.empty()) return;
   double largest = 0.0;
+  bool is_critical_confirmed = true;
   std::string unconfirmed;
-  for (std::size_t i = 0; i < loads.errors.size(); ++i) {
-    largest = std::max(largest, loads.errors[i].value_or(0.0));
-    if (is_confirmed(loads.errors[i])) continue;
-    unconfirmed += "; " + number(result.buckling->load_factors[i]) +
-                   (loads.errors[i] ? ": estimated error " + rounded(*loads.errors[i])
-                                    : std::string(": finer meshes have another number of modes"));
+  for (std::size_t i = 0; i < buckling.load_factors.size(); ++i) {
+    const std::optional<double>& error = buckling.error_estimates[i];
+    largest = std::max(largest, error.value_or(0.0));
+    if (error && *error <= analysis.discretization.accuracy) continue;
+    if (buckling.load_factors[i] == result.summary.critical_load_factor) is_critical_confirmed = false;
+    unconfirmed +=
+        "; " + number(buckling.load_factors[i]) +
+        (error ? ": estimated error " + rounded(*error) : ": finer meshes have another number of modes");
   }
   result.discretization.estimated_accuracy = largest;
   if (unconfirmed.empty() || result.failure) return;
   fail(result, "not_confirmed",
        "finer meshes do not confirm all buckling loads within the accuracy asked for" + unconfirmed);
-  if (is_confirmed(loads.errors.front())) return;
-  withdraw_critical_load(result);
+  if (!is_critical_confirmed) withdraw_critical_load(result);
+}
+
+/// The loads of one sense of the proportional actions as results report them.
+FoundLoads found_loads(const Model& model, const Analysis& analysis, const BucklingLoads& loads) {
+  const LinearBuckling& buckling = loads.buckling;
+  FoundLoads found{{}, {}, loads.errors, buckling.negative_at_start};
+  for (std::size_t i = 0; i < buckling.loads.size(); ++i) {
+    found.loads.push_back(buckling.loads[i] / loads.structure->scales.load);
+    found.modes.push_back(
+        mode_displacements(*loads.structure, model, buckling.modes[i], analysis.output.points_per_member));
+    scale_to_largest(found.modes.back());
+  }
+  return found;
+}
+
+/// Loads of both senses by their size, those of the opposite actions with a minus.
+BucklingResult in_order(FoundLoads found, FoundLoads reversed) {
+  BucklingResult out;
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < found.loads.size() || j < reversed.loads.size()) {
+    const bool is_reversed =
+        i == found.loads.size() || (j < reversed.loads.size() && reversed.loads[j] < found.loads[i]);
+    FoundLoads& from = is_reversed ? reversed : found;
+    const std::size_t at = is_reversed ? j++ : i++;
+    out.load_factors.push_back(is_reversed ? -from.loads[at] : from.loads[at]);
+    out.error_estimates.push_back(from.errors[at]);
+    out.modes.push_back(std::move(from.modes[at]));
+  }
+  return out;
+}
+
+/// What is to be said of the opposite actions.
+std::string reversed_text(const FoundLoads& reversed) {
+  return reversed.loads.empty()
+             ? "; no negative load factor makes the structure buckle"
+             : "; the opposite actions make it buckle at load factor " + number(-reversed.loads.front());
+}
+
+/// The loads of one sense are all that were asked for, or there are none.
+void require_modes(const Analysis& analysis, const FoundLoads& found, Result& result) {
+  if (static_cast<int>(found.loads.size()) >= analysis.modes || found.loads.empty()) return;
+  fail(result, "fewer_modes",
+       "only " + std::to_string(found.loads.size()) + " of " + std::to_string(analysis.modes) +
+           " buckling modes exist on this mesh");
 }
 
 }  // namespace
 
-void report_buckling(const Analysis& analysis, FoundLoads found, Result& result) {
-  BucklingResult out{std::move(found.loads), std::move(found.errors), std::move(found.modes)};
+void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reversed, Result& result) {
   Summary& summary = result.summary;
   if (found.negative_at_start > 0) {
+    // the loads beyond are those of higher modes: nothing to be read as critical
     summary.termination = "unstable_at_start";
     summary.message =
         "the constant actions alone exceed " + std::to_string(found.negative_at_start) + " buckling loads";
-  } else if (out.load_factors.empty()) {
+    result.buckling.emplace();
+    return;
+  }
+  if (found.loads.empty()) {
     summary.termination = "no_buckling";
     summary.message = "no positive load factor makes the structure buckle";
   } else {
-    summary.critical_load_factor = out.load_factors.front();
+    summary.critical_load_factor = found.loads.front();
     summary.critical_type = CriticalType::bifurcation;
-    summary.error_estimate = out.error_estimates.front();
+    summary.error_estimate = found.errors.front();
     summary.termination = "modes";
     summary.message = "linearised about the reference load";
   }
-  if (static_cast<int>(out.load_factors.size()) < analysis.modes && !out.load_factors.empty())
-    fail(result, "fewer_modes",
-         "only " + std::to_string(out.load_factors.size()) + " of " + std::to_string(analysis.modes) +
-             " buckling modes exist on this mesh");
-  result.buckling = std::move(out);
+  if (analysis.reversed) summary.message += reversed_text(reversed);
+  require_modes(analysis, found, result);
+  require_modes(analysis, reversed, result);
+  result.buckling = in_order(std::move(found), std::move(reversed));
 }
 
 void run_buckling(const Model& model, const Analysis& analysis, const Structure& first, Result& result) {
@@ -184,21 +229,22 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
     return;
   }
   NeutralMotionLog(structure, model, result.neutral_motion).note(buckling.holds, 0.0);
-  FoundLoads found{{}, {}, loads.errors, buckling.negative_at_start};
-  for (std::size_t i = 0; i < buckling.loads.size(); ++i) {
-    found.loads.push_back(buckling.loads[i] / structure.scales.load);
-    found.modes.push_back(
-        mode_displacements(structure, model, buckling.modes[i], analysis.output.points_per_member));
-    scale_to_largest(found.modes.back());
+  report_mesh(structure, loads.level, result);
+  FoundLoads reversed;
+  if (analysis.reversed && buckling.negative_at_start == 0) {
+    const BucklingLoads others = buckling_loads(model, analysis, first, LoadSense::reversed);
+    result.diagnostics.factorizations += others.factorizations;
+    reversed = found_loads(model, analysis, others);
+    if (others.level > loads.level) report_mesh(*others.structure, others.level, result);
   }
-  report_buckling(analysis, std::move(found), result);
+  report_buckling(analysis, found_loads(model, analysis, loads), std::move(reversed), result);
   warn_of_touching(structure, buckling.piece, result);
   StructuralProblem problem(structure);
   const std::optional<Model> joined = with_joined_supports(model);
   const Model& laws = joined ? *joined : model;
   result.summary.message +=
       contact_text(shares_of(structure, laws, problem, buckling.contact), joined.has_value());
-  report_errors(analysis, loads, result);
+  report_errors(analysis, result);
   warn_of_changed_contact(structure, laws, problem, buckling, result);
 }
 

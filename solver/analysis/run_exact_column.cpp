@@ -45,6 +45,35 @@ Mode sample(const ColumnLine& line, const ColumnMode& mode, const Model& model,
   return out;
 }
 
+/// A column's loads with their modes.
+struct Solution {
+  ColumnBuckling buckling;
+  FoundLoads found;
+};
+
+/// @param lengths of each member
+/// @return empty when the column's equation can't be solved to rounding
+std::optional<Solution> solve_column(const ColumnLine& line, const Model& model, const Analysis& analysis,
+                                     const std::vector<double>& lengths) {
+  auto buckling = column_buckling(line, analysis.modes);
+  if (!buckling) return std::nullopt;
+  const std::vector<ColumnMode> modes = column_modes(line, buckling->loads);
+  if (modes.size() != buckling->loads.size()) return std::nullopt;
+  FoundLoads found{buckling->loads, {}, {}, buckling->negative_at_start};
+  for (const ColumnMode& mode : modes) {
+    found.modes.push_back(sample(line, mode, model, lengths, analysis.output.points_per_member));
+    scale_to_largest(found.modes.back());
+  }
+  found.errors.assign(buckling->errors.begin(), buckling->errors.end());
+  return Solution{*std::move(buckling), std::move(found)};
+}
+
+/// The column under the opposite of its proportional actions.
+ColumnLine with_opposite_load(ColumnLine line) {
+  for (ColumnSpan& span : line.spans) span.proportional = -span.proportional;
+  return line;
+}
+
 void report_loads(const Analysis& analysis, const ColumnLine& line, const ColumnBuckling& buckling,
                   Result& result) {
   result.diagnostics.factorizations += buckling.counts;
@@ -60,8 +89,8 @@ void report_loads(const Analysis& analysis, const ColumnLine& line, const Column
     report.unknowns +=
         (joint.held ? 0 : 1) + (left && !joint.left.held ? 1 : 0) + (right && !joint.right.held ? 1 : 0);
   }
-  if (!buckling.errors.empty())
-    report.estimated_accuracy = *std::max_element(buckling.errors.begin(), buckling.errors.end());
+  for (const std::optional<double>& error : result.buckling->error_estimates)
+    report.estimated_accuracy = std::max(report.estimated_accuracy.value_or(0.0), error.value_or(0.0));
 }
 
 }  // namespace
@@ -71,20 +100,19 @@ bool run_exact_column(const Model& model, const Analysis& analysis, const Hooks&
   std::optional<ColumnLine> line = column_line(model);
   if (!line) return false;
   line->stop = hooks.stop;
-  const auto buckling = column_buckling(*line, analysis.modes);
-  if (!buckling) return false;
-  const std::vector<ColumnMode> modes = column_modes(*line, buckling->loads);
-  if (modes.size() != buckling->loads.size()) return false;
   std::vector<double> lengths(model.members.size(), 0.0);
   for (const ColumnSpan& span : line->spans) lengths[span.member] += span.length * line->length;
-  FoundLoads found{buckling->loads, {}, {}, buckling->negative_at_start};
-  for (const ColumnMode& mode : modes) {
-    found.modes.push_back(sample(*line, mode, model, lengths, analysis.output.points_per_member));
-    scale_to_largest(found.modes.back());
+  auto solution = solve_column(*line, model, analysis, lengths);
+  if (!solution) return false;
+  FoundLoads reversed;
+  if (analysis.reversed && solution->buckling.negative_at_start == 0) {
+    auto opposite = solve_column(with_opposite_load(*line), model, analysis, lengths);
+    if (!opposite) return false;
+    solution->buckling.counts += opposite->buckling.counts;
+    reversed = std::move(opposite->found);
   }
-  found.errors.assign(buckling->errors.begin(), buckling->errors.end());
-  report_buckling(analysis, std::move(found), result);
-  report_loads(analysis, *line, *buckling, result);
+  report_buckling(analysis, std::move(solution->found), std::move(reversed), result);
+  report_loads(analysis, *line, solution->buckling, result);
   result.diagnostics.skipped.emplace_back(
       "mesh and its refinement: the column's differential equation was solved");
   return true;

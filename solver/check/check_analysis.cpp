@@ -1,11 +1,13 @@
 /// The analysis: what is to be computed, on which mesh, how far.
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "solver/check/check_parts.h"
 #include "solver/model/limits.h"
 #include "solver/numeric/max_order.h"
+#include "solver/support/law.h"
 
 namespace snapthrough::checks {
 
@@ -89,6 +91,23 @@ void check_stop(const Place& place, const StopRules& stop, const Names& names) {
   if (stop.steps) {
     require_between(place / "steps", *stop.steps, 1, kMaxSteps);
   }
+  if (stop.negative_eigenvalues) {
+    require_between(place / "negative_eigenvalues", *stop.negative_eigenvalues, 0, kMaxSteps);
+  }
+}
+
+/// Contact is taken as it is under the reference load: the opposite load presses other supports.
+void check_reversed(const Place& place, const Model& model, const Analysis& analysis) {
+  if (!analysis.reversed || analysis.type != AnalysisType::buckling) {
+    return;
+  }
+  const auto one_sided = [](const auto& support) { return is_one_sided(support); };
+  if (std::any_of(model.springs.begin(), model.springs.end(), one_sided) ||
+      std::any_of(model.foundations.begin(), model.foundations.end(), one_sided)) {
+    place.report("unsupported",
+                 "reversed needs bilateral springs and foundations: the opposite load has another contact; "
+                 "change the signs of the proportional actions instead");
+  }
 }
 
 void check_load_factors(const Place& place, const std::vector<double>& factors) {
@@ -141,6 +160,7 @@ void check_analysis(const Place& root, const Model& model, const Analysis& analy
   if (analysis.control.type == ControlType::displacement) {
     names.monitors.require(place / "control" / "displacement", analysis.control.monitor);
   }
+  check_reversed(place / "reversed", model, analysis);
   check_step(place / "step", analysis.step);
   check_stop(place / "stop", analysis.stop, names);
   if (analysis.branches.limit) {

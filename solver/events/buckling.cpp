@@ -20,10 +20,11 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 /// The pencil J(lambda) = J_0 + lambda G in the mixed unknowns: displacements zero, stresses s_c + lambda
-/// s_p.
+/// s_p. Where the load is reversed, lambda counts against the proportional actions.
 class Pencil {
  public:
-  Pencil(const Structure& structure, StructuralProblem& problem) : structure_(structure), problem_(problem) {}
+  Pencil(const Structure& structure, StructuralProblem& problem, LoadSense sense)
+      : structure_(structure), problem_(problem), sense_(sense == LoadSense::reversed ? -1.0 : 1.0) {}
 
   /// Linear stresses of both kinds of actions, with the contact that the reference load brings about.
   void set_prestress(double reference);
@@ -31,7 +32,7 @@ class Pencil {
   void solve(VectorXd& x) { problem_.solve(x); }
   [[nodiscard]] VectorXd geometric(const VectorXd& x);
   [[nodiscard]] VectorXd product(double lambda, const VectorXd& x) {
-    return problem_.tangent_product(stress(lambda), lambda, x, regime());
+    return problem_.tangent_product(stress(lambda), sense_ * lambda, x, regime());
   }
   /// Rayleigh's quotient of a motion, from the tangent itself and not its factors.
   [[nodiscard]] double quotient(const VectorXd& x) { return -x.dot(product(0.0, x)) / x.dot(geometric(x)); }
@@ -52,6 +53,7 @@ class Pencil {
 
   const Structure& structure_;
   StructuralProblem& problem_;
+  double sense_;  ///< load factor of the problem by lambda
   VectorXd constant_;
   VectorXd proportional_;
   SharedHolds holds_;  ///< motions that nothing resists
@@ -90,9 +92,9 @@ bool Pencil::holds_are_idle(double lambda) {
   constexpr double kIdle = 1e-6;
   ++factorizations_;
   const double bound = kIdle * std::max(1.0, std::abs(lambda));
-  const MotionStiffness held = motion_stiffness(problem_, holds_, stress(lambda), lambda, regime());
-  const VectorXd moved =
-      holds_->motions.transpose() * (constant_ + lambda * proportional_).head(holds_->motions.rows());
+  const MotionStiffness held = motion_stiffness(problem_, holds_, stress(lambda), sense_ * lambda, regime());
+  const VectorXd moved = holds_->motions.transpose() *
+                         (constant_ + sense_ * lambda * proportional_).head(holds_->motions.rows());
   return held.stiffness.lpNorm<Eigen::Infinity>() <= bound && moved.lpNorm<Eigen::Infinity>() <= bound;
 }
 
@@ -137,14 +139,14 @@ VectorXd Pencil::stress(double lambda) const {
   const int p = structure_.mesh.order;
   for (const ElementDofs& dofs : structure_.dofs)
     y.segment(dofs.s, 3 * p) =
-        constant_.segment(dofs.s, 3 * p) + lambda * proportional_.segment(dofs.s, 3 * p);
+        constant_.segment(dofs.s, 3 * p) + sense_ * lambda * proportional_.segment(dofs.s, 3 * p);
   return y;
 }
 
 int Pencil::count(double lambda) {
   VectorXd residual;
   ++factorizations_;
-  return problem_.linearise(stress(lambda), lambda, residual, regime()).negative;
+  return problem_.linearise(stress(lambda), sense_ * lambda, residual, regime()).negative;
 }
 
 VectorXd Pencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }
@@ -367,9 +369,9 @@ PieceSolver solver_of(Pencil& pencil, Index size) {
 }  // namespace
 
 LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem, int count,
-                               double reference, const VectorXd& near) {
+                               double reference, const VectorXd& near, LoadSense sense) {
   LinearBuckling out;
-  Pencil pencil(structure, problem);
+  Pencil pencil(structure, problem, sense);
   pencil.set_prestress(reference);
   out.holds = pencil.holds();
   out.contact = out.pressed = pencil.contact();

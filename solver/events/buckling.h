@@ -11,6 +11,9 @@
 
 namespace snapthrough {
 
+/// Whether buckling is looked for under the proportional actions as they are or under the opposite ones.
+enum class LoadSense { as_given, reversed };
+
 /// Eigenvalues lambda > 0 of (K_E + K_G(s_c) + lambda K_G(s_p)) x = 0, ascending, s_c and s_p the linear
 /// stresses of the constant and of the proportional actions by unit (scaled) load factor.
 struct LinearBuckling {
@@ -40,8 +43,11 @@ struct LinearBuckling {
 /// @param structure not linear in its geometry
 /// @param reference scaled load factor of the reference load
 /// @param near the first mode on a coarser mesh, where supports touch without pressure; empty: not known
+/// @param sense `reversed`: loads are positive multiples of the opposite of the proportional actions
+/// @pre no support is one-sided where `sense` is `reversed`: contact is that of the reference load
 [[nodiscard]] LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem,
-                                             int count, double reference, const Eigen::VectorXd& near = {});
+                                             int count, double reference, const Eigen::VectorXd& near = {},
+                                             LoadSense sense = LoadSense::as_given);
 
 /// @brief Where one-sided supports are pressed or touch at the equilibrium of small displacements under a
 /// load factor.

@@ -171,6 +171,16 @@ TEST(ResultFields, BucklingAnswersWithItsModes) {
     EXPECT_NE(answer(changed(base, field)), reference) << field.pointer;
 }
 
+TEST(ResultFields, BucklingAnswersDependOnReversed) {
+  json base = request_of(kBuckling);
+  for (const char* list : {"springs", "foundations"})
+    for (json& support : base["model"][list]) {
+      support.erase("reaction");
+      support.erase("gap");
+    }
+  EXPECT_NE(answer(changed(base, {"/analysis/reversed", "true"})), answer(base));
+}
+
 TEST(ResultFields, StaticAnswersDependOnGeometryAndFactors) {
   const json base = request_of(kStatic);
   const json reference = answer(base);

@@ -430,6 +430,23 @@ TEST(Check, RotationOfANodeIsWatchedWhereSomethingTurnsWithIt) {
   EXPECT_THAT(check(request.model, request.analysis), IsEmpty()) << "a support holds it";
 }
 
+/// Contact under the opposite load is another, which a linearised analysis does not know.
+TEST(Check, ReversedLoadNeedsBilateralSupports) {
+  auto [model, analysis] = testing::sound_request();
+  analysis.type = AnalysisType::buckling;
+  analysis.reversed = true;
+  EXPECT_THAT(check(model, analysis), ElementsAre(is_finding("/analysis/reversed", "unsupported")));
+  model.springs[0].reaction = Reaction::bilateral;
+  model.springs[0].gap = 0.0;
+  EXPECT_THAT(check(model, analysis), ElementsAre(is_finding("/analysis/reversed", "unsupported")));
+  model.foundations[0].reaction = Reaction::bilateral;
+  model.foundations[0].gap = 0.0;
+  EXPECT_THAT(check(model, analysis), IsEmpty());
+  auto path = testing::sound_request();
+  path.analysis.reversed = true;
+  EXPECT_THAT(check(path.model, path.analysis), IsEmpty()) << "it does not concern a path";
+}
+
 TEST(Check, StatePointsAreBounded) {
   auto [model, analysis] = testing::sound_request();
   for (int i = 0; i < 30; ++i) {

@@ -5,6 +5,7 @@ import {
   sweepLineChart, sweepMap, sweepMapChart, sweepMapLocate, type SectionsInput, type SweepMapInput, type Table,
 } from "../../../web/src/figures/index";
 import { makeScale, place, ticks, valueAt, widened } from "../../../web/src/figures/chart/axes";
+import { bucklingFrame } from "../../../web/src/figures/chart/buckling";
 import { contours } from "../../../web/src/figures/chart/contours";
 import { bandLevels } from "../../../web/src/figures/chart/sweep_map";
 import { formatNumber } from "../../../web/src/figures/numbers";
@@ -234,6 +235,15 @@ test("points that are no grid are dots", () => {
   assert.equal(withClass(sweepMap(input, size, chart), "dot").length, 30);
   const spot = must(chart.spots[11]);
   assert.equal(must(sweepMapLocate(chart, { x: place(chart.frame.x, spot.x) + 1, y: place(chart.frame.y, spot.y) })).row, spot.row);
+});
+
+test("buckling loads of the opposite actions hang below zero", () => {
+  const buckling = { load_factors: [-2, 3], error_estimates: [null, null], modes: [] };
+  const input = { buckling };
+  const dots = withClass(bucklingFigure(input, size), "stem-dot").map((dot) => Number(dot.attributes["cy"]));
+  const zero = place(bucklingFrame(input, size).y, 0);
+  assert.ok(must(dots[0]) > zero && must(dots[1]) < zero);
+  assert.ok(must(dots[0]) < size.height);
 });
 
 test("buckling loads are stems from the lowest on", () => {

@@ -1003,10 +1003,15 @@ export interface components {
              */
             type: "buckling" | "critical" | "path" | "static";
             /**
-             * @description buckling: how many loads and modes
+             * @description buckling: how many loads and modes; with reversed so many of each sign
              * @default 1
              */
             modes?: number;
+            /**
+             * @description buckling: whether loads of the opposite actions count, too, as negative load factors; needs bilateral springs and foundations
+             * @default false
+             */
+            reversed?: boolean;
             /**
              * @description static: where equilibrium is wanted
              * @default [
@@ -1075,7 +1080,7 @@ export interface components {
         CriticalType: "bifurcation" | "limit_max" | "limit_min" | "broken_bifurcation";
         /** @description What most readers want */
         Summary: {
-            /** @description Smallest positive load factor at which the path from the unloaded state first loses stability, confirmed; null when there is none */
+            /** @description Load factor at which the path from the unloaded state first loses stability, confirmed; positive unless analysis.step.direction is -1; null when there is none. buckling: the lowest positive one */
             critical_load_factor: number | null;
             /** @description Kind of that critical point; null when there is none */
             critical_type: components["schemas"]["CriticalType"] | null;
@@ -1394,7 +1399,7 @@ export interface components {
         };
         /** @description Linearised buckling about the reference load */
         Buckling: {
-            /** @description Buckling loads, increasing */
+            /** @description Buckling loads, increasing in size; negative ones, of the opposite actions, where analysis.reversed asks for them; empty where the constant actions alone exceed buckling loads */
             load_factors: number[];
             /** @description Estimated relative error of each; null when none was made */
             error_estimates: (number | null)[];
