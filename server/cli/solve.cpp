@@ -82,6 +82,14 @@ void write(const api::Request& request, const Result& result, double seconds,
   out << std::flush;
 }
 
+/// Says on the error stream what the reader of the result must know: a table does not hold it, and a document
+/// is long.
+void print_warnings(const Result& result, const Streams& streams) {
+  for (const Warning& warning : result.warnings) {
+    streams.err << "Warning: " << warning.detail << " [" << warning.code << "]\n";
+  }
+}
+
 }  // namespace
 
 int solve_command(const std::string& path, const Streams& streams, const SolveOptions& options) {
@@ -104,6 +112,7 @@ int solve_command(const std::string& path, const Streams& streams, const SolveOp
     streams.err << "snapthrough: cannot write the result\n";
     return kOther;
   }
+  print_warnings(result, streams);
   if (!result.failure) {
     return kDone;
   }

@@ -207,6 +207,22 @@ TEST(Examples, ArchWithoutBaseBifurcatesBelowItsLimitPoint) {
 
 // The same thesis, section 4.4.3, after DaDeppo and Schmidt, J. Appl. Mech. 42, 1975: clamped-hinged arch of
 // 215 degrees, nearly inextensible.
+// A frame of equal bays bifurcates where it sways. One of unequal bays has little stiffness left near its
+// linearised sway load, and reaches its limit point a third above that, after a sway of several metres.
+TEST(Examples, FrameOfUnequalBaysIsNearlyUnstableAtItsLinearisedLoad) {
+  const std::string text = read_text(examples_folder() / "frame_nearly_unstable.json");
+  json linearised = json::parse(text);
+  linearised["analysis"] = {{"type", "buckling"}, {"modes", 1}};
+  const double sway_load = critical_load_factor(run(linearised.dump()));
+  const json result = run(text);
+  const json& softest = result.at("summary").at("softest");
+  expect_relative(softest.at("load_factor"), sway_load, 0.15);
+  EXPECT_GT(softest.at("stiffness_ratio"), 0.0);
+  EXPECT_LT(softest.at("stiffness_ratio"), 0.1);
+  EXPECT_GT(critical_load_factor(result), 1.3 * softest.at("load_factor").get<double>());
+  EXPECT_EQ(result.at("warnings").at(0).at("code"), "nearly_unstable");
+}
+
 TEST(Examples, DeepArchReachesItsLimitPoint) {
   const json result = run_example("arch_deep_215.json");
   expect_relative(critical_load_factor(result), 8.97295, 1e-4);

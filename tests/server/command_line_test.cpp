@@ -125,6 +125,20 @@ TEST_F(CommandLine, SolveGivesTheTableOfTheAnalysis) {
   EXPECT_THAT(out_, StartsWith("load_factor,negative_eigenvalues,state,tip\r\n1,0,0,"));
 }
 
+// A frame whose bays are not alike passes the bifurcation of the frame with equal bays at a stiffness of a
+// few hundredths and ends at a limit load far above it.
+TEST_F(CommandLine, SolveWarnsOfAStructureThatIsNearlyUnstable) {
+  const std::string request = SNAPTHROUGH_SOURCE_DIR "/examples/frame_nearly_unstable.json";
+  ASSERT_EQ(run({"solve", request}), 0) << err_;
+  const json result = json::parse(out_);
+  ASSERT_EQ(result.at("warnings").size(), 1U);
+  const std::string detail = result.at("warnings")[0].at("detail").get<std::string>();
+  EXPECT_EQ(err_, "Warning: " + detail + " [nearly_unstable]\n");
+  EXPECT_THAT(detail, StartsWith("nearly unstable: at load factor 10"));
+  ASSERT_EQ(run({"solve", "--csv", request}), 0);
+  EXPECT_THAT(err_, HasSubstr("[nearly_unstable]"));
+}
+
 TEST_F(CommandLine, ATableThatAnAnalysisDoesNotHaveIsRefused) {
   EXPECT_EQ(run({"solve", "--table", "buckling", "-"}, column_request()), 1);
   EXPECT_THAT(

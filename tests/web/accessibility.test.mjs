@@ -189,6 +189,9 @@ for (const colorScheme of ['light', 'dark']) {
     await page.mouse.click(mark.x + mark.width / 2, mark.y + mark.height / 2);
     await page.locator('div.note').waitFor();
     await right('the mode of a bifurcation');
+    await page.goto(`${service.url}/#/studio?problem=frame_nearly_unstable`);
+    await page.getByRole('button', { name: 'Show the motion' }).click();
+    await right('a structure that is nearly unstable');
     await page.goto(`${service.url}/#/model`);
     await page.locator('.cm-content').click();
     await page.keyboard.press('Control+a');

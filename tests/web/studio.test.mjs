@@ -129,6 +129,51 @@ test('every problem of the gallery opens and is drawn', async () => {
   await close(page);
 });
 
+test('a structure that is nearly unstable says which load to use, and shows its softest motion', async () => {
+  const page = await studio('frame_nearly_unstable');
+  await settled(page);
+  await page.waitForTimeout(1000);  // the states to walk through come
+  const said = page.locator('.path-card').getByRole('status');
+  assert.match(await said.innerText(), /^Nearly unstable at load factor 109\.91: use it, not 149\.14, unless displacements of 5\.46\sm are acceptable\./);
+  await page.getByRole('button', { name: 'In full' }).click();
+  assert.match(await said.innerText(), /^Nearly unstable: at load factor 109\.91 the least stiffness is 0\.0399 of the unloaded structure's/);
+  await page.getByRole('button', { name: 'In short' }).click();
+  const trust = page.locator('.trust-card');
+  assert.match(await trust.locator('.headline').innerText(), /149\.14\s+confirmed\s+nearly unstable/);
+  assert.match(await trust.innerText(), /Softest\s+109\.91, stiffness ratio 0\.0399[^]*Moved there\s+5\.46\d\sm, 27 % of the size/);
+  assert.equal(await trust.locator('.warning').count(), 0, 'not said twice');
+  assert.equal(await page.locator('.drawing-card svg .mode').count(), 0);
+  const mark = await page.locator('.path-card svg .softest-mark .softest').boundingBox();
+  await page.mouse.click(mark.x + mark.width / 2, mark.y + mark.height / 2);
+  await page.locator('.drawing-card svg .mode').first().waitFor({ state: 'attached' });
+  assert.match(await page.locator('.drawing-card svg .caption').textContent(), /109\.9/);
+  await page.getByRole('button', { name: 'Hide the motion' }).click();
+  assert.equal(await page.locator('.drawing-card svg .mode').count(), 0);
+  await close(page);
+});
+
+test('the stiffness ratio is shown where it matters, and on request', async () => {
+  const page = await studio('frame_nearly_unstable');
+  await settled(page);
+  const lines = page.locator('.path-card svg .plot-lines .ratio-line');
+  const toggle = page.getByRole('button', { name: 'Stiffness', exact: true });
+  assert.deepEqual([await lines.count(), await toggle.getAttribute('aria-pressed')], [1, 'true']);
+  await toggle.click();
+  assert.equal(await lines.count(), 0);
+  await page.goto(`${service.url}/#/studio?problem=arch_no_base`);
+  await page.reload();
+  await settled(page);
+  assert.deepEqual([await lines.count(), await toggle.getAttribute('aria-pressed')], [0, 'false']);
+  await toggle.click();
+  assert.equal(await lines.count(), 1);
+  const { bytes } = await downloaded(page, async () => {
+    await page.locator('.path-card summary').click();
+    await page.getByRole('button', { name: 'CSV' }).click();
+  });
+  assert.match(bytes.toString().split('\r\n')[0], /negative eigenvalues,stiffness ratio$/);
+  await close(page);
+});
+
 test('a bifurcation shows its mode and leads along its branch', async () => {
   const page = await studio('arch_no_base');
   await settled(page);

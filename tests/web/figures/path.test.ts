@@ -1,12 +1,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
-  criticalNear, defaultQuantities, nearestOnPath, pathChart, pathFigure, quantityLabel, rowsOfStates, stateNear, walk, type PathInput,
-  type PathQuantity, type Pixel,
+  criticalNear, defaultQuantities, hasStiffness, nearestOnPath, pathChart, pathFigure, quantityLabel, rowsOfStates, softestNear,
+  softestPoint, stateNear, walk, type PathInput, type PathQuantity, type Pixel,
 } from "../../../web/src/figures/index";
 import { place } from "../../../web/src/figures/chart/axes";
 import { thinned } from "../../../web/src/figures/chart/thin";
-import { boxOf, distanceTo, must, pointsOf, readCase, shapesOf, textOf, textsOf, withClass } from "./support";
+import { boxOf, distanceTo, must, piecesOf, pointsOf, readCase, shapesOf, textOf, textsOf, withClass } from "./support";
 
 const size = { width: 520, height: 440 };
 const load: PathQuantity = { kind: "load_factor" };
@@ -97,7 +97,7 @@ test("a point that no finer mesh confirms says so", () => {
 });
 
 test("labels of points do not cover one another, and the first is always there", () => {
-  for (const name of ["arch_branches", "arch_outside", "ring"]) {
+  for (const name of ["arch_branches", "arch_outside", "bays", "ring"]) {
     for (const [width, height] of [[520, 440], [390, 360], [300, 260], [900, 300]] as const) {
       const picture = pathFigure(inputOf(name), { width, height });
       const labels = withClass(picture, "mark-label");
@@ -209,6 +209,109 @@ test("a domain shows its part, and nothing outside of the plot", () => {
   assert.equal(plot.name, "svg");
   assert.equal(plot.attributes["overflow"], "hidden");
   assert.equal(withClass(picture, "mark-label").length, 0, "the limit point is above");
+});
+
+/** The points of the second curve in the plot, without that of the legend. */
+function ratioPieces(picture: ReturnType<typeof pathFigure>): Pixel[][] {
+  return withClass(picture, "ratio-line").filter((node) => node.name === "path").flatMap(piecesOf);
+}
+
+test("the stiffness ratio is read at its load, from 1 at the right to 0 at the left, with its minimum at the softest point", () => {
+  const input = inputOf("bays");
+  const chart = pathChart(input, size);
+  const { softest } = input.result.summary as { softest: { load_factor: number; stiffness_ratio: number } };
+  const [points = [], ...others] = ratioPieces(pathFigure(input, size, chart));
+  assert.equal(others.length, 0);
+  const across = (ratio: number) => chart.frame.x.start + ratio * (chart.frame.x.end - chart.frame.x.start);
+  const expected = [[across(1), 0], [across(0), must(input.result.critical_points[0]).load_factor]] as const;
+  [points[0], points.at(-1)].forEach((point, i) => {
+    assert.ok(Math.abs(must(point).x - must(expected[i])[0]) < 0.02, `end ${i}`);
+    assert.ok(Math.abs(must(point).y - place(chart.frame.y, must(expected[i])[1])) < 0.02, `end ${i}`);
+  });
+  const lowest = { x: across(softest.stiffness_ratio), y: place(chart.frame.y, softest.load_factor) };
+  assert.ok(distanceTo(points, lowest) < 0.3, "the line goes through the softest point");
+  const branch = must(input.result.branches[0]);
+  branch.load_factor.forEach((value, i) => {
+    const ratio = branch.stiffness_ratio[i];
+    if (ratio == null) return;
+    assert.ok(distanceTo(points, { x: across(ratio), y: place(chart.frame.y, value) }) < 0.3, `row ${i}`);
+  });
+});
+
+test("the softest point is a hollow square on the path with its load and ratio, and is pointed at", () => {
+  const input = inputOf("bays");
+  for (const x of [input.x, load, { kind: "arc_length" } as const]) {
+    const y = x.kind === "load_factor" ? input.x : load;
+    const chart = pathChart({ ...input, x, y }, size);
+    const picture = pathFigure({ ...input, x, y }, size, chart);
+    const square = pointsOf(must(withClass(must(withClass(picture, "softest-mark")[0]), "softest")[0]));
+    assert.equal(square.length, 4);
+    const middle = { x: (must(square[0]).x + must(square[2]).x) / 2, y: (must(square[0]).y + must(square[2]).y) / 2 };
+    const lines = withClass(picture, "path").filter((node) => node.name === "path").map(pointsOf);
+    assert.ok(Math.min(...lines.map((points) => distanceTo(points, middle))) < 0.3, `${x.kind}: on the path`);
+    const loads = x.kind === "load_factor" ? [middle.x, place(chart.frame.x, 109.91323822748286)]
+      : [middle.y, place(chart.frame.y, 109.91323822748286)];
+    assert.ok(Math.abs(must(loads[0]) - must(loads[1])) < 0.02, `${x.kind}: at its load`);
+    assert.ok(softestNear(chart, { x: middle.x + 4, y: middle.y - 4 }) && !softestNear(chart, { x: middle.x + 40, y: middle.y }));
+    assert.ok(textsOf(picture).some((text) => /^109\.91\u00a0softest, ratio 0\.03(99|98)$/.test(text)), x.kind);
+  }
+});
+
+test("where the load goes across the ratio goes upward, with its scale at the right", () => {
+  const input = { ...inputOf("bays"), x: load, y: inputOf("bays").x };
+  const chart = pathChart(input, size);
+  const picture = pathFigure(input, size, chart);
+  const points = ratioPieces(picture).flat();
+  assert.ok(Math.abs(must(points[0]).y - chart.frame.y.end) < 0.02 && Math.abs(must(points.at(-1)).y - chart.frame.y.start) < 0.02);
+  const scale = must(withClass(picture, "ratio-scale")[0]);
+  assert.deepEqual(textsOf(scale), ["0", "0.1", "0.5", "1"]);
+  assert.ok(withClass(scale, "tick").every((node) => Number(node.attributes["x"]) > chart.frame.x.end && boxOf(node).right <= size.width));
+  assert.ok(textsOf(picture).includes("stiffness ratio (0 to 1 upward)"));
+});
+
+test("a path that loses stability without a softest point shows no ratio until it is asked for, and ends it there", () => {
+  const input = inputOf("arch_outside");
+  assert.equal(softestPoint(input.result), null);
+  const plain = pathFigure(input, size);
+  assert.equal(withClass(plain, "ratio-line").length + withClass(plain, "softest").length + withClass(plain, "ratio-scale").length, 0);
+  const chart = pathChart({ ...input, stiffness: true }, size);
+  const picture = pathFigure({ ...input, stiffness: true }, size, chart);
+  const points = ratioPieces(picture).flat();
+  const first = must(input.result.critical_points[0]).load_factor;
+  assert.ok(Math.abs(must(points.at(-1)).y - place(chart.frame.y, first)) < 0.02);
+  assert.ok(Math.abs(must(points.at(-1)).x - chart.frame.x.start) < 0.02);
+  assert.ok(textsOf(picture).includes("stiffness ratio (0 to 1 across)"));
+  assert.equal(withClass(picture, "softest").length, 0);
+  assert.equal(withClass(pathFigure({ ...inputOf("bays"), stiffness: false }, size), "ratio-line").length, 0);
+});
+
+test("rows whose ratio is not known are gaps in its line", () => {
+  const input = inputOf("bays");
+  const branch = must(input.result.branches[0]);
+  const last = branch.stiffness_ratio.length - 3;
+  const ratios = branch.stiffness_ratio.map((ratio, i) => (i === 3 || i === last ? null : ratio));
+  const pieces = ratioPieces(pathFigure({ ...input, result: { ...input.result, branches: [{ ...branch, stiffness_ratio: ratios }] } }, size));
+  assert.equal(pieces.length, 3);
+  const none = { ...input.result, branches: [{ ...branch, stiffness_ratio: ratios.map(() => null) }] };
+  assert.equal(hasStiffness(none), false);
+  assert.equal(withClass(pathFigure({ ...input, result: none, stiffness: true }, size), "ratio-line").length, 0);
+});
+
+test("a static analysis shows the critical point that it ended before, and no ratio", () => {
+  const input = inputOf("springs");
+  const [id = ""] = Object.keys(must(input.result.static).monitors);
+  const point = {
+    ...must(inputOf("ring").result.critical_points[0]), load_factor: 1.5 * Math.max(...must(input.result.static).load_factor),
+    monitors: { [id]: 2 * Math.max(...must(must(input.result.static).monitors[id])) },
+  };
+  const result = { ...input.result, critical_points: [point] };
+  const chart = pathChart({ ...input, result, stiffness: true }, size);
+  const picture = pathFigure({ ...input, result, stiffness: true }, size, chart);
+  const mark = must(pointsOf(must(withClass(must(withClass(picture, "marks")[0]), "limit")[0]))[0]);
+  assert.ok(mark.y > chart.frame.y.end - 8 && mark.x < chart.frame.x.end);
+  assert.equal(withClass(picture, "ratio-line").length, 0);
+  const counted = pathFigure({ ...input, result, x: { kind: "arc_length" } }, size);
+  assert.equal(withClass(counted, "limit").filter((node) => pointsOf(node).length === 3).length, 1, "only that of the legend");
 });
 
 test("results without a path say so; a static analysis is a line with its rows", () => {

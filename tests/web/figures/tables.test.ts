@@ -13,6 +13,19 @@ test("a path's table has every row of every branch, exactly", () => {
   assert.equal(table.rows[3]?.[3], result.branches[0]?.monitors["crown"]?.[3]);
 });
 
+test("the stiffness ratio is a column, empty where it is not known and for static analyses", () => {
+  const { result } = readCase("bays");
+  const branch = must(result.branches[0]);
+  const ratios = branch.stiffness_ratio.map((ratio, i) => (i === 2 ? null : ratio));
+  const table = pathTable({ result: { ...result, branches: [{ ...branch, stiffness_ratio: ratios }] } });
+  const column = table.columns.indexOf("stiffness ratio");
+  assert.equal(column, table.columns.indexOf("negative eigenvalues") + 1);
+  assert.deepEqual(table.rows.map((row) => row[column]), ratios);
+  assert.equal(tableCsv(table).split("\r\n")[3]?.split(",")[column], "");
+  const rows = pathTable({ result: readCase("springs").result });
+  assert.ok(rows.rows.every((row) => row[rows.columns.indexOf("stiffness ratio")] === null));
+});
+
 test("contact fractions of bases are columns", () => {
   const { request, result } = readCase("arch_outside");
   const table = pathTable({ result, monitors: request.model.monitors, units: request.model.units });

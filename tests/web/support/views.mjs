@@ -8,7 +8,7 @@ import { exampleOf, startService } from './service.mjs';
 const kRest = 900;        // ms in which the studio has asked for the states to walk through
 const kKey = 'the key of the pictures';
 const kProblems = ['buried_pipe', 'tunnel_arch', 'column_between_walls', 'pile_in_soil', 'portal_sway', 'pipeline_upheaval',
-                   'film_on_substrate', 'arch_no_base', 'frame_portal'];
+                   'film_on_substrate', 'arch_no_base', 'frame_nearly_unstable', 'frame_portal'];
 export const kSizes = { wide: { width: 1440, height: 900 }, tablet: { width: 1024, height: 768 }, phone: { width: 390, height: 844 } };
 
 async function still(page) {
@@ -107,6 +107,11 @@ export const kViews = {
     const box = await mark.boundingBox();
     await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
     await page.locator('div.note').waitFor();
+  },
+  'softest-point': async ({ page, url }) => {
+    await openStudio(page, url, 'frame_nearly_unstable');
+    await page.getByRole('button', { name: 'Show the motion' }).click();
+    await page.waitForTimeout(200);
   },
   pointed: async ({ page, url }) => {
     await openStudio(page, url, 'tunnel_arch');

@@ -26,6 +26,12 @@ export function badgeOf(status: string): string {
 
 export const kStatuses = ["accepted", "running", "successful", "failed", "dismissed"] as const;
 
+/** A message of the service as a sentence of its own: a capital, short numbers, a full stop. */
+export function asSentence(text: string): string {
+  const short = withShortNumbers(text);
+  return `${short.charAt(0).toUpperCase()}${short.slice(1)}.`;
+}
+
 /** A sentence of the service with its numbers as the page writes them. */
 export function withShortNumbers(text: string): string {
   return text.replace(/-?\d+\.\d{5,}(?:e[-+]?\d+)?/g, (number) => formatNumber(Number(number), 5));

@@ -6,12 +6,13 @@ export { drawingCaption, drawingFigure, drawingView, suggestedFactor } from "./d
 export { locate, stateAt, type Located, type LocatedState } from "./drawing/locate";
 export { toModel, toPixel, zoomed, type DrawingInput, type View } from "./drawing/scene";
 export {
-  chosenShape, criticalNear, nearestOnPath, pathChart, pathFigure, type PathChart, type PathInput, type PathShadow,
+  chosenShape, criticalNear, nearestOnPath, pathChart, pathFigure, softestNear, type PathChart, type PathInput, type PathShadow,
 } from "./chart/path";
 export {
   branchesOf, defaultQuantities, isReversed, quantityLabel, rowsOfStates, stateNear, walk, type PathPoint, type PathQuantity,
   type PathResult,
 } from "./chart/curves";
+export { hasStiffness, softestPoint, type SoftestPoint } from "./chart/stiffness";
 export {
   kSections, sectionsChart, sectionsFigure, sectionsLocate, type SectionQuantity, type SectionsChart, type SectionsInput,
 } from "./chart/sections";

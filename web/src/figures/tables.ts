@@ -41,18 +41,18 @@ function monitorColumn(id: string, monitors: readonly Monitor[], units: Units | 
   return withUnit(`${id} ${monitor.component}`, unitOf(units, monitor.component === "rotation" ? "rotation" : "length"));
 }
 
-/** One row a point of every branch: branch, load factor, monitors as in the result, stability, contact. */
+/** One row a point of every branch: branch, load factor, monitors as in the result, stability, stiffness ratio, contact. */
 export function pathTable(input: Pick<PathInput, "result" | "monitors" | "units">): FigureTable {
   const branches = branchesOf(input.result);
   const ids = [...new Set(branches.flatMap((branch) => Object.keys(branch.monitors)))];
   const bases = [...new Set(branches.flatMap((branch) => Object.keys(branch.contact_fraction)))];
   const columns = ["branch", "load factor", "arc length", ...ids.map((id) => monitorColumn(id, input.monitors ?? [], input.units)),
-                   "negative eigenvalues", ...bases.map((id) => `contact fraction ${id}`)];
-  const value = (list: readonly number[] | undefined, i: number): Cell => list?.[i] ?? null;
+                   "negative eigenvalues", "stiffness ratio", ...bases.map((id) => `contact fraction ${id}`)];
+  const value = (list: readonly (number | null)[] | undefined, i: number): Cell => list?.[i] ?? null;
   const counted = (count: number | undefined): Cell => (count === undefined || Number.isNaN(count) ? null : count);
   const rows = branches.flatMap((branch) => branch.load_factor.map((load, i): Cell[] => [
     branch.id, load, at(branch.arc_length, i), ...ids.map((id) => value(branch.monitors[id], i)),
-    counted(branch.negative_eigenvalues[i]), ...bases.map((id) => value(branch.contact_fraction[id], i)),
+    counted(branch.negative_eigenvalues[i]), value(branch.stiffness_ratio, i), ...bases.map((id) => value(branch.contact_fraction[id], i)),
   ]));
   return { columns, rows };
 }

@@ -150,6 +150,20 @@ const kModes: Problem = {
   choice: { kind: "critical" },
 };
 
+const kUnequalBays: Problem = {
+  example: "frame_nearly_unstable",
+  heading: "Frame of unequal bays",
+  text: "A symmetric frame sways at a bifurcation. This one only comes near one: its stiffness falls to a few hundredths, and its limit " +
+    "point lies far above, after metres of sway. With the last column at 18.6 m it is symmetric.",
+  sliders: [
+    { name: "Place of the last column", unit: "m", min: 16, max: 24, log: false, step: 0.1,
+      targets: [{ pointer: "/model/nodes/6/x" }, { pointer: "/model/nodes/7/x" }] },
+    { name: "Second moment of area", unit: "cm⁴", targets: [{ pointer: "/model/sections/0/I", scale: 1e-8 }], min: 1000, max: 20000,
+      log: true },
+  ],
+  choice: { kind: "along", branch: 0, share: 0.16 },
+};
+
 export const kProblems: readonly Problem[] = [
-  kBuriedPipe, kTunnelArch, kWalls, kPile, kPortal, kPipeline, kFilm, kBareArch, kModes,
+  kBuriedPipe, kTunnelArch, kWalls, kPile, kPortal, kPipeline, kFilm, kBareArch, kUnequalBays, kModes,
 ];

@@ -82,9 +82,11 @@ export function loadsOfStations(branches: readonly Branch[]): number[] {
   return loads;
 }
 
-/** The same analysis with states all along its paths; null when it has no paths to walk. */
+/** The same analysis with states all along its paths and at its softest point; null when it has no paths to walk. */
 export function forWalking(request: RequestDocument, result: Result): RequestDocument | null {
-  const loads = loadsOfStations(result.branches);
+  const { softest } = result.summary;
+  const between = softest && softest.stiffness_ratio > 0 ? [softest.load_factor] : [];
+  const loads = [...new Set([...loadsOfStations(result.branches), ...between])];
   if (request.analysis.type !== "path" || loads.length === 0) return null;
   const output = {
     ...request.analysis.output, states: { at_load_factors: loads }, points_per_member: pointsPerMember(request.model, kShapePoints),

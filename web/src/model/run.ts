@@ -30,7 +30,7 @@ export interface Run {
 
 /** Whether a state that was reached on a path has negative eigenvalues there; a critical point itself is neither. */
 export function isUnstable(run: Run, station: Station): boolean {
-  const branch = run.result.branches[station.branch];
+  const branch = branchesOf(run.result)[station.branch];
   const critical = run.result.critical_points.some((point) =>
     Math.abs(point.load_factor - station.load) <= 1e-6 * Math.abs(station.load));
   if (!branch || critical) return false;
@@ -158,7 +158,8 @@ export function stationFor(run: Run, choice: Choice): number {
   let arc = 0;
   if (choice.kind === "critical") {
     const load = result.summary.critical_load_factor;
-    const point = result.critical_points.find((one) => one.load_factor === load) ?? result.critical_points[0];
+    // A static analysis shows its last row: it ends before its critical point, and its arc length counts rows.
+    const point = result.static ? undefined : result.critical_points.find((one) => one.load_factor === load) ?? result.critical_points[0];
     branch = point?.branch ?? 0;
     arc = point?.arc_length ?? lengthOf(branches[0]);
   } else {

@@ -135,7 +135,7 @@ export function addPoints(branches: Branch[], points: PathPointsEvent): void {
   points.branch.forEach((number, i) => {
     const branch = (branches[number] ??= {
       id: number, parent: number === 0 ? null : 0, load_factor: [], arc_length: [], monitors: {}, negative_eigenvalues: [],
-      contact_fraction: {}, termination: "steps",
+      stiffness_ratio: [], contact_fraction: {}, termination: "steps",
     });
     const arc = points.arc_length[i] ?? 0;
     let keep = branch.arc_length.length;

@@ -28,7 +28,8 @@ function outputsOf(request: RequestDocument): string[] {
   const monitors = (request.model.monitors ?? []).slice(0, 3);
   const places = request.analysis.type === "static" ? [] : monitors.map(({ id }) =>
     `/critical_points/0/monitors/${id.replace(/~/g, "~0").replace(/\//g, "~1")}`);
-  return ["/summary/critical_load_factor", "/summary/critical_type", "/summary/error_estimate", ...places];
+  const softest = ["/summary/softest/load_factor", "/summary/softest/stiffness_ratio"];
+  return ["/summary/critical_load_factor", "/summary/critical_type", "/summary/error_estimate", ...softest, ...places];
 }
 
 function parameters(sliders: readonly Slider[], ranges: readonly Range[]): SweepDocument["parameters"] | string {

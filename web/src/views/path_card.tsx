@@ -5,11 +5,11 @@ import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { Branch, Model } from "../api/documents";
 import { shapeNode } from "../app/shape_view";
 import { useSize } from "../app/size";
+import { asSentence } from "../app/words";
 import { fileName, savePng, saveSvg, saveText } from "../export/files";
 import {
-  branchesOf, bucklingFigure, chosenShape, criticalNear, defaultQuantities, isReversed,
-  nearestMode, nearestOnPath, pathChart, pathFigure, pathTable,
-  quantityLabel, tableCsv,
+  branchesOf, bucklingFigure, chosenShape, criticalNear, defaultQuantities, formatNumber, formatWithUnit, hasStiffness, isReversed,
+  nearestMode, nearestOnPath, pathChart, pathFigure, pathTable, quantityLabel, softestNear, softestPoint, tableCsv, unitOf,
   type PathInput, type PathPoint, type PathQuantity, type PathResult, type PathShadow, type Size,
 } from "../figures";
 import { choiceOf, lengthOf, rowOf, stationFor, type Run } from "../model/run";
@@ -20,6 +20,9 @@ import { LongTable } from "./long_table";
 const kPlayFrame = 70;  // ms that each state is shown for
 const kNoResult: PathResult = { branches: [], critical_points: [], contact_events: [] };
 
+/** A mark that is chosen: the number of a critical point, or the softest point. */
+export type Marked = number | "softest";
+
 export interface PathProps {
   model: Model;
   run: Run | null;
@@ -27,9 +30,10 @@ export interface PathProps {
   shadows: readonly PathShadow[];
   choice: Choice;
   onChoice: (choice: Choice) => void;
-  /** What is said of the chosen critical point. */
+  /** What is said of the chosen mark. */
   note: ComponentChildren;
-  onCritical: (number: number | null) => void;
+  marked: Marked | null;
+  onMark: (marked: Marked | null) => void;
   class?: string;
 }
 
@@ -91,7 +95,7 @@ interface ChartProps {
   onPoint: (point: PathPoint) => void;
   /** So many states further along the branch. */
   onStep: (steps: number) => void;
-  onCritical: (number: number | null) => void;
+  onMark: (marked: Marked | null) => void;
   onPlay: () => void;
 }
 
@@ -103,16 +107,17 @@ function stepsOf(key: string): number | null {
   return steps[key] ?? null;
 }
 
-function Chart({ input, size, point, onPoint, onStep, onCritical, onPlay }: ChartProps) {
+function Chart({ input, size, point, onPoint, onStep, onMark, onPlay }: ChartProps) {
   const chart = useMemo(() => pathChart(input, size), [input, size]);
   const figure = useMemo(() => shapeNode(pathFigure(input, size, chart)), [chart]);
   const drag = useRef(false);
   const pick = (event: PointerEvent): void => {
     const box = (event.currentTarget as Element).getBoundingClientRect();
     const at = { x: event.clientX - box.left, y: event.clientY - box.top };
-    const critical = event.type === "pointerdown" ? criticalNear(chart, at) : null;
-    if (critical) {
-      onCritical(critical.number);
+    const pressed = event.type === "pointerdown";
+    const mark = pressed ? criticalNear(chart, at)?.number ?? (softestNear(chart, at) ? "softest" : null) : null;
+    if (mark !== null) {
+      onMark(mark);
       return;
     }
     const near = nearestOnPath(chart, at);
@@ -203,28 +208,84 @@ export function BucklingCard({ run, mode, onMode }: { run: Run; mode: number; on
   );
 }
 
+/** Which load to use where a structure is nearly unstable: the warning of that name, short. */
+function shortAdvice(run: Run): string {
+  const { softest, at_critical: moved, critical_load_factor: critical } = run.result.summary;
+  const at = softest ? ` at load factor ${formatNumber(softest.load_factor, 5)}: use it` : "";
+  const not = critical === null ? "" : `, not ${formatNumber(critical, 5)}`;
+  const far = moved ? `displacements of ${formatWithUnit(moved.displacement, unitOf(run.request.model.units, "length"), 3)}`
+                    : "the displacements beyond it";
+  return `Nearly unstable${at}${not}, unless ${far} are acceptable.`;
+}
+
+/** What a structure that is nearly unstable must not leave unsaid, and the motion that it is softest in. */
+function NearlyUnstable({ run, marked, onMark }: { run: Run; marked: Marked | null; onMark: (marked: Marked | null) => void }) {
+  const [whole, setWhole] = useState(false);
+  const warning = run.result.warnings.find((one) => one.code === "nearly_unstable");
+  if (!warning) return null;
+  const chosen = marked === "softest";
+  return (
+    <div class="warning nearly-unstable" role="status">
+      <p>{whole ? asSentence(warning.detail) : shortAdvice(run)}
+        <button type="button" class="quiet" aria-expanded={whole} onClick={() => setWhole(!whole)}>{whole ? "In short" : "In full"}</button>
+        {run.result.summary.softest?.mode ? (
+          <button type="button" class="quiet" aria-pressed={chosen} onClick={() => onMark(chosen ? null : "softest")}>
+            {chosen ? "Hide the motion" : "Show the motion"}</button>
+        ) : null}</p>
+    </div>
+  );
+}
+
+/** Whether the warning that a structure is nearly unstable is shown. */
+function isWarned(run: Run | null, growing: Branch[] | null): boolean {
+  return run !== null && growing === null && run.result.warnings.some((one) => one.code === "nearly_unstable");
+}
+
+interface Stiffness {
+  /** Whether the second curve is shown. */
+  shown: boolean;
+  /** Whether the path has stiffness ratios. */
+  there: boolean;
+  toggle: () => void;
+}
+
+function StiffnessButton({ of: { shown, there, toggle } }: { of: Stiffness }) {
+  if (!there) return null;
+  return <button type="button" aria-pressed={shown} onClick={toggle} title="Least stiffness over that without load">Stiffness</button>;
+}
+
+/** The second curve is shown where the path has a softest point, until the user says otherwise. */
+function useStiffness(result: PathResult): Stiffness {
+  const [wanted, setWanted] = useState<boolean | null>(null);
+  const there = hasStiffness(result);
+  const shown = there && (wanted ?? softestPoint(result) !== null);
+  return { shown, there, toggle: () => setWanted(!shown) };
+}
+
 export function PathCard(props: PathProps) {
-  const { model, run, growing, shadows, choice, onChoice, onCritical } = props;
+  const { model, run, growing, shadows, choice, onChoice, marked, onMark } = props;
   const [place, size] = useSize<HTMLDivElement>();
   const [twin, setTwin] = useState(false);
   const result: PathResult = growing ? { ...kNoResult, branches: growing.filter(Boolean) } : run?.result ?? kNoResult;
   const axes = useAxes(result);
+  const stiffness = useStiffness(result);
   const [playing, toggle] = usePlay(props);
   const input = useMemo<PathInput>(
-    () => ({ result, x: axes.x, y: axes.y, shadows, monitors: run?.request.model.monitors ?? model.monitors, units: model.units }),
-    [result, nameOf(axes.x), nameOf(axes.y), shadows, model]);
+    () => ({ result, x: axes.x, y: axes.y, shadows, monitors: run?.request.model.monitors ?? model.monitors, units: model.units,
+             stiffness: stiffness.shown }),
+    [result, nameOf(axes.x), nameOf(axes.y), shadows, model, stiffness.shown]);
   const station = run && !growing ? run.stations[stationFor(run, choice)] : undefined;
   const point = run && station ? rowOf(run, station) : null;
   const choose = (to: PathPoint): void => {
     if (!run) return;
     const branch = branchesOf(run.result)[to.branch];
     const length = lengthOf(branch);
-    onCritical(null);
+    onMark(null);
     onChoice({ kind: "along", branch: to.branch, share: length > 0 ? (branch?.arc_length[to.index] ?? 0) / length : 0 });
   };
   const step = (steps: number): void => {
     if (!run || !station) return;
-    onCritical(null);
+    onMark(null);
     const along = run.stations.filter((one) => one.branch === station.branch);
     const next = Math.min(along.length - 1, Math.max(0, along.indexOf(station) + steps));
     onChoice(choiceOf(run, run.stations.indexOf(along[next] ?? station)));
@@ -232,11 +293,13 @@ export function PathCard(props: PathProps) {
   const name = fileName(model.title ?? "", "");
   const take = (): ReturnType<typeof pathFigure> => pathFigure({ ...input, chosen: point }, size ?? { width: 640, height: 440 });
   const paths = branchesOf(result).length > 0;
+  const warned = isWarned(run, growing);
   return (
-    <Card title="Equilibrium path" class={`path-card ${props.class ?? ""}`} tools={paths ? (
+    <Card title="Equilibrium path" class={`path-card ${warned ? "warned" : ""} ${props.class ?? ""}`} tools={paths ? (
       <>
         {axes.all.length > 3 ? <AxisChoice label="y" value={axes.y} from={axes.all} onChange={axes.setY} /> : null}
         <AxisChoice label="x" value={axes.x} from={axes.all} onChange={axes.setX} />
+        <StiffnessButton of={stiffness} />
         <button type="button" aria-pressed={playing} onClick={toggle}>{playing ? "Stop" : "Play"}</button>
         <Menu label="Export" items={[
           { text: twin ? "Show the chart" : "Show as table", act: () => setTwin(!twin) },
@@ -246,11 +309,12 @@ export function PathCard(props: PathProps) {
         ]} />
       </>
     ) : null}>
+      {warned && run ? <NearlyUnstable run={run} marked={marked} onMark={onMark} /> : null}
       {props.note}
       <div class="fill" ref={place}>
         {twin ? <LongTable table={pathTable(input)} caption={`${quantityLabel(axes.y)} against ${quantityLabel(axes.x)}`} />
           : size && size.height > 20
-            ? <Chart input={input} size={size} point={point} onPoint={choose} onStep={step} onPlay={toggle} onCritical={onCritical} /> : null}
+            ? <Chart input={input} size={size} point={point} onPoint={choose} onStep={step} onPlay={toggle} onMark={onMark} /> : null}
       </div>
     </Card>
   );

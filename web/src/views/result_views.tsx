@@ -3,11 +3,11 @@
 
 import { useMemo, useState } from "preact/hooks";
 import type { Branch, RequestDocument, State } from "../api/documents";
-import { formatNumber, type PathShadow } from "../figures";
+import { branchesOf, formatNumber, softestPoint, type PathShadow } from "../figures";
 import type { Choice } from "../model/gallery";
-import { isUnstable, stationFor, type Run } from "../model/run";
+import { isUnstable, lengthOf, stationFor, type Run } from "../model/run";
 import { DrawingCard, type Pointed } from "./drawing_card";
-import { BucklingCard, PathCard } from "./path_card";
+import { BucklingCard, PathCard, type Marked } from "./path_card";
 import { SectionsCard } from "./sections_card";
 import { kindOf, TrustCard } from "./trust_card";
 
@@ -49,27 +49,53 @@ function CriticalNote({ run, number, onFollow, onChoice, onClose }: {
   );
 }
 
+/** What the softest point says where no warning says it. */
+function SoftestNote({ run, onClose }: { run: Run; onClose: () => void }) {
+  const { softest } = run.result.summary;
+  if (!softest || run.result.warnings.some((one) => one.code === "nearly_unstable")) return null;
+  return (
+    <div class="note" role="status">
+      <span><strong>softest point</strong> at {formatNumber(softest.load_factor, 5)}: {formatNumber(softest.stiffness_ratio, 3)} of the
+        unloaded stiffness{softest.mode ? ", with its motion in purple" : ""}</span>
+      <button type="button" onClick={onClose}>Close</button>
+    </div>
+  );
+}
+
+/** The place along the primary path at which the structure is softest; null where the path does not come there. */
+function softestChoice(run: Run): Choice | null {
+  const point = softestPoint(run.result);
+  const length = lengthOf(branchesOf(run.result)[0]);
+  return point && length > 0 ? { kind: "along", branch: 0, share: point.arc / length } : null;
+}
+
 const kNothing: readonly State[] = [];
 
 export function ResultViews({ request, run, growing, shadows, choice, onChoice, onFollow, stale = false }: ResultProps) {
-  const [critical, setCritical] = useState<number | null>(null);
+  const [marked, setMarked] = useState<Marked | null>(null);
   const [modeNumber, setModeNumber] = useState(0);
   const [cursor, setCursor] = useState<Pointed | null>(null);
   const station = run?.stations[run ? stationFor(run, choice) : -1];
-  const point = critical === null ? undefined : run?.result.critical_points[critical];
+  const point = typeof marked === "number" ? run?.result.critical_points[marked] : undefined;
+  const softest = marked === "softest" ? run?.result.summary.softest?.mode : null;
   const pointState = point?.state == null ? undefined : run?.result.states[point.state];
   const buckling = run?.result.buckling;
   const state = pointState ?? station?.state ?? null;
   const room = useMemo(() => run?.stations.map((one) => one.state) ?? kNothing, [run]);
   const first = request.analysis.type === "critical" ? run?.result.critical_points[0]?.mode : null;
-  const mode = point?.mode ?? first ?? buckling?.modes[modeNumber] ?? buckling?.modes[0] ?? null;
+  const mode = point?.mode ?? softest ?? first ?? buckling?.modes[modeNumber] ?? buckling?.modes[0] ?? null;
   const model = run?.request.model ?? request.model;
-  const note = run && critical !== null
-    ? <CriticalNote run={run} number={critical} onFollow={onFollow} onClose={() => setCritical(null)} onChoice={(next) => {
-        setCritical(null);
+  const close = (): void => setMarked(null);
+  const mark = (to: Marked | null): void => {
+    setMarked(to);
+    const there = run && to === "softest" ? softestChoice(run) : null;
+    if (there) onChoice(there);
+  };
+  const note = !run || marked === null ? null : marked === "softest" ? <SoftestNote run={run} onClose={close} />
+    : <CriticalNote run={run} number={marked} onFollow={onFollow} onClose={close} onChoice={(next) => {
+        close();
         onChoice(next);
-      }} />
-    : null;
+      }} />;
   return (
     <>
       <DrawingCard class={buckling ? "alone" : ""} model={model} state={state} mode={mode} room={room} cursor={cursor} onCursor={setCursor}
@@ -77,7 +103,7 @@ export function ResultViews({ request, run, growing, shadows, choice, onChoice, 
                    loadFactor={buckling?.load_factors[modeNumber] ?? null} />
       {run && buckling ? <BucklingCard run={run} mode={modeNumber} onMode={setModeNumber} />
         : <PathCard model={model} run={run} growing={growing} shadows={shadows} choice={choice} onChoice={onChoice}
-                    note={note} onCritical={setCritical} />}
+                    note={note} marked={marked} onMark={mark} />}
       {buckling ? null : <SectionsCard model={model} state={state} cursor={cursor} onCursor={setCursor} />}
       <TrustCard run={run} request={request} stale={stale} />
     </>

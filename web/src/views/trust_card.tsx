@@ -1,6 +1,7 @@
 // How far a critical load can be trusted: its kind, its estimated error, whether a finer mesh confirms it, and what was
 // left out; and ways to do the same without the page.
 
+import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import type { CriticalPoint, Model, RequestDocument, Result } from "../api/documents";
 import { hasKey } from "../api/client";
@@ -11,6 +12,7 @@ import type { Run } from "../model/run";
 import { Card } from "./card";
 
 const kNothing = 1e-12;  // smaller displacements are rounding
+const kSaidElsewhere: ReadonlySet<string> = new Set(["nearly_unstable", "unstable"]);  // above the path, and as the headline
 const kKinds: Record<string, string> = {
   bifurcation: "bifurcation", limit_max: "limit point", limit_min: "limit point (least load)",
   broken_bifurcation: "broken bifurcation",
@@ -31,32 +33,48 @@ function errorText(result: Result): string {
   return estimate === null ? `no error estimate, ${asked}` : `relative error about ${formatNumber(estimate, 1)}, ${asked}`;
 }
 
-/** The critical point that the summary speaks of. */
+/** The critical point that the summary speaks of, or the one that a static analysis ended at. */
 function firstPoint(result: Result): CriticalPoint | undefined {
-  return result.critical_points.find((one) => one.load_factor === result.summary.critical_load_factor);
+  const load = result.summary.critical_load_factor ?? (result.static ? result.critical_points[0]?.load_factor : null);
+  return result.critical_points.find((one) => one.load_factor === load);
+}
+
+function warningOf(result: Result, code: Result["warnings"][number]["code"]): string | undefined {
+  return result.warnings.find((one) => one.code === code)?.detail;
+}
+
+/** What is said where no critical load was found: a failure, unstable rows of a static analysis, or that there is none. */
+function WithoutLoad({ result, earlier }: { result: Result; earlier: ComponentChildren }) {
+  const { failure } = result;
+  const buckling = result.buckling?.load_factors[0];
+  const unstable = warningOf(result, "unstable");
+  const trouble = failure ? failure.code.replace(/_/g, " ") : unstable === undefined ? null : "unstable";
+  return (
+    <>
+      <p class="headline">{trouble === null ? <strong>{buckling === undefined ? "none" : formatNumber(buckling, 5)}</strong> : null}
+        {earlier ?? (trouble === null ? null : <Badge good={false}>{trouble}</Badge>)}<NearlyUnstable result={result} /></p>
+      <p class="hint">{failure ? withShortNumbers(failure.detail) : unstable !== undefined ? withShortNumbers(unstable)
+        : buckling === undefined ? "no loss of stability on this path" : "first buckling load"}</p>
+    </>
+  );
+}
+
+function NearlyUnstable({ result }: { result: Result }) {
+  return warningOf(result, "nearly_unstable") === undefined ? null : <Badge good={false}>nearly unstable</Badge>;
 }
 
 function Headline({ result, stale }: { result: Result; stale: boolean }) {
   const { critical_load_factor: load, critical_type: type } = result.summary;
   const point = firstPoint(result);
-  const buckling = result.buckling?.load_factors[0];
   const earlier = stale ? <Badge good={false}>of an earlier model</Badge> : null;
-  if (load === null) {
-    return (
-      <>
-        <p class="headline">{result.failure ? null : <strong>{buckling === undefined ? "none" : formatNumber(buckling, 5)}</strong>}
-          {earlier ?? (result.failure ? <Badge good={false}>{result.failure.code.replace(/_/g, " ")}</Badge> : null)}</p>
-        <p class="hint">{result.failure ? withShortNumbers(result.failure.detail)
-          : buckling === undefined ? "no loss of stability on this path" : "first buckling load"}</p>
-      </>
-    );
-  }
+  if (load === null) return <WithoutLoad result={result} earlier={earlier} />;
   const confirmed = point?.confirmed ?? result.summary.error_estimate !== null;
   const fixed = result.discretization.accuracy.requested === null;
   return (
     <>
       <p class="headline"><strong>{formatNumber(load, 5)}</strong>
-        {earlier ?? <Badge good={confirmed}>{confirmed ? "confirmed" : fixed ? "this mesh only" : "not confirmed"}</Badge>}</p>
+        {earlier ?? <Badge good={confirmed}>{confirmed ? "confirmed" : fixed ? "this mesh only" : "not confirmed"}</Badge>}
+        <NearlyUnstable result={result} /></p>
       <p class="hint">{kindOf(type ?? "")}, {errorText(result)}</p>
     </>
   );
@@ -103,12 +121,33 @@ function effortText(run: Run): string {
   return steps === null || steps === 0 ? time : `${steps} steps, ${time}`;
 }
 
+/** Where the structure is softest before its critical load, if it is softer there than before and after. */
+function softestRows(result: Result): [string, string][] {
+  const { softest } = result.summary;
+  if (!softest || !(softest.stiffness_ratio > 0)) return [];
+  return [["Softest", `${formatNumber(softest.load_factor, 5)}, stiffness ratio ${formatNumber(softest.stiffness_ratio, 3)}`]];
+}
+
+/** How far the structure has moved at the critical load, and, where there are several members, the one that buckles. */
+function stateRows(result: Result, model: Model, point: CriticalPoint | undefined): [string, string][] {
+  const { at_critical: moved } = result.summary;
+  const rows: [string, string][] = [];
+  if (moved) {
+    const size = Math.abs(moved.displacement) < kNothing ? 0 : moved.displacement;
+    const share = `${formatNumber(100 * moved.relative_displacement, 2)} % of the size`;
+    rows.push(["Moved there", `${formatWithUnit(size, unitOf(model.units, "length"))}, ${share}`]);
+  }
+  if (point?.member != null && model.members.length > 1) rows.push(["Member", `${point.member} buckles`]);
+  return rows;
+}
+
 function rowsOf(run: Run): [string, string][] {
   const { result } = run;
-  const rows: [string, string][] = [];
   const point = firstPoint(result);
+  const rows = softestRows(result);
   const load = point ? loadText(run.request.model, point.load_factor) : "";
   if (load !== "") rows.push(["Load there", load]);
+  rows.push(...stateRows(result, run.request.model, point));
   for (const { id, component } of run.request.model.monitors ?? []) {
     const value = point?.monitors[id];
     if (value === undefined) continue;
@@ -152,7 +191,7 @@ export function TrustCard({ run, request, stale = false, class: name = "" }: Tru
       <dl class="rows">
         {rowsOf(run).map(([term, value]) => <div key={term}><dt>{term}</dt><dd>{value}</dd></div>)}
       </dl>
-      {result.warnings.map((one, i) => <p class="warning" key={i}>{one.detail}</p>)}
+      {result.warnings.filter(({ code }) => !kSaidElsewhere.has(code)).map((one, i) => <p class="warning" key={i}>{one.detail}</p>)}
       {result.diagnostics.skipped.length > 0 ? (
         <details class="skipped"><summary>Left out ({result.diagnostics.skipped.length})</summary>
           <ul>{result.diagnostics.skipped.map((text) => <li key={text}>{text}</li>)}</ul></details>

@@ -13,7 +13,8 @@ export type ContactEvent = Schemas["ContactEvent"];
 export type Monitor = Schemas["Monitor"];
 
 /** The parts of a result that a path is drawn from; a running analysis has them piece by piece. */
-export type PathResult = Pick<Result, "branches" | "critical_points" | "contact_events"> & { static?: Result["static"] };
+export type PathResult = Pick<Result, "branches" | "critical_points" | "contact_events"> &
+  { static?: Result["static"]; summary?: Pick<Result["summary"], "softest"> };
 
 /** What an axis shows; `reversed` shows minus the monitor's value, and says so. */
 export type PathQuantity =
@@ -27,14 +28,17 @@ export interface PathPoint {
   index: number;
 }
 
-/** The branches, or the table of a static analysis as one; eigenvalues that were not counted are NaN. */
+/**
+ * The branches, or the table of a static analysis as one: its arc length counts rows, eigenvalues that were not counted are NaN, and
+ * its rows have no stiffness ratios.
+ */
 export function branchesOf(result: PathResult): Branch[] {
   const table = result.static;
   if (result.branches.length > 0 || !table) return result.branches;
   return [{
     id: 0, parent: null, load_factor: table.load_factor, arc_length: table.load_factor.map((_, i) => i),
     monitors: table.monitors, negative_eigenvalues: table.negative_eigenvalues.map((n) => n ?? Number.NaN),
-    contact_fraction: table.contact_fraction, termination: "load_factors",
+    stiffness_ratio: table.load_factor.map(() => null), contact_fraction: table.contact_fraction, termination: "load_factors",
   }];
 }
 
@@ -46,7 +50,8 @@ export function valuesOf(branch: Branch, quantity: PathQuantity): readonly numbe
   return quantity.reversed ? values.map((value) => -value) : values;
 }
 
-function criticalValue(point: CriticalPoint, quantity: PathQuantity): number {
+/** A quantity at a critical point; NaN where the point has none. */
+export function criticalValue(point: CriticalPoint, quantity: PathQuantity): number {
   if (quantity.kind === "load_factor") return point.load_factor;
   if (quantity.kind === "arc_length") return point.arc_length;
   const value = point.monitors[quantity.id] ?? Number.NaN;
@@ -120,9 +125,10 @@ export interface CriticalMark {
   y: number;
 }
 
-/** Critical points that have both quantities. */
+/** Critical points that have both quantities. The arc length of a point is not on the axis that counts rows of a static analysis. */
 export function criticalMarks(result: PathResult, x: PathQuantity, y: PathQuantity): CriticalMark[] {
-  return result.critical_points
+  const counts = result.static && (x.kind === "arc_length" || y.kind === "arc_length");
+  return (counts ? [] : result.critical_points)
     .map((point, number) => ({ point, number, x: criticalValue(point, x), y: criticalValue(point, y) }))
     .filter((mark) => Number.isFinite(mark.x) && Number.isFinite(mark.y));
 }

@@ -4,12 +4,12 @@ import type { components } from "../../api/types";
 import { coordinate, path, shape, type Pixel, type Shape } from "../shape";
 
 export type CriticalType = components["schemas"]["CriticalType"];
-export type MarkKind = CriticalType | "opened" | "closed";
+export type MarkKind = CriticalType | "softest" | "opened" | "closed";
 
 /** What a legend calls a mark. */
 export const kMarkNames: Record<MarkKind, string> = {
   limit_max: "limit point", limit_min: "limit point, minimum", bifurcation: "bifurcation",
-  broken_bifurcation: "broken bifurcation", closed: "contact made", opened: "contact lost",
+  broken_bifurcation: "broken bifurcation", softest: "softest point", closed: "contact made", opened: "contact lost",
 };
 
 function polygon(className: string, at: Pixel, corners: readonly (readonly [number, number])[]): Shape {
@@ -20,13 +20,17 @@ function circle(className: string, at: Pixel, radius: number): Shape {
   return shape("circle", { class: className, cx: coordinate(at.x), cy: coordinate(at.y), r: radius });
 }
 
-/** Triangle up or down: limit point; diamond: bifurcation, hollow when broken; dot: contact made, ring: lost. */
+/**
+ * Triangle up or down: limit point; diamond: bifurcation, hollow when broken; hollow square: softest point; dot: contact made,
+ * ring: lost.
+ */
 export function mark(kind: MarkKind, at: Pixel): Shape {
   switch (kind) {
     case "limit_max": return polygon("mark limit", at, [[0, -6.5], [6, 4.5], [-6, 4.5]]);
     case "limit_min": return polygon("mark limit", at, [[0, 6.5], [6, -4.5], [-6, -4.5]]);
     case "bifurcation": return polygon("mark bifurcation", at, [[0, -7], [6, 0], [0, 7], [-6, 0]]);
     case "broken_bifurcation": return polygon("mark broken", at, [[0, -7], [6, 0], [0, 7], [-6, 0]]);
+    case "softest": return polygon("mark softest", at, [[-5, -5], [5, -5], [5, 5], [-5, 5]]);
     case "closed": return circle("mark event", at, 3);
     case "opened": return circle("mark event open", at, 3);
   }

@@ -10,6 +10,10 @@ import {
 } from "./curves";
 import { legendHeight, legendShape, markEntries, type LegendEntry } from "./legend";
 import { kMarkNames, mark, type MarkKind } from "./marks";
+import {
+  hasStiffness, isUpward, kScaleRoom, softestPoint, stiffnessCurve, stiffnessLine, stiffnessScale, valueAlong,
+  type SoftestPoint, type StiffnessCurve,
+} from "./stiffness";
 import { thinned } from "./thin";
 
 /** A run that is shown for comparison. */
@@ -35,6 +39,8 @@ export interface PathInput {
   /** The point that the drawing shows: a row, or between rows the place at an arc length. */
   chosen?: ChosenPoint | null | undefined;
   shadows?: readonly PathShadow[] | undefined;
+  /** Whether the stiffness ratio is drawn as a second curve; when left out, where the path has a softest point before its critical one. */
+  stiffness?: boolean | undefined;
   /** Ranges of both axes; what holds everything when left out. */
   domain?: { x: readonly [number, number]; y: readonly [number, number] } | null | undefined;
 }
@@ -45,7 +51,29 @@ export interface PathChart {
   curves: PathCurve[];
   shadows: { shadow: PathShadow; curves: PathCurve[] }[];
   marks: CriticalMark[];
+  softest: SoftestMark | null;
+  stiffness: StiffnessCurve | null;
   size: Size;
+}
+
+/** The softest point on the chart. */
+export interface SoftestMark {
+  point: SoftestPoint;
+  x: number;
+  y: number;
+}
+
+function softestMark(input: PathInput): SoftestMark | null {
+  const point = softestPoint(input.result);
+  const branch = branchesOf(input.result)[0];
+  if (!point || !branch) return null;
+  const mark = { point, x: valueAlong(branch, input.x, point.arc), y: valueAlong(branch, input.y, point.arc) };
+  return Number.isFinite(mark.x) && Number.isFinite(mark.y) ? mark : null;
+}
+
+/** Whether the stiffness ratio is drawn. */
+function showsStiffness(input: PathInput): boolean {
+  return hasStiffness(input.result) && (input.stiffness ?? softestPoint(input.result) !== null);
 }
 
 function curvesOf(result: PathResult, input: PathInput): PathCurve[] {
@@ -69,16 +97,22 @@ export function pathChart(input: PathInput, size: Size): PathChart {
   const shadows = (input.shadows ?? []).map((shadow) => ({ shadow, curves: curvesOf(shadow.result, input) }));
   const marks = criticalMarks(input.result, input.x, input.y);
   const all = [...curves, ...shadows.flatMap((item) => item.curves)].flatMap((curve) => curve.vertices);
-  const every = curves.length === 0 ? [...all, ...marks, { x: 0, y: 0 }] : all;
+  // The path of a static analysis ends before its critical point; others hold theirs.
+  const beyond = input.result.branches.length === 0 ? marks : [];
+  const every = curves.length === 0 ? [...all, ...marks, { x: 0, y: 0 }] : [...all, ...beyond];
+  const second = showsStiffness(input);
+  const above = second && !isUpward(input.y) ? kScaleRoom.above : 0;
+  const right = second && isUpward(input.y) ? kScaleRoom.right : 0;
   const [x0, x1] = input.domain?.x ?? rangeOf(every.map((vertex) => vertex.x));
   const [y0, y1] = input.domain?.y ?? rangeOf(every.map((vertex) => vertex.y));
   const frame = {
-    x: makeScale(x0, x1, 62, Math.max(90, size.width - 14)),
-    y: makeScale(y0, y1, Math.max(60, size.height - 44), 14 + legendHeight(legendEntries(input, curves), size.width)),
+    x: makeScale(x0, x1, 62, Math.max(90, size.width - 14 - right)),
+    y: makeScale(y0, y1, Math.max(60, size.height - 44), 14 + above + legendHeight(legendEntries(input, curves), size.width)),
     xLabel: quantityLabel(input.x, input.monitors, input.units),
     yLabel: quantityLabel(input.y, input.monitors, input.units),
   };
-  return { frame, curves, shadows, marks, size };
+  const stiffness = second ? stiffnessCurve(input.result, input.x, input.y, frame) : null;
+  return { frame, curves, shadows, marks, softest: softestMark(input), stiffness, size };
 }
 
 function pixelOf(frame: Frame, point: { x: number; y: number }): Pixel {
@@ -116,7 +150,7 @@ function curveShapes(curves: readonly PathCurve[], frame: Frame, className: stri
 }
 
 /** A part of a figure that shows nothing outside the plot: an inner SVG clips without an id. */
-function clipped(frame: Frame, className: string, ...children: Shape[]): Shape {
+function clipped(frame: Frame, className: string, ...children: (Shape | null)[]): Shape {
   const { x, y } = frame;
   const left = coordinate(x.start);
   const top = coordinate(y.end);
@@ -133,13 +167,30 @@ function inside(frame: Frame, pixel: Pixel): boolean {
 
 const kLabelled = 8;
 
+/** Keeps labels away from a mark, and off it. */
+function takeMark(pixel: Pixel, taken: Occupancy): void {
+  taken.addBox({ left: pixel.x - 11, right: pixel.x + 11, top: pixel.y - 11, bottom: pixel.y + 11 }, 14);
+  taken.addBox({ left: pixel.x - 4, right: pixel.x + 4, top: pixel.y - 5, bottom: pixel.y + 4 }, 60);
+}
+
+/** The softest point with its load factor and its ratio. */
+function softestShapes(chart: PathChart, taken: Occupancy): { marks: Shape; labels: () => Shape } {
+  const { softest } = chart;
+  const pixel = softest && pixelOf(chart.frame, softest);
+  if (!softest || !pixel || !inside(chart.frame, pixel)) return { marks: group("softest-mark"), labels: () => group("mark-labels") };
+  takeMark(pixel, taken);
+  const labels = () => group("mark-labels", placeLabel({
+    at: pixel, className: "mark-label", leader: true, distance: 14, tolerance: 400, prefer: 1,
+    runs: [{ text: formatNumber(softest.point.loadFactor, 5), bold: true },
+           { text: `\u00a0softest, ratio ${formatNumber(softest.point.ratio, 3)}`, className: "muted" }],
+  }, taken));
+  return { marks: group("softest-mark", mark("softest", pixel)), labels };
+}
+
 function criticalShapes(chart: PathChart, taken: Occupancy): { marks: Shape; labels: () => Shape } {
   const shown = chart.marks.map((item) => ({ item, pixel: pixelOf(chart.frame, item) }))
     .filter(({ pixel }) => inside(chart.frame, pixel));
-  for (const { pixel } of shown) {
-    taken.addBox({ left: pixel.x - 11, right: pixel.x + 11, top: pixel.y - 11, bottom: pixel.y + 11 }, 14);
-    taken.addBox({ left: pixel.x - 4, right: pixel.x + 4, top: pixel.y - 5, bottom: pixel.y + 4 }, 60);
-  }
+  for (const { pixel } of shown) takeMark(pixel, taken);
   const labels = () => group("mark-labels", ...shown.slice(0, kLabelled).map(({ item, pixel }, i) => placeLabel({
     at: pixel, className: "mark-label", leader: true, distance: 14, tolerance: i === 0 ? 400 : 110,
     prefer: item.point.type === "limit_min" ? 1 : 7,
@@ -181,6 +232,9 @@ function isOnly(input: PathInput, kind: PathShadow["kind"]): boolean {
 
 function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEntry[] {
   const entries: LegendEntry[] = [];
+  const marks = new Set<MarkKind>([...input.result.critical_points.map((point) => point.type),
+                                   ...input.result.contact_events.map((event) => event.type)]);
+  if (softestPoint(input.result)) marks.add("softest");
   const stable = new Set(curves.flatMap((curve) => [...new Set(curve.stable)]));
   if (stable.has(true)) entries.push({ text: "stable", line: "path stable" });
   if (stable.has(false)) entries.push({ text: "unstable", line: "path unstable" });
@@ -188,8 +242,8 @@ function legendEntries(input: PathInput, curves: readonly PathCurve[]): LegendEn
   if (curves.some((curve) => curve.branch !== 0)) entries.push({ text: "branch", line: "path branch stable" });
   const runs = (input.shadows ?? []).filter(({ kind }) => isOnly(input, kind))
     .map(({ label: text, kind }) => ({ text, line: `shadow ${kind}` }));
-  return [...entries, ...markEntries(new Set<MarkKind>([...input.result.critical_points.map((point) => point.type),
-                                                        ...input.result.contact_events.map((event) => event.type)])), ...runs];
+  const ratio = { text: `stiffness ratio (0 to 1 ${isUpward(input.y) ? "upward" : "across"})`, line: "ratio-line" };
+  return [...entries, ...(showsStiffness(input) ? [ratio] : []), ...markEntries(marks), ...runs];
 }
 
 /** The place of a curve at an arc length. */
@@ -233,18 +287,23 @@ export function pathFigure(input: PathInput, size: Size, chart: PathChart = path
   taken.addBox({ left: 0, top: 0, right: size.width, bottom: frame.y.end - 4 });
   taken.addBox({ left: 0, top: 0, right: frame.x.start - 4, bottom: size.height });
   taken.addBox({ left: 0, top: frame.y.start + 4, right: size.width, bottom: size.height });
+  if (chart.stiffness?.upward) taken.addBox({ left: frame.x.end + 2, top: 0, right: size.width, bottom: size.height });
   const shadows = chart.shadows.flatMap(({ shadow, curves }) =>
     curveShapes(curves, frame, `shadow ${shadow.kind}`, taken, 4));
   const lines = curveShapes(chart.curves, frame, "path", taken, 7);
+  if (chart.stiffness) taken.addLine(chart.stiffness.points, 4);
+  const softest = softestShapes(chart, taken);
   const critical = criticalShapes(chart, taken);
   const empty = chart.curves.length === 0
     ? label("muted", { x: (frame.x.start + frame.x.end) / 2, y: (frame.y.start + frame.y.end) / 2 }, "middle",
-            "no path: an analysis of type path gives one")
+            input.result.static ? "none of the load factors was reached"
+                                : "no path: an analysis of type path gives one")
     : null;
   const title = `${frame.yLabel} against ${frame.xLabel}`;
   return figure("chart path-chart", size, title, plotArea(frame), frameShapes(frame, size),
-                clipped(frame, "plot-lines", ...shadows, ...lines), rowDots(chart, input), contactShapes(input, frame),
-                critical.marks, critical.labels(), group("shadow-labels", ...shadowLabels(input, chart, taken)),
+                clipped(frame, "plot-lines", ...shadows, chart.stiffness && stiffnessLine(chart.stiffness), ...lines),
+                chart.stiffness && stiffnessScale(chart.stiffness, frame), rowDots(chart, input), contactShapes(input, frame),
+                softest.marks, critical.marks, critical.labels(), softest.labels(), group("shadow-labels", ...shadowLabels(input, chart, taken)),
                 chosenShape(chart, input.chosen), empty, legendShape(legendEntries(input, chart.curves), size.width));
 }
 
@@ -262,6 +321,12 @@ export function nearestOnPath(chart: PathChart, to: Pixel): (PathPoint & { pixel
     }
   }
   return best;
+}
+
+/** Whether the softest point is within reach of a pixel. */
+export function softestNear(chart: PathChart, to: Pixel, reach = 10): boolean {
+  const pixel = chart.softest && pixelOf(chart.frame, chart.softest);
+  return pixel !== null && Math.hypot(pixel.x - to.x, pixel.y - to.y) <= reach;
 }
 
 /** The critical point within reach of a pixel; null when there is none. */

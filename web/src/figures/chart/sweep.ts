@@ -25,6 +25,8 @@ const kLabels: Record<string, string> = {
   "/summary/critical_load_factor": "critical load factor",
   "/summary/critical_type": "kind of critical point",
   "/summary/error_estimate": "estimated relative error",
+  "/summary/softest/load_factor": "load factor of the softest point",
+  "/summary/softest/stiffness_ratio": "stiffness ratio of the softest point",
 };
 
 /** A column's name as people say it: "/critical_points/0/monitors/crown" is "crown at critical point 1". */
