@@ -165,7 +165,7 @@ void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
     const double target = analysis_.output.at_load_factors[i] * structure_.scales.load;
     const double va = from.lambda - target;
     const double vb = to.lambda - target;
-    const double rounding = 1e-11 * std::abs(target);
+    const double rounding = kSameLoadFactor * std::abs(target);
     if (std::abs(va) <= rounding || std::abs(vb) <= rounding) {
       reached_[i] = 1;
       // the end of a step is the start of the next, where it counts no more
@@ -174,11 +174,7 @@ void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
       continue;
     }
     if ((va > 0.0) == (vb > 0.0)) continue;
-    const auto value = [target](const PathPoint& at) { return at.lambda - target; };
-    const auto done = [&](const PathPoint&, const PathPoint&, double v) {
-      return std::abs(v) <= 1e-12 * std::abs(vb - va);
-    };
-    add_state(find_root(continuation_, continuation_.chord(from, to), from, va, to, vb, value, done).root);
+    add_state(point_at_load(continuation_, from, to, target));
     reached_[i] = 1;
   }
   at_branch_start_ = false;

@@ -247,21 +247,14 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
     softest.add_step(from, to);
     for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
       const double target = analysis.load_factors[i] * structure.scales.load;
-      const double size = std::abs(to.lambda - from.lambda);
-      const bool reached = std::abs(to.lambda - target) <= 1e-11 * std::abs(target);
+      const bool reached = std::abs(to.lambda - target) <= kSameLoadFactor * std::abs(target);
       if (!states.lacks(i) || (!reached && (from.lambda - target) * (to.lambda - target) > 0.0)) continue;
       if (reached) {
         states.set(i, to.y, to.negative);
         continue;
       }
-      const auto value = [target](const PathPoint& at) { return at.lambda - target; };
-      const auto done = [size](const PathPoint&, const PathPoint&, double v) {
-        return std::abs(v) <= 1e-12 * size;
-      };
-      const PathPoint root =
-          find_root(continuation, continuation.chord(from, to), from, value(from), to, value(to), value, done)
-              .root;
-      states.set(i, root.y, root.negative);
+      const PathPoint at = point_at_load(continuation, from, to, target);
+      states.set(i, at.y, at.negative);
     }
   };
   const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);

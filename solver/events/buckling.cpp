@@ -48,6 +48,7 @@ class Pencil {
  private:
   [[nodiscard]] Regime regime() const;
   [[nodiscard]] VectorXd linear_response(StructuralProblem::Stage stage, double lambda, Regime regime);
+  void drop_rounding(double least, VectorXd& response) const;
   void freeze_contact(double reference);
   [[nodiscard]] VectorXd stress(double lambda) const;
 
@@ -83,8 +84,20 @@ VectorXd Pencil::linear_response(StructuralProblem::Stage stage, double lambda, 
   problem_.load(y, 0.0, response);
   response *= lambda;
   problem_.solve(response);
+  drop_rounding(std::abs(lambda) * problem_.least_force(), response);
   problem_.set_stage(StructuralProblem::Stage::proportional);
   return response;
+}
+
+/// Sets all section forces to zero where none reaches `least`: a structure that is strained without
+/// resistance has rounding for forces, and these would have buckling loads.
+void Pencil::drop_rounding(double least, VectorXd& response) const {
+  const int p = structure_.mesh.order;
+  double largest = 0.0;
+  for (const ElementDofs& dofs : structure_.dofs)
+    largest = std::max(largest, response.segment(dofs.s, 3 * p).lpNorm<Eigen::Infinity>());
+  if (largest > least) return;
+  for (const ElementDofs& dofs : structure_.dofs) response.segment(dofs.s, 3 * p).setZero();
 }
 
 bool Pencil::holds_are_idle(double lambda) {

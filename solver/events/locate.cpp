@@ -357,6 +357,26 @@ LocatedRoot find_root(Continuation& continuation, const Chord& chord, const Path
   return out;
 }
 
+void move_to_load(Continuation& continuation, double load, PathPoint& at) {
+  if (load == 0.0 || std::abs(at.lambda - load) <= kSameLoadFactor * std::abs(load)) return;
+  PathPoint moved = at;
+  moved.lambda = load;
+  const double size = continuation.metric().norm(at.y, 0.0);
+  if (size == 0.0 || continuation.correct_at_load(size, moved)) at = std::move(moved);
+}
+
+PathPoint point_at_load(Continuation& continuation, const PathPoint& a, const PathPoint& b, double load) {
+  const double size = std::abs(b.lambda - a.lambda);
+  const auto value = [load](const PathPoint& at) { return at.lambda - load; };
+  const auto done = [size](const PathPoint&, const PathPoint&, double v) {
+    return std::abs(v) <= 1e-12 * size;
+  };
+  PathPoint point =
+      find_root(continuation, continuation.chord(a, b), a, value(a), b, value(b), value, done).root;
+  move_to_load(continuation, load, point);
+  return point;
+}
+
 namespace {
 
 constexpr double kSamePlace = 1e-3;  ///< distance within which rounding tells no two apart

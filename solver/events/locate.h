@@ -53,6 +53,19 @@ struct LocatedRoot {
     double value_b, const std::function<double(const PathPoint&)>& value,
     const std::function<bool(const PathPoint&, const PathPoint&, double)>& done);
 
+/// Relative difference of two load factors that counts as none.
+inline constexpr double kSameLoadFactor = 1e-11;
+
+/// @brief Moves a point of a path that is next to a load onto it: a root along a step is known to a share of
+/// the step, which is far longer than the load where the load moves the structure little.
+/// @post unless the load is 0 or equilibrium is not found there, the point's load is it to kSameLoadFactor
+void move_to_load(Continuation& continuation, double load, PathPoint& at);
+
+/// @brief The point of the path between a and b that has the load, see move_to_load().
+/// @pre the loads of a and b are on both sides of it
+[[nodiscard]] PathPoint point_at_load(Continuation& continuation, const PathPoint& a, const PathPoint& b,
+                                      double load);
+
 /// What was found on one step.
 struct LocatedEvents {
   std::vector<CriticalEvent> events;  ///< in the order they are met

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "solver/numeric/cancelled.h"
+#include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/number_text.h"
 
 namespace snapthrough {
@@ -15,6 +16,34 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+namespace {
+
+/// Displacement gradient that initial strains and prescribed displacements ask for: strain, rotation of a
+/// member by its curvature, displacement over the structure's length.
+/// @param load unknowns of a pattern; its initial strains stand in the rows of section forces
+double imposed_gradient(const Structure& structure, const VectorXd& load,
+                        std::array<double, 3> NodeSupport::*displacement) {
+  const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
+  const int p = rule.order();
+  double gradient = 0.0;
+  for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
+    const double element = length_of_element(structure, static_cast<int>(e));
+    const std::size_t member = structure.mesh.elements[e].member;
+    const double length = structure.axes[member]->length() / structure.scales.length;
+    for (int q = 0; q < p; ++q) {
+      const double weight = element * rule.weight(q);
+      const Index row = structure.dofs[e].s + q;
+      gradient =
+          std::max({gradient, std::abs(load[row]) / weight, length * std::abs(load[row + 2 * p]) / weight});
+    }
+  }
+  for (const NodeSupport& support : structure.supports)
+    for (const double value : support.*displacement) gradient = std::max(gradient, std::abs(value));
+  return gradient;
+}
+
+}  // namespace
 
 StructuralProblem::StructuralProblem(const Structure& structure)
     : structure_(structure),
@@ -37,6 +66,10 @@ StructuralProblem::StructuralProblem(const Structure& structure)
   const Index n = 3 * structure.nodes + structure.releases + 3 * static_cast<Index>(members_);
   for (Index i = 0; i < n; ++i) (is_fixed(i) ? fixed_ : free_).push_back(i);
   largest_load_ = force_norm(structure.proportional_load);
+  const double softest = *std::min_element(structure.euler_loads.begin(), structure.euler_loads.end());
+  proportional_imposed_ =
+      softest * imposed_gradient(structure, structure.proportional_load, &NodeSupport::proportional);
+  constant_imposed_ = softest * imposed_gradient(structure, structure.constant_load, &NodeSupport::constant);
 }
 
 bool StructuralProblem::is_fixed(Index scalar) const {
@@ -482,11 +515,20 @@ double StructuralProblem::largest_axial_force(std::size_t member, const VectorXd
   return force;
 }
 
+/// Section force that is not rounding, over imposed_force(). Random determinate structures with EA l^2 / EI
+/// up to 1e10 have 1e-14 by rounding; a member with less than 1e-12 would buckle at imposed displacement
+/// gradients beyond 1e12.
+constexpr double kLeastForce = 1e-12;
+
+double StructuralProblem::least_force() const {
+  return kLeastForce * (stage_ == Stage::proportional ? proportional_imposed_ : constant_imposed_);
+}
+
 double StructuralProblem::critical_load_scale(const VectorXd& unit_response) const {
   double scale = std::numeric_limits<double>::infinity();
   for (std::size_t m = 0; m < members_; ++m) {
     const double force = largest_axial_force(m, unit_response);
-    if (force > 0.0) scale = std::min(scale, structure_.euler_loads[m] / force);
+    if (force > least_force()) scale = std::min(scale, structure_.euler_loads[m] / force);
   }
   return scale;
 }
@@ -499,7 +541,7 @@ double StructuralProblem::largest_critical_load_scale(const VectorXd& unit_respo
   double scale = 0.0;
   for (std::size_t m = 0; m < members_; ++m) {
     const double force = largest_axial_force(m, unit_response);
-    if (force > kCounts * largest)
+    if (force > std::max(kCounts * largest, least_force()))
       scale = std::max(scale, (structure_.euler_loads[m] + structure_.foundation_loads[m]) / force);
   }
   return scale;
@@ -521,6 +563,19 @@ double StructuralProblem::largest_force(const VectorXd& y, double lambda) const 
   return force;
 }
 
+/// Force that turns the softest member as much as initial strains and prescribed displacements at a load
+/// factor do: Euler's load times their displacement gradient. It is there where these meet no resistance and
+/// all forces are rounding's.
+double StructuralProblem::imposed_force(double lambda) const {
+  const auto [proportional, constant] = factors(lambda);
+  return std::abs(proportional) * proportional_imposed_ + std::abs(constant) * constant_imposed_;
+}
+
+/// What residuals of forces are relative to.
+double StructuralProblem::force_scale(const VectorXd& y, double lambda) const {
+  return std::max(largest_force(y, lambda), imposed_force(lambda));
+}
+
 double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) const {
   constexpr double kRoundings =
       0.5;  // half a unit in the last place; signs vary over the places of a foundation
@@ -534,13 +589,13 @@ double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) co
     for (int c = 0; c < 3; ++c) size += std::abs(spring.row[c] * y[3 * spring.node + c]);
     largest = std::max(largest, stiffness * size * std::numeric_limits<double>::epsilon());
   }
-  const double force = largest_force(y, lambda);
+  const double force = force_scale(y, lambda);
   return force > 0.0 ? std::min(kRoundings * largest / force, kMostRounding) : 0.0;
 }
 
 double StructuralProblem::relative_residual(const VectorXd& f, const VectorXd& y, double lambda) {
   const int p = structure_.mesh.order;
-  const double force = largest_force(y, lambda);
+  const double force = force_scale(y, lambda);
   double displacement = 1.0;
   const double forces = force_norm(f);
   double gaps = 0.0;

@@ -58,6 +58,9 @@ class StructuralProblem final : public EquilibriumProblem {
   /// Euler's load of the most compressed member: pi^2 EI / (N l^2).
   [[nodiscard]] double critical_load_scale(const Eigen::VectorXd& unit_response) const override;
   [[nodiscard]] double largest_critical_load_scale(const Eigen::VectorXd& unit_response) const override;
+  /// @brief Least section force in the response to a unit load of the stage at hand that is not rounding.
+  /// Zero where nothing imposes strains or displacements: then all forces are the loads'.
+  [[nodiscard]] double least_force() const;
 
   /// What the load factor multiplies: the proportional actions, with the constant ones on; or, to put these
   /// on, the constant ones alone.
@@ -116,6 +119,8 @@ class StructuralProblem final : public EquilibriumProblem {
   /// The largest of the rows that are forces or moments; the others are displacements and strains.
   [[nodiscard]] double force_norm(const Eigen::VectorXd& f) const;
   [[nodiscard]] double largest_force(const Eigen::VectorXd& y, double lambda) const;
+  [[nodiscard]] double imposed_force(double lambda) const;
+  [[nodiscard]] double force_scale(const Eigen::VectorXd& y, double lambda) const;
   void constrain_residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f) const;
   void plan_nodes();
   void assemble_nodes();
@@ -150,6 +155,9 @@ class StructuralProblem final : public EquilibriumProblem {
   Eigen::MatrixXd hold_rows_;  ///< sqrt(k) H in the axes of the supports
   Stage stage_ = Stage::proportional;
   double largest_load_ = 0.0;  ///< of the forces and moments of the unit load: imposed strains are none
+  /// Scales of force of what the unit proportional and the constant actions impose, see imposed_force().
+  double proportional_imposed_ = 0.0;
+  double constant_imposed_ = 0.0;
 };
 
 }  // namespace snapthrough

@@ -17,6 +17,7 @@ namespace {
 struct Crossing {
   TraceEnd end = TraceEnd::load_factor;
   std::function<double(const PathPoint&)> value;
+  double bound = 0.0;  ///< value of the quantity there
 };
 
 std::optional<Crossing> crossing_of(const std::function<double(const PathPoint&)>& quantity,
@@ -24,7 +25,7 @@ std::optional<Crossing> crossing_of(const std::function<double(const PathPoint&)
   const double now = quantity(to);
   if (now >= range[0] && now <= range[1]) return std::nullopt;
   const double bound = now < range[0] ? range[0] : range[1];
-  return Crossing{end, [quantity, bound](const PathPoint& at) { return quantity(at) - bound; }};
+  return Crossing{end, [quantity, bound](const PathPoint& at) { return quantity(at) - bound; }, bound};
 }
 
 /// Relative difference of the loads of points at one place; the norm may hardly see the load.
@@ -136,7 +137,7 @@ std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const Pa
     const auto rate = [this](const PathPoint& at) { return rules_.monitor_rate(at); };
     const bool goes_up = rate(from) > 0.0;
     if (goes_up != (rate(to) > 0.0))
-      crossings.push_back({TraceEnd::monitor_turned, rate});
+      crossings.push_back({TraceEnd::monitor_turned, rate, 0.0});
     else if (went_back(rules_.controlled(from), rules_.controlled(to), goes_up))
       return Bound{to, false, TraceEnd::monitor_turned};
   }
@@ -160,6 +161,8 @@ std::optional<Tracer::Bound> Tracer::bounded_end(const PathPoint& from, const Pa
                        std::min(std::abs(root.value_before), std::abs(root.value_after)) <= kReached * size;
     if (first && found && first->point.arc_length <= root.root.arc_length) continue;
     first = Bound{root.root, found, crossing.end};
+    if (found && crossing.end == TraceEnd::load_factor)
+      move_to_load(continuation_, crossing.bound, first->point);
     if (!found) break;
   }
   return first;
