@@ -83,6 +83,7 @@ static void read(const Value& value, StepOptions& out) {
   in.optional("initial", out.initial);
   in.optional("min", out.min);
   in.optional("max", out.max);
+  in.optional("direction", out.direction);
   in.finish();
 }
 
@@ -99,6 +100,7 @@ static void read(const Value& value, StopRules& out) {
   in.optional("load_factor", out.load_factor);
   in.optional("monitor", out.monitor);
   in.optional("steps", out.steps);
+  in.optional("negative_eigenvalues", out.negative_eigenvalues);
   in.finish();
 }
 

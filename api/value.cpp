@@ -244,9 +244,13 @@ void Object::finish() const {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
       continue;
     }
-    // a name that is right elsewhere is in the wrong place, however near a field of this object is
-    const auto owners = owners_of(key, value_.pointer());
-    const std::string_view nearest = owners.empty() ? nearest_name(key, known_) : "";
+    std::string_view nearest = nearest_name(key, known_);
+    // unless it begins a name of this object, a name that is right elsewhere is in the wrong place
+    const auto owners =
+        nearest.starts_with(key) ? std::vector<std::string>() : owners_of(key, value_.pointer());
+    if (!owners.empty()) {
+      nearest = "";
+    }
     const std::string hint = owners.empty()
                                  ? suggest(nearest, known_)
                                  : "; " + in_quotes(key) + " is a field of " + join_with_and(owners);

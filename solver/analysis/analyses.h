@@ -55,6 +55,12 @@ void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reve
 [[nodiscard]] ModeOffsets mode_offsets(const Model& model, const Analysis& analysis,
                                        const std::stop_token& stop = {});
 
+/// Sense in which the load factor begins to change along the primary path: 1 growing, -1 falling.
+[[nodiscard]] double path_direction(const Analysis& analysis);
+/// @brief Whether a critical point leads the primary path from a stable state to an unstable one, with loads
+/// of the sense that the path begins with.
+[[nodiscard]] bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point);
+
 /// @brief The start of the path: the unloaded state, or the equilibrium under the constant actions.
 ///
 /// Constant actions are put on by a path of their own, from nothing to their full size.

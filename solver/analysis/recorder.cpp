@@ -112,9 +112,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
     point.mode = mode_at(structure_, model_, continuation_.problem(), event, analysis_);
   if (!passed_by && analysis_.output.path_points && analysis_.type == AnalysisType::path)
     kept_.add_critical(event);
-  const bool loses_stability =
-      branch_ == 0 && point.negative_before == 0 && point.negative_after > 0 && point.load_factor > 0.0;
-  if (loses_stability && !result_.summary.critical_load_factor) {
+  if (is_loss_of_stability(analysis_, point) && !result_.summary.critical_load_factor) {
     if (!point.state) observer_.add_to_extremes(event.point.y, event.point.lambda, branch_);
     result_.summary.critical_load_factor = point.load_factor;
     result_.summary.critical_type = point.type;

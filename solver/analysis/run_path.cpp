@@ -10,6 +10,7 @@
 #include "solver/accuracy/critical_loads.h"
 #include "solver/accuracy/layers.h"
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/monitor_watch.h"
 #include "solver/analysis/recorder.h"
 #include "solver/events/branch.h"
 #include "solver/events/touching.h"
@@ -29,6 +30,10 @@ namespace {
 /// A search for the loss of stability has no bounds that its user can choose: only a path that gets nowhere
 /// meets this one, or leaves what the theory is for.
 constexpr int kMostStepsOfSearch = 20000;
+
+/// Most negative eigenvalues that a path gains where no rule of the request is sure to end it: a straight
+/// column under axial load meets one bifurcation after the other, a hundred before the bound on the load.
+constexpr int kMostLosses = 10;
 
 const SparseRow* row_of(const Structure& structure, const std::string& monitor) {
   const auto found = std::find_if(structure.monitors.begin(), structure.monitors.end(),
@@ -66,6 +71,25 @@ TraceRules rules_of(const Model& model, const Analysis& analysis, const Structur
     rules.monitor_rate = [row](const PathPoint& at) { return row->dot(at.tangent); };
   }
   return rules;
+}
+
+/// The row of the monitor of a stop rule; null: there is no such rule.
+const SparseRow* row_of_stop(const Structure& structure, const Analysis& analysis) {
+  if (analysis.type != AnalysisType::path || !analysis.stop.monitor) return nullptr;
+  return row_of(structure, analysis.stop.monitor->id);
+}
+
+/// @brief Bounds the negative eigenvalues of a path: by the request's bound; else, where neither a range of
+/// load factors nor a number of steps is asked for, by kMostLosses more than at its start and one more for
+/// each limit point that is asked for. That bound does not hold while the monitor of a stop rule moves.
+/// @param watch must outlive the rules
+void bound_negative(const Analysis& analysis, int at_start, const MonitorWatch& watch, TraceRules& rules) {
+  const StopRules& stop = analysis.stop;
+  if (analysis.type != AnalysisType::path) return;
+  rules.most_negative = stop.negative_eigenvalues;
+  if (rules.most_negative || stop.load_factor || stop.steps) return;
+  rules.most_negative = at_start + kMostLosses + stop.limit_points.value_or(0);
+  rules.most_negative_waits = [&watch](const PathPoint& at) { return watch.has_moved(at.y); };
 }
 
 /// Where the path's points are not returned as states they need not be equilibria to rounding: those of a
@@ -109,6 +133,8 @@ constexpr EndText kEnds[] = {
     {TraceEnd::monitor_turned, "monitor_turned", "the controlled displacement turns back here", false},
     {TraceEnd::rejoined, "rejoined", "the path came back to a known bifurcation", false},
     {TraceEnd::steps, "steps", "the path was still going on", false},
+    {TraceEnd::negative_eigenvalues, "negative_eigenvalues",
+     "the path has more negative eigenvalues than are followed (stop.negative_eigenvalues)", false},
     {TraceEnd::displacement_bound, "displacement_bound",
      "displacements or strains grew beyond any bound of interest", false},
     {TraceEnd::load_bound, "load_bound", "the load grew beyond any bound of interest", false},
@@ -120,9 +146,14 @@ const EndText& text_of(TraceEnd end) {
   return *std::find_if(std::begin(kEnds), std::end(kEnds), [end](const EndText& e) { return e.end == end; });
 }
 
-/// Whether the path ends on a critical point, the last one that it found.
-bool ends_on_critical(const TraceOutcome& outcome) {
-  return outcome.end == TraceEnd::critical_point || outcome.end == TraceEnd::limit_points;
+/// How many negative eigenvalues there are where a path ends. On a critical point they are counted on both
+/// sides of it: on the point itself rounding decides about those that vanish.
+std::string count_at_end(const TraceOutcome& outcome) {
+  if (!outcome.on_critical)
+    return ", " + std::to_string(outcome.last.negative) + " negative eigenvalues there";
+  const CriticalEvent& event = outcome.critical.back();
+  return "; negative eigenvalues: " + std::to_string(event.negative_before) + " before, " +
+         std::to_string(event.negative_after) + " after";
 }
 
 /// @param at load factor of the path's end
@@ -134,7 +165,7 @@ void describe_end(const Analysis& analysis, const TraceOutcome& outcome, double 
   if (outcome.end == TraceEnd::limit_points && analysis.control.type == ControlType::load)
     message = "under load control the path ends at its first limit point";
   message += " at load factor " + number(at) + " after " + std::to_string(result.diagnostics.steps) +
-             " steps, " + std::to_string(outcome.last.negative) + " negative eigenvalues there";
+             " steps" + count_at_end(outcome);
   result.summary.termination = end->code;
   result.summary.message = message;
   if (end->failure) fail(result, end->code, message);
@@ -159,16 +190,31 @@ std::string disagreements(const Result& result) {
 }
 
 /// The first point of the primary path that leads from a stable state, as the summary tells it.
-const CriticalPoint* first_loss(const std::vector<CriticalPoint>& points) {
-  const auto found = std::find_if(points.begin(), points.end(), [](const CriticalPoint& point) {
-    return point.branch == 0 && point.negative_before == 0 && point.negative_after > 0 &&
-           point.load_factor > 0.0;
+const CriticalPoint* first_loss(const Analysis& analysis, const std::vector<CriticalPoint>& points) {
+  const auto found = std::find_if(points.begin(), points.end(), [&analysis](const CriticalPoint& point) {
+    return is_loss_of_stability(analysis, point);
   });
   return found == points.end() ? nullptr : &*found;
 }
 
+/// Where a path of type `path` first lost stability, as the beginning of its message; empty: nowhere.
+std::string loss_on_the_way(const Analysis& analysis, const Result& result) {
+  const CriticalPoint* loss = first_loss(analysis, result.critical_points);
+  if (analysis.type != AnalysisType::path || loss == nullptr) return "";
+  return std::string("first loss of stability: ") + name_of(loss->type) + " at load factor " +
+         number(loss->load_factor) + "; ";
+}
+
+/// Warns of a stop rule that could not act.
+void warn_of_still_monitor(const Analysis& analysis, const MonitorWatch& watch, Result& result) {
+  if (!watch.is_still()) return;
+  result.warnings.push_back(
+      {"monitor_still", "monitor \"" + analysis.stop.monitor->id +
+                            "\" does not move on any path that was followed: its stop rule could not act"});
+}
+
 /// The result of an analysis whose last path finer meshes do not confirm.
-void fail_unconfirmed(Result& result) {
+void fail_unconfirmed(const Analysis& analysis, Result& result) {
   const bool some = std::any_of(result.critical_points.begin(), result.critical_points.end(),
                                 [](const CriticalPoint& point) { return !point.confirmed; });
   const std::string reached = result.summary.message;
@@ -178,7 +224,7 @@ void fail_unconfirmed(Result& result) {
              : std::string(
                    "a finer mesh has no equilibrium with as many negative eigenvalues near the path's end")) +
            " (" + reached + ")");
-  const CriticalPoint* loss = first_loss(result.critical_points);
+  const CriticalPoint* loss = first_loss(analysis, result.critical_points);
   if (result.summary.critical_load_factor && loss != nullptr && !loss->confirmed)
     withdraw_critical_load(result);
 }
@@ -194,12 +240,14 @@ struct Pending {
 class BranchFollower {
  public:
   BranchFollower(const Model& model, const Analysis& analysis, const Structure& structure,
-                 Continuation& continuation, Recorder& recorder, CriticalLoads& loads, const Hooks& hooks)
+                 Continuation& continuation, Recorder& recorder, CriticalLoads& loads, MonitorWatch& watch,
+                 const Hooks& hooks)
       : analysis_(analysis),
         rules_(rules_of(model, analysis, structure)),
         continuation_(continuation),
         recorder_(recorder),
         loads_(loads),
+        watch_(watch),
         hooks_(hooks) {
     constexpr int kMostBranches = 20;
     limit_ = analysis.branches.limit.value_or(analysis.branches.follow == Follow::first ? 2 : kMostBranches);
@@ -217,6 +265,7 @@ class BranchFollower {
   Continuation& continuation_;
   Recorder& recorder_;
   CriticalLoads& loads_;
+  MonitorWatch& watch_;
   const Hooks& hooks_;
   int limit_ = 0;
   int branches_ = 0;
@@ -238,12 +287,13 @@ bool BranchFollower::follow(const Pending& pending) {
   const auto first = first_point_of_branch(continuation_, pending.at, pending.sign);
   if (!first) return false;
   const int id = ++branches_;
-  const TraceSink sink = loads_.watch(recorder_.sink(hooks_, id, pending.parent));
+  const TraceSink sink = watch_.watch(loads_.watch(recorder_.sink(hooks_, id, pending.parent)));
   PathPoint origin = pending.at.point;
   origin.arc_length = 0.0;
   recorder_.add_point(origin);
   TraceRules rules = rules_;
   rules.first_step = 0.02;
+  bound_negative(analysis_, first->negative, watch_, rules);
   rules.finer_imperfection = [this](const CriticalEvent& event) { return loads_.finer_imperfection(event); };
   rules.zones = recorder_.zone_counter();
   const TraceOutcome outcome = trace(continuation_, first, rules, analysis_.step, sink, hooks_.stop);
@@ -298,8 +348,9 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   StructuralProblem problem(structure);
   Continuation continuation(problem, options_of(analysis));
   SoftestPoint softest(continuation);
-  const auto start = start_of_path(model, structure, problem, continuation, 1.0, hooks, result,
-                                   [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
+  const auto start =
+      start_of_path(model, structure, problem, continuation, path_direction(analysis), hooks, result,
+                    [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
   if (const auto touching = with_least_piece(model, structure, problem, continuation, start, result)) {
     result.failure.reset();
     return follow_on(model, analysis, *touching, earlier, hooks, result, decays);
@@ -307,8 +358,10 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   if (!start) return true;
   Recorder recorder(model, analysis, structure, continuation, softest, result);
   CriticalLoads loads(model, analysis, structure, continuation, earlier, result);
-  const TraceSink sink = loads.watch(recorder.sink(hooks));
+  MonitorWatch watch(structure, row_of_stop(structure, analysis), start->y);
+  const TraceSink sink = watch.watch(loads.watch(recorder.sink(hooks)));
   TraceRules rules = rules_of(model, analysis, structure);
+  bound_negative(analysis, start->negative, watch, rules);
   if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
   rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
   for (const CriticalPoint& point : earlier)
@@ -318,24 +371,25 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   const std::size_t primary = result.critical_points.size();
   std::string branches;
   if (analysis.type == AnalysisType::path && analysis.branches.follow != Follow::primary) {
-    BranchFollower follower(model, analysis, structure, continuation, recorder, loads, hooks);
+    BranchFollower follower(model, analysis, structure, continuation, recorder, loads, watch, hooks);
     follower.add(outcome, 0);
     static_cast<void>(unless_cancelled([&] { branches = follower.run(); }));
   }
   add_statistics(continuation.statistics(), result);
   bool confirmed = true;
   std::string meshes;
-  if (!analysis.discretization.fixed_mesh && !ends_on_critical(outcome) && !text_of(outcome.end).failure) {
+  if (!analysis.discretization.fixed_mesh && !outcome.on_critical && !text_of(outcome.end).failure) {
     confirmed = unless_cancelled([&] { confirmed = loads.confirm_end(outcome.last); }) && confirmed;
     if (confirmed && result.critical_points.empty())
       meshes = "; no critical point was met, and a finer mesh agrees at the path's end";
   }
   const Complete complete = completer(model, analysis, continuation, hooks, result);
   confirmed = loads.confirm(hooks.stop, meshes, complete) && confirmed;
-  const double at = ends_on_critical(outcome) ? result.critical_points[primary - 1].load_factor
-                                              : outcome.last.lambda / structure.scales.load;
+  const double at = outcome.on_critical ? result.critical_points[primary - 1].load_factor
+                                        : outcome.last.lambda / structure.scales.load;
   describe_end(analysis, outcome, at, result);
-  result.summary.message += branches + meshes;
+  result.summary.message = loss_on_the_way(analysis, result) + result.summary.message + branches + meshes;
+  warn_of_still_monitor(analysis, watch, result);
   recorder.finish();
   softest.report(structure, model, analysis, result);
   decays = bending_decays(structure, model, outcome.last.y);
@@ -373,6 +427,15 @@ LocateOptions locate_options(const Model& model, const Analysis& analysis) {
   return options;
 }
 
+double path_direction(const Analysis& analysis) {
+  return analysis.type == AnalysisType::path ? analysis.step.direction : 1.0;
+}
+
+bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) {
+  return point.branch == 0 && point.negative_before == 0 && point.negative_after > 0 &&
+         point.load_factor * path_direction(analysis) > 0.0;
+}
+
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
   constexpr int kMostPaths = 4;
@@ -398,7 +461,7 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     finer = on_mesh(structure, model, *std::move(next));
     mesh = &*finer;
   }
-  fail_unconfirmed(result);
+  fail_unconfirmed(analysis, result);
 }
 
 }  // namespace snapthrough

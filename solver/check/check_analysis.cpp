@@ -75,6 +75,11 @@ void check_step(const Place& place, const StepOptions& step) {
       (above(step.min, step.initial) || above(step.initial, step.max) || above(step.min, step.max))) {
     place.report("out_of_range", "steps must satisfy min <= initial <= max");
   }
+  if (std::abs(step.direction) != 1.0) {
+    (place / "direction")
+        .report("out_of_range", "direction must be 1 (the load factor begins to grow) or -1 (to fall), got " +
+                                    text(step.direction));
+  }
 }
 
 void check_stop(const Place& place, const StopRules& stop, const Names& names) {

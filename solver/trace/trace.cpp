@@ -79,6 +79,7 @@ class Tracer {
   void tell_passed(const PathPoint& to, bool may_end, std::vector<CriticalEvent>& events);
   [[nodiscard]] bool turns_sharply(const PathPoint& from, const PathPoint& to) const;
   [[nodiscard]] bool is_known(const PathPoint& point) const;
+  [[nodiscard]] bool is_too_unstable(const PathPoint& at, int negative) const;
   bool finish(TraceEnd end, const PathPoint& last);
 
   Continuation& continuation_;
@@ -195,11 +196,20 @@ bool Tracer::take_events(const std::vector<CriticalEvent>& events) {
     if (is_limit(event.type)) ++limit_points_;
     tell(event);
     const bool loss = rules_.first_loss_of_stability && lost;
-    if (!loss && !(rules_.limit_points && limit_points_ >= *rules_.limit_points)) continue;
+    const bool last_limit = rules_.limit_points && limit_points_ >= *rules_.limit_points;
+    const bool too_many = !passed_by && is_too_unstable(event.point, event.negative_after);
+    if (!loss && !last_limit && !too_many) continue;
     PathPoint last = event.point;
     // Newton's method ends on either side of a singular tangent
-    if (event.null.size() > 0) last.negative = continuation_.negative_at(last);
-    return finish(loss ? TraceEnd::critical_point : TraceEnd::limit_points, last);
+    if (too_many)
+      last.negative = event.negative_after;
+    else if (event.null.size() > 0)
+      last.negative = continuation_.negative_at(last);
+    out_.on_critical = true;
+    return finish(loss         ? TraceEnd::critical_point
+                  : last_limit ? TraceEnd::limit_points
+                               : TraceEnd::negative_eigenvalues,
+                  last);
   }
   return false;
 }
@@ -316,9 +326,16 @@ void Tracer::go_on(bool smooth, PathPoint& from, PathPoint& to) {
   to.modes = nullptr;
 }
 
+/// Whether a point with so many negative eigenvalues ends the path.
+bool Tracer::is_too_unstable(const PathPoint& at, int negative) const {
+  return rules_.most_negative && negative > *rules_.most_negative &&
+         !(rules_.most_negative_waits && rules_.most_negative_waits(at));
+}
+
 /// What ends the path before the next step is tried; false when nothing does.
 bool Tracer::ends_here(const PathPoint& at, int steps, const std::stop_token& stop) {
   if (stop.stop_requested()) return finish(TraceEnd::cancelled, at);
+  if (is_too_unstable(at, at.negative)) return finish(TraceEnd::negative_eigenvalues, at);
   if (steps >= rules_.steps) return finish(TraceEnd::steps, at);
   if (continuation_.metric().norm(at.y, 0.0) > rules_.gradient || travelled_ > rules_.travel ||
       (rules_.beyond_theory && rules_.beyond_theory(at)))

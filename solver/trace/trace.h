@@ -32,6 +32,11 @@ struct TraceRules {
   double travel = 1000.0;  ///< the same for the length of the way there, which members that wind up make long
   /// Where a path is given up as well; empty: nowhere.
   std::function<bool(const PathPoint&)> beyond_theory;
+  /// A point with more negative eigenvalues ends the path, as a rule the critical point that leads there;
+  /// empty: no number of them does.
+  std::optional<int> most_negative;
+  /// Whether `most_negative` does not hold at a point; empty: it holds everywhere.
+  std::function<bool(const PathPoint&)> most_negative_waits;
   std::optional<double> first_step;  ///< in the path's norm; empty: from the load's scale
   /// Critical points of other branches: the path ends where it meets one of them again.
   std::vector<PathPoint> known;
@@ -55,6 +60,7 @@ enum class TraceEnd {
   monitor_turned,
   rejoined,
   steps,
+  negative_eigenvalues,
   displacement_bound,
   load_bound,
   cancelled,
@@ -78,6 +84,8 @@ struct TraceOutcome {
   TraceEnd end = TraceEnd::no_start;
   PathPoint last;
   std::vector<CriticalEvent> critical;
+  bool on_critical =
+      false;  ///< `last` is a critical point, the last of `critical` that the path did not pass by
 };
 
 /// @brief Follows the path from `start`; the first rule met ends it, exactly at its value.

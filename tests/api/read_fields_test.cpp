@@ -172,7 +172,10 @@ TEST(ReadAnalysis, DefaultsAreThoseOfTheContract) {
   EXPECT_EQ(a.discretization.accuracy, 1e-3);
   EXPECT_EQ(a.control.type, ControlType::arc_length);
   EXPECT_FALSE(a.step.initial || a.step.min || a.step.max);
+  EXPECT_EQ(a.step.direction, 1.0);
+  EXPECT_FALSE(a.reversed);
   EXPECT_FALSE(a.stop.limit_points || a.stop.load_factor || a.stop.monitor || a.stop.steps);
+  EXPECT_FALSE(a.stop.negative_eigenvalues);
   EXPECT_EQ(a.branches.follow, Follow::primary);
   EXPECT_EQ(a.output.states, StateOutput::critical);
   EXPECT_EQ(a.output.points_per_member, 101);
@@ -184,8 +187,9 @@ TEST(ReadAnalysis, EveryField) {
   const Analysis a = read_analysis(R"({
     "type": "path", "modes": 4, "load_factors": [0.5, 2], "geometry": "linear",
     "discretization": {"elements": 40, "order": 3, "foundation": "lumped"}, "control": {"displacement": "d0"},
-    "step": {"initial": 0.1, "min": 0.01, "max": 0.5},
-    "stop": {"limit_points": 2, "load_factor": [-1, 5], "monitor": {"id": "d0", "range": [-2, 3]}, "steps": 77},
+    "step": {"initial": 0.1, "min": 0.01, "max": 0.5, "direction": -1}, "reversed": true,
+    "stop": {"limit_points": 2, "load_factor": [-1, 5], "monitor": {"id": "d0", "range": [-2, 3]}, "steps": 77,
+             "negative_eigenvalues": 9},
     "branches": {"follow": "all", "limit": 6}, "output": {"states": {"every": 5}, "points_per_member": 11, "path_points": 300, "extremes": true}})");
   EXPECT_EQ(a.type, AnalysisType::path);
   EXPECT_EQ(a.modes, 4);
@@ -200,6 +204,9 @@ TEST(ReadAnalysis, EveryField) {
   EXPECT_THAT(a.step.initial, Optional(0.1));
   EXPECT_THAT(a.step.min, Optional(0.01));
   EXPECT_THAT(a.step.max, Optional(0.5));
+  EXPECT_EQ(a.step.direction, -1.0);
+  EXPECT_TRUE(a.reversed);
+  EXPECT_THAT(a.stop.negative_eigenvalues, Optional(9));
   EXPECT_THAT(a.stop.limit_points, Optional(2));
   EXPECT_THAT(a.stop.load_factor, Optional(ElementsAre(-1.0, 5.0)));
   ASSERT_TRUE(a.stop.monitor.has_value());

@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Field{"/analysis/discretization/foundation", R"("lumped")"},
                       Field{"/analysis/step/initial", "0.05"},
                       Field{"/analysis/step", R"({"initial": 0.1, "max": 0.1})"},
-                      Field{"/analysis/stop/load_factor", "[-1, 3]"},
+                      Field{"/analysis/step/direction", "-1"}, Field{"/analysis/stop/load_factor", "[-1, 3]"},
                       Field{"/analysis/stop/monitor/range", "[-0.01, 0.01]"},
                       Field{"/analysis/stop/monitor", R"({"id": "w", "range": [-0.05, 0.05]})"},
                       Field{"/analysis/stop/steps", "2"}, Field{"/analysis/output/states", R"("all")"},
@@ -209,7 +209,8 @@ TEST(ResultFields, PathAnswersDependOnControlBranchesAndLimitPoints) {
        {Field{"/analysis/control", R"("load")"}, Field{"/analysis/control", R"({"displacement": "crown"})"},
         Field{"/analysis/branches", R"({"follow": "first"})"},
         Field{"/analysis/branches", R"({"follow": "all", "limit": 3})"},
-        Field{"/analysis/stop/limit_points", "1"}, Field{"/analysis/output/states", R"("critical")"},
+        Field{"/analysis/stop/limit_points", "1"}, Field{"/analysis/stop/negative_eigenvalues", "0"},
+        Field{"/analysis/output/states", R"("critical")"},
         Field{"/analysis/sensitivities", R"(["/model/nodes/1/x"])"}, Field{"/analysis/koiter", "true"}})
     EXPECT_NE(answer(changed(base, field)), reference) << field.pointer << " = " << field.value;
 }

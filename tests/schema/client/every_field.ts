@@ -66,10 +66,10 @@ const discretizations: Schemas['Discretization'][] = [
 const states: NonNullable<Schemas['Output']['states']>[] = ['none', 'critical', 'all', {every: 5}, {at_load_factors: [0.5, 1]}];
 
 const analyses: Schemas['Analysis'][] = discretizations.flatMap((discretization) => states.map((one) => ({
-  type: 'path', modes: 3, load_factors: [0.5, 1], geometry: 'nonlinear', discretization,
+  type: 'path', modes: 3, reversed: true, load_factors: [0.5, 1], geometry: 'nonlinear', discretization,
   control: {displacement: 'm0'},
-  step: {initial: 0.1, min: 1e-6, max: 0.5},
-  stop: {limit_points: 2, load_factor: [-1, 5], monitor: {id: 'm0', range: [-1, 1]}, steps: 100},
+  step: {initial: 0.1, min: 1e-6, max: 0.5, direction: -1},
+  stop: {limit_points: 2, load_factor: [-1, 5], monitor: {id: 'm0', range: [-1, 1]}, steps: 100, negative_eigenvalues: 4},
   branches: {follow: 'all', limit: 3},
   output: {states: one, points_per_member: 51, path_points: 200, extremes: true},
   sensitivities: ['/model/nodes/0/x'], koiter: true,

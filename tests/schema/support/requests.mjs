@@ -95,6 +95,9 @@ export function answerable() {
   add('strains too large for the theory', {...column(), sections: [{id: 'shaft', EA: 10, EI: 100}]},
       {type: 'path', stop: {load_factor: [-1, 2]}});
   add('buckling, arch', arch(), {type: 'buckling', modes: 2});
+  add('buckling, opposite actions', arch(), {type: 'buckling', modes: 2, reversed: true});
+  add('path, falling load', arch(), {type: 'path', step: {direction: -1}, stop: {steps: 5}});
+  add('path, bound on negative eigenvalues', arch(), {type: 'path', stop: {negative_eigenvalues: 0}});
   add('no buckling', {...column(), loads: [{type: 'point', at: {node: 'head'}, force: [0, 1]}]}, {type: 'buckling'});
   add('imperfect', {...column(), imperfections: [{type: 'mode', number: 1, amplitude: 1e-3}]}, {type: 'path', stop: {steps: 10}});
   return all;

@@ -51,6 +51,34 @@ TEST(TraceEnd, AtOnceWhereItIsUnstableAlready) {
   EXPECT_EQ(outcome.last.lambda, 0.0);
 }
 
+/// The primary path loses stability at its bifurcation (0.42) and again at its limit point (0.5).
+TEST(TraceEnd, WhereTooManyEigenvaluesAreNegative) {
+  SmallProblem problem = pitchfork(0.6, 0.0);
+  TraceRules rules;
+  rules.most_negative = 0;
+  TraceOutcome outcome = follow(problem, rules);
+  EXPECT_EQ(outcome.end, TraceEnd::negative_eigenvalues);
+  EXPECT_TRUE(outcome.on_critical);
+  EXPECT_EQ(outcome.last.negative, 1);
+  EXPECT_NEAR(outcome.last.lambda, 0.42, 1e-8);
+  rules.most_negative = 1;
+  outcome = follow(problem, rules);
+  EXPECT_EQ(outcome.end, TraceEnd::negative_eigenvalues);
+  EXPECT_NEAR(outcome.last.lambda, 0.5, 1e-8);
+  rules.most_negative_waits = [](const PathPoint&) { return true; };
+  EXPECT_NE(follow(problem, rules).end, TraceEnd::negative_eigenvalues);
+}
+
+TEST(TraceEnd, AtOnceWhereTooManyAreNegativeAlready) {
+  SmallProblem problem = pitchfork(-0.1, 0.0);
+  TraceRules rules;
+  rules.most_negative = 0;
+  const TraceOutcome outcome = follow(problem, rules);
+  EXPECT_EQ(outcome.end, TraceEnd::negative_eigenvalues);
+  EXPECT_FALSE(outcome.on_critical);
+  EXPECT_EQ(outcome.last.lambda, 0.0);
+}
+
 /// lambda = 1/2 is the most that the monitor, here the load itself, can reach.
 TEST(TraceEnd, WhereTheMonitorTurns) {
   SmallProblem problem = pitchfork(5.0, 0.0);

@@ -949,6 +949,12 @@ export interface components {
             min?: number;
             /** @description Largest step */
             max?: number;
+            /**
+             * @description path: how the load factor begins to change: 1 grows, -1 falls
+             * @default 1
+             * @enum {integer}
+             */
+            direction?: 1 | -1;
         };
         /** @description Where a path ends: the first rule to be met */
         Stop: {
@@ -971,6 +977,8 @@ export interface components {
             };
             /** @description After this many steps */
             steps?: number;
+            /** @description At the first point of a path with more negative eigenvalues than this. Where neither this nor load_factor nor steps is given, a path ends with 10 more than at its start, and one more for each of limit_points, unless the monitor moves */
+            negative_eigenvalues?: number;
         };
         /** @description What of the analysis is given back */
         Output: {
@@ -1094,7 +1102,7 @@ export interface components {
              * @description Code of what ended the analysis; see docs/requests.md, How an analysis ends
              * @enum {string}
              */
-            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "not_held" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
+            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "negative_eigenvalues" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "not_held" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
             /** @description The same as a sentence with the deciding numbers */
             message: string;
         };
@@ -1281,7 +1289,7 @@ export interface components {
              * @description Code of what ended the branch
              * @enum {string}
              */
-            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "not_held" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
+            termination: "critical_point" | "unstable_at_start" | "limit_points" | "load_factor" | "load_factors" | "monitor" | "monitor_turned" | "rejoined" | "steps" | "negative_eigenvalues" | "displacement_bound" | "load_bound" | "modes" | "no_buckling" | "not_confirmed" | "step_underflow" | "no_start" | "loose_part" | "not_held" | "constant_actions" | "constant_actions_limit" | "no_convergence" | "beyond_limit_point" | "beyond_critical_point" | "fewer_modes" | "no_buckling_mode" | "mechanism" | "cancelled";
         };
         /** @description A member in a state; lists of equal length, points_per_member entries */
         MemberState: {
@@ -1478,10 +1486,10 @@ export interface components {
         /** @description Something that the reader of the result must know */
         Warning: {
             /**
-             * @description large_strain: strains beyond 0.05, where the elastic law for small strains is not valid; touching_supports: supports touch without pressure, and it is not certain that no motion has a lower load; touching_eigenvalue: a stiffness falls to zero within rounding and rises again, and whether two critical points lie there cannot be told; path_points: a path has fewer points than asked for; contact_changes: a linearised analysis keeps the contact of its reference load, and under the critical load one-sided supports touch elsewhere; nearly_unstable: the stiffness ratio falls below a tenth before the critical load factor; unstable: rows of a static analysis are unstable equilibria
+             * @description large_strain: strains beyond 0.05, where the elastic law for small strains is not valid; touching_supports: supports touch without pressure, and it is not certain that no motion has a lower load; touching_eigenvalue: a stiffness falls to zero within rounding and rises again, and whether two critical points lie there cannot be told; path_points: a path has fewer points than asked for; monitor_still: the monitor of a stop rule does not move on any path that was followed, so that the rule could not act; contact_changes: a linearised analysis keeps the contact of its reference load, and under the critical load one-sided supports touch elsewhere; nearly_unstable: the stiffness ratio falls below a tenth before the critical load factor; unstable: rows of a static analysis are unstable equilibria
              * @enum {string}
              */
-            code: "large_strain" | "touching_supports" | "touching_eigenvalue" | "path_points" | "contact_changes" | "nearly_unstable" | "unstable";
+            code: "large_strain" | "touching_supports" | "touching_eigenvalue" | "path_points" | "monitor_still" | "contact_changes" | "nearly_unstable" | "unstable";
             /** @description Where and how much */
             detail: string;
         };
