@@ -1,0 +1,62 @@
+"""Runs the command line program on requests, several at a time; shared by checkers that know the program by its answers only."""
+import concurrent.futures
+import json
+import pathlib
+import subprocess
+
+
+class Answer:
+    """What the program answered: its exit status and the JSON document on standard output (empty if there is none)."""
+
+    def __init__(self, status, document, text=""):
+        self.status = status
+        self.document = document
+        self.text = text
+
+    def failure(self):
+        """Code of the failure; "" for an analysis that did what was asked; "timeout" and "document" (exit status 2)."""
+        if self.status == "timeout":
+            return "timeout"
+        if self.status == 2:
+            return "document"
+        return self.document.get("failure", {}).get("code", "") if self.document else f"exit {self.status}"
+
+    def detail(self):
+        """The sentence of the failure; for a wrong document its findings."""
+        if self.document:
+            return self.document.get("failure", {}).get("detail", "")
+        return self.text.strip()
+
+    def warnings(self):
+        """Codes of the warnings."""
+        return [warning["code"] for warning in self.document.get("warnings", [])] if self.document else []
+
+
+def solve(binary, request, seconds=60.0):
+    """Solves one request; a run that takes longer than `seconds` is ended."""
+    try:
+        run = subprocess.run([binary, "solve", "-"], input=json.dumps(request), capture_output=True, text=True,
+                             timeout=seconds, check=False)
+    except subprocess.TimeoutExpired:
+        return Answer("timeout", None)
+    try:
+        document = json.loads(run.stdout)
+    except json.JSONDecodeError:
+        document = None
+    if run.returncode not in (0, 3) or not isinstance(document, dict):
+        return Answer(run.returncode, None, run.stdout + run.stderr)
+    return Answer(run.returncode, document)
+
+
+def for_each(items, work, jobs):
+    """Yields (item, work(item)) in the order of the items; `jobs` are at work at a time."""
+    with concurrent.futures.ThreadPoolExecutor(max_workers=jobs) as pool:
+        yield from zip(items, pool.map(work, items))
+
+
+def keep(folder, name, request):
+    """Writes a request to FOLDER/NAME.json, if there is a folder."""
+    if folder:
+        path = pathlib.Path(folder)
+        path.mkdir(parents=True, exist_ok=True)
+        (path / f"{name}.json").write_text(json.dumps(request, indent=1), encoding="utf-8")
