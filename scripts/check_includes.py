@@ -32,7 +32,7 @@ API_STANDARD = SOLVER_STANDARD | {"sstream", "iosfwd", "cstdio", "regex"}
 
 # The folders of the solver, each above what it may include; files of solver/ itself by their names.
 SOLVER_ORDER = """
-    numeric result.h model hooks.h geometry support mesh element member discrete check column problem newton path events
+    numeric model result.h hooks.h geometry support mesh element member discrete check column problem newton path events
     trace report sensitivity accuracy analysis sweep solve.h solve.cpp
 """.split()
 

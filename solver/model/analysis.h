@@ -11,7 +11,6 @@
 
 #include "solver/model/model.h"
 #include "solver/numeric/max_order.h"
-#include "solver/result.h"
 
 namespace snapthrough {
 
@@ -95,7 +94,6 @@ struct Analysis {
       false;  ///< `buckling`: loads of the opposite direction count, too, as negative load factors
   std::vector<double> load_factors{1.0};
   Unstable unstable = Unstable::refuse;
-  std::optional<State> start;  ///< state that a path begins with; empty: the unloaded structure
   Geometry geometry = Geometry::nonlinear;
   Discretization discretization;
   Control control;
