@@ -90,8 +90,7 @@ struct Variation {
 struct Analysis {
   AnalysisType type = AnalysisType::critical;
   int modes = 1;
-  bool reversed =
-      false;  ///< `buckling`: loads of the opposite direction count, too, as negative load factors
+  bool reversed = false;  ///< `buckling`: loads of the opposite sense count, too, as negative load factors
   std::vector<double> load_factors{1.0};
   Unstable unstable = Unstable::refuse;
   Geometry geometry = Geometry::nonlinear;
