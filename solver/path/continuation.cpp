@@ -59,9 +59,9 @@ constexpr double kLoadDominates = 3.0;
 /// Of a displacement: what the tangent at its end may miss it by where contact changes in proportion to it.
 constexpr double kProportional = 0.1;
 /// Displacement gradients of a first state over those of small displacements, beyond which it is another
-/// state: a rotation that closes a gap is at most pi / 2 times its sine, which is that of small
-/// displacements.
-constexpr double kFarStart = 2.0;
+/// state. A rotation that can just close a gap is twice that of small displacements: from an angle a it moves
+/// sin(a + t) - sin(a), which they take for t cos(a). A chain of them may need somewhat more.
+constexpr double kFarStart = 3.0;
 /// Corrections downhill in the energy.
 constexpr int kIterations = 60;
 
