@@ -14,9 +14,8 @@ const kMost = 6_000_000;  // bytes of all pictures in docs/page
 /** Views that docs/page also has at other sizes or dark. */
 const kOthers = [
   ['studio', 'wide', 'dark'], ['studio', 'tablet', 'light'], ['studio', 'phone', 'light'], ['studio', 'phone', 'dark'],
-  ['studio-tunnel_arch', 'tablet', 'dark'], ['softest-point', 'phone', 'dark'], ['json', 'tablet', 'light'], ['gallery', 'phone', 'light'],
+  ['studio-tunnel_arch', 'tablet', 'dark'], ['json', 'tablet', 'light'], ['gallery', 'phone', 'light'],
   ['sweep-map', 'wide', 'dark'], ['sweep-map', 'phone', 'light'], ['job', 'tablet', 'light'], ['jobs', 'phone', 'light'],
-  ['documents', 'phone', 'dark'],
 ];
 
 /** Which pictures, and in which files. */
