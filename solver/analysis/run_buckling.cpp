@@ -242,8 +242,10 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
   StructuralProblem problem(structure);
   const std::optional<Model> joined = with_joined_supports(model);
   const Model& laws = joined ? *joined : model;
-  result.summary.message +=
-      contact_text(shares_of(structure, laws, problem, buckling.contact), joined.has_value());
+  // without one-sided supports no contact was frozen
+  const ContactShares shares =
+      structure.one_sided ? shares_of(structure, laws, problem, buckling.contact) : ContactShares{};
+  result.summary.message += contact_text(shares, joined.has_value());
   report_errors(analysis, result);
   warn_of_changed_contact(structure, laws, problem, buckling, result);
 }
