@@ -360,6 +360,8 @@ LocatedRoot find_root(Continuation& continuation, const Chord& chord, const Path
 void move_to_load(Continuation& continuation, double load, PathPoint& at) {
   if (load == 0.0 || std::abs(at.lambda - load) <= kSameLoadFactor * std::abs(load)) return;
   PathPoint moved = at;
+  // along the tangent: a little load moves the structure by less than its equilibrium is corrected to
+  if (at.tangent_lambda != 0.0) moved.y += ((load - at.lambda) / at.tangent_lambda) * at.tangent;
   moved.lambda = load;
   const double size = continuation.metric().norm(at.y, 0.0);
   if (size == 0.0 || continuation.correct_at_load(size, moved)) at = std::move(moved);
