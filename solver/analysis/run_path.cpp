@@ -417,7 +417,7 @@ std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
 LocateOptions locate_options(const Model& model, const Analysis& analysis) {
   constexpr double kRounding = 1e-13;  // imperfection that rounding of the nodes' coordinates makes at most
   LocateOptions options;
-  // an imperfection that was asked for is meant, however small
+  // an imperfection of the request breaks bifurcations, however small it is
   if (!model.imperfections.empty()) options.perfect = kRounding;
   if (analysis.discretization.fixed_mesh) return options;
   options.tolerance = std::min(1e-7, 1e-3 * analysis.discretization.accuracy);

@@ -17,8 +17,8 @@
 namespace snapthrough {
 namespace {
 
-/// Stiffness ratio below which a structure counts as nearly unstable: a deflection that the load causes is
-/// then some ten times what the unloaded stiffness lets expect.
+/// Stiffness ratio below which a structure counts as nearly unstable: a small force along its softest motion
+/// then moves it ten times as far as it would the unloaded structure along that structure's softest motion.
 constexpr double kNearlyUnstable = 0.1;
 
 /// The column of the softest motion of a point; empty where modes are not known or some are beyond them.

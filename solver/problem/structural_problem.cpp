@@ -571,7 +571,8 @@ double StructuralProblem::imposed_force(double lambda) const {
   return std::abs(proportional) * proportional_imposed_ + std::abs(constant) * constant_imposed_;
 }
 
-/// What residuals of forces are relative to.
+/// Denominator of the relative residual of forces, a scaled force: the largest section force or load, or
+/// imposed_force() where that is larger.
 double StructuralProblem::force_scale(const VectorXd& y, double lambda) const {
   return std::max(largest_force(y, lambda), imposed_force(lambda));
 }
