@@ -56,7 +56,17 @@ TEST_F(Executable, SolveWritesTheResult) {
   const json result = json::parse(out_);
   EXPECT_TRUE(result["summary"].contains("critical_load_factor"));
   EXPECT_GE(result["diagnostics"]["wall_time_s"].get<double>(), 0.0);
-  EXPECT_THAT(err_, IsEmpty());
+}
+
+TEST_F(Executable, SolveWritesEachWarningToStandardError) {
+  ASSERT_EQ(run({"solve", request_file(column_request())}), 0) << err_;
+  std::string expected;
+  for (const json& warning : json::parse(out_)["warnings"]) {
+    expected += "Warning: " + warning["message"].get<std::string>() + " [" +
+                warning["code"].get<std::string>() + "]\n";
+  }
+  EXPECT_THAT(expected, HasSubstr("[large_strain]"));
+  EXPECT_EQ(err_, expected);
 }
 
 TEST_F(Executable, SolveReadsStandardInput) { EXPECT_EQ(run({"solve", "-"}, column_request()), 0) << err_; }
