@@ -60,9 +60,10 @@ TEST_F(Executable, SolveWritesTheResult) {
 
 TEST_F(Executable, SolveWritesEachWarningToStandardError) {
   ASSERT_EQ(run({"solve", request_file(column_request())}), 0) << err_;
+  const json result = json::parse(out_);
   std::string expected;
-  for (const json& warning : json::parse(out_)["warnings"]) {
-    expected += "Warning: " + warning["message"].get<std::string>() + " [" +
+  for (const json& warning : result["warnings"]) {
+    expected += "Warning: " + warning["detail"].get<std::string>() + " [" +
                 warning["code"].get<std::string>() + "]\n";
   }
   EXPECT_THAT(expected, HasSubstr("[large_strain]"));

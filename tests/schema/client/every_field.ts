@@ -66,7 +66,7 @@ const discretizations: Schemas['Discretization'][] = [
 const states: NonNullable<Schemas['Output']['states']>[] = ['none', 'critical', 'all', {every: 5}, {at_load_factors: [0.5, 1]}];
 
 const analyses: Schemas['Analysis'][] = discretizations.flatMap((discretization) => states.map((one) => ({
-  type: 'path', modes: 3, reversed: true, load_factors: [0.5, 1], geometry: 'nonlinear', discretization,
+  type: 'path', modes: 3, reversed: true, load_factors: [0.5, 1], geometry: 'nonlinear', unstable: 'follow', discretization,
   control: {displacement: 'm0'},
   step: {initial: 0.1, min: 1e-6, max: 0.5, direction: -1},
   stop: {limit_points: 2, load_factor: [-1, 5], monitor: {id: 'm0', range: [-1, 1]}, steps: 100, negative_eigenvalues: 4},
@@ -102,7 +102,7 @@ function readMode(mode: Schemas['Mode'], sum: Sum) {
 
 function readCriticalPoint(point: Schemas['CriticalPoint'], sum: Sum) {
   const type: 'bifurcation' | 'limit_max' | 'limit_min' | 'broken_bifurcation' = point.type;
-  sum.text(type, point.cause);
+  sum.text(type, point.cause, point.member);
   sum.number(point.branch, point.load_factor, point.error_estimate, point.arc_length, point.negative_before,
              point.negative_after, point.multiplicity, point.imperfection, point.state, ...Object.values(point.monitors));
   sum.flag(point.confirmed);
@@ -122,6 +122,7 @@ function readBranch(branch: Schemas['Branch'], sum: Sum) {
   sum.number(branch.id, branch.parent);
   sum.numbers(branch.load_factor, branch.arc_length, branch.negative_eigenvalues, ...Object.values(branch.monitors),
               ...Object.values(branch.contact_fraction));
+  sum.numbers(branch.stiffness_ratio);
   sum.text(branch.termination);
 }
 
@@ -166,6 +167,14 @@ export function readResult(result: Schemas['Result'], sum: Sum) {
   const {model: named, summary, critical_points, neutral_motion, contact_events, branches, states: all} = result;
   sum.text(named.title, ...Object.values(named.units), summary.critical_type, summary.termination, summary.message);
   sum.number(summary.critical_load_factor, summary.error_estimate);
+  if (summary.softest) {
+    sum.number(summary.softest.load_factor, summary.softest.stiffness_ratio);
+    if (summary.softest.mode !== null) readMode(summary.softest.mode, sum);
+  }
+  if (summary.at_critical) {
+    const {displacement, relative_displacement, rotation, strain} = summary.at_critical;
+    sum.number(displacement, relative_displacement, rotation, strain);
+  }
   for (const point of critical_points) readCriticalPoint(point, sum);
   for (const {branch, from, to, nodes} of neutral_motion) {
     sum.number(branch, from, to);

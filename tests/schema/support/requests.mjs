@@ -97,6 +97,7 @@ export function answerable() {
   add('buckling, arch', arch(), {type: 'buckling', modes: 2});
   add('buckling, opposite actions', arch(), {type: 'buckling', modes: 2, reversed: true});
   add('path, falling load', arch(), {type: 'path', step: {direction: -1}, stop: {steps: 5}});
+  add('static, unstable', arch(), {type: 'static', load_factors: [1, 24], unstable: 'follow'});
   add('path, bound on negative eigenvalues', arch(), {type: 'path', stop: {negative_eigenvalues: 0}});
   add('no buckling', {...column(), loads: [{type: 'point', at: {node: 'head'}, force: [0, 1]}]}, {type: 'buckling'});
   add('imperfect', {...column(), imperfections: [{type: 'mode', number: 1, amplitude: 1e-3}]}, {type: 'path', stop: {steps: 10}});
@@ -109,7 +110,8 @@ export function failing() {
                    imperfections: [{type: 'mode', number: 1, amplitude: 1e-3}]};
   const shallow = arch();
   return {
-    beyond_limit_point: {model: shallow, analysis: {type: 'static', load_factors: [1, 1e5]}},
+    beyond_limit_point: {model: shallow, analysis: {type: 'static', load_factors: [1, 1e5], unstable: 'follow'}},
+    beyond_critical_point: {model: shallow, analysis: {type: 'static', load_factors: [1, 1e5]}},
     fewer_modes: {model: column(), analysis: {type: 'buckling', modes: 50, discretization: {elements: 2, order: 1}}},
     no_buckling_mode: {model: pressed, analysis: {type: 'critical'}},
     constant_actions_limit: {model: {...arch(), loads: [{...arch().loads[0], force: [0, -1e5], pattern: 'constant'}, arch().loads[0]]},
