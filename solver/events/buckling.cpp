@@ -126,7 +126,13 @@ void Pencil::freeze_contact(double reference) {
     options.regime.small_displacements = true;
     Workspace work;
     double lambda = reference;
-    factorizations_ += correct(problem_, metric, {}, size, options, y, lambda, work).factorisations;
+    const CorrectorOutcome outcome = correct(problem_, metric, {}, size, options, y, lambda, work);
+    factorizations_ += outcome.factorisations;
+    if (outcome.status != CorrectorStatus::converged) {
+      const auto state =
+          find_contact_state(problem_, metric, reference, work, factorizations_, nullptr, true);
+      if (state) y = state->y;
+    }
   }
   contact_ = problem_.frozen_contact(y);
   marks_ = problem_.marks_at(y);

@@ -153,6 +153,7 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
   double last = std::numeric_limits<double>::infinity();
   VectorXd guess;
   PathPoint rest;  // at the load before, which holds the structure better than this one
+  const double first = lambda;
   const double least = kRoundingResidual * std::abs(lambda);
   while (std::abs(lambda) > least) {
     const auto state = find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations,
@@ -163,7 +164,10 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
       loosening_ = size / std::abs(lambda * norm);
       return first_point(zero, 0.0, state->y / lambda, direction, state->tangent);
     }
-    if (state && size > 0.5 * last) return start_at_rest(std::move(rest), direction);
+    if (state && size > 0.5 * last) {
+      if (auto start = start_at_rest(std::move(rest), direction)) return start;
+      break;
+    }
     const double fall = state ? std::max(kSmallDisplacement / size, kLargestFall) : 0.01;
     if (state) {
       last = size;
@@ -173,7 +177,18 @@ std::optional<PathPoint> Continuation::one_sided_start(double direction) {
     }
     lambda *= fall;
   }
-  return std::nullopt;
+  return near_start(first, direction);
+}
+
+/// The start of a path at rest that is found from the equilibrium of small displacements under `lambda`.
+std::optional<PathPoint> Continuation::near_start(double lambda, double direction) {
+  const auto near =
+      find_contact_state(problem_, metric_, lambda, work_, statistics_.factorizations, nullptr, true);
+  if (!near) return std::nullopt;
+  PathPoint rest;
+  rest.y = near->y;
+  rest.lambda = lambda;
+  return start_at_rest(std::move(rest), direction);
 }
 
 /// Whether a state at rest lies farther from the unloaded one than gaps and elastic strains explain: than the
@@ -243,28 +258,33 @@ std::optional<PathPoint> Continuation::start(double direction) {
   }
   metric_.load_weight = 0.0;
   SoftlyHeld held;
+  PathPoint loaded;
   if (soft) {
-    auto start = softly_held_start(soft, direction, held);
+    auto start = softly_held_start(soft, direction, held, loaded);
     if (held.resisted) return start;
   }
   problem_.set_holds(held.neutral);
   auto start = one_sided_start(direction);
+  // a motion that only the loads stiffen leaves the glued structure singular
+  if (!start && loaded.y.size() > 0) start = start_at_rest(std::move(loaded), direction);
   if (start) start->holds = held.neutral;
   return start;
 }
 
 /// The start with all free motions held softly: then there is one whatever supports of one side do, and it
 /// shows which of the motions they resist.
+/// @param loaded the softly held structure's state under a small load; set where there is one
 std::optional<PathPoint> Continuation::softly_held_start(const SharedHolds& soft, double direction,
-                                                         SoftlyHeld& held) {
+                                                         SoftlyHeld& held, PathPoint& loaded) {
   problem_.set_holds(soft);
   auto start = one_sided_start(direction);
   if (start) {
     const double moved = metric_.norm(start->tangent, 0.0);
     const double rate = std::abs(start->tangent_lambda);
     const double size = small_load(moved / rate, load_scale_) / rate;
-    held = softly_held(problem_, soft, start->y + size * start->tangent,
-                       start->lambda + size * start->tangent_lambda);
+    loaded.y = start->y + size * start->tangent;
+    loaded.lambda = start->lambda + size * start->tangent_lambda;
+    held = softly_held(problem_, soft, loaded.y, loaded.lambda);
     ++statistics_.factorizations;
   }
   problem_.set_holds(nullptr);

@@ -199,10 +199,11 @@ class Continuation {
                                    Eigen::VectorXd& response, TangentReport& report);
   [[nodiscard]] std::optional<PathPoint> one_sided_start(double direction);
   [[nodiscard]] std::optional<PathPoint> softly_held_start(const SharedHolds& soft, double direction,
-                                                           SoftlyHeld& held);
+                                                           SoftlyHeld& held, PathPoint& loaded);
   [[nodiscard]] NeutralBounds neutral_bounds(const Holds& holds, const PathPoint& at);
   [[nodiscard]] bool is_loose();
   [[nodiscard]] std::optional<PathPoint> start_at_rest(PathPoint rest, double direction);
+  [[nodiscard]] std::optional<PathPoint> near_start(double lambda, double direction);
   [[nodiscard]] bool is_far(const PathPoint& rest);
   void turn_where_supports_touch(PathPoint& start, double direction, const Eigen::VectorXd& response);
   [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, double lambda,
