@@ -87,6 +87,35 @@ static void read(const Value& value, StepOptions& out) {
   in.finish();
 }
 
+static void read_shape(const Value& value, MemberShape& out) {
+  Object in(value);
+  in.required("s", out.s);
+  in.required("u", out.u);
+  in.required("v", out.v);
+  in.required("rotation", out.rotation);
+  in.required("axial_force", out.axial);
+  in.required("shear_force", out.shear);
+  in.required("bending_moment", out.bend);
+  in.finish();
+}
+
+static void read(const Value& value, StartState& out) {
+  Object in(value);
+  in.required("load_factor", out.load_factor);
+  const auto members = in.find_required("members");
+  if (!members) return;
+  if (!members->is_object()) {
+    members->report_type("an object of states by member id");
+    return;
+  }
+  for (const std::string& id : members->keys()) {
+    MemberShape& shape = out.members.emplace_back();
+    shape.id = id;
+    read_shape(*members->member(id), shape);
+  }
+  in.finish();
+}
+
 static void read(const Value& value, MonitorRange& out) {
   Object in(value);
   in.required("id", out.id);
@@ -158,6 +187,7 @@ void read(const Value& value, Analysis& analysis) {
   in.optional("discretization", analysis.discretization);
   in.optional("control", analysis.control);
   in.optional("step", analysis.step);
+  if (const auto start = in.find("start")) read(*start, analysis.start.emplace());
   in.optional("stop", analysis.stop);
   in.optional("branches", analysis.branches);
   in.optional("output", analysis.output);

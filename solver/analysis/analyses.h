@@ -71,4 +71,11 @@ void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reve
     double direction, const Hooks& hooks, Result& result,
     const std::function<void(const PathPoint&)>& on_unloaded = {});
 
+/// @brief The start of a path at Analysis::start, corrected on the structure's mesh.
+/// @return empty, with the failure `no_start` in `result`, when no equilibrium is within a fiftieth of it
+/// @pre analysis.start
+[[nodiscard]] std::optional<PathPoint> start_at_state(const Model& model, const Structure& structure,
+                                                      Continuation& continuation, const Analysis& analysis,
+                                                      Result& result);
+
 }  // namespace snapthrough

@@ -46,7 +46,7 @@ HeldLoads held_factors(const Model& model, const Analysis& analysis, const Unila
 
 HeldLoads held_loads(const Model& model, const Analysis& analysis, const UnilateralBalance& balance) {
   HeldLoads out;
-  if (balance.motions().empty()) {
+  if (balance.motions().empty() || analysis.start) {
     out.factors.assign(analysis.load_factors.size(), 1);
     return out;
   }

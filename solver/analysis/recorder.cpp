@@ -50,7 +50,7 @@ void Recorder::add_point(const PathPoint& point) {
   observer_.note_strain(point.y, point.lambda, branch_);
   if (branch_ == 0 && !result_.summary.critical_load_factor)
     observer_.add_to_extremes(point.y, point.lambda, branch_);
-  if (branch_ == 0) softest_.set_unloaded(point);
+  if (branch_ == 0 && !analysis_.start) softest_.set_unloaded(point);
   if (analysis_.type != AnalysisType::path) return;
   if (output.path_points)
     kept_.add(point);

@@ -349,8 +349,10 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   Continuation continuation(problem, options_of(analysis));
   SoftestPoint softest(continuation);
   const auto start =
-      start_of_path(model, structure, problem, continuation, path_direction(analysis), hooks, result,
-                    [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
+      analysis.start
+          ? start_at_state(model, structure, continuation, analysis, result)
+          : start_of_path(model, structure, problem, continuation, path_direction(analysis), hooks, result,
+                          [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
   if (const auto touching = with_least_piece(model, structure, problem, continuation, start, result)) {
     result.failure.reset();
     return follow_on(model, analysis, *touching, earlier, hooks, result, decays);
@@ -433,7 +435,7 @@ double path_direction(const Analysis& analysis) {
 
 bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) {
   return point.branch == 0 && point.negative_before == 0 && point.negative_after > 0 &&
-         point.load_factor * path_direction(analysis) > 0.0;
+         (analysis.start || point.load_factor * path_direction(analysis) > 0.0);
 }
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,

@@ -1,8 +1,10 @@
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <string>
 
 #include "solver/analysis/analyses.h"
+#include "solver/discrete/given_state.h"
 #include "solver/hooks.h"
 #include "solver/numeric/number_text.h"
 #include "solver/report/result_parts.h"
@@ -51,6 +53,35 @@ PathPoint fully_loaded(Continuation& continuation, const PathPoint& end) {
 }
 
 }  // namespace
+
+std::optional<PathPoint> start_at_state(const Model& model, const Structure& structure,
+                                        Continuation& continuation, const Analysis& analysis,
+                                        Result& result) {
+  constexpr double kNear = 0.02;  // of the given displacements, by which the equilibrium may differ from them
+  const StartState& state = *analysis.start;
+  const Eigen::VectorXd given = unknowns_of(structure, model, state);
+  auto start =
+      continuation.start_from(given, state.load_factor * structure.scales.load, analysis.step.direction);
+  const std::string where = " next to the given state at load factor " + number(state.load_factor);
+  if (!start) {
+    fail(result, "no_start", "no equilibrium was found" + where);
+    return std::nullopt;
+  }
+  if (std::abs(start->lambda) >= continuation.load_bound()) {
+    fail(result, "no_start",
+         "the structure has no stiffness at the equilibrium" + where +
+             ": it is a critical point; give a state of the path beside it");
+    return std::nullopt;
+  }
+  const PathMetric& metric = continuation.metric();
+  const double moved = metric.norm(start->y - given, 0.0);
+  const double size = metric.norm(given, 0.0);
+  if (moved <= kNear * size) return start;
+  fail(result, "no_start",
+       "the equilibrium that was found" + where + " differs from it by " + rounded(moved / size) +
+           " of its displacement gradients (root mean square): it is a state of another model");
+  return std::nullopt;
+}
 
 std::optional<PathPoint> start_of_path(const Model& model, const Structure& structure,
                                        StructuralProblem& problem, Continuation& continuation,

@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "solver/check/check_parts.h"
 #include "solver/model/limits.h"
@@ -79,6 +84,40 @@ void check_step(const Place& place, const StepOptions& step) {
     (place / "direction")
         .report("out_of_range", "direction must be 1 (the load factor begins to grow) or -1 (to fall), got " +
                                     text(step.direction));
+  }
+}
+
+/// Each member has a shape, from its start to its end.
+void check_start(const Place& place, const Model& model, const StartState& start, const Names& names) {
+  require_finite(place / "load_factor", start.load_factor);
+  const Place members = place / "members";
+  std::set<std::string> known;
+  for (const MemberShape& shape : start.members) {
+    const Place at = members / shape.id;
+    names.members.require(at, shape.id);
+    known.insert(shape.id);
+    const std::size_t count = shape.s.size();
+    if (count < 2 || !std::is_sorted(shape.s.begin(), shape.s.end(), std::less_equal<>())) {
+      (at / "s").report("not_increasing", "s must grow from each place to the next, from 2 places on");
+    }
+    const std::pair<const char*, const std::vector<double>*> series[] = {{"u", &shape.u},
+                                                                         {"v", &shape.v},
+                                                                         {"rotation", &shape.rotation},
+                                                                         {"axial_force", &shape.axial},
+                                                                         {"shear_force", &shape.shear},
+                                                                         {"bending_moment", &shape.bend}};
+    for (const auto& [key, values] : series) {
+      if (values->size() != count) {
+        (at / key).report("out_of_range", std::string(key) + " must hold as many numbers as s (" +
+                                              std::to_string(count) + "), got " +
+                                              std::to_string(values->size()));
+      }
+    }
+  }
+  for (const Member& member : model.members) {
+    if (!known.contains(member.id)) {
+      members.report("unknown_reference", "the start has no member \"" + member.id + "\"");
+    }
   }
 }
 
@@ -167,6 +206,12 @@ void check_analysis(const Place& root, const Model& model, const Analysis& analy
   }
   check_reversed(place / "reversed", model, analysis);
   check_step(place / "step", analysis.step);
+  if (analysis.start) {
+    if (analysis.type != AnalysisType::path) {
+      (place / "start").report("unsupported", "only analyses of type path begin with a given state");
+    }
+    check_start(place / "start", model, *analysis.start, names);
+  }
   check_stop(place / "stop", analysis.stop, names);
   if (analysis.branches.limit) {
     require_between(place / "branches" / "limit", *analysis.branches.limit, 1, kMaxSteps);

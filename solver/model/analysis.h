@@ -87,6 +87,20 @@ struct Variation {
   std::function<std::optional<Model>(double)> model_at;
 };
 
+/// Displacements and section forces at places along a member, as a state of a result lists them.
+struct MemberShape {
+  std::string id;
+  std::vector<double> s;                   ///< arc length of the perfect axis, from 0 to its length
+  std::vector<double> u, v, rotation;      ///< displacements along x and y, rotation in rad
+  std::vector<double> axial, shear, bend;  ///< section forces N, Q, M
+};
+
+/// The state that a path begins with; it is corrected to an equilibrium at its load factor.
+struct StartState {
+  double load_factor = 0.0;
+  std::vector<MemberShape> members;
+};
+
 struct Analysis {
   AnalysisType type = AnalysisType::critical;
   int modes = 1;
@@ -97,6 +111,7 @@ struct Analysis {
   Discretization discretization;
   Control control;
   StepOptions step;
+  std::optional<StartState> start;  ///< `path`; empty: the unloaded state, or that of the constant actions
   StopRules stop;
   BranchOptions branches;
   OutputOptions output;

@@ -78,6 +78,12 @@ class Continuation {
   [[nodiscard]] std::optional<PathPoint> start_at(const Eigen::VectorXd& y, double direction = 1.0,
                                                   const SharedHolds& holds = {});
 
+  /// @brief The start of a path at the equilibrium next to given unknowns.
+  /// @param y scaled unknowns near an equilibrium at the scaled load factor `lambda`
+  /// @return empty when Newton's method finds none there, or the tangent is singular
+  [[nodiscard]] std::optional<PathPoint> start_from(const Eigen::VectorXd& y, double lambda,
+                                                    double direction);
+
   /// @brief Corrects a point at its load, as far as rounding allows.
   /// @return whether that converged; else the point is what the last correction left
   [[nodiscard]] bool correct_at_load(double scale, PathPoint& at);

@@ -36,6 +36,7 @@ const kBetweenFields = {
 const kBetweenFieldsAt = [
   ['out_of_range', /\/(range|load_factor)$/, 'lower and upper end'],
   ['out_of_range', /^\/analysis\/step$/, 'min, initial and max'],
+  ['out_of_range', /^\/analysis\/start\/members\/.*\/(u|v|rotation|axial_force|shear_force|bending_moment)$/, 'as many as places'],
   ['out_of_range', /^\/model\/sections\/\d+$/, 'products E A, E I, G shear_area'],
   ['empty', /^\/model\/supports$/, 'supports, springs and foundations'],
   ['too_many', /\/points_per_member$/, 'times members'],

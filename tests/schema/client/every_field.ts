@@ -68,6 +68,8 @@ const states: NonNullable<Schemas['Output']['states']>[] = ['none', 'critical', 
 const analyses: Schemas['Analysis'][] = discretizations.flatMap((discretization) => states.map((one) => ({
   type: 'path', modes: 3, reversed: true, load_factors: [0.5, 1], geometry: 'nonlinear', unstable: 'follow', discretization,
   control: {displacement: 'm0'},
+  start: {load_factor: 1, members: {beam: {s: [0, 1], u: [0, 0], v: [0, 0], rotation: [0, 0], axial_force: [0, 0],
+                                           shear_force: [0, 0], bending_moment: [0, 0]}}},
   step: {initial: 0.1, min: 1e-6, max: 0.5, direction: -1},
   stop: {limit_points: 2, load_factor: [-1, 5], monitor: {id: 'm0', range: [-1, 1]}, steps: 100, negative_eigenvalues: 4},
   branches: {follow: 'all', limit: 3},
