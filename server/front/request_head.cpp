@@ -31,7 +31,8 @@ Head refuse(Head head, int status, std::string detail) {
 struct Facts {
   std::optional<std::string_view> content_length;
   bool two_lengths = false;
-  bool transfer_encoding = false;
+  std::optional<std::string_view> transfer_encoding;
+  bool two_encodings = false;
   bool content_encoding = false;
   bool expects_continue = false;
   bool close = false;
@@ -56,7 +57,8 @@ void note_header(std::string_view name, std::string_view value, Facts& facts) {
     facts.two_lengths = facts.content_length.has_value();
     facts.content_length = value;
   } else if (equal_ignoring_case(name, "Transfer-Encoding")) {
-    facts.transfer_encoding = true;
+    facts.two_encodings |= facts.transfer_encoding.has_value();
+    facts.transfer_encoding = value;
   } else if (equal_ignoring_case(name, "Content-Encoding")) {
     facts.content_encoding = !equal_ignoring_case(value, "identity");
   } else if (equal_ignoring_case(name, "Expect")) {
@@ -151,9 +153,20 @@ Head judge(Head head, const HeadLimits& limits) {
   if (facts.hosts == 0 && head.keep_alive) {
     return refuse(std::move(head), 400, "A request of HTTP/1.1 needs a Host.");
   }
+  if (facts.transfer_encoding) {
+    // a length beside chunks, or chunks in an old version, is how requests are smuggled past one of two
+    // parsers
+    if (facts.content_length || facts.two_encodings || !head.takes_chunks) {
+      return refuse(std::move(head), 400, "A body has either a Content-Length or, in HTTP/1.1, chunks.");
+    }
+    if (!equal_ignoring_case(*facts.transfer_encoding, "chunked")) {
+      return refuse(std::move(head), 400, "The only Transfer-Encoding that is known here is chunked.");
+    }
+    head.chunked = true;
+  }
   const bool has_body = head.method == "POST" || head.method == "PUT" || head.method == "PATCH";
-  if (facts.transfer_encoding || (has_body && !facts.content_length)) {
-    return refuse(std::move(head), 411, "A request body needs a Content-Length.");
+  if (has_body && !facts.content_length && !head.chunked) {
+    return refuse(std::move(head), 411, "A request body needs a Content-Length or chunks.");
   }
   if (facts.content_encoding) {
     return refuse(std::move(head), 415, "A request body is not compressed here.");
@@ -168,7 +181,7 @@ Head judge(Head head, const HeadLimits& limits) {
   }
   head.body_bytes = *length;
   head.keep_alive = !facts.close && (head.keep_alive || facts.keep_alive);
-  head.expects_continue = facts.expects_continue && *length > 0;
+  head.expects_continue = facts.expects_continue && (*length > 0 || head.chunked);
   return head;
 }
 

@@ -34,6 +34,7 @@ struct Head {
   std::string target;  ///< path and query as they came
   Fields headers;      ///< in order, their values without the blanks around
   std::size_t body_bytes = 0;
+  bool chunked = false;            ///< the body comes in chunks: its size is not known yet
   bool keep_alive = false;         ///< the client may send another request on this connection
   bool takes_chunks = false;       ///< it speaks HTTP/1.1
   bool expects_continue = false;   ///< the client waits for "100 Continue" before it sends the body

@@ -37,6 +37,9 @@ Received RequestReader::next() {
       return refused(std::move(head_));
     }
   }
+  if (head_.chunked) {
+    return next_of_chunks();
+  }
   Received received;
   const std::size_t total = head_size_ + head_.body_bytes;
   if (buffer_.size() < total) {
@@ -53,6 +56,33 @@ Received RequestReader::next() {
     received.body = buffer_.substr(head_size_, total - head_size_);
     buffer_.erase(0, total);
   }
+  head_size_ = 0;
+  searched_ = 0;
+  return received;
+}
+
+Received RequestReader::next_of_chunks() {
+  std::size_t taken = 0;
+  if (!chunks_) {
+    chunks_.emplace(limits_.body_bytes);
+    taken = head_size_;
+  }
+  taken += chunks_->take(std::string_view(buffer_).substr(taken));
+  buffer_.erase(0, taken);
+  if (chunks_->refusal()) {
+    head_.refusal = chunks_->refusal();
+    return refused(std::move(head_));
+  }
+  Received received;
+  if (!chunks_->complete()) {
+    received.kind = Received::Kind::body_incomplete;
+    received.head = head_;
+    return received;
+  }
+  received.kind = Received::Kind::request;
+  received.head = std::exchange(head_, {});
+  received.body = chunks_->release();
+  chunks_.reset();
   head_size_ = 0;
   searched_ = 0;
   return received;

@@ -3,9 +3,11 @@
 /// Bytes of one connection to whole requests. No sockets, no clock, no library: what it does depends on the
 /// bytes alone.
 
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "server/front/chunked_body.h"
 #include "server/front/request_head.h"
 
 namespace snapthrough::server::http {
@@ -33,18 +35,20 @@ class RequestReader {
   Received next();
 
   /// Bytes that are held.
-  [[nodiscard]] std::size_t held() const { return buffer_.size(); }
+  [[nodiscard]] std::size_t held() const { return buffer_.size() + (chunks_ ? chunks_->size() : 0); }
   /// Gives memory back that an earlier, larger request needed.
   void shrink();
 
  private:
   Received refused(Head head);
+  Received next_of_chunks();
 
   const HeadLimits& limits_;
   std::string buffer_;
   std::size_t searched_ = 0;   ///< no end of a head before this place
   std::size_t head_size_ = 0;  ///< of the request whose body is awaited; 0: none
   Head head_;
+  std::optional<ChunkedBody> chunks_;  ///< of the request whose body is awaited in chunks
 };
 
 }  // namespace snapthrough::server::http

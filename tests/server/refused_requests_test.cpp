@@ -120,9 +120,9 @@ TEST_F(RefusedRequests, BytesThatAreNoRequest) {
   EXPECT_EQ(answer("\x16\x03\x01 hello\r\n\r\n"), 400);
   EXPECT_EQ(answer("FOO / HTTP/1.1\r\n\r\n"), 501);
   EXPECT_EQ(answer("GET / HTTP/1.12\r\n\r\n"), 400);  // which the library finds
-  EXPECT_EQ(
-      answer("POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n"),
-      411);
+  EXPECT_EQ(answer("POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n1;a\r\n"),
+            400);
+  EXPECT_EQ(answer("POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\n\r\n"), 411);
   EXPECT_EQ(answer("GET /" + std::string(5000, 'a') + " HTTP/1.1\r\n\r\n"), 414);
   EXPECT_EQ(answer("GET / HTTP/1.1\r\nA: " + std::string(20'000, 'a') + "\r\n\r\n"), 431);
 }

@@ -61,9 +61,17 @@ TEST(RequestHead, TargetsAreDecodedOnce) {
 
 TEST(RequestHead, ABodyNeedsALength) {
   EXPECT_EQ(refusal("POST / HTTP/1.1\r\n"), 411);
-  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n"), 411);
-  EXPECT_EQ(refusal("GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n"), 411);
-  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nContent-Length: 1\r\nTransfer-Encoding: chunked\r\n"), 411);
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n"), 0);
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nTransfer-Encoding: Chunked\r\n"), 0);
+}
+
+TEST(RequestHead, ALengthAndChunksAreNotMixed) {
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nContent-Length: 1\r\nTransfer-Encoding: chunked\r\n"), 400);
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\nTransfer-Encoding: chunked\r\n"), 400);
+  EXPECT_EQ(refusal("POST / HTTP/1.0\r\nTransfer-Encoding: chunked\r\n"), 400);
+  for (const char* other :
+       {"gzip, chunked", "chunked, identity", "identity", "gzip", "xchunked", "chunked;a=b", ""})
+    EXPECT_EQ(refusal(std::string("POST / HTTP/1.1\r\nTransfer-Encoding: ") + other + "\r\n"), 400) << other;
 }
 
 TEST(RequestHead, TheBodyLimitIsExact) {

@@ -321,6 +321,24 @@ TEST_F(ServiceTest, AsksForABodyThatTheClientHoldsBack) {
   EXPECT_EQ(socket.receive().status, 200);
 }
 
+/// As curl, .NET and Node send a body whose length they do not know.
+TEST_F(ServiceTest, TakesABodyInChunks) {
+  start(solved);
+  Socket socket(port());
+  const std::string body = column_request();
+  socket.send(
+      "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+      "Transfer-Encoding: chunked\r\nExpect: 100-continue\r\n\r\n");
+  EXPECT_EQ(socket.receive().status, 100);
+  for (std::size_t at = 0; at < body.size(); at += 16) {
+    const std::string piece = body.substr(at, 16);
+    socket.send((piece.size() == 16 ? "10" : std::string(1, "0123456789abcdef"[piece.size()])) + "\r\n" +
+                piece + "\r\n");
+  }
+  socket.send("0\r\n\r\n");
+  EXPECT_EQ(socket.receive().status, 200);
+}
+
 TEST_F(ServiceTest, APortInUseIsReported) {
   start(solved);
   ServiceConfig other = config();
