@@ -17,6 +17,7 @@ namespace snapthrough {
 
 std::vector<NamedValue> Recorder::monitors(const PathPoint& point) const {
   std::vector<NamedValue> out;
+  out.reserve(structure_.monitors.size());
   for (const MonitorRow& monitor : structure_.monitors) out.push_back({monitor.id, monitor.row.dot(point.y)});
   return out;
 }

@@ -17,11 +17,11 @@ namespace {
 /// Why there is no equilibrium under the first small load.
 std::string nothing_found(const Model& model, const Structure& structure, const Continuation& continuation) {
   const Eigen::VectorXd& motion = continuation.loose_motion();
-  if (const auto& far = continuation.far_start())
+  if (const auto& far = continuation.far_start()) {
     return "the first state that was found lies farther from the unloaded structure than its gaps and "
-           "elastic "
-           "strains explain: displacement gradients (root mean square) of " +
+           "elastic strains explain: displacement gradients (root mean square) of " +
            rounded(far->moved) + ", those of small displacements are " + rounded(far->explained);
+  }
   if (motion.size() == 0)
     return "no equilibrium was found for the first small load: contact alone may not hold the structure";
   std::size_t node = 0;
