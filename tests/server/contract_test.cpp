@@ -81,8 +81,11 @@ bool needs_several_fields(const Finding& finding) {
   const std::string field = pointer.substr(pointer.rfind('/') + 1);
   if (finding.code == "out_of_range") {
     static const std::regex kProducts("/model/sections/[0-9]+");  // E A, E I, G shear_area
-    return field == "range" || field == "load_factor" ||          // lower and upper end
-           pointer == "/analysis/step" ||                         // min, initial, max
+    static const std::regex kShapes(
+        "/analysis/start/members/.*/(u|v|rotation|axial_force|shear_force|bending_moment)");
+    return std::regex_match(pointer, kShapes) ||          // as many as places
+           field == "range" || field == "load_factor" ||  // lower and upper end
+           pointer == "/analysis/step" ||                 // min, initial, max
            std::regex_match(pointer, kProducts);
   }
   return (finding.code == "empty" && pointer == "/model/supports") ||     // or springs or foundations
