@@ -956,6 +956,32 @@ export interface components {
              */
             direction?: 1 | -1;
         };
+        /** @description The fields of a state of a result (states[n]) that a path needs to begin with it */
+        StartState: {
+            /** @description Load factor of the state, at which its equilibrium is found again */
+            load_factor: number;
+            /** @description By member id, each member of the model */
+            members: {
+                [key: string]: components["schemas"]["StartShape"];
+            };
+        };
+        /** @description Displacements and section forces of a member, a number for each place; splines join them */
+        StartShape: {
+            /** @description Arc lengths of the places along the perfect axis, growing, from 0 to the member's length */
+            s: number[];
+            /** @description Displacements along x */
+            u: number[];
+            /** @description Displacements along y */
+            v: number[];
+            /** @description Rotations */
+            rotation: number[];
+            /** @description Axial forces */
+            axial_force: number[];
+            /** @description Shear forces */
+            shear_force: number[];
+            /** @description Bending moments */
+            bending_moment: number[];
+        };
         /** @description Where a path ends: the first rule to be met */
         Stop: {
             /** @description After this many limit points */
@@ -1027,6 +1053,8 @@ export interface components {
              *     ]
              */
             load_factors?: number[];
+            /** @description path: the state that the path begins with, such as one of a branch that no path from the unloaded state reaches; by default the unloaded state or that of the constant actions */
+            start?: components["schemas"]["StartState"];
             /**
              * @description static, nonlinear: what is done where the path loses stability before an asked load factor. refuse: the analysis ends there with the failure beyond_critical_point; follow: rows beyond a bifurcation are given, with their counts and a warning
              * @default refuse
