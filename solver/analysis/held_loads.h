@@ -22,8 +22,9 @@ struct HeldLoads {
 
 /// @brief Looks at the loads that an analysis begins with: for paths the constant actions with a little of
 /// the proportional ones; for `buckling` also those of the reference load, whose contact it takes; for
-/// `static` those of each load factor, and where a path leads to them also those that it begins with. A path
-/// that begins with a given state is held where Newton's method finds that state.
+/// `static` those of each load factor, and where a path leads to them also those that it begins with. For a
+/// path that begins with a given state (Analysis::start) nothing is looked at: its loads count as held, and
+/// the path ends with `no_start` where that state has no equilibrium.
 [[nodiscard]] HeldLoads held_loads(const Model& model, const Analysis& analysis,
                                    const UnilateralBalance& balance);
 

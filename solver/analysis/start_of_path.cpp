@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 #include "solver/analysis/analyses.h"
@@ -59,7 +60,13 @@ std::optional<PathPoint> start_at_state(const Model& model, const Structure& str
                                         Result& result) {
   constexpr double kNear = 0.02;  // of the given displacements, by which the equilibrium may differ from them
   const StartState& state = *analysis.start;
-  const Eigen::VectorXd given = unknowns_of(structure, model, state);
+  Eigen::VectorXd given;
+  try {
+    given = unknowns_of(structure, model, state);
+  } catch (const std::invalid_argument& error) {
+    fail(result, "no_start", std::string("the given state can't be joined by splines: ") + error.what());
+    return std::nullopt;
+  }
   auto start =
       continuation.start_from(given, state.load_factor * structure.scales.load, analysis.step.direction);
   const std::string where = " next to the given state at load factor " + number(state.load_factor);

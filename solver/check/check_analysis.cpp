@@ -87,17 +87,17 @@ void check_step(const Place& place, const StepOptions& step) {
   }
 }
 
-/// Each member has a shape, from its start to its end.
+/// Reports what a given start lacks: a shape for each member, places that grow, a value for each place.
 void check_start(const Place& place, const Model& model, const StartState& start, const Names& names) {
   require_finite(place / "load_factor", start.load_factor);
   const Place members = place / "members";
-  std::set<std::string> known;
+  Ids given("shape of member");
   for (const MemberShape& shape : start.members) {
     const Place at = members / shape.id;
     names.members.require(at, shape.id);
-    known.insert(shape.id);
+    given.add(at, shape.id);
     const std::size_t count = shape.s.size();
-    if (count < 2 || !std::is_sorted(shape.s.begin(), shape.s.end(), std::less_equal<>())) {
+    if (count < 2 || std::ranges::adjacent_find(shape.s, std::greater_equal<>()) != shape.s.end()) {
       (at / "s").report("not_increasing", "s must grow from each place to the next, from 2 places on");
     }
     const std::pair<const char*, const std::vector<double>*> series[] = {{"u", &shape.u},
@@ -115,7 +115,7 @@ void check_start(const Place& place, const Model& model, const StartState& start
     }
   }
   for (const Member& member : model.members) {
-    if (!known.contains(member.id)) {
+    if (!given.contains(member.id)) {
       members.report("unknown_reference", "the start has no member \"" + member.id + "\"");
     }
   }

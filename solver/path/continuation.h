@@ -210,6 +210,7 @@ class Continuation {
   [[nodiscard]] bool is_loose();
   [[nodiscard]] std::optional<PathPoint> start_at_rest(PathPoint rest, double direction);
   [[nodiscard]] std::optional<PathPoint> near_start(double lambda, double direction);
+  [[nodiscard]] std::optional<PathPoint> begin_at(const PathPoint& equilibrium, double direction);
   [[nodiscard]] bool is_far(const PathPoint& rest);
   void turn_where_supports_touch(PathPoint& start, double direction, const Eigen::VectorXd& response);
   [[nodiscard]] PathPoint first_point(const Eigen::VectorXd& y, double lambda,

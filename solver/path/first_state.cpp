@@ -17,7 +17,7 @@ namespace {
 /// state. A rotation that can just close a gap is twice that of small displacements: from an angle a it moves
 /// sin(a + t) - sin(a), which they take for t cos(a). A chain of them may need somewhat more.
 constexpr double kFarStart = 3.0;
-/// Corrections downhill in the energy from a state that is nearly in equilibrium.
+/// Most Newton corrections, each lowering the energy, of a first state that is nearly in equilibrium.
 constexpr int kCorrections = 25;
 
 }  // namespace
@@ -67,13 +67,17 @@ bool Continuation::is_far(const PathPoint& rest) {
 /// From a state that the structure moved to under a very small load, corrected to the last digit.
 std::optional<PathPoint> Continuation::start_at_rest(PathPoint rest, double direction) {
   const auto outcome = correct_downhill(metric_.norm(rest.y, 0.0), kCorrections, rest);
-  if (outcome.status == CorrectorStatus::converged && is_far(rest)) return std::nullopt;
+  if (outcome.status != CorrectorStatus::converged || is_far(rest)) return std::nullopt;
+  return begin_at(rest, direction);
+}
+
+/// The first point of a path at an equilibrium; empty where the tangent is singular.
+std::optional<PathPoint> Continuation::begin_at(const PathPoint& equilibrium, double direction) {
   VectorXd response;
   TangentReport report;
-  if (outcome.status != CorrectorStatus::converged ||
-      !unit_response(rest.y, rest.lambda, Regime::Contact::unilateral, response, report))
+  if (!unit_response(equilibrium.y, equilibrium.lambda, Regime::Contact::unilateral, response, report))
     return std::nullopt;
-  return first_point(rest.y, rest.lambda, response, direction, report);
+  return first_point(equilibrium.y, equilibrium.lambda, response, direction, report);
 }
 
 std::optional<PathPoint> Continuation::start_at(const VectorXd& y, double direction,
@@ -95,12 +99,8 @@ std::optional<PathPoint> Continuation::start_from(const VectorXd& y, double lamb
   at.y = y;
   at.lambda = lambda;
   const auto outcome = correct_downhill(metric_.norm(y, 0.0), kCorrections, at);
-  VectorXd response;
-  TangentReport report;
-  if (outcome.status != CorrectorStatus::converged ||
-      !unit_response(at.y, at.lambda, Regime::Contact::unilateral, response, report))
-    return std::nullopt;
-  return first_point(at.y, at.lambda, response, direction, report);
+  if (outcome.status != CorrectorStatus::converged) return std::nullopt;
+  return begin_at(at, direction);
 }
 
 }  // namespace snapthrough
