@@ -79,7 +79,7 @@ class Client:
         finally:
             if detach:
                 detach()
-        show_warnings(result.document)
+        show_warnings(result)
         return result
 
     def submit(self, model: Any, analysis: Any = None, *, label: Optional[str] = None,
@@ -253,14 +253,14 @@ class Client:
 
     def _result(self, response: Response) -> Result:
         if response.status == 200:
-            return Result(response.json(), response.body)
+            return Result(response.body)
         problem = problem_of(response) or {}
         kind = str(problem.get("type", "")).rsplit(":", 1)[-1]
         if kind == "dismissed":
             raise Cancelled()
         if kind == "analysis-failed":
             text = _spans.member_text(response.body.decode("utf-8"), "reached")
-            reached = Result(json.loads(text), text.encode("utf-8")) if text else None
+            reached = Result(text.encode("utf-8")) if text else None
             raise AnalysisFailed(problem["code"], problem.get("detail", ""), reached)
         self._checked(response)
         raise service_error(response)

@@ -36,6 +36,16 @@ class Response:
                                self.status) from None
 
 
+class _Kept:
+    """A connection that waits for its next request; closed with the thread or the client that it belongs to."""
+
+    def __init__(self, connection: http.client.HTTPConnection) -> None:
+        self.connection = connection
+
+    def __del__(self) -> None:
+        self.connection.close()
+
+
 class Transport:
     """Sends requests to one service. Thread-safe."""
 
@@ -85,28 +95,28 @@ class Transport:
             time.sleep(pause)
 
     def _try(self, method: str, path: str, body: Optional[bytes], headers: Mapping[str, str]) -> Response:
-        kept: Optional[http.client.HTTPConnection] = getattr(self._of_thread, "connection", None)
+        kept: Optional[_Kept] = getattr(self._of_thread, "kept", None)
         if kept is not None:
             try:
                 return self._exchange(kept, method, path, body, headers)
             except (http.client.RemoteDisconnected, ConnectionError, http.client.CannotSendRequest):
-                kept.close()  # it was closed while it was idle
+                pass  # it was closed while it was idle
         try:
-            return self._exchange(self.connection(), method, path, body, headers)
+            return self._exchange(_Kept(self.connection()), method, path, body, headers)
         except (OSError, http.client.HTTPException) as error:
             raise ServiceError(f"no answer from {self.url}: {error or type(error).__name__}") from error
 
-    def _exchange(self, connection: http.client.HTTPConnection, method: str, path: str, body: Optional[bytes],
+    def _exchange(self, kept: _Kept, method: str, path: str, body: Optional[bytes],
                   headers: Mapping[str, str]) -> Response:
-        self._of_thread.connection = None
+        self._of_thread.kept = None
         try:
-            connection.request(method, self._prefix + path, body, {**self._headers, **headers})
-            response = connection.getresponse()
+            kept.connection.request(method, self._prefix + path, body, {**self._headers, **headers})
+            response = kept.connection.getresponse()
             data = response.read()
         except BaseException:
-            connection.close()  # what comes next on it would be the answer to this request
+            kept.connection.close()  # what comes next on it would be the answer to this request
             raise
-        self._of_thread.connection = None if response.will_close else connection
+        self._of_thread.kept = None if response.will_close else kept
         told = {name.lower(): value for name, value in response.getheaders()}
         if told.get("content-encoding") == "gzip":
             data = gzip.decompress(data)
@@ -117,7 +127,7 @@ class Transport:
         connection = self.connection()
         try:
             connection.request("GET", self._prefix + path, None, {**self._headers, "Accept-Encoding": "identity",
-                                                                  **headers})
+                                                                  "Connection": "close", **headers})
             return connection.getresponse()
         except (OSError, http.client.HTTPException) as error:
             connection.close()
@@ -125,10 +135,7 @@ class Transport:
 
     def forget(self) -> None:
         """Closes this thread's connection."""
-        kept = getattr(self._of_thread, "connection", None)
-        if kept is not None:
-            kept.close()
-        self._of_thread.connection = None
+        self._of_thread.kept = None
 
 
 def _retry_after(response: Response) -> float:

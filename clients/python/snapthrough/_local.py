@@ -67,7 +67,7 @@ class Local:
             if detach:
                 detach()
         result = result_of(answer)
-        show_warnings(result.document)
+        show_warnings(result)
         return result
 
     def check(self, model: Any, analysis: Any = None) -> results.Check:
@@ -160,7 +160,7 @@ def result_of(answer: Answer) -> Result:
     """The result of an answer; raises what it came to instead."""
     if answer.status not in (_library.DONE, _library.NOT_COMPLETED, _library.CANCELLED):
         raise failure_of(answer)
-    result = Result(json.loads(answer.text), answer.text)
+    result = Result(answer.text)
     if answer.status == _library.CANCELLED:
         raise Cancelled(result)
     if answer.status == _library.NOT_COMPLETED:

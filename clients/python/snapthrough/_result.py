@@ -82,22 +82,28 @@ class Result(results.ResultFields):
 
     __slots__ = ("_json",)
 
-    def __init__(self, document: Dict[str, Any], text: bytes = b"") -> None:
-        super().__init__(document)
+    def __init__(self, text: bytes) -> None:
+        """The text is that of a result, in UTF-8; it is parsed when something of it is asked for."""
         self._json = text
+
+    def __getattr__(self, name: str) -> Any:
+        if name != "_document":
+            raise AttributeError(f"a result has no {name!r}; its fields are those of docs/results.md")
+        self._document = json.loads(self._json)
+        return self._document
 
     @classmethod
     def from_json(cls, text: bytes) -> "Result":
         """The result of its bytes, as stored by an earlier run. Raises ValueError when they are no result."""
-        document = json.loads(text)
-        if not isinstance(document, dict) or "summary" not in document:
+        result = cls(text)
+        if not isinstance(result.document, dict) or "summary" not in result.document:
             raise ValueError("this is not the document of a result: it has no summary")
-        return cls(document, text)
+        return result
 
     @property
     def json(self) -> bytes:
         """The document as it was received, byte for byte: UTF-8 JSON."""
-        return self._json or json.dumps(self._document, ensure_ascii=False, separators=(",", ":")).encode("utf-8")
+        return self._json
 
     def tables(self) -> List[str]:
         """Names of the tables that this result has something for."""
@@ -156,12 +162,13 @@ class Result(results.ResultFields):
         return "\n".join(lines)
 
 
-def show_warnings(document: Dict[str, Any]) -> None:
+def show_warnings(result: Result) -> None:
     """Tells the warnings of a result, as of the line outside this package that asked for it."""
-    if not document.get("warnings"):
+    # Parsing a long result takes longer than a short analysis; without warnings its text ends like this.
+    if result.json.endswith(b'"warnings":[]}') or not result.document.get("warnings"):
         return
     level, frame = 1, sys._getframe()
     while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == os.path.dirname(__file__):
         level, frame = level + 1, frame.f_back
-    for warning in document["warnings"]:
+    for warning in result.document["warnings"]:
         warnings.warn(f"{warning['code']}: {warning['detail']}", SnapthroughWarning, stacklevel=level)
