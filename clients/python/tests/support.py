@@ -1,4 +1,5 @@
 """What the tests share: the documents that all clients share, the executable, a service."""
+import functools
 import json
 import os
 import pathlib
@@ -33,6 +34,12 @@ def request(name):
 def local():
     """The library of the build that is tested."""
     return snapthrough.Local(LIBRARY)
+
+
+@functools.lru_cache(maxsize=None)
+def shared_table():
+    """The table of the shared sweep, computed once; not to be changed."""
+    return local().sweep(SWEEP).table()
 
 
 def column(**fields):

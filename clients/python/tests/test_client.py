@@ -14,8 +14,8 @@ import time
 import unittest
 import warnings
 
-from .support import (EXPECTED, SWEEP, Case, Service, column, interrupt_after, local, request, snapthrough,
-                      without_time)
+from .support import (EXPECTED, SWEEP, Case, Service, column, interrupt_after, local, request, shared_table,
+                      snapthrough, without_time)
 
 
 class WithService(Case):
@@ -60,7 +60,7 @@ class SameAnswers(WithService):
         self.assertEqual(next(self.client.jobs()).status, "dismissed")
 
     def test_the_sweep_of_500_points_byte_for_byte(self):
-        mine, service = local().sweep(SWEEP).table(), self.client.sweep(SWEEP).table()
+        mine, service = shared_table(), self.client.sweep(SWEEP).table()
         self.assertEqual(mine.rows, service.rows)
         self.assertEqual(mine.to_csv(), service.to_csv())
         self.assertEqual(mine.to_json(), service.to_json())

@@ -9,7 +9,7 @@ import tempfile
 import unittest
 from unittest import mock
 
-from .support import SWEEP, Case, column, command_line, local, snapthrough
+from .support import SWEEP, Case, column, command_line, local, shared_table, snapthrough
 
 from snapthrough import _chunks, _engine, engines
 
@@ -38,7 +38,7 @@ class DiesOnce:
 
 class Forms(Case):
     def test_files_are_those_of_the_command_line_byte_for_byte(self):
-        table = local().sweep(SWEEP).table()
+        table = shared_table()
         self.assertEqual(table.to_csv(), command_line("sweep", "--csv", "-", text=SWEEP))
         self.assertEqual(table.to_json(), command_line("sweep", "-", text=SWEEP))
         self.assertEqual(table.to_ndjson(), command_line("sweep", "--ndjson", "-", text=SWEEP))
@@ -58,7 +58,7 @@ class Forms(Case):
         self.assertEqual(local().sweep(text).table().to_csv(), command_line("sweep", "--csv", "-", text=text))
 
     def test_tables_are_read_again(self):
-        table = local().sweep(SWEEP).table()
+        table = shared_table()
         with tempfile.TemporaryDirectory() as folder:
             for name, write in (("t.json", table.to_json), ("t.ndjson", table.to_ndjson)):
                 write(f"{folder}/{name}")
@@ -118,7 +118,7 @@ class Resuming(Case):
             self.assertEqual(missing.to_csv(), full.to_csv())
 
     def test_a_table_of_another_sweep_is_refused(self):
-        other = local().sweep(SWEEP).table()
+        other = shared_table()
         with self.assertRaisesRegex(snapthrough.UsageError, "columns"):
             local().sweep(sweep_of(40), resume=other)
         with self.assertRaisesRegex(snapthrough.UsageError, "point 39"):
@@ -127,11 +127,11 @@ class Resuming(Case):
 
 class Executors(Case):
     def test_threads_and_processes_give_the_same_bytes(self):
-        expected = command_line("sweep", "-", text=SWEEP)
+        expected = local().sweep(sweep_of(150)).table().to_json()
         with concurrent.futures.ThreadPoolExecutor(3) as threads, \
                 concurrent.futures.ProcessPoolExecutor(2) as pool:
             for executor in (None, threads, pool, engines.processes(2)):
-                self.assertEqual(local().sweep(SWEEP, executor=executor).table().to_json(), expected)
+                self.assertEqual(local().sweep(sweep_of(150), executor=executor).table().to_json(), expected)
 
     def run_with_deaths(self, executor, always):
         """A sweep of which one worker dies at point 57."""
