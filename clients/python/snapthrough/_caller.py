@@ -1,75 +1,68 @@
-"""Calls of the library that Ctrl-C can end: made on another thread while the main thread waits for signals."""
+"""Calls of the library that Ctrl-C can end, although the interpreter runs no code during them."""
 import os
-import queue
+import signal
+import socket
 import threading
-from typing import Any, Callable, List, Optional
+from types import FrameType
+from typing import Any, Callable, List, Optional, Tuple
 
 from ._progress import OnProgress, Progress
 
+#: Given to the library's callback: false stops the call.
+Step = Callable[[Progress], bool]
 
-class _Worker:
-    """A thread that makes one call after the other. Threads are kept: starting one takes longer than a small call."""
+
+class _Watcher:
+    """A thread that learns of signals while the main thread is in C, and stops the calls that run there."""
 
     def __init__(self) -> None:
-        self.work: "queue.SimpleQueue[Callable[[], None]]" = queue.SimpleQueue()
+        self._reader, self._writer = socket.socketpair()
+        self._writer.setblocking(False)  # what signal.set_wakeup_fd() asks for
+        self._calls: List[Tuple[Callable[[], None], int]] = []
         threading.Thread(target=self._run, name="snapthrough", daemon=True).start()
+
+    def begin(self, stop: Callable[[], None]) -> None:
+        """From now on a SIGINT calls `stop`; other signals are passed on to who learned of them before."""
+        self._calls.append((stop, signal.set_wakeup_fd(self._writer.fileno(), warn_on_full_buffer=False)))
+
+    def end(self) -> None:
+        """Ends the last begin()."""
+        signal.set_wakeup_fd(self._calls.pop()[1])
 
     def _run(self) -> None:
         while True:
-            self.work.get()()
+            signals = self._reader.recv(64)
+            calls = list(self._calls)
+            if signal.SIGINT in signals:
+                for stop, _ in calls:
+                    stop()
+            if calls and calls[0][1] >= 0:
+                try:
+                    os.write(calls[0][1], signals)
+                except OSError:
+                    continue  # it is full, and will be read all the same
 
 
-_idle: List[_Worker] = []
+_watcher: Optional[_Watcher] = None
 
 
-def _forget_workers() -> None:
-    """After a fork the threads are those of the parent."""
-    _idle.clear()
+def _forget_watcher() -> None:
+    """After a fork the thread is the parent's."""
+    global _watcher
+    _watcher = None
 
 
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_forget_workers)
+    os.register_at_fork(after_in_child=_forget_watcher)
 
 
-class _Call:
-    """One call on a worker; what it tells comes back in order."""
-
-    def __init__(self, function: Callable[[Callable[[Progress], bool]], Any]) -> None:
-        self._function = function
-        self._told: "queue.SimpleQueue[Any]" = queue.SimpleQueue()
-        self._latest: Optional[Progress] = None
-
-    def run(self) -> None:
-        """On the worker."""
-        try:
-            outcome = (True, self._function(self._step))
-        except BaseException as error:  # handed to the thread that waits
-            outcome = (False, error)
-        self._told.put(outcome)
-
-    def _step(self, progress: Progress) -> bool:
-        """Leaves the progress for the main thread, which is woken unless it has yet to take the one before."""
-        waiting, self._latest = self._latest is not None, progress
-        if not waiting:
-            self._told.put(None)
-        return True
-
-    def wait(self, on_progress: Optional[OnProgress], stop: Callable[[], None]) -> Any:
-        """On the main thread: the outcome; calls on_progress here, where plots and notebooks expect it."""
-        while True:
-            outcome = self._told.get()
-            if outcome is not None:
-                return outcome
-            progress, self._latest = self._latest, None
-            if progress is not None and on_progress is not None and on_progress(progress) is False:
-                stop()
-
-
-def on_this_thread(function: Callable[[Callable[[Progress], bool]], Any], on_progress: Optional[OnProgress]) -> Any:
+def _plain(function: Callable[[Step], Any], on_progress: Optional[OnProgress], stopped: Callable[[], bool]) -> Any:
     """Makes a call; an exception of on_progress stops it and is raised when it has returned."""
     raised: List[BaseException] = []
 
     def step(progress: Progress) -> bool:
+        if stopped():
+            return False
         try:
             return on_progress is None or on_progress(progress) is not False
         except BaseException as error:  # must not leave through C
@@ -82,28 +75,31 @@ def on_this_thread(function: Callable[[Callable[[Progress], bool]], Any], on_pro
     return answer
 
 
-def interruptible(function: Callable[[Callable[[Progress], bool]], Any], on_progress: Optional[OnProgress],
-                  stop: Callable[[], None], interrupted: Callable[[Any], BaseException]) -> Any:
+def interruptible(function: Callable[[Step], Any], on_progress: Optional[OnProgress], stop: Callable[[], None],
+                  interrupted: Callable[[Any], BaseException]) -> Any:
     """Makes a call that Ctrl-C ends within milliseconds, and gives what it returns.
 
-    `function` is given a step function for the library's callback. `stop` asks the call to return early. At Ctrl-C
-    the call is stopped, and `interrupted(what it returned)` raised; any other exception of on_progress stops it, too.
+    `function` is given a step function for the library's callback, `stop` asks it to return early. At Ctrl-C it is
+    stopped, and `interrupted(what it returned)` raised. That holds on the main thread, to which signals go, with
+    Python's own handler of SIGINT; a program's own handler runs when the call has returned.
     """
-    if threading.current_thread() is not threading.main_thread():
-        return on_this_thread(function, on_progress)  # signals go to the main thread only
-    worker = _idle.pop() if _idle else _Worker()
-    call = _Call(function)
-    worker.work.put(call.run)
+    global _watcher
+    if (threading.current_thread() is not threading.main_thread()
+            or signal.getsignal(signal.SIGINT) is not signal.default_int_handler):
+        return _plain(function, on_progress, lambda: False)
+    pressed: List[int] = []
+
+    def note(number: int, _: Optional[FrameType]) -> None:
+        pressed.append(number)
+
+    _watcher = _watcher or _Watcher()
+    signal.signal(signal.SIGINT, note)  # so that what the call returns is not lost
+    _watcher.begin(stop)
     try:
-        succeeded, value = call.wait(on_progress, stop)
-    except BaseException as error:
-        stop()
-        succeeded, value = call.wait(None, stop)
-        _idle.append(worker)
-        if isinstance(error, KeyboardInterrupt) and succeeded:
-            raise interrupted(value) from None
-        raise
-    _idle.append(worker)
-    if not succeeded:
-        raise value
-    return value
+        answer = _plain(function, on_progress, lambda: bool(pressed))
+    finally:
+        _watcher.end()
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    if pressed:
+        raise interrupted(answer)
+    return answer

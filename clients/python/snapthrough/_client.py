@@ -67,18 +67,10 @@ class Client:
         a stopped analysis reached stays with the service, so `reached` of the last two is None.
         """
         body = _enveloped(as_bytes(request_of(model, analysis)), "request", label, metadata)
-        key = str(uuid.uuid4())
-        detach = None
         try:
-            if stop is not None:
-                detach = stop.attach(lambda: self._dismiss_by_key(body, key))
-            result = self._solve(body, key, on_progress)
+            result = self._solve(body, on_progress, stop)
         except KeyboardInterrupt:
-            self._dismiss_by_key(body, key)
             raise Interrupted() from None
-        finally:
-            if detach:
-                detach()
         show_warnings(result)
         return result
 
@@ -89,7 +81,7 @@ class Client:
         `callback` is an address that the service tells the end to, where it is allowed to.
         """
         body = _enveloped(as_bytes(request_of(model, analysis)), "request", label, metadata, callback)
-        return results.Job(self._submit(body, str(uuid.uuid4())))
+        return results.Job(self._checked(self._post(body, "respond-async", str(uuid.uuid4()))).json())
 
     def job(self, job: JobId) -> results.Job:
         """Status of a job."""
@@ -222,19 +214,26 @@ class Client:
 
     # How a job is followed to its result
 
-    def _solve(self, body: bytes, key: str, on_progress: Optional[OnProgress]) -> Result:
-        if on_progress is None:
-            response = self._post(body, key, f"return=representation, wait={_WAIT}")
-            if response.status == 200:
-                return self._result(response)
-            if response.status != 202:
-                return self._result(response)
-            job = results.Job(response.json())
-            self._wait(_job(job))
-        else:
-            job = results.Job(self._submit(body, key))
-            self._tell(job, on_progress)
-        return self.result(job)
+    def _solve(self, body: bytes, on_progress: Optional[OnProgress], stop: Optional[Stop]) -> Result:
+        """Asks for the result if it is known, else for the job, whose id is needed to stop it."""
+        response = self._post(body, "return=representation, wait=0")
+        if response.status != 202:
+            return self._result(response)
+        job = results.Job(response.json())
+        path = _job(job)
+        detach = stop.attach(lambda: self._dismiss_quietly(path)) if stop else None
+        try:
+            if on_progress is None:
+                self._wait(path)
+            else:
+                self._tell(job, on_progress)
+            return self.result(job)
+        except BaseException:
+            self._dismiss_quietly(path)
+            raise
+        finally:
+            if detach:
+                detach()
 
     def _tell(self, job: results.Job, on_progress: OnProgress) -> None:
         for event in self.events(job):
@@ -243,13 +242,11 @@ class Client:
                     Progress(data.step, 0, data.load_factor, data.branch, data.negative_eigenvalues)) is False:
                 self._dismiss_quietly(_job(job))
 
-    def _post(self, body: bytes, key: str, prefer: str) -> Response:
-        return self._http.send("POST", "/v1/jobs", body, {"Content-Type": "application/json", "Prefer": prefer,
-                                                          "Idempotency-Key": key})
-
-    def _submit(self, body: bytes, key: str) -> Dict[str, Any]:
-        document: Dict[str, Any] = self._checked(self._post(body, key, "respond-async")).json()
-        return document
+    def _post(self, body: bytes, prefer: str, key: Optional[str] = None) -> Response:
+        headers = {"Content-Type": "application/json", "Prefer": prefer}
+        if key is not None:
+            headers["Idempotency-Key"] = key
+        return self._http.send("POST", "/v1/jobs", body, headers)
 
     def _result(self, response: Response) -> Result:
         if response.status == 200:
@@ -270,14 +267,6 @@ class Client:
             document: Dict[str, Any] = self._json("GET", path, None, {"Prefer": f"wait={_WAIT}"})
             if document["status"] in _ENDED:
                 return document
-
-    def _dismiss_by_key(self, body: bytes, key: str) -> None:
-        """Stops a job whose id is not known yet: the same key names it."""
-        self._http.forget()
-        try:
-            self._dismiss_quietly(_job(results.Job(self._submit(body, key))))
-        except SnapthroughError:
-            return
 
     def _dismiss_quietly(self, path: str) -> None:
         """Stops a job or a sweep; that it had ended is as good."""

@@ -82,7 +82,8 @@ class Transport:
         """A response of any status but 429 and 503, which are waited for as long as patience lasts.
 
         A connection that the service had closed meanwhile is opened again. Raises ServiceError when there is no
-        response. A request must be one that can be repeated: those that create something carry an Idempotency-Key.
+        response. A request must be one that can be repeated: what creates something that is to be there once carries an
+        Idempotency-Key.
         """
         end = time.monotonic() + self._patience
         while True:
@@ -132,10 +133,6 @@ class Transport:
         except (OSError, http.client.HTTPException) as error:
             connection.close()
             raise ServiceError(f"no answer from {self.url}: {error or type(error).__name__}") from error
-
-    def forget(self) -> None:
-        """Closes this thread's connection."""
-        self._of_thread.kept = None
 
 
 def _retry_after(response: Response) -> float:

@@ -1,5 +1,7 @@
 """Local: analyses in this process."""
 import os
+import signal
+import socket
 import threading
 import time
 import unittest
@@ -73,6 +75,29 @@ class Stopping(Case):
         with self.assertRaises(KeyboardInterrupt):
             local().solve(request("cancelled"))
         self.assertEqual(local().solve(request("arch")).summary.critical_type, "bifurcation")
+
+    def test_handlers_are_left_as_they_were(self):
+        reader, writer = socket.socketpair()
+        self.addCleanup(reader.close)
+        self.addCleanup(writer.close)
+        writer.setblocking(False)
+        before = signal.set_wakeup_fd(writer.fileno())
+        self.addCleanup(signal.set_wakeup_fd, before)
+        interrupt_after(0.2)
+        with self.assertRaises(KeyboardInterrupt):
+            local().solve(request("cancelled"))
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        self.assertEqual(signal.set_wakeup_fd(writer.fileno()), writer.fileno())
+        self.assertEqual(reader.recv(10), bytes([signal.SIGINT]))  # who learned of signals before still does
+
+    def test_a_programs_own_handler_runs_and_the_call_goes_on(self):
+        pressed = []
+        before = signal.signal(signal.SIGINT, lambda *_: pressed.append(True))
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+        interrupt_after(0.1)
+        result = local().solve(column(), snapthrough.Path(stop={"steps": 5000}, step={"max": 1e-5},
+                                                          discretization={"elements": 20}))
+        self.assertEqual((pressed, result.summary.termination), ([True], "steps"))
 
     def test_ctrl_c_ends_a_sweep_and_keeps_its_rows(self):
         sweep = snapthrough.Sweep(column(), snapthrough.Critical(), "grid", ["/summary/critical_load_factor"])
