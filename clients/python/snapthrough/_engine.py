@@ -76,7 +76,7 @@ class Pool:
     def close(self, wait: bool) -> None:
         """Shuts the executor down, if it was made here."""
         if self._factory is not None and self._executor is not None:
-            self._executor.shutdown(wait=wait, cancel_futures=True)
+            self._executor.shutdown(wait=wait)
 
 
 class Engine:
