@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-from .support import LIBRARY, PACKAGE, ROOT, Case, local, request, shared_table, snapthrough
+from .support import EXECUTABLE, LIBRARY, PACKAGE, ROOT, SWEEP, Case, Service, local, request, shared_table, snapthrough
 
 WRONG = '''
 import snapthrough as st
@@ -126,11 +126,51 @@ class Pages(Case):
     def test_what_the_page_shows_runs(self):
         with tempfile.TemporaryDirectory() as folder:
             page = "\n".join(self.blocks("use-from-python.md"))
-            from .support import Service
             service = Service()
             self.addCleanup(service.stop)
             done = run([sys.executable, "-c", page.replace("http://127.0.0.1:8080", service.url)], cwd=folder)
             self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_what_the_page_of_engines_shows_runs(self):
+        """Recipes whose engines are there; Dask's and MPI's have scripts/engines_test.sh."""
+        begin, *recipes = self.blocks("engines.md")
+        sweep = json.loads(SWEEP)
+        sweep["parameters"][1]["range"]["count"] = 2
+        there = {"distributed": False, "mpi4py": False, "joblib_workers": is_there("joblib")}
+        ran = 0
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "sweep.json").write_text(json.dumps(sweep), encoding="utf-8")
+            for recipe in recipes:
+                if not all(found for word, found in there.items() if word in recipe):
+                    continue
+                program = pathlib.Path(folder, "recipe.py")
+                program.write_text(begin + recipe + "\nif __name__ == '__main__':\n    print(len(table))\n",
+                                   encoding="utf-8")
+                done = run([sys.executable, str(program)], cwd=folder)
+                self.assertEqual((done.stdout, done.returncode), ("40\n", 0), recipe + done.stderr)
+                ran += 1
+        self.assertGreaterEqual(ran, 3)
+
+    def test_the_script_of_a_job_array_goes_on_with_a_part_that_died(self):
+        script = str(ROOT / "clients" / "batch" / "sweep_array.sh")
+        with tempfile.TemporaryDirectory() as folder:
+            sweep = pathlib.Path(folder, "sweep.json")
+            sweep.write_text(SWEEP, encoding="utf-8")
+            environment = {"PATH": f"{os.path.dirname(EXECUTABLE)}:{os.environ['PATH']}"}
+            rows = folder + "/rows"
+            tasks = ({"SLURM_ARRAY_TASK_ID": "1"}, {"PBS_ARRAY_INDEX": "2"}, {"JOB_COMPLETION_INDEX": "2"})
+            for task in tasks:
+                done = subprocess.run([script, str(sweep), rows, "3"], env={**environment, **task}, capture_output=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+            part = pathlib.Path(rows + ".2")
+            part.write_bytes(part.read_bytes()[:-500])
+            merge = ["snapthrough", "merge", rows + ".1", rows + ".2", rows + ".3", "--csv"]
+            told = subprocess.run(merge, env=environment, capture_output=True, text=True)
+            self.assertEqual(told.returncode, 1)
+            self.assertIn("--part 2/3", told.stderr)
+            subprocess.run([script, str(sweep), rows, "3", "--loop"], env=environment, capture_output=True, check=True)
+            merged = subprocess.run(merge, env=environment, capture_output=True, text=True)
+            self.assertEqual(merged.stdout, shared_table().to_csv())
 
     def test_a_large_table_becomes_a_frame(self):
         if not is_there("pandas"):
