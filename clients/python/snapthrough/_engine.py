@@ -188,10 +188,12 @@ def _error_of(future: "Future[Any]") -> Optional[BaseException]:
 def missing_spans(total: int, unit: int, there: Sequence[int]) -> List[Span]:
     """Runs of whole units of which some point has no row."""
     known = set(there)
+    if not known:
+        return [(0, total)]
     spans: List[Span] = []
     for first in range(0, total, unit):
         count = min(unit, total - first)
-        if known and all(point in known for point in range(first, first + count)):
+        if all(point in known for point in range(first, first + count)):
             continue
         if spans and sum(spans[-1]) == first:
             spans[-1] = (spans[-1][0], spans[-1][1] + count)

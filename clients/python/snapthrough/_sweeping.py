@@ -1,5 +1,5 @@
 """A sweep that is being computed: an iterator over its rows that keeps them."""
-from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
 
 from ._errors import Cancelled, Interrupted
 from ._progress import OnProgress, Progress, ProgressLine, Stop
@@ -47,8 +47,11 @@ class SweepRun(Iterator[Dict[str, Any]]):
 
     def table(self) -> Table:
         """Waits for all rows and gives them."""
-        while self._advance():
-            pass
+        try:
+            while self._advance():
+                pass
+        except KeyboardInterrupt:
+            raise self._interrupted() from None
         return self._table
 
     def __len__(self) -> int:
@@ -58,9 +61,12 @@ class SweepRun(Iterator[Dict[str, Any]]):
         return self
 
     def __next__(self) -> Dict[str, Any]:
-        while self._given >= len(self._table):
-            if not self._advance():
-                raise StopIteration
+        try:
+            while self._given >= len(self._table):
+                if not self._advance():
+                    raise StopIteration
+        except KeyboardInterrupt:
+            raise self._interrupted() from None
         self._given += 1
         return self._table[self._given - 1]
 
@@ -73,10 +79,9 @@ class SweepRun(Iterator[Dict[str, Any]]):
             return False
         try:
             return self._take(next(self._batches, None))
-        except KeyboardInterrupt:
-            raise self._end(Interrupted) from None
         except Cancelled:
-            raise self._end(Cancelled) from None
+            self._close()
+            raise Cancelled(self._table) from None
         except BaseException:
             self._close()
             raise
@@ -96,9 +101,9 @@ class SweepRun(Iterator[Dict[str, Any]]):
             raise Cancelled()
         return True
 
-    def _end(self, kind: Callable[[Table], BaseException]) -> BaseException:
+    def _interrupted(self) -> Interrupted:
         self._close()
-        return kind(self._table)
+        return Interrupted(self._table)
 
     def _close(self) -> None:
         self._ended = True

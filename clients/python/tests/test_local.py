@@ -102,9 +102,11 @@ class Stopping(Case):
     def test_ctrl_c_ends_a_sweep_and_keeps_its_rows(self):
         sweep = snapthrough.Sweep(column(), snapthrough.Critical(), "grid", ["/summary/critical_load_factor"])
         sweep.parameter("K", "/model/foundations/0/stiffness", range={"from": 1, "to": 100, "count": 1000000})
-        interrupt_after(0.5)
+        sweeping = local().sweep(sweep)
+        next(sweeping)
+        interrupt_after(0.3)
         with self.assertRaises(KeyboardInterrupt) as caught:
-            local().sweep(sweep).table()
+            sweeping.table()
         self.assertGreater(len(caught.exception.reached), 0)
         self.assertFalse(caught.exception.reached.complete)
 
