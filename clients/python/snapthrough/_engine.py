@@ -9,14 +9,14 @@ from typing import Any, Callable, Deque, Dict, Iterable, Iterator, List, Optiona
 from ._errors import SnapthroughError, WorkerDied
 from ._spans import Element
 
-#: Seconds of work that one chunk is to take: long beside what sending it takes, short beside what one waits for.
+#: Processor seconds that one chunk is to take: long beside what sending it takes, short beside what one waits for.
 _CHUNK_SECONDS = 0.1
 #: A chunk is at most this many times as large as the one that told how long points take.
 _GROWTH = 4
 #: How often a chunk is tried whose worker died.
 _ATTEMPTS = 3
 
-#: What a worker gives back: status and text of the library's document, and the seconds that it took.
+#: What a worker gives back: status and text of the library's document, and the processor seconds that it took.
 Part = Tuple[int, bytes, float]
 #: Computes `count` points from `first` on. Executors of other processes pickle it.
 Task = Callable[[int, int], Part]

@@ -160,9 +160,11 @@ class Jobs(WithService):
     def test_ctrl_c_dismisses_the_sweep(self):
         sweep = snapthrough.Sweep(column(), snapthrough.Critical(), "grid", ["/summary/critical_load_factor"])
         sweep.parameter("K", "/model/foundations/0/stiffness", range={"from": 1, "to": 100, "count": 100000})
-        interrupt_after(0.7)
+        sweeping = self.client.sweep(sweep)
+        next(sweeping)
+        interrupt_after(0.3)
         with self.assertRaises(KeyboardInterrupt) as caught:
-            self.client.sweep(sweep).table()
+            sweeping.table()
         self.assertGreater(len(caught.exception.reached), 0)
         self.assertEqual(next(self.client.sweeps()).status, "dismissed")
 
