@@ -35,6 +35,9 @@ __all__ = ["AnalysisFailed", "Buckling", "Cancelled", "Client", "Critical", "Eve
            "SnapthroughWarning", "Static", "Stop", "Sweep", "SweepRun", "Table", "UsageError", "WorkerDied", "check",
            "connect", "documents", "read_table", "results", "solve", "sweep"]
 
+#: That of the project; the library says its own: Local().version.
+__version__ = "0.1.0"
+
 _connected: "Union[Client, None]" = None
 
 

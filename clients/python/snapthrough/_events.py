@@ -1,6 +1,7 @@
 """Server-sent events of jobs and sweeps."""
 import http.client
 import json
+import time
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, Iterator, List, Optional
 
@@ -11,6 +12,8 @@ from ._part import Part
 
 #: How often a stream that broke is taken up again without an event in between.
 _ATTEMPTS = 5
+#: Seconds before the first time, twice as many before the second, and so on.
+_PAUSE = 0.1
 
 
 @dataclass(frozen=True)
@@ -42,7 +45,7 @@ def follow(transport: Transport, path: str, last_id: str = "") -> Iterator[Event
     broken = 0
     while True:
         headers = {"Accept": "text/event-stream", **({"Last-Event-ID": last_id} if last_id else {})}
-        response = transport.stream(path, headers)
+        connection, response = transport.stream(path, headers)
         try:
             if response.status == 204:
                 return
@@ -54,11 +57,16 @@ def follow(transport: Transport, path: str, last_id: str = "") -> Iterator[Event
                 if event.name == "end":
                     return
         except (OSError, http.client.HTTPException) as error:
-            broken += 1
-            if broken >= _ATTEMPTS:
-                raise ServiceError(f"the events of {path} broke off {broken} times: {error}") from error
+            cause = str(error) or type(error).__name__
+        else:
+            cause = "it ended before the end of what it tells of"
         finally:
             response.close()
+            connection.close()
+        broken += 1
+        if broken >= _ATTEMPTS:
+            raise ServiceError(f"the events of {path} broke off {broken} times: {cause}")
+        time.sleep(_PAUSE * broken)
 
 
 def _events(response: http.client.HTTPResponse, made: Dict[str, Callable[[Dict[str, Any]], Part]]) -> Iterator[Event]:

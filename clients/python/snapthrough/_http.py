@@ -7,7 +7,7 @@ import threading
 import time
 import urllib.parse
 from dataclasses import dataclass
-from typing import Any, Dict, Mapping, Optional
+from typing import Any, Dict, Mapping, Optional, Tuple
 
 from . import results
 from ._errors import ServiceError
@@ -123,13 +123,14 @@ class Transport:
             data = gzip.decompress(data)
         return Response(response.status, told, data)
 
-    def stream(self, path: str, headers: Mapping[str, str]) -> http.client.HTTPResponse:
-        """A response whose body the caller reads as it comes, on a connection of its own."""
+    def stream(self, path: str,
+               headers: Mapping[str, str]) -> Tuple[http.client.HTTPConnection, http.client.HTTPResponse]:
+        """A response whose body the caller reads as it comes, and its connection, which the caller closes."""
         connection = self.connection()
         try:
             connection.request("GET", self._prefix + path, None, {**self._headers, "Accept-Encoding": "identity",
                                                                   "Connection": "close", **headers})
-            return connection.getresponse()
+            return connection, connection.getresponse()
         except (OSError, http.client.HTTPException) as error:
             connection.close()
             raise ServiceError(f"no answer from {self.url}: {error or type(error).__name__}") from error

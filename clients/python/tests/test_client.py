@@ -254,6 +254,18 @@ class Refusals(Case):
         self.assertEqual(client.limits().nodes, 7)
         self.assertNotEqual(Scripted.seen[0].get("Accept-Encoding"), "gzip")  # of no use on the loopback device
 
+    def test_events_that_break_off_are_taken_up_after_what_was_seen(self):
+        job = json.dumps({"id": "7", "status": "running"})
+        first = f"id: 1\nevent: status\ndata: {job}\n\nid: 2\nevent: news\ndata: {{}}\n\n".encode()
+        last = f": a comment\nid: 3\nevent: end\ndata: {job}\n\n".encode()
+        stream = {"Content-Type": "text/event-stream"}
+        Scripted.answers = [(200, stream, first), (200, stream, b""), (200, stream, last)]
+        self.assertEqual([event.name for event in snapthrough.Client(self.url).events("7")], ["status", "end"])
+        self.assertEqual([seen.get("Last-Event-ID") for seen in Scripted.seen], [None, "1", "1"])
+        Scripted.answers = [(200, stream, b"")] * 5
+        with self.assertRaisesRegex(snapthrough.ServiceError, "5 times"):
+            list(snapthrough.Client(self.url).events("7"))
+
     def test_what_is_no_problem_document_is_told(self):
         Scripted.answers = [(502, {}, b"<html>bad gateway</html>")]
         with self.assertRaisesRegex(snapthrough.ServiceError, "502"):

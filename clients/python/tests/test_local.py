@@ -180,6 +180,9 @@ class Calls(Case):
             self.assertLess(time.monotonic(), deadline, "the child hangs")
             time.sleep(0.01)
 
+    def test_the_package_has_the_version_of_the_library(self):
+        self.assertEqual(snapthrough.__version__, local().version)
+
     def test_check_names_every_mistake(self):
         check = local().check(request("wrong"))
         self.assertFalse(check.valid)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A sweep by every engine of docs/howto/engines.md: the same bytes from each, also where workers are killed on the way.
 
-  check.py BUILD_FOLDER [POINTS] [--engine NAME]...
+  check.py BUILD_FOLDER [POINTS] [--engine NAME]... [--without NAME]...
 
 The default is 20 000 points of about 1 ms: buckling loads of columns drawn at random. Prints a table: wall time and the
 speed-up over one process; processor time of all processes that take part, that of the library's calls alone, and the
@@ -233,6 +233,7 @@ def main(arguments):
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("points", type=int, nargs="?", default=20000)
     parser.add_argument("--engine", action="append", choices=NAMES)
+    parser.add_argument("--without", action="append", choices=NAMES, default=[])
     options = parser.parse_args(arguments)
     computed = Engines(options.build.resolve(), options.points)
     expected, base_wall, base_cpu = measure(computed, "command_line")
@@ -241,7 +242,7 @@ def main(arguments):
           "us a point that the engine costs |\n| --- | --- | --- | --- | --- | --- |")
     print(f"| command_line | {base_wall:.2f} | {single_wall / base_wall:.2f} | {base_cpu:.2f} | | |", flush=True)
     wrong = []
-    for name in options.engine or NAMES[1:]:
+    for name in options.engine or [name for name in NAMES[1:] if name not in options.without]:
         try:
             text, wall, cpu = measure(computed, name)
         except (ImportError, FileNotFoundError) as error:
