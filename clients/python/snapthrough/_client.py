@@ -127,7 +127,7 @@ class Client:
         Arguments:
             sweep: A Sweep, or the document of one, as a dictionary or JSON text.
             on_progress: Called as rows come; False stops the sweep.
-            progress: Whether a bar is shown on standard error; by default where that is a terminal.
+            progress: Whether a bar is shown on standard error; by default on a terminal and in a notebook.
             stop: Stops the sweep from another thread.
             label: Name under which the sweep can be found.
             metadata: At most 16 texts by name.

@@ -89,7 +89,7 @@ class Local:
                 that died are tried again; by default threads of this process.
             workers: Number of the executor's workers, where it does not tell; for the default executor its threads.
             on_progress: Called as rows come; False stops the sweep.
-            progress: Whether a bar is shown on standard error; by default where that is a terminal.
+            progress: Whether a bar is shown on standard error; by default on a terminal and in a notebook.
             stop: Stops the sweep from another thread.
             resume: Rows that are there already, as a Table or the path of a JSON table or NDJSON; they are not
                 computed again. A path that does not exist is a table without rows.

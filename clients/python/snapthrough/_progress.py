@@ -74,10 +74,11 @@ class ProgressLine:
 
     def __init__(self, total: int, wanted: Optional[bool]) -> None:
         self._total = total
-        self._shown = sys.stderr.isatty() if wanted is None else wanted
+        self._shown = _has_reader() if wanted is None else wanted
         self._bar: Any = None
         self._start = time.monotonic()
         self._next = 0.0
+        self._width = 0
         if self._shown:
             self._bar = _tqdm(total)
 
@@ -96,7 +97,9 @@ class ProgressLine:
         failed = f", {progress.failed} failed" if progress.failed else ""
         left = (self._total - progress.done) / max(1e-9, rate)
         bar = "#" * round(_BAR * share) + "." * (_BAR - round(_BAR * share))
-        sys.stderr.write(f"\r[{bar}] {progress.done}/{self._total}{failed}, {rate:.3g} points/s, {left:.0f} s left\x1b[K")
+        line = f"[{bar}] {progress.done}/{self._total}{failed}, {rate:.3g} points/s, {left:.0f} s left"
+        sys.stderr.write("\r" + line.ljust(self._width))  # the end of a longer line before it is overwritten
+        self._width = len(line)
         sys.stderr.flush()
 
     def close(self) -> None:
@@ -109,9 +112,14 @@ class ProgressLine:
         self._shown = False
 
 
+def _has_reader() -> bool:
+    """Whether somebody sees standard error as it is written: on a terminal or in a notebook."""
+    return sys.stderr.isatty() or "ipykernel" in sys.modules
+
+
 def _tqdm(total: int) -> Any:
     try:
-        from tqdm.auto import tqdm
+        from tqdm import tqdm
     except ImportError:
         return None
     return tqdm(total=total, unit="points", file=sys.stderr)

@@ -189,7 +189,7 @@ class Telling(Case):
     def test_the_line_on_a_terminal(self):
         for without_tqdm in (True, False):
             stream = io.StringIO()
-            blocked = {"tqdm": None, "tqdm.auto": None} if without_tqdm else {}
+            blocked = {"tqdm": None} if without_tqdm else {}
             with mock.patch.object(sys, "stderr", stream), mock.patch.dict(sys.modules, blocked):
                 local().sweep(sweep_of(20), progress=True).table()
             self.assertIn("20/20", stream.getvalue())
