@@ -93,13 +93,13 @@ def interruptible(function: Callable[[Step], Any], on_progress: Optional[OnProgr
         pressed.append(number)
 
     _watcher = _watcher or _Watcher()
-    signal.signal(signal.SIGINT, note)  # so that what the call returns is not lost
     _watcher.begin(stop)
     try:
+        signal.signal(signal.SIGINT, note)  # so that what the call returns is not lost
         answer = _plain(function, on_progress, lambda: bool(pressed))
     finally:
-        _watcher.end()
         signal.signal(signal.SIGINT, signal.default_int_handler)
+        _watcher.end()
     if pressed:
         raise interrupted(answer)
     return answer

@@ -97,12 +97,12 @@ class Transport:
 
     def _try(self, method: str, path: str, body: Optional[bytes], headers: Mapping[str, str]) -> Response:
         kept: Optional[_Kept] = getattr(self._of_thread, "kept", None)
-        if kept is not None:
-            try:
-                return self._exchange(kept, method, path, body, headers)
-            except (http.client.RemoteDisconnected, ConnectionError, http.client.CannotSendRequest):
-                pass  # it was closed while it was idle
         try:
+            if kept is not None:
+                try:
+                    return self._exchange(kept, method, path, body, headers)
+                except (ConnectionError, http.client.CannotSendRequest):
+                    pass  # it was closed while it was idle
             return self._exchange(_Kept(self.connection()), method, path, body, headers)
         except (OSError, http.client.HTTPException) as error:
             raise ServiceError(f"no answer from {self.url}: {error or type(error).__name__}") from error

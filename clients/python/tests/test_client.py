@@ -281,6 +281,13 @@ class Refusals(Case):
         with self.assertRaisesRegex(snapthrough.ServiceError, "no answer from"):
             snapthrough.Client(f"http://127.0.0.1:{port}").limits()
 
+    def test_a_service_that_does_not_answer_is_told(self):
+        client = snapthrough.Client(self.url, timeout=0.3)
+        Scripted.answers = [(200, {}, b"{}"), (200, {"Content-Length": "10"}, b"{}")]
+        client.limits()
+        with self.assertRaisesRegex(snapthrough.ServiceError, "(?i)timed out"):
+            client.limits()
+
     def test_an_address_that_is_none_is_told(self):
         for url in ("ftp://host", "http://", "http://host/?x=1"):
             with self.assertRaisesRegex(ValueError, "url"):

@@ -1,5 +1,7 @@
 """Local: analyses in this process."""
+import copy
 import os
+import pickle
 import signal
 import socket
 import threading
@@ -205,6 +207,8 @@ class Calls(Case):
         again = snapthrough.Result.from_json(result.json)
         self.assertEqual(again.document, result.document)
         self.assertEqual(repr(again), repr(result))
+        self.assertEqual(pickle.loads(pickle.dumps(result)).document, result.document)
+        self.assertEqual(copy.deepcopy(result).summary, result.summary)
         with self.assertRaises(ValueError):
             snapthrough.Result.from_json(b"{}")
 
