@@ -93,17 +93,16 @@ double monitor_value(const ModelMonitor& monitor, const Place& place, const Memb
 
 /// Id of a monitor with its value in the state; rotations are left out, which no arrow shows.
 std::string monitor_text(const Scene& scene, const ModelMonitor& monitor, const Place& place) {
-  if (scene.input.state == nullptr || monitor.component == "rotation" || monitor.at.member.empty()) {
+  if (scene.input.state == nullptr || monitor.component == "rotation") {
     return monitor.id;
   }
-  const auto state = scene.input.state->members.find(monitor.at.member);
+  const auto state = scene.input.state->members.find(place.member->id);
   if (state == scene.input.state->members.end()) {
     return monitor.id;
   }
-  const double s = monitor.at.fraction * state->second.s.back();
   const char* symbol = monitor.component == "x" ? " u = " : monitor.component == "y" ? " v = " : " w = ";
   return monitor.id + symbol +
-         with_unit(monitor_value(monitor, place, state->second, s), scene.input.units.length, 3);
+         with_unit(monitor_value(monitor, place, state->second, place.s), scene.input.units.length, 3);
 }
 
 /// The mirror image of what is drawn, and the line of symmetry.
@@ -144,7 +143,7 @@ Part monitor_part(const Scene& scene, const View& view, Occupancy& taken) {
     if (part.labels.size() < kMost) {
       LabelRequest wanted{tip, {{monitor_text(scene, monitor, *place), "", false}}, "monitor-text", 8, 1,
                           true};
-      wanted.tolerance = 100;
+      wanted.tolerance = part.labels.empty() ? 400 : 100;
       part.labels.push_back(std::move(wanted));
     }
   }

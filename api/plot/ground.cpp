@@ -240,7 +240,7 @@ Part reaction_part(const Scene& scene, const View& view, Occupancy& taken) {
     wanted.runs = {
         {"r = " + with_unit(largest->value, unit_of(scene.input.units, Quantity::line_load), 3), "", true}};
     wanted.looks = "contact-text";
-    wanted.tolerance = 140;
+    wanted.tolerance = 400;
     wanted.leader = true;
     part.labels.push_back(std::move(wanted));
   }

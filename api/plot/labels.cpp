@@ -159,7 +159,7 @@ double Occupancy::cost(const Box& box) const {
 std::optional<Shape> place_label(const LabelRequest& request, Occupancy& taken) {
   double width = 0;
   for (const Run& run : request.runs) {
-    width += text_width(run.text, kSize, run.bold);
+    width += text_width(run.text, kSize, run.bold) + (width > 0 ? text_width(" ") : 0);
   }
   Candidate best;
   for (int ring = 0; ring < request.rings; ++ring) {
@@ -176,6 +176,9 @@ std::optional<Shape> place_label(const LabelRequest& request, Occupancy& taken) 
   taken.add_box(best.box);
   std::vector<Shape> runs;
   for (const Run& run : request.runs) {
+    if (!runs.empty()) {
+      runs.push_back(text_node(" "));
+    }
     runs.push_back(run_shape(run));
   }
   Shape text = label_of(request.looks, best.text, best.anchor, std::move(runs));

@@ -38,7 +38,7 @@ class Occupancy {
   std::vector<std::uint8_t> weight_;
 };
 
-/// A piece of a label with its looks.
+/// A piece of a label with its looks; a space stands between pieces.
 struct Run {
   std::string text;
   std::string looks;

@@ -14,6 +14,7 @@ struct Figure {
   std::vector<Shape> shapes;
   std::string title;        ///< one sentence: what is plotted
   std::string description;  ///< its numbers: critical points, extremes, ranges
+  double height = 0;        ///< that it takes, where it needs less than it has; 0: all
 };
 
 /// The size that is left for a figure in a file of a size with a heading.

@@ -126,12 +126,14 @@ Figure mode_figure(const ResultInput& input, const PlotRequest& request, Size si
                         interpolate(member.s, member.y0, shape.s[i]) + amplitude * shape.v[i]);
     }
   }
-  const View view = scene_view(scene, size);
-  Occupancy taken(size);
+  const Size used = request.height ? size : needed_size(scene, size);
+  const View view = scene_view(scene, used);
+  Occupancy taken(used);
   Figure figure;
+  figure.height = used.height;
   figure.title = caption + (scene.mirror ? ", half mirrored" : "");
   figure.description = chosen.name + " at load factor " + format_number(chosen.load_factor, 6) + ".";
-  figure.shapes = draw_structure(scene, view, size, figure.title,
+  figure.shapes = draw_structure(scene, view, used, figure.title,
                                  mode_shapes(scene, view, chosen.mode, amplitude, taken), taken);
   return figure;
 }

@@ -291,8 +291,7 @@ std::vector<PlacedMark> marks_of(const PathData& path, const ResultInput& input,
           {point.mark,
            place(frame, x, point.load_factor),
            {{format_number(point.load_factor, 5), "", true},
-            {std::string("\u00a0") + mark_text(point.mark) + (point.confirmed ? "" : ", not confirmed"),
-             "muted"}}});
+            {std::string(mark_text(point.mark)) + (point.confirmed ? "" : ", not confirmed"), "muted"}}});
     }
   }
   const std::optional<Softest> softest = read_softest(input.result);
@@ -301,7 +300,7 @@ std::vector<PlacedMark> marks_of(const PathData& path, const ResultInput& input,
       marks.push_back({Mark::softest,
                        *at,
                        {{format_number(softest->load_factor, 5), "", true},
-                        {"\u00a0softest, ratio " + format_number(softest->ratio, 3), "muted"}}});
+                        {"softest, ratio " + format_number(softest->ratio, 3), "muted"}}});
     }
   }
   return marks;

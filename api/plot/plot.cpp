@@ -120,9 +120,13 @@ std::string svg_of(const nlohmann::json& document, const PlotRequest& request) {
     input.model = plot::read_model(*request.solved_request);
   }
   const std::string heading = plot::read_title(field);
-  const Size size = file_size(request, kind);
-  return plot::file_of(figure_of(input, request, kind, plot::content_size(size, heading)), size, heading,
-                       request.dark);
+  Size size = file_size(request, kind);
+  const Size content = plot::content_size(size, heading);
+  Figure figure = figure_of(input, request, kind, content);
+  if (figure.height > 0) {
+    size.height -= content.height - figure.height;
+  }
+  return plot::file_of(std::move(figure), size, heading, request.dark);
 }
 
 }  // namespace snapthrough::api

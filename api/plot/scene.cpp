@@ -262,6 +262,14 @@ ModelBox box_with_ground(const Scene& scene) {
   return box;
 }
 
+Size needed_size(const Scene& scene, Size size) {
+  constexpr double kLeast = 120;
+  const ModelBox box = box_with_ground(scene);
+  const Margin margin = margin_of(scene);
+  const double drawn = scene_view(scene, size).scale * (box.top - box.bottom);
+  return {size.width, std::min(size.height, std::max(kLeast, drawn + margin.top + margin.bottom))};
+}
+
 View scene_view(const Scene& scene, Size size) {
   const ModelBox box = box_with_ground(scene);
   const Margin margin = margin_of(scene);
@@ -289,7 +297,9 @@ Place place_on(const DrawnMember& member, double s) {
   return {{pick(member.x0, s), pick(member.y0, s)},
           {pick(member.x, s), pick(member.y, s)},
           {-still.y, still.x},
-          direction(member.x, member.y)};
+          direction(member.x, member.y),
+          &member,
+          s};
 }
 
 std::optional<Place> place_of(const Scene& scene, const Location& location) {

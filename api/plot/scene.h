@@ -88,12 +88,16 @@ struct View {
 
 /// The box of the structure and its ground, mirror image included.
 [[nodiscard]] ModelBox box_with_ground(const Scene& scene);
+/// The size without the height that a flat structure leaves empty.
+[[nodiscard]] Size needed_size(const Scene& scene, Size size);
 /// A view that shows the whole structure with its ground, loads, supports and dimensions.
 [[nodiscard]] View scene_view(const Scene& scene, Size size);
 
 /// A place on a member: undeformed, deformed, initial left normal, deformed unit tangent.
 struct Place {
   Point still, moved, normal, tangent;
+  const DrawnMember* member = nullptr;
+  double s = 0;
 };
 [[nodiscard]] Place place_on(const DrawnMember& member, double s);
 /// The place of a location; nothing where it is not on the structure.

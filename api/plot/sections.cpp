@@ -172,7 +172,8 @@ Shape panel_shape(const Sections& sections, const Placed& placed, Size size) {
   const auto& [name, looks, unit, lines, negligible] = *placed.panel;
   std::vector<Shape> title{element("tspan", {{"class", "strong"}}, {text_node(name)})};
   if (!unit.empty()) {
-    title.push_back(element("tspan", {{"class", "muted"}}, {text_node("\u00a0" + unit)}));
+    title.push_back(text_node(" "));
+    title.push_back(element("tspan", {{"class", "muted"}}, {text_node(unit)}));
   }
   Occupancy taken = room_of(placed, size, text_width(name, 12, true) + text_width(" " + unit));
   std::vector<Shape> shapes{

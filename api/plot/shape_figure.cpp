@@ -51,11 +51,13 @@ Figure shape_figure(const ResultInput& input, const PlotRequest& request, Size s
       input.model ? &*input.model : nullptr, &state, nullptr, input.units, 1, state.load_factor};
   scene_input.factor = factor_of(request, scene_input);
   const Scene scene = make_scene(scene_input);
-  Occupancy taken(size);
+  const Size used = request.height ? size : needed_size(scene, size);
+  Occupancy taken(used);
   Figure figure;
+  figure.height = used.height;
   figure.title = caption_of(scene, critical_words(input.result, index));
   figure.description = description_of(state, index);
-  figure.shapes = draw_structure(scene, scene_view(scene, size), size, figure.title, {}, taken);
+  figure.shapes = draw_structure(scene, scene_view(scene, used), used, figure.title, {}, taken);
   return figure;
 }
 

@@ -38,7 +38,7 @@ std::vector<const Column*> series_of(const Table& table, const PlotRequest& requ
   return series;
 }
 
-std::vector<Curve> curves_of(const Table& table, const std::vector<const Column*>& series, const Column& x) {
+std::vector<Curve> curves_of(const std::vector<const Column*>& series, const Column& x) {
   std::map<std::vector<double>, std::size_t> known;
   std::vector<Curve> curves;
   for (std::size_t row = 0; row < x.values.size(); ++row) {
@@ -61,17 +61,19 @@ std::vector<Curve> curves_of(const Table& table, const std::vector<const Column*
     std::stable_sort(curve.rows.begin(), curve.rows.end(),
                      [&](std::size_t a, std::size_t b) { return x.values[a] < x.values[b]; });
   }
-  (void)table;
   return curves;
 }
 
-std::vector<LegendEntry> legend_of(const std::vector<Curve>& curves) {
+std::vector<LegendEntry> legend_of(const std::vector<Curve>& curves, const Column& y) {
   std::vector<LegendEntry> entries;
   if (curves.size() < 2 || curves.size() > kNamed) {
     return entries;
   }
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    entries.push_back({curves[i].name, "series-line", "series series-" + std::to_string(i % kColours)});
+    const bool empty = std::none_of(curves[i].rows.begin(), curves[i].rows.end(),
+                                    [&](std::size_t row) { return std::isfinite(y.values[row]); });
+    entries.push_back({curves[i].name + (empty ? " (no value)" : ""), "series-line",
+                       "series series-" + std::to_string(i % kColours)});
   }
   return entries;
 }
@@ -147,9 +149,9 @@ Frame frame_of(const Column& x, const Column& y, Size size, double top) {
 Figure sweep_figure(const Field& document, const PlotRequest& request, Size size) {
   const Table table = read_table(document, request);
   const Column& x = request.x ? parameter(table, *request.x) : *default_parameters(table, request).x;
-  const std::vector<Curve> curves = curves_of(table, series_of(table, request, x), x);
+  const std::vector<Curve> curves = curves_of(series_of(table, request, x), x);
   const std::string failures = failure_text(table.errors);
-  const std::vector<LegendEntry> legend = legend_of(curves);
+  const std::vector<LegendEntry> legend = legend_of(curves, table.output);
   const double under_failures = failures.empty() ? 0 : 18;
   const Frame frame =
       frame_of(x, table.output, size, 12 + under_failures + legend_height(legend, size.width));
