@@ -200,7 +200,7 @@ Shape frame_shape(const Frame& frame, Size size) {
     const double half = text_width(text) / 2;
     if (px - half >= free_from) {
       shapes.push_back(label("tick", {px, y.start + 16}, Anchor::middle, text));
-      free_from = px + half + 6;
+      free_from = px + half + 10;
     }
   }
   for (const auto& [value, text] : written(y, y_names, y_values, kTickSpacingY)) {

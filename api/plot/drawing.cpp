@@ -100,9 +100,11 @@ std::string monitor_text(const Scene& scene, const ModelMonitor& monitor, const 
   if (state == scene.input.state->members.end()) {
     return monitor.id;
   }
+  constexpr double kRounding = 1e-9;  // of the structure: less is no displacement
+  const double value = monitor_value(monitor, place, state->second, place.s);
   const char* symbol = monitor.component == "x" ? " u = " : monitor.component == "y" ? " v = " : " w = ";
   return monitor.id + symbol +
-         with_unit(monitor_value(monitor, place, state->second, place.s), scene.input.units.length, 3);
+         with_unit(std::abs(value) > kRounding * scene.extent ? value : 0, scene.input.units.length, 3);
 }
 
 /// The mirror image of what is drawn, and the line of symmetry.

@@ -346,7 +346,7 @@ std::vector<Shape> key_shapes(const Map& map, const std::string& failures, Size 
 bool is_for_heatmap(const Field& document) {
   const Table table = read_table(document, PlotRequest());
   const std::vector<const Column*> varied = varied_parameters(table);
-  return varied.size() > 1 && varied[1]->distinct() > kForHeatmap;
+  return varied.size() == 2 && varied[1]->distinct() > kForHeatmap;
 }
 
 Figure heatmap_figure(const Field& document, const PlotRequest& request, Size size) {

@@ -73,8 +73,8 @@ class PlotError : public std::runtime_error {
   std::string rule_;
 };
 
-/// @brief The figure that fits a document best: table with one parameter: sweep; with two and more: heatmap
-/// where both have more than six values, else sweep. Result with buckling modes: mode; with static rows and
+/// @brief The figure that fits a document best: table with two parameters of more than six values each:
+/// heatmap; with others: sweep. Result with buckling modes: mode; with static rows and
 /// states: shape; with branches or static rows: path; else with states: shape; else mode.
 /// @throws PlotError when it is neither a result nor a table
 [[nodiscard]] PlotKind default_plot_kind(const nlohmann::json& document);
