@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <exception>
 #include <map>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <string_view>
 #include <thread>
 
 #include "server/cli/commands.h"
+#include "server/cli/described_app.h"
+#include "server/cli/remote_arguments.h"
 
 namespace snapthrough::server::cli {
 namespace {
@@ -30,6 +33,7 @@ struct Arguments {
   std::string target;
   std::string address = "127.0.0.1:8080";
   bool ready = false;
+  RemoteArguments remote;
 };
 
 /// The variables that are the service's, by name.
@@ -38,7 +42,7 @@ std::map<std::string, std::string> own_variables() {
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
     const std::size_t equals = std::min(text.find('='), text.size());
-    if (text.starts_with(kVariablePrefix)) {
+    if (text.starts_with(kVariablePrefix) && !is_remote_variable(text.substr(0, equals))) {
       own.emplace(text.substr(0, equals), text.substr(std::min(equals + 1, text.size())));
     }
   }
@@ -127,38 +131,56 @@ SettingSources sources_of(const Arguments& arguments) {
   return sources;
 }
 
-}  // namespace
-
-int run(int argc, const char* const* argv, const Streams& streams) {
-  CLI::App app{"Equilibrium paths and critical loads of slender structures on elastic bases", "snapthrough"};
+/// Every command with its options. @pre the arguments outlive the app
+void describe(CLI::App& app, Arguments& arguments) {
+  app.description("Equilibrium paths and critical loads of slender structures on elastic bases");
+  app.name("snapthrough");
   app.set_version_flag("--version", "snapthrough " SNAPTHROUGH_VERSION);
   app.require_subcommand(1);
-  Arguments arguments;
-  const CLI::App* solve = add_solve_command(app, arguments);
-  const CLI::App* check = add_request_command(app, "check", "Validate a request", arguments);
-  const CLI::App* sweep = add_sweep_command(app, arguments);
+  add_solve_command(app, arguments);
+  add_request_command(app, "check", "Validate a request", arguments);
+  add_sweep_command(app, arguments);
   add_service_command(app, "serve", "Run the service", arguments);
-  const CLI::App* work = add_service_command(
-      app, "work", "Work on what the service was given on other hosts, which share the store", arguments);
+  add_service_command(app, "work", "Work on what the service was given on other hosts, which share the store",
+                      arguments);
   add_service_command(app, "migrate", "Bring the schema of the store up to date, and end", arguments);
+  add_remote_commands(app, arguments.remote);
   add_copy_command(app, arguments);
   add_backup_command(app, arguments);
   add_health_command(app, arguments);
+}
+
+}  // namespace
+
+std::shared_ptr<const CLI::App> described_app() {
+  struct Described {
+    Arguments arguments;
+    CLI::App app;
+  };
+  const auto described = std::make_shared<Described>();
+  describe(described->app, described->arguments);
+  return {described, &described->app};
+}
+
+int run(int argc, const char* const* argv, const Streams& streams) {
+  CLI::App app;
+  Arguments arguments;
+  describe(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error, streams.out, streams.err) == 0 ? kDone : kOther;
   }
   try {
-    if (*solve) {
+    if (app.got_subcommand("solve")) {
       return solve_command(arguments.request, streams,
                            {arguments.csv || !arguments.table.empty(),
                             api::result_table_from(arguments.table), ::isatty(STDERR_FILENO) == 1});
     }
-    if (*check) {
+    if (app.got_subcommand("check")) {
       return check_command(arguments.request, streams);
     }
-    if (*sweep) {
+    if (app.got_subcommand("sweep")) {
       const api::TableForm form = arguments.csv      ? api::TableForm::csv
                                   : arguments.ndjson ? api::TableForm::ndjson
                                                      : api::TableForm::json;
@@ -178,7 +200,10 @@ int run(int argc, const char* const* argv, const Streams& streams) {
     if (app.got_subcommand("migrate")) {
       return migrate_command(sources_of(arguments), streams);
     }
-    return serve_command(sources_of(arguments), !*work, streams);
+    if (arguments.remote.action) {
+      return arguments.remote.action(streams);
+    }
+    return serve_command(sources_of(arguments), !app.got_subcommand("work"), streams);
   } catch (const std::exception& error) {
     streams.err << "snapthrough: " << error.what() << '\n';
     return kOther;
