@@ -37,13 +37,13 @@ make_base() {
   # shellcheck disable=SC2016
   mirror="$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Codename: bookworm' | head -n 1)"
   [ -n "$mirror" ] || fail "apt knows no archive of Debian 12 (bookworm)"
-  say "debootstrap"
+  say "a bare Debian 12 is made (debootstrap), and kept for the next time"
   mkdir -p "$root"
   debootstrap --variant=minbase bookworm "$root" "$mirror" >"$work/debootstrap.log" 2>&1 ||
     { cat "$work/debootstrap.log" >&2; fail "no bare system"; }
   cp /etc/resolv.conf "$root/etc/resolv.conf"
   apt_get chroot "$root" update -qq
-  apt_get chroot "$root" install -y -qq --no-install-recommends systemd systemd-sysv dbus >/dev/null
+  apt_get chroot "$root" install -y -qq --no-install-recommends systemd systemd-sysv dbus >"$work/debootstrap.log" 2>&1
   mkdir -p "$(dirname "$base")"
   tar -C "$root" -cf "$base.part" . && mv "$base.part" "$base"
 }
@@ -109,7 +109,15 @@ service_up() {
   fail "the service does not take work"
 }
 
-service_pid() { inside sh -c 'for p in /proc/[0-9]*; do [ "$(tr "\0" " " <$p/cmdline 2>/dev/null | cut -d" " -f1-2)" = "/usr/bin/snapthrough serve" ] && echo "${p#/proc/}"; done' | head -n 1; }
+# The process of the service, as the system inside numbers it; nothing when there is none.
+service_pid() {
+  # shellcheck disable=SC2016
+  inside sh -c 'for process in /proc/[0-9]*; do
+      case "$(tr "\\0" " " 2>/dev/null <"$process/cmdline")" in
+        "/usr/bin/snapthrough serve "*) echo "${process#/proc/}" ;;
+      esac
+    done' 2>/dev/null | head -n 1
+}
 
 # stop_by_hand: what systemd does by itself.
 stop_by_hand() {

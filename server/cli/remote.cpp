@@ -28,7 +28,7 @@ constexpr int kShownWait_s = 1;
 
 /// The part of a problem's type that names the kind.
 std::string kind_of(const json& problem) {
-  const std::string type = problem.value("type", "");
+  const std::string type = problem.is_object() ? problem.value("type", "") : "";
   return type.substr(type.rfind(':') + 1);
 }
 
@@ -178,10 +178,11 @@ std::optional<Found> find(const std::string& id, RemoteService& service, const S
   for (const bool is_sweep : {false, true}) {
     const std::string path = (is_sweep ? "/v1/sweeps/" : "/v1/jobs/") + id;
     const Answer answer = service.get(path);
-    if (answer.status == 200) {
-      return Found{path, document_of(answer), is_sweep};
+    const json document = document_of(answer);
+    if (answer.status == 200 && document.is_object() && document.value("id", "") == id) {
+      return Found{path, document, is_sweep};
     }
-    const bool goes_on = answer.status == 404 && kind_of(document_of(answer)) == "no-such-job";
+    const bool goes_on = answer.status == 404 && kind_of(document) == "no-such-job";
     if (!goes_on || is_sweep) {
       tell_problem(answer, service, streams);
       return std::nullopt;
