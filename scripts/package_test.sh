@@ -77,11 +77,16 @@ start_system() {
   return 1
 }
 
-# start_holder: without systemd, a network of its own that commands are run in.
+# start_holder: without systemd, a network and processes of its own that commands are run in.
 start_holder() {
-  unshare --net sleep infinity &
-  leader=$!
-  sleep 0.3
+  unshare --net --mount --pid --fork --mount-proc="$root/proc" sleep infinity &
+  local holder=$!
+  for _ in $(seq 50); do
+    leader="$(pgrep -P "$holder" | head -n 1 || true)"
+    [ -z "$leader" ] || break
+    sleep 0.1
+  done
+  [ -n "$leader" ] || fail "no namespaces"
   nsenter --net --target "$leader" ip link set lo up
 }
 
@@ -89,7 +94,7 @@ inside() {
   if [ -n "$booted" ]; then
     nsenter --all --target "$leader" "$@"
   else
-    nsenter --net --target "$leader" chroot "$root" "$@"
+    nsenter --net --mount --pid --target "$leader" chroot "$root" "$@"
   fi
 }
 
@@ -121,9 +126,15 @@ service_pid() {
 
 # stop_by_hand: what systemd does by itself.
 stop_by_hand() {
-  if [ -z "$booted" ] && [ -n "$(service_pid)" ]; then
-    kill -TERM "$(pgrep -f '^/usr/bin/snapthrough serve' | head -n 1)"
-    sleep 1
+  local pid
+  pid="$(service_pid)"
+  if [ -z "$booted" ] && [ -n "$pid" ]; then
+    inside sh -c "kill -TERM $pid"
+    for _ in $(seq 100); do
+      [ -n "$(service_pid)" ] || return 0
+      sleep 0.1
+    done
+    fail "the service does not stop"
   fi
 }
 
@@ -218,6 +229,10 @@ if [ -n "${BEFORE:-}" ]; then
 fi
 second="$(inside snapthrough submit "$example" --label after)"
 [ "$(inside snapthrough wait "$second")" = successful ]
+say "the commands of docs/howto/install-the-package.md"
+{ echo "set -eu; cd /root"; sed -n '/^```sh$/,/^```$/p' docs/howto/install-the-package.md | grep -v '^```'; } >"$root/root/page.sh"
+[ "$(inside sh /root/page.sh)" = successful ] || fail "the page's commands"
+[ "$(head -c 6 "$root/root/path.csv")" = branch ] || fail "the page's table"
 inside sh -c 'test -s /usr/share/man/man1/snapthrough-serve.1.gz && test -s /usr/share/bash-completion/completions/snapthrough'
 
 say "remove, install again"

@@ -2,11 +2,13 @@
 
   python3 tests/remote/remote_test.py BINARY
 """
+import hashlib
 import http.server
 import json
 import pathlib
-import pty
 import os
+import pty
+import re
 import signal
 import subprocess
 import sys
@@ -234,9 +236,24 @@ class AgainstAService(unittest.TestCase):
             self.assertIn("trying again", err)
 
 
+class ThePage(unittest.TestCase):
+    def test_its_commands_do_what_it_says(self):
+        page = (SOURCE / "docs" / "howto" / "use-a-service-from-the-command-line.md").read_text(encoding="utf-8")
+        blocks = re.findall(r"^```sh\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+        self.assertEqual(len(blocks), 3)
+        with Service(BINARY) as service, tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "examples").symlink_to(EXAMPLES)
+            (pathlib.Path(folder) / "snapthrough").symlink_to(BINARY)
+            script = "set -euo pipefail\n" + "".join(blocks).replace("http://127.0.0.1:8080", service.url)
+            env = plain_environment(PATH=f"{folder}:{os.environ['PATH']}")
+            done = subprocess.run(["bash", "-c", script], cwd=folder, env=env, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout), (0, "successful\n" * 3), done.stderr)
+            for name in ("result.json", "path.csv", "lining.csv", "night.json"):
+                self.assertGreater((pathlib.Path(folder) / name).stat().st_size, 100, name)
+
+
 class WithKeys(unittest.TestCase):
     def test_a_key_is_read_from_its_file(self):
-        import hashlib
         key = "0123456789abcdef" * 4
         settings = f'[[keys]]\nowner = "ann"\nsha256 = "{hashlib.sha256(key.encode()).hexdigest()}"\n'
         with Service(BINARY, settings) as service:
