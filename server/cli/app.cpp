@@ -26,6 +26,9 @@ struct Arguments {
   bool ndjson = false;
   std::string table;
   std::optional<std::uint64_t> point;
+  std::string part = "1/1";
+  std::string out;
+  std::vector<std::string> parts;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string config_file;
   std::map<std::string, std::string> settings;  ///< by name, as given
@@ -77,8 +80,39 @@ CLI::App* add_sweep_command(CLI::App& app, Arguments& arguments) {
   command->add_option("--threads", arguments.threads, "Points at the same time; rows do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--point", arguments.point, "Only write the request of this point, numbered from 0");
+  CLI::Option* point = command->add_option("--point", arguments.point,
+                                           "Only write the request of this point, numbered from 0");
+  CLI::Option* out =
+      command
+          ->add_option("--out", arguments.out,
+                       "Keep the rows in this file, which can be resumed; `merge` makes the table")
+          ->excludes(csv)
+          ->excludes("--ndjson")
+          ->excludes(point);
+  command->add_option("--part", arguments.part, "Only the points of part I of N, as I/N; needs --out")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return sweep_part_from(text) ? "" : "a part is I/N with numbers 1 <= I <= N, such as 3/16";
+          },
+          "I/N"))
+      ->needs(out);
   return command;
+}
+
+CLI::App* add_merge_command(CLI::App& app, Arguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("merge", "Write the table of a sweep whose parts were computed with sweep --out");
+  command->add_option("files", arguments.parts, "Files of all parts, in any order")->required();
+  CLI::Option* csv = command->add_flag("--csv", arguments.csv, "Comma-separated values instead of JSON");
+  command->add_flag("--ndjson", arguments.ndjson, "One JSON object a line instead of one document")
+      ->excludes(csv);
+  return command;
+}
+
+api::TableForm form_of(const Arguments& arguments) {
+  return arguments.csv      ? api::TableForm::csv
+         : arguments.ndjson ? api::TableForm::ndjson
+                            : api::TableForm::json;
 }
 
 /// Every setting is a flag: log_level is --log-level.
@@ -140,6 +174,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   add_solve_command(app, arguments);
   add_request_command(app, "check", "Validate a request", arguments);
   add_sweep_command(app, arguments);
+  add_merge_command(app, arguments);
   add_service_command(app, "serve", "Run the service", arguments);
   add_service_command(app, "work", "Work on what the service was given on other hosts, which share the store",
                       arguments);
@@ -181,12 +216,15 @@ int run(int argc, const char* const* argv, const Streams& streams) {
       return check_command(arguments.request, streams);
     }
     if (app.got_subcommand("sweep")) {
-      const api::TableForm form = arguments.csv      ? api::TableForm::csv
-                                  : arguments.ndjson ? api::TableForm::ndjson
-                                                     : api::TableForm::json;
-      // On a terminal the rows themselves show how far it is.
-      const bool bar = ::isatty(STDERR_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 0;
-      return sweep_command(arguments.request, streams, {form, arguments.threads, bar, arguments.point});
+      // On a terminal the rows themselves show how far it is, unless a file takes them.
+      const bool bar =
+          ::isatty(STDERR_FILENO) == 1 && (::isatty(STDOUT_FILENO) == 0 || !arguments.out.empty());
+      return sweep_command(arguments.request, streams,
+                           {form_of(arguments), arguments.threads, bar, arguments.point, arguments.out,
+                            *sweep_part_from(arguments.part)});
+    }
+    if (app.got_subcommand("merge")) {
+      return merge_command(arguments.parts, form_of(arguments), streams);
     }
     if (app.got_subcommand("backup")) {
       return backup_command(arguments.store, arguments.target, streams);
