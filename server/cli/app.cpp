@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <exception>
 #include <map>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <string_view>
 #include <thread>
 
 #include "server/cli/commands.h"
+#include "server/cli/plot.h"
 
 namespace snapthrough::server::cli {
 namespace {
@@ -137,6 +139,7 @@ int run(int argc, const char* const* argv, const Streams& streams) {
   const CLI::App* solve = add_solve_command(app, arguments);
   const CLI::App* check = add_request_command(app, "check", "Validate a request", arguments);
   const CLI::App* sweep = add_sweep_command(app, arguments);
+  const std::shared_ptr<PlotArguments> plot = add_plot_command(app);
   add_service_command(app, "serve", "Run the service", arguments);
   const CLI::App* work = add_service_command(
       app, "work", "Work on what the service was given on other hosts, which share the store", arguments);
@@ -165,6 +168,9 @@ int run(int argc, const char* const* argv, const Streams& streams) {
       // On a terminal the rows themselves show how far it is.
       const bool bar = ::isatty(STDERR_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 0;
       return sweep_command(arguments.request, streams, {form, arguments.threads, bar, arguments.point});
+    }
+    if (app.got_subcommand("plot")) {
+      return plot_command(*plot, streams);
     }
     if (app.got_subcommand("backup")) {
       return backup_command(arguments.store, arguments.target, streams);
