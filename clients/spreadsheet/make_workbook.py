@@ -32,7 +32,8 @@ REQUEST_TEXT = """{"model": {"title": "Buried pipe of a workbook", "units": {"le
 "loads": [{"type": "distributed", "member": "right", "force": [0, <-B10>], "per": "horizontal", "range": [0.5, 1]},
 {"type": "distributed", "member": "left", "force": [0, <-B10>], "per": "horizontal", "range": [0, 0.5]}],
 "monitors": [{"id": "crown", "at": {"node": "crown"}, "component": "y"}]},
-"analysis": {"type": "path", "stop": {"monitor": {"id": "crown", "range": [<-0.3*B6>, <0.1*B6>]}}}}"""
+"analysis": {"type": "path", "stop": {"monitor": {"id": "crown", "range": [<-0.3*B6>, <0.1*B6>]}},
+"output": {"path_points": 60}}}"""
 
 
 def quoted(text):
@@ -50,8 +51,14 @@ def request_formula():
 
 
 def field(line, number):
-    """A field of a line of CSV without quotes, counted from 1."""
-    return f'TRIM(MID(SUBSTITUTE({line},",",REPT(" ",300)),{300 * (number - 1) + 1},300))'
+    """A field of a line of CSV without quotes, counted from 1; each shorter than 300 characters."""
+    return f'TRIM(MID(SUBSTITUTE({line},",",REPT(" ",300)),300*({number}-1)+1,300))'
+
+
+def column_of(name, header):
+    """Which field of a header line has this name: the number of commas before it, with one before the line."""
+    before = f'LEFT(","&{header},FIND(",{name},",","&{header}&","))'
+    return f'LEN({before})-LEN(SUBSTITUTE({before},",",""))'
 
 
 def number(text):
@@ -105,7 +112,7 @@ OFFICE = "application/vnd.openxmlformats-officedocument"
 
 def pipe_sheet():
     """Inputs, request and answer."""
-    sheet = Sheet([30, 26, 12, 62])
+    sheet = Sheet([30, 42, 20, 62])
     sheet.put("A1", "Buried flexible pipe per metre: does it snap through?", HEAD)
     sheet.put("A3", "Service")
     sheet.put(ADDRESS, "http://127.0.0.1:8080", INPUT)
@@ -124,16 +131,17 @@ def pipe_sheet():
     sheet.put("A16", "2. Answer", HEAD)
     sheet.put("A17", "job (its id)")
     sheet.put(JOB, "", INPUT)
-    sheet.put("D17", "The answer is read from the job: allow the links of the workbook, and recalculate (Ctrl+Shift+F9).")
+    sheet.put("D17", "The answer is read from the job: allow the links of the workbook, and recalculate everything.")
     sheet.put("A18", "critical points of the path")
     sheet.put("B18", f'=IF({JOB}="","",IFERROR(' + web(f'"/v1/jobs/"&{JOB}&"/table.csv?table=critical_points"') + ',"no answer"))', LINE)
     sheet.put("A19", "first of them")
     first = 'IFERROR(FIND(CHAR(10),B18),0)'
     sheet.put("B19", f'=IF({first}=0,"",MID(B18,{first}+1,IFERROR(FIND(CHAR(13),B18,{first}),LEN(B18))-{first}-1))', LINE)
     sheet.put("A20", "critical load factor")
-    sheet.put("B20", "=" + number(field("B19", 4)), NUMBER)
+    header = 'LEFT(B18,FIND(CHAR(13),B18)-1)'
+    sheet.put("B20", "=" + number(field("B19", column_of("load_factor", header))), NUMBER)
     sheet.put("A21", "kind")
-    sheet.put("B21", "=" + field("B19", 2))
+    sheet.put("B21", f'=IFERROR({field("B19", column_of("type", header))},"")')
     sheet.put("A22", "critical pressure (kN/m2)")
     sheet.put("B22", f'=IF(B20="","",B20*{PRESSURE})', NUMBER)
     sheet.put("A23", "verdict")
@@ -152,8 +160,8 @@ def line_rows(sheet, source, rows):
     for row in range(3, 3 + rows):
         begin = "=1" if row == 3 else f'=IFERROR(FIND(CHAR(10),{source},A{row - 1})+1,"")'
         sheet.put(f"A{row}", begin)
-        line = f'MID({source},A{row},FIND(CHAR(13),{source},A{row})-A{row})'
-        sheet.put(f"B{row}", f'=IF(A{row}="","",IFERROR({line},""))', LINE)
+        line = f'MID({source},A{row},FIND(CHAR(10),{source},A{row})-A{row})'
+        sheet.put(f"B{row}", f'=IF(A{row}="","",IFERROR(SUBSTITUTE({line},CHAR(13),""),""))', LINE)
 
 
 def path_sheet():
@@ -162,11 +170,13 @@ def path_sheet():
     path = f'"/v1/jobs/"&Pipe!${JOB[0]}${JOB[1:]}&"/table.csv?table=points"'
     sheet.put("A1", f'=IF(Pipe!{JOB}="","",IFERROR({web(path)},"no answer"))', LINE)
     line_rows(sheet, "$A$1", PATH_ROWS)
+    for column, name in (("C", "crown"), ("D", "load_factor")):
+        sheet.put(f"{column}1", "=" + f'IFERROR({column_of(name, "B3")},0)')
     sheet.put("C2", "displacement of the crown (m)", HEAD)
     sheet.put("D2", "load factor", HEAD)
     for row in range(4, 3 + PATH_ROWS):
-        for column, place in (("C", 6), ("D", 3)):
-            text = field(f"$B{row}", place)
+        for column in "CD":
+            text = field(f"$B{row}", f"{column}$1")
             # An empty cell of a chart is no point where it is an error.
             sheet.put(f"{column}{row}", f'=IF($B{row}="",NA(),IFERROR(_xlfn.NUMBERVALUE({text},"."),NA()))', NUMBER)
     return sheet

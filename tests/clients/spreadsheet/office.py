@@ -5,6 +5,7 @@ Steps are ["set", sheet, cell, value], ["recalculate"] or ["get", sheet, range];
 """
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -57,10 +58,25 @@ def run(document, steps):
     return answers
 
 
+# What a user allows by a click: the links of workbooks in this folder are loaded.
+TRUST = """<?xml version="1.0" encoding="UTF-8"?>
+<oor:items xmlns:oor="http://openoffice.org/2001/registry">
+<item oor:path="/org.openoffice.Office.Calc/Content/Update"><prop oor:name="Link" oor:op="fuse"><value>0</value></prop></item>
+<item oor:path="/org.openoffice.Office.Common/Security/Scripting"><prop oor:name="SecureURL" oor:op="fuse"><value>
+<it>FOLDER</it></value></prop></item>
+</oor:items>"""
+
+
 def main():
-    workbook, picture = (pathlib.Path(name).resolve() for name in sys.argv[1:3])
+    given, picture = (pathlib.Path(name).resolve() for name in sys.argv[1:3])
     steps = json.load(sys.stdin)
     with tempfile.TemporaryDirectory() as profile:
+        workbook = pathlib.Path(profile) / "workbook/copy.xlsx"  # LibreOffice locks what it opens
+        workbook.parent.mkdir()
+        shutil.copy(given, workbook)
+        settings = pathlib.Path(profile) / "user/registrymodifications.xcu"
+        settings.parent.mkdir()
+        settings.write_text(TRUST.replace("FOLDER", workbook.parent.as_uri()), encoding="utf-8")
         pipe = "snapthrough" + pathlib.Path(profile).name
         office = subprocess.Popen(["soffice", "--headless", "--norestore", "--nologo", f"-env:UserInstallation=file://{profile}",
                                    f"--accept=pipe,name={pipe};urp;"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
