@@ -10,6 +10,7 @@
 #include "api/sweep_data.h"
 #include "api/value.h"
 #include "solver/model/pointer.h"
+#include "solver/numeric/number_text.h"
 
 namespace snapthrough::api {
 namespace {
@@ -59,7 +60,9 @@ bool takes_integers(const SweepParameter& parameter) {
   });
 }
 
-std::string shown(double number) { return Json(number).dump(); }
+std::string shown(const Json& value) {
+  return value.is_number() ? number(value.get<double>()) : value.dump();
+}
 
 std::string described(const SweepParameter& parameter, const ComponentInput& input) {
   std::string text = "Written to";
@@ -296,11 +299,11 @@ Taken checked(const ComponentInput& input, const SweepParameter& parameter, cons
   }
   if (input.least && value.is_number() &&
       !(value.get<double>() >= *input.least && value.get<double>() <= *input.most)) {
-    return {{}, "must be " + shown(*input.least) + " to " + shown(*input.most) + ", got " + value.dump()};
+    return {{}, "must be " + shown(*input.least) + " to " + shown(*input.most) + ", got " + shown(value)};
   }
   for (const SweepTarget& target : parameter.targets) {
     if (target.computes() && !std::isfinite(target.number_for(value.get<double>()))) {
-      return {{}, value.dump() + " gives no finite number at " + target.pointer};
+      return {{}, shown(value) + " gives no finite number at " + target.pointer};
     }
   }
   return {value, ""};

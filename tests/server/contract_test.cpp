@@ -520,6 +520,10 @@ TEST_F(ContractOverHttp, AStrangersJobIsNotThere) {
   ASSERT_TRUE(service_->start().ok());
   const std::string json_type = "Content-Type: application/json";
   EXPECT_EQ(post(port(), "/v1/jobs", column_request()).status, 401);
+  EXPECT_EQ(get(port(), "/v1/jobs", {"RhinoComputeKey: alice"}).status, 200);
+  EXPECT_EQ(get(port(), "/v1/jobs", {"RhinoComputeKey: wrong"}).status, 401);
+  EXPECT_EQ(get(port(), "/v1/jobs", {"Authorization: Basic x", "RhinoComputeKey: alice"}).status, 401);
+  EXPECT_EQ(get(port(), "/v1/hops").status, 200);
   EXPECT_EQ(get(port(), "/v1/jobs", {"Authorization: Bearer wrong"}).status, 401);
   const Reply mine = post(port(), "/v1/jobs", column_request(), {json_type, "Authorization: Bearer alice"});
   ASSERT_EQ(mine.status, 200) << mine.body;

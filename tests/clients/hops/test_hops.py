@@ -8,6 +8,7 @@ import hashlib
 import json
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -121,7 +122,7 @@ class AtTheService(unittest.TestCase):
                 ({"soil": "stiff"}, ["/soil: expected a number", "stiff"]),
                 ({"soil": True}, ["/soil: expected a number", "true"]),
                 ({"soil": float("nan")}, ["/soil: expected a number", "NaN"]),
-                ({"soil": 999.0}, ["/soil: must be 1000", "to 200000", "999"]),
+                ({"soil": 999.0}, ["/soil: must be 1000 to 200000, got 999"]),
                 ({"soil": [1e4, 2e4]}, ["/soil: has 2 values: it takes one"]),
                 ({"sail": 2e4}, ["/sail: the component has no such input; did you mean soil?", "/soil: has no value"]),
                 ({"soil": 2e4, "depth": 3.0}, ["/depth: the component has no such input"])]:
@@ -320,7 +321,7 @@ class ComponentsOfAFolder(unittest.TestCase):
                             ({"axis": []}, "/axis: has no value"),
                             ({"feet": "hinged"}, '/feet: expected one of pinned, clamped, got "hinged"'),
                             ({"elements": 8.5}, "/elements: expected a whole number"),
-                            ({"elements": 65}, "/elements: must be 4.0 to 64.0"),
+                            ({"elements": 65}, "/elements: must be 4 to 64, got 65"),
                             ({"extremes": 1}, "/extremes: expected true or false")]:
             with self.subTest(wrong=wrong):
                 answer = arch.solve(**wrong)
@@ -373,6 +374,27 @@ class ComponentsOfAFolder(unittest.TestCase):
         self.assertEqual(answer.status, 503)
         self.assertIn("The same inputs are answered at once", answer.errors[0])
         self.assertIn("/v1/jobs/", answer.errors[0])
+
+
+class ThePage(unittest.TestCase):
+    """docs/howto/use-in-grasshopper.md."""
+
+    def test_its_commands_and_messages(self):
+        page = (ROOT / "docs/howto/use-in-grasshopper.md").read_text()
+        described, wrong = [line for line in page.splitlines() if line.startswith("curl ")]
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "arch.json").write_text(json.dumps(ARCH))
+            with Service(EXECUTABLE, "--hops-folder", folder) as service:
+                def run(command):
+                    there = command.replace("http://127.0.0.1:8080", service.address)
+                    return json.loads(subprocess.run(there, shell=True, capture_output=True, check=True).stdout)
+                self.assertEqual([one["Name"] for one in run(described)["Inputs"]], list(PLACES))
+                self.assertEqual([error.split(":")[0] for error in run(wrong)["errors"]], ["/model", "/analysis"])
+                for name in re.findall(r"http://127.0.0.1:8080/v1/hops/([\w-]+)`", page):
+                    self.assertTrue(Component(f"{service.address}/v1/hops/{name}").inputs, name)
+                pipe = Component(f"{service.address}/v1/hops/buried_pipe")
+                messages = pipe.solve(soil=999.0).errors + pipe.solve(modulus=-1.0).errors
+                self.assertIn("```\n" + "\n".join(messages) + "\n```", page)
 
 
 class Keys(unittest.TestCase):
