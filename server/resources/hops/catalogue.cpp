@@ -81,11 +81,14 @@ std::optional<Entry> Catalogue::of_folder(const std::string& name) const {
   if (error) {
     return std::nullopt;
   }
-  const std::lock_guard guard(mutex_);
-  const auto known = read_.find(name);
-  if (known != read_.end() && known->second.changed == changed && known->second.bytes == bytes) {
-    return known->second.entry;
+  {
+    const std::lock_guard guard(mutex_);
+    const auto known = read_.find(name);
+    if (known != read_.end() && known->second.changed == changed && known->second.bytes == bytes) {
+      return known->second.entry;
+    }
   }
+  // Read without the lock: a large document waits for others, and who has one may wait for the lock.
   Read read{changed, bytes, {}};
   std::ifstream file(path, std::ios::binary);
   if (bytes > kLargestFile || !file) {
@@ -94,6 +97,7 @@ std::optional<Entry> Catalogue::of_folder(const std::string& name) const {
   } else {
     read.entry = entry_of(std::string(std::istreambuf_iterator<char>(file), {}));
   }
+  const std::lock_guard guard(mutex_);
   return read_.insert_or_assign(name, std::move(read)).first->second.entry;
 }
 
