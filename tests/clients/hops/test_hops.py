@@ -339,6 +339,20 @@ class ComponentsOfAFolder(unittest.TestCase):
         self.write("arch", {**ARCH, "parameters": ARCH["parameters"][:2]})
         self.assertEqual(list(Component(service.address + "/v1/hops/arch").inputs), ["axis", "feet"])
 
+    def test_a_queue_that_is_full(self):
+        service = self.service("--workers", "1", "--max-queue", "1")
+        long = json.loads((ROOT / "tests/clients/requests/cancelled.json").read_text())
+        for i in range(2):
+            long["model"]["title"] = str(i)
+            request = urllib.request.Request(service.address + "/v1/jobs", json.dumps(long).encode(),
+                                             {"Content-Type": "application/json", "Prefer": "respond-async"})
+            job = json.load(urllib.request.urlopen(request))["id"]
+            while i == 0 and read(f"{service.address}/v1/jobs/{job}")["status"] != "running":
+                pass
+        answer = Component(service.address + "/v1/hops/buried_pipe").solve()
+        self.assertEqual(answer.status, 429)
+        self.assertIn("Queue full: ", answer.errors[0])
+
     def test_large_files_and_large_calls_do_not_wait_for_each_other(self):
         service = self.service()
         done = []
