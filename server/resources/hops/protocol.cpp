@@ -273,11 +273,12 @@ bool is_description_path(std::string_view path) {
 }
 
 Form form_of(std::string_view method, std::string_view path) {
-  if (method == "POST" && (path == kSolve || is_description_path(path))) {
+  const bool component = is_description_path(path) && path != kAddress;
+  if (method == "POST" && (path == kSolve || component)) {
     return Form::answer;
   }
   const bool reads = method == "GET" || method == "HEAD";
-  return reads && is_description_path(path) && path != kAddress ? Form::description : Form::none;
+  return reads && component ? Form::description : Form::none;
 }
 
 ordered_json description(std::string_view name, const Entry& entry) {
