@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
   std::uint64_t failed = 0;
   std::shared_ptr<nlohmann::json> document;
   for (std::uint64_t unit = 0; unit < sweep.units(); ++unit) {
-    for (const api::PointOutcome& outcome : server::make_unit(sweep, unit)->compute(solver, {}, document)) {
+    for (const api::PointOutcome& outcome : server::SweepUnit(sweep, unit).compute(solver, {}, document)) {
       failed += outcome.failed() ? 1 : 0;
     }
   }

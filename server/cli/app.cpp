@@ -5,16 +5,24 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <string_view>
 #include <thread>
 
 #include "server/cli/commands.h"
+#include "server/cli/described_app.h"
+#include "server/cli/plot.h"
+#include "server/cli/remote_arguments.h"
 
 namespace snapthrough::server::cli {
 namespace {
+
+/// Runs a command whose arguments are known; returns the exit status.
+using Action = std::function<int(const Streams&)>;
 
 /// What the arguments set.
 struct Arguments {
@@ -23,6 +31,9 @@ struct Arguments {
   bool ndjson = false;
   std::string table;
   std::optional<std::uint64_t> point;
+  std::string part = "1/1";
+  std::string out;
+  std::vector<std::string> parts;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string config_file;
   std::map<std::string, std::string> settings;  ///< by name, as given
@@ -30,6 +41,8 @@ struct Arguments {
   std::string target;
   std::string address = "127.0.0.1:8080";
   bool ready = false;
+  RemoteArguments remote;
+  Action action;  ///< of the command that was given
 };
 
 /// The variables that are the service's, by name.
@@ -38,7 +51,7 @@ std::map<std::string, std::string> own_variables() {
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
     const std::size_t equals = std::min(text.find('='), text.size());
-    if (text.starts_with(kVariablePrefix)) {
+    if (text.starts_with(kVariablePrefix) && !is_remote_variable(text.substr(0, equals))) {
       own.emplace(text.substr(0, equals), text.substr(std::min(equals + 1, text.size())));
     }
   }
@@ -73,8 +86,39 @@ CLI::App* add_sweep_command(CLI::App& app, Arguments& arguments) {
   command->add_option("--threads", arguments.threads, "Points at the same time; rows do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--point", arguments.point, "Only write the request of this point, numbered from 0");
+  CLI::Option* point = command->add_option("--point", arguments.point,
+                                           "Only write the request of this point, numbered from 0");
+  CLI::Option* out =
+      command
+          ->add_option("--out", arguments.out,
+                       "Keep the rows in this file, which can be resumed; `merge` makes the table")
+          ->excludes(csv)
+          ->excludes("--ndjson")
+          ->excludes(point);
+  command->add_option("--part", arguments.part, "Only the points of part I of N, as I/N; needs --out")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return sweep_part_from(text) ? "" : "a part is I/N with numbers 1 <= I <= N, such as 3/16";
+          },
+          "I/N"))
+      ->needs(out);
   return command;
+}
+
+CLI::App* add_merge_command(CLI::App& app, Arguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("merge", "Write the table of a sweep whose parts were computed with sweep --out");
+  command->add_option("files", arguments.parts, "Files of all parts, in any order")->required();
+  CLI::Option* csv = command->add_flag("--csv", arguments.csv, "Comma-separated values instead of JSON");
+  command->add_flag("--ndjson", arguments.ndjson, "One JSON object a line instead of one document")
+      ->excludes(csv);
+  return command;
+}
+
+api::TableForm form_of(const Arguments& arguments) {
+  return arguments.csv      ? api::TableForm::csv
+         : arguments.ndjson ? api::TableForm::ndjson
+                            : api::TableForm::json;
 }
 
 /// Every setting is a flag: log_level is --log-level.
@@ -99,22 +143,25 @@ CLI::App* add_service_command(CLI::App& app, const char* name, const char* descr
   return command;
 }
 
-void add_copy_command(CLI::App& app, Arguments& arguments) {
+CLI::App* add_copy_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("copy", "Copy what one store keeps to another, again to go on");
   command->add_option("source", arguments.store, "Database file, or postgresql://...")->required();
   command->add_option("target", arguments.target, "Database file, or postgresql://...")->required();
+  return command;
 }
 
-void add_backup_command(CLI::App& app, Arguments& arguments) {
+CLI::App* add_backup_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("backup", "Copy a store while a service may be using it");
   command->add_option("--store", arguments.store, "Database file")->capture_default_str();
   command->add_option("target", arguments.target, "File to write")->required();
+  return command;
 }
 
-void add_health_command(CLI::App& app, Arguments& arguments) {
+CLI::App* add_health_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("health", "Ask a service on this machine whether it lives");
   command->add_option("address", arguments.address, "host:port")->capture_default_str();
   command->add_flag("--ready", arguments.ready, "Ask whether it takes work, too");
+  return command;
 }
 
 SettingSources sources_of(const Arguments& arguments) {
@@ -127,58 +174,91 @@ SettingSources sources_of(const Arguments& arguments) {
   return sources;
 }
 
-}  // namespace
+/// Makes an action that of a command. @pre the arguments outlive the command
+void on(CLI::App* command, Arguments& arguments, const Action& action) {
+  command->callback([&arguments, action] { arguments.action = action; });
+}
 
-int run(int argc, const char* const* argv, const Streams& streams) {
-  CLI::App app{"Equilibrium paths and critical loads of slender structures on elastic bases", "snapthrough"};
+/// Commands that solve in this process.
+void add_solving_commands(CLI::App& app, Arguments& arguments) {
+  on(add_solve_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    return solve_command(arguments.request, streams,
+                         {arguments.csv || !arguments.table.empty(), api::result_table_from(arguments.table),
+                          ::isatty(STDERR_FILENO) == 1});
+  });
+  on(add_request_command(app, "check", "Validate a request", arguments), arguments,
+     [&arguments](const Streams& streams) { return check_command(arguments.request, streams); });
+  on(add_sweep_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    // On a terminal the rows themselves show how far it is, unless a file takes them.
+    const bool bar = ::isatty(STDERR_FILENO) == 1 && (::isatty(STDOUT_FILENO) == 0 || !arguments.out.empty());
+    return sweep_command(arguments.request, streams,
+                         {form_of(arguments), arguments.threads, bar, arguments.point, arguments.out,
+                          *sweep_part_from(arguments.part)});
+  });
+  on(add_merge_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    return merge_command(arguments.parts, form_of(arguments), streams);
+  });
+  const std::shared_ptr<PlotArguments> plot = add_plot_command(app);
+  on(app.get_subcommand("plot"), arguments,
+     [plot](const Streams& streams) { return plot_command(*plot, streams); });
+}
+
+/// Commands that are the service, or look after its store.
+void add_service_commands(CLI::App& app, Arguments& arguments) {
+  on(add_service_command(app, "serve", "Run the service", arguments), arguments,
+     [&arguments](const Streams& streams) { return serve_command(sources_of(arguments), true, streams); });
+  on(add_service_command(
+         app, "work", "Work on what the service was given on other hosts, which share the store", arguments),
+     arguments,
+     [&arguments](const Streams& streams) { return serve_command(sources_of(arguments), false, streams); });
+  on(add_service_command(app, "migrate", "Bring the schema of the store up to date, and end", arguments),
+     arguments,
+     [&arguments](const Streams& streams) { return migrate_command(sources_of(arguments), streams); });
+  on(add_copy_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    return copy_command(arguments.store, arguments.target, streams);
+  });
+  on(add_backup_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    return backup_command(arguments.store, arguments.target, streams);
+  });
+  on(add_health_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    return health_command(arguments.address, arguments.ready, streams);
+  });
+}
+
+/// Every command with its options. @pre the arguments outlive the app
+void describe(CLI::App& app, Arguments& arguments) {
+  app.description("Equilibrium paths and critical loads of slender structures on elastic bases");
+  app.name("snapthrough");
   app.set_version_flag("--version", "snapthrough " SNAPTHROUGH_VERSION);
   app.require_subcommand(1);
+  add_solving_commands(app, arguments);
+  add_remote_commands(app, arguments.remote);
+  add_service_commands(app, arguments);
+}
+
+}  // namespace
+
+std::shared_ptr<const CLI::App> described_app() {
+  struct Described {
+    Arguments arguments;
+    CLI::App app;
+  };
+  const auto described = std::make_shared<Described>();
+  describe(described->app, described->arguments);
+  return {described, &described->app};
+}
+
+int run(int argc, const char* const* argv, const Streams& streams) {
+  CLI::App app;
   Arguments arguments;
-  const CLI::App* solve = add_solve_command(app, arguments);
-  const CLI::App* check = add_request_command(app, "check", "Validate a request", arguments);
-  const CLI::App* sweep = add_sweep_command(app, arguments);
-  add_service_command(app, "serve", "Run the service", arguments);
-  const CLI::App* work = add_service_command(
-      app, "work", "Work on what the service was given on other hosts, which share the store", arguments);
-  add_service_command(app, "migrate", "Bring the schema of the store up to date, and end", arguments);
-  add_copy_command(app, arguments);
-  add_backup_command(app, arguments);
-  add_health_command(app, arguments);
+  describe(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error, streams.out, streams.err) == 0 ? kDone : kOther;
   }
   try {
-    if (*solve) {
-      return solve_command(arguments.request, streams,
-                           {arguments.csv || !arguments.table.empty(),
-                            api::result_table_from(arguments.table), ::isatty(STDERR_FILENO) == 1});
-    }
-    if (*check) {
-      return check_command(arguments.request, streams);
-    }
-    if (*sweep) {
-      const api::TableForm form = arguments.csv      ? api::TableForm::csv
-                                  : arguments.ndjson ? api::TableForm::ndjson
-                                                     : api::TableForm::json;
-      // On a terminal the rows themselves show how far it is.
-      const bool bar = ::isatty(STDERR_FILENO) == 1 && ::isatty(STDOUT_FILENO) == 0;
-      return sweep_command(arguments.request, streams, {form, arguments.threads, bar, arguments.point});
-    }
-    if (app.got_subcommand("backup")) {
-      return backup_command(arguments.store, arguments.target, streams);
-    }
-    if (app.got_subcommand("health")) {
-      return health_command(arguments.address, arguments.ready, streams);
-    }
-    if (app.got_subcommand("copy")) {
-      return copy_command(arguments.store, arguments.target, streams);
-    }
-    if (app.got_subcommand("migrate")) {
-      return migrate_command(sources_of(arguments), streams);
-    }
-    return serve_command(sources_of(arguments), !*work, streams);
+    return arguments.remote.action ? arguments.remote.action(streams) : arguments.action(streams);
   } catch (const std::exception& error) {
     streams.err << "snapthrough: " << error.what() << '\n';
     return kOther;

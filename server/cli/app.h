@@ -11,6 +11,7 @@ inline constexpr int kDone = 0;
 inline constexpr int kOther = 1;         ///< usage, files, sockets, anything unexpected
 inline constexpr int kWrongRequest = 2;  ///< the request document is wrong: findings are on the error stream
 inline constexpr int kNotCompleted = 3;  ///< the analysis could not be completed
+inline constexpr int kUnfinished = 4;    ///< what a service was asked for has not ended yet
 // 128 + signal: solve and sweep were interrupted, and wrote what they had
 
 /// Standard streams, or a test's.

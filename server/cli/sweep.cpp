@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -11,10 +12,12 @@
 #include <thread>
 #include <utility>
 
+#include "api/json_text.h"
 #include "api/sweep_table.h"
 #include "server/cli/commands.h"
 #include "server/cli/input.h"
 #include "server/cli/interruption.h"
+#include "server/cli/part_file.h"
 #include "server/cli/progress_bar.h"
 #include "server/sweeps/unit.h"
 #include "solver/solve.h"
@@ -29,36 +32,90 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kLongestLead = 4096;
 constexpr std::chrono::milliseconds kBetweenBars{100};
 
-/// Of the rows that were written.
+/// Of the rows that are there.
 struct RowCounts {
   std::uint64_t written = 0;
   std::uint64_t failed = 0;
 };
 
+/// Where rows go, in the order of their points: a table, or a part file.
+class RowSink {
+ public:
+  RowSink() = default;
+  RowSink(const RowSink&) = delete;
+  RowSink& operator=(const RowSink&) = delete;
+  RowSink(RowSink&&) = delete;
+  RowSink& operator=(RowSink&&) = delete;
+  virtual ~RowSink() = default;
+
+  virtual void append_row(std::uint64_t point, const api::PointOutcome& outcome, std::string& text) = 0;
+  virtual void write(const std::string& text) = 0;
+  /// No row may follow.
+  virtual void end() = 0;
+};
+
+class TableSink final : public RowSink {
+ public:
+  TableSink(const api::Sweep& sweep, api::TableForm form, std::ostream& out)
+      : out_(out), writer_(sweep, form) {
+    out_ << writer_.head();
+  }
+
+  void append_row(std::uint64_t point, const api::PointOutcome& outcome, std::string& text) override {
+    writer_.append_row(point, outcome, text);
+  }
+  void write(const std::string& text) override { out_ << text; }
+  void end() override {
+    std::string tail;
+    writer_.append_tail(tail);
+    out_ << tail << std::flush;
+  }
+
+ private:
+  std::ostream& out_;
+  api::TableWriter writer_;
+};
+
+class PartSink final : public RowSink {
+ public:
+  explicit PartSink(PartWriter& file) : file_(file) {}
+
+  void append_row(std::uint64_t point, const api::PointOutcome& outcome, std::string& text) override {
+    PartWriter::append_row(point, outcome, text);
+  }
+  void write(const std::string& text) override { file_.write(text); }
+  void end() override {}
+
+ private:
+  PartWriter& file_;
+};
+
 /// @brief Gives units out and puts the rows of their points in design order. Thread-safe.
 class RowQueue {
  public:
+  /// @param units those that are to be computed
+  /// @param bar where a bar is shown; null for none
   /// @param stop no more units are given out then
-  RowQueue(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options, std::stop_token stop)
+  RowQueue(const api::Sweep& sweep, UnitRange units, RowSink& sink, std::ostream* bar, std::stop_token stop)
       : sweep_(sweep),
-        streams_(streams),
+        units_(units),
         stop_(std::move(stop)),
-        show_progress_(options.show_progress),
-        writer_(sweep, options.form) {
-    streams_.out << writer_.head();
-  }
+        sink_(sink),
+        bar_(bar),
+        given_(units.first),
+        next_row_(units.first * sweep.unit_size()) {}
 
   /// The number of a unit to compute; nothing when there are no more.
   std::optional<std::uint64_t> next() {
     std::unique_lock lock(mutex_);
-    if (given_ == sweep_.units() || stop_.stop_requested()) {
+    if (given_ == units_.end || failure_ || stop_.stop_requested()) {
       return std::nullopt;
     }
     const std::uint64_t unit = given_++;
     const std::uint64_t size = sweep_.unit_size();
-    const bool has_room =
-        room_.wait(lock, stop_, [&] { return unit * size < written_ + std::max(kLongestLead, 4 * size); });
-    return has_room ? std::optional(unit) : std::nullopt;
+    const bool has_room = room_.wait(
+        lock, stop_, [&] { return failure_ || unit * size < next_row_ + std::max(kLongestLead, 4 * size); });
+    return has_room && !failure_ ? std::optional(unit) : std::nullopt;
   }
 
   /// A point that was stopped leaves no row, and none is written after it.
@@ -69,77 +126,88 @@ class RowQueue {
     const std::lock_guard guard(mutex_);
     ++done_;
     waiting_.emplace(point, std::move(outcome));
-    std::string text;
-    for (auto first = waiting_.begin(); first != waiting_.end() && first->first == written_;
-         first = waiting_.erase(first)) {
-      failed_ += first->second.failed() ? 1 : 0;
-      writer_.append_row(written_++, first->second, text);
-    }
-    if (!text.empty()) {
-      streams_.out << text;
+    try {
+      write_whole_rows();
+    } catch (...) {
+      failure_ = std::current_exception();  // for the thread that called, by finish()
       room_.notify_all();
     }
     show_bar(false);
   }
 
-  /// To be called when all points were put that ever will be.
+  /// To be called when all points were put that ever will be. @throws what the sink threw
   RowCounts finish() {
     const std::lock_guard guard(mutex_);
-    std::string tail;
-    writer_.append_tail(tail);
-    streams_.out << tail << std::flush;
+    if (failure_) {
+      std::rethrow_exception(failure_);
+    }
+    sink_.end();
     show_bar(true);
-    return {written_, failed_};
+    return {next_row_ - units_.first * sweep_.unit_size(), failed_};
   }
 
  private:
+  void write_whole_rows() {
+    std::string text;
+    for (auto first = waiting_.begin(); first != waiting_.end() && first->first == next_row_;
+         first = waiting_.erase(first)) {
+      failed_ += first->second.failed() ? 1 : 0;
+      sink_.append_row(next_row_++, first->second, text);
+    }
+    if (!text.empty()) {
+      sink_.write(text);
+      room_.notify_all();
+    }
+  }
+
   void show_bar(bool last) {
     const Clock::time_point now = Clock::now();
-    if (!show_progress_ || (!last && now < next_bar_)) {
+    if (bar_ == nullptr || (!last && now < next_bar_)) {
       return;
     }
     next_bar_ = now + kBetweenBars;
     const std::chrono::duration<double> elapsed = now - start_;
-    streams_.err << '\r' << progress_line(done_, failed_, sweep_.size(), elapsed.count()) << "\x1b[K"
-                 << (last ? "\n" : "") << std::flush;
+    const std::uint64_t all = (units_.end - units_.first) * sweep_.unit_size();
+    *bar_ << '\r' << progress_line(done_, failed_, all, elapsed.count()) << "\x1b[K" << (last ? "\n" : "")
+          << std::flush;
   }
 
   const api::Sweep& sweep_;
-  const Streams& streams_;
+  const UnitRange units_;
   const std::stop_token stop_;
-  const bool show_progress_;
+  RowSink& sink_;
+  std::ostream* const bar_;
   std::mutex mutex_;
   std::condition_variable_any room_;
-  api::TableWriter writer_;
   std::map<std::uint64_t, api::PointOutcome> waiting_;
-  std::uint64_t given_ = 0;  ///< units
-  std::uint64_t written_ = 0;
-  std::uint64_t done_ = 0;
+  std::uint64_t given_;         ///< unit
+  std::uint64_t next_row_;      ///< point of the row that is written next
+  std::exception_ptr failure_;  ///< of the sink
+  std::uint64_t done_ = 0;      ///< points
   std::uint64_t failed_ = 0;
   const Clock::time_point start_ = Clock::now();
   Clock::time_point next_bar_ = start_;
 };
 
-/// Each unit is computed alone, so that rows do not depend on how many threads share them.
-RowCounts compute_rows(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options,
-                       const std::stop_token& stop) {
-  RowQueue queue(sweep, streams, options, stop);
+/// Computes the units of a queue on so many threads. Each unit is computed alone, so that rows do not depend
+/// on how many threads share them.
+RowCounts compute_rows(const api::Sweep& sweep, RowQueue& queue, int threads, const std::stop_token& stop) {
   const SolveFunction solver = [](const Model& model, const Analysis& analysis, const Hooks& hooks) {
     return solve_checked(model, analysis, hooks);
   };
   const auto work = [&] {
     std::shared_ptr<nlohmann::json> document;
     while (const std::optional<std::uint64_t> number = queue.next()) {
-      const std::unique_ptr<SweepUnit> unit = make_unit(sweep, *number);
-      std::vector<api::PointOutcome> outcomes = unit->compute(solver, {.stop = stop}, document);
+      const SweepUnit unit(sweep, *number);
+      std::vector<api::PointOutcome> outcomes = unit.compute(solver, {.stop = stop}, document);
       for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        queue.put(unit->first() + i, std::move(outcomes[i]));
+        queue.put(unit.first() + i, std::move(outcomes[i]));
       }
     }
   };
   {
     std::vector<std::jthread> others;
-    for (int i = 1; i < options.threads && static_cast<std::uint64_t>(i) < sweep.size(); ++i) {
+    for (int i = 1; i < threads && static_cast<std::uint64_t>(i) < sweep.size(); ++i) {
       others.emplace_back(work);
     }
     work();
@@ -158,38 +226,75 @@ int write_point(const api::Sweep& sweep, std::uint64_t point, const Streams& str
   return kDone;
 }
 
+/// The rows of the whole sweep, as a table on the output.
+int write_table(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options) {
+  const Interruption interruption;
+  TableSink sink(sweep, options.form, streams.out);
+  RowQueue queue(sweep, {0, sweep.units()}, sink, options.show_progress ? &streams.err : nullptr,
+                 interruption.token());
+  const RowCounts rows = compute_rows(sweep, queue, options.threads, interruption.token());
+  if (!streams.out) {
+    streams.err << "snapthrough: cannot write the rows\n";
+    return kOther;
+  }
+  if (rows.written < sweep.size()) {
+    streams.err << "interrupted: " << rows.written << " of " << sweep.size() << " rows were written\n";
+    return interruption.exit_status();
+  }
+  return told_failed(rows.failed, sweep.size(), streams);
+}
+
+/// The rows of a part of the sweep that its file has not yet.
+int write_part(const api::Sweep& sweep, const nlohmann::json& document, const Streams& streams,
+               const SweepOptions& options) {
+  const Interruption interruption;
+  PartWriter file(options.out, document, sweep, options.part);
+  PartSink sink(file);
+  UnitRange units = units_of(options.part, sweep);
+  const std::uint64_t points = (units.end - units.first) * sweep.unit_size();
+  if (file.points_before() > points) {
+    streams.err << "snapthrough: " << options.out << " has more rows than its part\n";
+    return kOther;
+  }
+  units.first += file.points_before() / sweep.unit_size();
+  RowQueue queue(sweep, units, sink, options.show_progress ? &streams.err : nullptr, interruption.token());
+  const RowCounts rows = compute_rows(sweep, queue, options.threads, interruption.token());
+  const std::uint64_t present = file.points_before() + rows.written;
+  if (present < points) {
+    streams.err << "interrupted: " << options.out << " has " << present << " of " << points
+                << " rows; the same command goes on with it\n";
+    return interruption.exit_status();
+  }
+  return told_failed(file.failed_before() + rows.failed, points, streams);
+}
+
 }  // namespace
+
+int told_failed(std::uint64_t failed, std::uint64_t points, const Streams& streams) {
+  if (failed == 0) {
+    return kDone;
+  }
+  streams.err << failed << " of " << points << " points could not be completed; the column error says why\n";
+  return kNotCompleted;
+}
 
 int sweep_command(const std::string& path, const Streams& streams, const SweepOptions& options) {
   const std::optional<std::string> text = read_all(path, streams);
   if (!text) {
     return kOther;
   }
-  const api::SweepOutcome outcome = api::read_sweep(*text);
+  const api::ParsedText parsed = api::parse_json(*text);
+  const api::SweepOutcome outcome = parsed.document != nullptr ? api::read_sweep_document(parsed.document)
+                                                               : api::SweepOutcome{true, parsed.findings, {}};
   if (!outcome.sweep) {
     print_findings(outcome.findings, streams);
     return kWrongRequest;
   }
-  const std::uint64_t points = outcome.sweep->size();
   if (options.point) {
     return write_point(*outcome.sweep, *options.point, streams);
   }
-  const Interruption interruption;
-  const RowCounts rows = compute_rows(*outcome.sweep, streams, options, interruption.token());
-  if (!streams.out) {
-    streams.err << "snapthrough: cannot write the rows\n";
-    return kOther;
-  }
-  if (rows.written < points) {
-    streams.err << "interrupted: " << rows.written << " of " << points << " rows were written\n";
-    return interruption.exit_status();
-  }
-  if (rows.failed > 0) {
-    streams.err << rows.failed << " of " << points
-                << " points could not be completed; the column error says why\n";
-    return kNotCompleted;
-  }
-  return kDone;
+  return options.out.empty() ? write_table(*outcome.sweep, streams, options)
+                             : write_part(*outcome.sweep, *parsed.document, streams, options);
 }
 
 }  // namespace snapthrough::server::cli

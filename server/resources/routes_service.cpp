@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "api/api.h"
+#include "api/check_document.h"
 #include "api/openapi/document.h"
 #include "api/sweep.h"
 #include "server/jobs/envelope.h"
@@ -10,57 +11,11 @@
 #include "server/jobs/least_memory.h"
 #include "server/resources/embedded.h"
 #include "server/resources/routes.h"
-#include "solver/mesh/mesh.h"
 
 namespace snapthrough::server::http {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// Free displacement unknowns of the mesh that a request asks for, before any refinement.
-int unknowns_of(const api::Request& request) {
-  const Model& model = request.model;
-  const Mesh mesh = make_mesh(model, request.analysis.discretization, make_axes(model));
-  // A member of n elements of order p has n p - 1 places inside, and all places have three displacements.
-  int unknowns = 3 * static_cast<int>(model.nodes.size());
-  unknowns +=
-      3 * (static_cast<int>(mesh.elements.size()) * mesh.order - static_cast<int>(model.members.size()));
-  for (const Member& member : model.members) {
-    unknowns += (member.release_start_rotation ? 1 : 0) + (member.release_end_rotation ? 1 : 0);
-  }
-  for (const Support& support : model.supports) {
-    unknowns -= (support.x ? 1 : 0) + (support.y ? 1 : 0) + (support.rotation ? 1 : 0);
-  }
-  return unknowns;
-}
-
-/// What is wrong with a document, and how large it is.
-struct Checked {
-  std::vector<Finding> findings;
-  std::uint64_t points = 1;
-  int unknowns = 0;
-};
-
-/// @param memory bytes that an analysis may use
-Checked checked_request(const std::shared_ptr<const nlohmann::json>& document, std::int64_t memory) {
-  api::ReadOutcome read = api::read_request_document(document);
-  if (!read.request) {
-    return {std::move(read.findings), 1, 0};
-  }
-  return {check_memory(read.request->model, read.request->analysis, memory), 1, unknowns_of(*read.request)};
-}
-
-/// Unknowns are those of the first point that is a valid request.
-Checked checked_sweep(const std::shared_ptr<const nlohmann::json>& document, const JobLimits& limits) {
-  constexpr std::uint64_t kTries = 10;
-  api::SweepOutcome read =
-      api::read_sweep_document(document, static_cast<std::uint64_t>(limits.sweep_points));
-  Checked checked{std::move(read.findings), read.sweep ? read.sweep->size() : 0, 0};
-  for (std::uint64_t i = 0; i < std::min(checked.points, kTries) && checked.unknowns == 0; ++i) {
-    checked.unknowns = checked_request(read.sweep->document_at(i), limits.job_memory).unknowns;
-  }
-  return checked;
-}
 
 /// A document with or without an envelope, of either kind.
 Envelope opened(std::string_view body, const std::vector<std::string>& callback_hosts) {
@@ -89,17 +44,17 @@ Response Routes::check(const Request& request, const std::string& /*id*/) {
                              envelope.findings, "", ""},
                             request);
   }
+  const JobLimits& limits = jobs_.limits();
+  const auto needs_too_much = [&limits](const api::Request& read) {
+    return check_memory(read.model, read.analysis, limits.job_memory);
+  };
   const bool sweep = envelope.pointer == "/sweep" || api::is_sweep(*envelope.document);
-  Checked checked = sweep ? checked_sweep(envelope.document, jobs_.limits())
-                          : checked_request(envelope.document, jobs_.limits().job_memory);
+  api::CheckedDocument checked =
+      sweep ? api::check_sweep(envelope.document, static_cast<std::uint64_t>(limits.sweep_points),
+                               needs_too_much)
+            : api::check_request(envelope.document, needs_too_much);
   checked.findings = in_envelope(envelope, std::move(checked.findings));
-  ordered_json document{{"valid", checked.findings.empty()},
-                        {"errors", api::write_findings(checked.findings)},
-                        {"size", nullptr}};
-  if (checked.findings.empty()) {
-    document["size"] = {{"points", checked.points}, {"unknowns", checked.unknowns}};
-  }
-  return json_response(200, document.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+  return json_response(200, api::write_check(checked));
 }
 
 Response Routes::limits(const Request& /*request*/, const std::string& /*id*/) {

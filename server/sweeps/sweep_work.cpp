@@ -29,7 +29,7 @@ std::vector<PointRow> not_stored(std::vector<PointRow> rows, const Status& statu
 /// A unit that is still to be computed.
 struct Pending {
   std::uint64_t number = 0;
-  std::unique_ptr<SweepUnit> unit;
+  SweepUnit unit;
   std::vector<std::string> keys;  ///< of its points
 };
 
@@ -44,9 +44,9 @@ std::vector<Pending> pending_units(const Chunk& chunk) {
   std::vector<Pending> all;
   const UnitRun& run = chunk.claim.units;
   for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
-    std::unique_ptr<SweepUnit> unit = make_unit(sweep.sweep, number);
-    std::vector<std::string> keys = unit->keys(sweep.outputs, sweep.owner, document);
-    all.push_back({number, std::move(unit), std::move(keys)});
+    const SweepUnit unit(sweep.sweep, number);
+    std::vector<std::string> keys = unit.keys(sweep.outputs, sweep.owner, document);
+    all.push_back({number, unit, std::move(keys)});
   }
   return all;
 }
@@ -74,7 +74,7 @@ void look_up(const Chunk& chunk, const SweepSurroundings& world, Work& work) {
       continue;
     }
     for (std::size_t i = 0; i < pending.keys.size(); ++i, ++outputs) {
-      work.rows.push_back({pending.unit->first() + i, {**outputs, "", ""}, std::move(pending.keys[i]), true});
+      work.rows.push_back({pending.unit.first() + i, {**outputs, "", ""}, std::move(pending.keys[i]), true});
     }
   }
   work.pending = std::move(unknown);
@@ -90,9 +90,9 @@ void add_rows(Pending& pending, std::vector<api::PointOutcome> outcomes, const S
               std::vector<PointRow>& rows) {
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (outcomes[i].code == kCancelled) {
-      outcomes[i] = {"", "time_limit", pending.unit->too_long(world.limits.longest_run)};
+      outcomes[i] = {"", "time_limit", pending.unit.too_long(world.limits.longest_run)};
     }
-    rows.push_back({pending.unit->first() + i, std::move(outcomes[i]), std::move(pending.keys[i])});
+    rows.push_back({pending.unit.first() + i, std::move(outcomes[i]), std::move(pending.keys[i])});
   }
 }
 

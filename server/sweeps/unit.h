@@ -16,18 +16,15 @@
 
 namespace snapthrough::server {
 
-/// @brief A point, or a curve, which is all points along the parameter that is followed. Only make_unit()
-/// asks which: everybody else uses these functions. Refers to the sweep, which must outlive it. Thread-safe.
+/// @brief A point, or a curve, which is all points along the parameter that is followed. Refers to the sweep,
+/// which must outlive it. Thread-safe.
 class SweepUnit {
  public:
-  SweepUnit(const SweepUnit&) = delete;
-  SweepUnit& operator=(const SweepUnit&) = delete;
-  SweepUnit(SweepUnit&&) = delete;
-  SweepUnit& operator=(SweepUnit&&) = delete;
-  virtual ~SweepUnit() = default;
+  /// @pre number < sweep.units(); units are counted from 0
+  SweepUnit(const api::Sweep& sweep, std::uint64_t number) : sweep_(sweep), number_(number) {}
 
   /// Number of its first point; its other points come next.
-  [[nodiscard]] std::uint64_t first() const { return first_; }
+  [[nodiscard]] std::uint64_t first() const { return number_ * count(); }
   [[nodiscard]] std::uint64_t count() const { return sweep_.unit_size(); }
 
   /// @brief The keys of its points (point_key()), in their order. Points of a curve are the same only on the
@@ -37,34 +34,19 @@ class SweepUnit {
   [[nodiscard]] std::vector<std::string> keys(const std::string& outputs, std::string_view owner,
                                               std::shared_ptr<nlohmann::json>& document) const;
 
-  /// @brief The outcomes of its points, in their order. Whatever goes wrong is an outcome: a document that is
-  /// no valid request ("wrong_request"), an analysis that fails (its code), and mishap_now(). Asked to stop,
-  /// at least one is "cancelled" unless all were there. Thread-safe if `solve` is.
-  /// @param solve what solves points; curves are followed by follow_critical_point()
+  /// @brief The outcomes of its points, in their order (api::unit_outcomes()). Whatever is thrown is an
+  /// outcome, too: mishap_now() of every point. Thread-safe if `solve` is.
   /// @param document as above
   [[nodiscard]] std::vector<api::PointOutcome> compute(const SolveFunction& solve, const Hooks& hooks,
                                                        std::shared_ptr<nlohmann::json>& document) const;
 
   /// Why outcomes are missing when it took longer than `longest`: a sentence.
-  [[nodiscard]] virtual std::string too_long(std::chrono::seconds longest) const = 0;
-
- protected:
-  SweepUnit(const api::Sweep& sweep, std::uint64_t number)
-      : sweep_(sweep), first_(number * sweep.unit_size()) {}
-  [[nodiscard]] const api::Sweep& sweep() const { return sweep_; }
+  [[nodiscard]] std::string too_long(std::chrono::seconds longest) const;
 
  private:
-  [[nodiscard]] virtual std::vector<api::PointOutcome> outcomes(
-      const SolveFunction& solve, const Hooks& hooks, std::shared_ptr<nlohmann::json>& document) const = 0;
-  /// What the keys of its points depend on beside their documents.
-  [[nodiscard]] virtual std::string surroundings() const = 0;
-
   const api::Sweep& sweep_;
-  const std::uint64_t first_;
+  std::uint64_t number_;
 };
-
-/// The unit of that number, counted from 0. @pre number < sweep.units()
-[[nodiscard]] std::unique_ptr<SweepUnit> make_unit(const api::Sweep& sweep, std::uint64_t number);
 
 /// Whether outcomes are missing because it was asked to stop.
 [[nodiscard]] bool is_cut_short(const std::vector<api::PointOutcome>& outcomes);

@@ -1,0 +1,344 @@
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "api/api.h"
+#include "api/check_document.h"
+#include "api/json_text.h"
+#include "api/plot/plot.h"
+#include "api/plot/plot_choices.h"
+#include "api/sweep.h"
+#include "api/sweep_table.h"
+#include "api/sweep_unit.h"
+#include "clients/c/snapthrough.h"
+#include "solver/solve.h"
+
+struct snapthrough_stop {
+  std::stop_source source;
+};
+
+namespace {
+
+using nlohmann::ordered_json;
+using snapthrough::Analysis;
+using snapthrough::Finding;
+using snapthrough::Hooks;
+using snapthrough::Model;
+using snapthrough::Progress;
+using snapthrough::Result;
+namespace api = snapthrough::api;
+
+/// The least of snapthrough_options that any version has had.
+constexpr std::size_t kFirstOptions = sizeof(snapthrough_options);
+
+/// A text with what the call came to, before it is the caller's.
+struct Answer {
+  snapthrough_status status = SNAPTHROUGH_DONE;
+  std::string text;
+};
+
+/// The document and its text in one allocation, which snapthrough_free() releases; null without memory.
+snapthrough_document* given_away(const Answer& answer) noexcept {
+  void* memory = ::operator new(sizeof(snapthrough_document) + answer.text.size() + 1, std::nothrow);
+  if (memory == nullptr) {
+    return nullptr;
+  }
+  char* text = static_cast<char*>(memory) + sizeof(snapthrough_document);
+  std::memcpy(text, answer.text.c_str(), answer.text.size() + 1);
+  return new (memory) snapthrough_document{text, answer.text.size(), answer.status};
+}
+
+std::string dumped(const ordered_json& document) {
+  return document.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+/// A problem document (RFC 9457), as the service has it.
+ordered_json problem(const char* kind, const char* title, int status, const std::string& detail) {
+  return {{"type", std::string("urn:snapthrough:problem:") + kind},
+          {"title", title},
+          {"status", status},
+          {"detail", detail}};
+}
+
+Answer wrong_use(const std::string& rule) {
+  return {SNAPTHROUGH_WRONG_USE, dumped(problem("wrong-use", "Wrong use of a function", 400, rule))};
+}
+
+/// What is wrong with a request or a sweep.
+Answer refused(bool malformed, const std::vector<Finding>& findings) {
+  ordered_json document =
+      malformed ? problem("malformed-json", "Malformed JSON", 400, "The text is no acceptable JSON text.")
+                : problem("invalid-request", "Invalid request", 422,
+                          "The document has mistakes; `errors` lists them.");
+  document["errors"] = api::write_findings(findings);
+  return {SNAPTHROUGH_WRONG_REQUEST, dumped(document)};
+}
+
+Answer mishap(snapthrough_status status, const char* code, const std::string& detail) {
+  ordered_json document = problem("analysis-failed", "The analysis could not be completed", 500, detail);
+  document["code"] = code;
+  return {status, dumped(document)};
+}
+
+/// Calls a function that makes an answer; whatever it throws is an answer, too.
+template <typename Function>
+snapthrough_document* answered(const Function& function) noexcept {
+  try {
+    try {
+      return given_away(function());
+    } catch (const std::bad_alloc&) {
+      return given_away(mishap(SNAPTHROUGH_OUT_OF_MEMORY, "out_of_memory", "There is not enough memory."));
+    } catch (const std::exception& error) {
+      return given_away(mishap(SNAPTHROUGH_INTERNAL_ERROR, "internal_error", error.what()));
+    } catch (...) {
+      return given_away(mishap(SNAPTHROUGH_INTERNAL_ERROR, "internal_error", "An unknown exception was thrown."));
+    }
+  } catch (...) {
+    return nullptr;  // no memory for the few bytes of a problem
+  }
+}
+
+/// The stop source of a call: the caller's, which other threads can use, or its own.
+std::optional<std::stop_source> stop_of(const snapthrough_options* options) {
+  if (options == nullptr) {
+    return std::stop_source();
+  }
+  if (options->size < kFirstOptions) {
+    return std::nullopt;
+  }
+  return options->stop != nullptr ? options->stop->source : std::stop_source();
+}
+
+constexpr const char* kSizeRule = "options->size is sizeof(snapthrough_options) of the header that the caller used.";
+constexpr const char* kTextRule = "The pointer to a text of one byte or more is not null.";
+
+/// @brief What the caller has to do with a running call: is told how far it is, and stops it by the callback's value or
+/// from another thread.
+class Caller {
+ public:
+  Caller(const std::stop_source& stop, snapthrough_callback callback, void* user)
+      : callback_(callback), user_(user), forward_(stop.get_token(), Request{stopped_}) {}
+
+  [[nodiscard]] bool watches() const { return callback_ != nullptr; }
+  void tell(const snapthrough_progress& progress) {
+    if (callback_ != nullptr && callback_(&progress, user_) != 0) {
+      stopped_.request_stop();
+    }
+  }
+  [[nodiscard]] std::stop_token stopped() const { return stopped_.get_token(); }
+
+ private:
+  struct Request {
+    std::stop_source& stopped;
+    void operator()() const { stopped.request_stop(); }
+  };
+
+  snapthrough_callback callback_;
+  void* user_;
+  std::stop_source stopped_;  ///< of this call alone: others may share the caller's
+  std::stop_callback<Request> forward_;
+};
+
+api::TimedResult timed(const Model& model, const Analysis& analysis, const Hooks& hooks) {
+  const auto start = std::chrono::steady_clock::now();
+  Result result = snapthrough::solve_checked(model, analysis, hooks);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  return {std::move(result), elapsed.count()};
+}
+
+Answer solved(std::string_view text, Caller& caller) {
+  api::ReadOutcome read = api::read_request(text);
+  if (!read.request) {
+    return refused(read.malformed, read.findings);
+  }
+  Hooks hooks;
+  hooks.stop = caller.stopped();
+  if (caller.watches()) {
+    hooks.on_progress = [&caller](const Progress& progress) {
+      caller.tell({sizeof(snapthrough_progress), static_cast<std::uint64_t>(progress.step), 0,
+                    progress.load_factor, progress.branch, progress.negative_eigenvalues});
+    };
+  }
+  const auto [result, seconds] = timed(read.request->model, read.request->analysis, hooks);
+  Answer answer{SNAPTHROUGH_DONE, api::write_result(*read.request, result, seconds).dump()};
+  if (result.failure) {
+    answer.status = result.failure->code == "cancelled" ? SNAPTHROUGH_CANCELLED : SNAPTHROUGH_NOT_COMPLETED;
+  }
+  return answer;
+}
+
+Answer checked(std::string_view text) {
+  const api::ParsedText parsed = api::parse_json(text);
+  api::CheckedDocument result;
+  if (parsed.document == nullptr) {
+    result.findings = parsed.findings;
+  } else {
+    result = api::is_sweep(*parsed.document) ? api::check_sweep(parsed.document)
+                                             : api::check_request(parsed.document);
+  }
+  return {result.findings.empty() ? SNAPTHROUGH_DONE : SNAPTHROUGH_WRONG_REQUEST, api::write_check(result)};
+}
+
+/// Mistakes in the choices of a figure, told apart from those in the document.
+Answer refused_choices(bool malformed, std::vector<Finding> findings) {
+  for (Finding& finding : findings) {
+    finding.pointer.insert(0, "choices:");
+  }
+  return refused(malformed, findings);
+}
+
+Answer plotted(std::string_view text, std::string_view choices_text) {
+  const api::ParsedText parsed = api::parse_json(text, api::kFigureLimits);
+  if (parsed.document == nullptr) {
+    return refused(true, parsed.findings);
+  }
+  const api::ParsedText parsed_choices = api::parse_json(choices_text);
+  if (parsed_choices.document == nullptr) {
+    return refused_choices(true, parsed_choices.findings);
+  }
+  const api::PlotChoices choices = api::read_plot_choices(*parsed_choices.document);
+  if (!choices.findings.empty()) {
+    return refused_choices(false, choices.findings);
+  }
+  try {
+    return {SNAPTHROUGH_DONE, api::svg_of(*parsed.document, choices.request)};
+  } catch (const api::PlotError& error) {
+    return refused(false, {{error.pointer(), "no_figure", error.rule()}});
+  }
+}
+
+/// Points of a sweep that one call solves.
+struct Points {
+  std::uint64_t first = 0;
+  std::uint64_t count = 0;
+};
+
+/// The rule that these points break, or nothing.
+std::string broken_rule(const api::Sweep& sweep, const Points& points) {
+  const std::string unit = std::to_string(sweep.unit_size());
+  if (points.first % sweep.unit_size() != 0 || points.count % sweep.unit_size() != 0) {
+    return "`first` and `count` are multiples of the sweep's unit, " + unit + ".";
+  }
+  if (points.first >= sweep.size()) {
+    return "`first` is less than the number of points of the sweep, " + std::to_string(sweep.size()) + ".";
+  }
+  return "";
+}
+
+bool is_cut_short(const std::vector<api::PointOutcome>& outcomes) {
+  return std::any_of(outcomes.begin(), outcomes.end(),
+                     [](const api::PointOutcome& outcome) { return outcome.code == "cancelled"; });
+}
+
+Answer swept(const api::Sweep& sweep, Points points, Caller& caller) {
+  const Hooks hooks{.stop = caller.stopped()};
+  points.count = std::min(points.count, sweep.size() - points.first);
+  api::TableWriter table(sweep, api::TableForm::json);
+  Answer answer{SNAPTHROUGH_DONE, "{\"total\": " + std::to_string(sweep.size()) +
+                                      ", \"unit\": " + std::to_string(sweep.unit_size()) + ", " +
+                                      table.head().substr(1)};
+  std::shared_ptr<nlohmann::json> document;
+  for (std::uint64_t done = 0; done < points.count;) {
+    const std::uint64_t unit = (points.first + done) / sweep.unit_size();
+    const std::vector<api::PointOutcome> outcomes =
+        hooks.stop.stop_requested() ? std::vector<api::PointOutcome>()
+                                    : api::unit_outcomes(sweep, unit, timed, hooks, document);
+    if (outcomes.empty() || is_cut_short(outcomes)) {
+      answer.status = SNAPTHROUGH_CANCELLED;
+      break;
+    }
+    for (const api::PointOutcome& outcome : outcomes) {
+      table.append_row(points.first + done, outcome, answer.text);
+      ++done;
+    }
+    caller.tell({sizeof(snapthrough_progress), done, points.count, 0.0, 0, 0});
+  }
+  table.append_tail(answer.text);
+  return answer;
+}
+
+}  // namespace
+
+const char* snapthrough_version(void) { return SNAPTHROUGH_VERSION; }
+
+snapthrough_stop* snapthrough_stop_new(void) {
+  try {
+    return new snapthrough_stop;
+  } catch (...) {
+    return nullptr;
+  }
+}
+
+void snapthrough_stop_request(snapthrough_stop* stop) {
+  if (stop != nullptr) {
+    stop->source.request_stop();
+  }
+}
+
+void snapthrough_stop_free(snapthrough_stop* stop) { delete stop; }
+
+snapthrough_document* snapthrough_solve(const char* request, size_t length, const snapthrough_options* options,
+                                        snapthrough_callback callback, void* user) {
+  return answered([&]() -> Answer {
+    const std::optional<std::stop_source> stop = stop_of(options);
+    if (!stop) {
+      return wrong_use(kSizeRule);
+    }
+    if (request == nullptr && length > 0) {
+      return wrong_use(kTextRule);
+    }
+    Caller caller(*stop, callback, user);
+    return solved({request, length}, caller);
+  });
+}
+
+snapthrough_document* snapthrough_check(const char* document, size_t length) {
+  return answered([&]() -> Answer {
+    return document == nullptr && length > 0 ? wrong_use(kTextRule) : checked({document, length});
+  });
+}
+
+snapthrough_document* snapthrough_sweep(const char* document, size_t length, uint64_t first, uint64_t count,
+                                        const snapthrough_options* options, snapthrough_callback callback,
+                                        void* user) {
+  return answered([&]() -> Answer {
+    const std::optional<std::stop_source> stop = stop_of(options);
+    if (!stop) {
+      return wrong_use(kSizeRule);
+    }
+    if (document == nullptr && length > 0) {
+      return wrong_use(kTextRule);
+    }
+    const api::SweepOutcome read = api::read_sweep({document, length});
+    if (!read.sweep) {
+      return refused(read.malformed, read.findings);
+    }
+    if (std::string rule = broken_rule(*read.sweep, {first, count}); !rule.empty()) {
+      return wrong_use(rule);
+    }
+    Caller caller(*stop, callback, user);
+    return swept(*read.sweep, {first, count}, caller);
+  });
+}
+
+snapthrough_document* snapthrough_plot(const char* document, size_t length, const char* choices,
+                                       size_t choices_length) {
+  return answered([&]() -> Answer {
+    if ((document == nullptr && length > 0) || (choices == nullptr && choices_length > 0)) {
+      return wrong_use(kTextRule);
+    }
+    return plotted({document, length}, choices == nullptr ? "{}" : std::string_view(choices, choices_length));
+  });
+}
+
+void snapthrough_free(snapthrough_document* document) { ::operator delete(document); }

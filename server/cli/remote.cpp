@@ -1,0 +1,491 @@
+#include "server/cli/remote.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <random>
+#include <utility>
+
+#include "api/json_text.h"
+#include "api/sweep.h"
+#include "server/cli/input.h"
+#include "server/cli/interruption.h"
+#include "server/cli/remote_service.h"
+
+namespace snapthrough::server::cli {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+// A request waits so long for an end, or this long where the waiting is shown.
+constexpr int kPatientWait_s = 30;
+constexpr int kShownWait_s = 1;
+
+/// The part of a problem's type that names the kind.
+std::string kind_of(const json& problem) {
+  const std::string type = problem.is_object() ? problem.value("type", "") : "";
+  return type.substr(type.rfind(':') + 1);
+}
+
+json document_of(const Answer& answer) {
+  json document = json::parse(answer.body, nullptr, false);
+  return document.is_discarded() ? json() : document;
+}
+
+/// Says what the service, or what stands before it, answered in place of what was asked for. Findings lose
+/// `prefix`, which is the envelope's and not the document's.
+int tell_problem(const Answer& answer, const RemoteService& service, const Streams& streams,
+                 const std::string& prefix = "") {
+  const json problem = document_of(answer);
+  if (answer.status == 0) {
+    streams.err << "snapthrough: no answer from " << service.address_of("") << ": " << answer.trouble << '\n';
+    return kOther;
+  }
+  if (!problem.is_object() || !problem.contains("detail")) {
+    streams.err << "snapthrough: " << service.address_of("") << " answered HTTP status " << answer.status
+                << ", and no document of snapthrough\n";
+    return kOther;
+  }
+  std::vector<Finding> findings;
+  for (const json& error : problem.value("errors", json::array())) {
+    std::string pointer = error.value("pointer", "");
+    pointer.erase(0, pointer.starts_with(prefix) ? prefix.size() : 0);
+    findings.push_back({pointer, error.value("code", ""), error.value("detail", "")});
+  }
+  print_findings(findings, streams);
+  if (!findings.empty()) {
+    return kWrongRequest;
+  }
+  streams.err << "snapthrough: " << problem.value("detail", "") << " [" << kind_of(problem)
+              << ", HTTP status " << answer.status << ", request "
+              << problem.value("request_id", "without id") << "]\n";
+  if (answer.status == 401) {
+    streams.err << "snapthrough: --key-file names the file with your key\n";
+  }
+  return kOther;
+}
+
+/// The first line of a file; nothing when it can't be read or is empty, which `err` then says.
+std::optional<std::string> read_key(const std::string& path, const Streams& streams) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  line.erase(line.find_last_not_of(" \t\r") + 1);
+  if (line.empty()) {
+    streams.err << "snapthrough: there is no key in " << path << '\n';
+    return std::nullopt;
+  }
+  return line;
+}
+
+/// The service that the options name; nothing when they are wrong, which `err` then says.
+std::optional<RemoteService> open_service(const ServiceOptions& options, const Interruption& interruption,
+                                          const Streams& streams) {
+  const auto address = parse_service_address(options.url);
+  if (!address) {
+    streams.err << "snapthrough: --service is to be like http://127.0.0.1:8080 or https://host/path, got "
+                << options.url << '\n';
+    return std::nullopt;
+  }
+  std::string key;
+  if (!options.key_file.empty()) {
+    const auto line = read_key(options.key_file, streams);
+    if (!line) {
+      return std::nullopt;
+    }
+    key = *line;
+  }
+  return std::optional<RemoteService>(
+      std::in_place,
+      RemoteAccess{*address, key, options.certificates, std::chrono::seconds(options.patience_s)},
+      interruption.token(), [&streams](const std::string& why, std::chrono::seconds pause) {
+        streams.err << "snapthrough: " << why << "; trying again in " << pause.count() << " s\n";
+      });
+}
+
+/// A text that nobody else sends: 128 random bits.
+std::string random_key() {
+  std::random_device random;
+  std::string key;
+  for (int i = 0; i < 4; ++i) {
+    std::array<char, 9> digits{};
+    std::snprintf(digits.data(), digits.size(), "%08x", static_cast<unsigned>(random()));
+    key += digits.data();
+  }
+  return key;
+}
+
+/// What is handed in, and where.
+struct Submission {
+  std::string path;
+  std::string body;
+  std::string prefix;  ///< of pointers into the document: that of the envelope which was put around it
+};
+
+/// Puts the document into an envelope when it is to have a label. Nothing when it is wrong: see `status`.
+std::optional<Submission> prepare(const std::string& text, const std::string& label, const Streams& streams,
+                                  int& status) {
+  const api::ParsedText parsed = api::parse_json(text);
+  if (parsed.document == nullptr) {
+    print_findings(parsed.findings, streams);
+    status = kWrongRequest;
+    return std::nullopt;
+  }
+  const json& document = *parsed.document;
+  const bool has_envelope =
+      document.is_object() && (document.contains("request") || document.contains("sweep"));
+  const bool is_sweep = has_envelope ? document.contains("sweep") : api::is_sweep(document);
+  Submission submission{is_sweep ? "/v1/sweeps" : "/v1/jobs", text, ""};
+  if (label.empty()) {
+    return submission;
+  }
+  if (has_envelope) {
+    streams.err << "snapthrough: the document has an envelope; write the label there, without --label\n";
+    status = kOther;
+    return std::nullopt;
+  }
+  const std::string member = is_sweep ? "sweep" : "request";
+  submission.prefix = "/" + member;
+  submission.body = "{\"label\": " + json(label).dump(-1, ' ', false, json::error_handler_t::replace) +
+                    ", \"" + member + "\": " + text + "}";
+  return submission;
+}
+
+/// Where the resource of an id is, and its status.
+struct Found {
+  std::string path;  ///< "/v1/jobs/ID" or "/v1/sweeps/ID"
+  json status;
+  bool is_sweep = false;
+};
+
+/// Whether it is a text that ids are made of, so that it can stand in an address.
+bool is_id(const std::string& text) {
+  return !text.empty() && text.size() <= 64 &&
+         text.find_first_not_of("0123456789abcdefABCDEF-") == std::string::npos;
+}
+
+/// The job or sweep of that id; nothing when there is none or the service can't say, which `err` then tells.
+std::optional<Found> find(const std::string& id, RemoteService& service, const Streams& streams) {
+  if (!is_id(id)) {
+    streams.err << "snapthrough: " << id << " is no id: submit writes one, hexadecimal digits with dashes\n";
+    return std::nullopt;
+  }
+  for (const bool is_sweep : {false, true}) {
+    const std::string path = (is_sweep ? "/v1/sweeps/" : "/v1/jobs/") + id;
+    const Answer answer = service.get(path);
+    const json document = document_of(answer);
+    if (answer.status == 200 && document.is_object() && document.value("id", "") == id) {
+      return Found{path, document, is_sweep};
+    }
+    const bool goes_on = answer.status == 404 && kind_of(document) == "no-such-job";
+    if (!goes_on || is_sweep) {
+      tell_problem(answer, service, streams);
+      return std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+bool has_ended(const json& status) {
+  const std::string word = status.value("status", "");
+  return word != "accepted" && word != "running";
+}
+
+/// Says why it is not successful. @pre it has ended
+int tell_end(const Found& found, const Streams& streams) {
+  const std::string word = found.status.value("status", "");
+  if (word == "successful") {
+    return kDone;
+  }
+  if (word == "dismissed") {
+    streams.err << "The " << (found.is_sweep ? "sweep" : "job") << " was dismissed\n";
+  } else if (found.is_sweep) {
+    const json counts = found.status.value("counts", json::object());
+    streams.err << counts.value("failed", 0) << " of " << found.status.value("points", 0)
+                << " points could not be completed; the column error says why\n";
+  } else {
+    const json error = found.status.value("error", json::object());
+    streams.err << "The analysis could not be completed: " << error.value("detail", "") << " ["
+                << error.value("code", "") << "]\n";
+  }
+  return kNotCompleted;
+}
+
+/// Seconds that the next request may wait for the end; 0: the time is over.
+int next_wait_s(const WaitOptions& options, Clock::time_point start) {
+  const int longest = options.show_progress ? kShownWait_s : kPatientWait_s;
+  if (!options.timeout_s) {
+    return longest;
+  }
+  const double left = *options.timeout_s - std::chrono::duration<double>(Clock::now() - start).count();
+  return left <= 0.0 ? 0 : static_cast<int>(std::ceil(std::min(left, static_cast<double>(longest))));
+}
+
+/// Asks until it has ended or the time is over. @return why it could not be asked, or kDone
+int follow(Found& found, RemoteService& service, const WaitOptions& options, const Streams& streams) {
+  const Clock::time_point start = Clock::now();
+  while (!has_ended(found.status)) {
+    if (options.show_progress) {
+      streams.err << '\r' << found.status.value("message", "") << "\x1b[K" << std::flush;
+    }
+    const int wait_s = next_wait_s(options, start);
+    if (wait_s == 0) {
+      break;
+    }
+    const Answer answer = service.get(found.path, {{"Prefer", "wait=" + std::to_string(wait_s)}});
+    if (answer.status != 200) {
+      return tell_problem(answer, service, streams);
+    }
+    found.status = document_of(answer);
+  }
+  if (options.show_progress) {
+    streams.err << "\r\x1b[K" << std::flush;
+  }
+  return kDone;
+}
+
+/// Where a result or a table goes: `out`, or a file that gets its name when everything is in it.
+class Output {
+ public:
+  Output(std::string path, std::ostream& out) : path_(std::move(path)), out_(out) {
+    if (!path_.empty()) {
+      file_.open(part(), std::ios::binary);
+    }
+  }
+  ~Output() {
+    if (!path_.empty() && !kept_) {
+      file_.close();
+      std::error_code ignored;
+      std::filesystem::remove(part(), ignored);
+    }
+  }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  Output(Output&&) = delete;
+  Output& operator=(Output&&) = delete;
+
+  void write(std::string_view text) { (path_.empty() ? out_ : file_) << text; }
+  /// To be called when everything was written. @return whether it is there
+  [[nodiscard]] bool keep() {
+    std::ostream& stream = path_.empty() ? out_ : file_;
+    stream << std::flush;
+    kept_ = static_cast<bool>(stream);
+    if (kept_ && !path_.empty()) {
+      file_.close();
+      std::error_code error;
+      std::filesystem::rename(part(), path_, error);
+      kept_ = !error;
+    }
+    return kept_;
+  }
+
+ private:
+  [[nodiscard]] std::string part() const { return path_ + ".part"; }
+
+  const std::string path_;
+  std::ostream& out_;
+  std::ofstream file_;
+  bool kept_ = false;
+};
+
+/// Writes a text to where it is wanted; `status` unless that fails.
+int write_whole(std::string_view text, const FetchOptions& options, const Streams& streams, int status) {
+  Output output(options.output, streams.out);
+  output.write(text);
+  if (!output.keep()) {
+    streams.err << "snapthrough: cannot write "
+                << (options.output.empty() ? "to standard output" : options.output) << '\n';
+    return kOther;
+  }
+  return status;
+}
+
+/// As solve_command() tells them.
+void print_warnings(const json& result, const Streams& streams) {
+  for (const json& warning : result.value("warnings", json::array())) {
+    streams.err << "Warning: " << warning.value("detail", "") << " [" << warning.value("code", "") << "]\n";
+  }
+}
+
+/// Of a job that failed: what it reached.
+int fetch_reached(const Found& found, const Answer& answer, const FetchOptions& options,
+                  const Streams& streams) {
+  const json reached = document_of(answer).value("reached", json());
+  const int status = tell_end(found, streams);
+  if (reached.is_null()) {
+    return status;
+  }
+  print_warnings(reached, streams);
+  if (options.csv) {
+    streams.err << "snapthrough: without --csv what was reached is written\n";
+    return status;
+  }
+  return write_whole(reached.dump(2) + "\n", options, streams, status);
+}
+
+int fetch_result(const Found& found, RemoteService& service, const FetchOptions& options,
+                 const Streams& streams) {
+  const Answer answer = service.get(found.path + "/result", {{"Accept", "application/json"}});
+  if (answer.status != 200 && kind_of(document_of(answer)) == "analysis-failed") {
+    return fetch_reached(found, answer, options, streams);
+  }
+  if (answer.status != 200) {
+    return tell_problem(answer, service, streams);
+  }
+  print_warnings(document_of(answer), streams);
+  if (!options.csv) {
+    return write_whole(answer.body, options, streams, kDone);
+  }
+  const Answer table = service.get(found.path + "/result?format=csv" +
+                                   (options.table.empty() ? "" : "&table=" + options.table));
+  return table.status == 200 ? write_whole(table.body, options, streams, kDone)
+                             : tell_problem(table, service, streams);
+}
+
+/// Puts the rows of the next part of a table behind those that are there.
+void append_part(const std::string& format, const std::string& part, std::string& table, json& document) {
+  if (format == "json") {
+    json next = json::parse(part);
+    if (document.is_null()) {
+      document = std::move(next);
+      return;
+    }
+    for (const char* list : {"rows", "points"}) {
+      document[list].insert(document[list].end(), next[list].begin(), next[list].end());
+    }
+  } else if (format == "csv" && !table.empty()) {
+    table.append(part, part.find('\n') + 1);
+  } else {
+    table += part;
+  }
+}
+
+int fetch_table(Found found, RemoteService& service, const FetchOptions& options, const Streams& streams) {
+  const Answer limits = service.get("/v1/limits");
+  const auto most = limits.status == 200 ? document_of(limits).value("table_rows", 0.0) : 0.0;
+  if (most < 1.0) {
+    return tell_problem(limits, service, streams);
+  }
+  const std::string format = options.csv ? "csv" : options.ndjson ? "ndjson" : "json";
+  const auto points = found.status.value("points", std::uint64_t{0});
+  const auto step = static_cast<std::uint64_t>(most);
+  std::string table;
+  json document;
+  bool is_complete = true;
+  for (std::uint64_t first = 0; first == 0 || first < points; first += step) {
+    const Answer part = service.get(found.path + "/table?format=" + format +
+                                    "&first=" + std::to_string(first) + "&count=" + std::to_string(step));
+    if (part.status != 200) {
+      return tell_problem(part, service, streams);
+    }
+    is_complete = is_complete && part.header("x-complete") == "true";
+    if (format == "json" && points <= step) {
+      table = part.body;
+    } else {
+      append_part(format, part.body, table, document);
+    }
+  }
+  if (!document.is_null()) {
+    table = document.dump() + "\n";
+  }
+  // It may have ended since it was asked for.
+  if (const Answer now = service.get(found.path); now.status == 200) {
+    found.status = document_of(now);
+  }
+  if (is_complete && has_ended(found.status)) {
+    return write_whole(table, options, streams, tell_end(found, streams));
+  }
+  streams.err << "snapthrough: rows are missing: " << found.status.value("message", "") << '\n';
+  const int status = has_ended(found.status) ? kNotCompleted : kUnfinished;
+  return write_whole(table, options, streams, status);
+}
+
+}  // namespace
+
+int submit_command(const std::string& path, const ServiceOptions& service, const SubmitOptions& options,
+                   const Streams& streams) {
+  const std::optional<std::string> text = read_all(path, streams);
+  if (!text) {
+    return kOther;
+  }
+  int status = kDone;
+  const auto submission = prepare(*text, options.label, streams, status);
+  if (!submission) {
+    return status;
+  }
+  const Interruption interruption;
+  std::optional<RemoteService> remote = open_service(service, interruption, streams);
+  if (!remote) {
+    return kOther;
+  }
+  const std::string key = options.idempotency_key.empty() ? random_key() : options.idempotency_key;
+  const Answer answer = remote->post(submission->path, submission->body,
+                                     {{"Idempotency-Key", key}, {"Prefer", "return=minimal"}});
+  if (interruption.signal() != 0 && answer.status == 0) {
+    streams.err << "interrupted before the service acknowledged; the same document with --idempotency-key "
+                << key << " is the same job\n";
+    return interruption.exit_status();
+  }
+  const std::string id = document_of(answer).is_object() ? document_of(answer).value("id", "") : "";
+  if ((answer.status != 200 && answer.status != 201) || id.empty()) {
+    return tell_problem(answer, *remote, streams, submission->prefix);
+  }
+  streams.out << id << '\n' << std::flush;
+  return streams.out ? kDone : kOther;
+}
+
+int wait_command(const std::string& id, const ServiceOptions& service, const WaitOptions& options,
+                 const Streams& streams) {
+  const Interruption interruption;
+  std::optional<RemoteService> remote = open_service(service, interruption, streams);
+  std::optional<Found> found = remote ? find(id, *remote, streams) : std::nullopt;
+  const int status = found ? follow(*found, *remote, options, streams) : kOther;
+  if (interruption.signal() != 0 && !(found && has_ended(found->status))) {
+    streams.err << "interrupted: " << id << " goes on at the service\n";
+    return interruption.exit_status();
+  }
+  if (status != kDone) {
+    return status;
+  }
+  streams.out << found->status.value("status", "") << '\n' << std::flush;
+  if (!has_ended(found->status)) {
+    streams.err << "The time is over; " << id << " goes on: " << found->status.value("message", "") << '\n';
+    return kUnfinished;
+  }
+  return tell_end(*found, streams);
+}
+
+int fetch_command(const std::string& id, const ServiceOptions& service, const FetchOptions& options,
+                  const Streams& streams) {
+  const Interruption interruption;
+  std::optional<RemoteService> remote = open_service(service, interruption, streams);
+  const std::optional<Found> found = remote ? find(id, *remote, streams) : std::nullopt;
+  if (!found) {
+    return interruption.signal() != 0 ? interruption.exit_status() : kOther;
+  }
+  if (found->is_sweep && !options.table.empty()) {
+    streams.err << "snapthrough: a sweep has one table; --table is for jobs\n";
+    return kOther;
+  }
+  if (!found->is_sweep && options.ndjson) {
+    streams.err << "snapthrough: the result of a job is JSON or CSV; --ndjson is for sweeps\n";
+    return kOther;
+  }
+  if (!found->is_sweep && !has_ended(found->status)) {
+    streams.err << "snapthrough: there is no result yet: " << found->status.value("message", "") << '\n';
+    return kUnfinished;
+  }
+  if (!found->is_sweep && found->status.value("status", "") == "dismissed") {
+    return tell_end(*found, streams);
+  }
+  const int status = found->is_sweep ? fetch_table(*found, *remote, options, streams)
+                                     : fetch_result(*found, *remote, options, streams);
+  return interruption.signal() != 0 && status == kOther ? interruption.exit_status() : status;
+}
+
+}  // namespace snapthrough::server::cli
