@@ -15,6 +15,8 @@
 #include "api/api.h"
 #include "api/check_document.h"
 #include "api/json_text.h"
+#include "api/plot/plot.h"
+#include "api/plot/plot_choices.h"
 #include "api/sweep.h"
 #include "api/sweep_table.h"
 #include "api/sweep_unit.h"
@@ -187,6 +189,34 @@ Answer checked(std::string_view text) {
   return {result.findings.empty() ? SNAPTHROUGH_DONE : SNAPTHROUGH_WRONG_REQUEST, api::write_check(result)};
 }
 
+/// Mistakes in the choices of a figure, told apart from those in the document.
+Answer refused_choices(bool malformed, std::vector<Finding> findings) {
+  for (Finding& finding : findings) {
+    finding.pointer.insert(0, "choices:");
+  }
+  return refused(malformed, findings);
+}
+
+Answer plotted(std::string_view text, std::string_view choices_text) {
+  const api::ParsedText parsed = api::parse_json(text, api::kFigureLimits);
+  if (parsed.document == nullptr) {
+    return refused(true, parsed.findings);
+  }
+  const api::ParsedText parsed_choices = api::parse_json(choices_text);
+  if (parsed_choices.document == nullptr) {
+    return refused_choices(true, parsed_choices.findings);
+  }
+  const api::PlotChoices choices = api::read_plot_choices(*parsed_choices.document);
+  if (!choices.findings.empty()) {
+    return refused_choices(false, choices.findings);
+  }
+  try {
+    return {SNAPTHROUGH_DONE, api::svg_of(*parsed.document, choices.request)};
+  } catch (const api::PlotError& error) {
+    return refused(false, {{error.pointer(), "no_figure", error.rule()}});
+  }
+}
+
 /// Points of a sweep that one call solves.
 struct Points {
   std::uint64_t first = 0;
@@ -298,6 +328,16 @@ snapthrough_document* snapthrough_sweep(const char* document, size_t length, uin
     }
     Caller caller(*stop, callback, user);
     return swept(*read.sweep, {first, count}, caller);
+  });
+}
+
+snapthrough_document* snapthrough_plot(const char* document, size_t length, const char* choices,
+                                       size_t choices_length) {
+  return answered([&]() -> Answer {
+    if ((document == nullptr && length > 0) || (choices == nullptr && choices_length > 0)) {
+      return wrong_use(kTextRule);
+    }
+    return plotted({document, length}, choices == nullptr ? "{}" : std::string_view(choices, choices_length));
   });
 }
 

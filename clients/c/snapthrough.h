@@ -142,6 +142,24 @@ SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_sweep(const char* document,
                                                            uint64_t count, const snapthrough_options* options,
                                                            snapthrough_callback callback, void* user);
 
+/**
+ * Draws a result, or the table of a sweep, in the look of the page's figures (docs/howto/plot-results.md).
+ *
+ * @param document       UTF-8 JSON: what snapthrough_solve() or snapthrough_sweep() returned, or a file of the
+ *                       command line or the service
+ * @param length         bytes of the document
+ * @param choices        null, or UTF-8 JSON, an object with any of: "kind" ("path", "shape", "sections", "mode",
+ *                       "sweep", "heatmap"), "width", "height" (pixels), "dark", "state", "mode", "branch"
+ *                       (indices from 0), "monitor", "over_arc_length", "magnify", "output" (JSON Pointer), "x",
+ *                       "by" (names of parameters), "where" ({name: value}), "solved_request" (the request, so
+ *                       that supports, ground and loads can be drawn)
+ * @param choices_length bytes of the choices
+ * @return with DONE an SVG document (here the text is no JSON); otherwise a problem. Its "errors" have pointers into
+ *         the document, or, where they begin with "choices:", into the choices
+ */
+SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_plot(const char* document, size_t length, const char* choices,
+                                                          size_t choices_length);
+
 /** Releases a document. Null is ignored. */
 SNAPTHROUGH_EXPORT void snapthrough_free(snapthrough_document* document);
 

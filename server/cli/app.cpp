@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 
 #include "server/cli/commands.h"
 #include "server/cli/described_app.h"
+#include "server/cli/plot.h"
 #include "server/cli/remote_arguments.h"
 
 namespace snapthrough::server::cli {
@@ -21,6 +23,9 @@ namespace {
 
 /// A default that is shown in words: manual pages are made on another machine than they are read on.
 constexpr const char* kOneForEachCore = "one for each core";
+
+/// Runs a command whose arguments are known; returns the exit status.
+using Action = std::function<int(const Streams&)>;
 
 /// What the arguments set.
 struct Arguments {
@@ -40,6 +45,7 @@ struct Arguments {
   std::string address = "127.0.0.1:8080";
   bool ready = false;
   RemoteArguments remote;
+  Action action;  ///< of the command that was given
 };
 
 /// The variables that are the service's, by name.
@@ -140,22 +146,25 @@ CLI::App* add_service_command(CLI::App& app, const char* name, const char* descr
   return command;
 }
 
-void add_copy_command(CLI::App& app, Arguments& arguments) {
+CLI::App* add_copy_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("copy", "Copy what one store keeps to another, again to go on");
   command->add_option("source", arguments.store, "Database file, or postgresql://...")->required();
   command->add_option("target", arguments.target, "Database file, or postgresql://...")->required();
+  return command;
 }
 
-void add_backup_command(CLI::App& app, Arguments& arguments) {
+CLI::App* add_backup_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("backup", "Copy a store while a service may be using it");
   command->add_option("--store", arguments.store, "Database file")->capture_default_str();
   command->add_option("target", arguments.target, "File to write")->required();
+  return command;
 }
 
-void add_health_command(CLI::App& app, Arguments& arguments) {
+CLI::App* add_health_command(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("health", "Ask a service on this machine whether it lives");
   command->add_option("address", arguments.address, "host:port")->capture_default_str();
   command->add_flag("--ready", arguments.ready, "Ask whether it takes work, too");
+  return command;
 }
 
 SettingSources sources_of(const Arguments& arguments) {
@@ -168,24 +177,66 @@ SettingSources sources_of(const Arguments& arguments) {
   return sources;
 }
 
+/// Makes an action that of a command. @pre the arguments outlive the command
+void on(CLI::App* command, Arguments& arguments, const Action& action) {
+  command->callback([&arguments, action] { arguments.action = action; });
+}
+
+/// Commands that solve in this process.
+void add_solving_commands(CLI::App& app, Arguments& arguments) {
+  on(add_solve_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    return solve_command(arguments.request, streams,
+                         {arguments.csv || !arguments.table.empty(), api::result_table_from(arguments.table),
+                          ::isatty(STDERR_FILENO) == 1});
+  });
+  on(add_request_command(app, "check", "Validate a request", arguments), arguments,
+     [&arguments](const Streams& streams) { return check_command(arguments.request, streams); });
+  on(add_sweep_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    // On a terminal the rows themselves show how far it is, unless a file takes them.
+    const bool bar = ::isatty(STDERR_FILENO) == 1 && (::isatty(STDOUT_FILENO) == 0 || !arguments.out.empty());
+    return sweep_command(arguments.request, streams,
+                         {form_of(arguments), arguments.threads, bar, arguments.point, arguments.out,
+                          *sweep_part_from(arguments.part)});
+  });
+  on(add_merge_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    return merge_command(arguments.parts, form_of(arguments), streams);
+  });
+  const std::shared_ptr<PlotArguments> plot = add_plot_command(app);
+  on(app.get_subcommand("plot"), arguments,
+     [plot](const Streams& streams) { return plot_command(*plot, streams); });
+}
+
+/// Commands that are the service, or look after its store.
+void add_service_commands(CLI::App& app, Arguments& arguments) {
+  on(add_service_command(app, "serve", "Run the service", arguments), arguments,
+     [&arguments](const Streams& streams) { return serve_command(sources_of(arguments), true, streams); });
+  on(add_service_command(
+         app, "work", "Work on what the service was given on other hosts, which share the store", arguments),
+     arguments,
+     [&arguments](const Streams& streams) { return serve_command(sources_of(arguments), false, streams); });
+  on(add_service_command(app, "migrate", "Bring the schema of the store up to date, and end", arguments),
+     arguments,
+     [&arguments](const Streams& streams) { return migrate_command(sources_of(arguments), streams); });
+  on(add_copy_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    return copy_command(arguments.store, arguments.target, streams);
+  });
+  on(add_backup_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    return backup_command(arguments.store, arguments.target, streams);
+  });
+  on(add_health_command(app, arguments), arguments, [&arguments](const Streams& streams) {
+    return health_command(arguments.address, arguments.ready, streams);
+  });
+}
+
 /// Every command with its options. @pre the arguments outlive the app
 void describe(CLI::App& app, Arguments& arguments) {
   app.description("Equilibrium paths and critical loads of slender structures on elastic bases");
   app.name("snapthrough");
   app.set_version_flag("--version", "snapthrough " SNAPTHROUGH_VERSION);
   app.require_subcommand(1);
-  add_solve_command(app, arguments);
-  add_request_command(app, "check", "Validate a request", arguments);
-  add_sweep_command(app, arguments);
-  add_merge_command(app, arguments);
-  add_service_command(app, "serve", "Run the service", arguments);
-  add_service_command(app, "work", "Work on what the service was given on other hosts, which share the store",
-                      arguments);
-  add_service_command(app, "migrate", "Bring the schema of the store up to date, and end", arguments);
+  add_solving_commands(app, arguments);
   add_remote_commands(app, arguments.remote);
-  add_copy_command(app, arguments);
-  add_backup_command(app, arguments);
-  add_health_command(app, arguments);
+  add_service_commands(app, arguments);
 }
 
 }  // namespace
@@ -210,41 +261,7 @@ int run(int argc, const char* const* argv, const Streams& streams) {
     return app.exit(error, streams.out, streams.err) == 0 ? kDone : kOther;
   }
   try {
-    if (app.got_subcommand("solve")) {
-      return solve_command(arguments.request, streams,
-                           {arguments.csv || !arguments.table.empty(),
-                            api::result_table_from(arguments.table), ::isatty(STDERR_FILENO) == 1});
-    }
-    if (app.got_subcommand("check")) {
-      return check_command(arguments.request, streams);
-    }
-    if (app.got_subcommand("sweep")) {
-      // On a terminal the rows themselves show how far it is, unless a file takes them.
-      const bool bar =
-          ::isatty(STDERR_FILENO) == 1 && (::isatty(STDOUT_FILENO) == 0 || !arguments.out.empty());
-      return sweep_command(arguments.request, streams,
-                           {form_of(arguments), arguments.threads, bar, arguments.point, arguments.out,
-                            *sweep_part_from(arguments.part)});
-    }
-    if (app.got_subcommand("merge")) {
-      return merge_command(arguments.parts, form_of(arguments), streams);
-    }
-    if (app.got_subcommand("backup")) {
-      return backup_command(arguments.store, arguments.target, streams);
-    }
-    if (app.got_subcommand("health")) {
-      return health_command(arguments.address, arguments.ready, streams);
-    }
-    if (app.got_subcommand("copy")) {
-      return copy_command(arguments.store, arguments.target, streams);
-    }
-    if (app.got_subcommand("migrate")) {
-      return migrate_command(sources_of(arguments), streams);
-    }
-    if (arguments.remote.action) {
-      return arguments.remote.action(streams);
-    }
-    return serve_command(sources_of(arguments), !app.got_subcommand("work"), streams);
+    return arguments.remote.action ? arguments.remote.action(streams) : arguments.action(streams);
   } catch (const std::exception& error) {
     streams.err << "snapthrough: " << error.what() << '\n';
     return kOther;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdio.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -327,6 +328,45 @@ TEST(Library, APointThatFailsHasItsRow) {
   const json table = json::parse(sweep(document.dump(), 0, 2)->text);
   EXPECT_EQ(table.at("rows").at(0).back(), nullptr);
   EXPECT_EQ(table.at("rows").size(), 2U);
+}
+
+Document plot(const std::string& document, const std::string& choices) {
+  return Document(snapthrough_plot(document.data(), document.size(), choices.data(), choices.size()));
+}
+
+TEST(Library, DrawsAsTheCommandLineDoes) {
+  const std::string request = std::string(SNAPTHROUGH_SOURCE_DIR) + "/examples/buried_pipe.json";
+  const std::string result = command_line("solve " + request);
+  const Document path = plot(result, R"({"kind": "path", "dark": true, "width": 500})");
+  ASSERT_EQ(path->status, SNAPTHROUGH_DONE) << path->text;
+  const std::string file = ::testing::TempDir() + "/result_" + std::to_string(getpid()) + ".json";
+  std::ofstream(file) << result;
+  EXPECT_EQ(path->text, command_line("plot --kind path --dark --width 500 " + file));
+  const json choices{{"kind", "shape"}, {"solved_request", json::parse(contents_of(request))}};
+  EXPECT_EQ(plot(result, choices.dump())->text,
+            command_line("plot --kind shape --request " + request + " " + file));
+  std::remove(file.c_str());
+  const Document whole = sweep(text_of("sweeps/frame_bays.json"), 0, 7);
+  EXPECT_THAT(plot(whole->text, R"({"x": "last column"})")->text, HasSubstr("<svg"));
+}
+
+TEST(Library, TellsWhichChoiceOfAFigureIsWrong) {
+  const Document result = solve(text_of("arch_no_base.json"));
+  const auto first_error = [&](const std::string& choices) -> json {
+    const Document answer = plot(result->text, choices);
+    EXPECT_EQ(answer->status, SNAPTHROUGH_WRONG_REQUEST) << choices;
+    return json::parse(answer->text).at("errors").at(0);
+  };
+  EXPECT_EQ(first_error(R"({"kind": "pie"})").at("pointer"), "choices:/kind");
+  EXPECT_EQ(first_error(R"({"colour": 1})").at("code"), "unknown_field");
+  EXPECT_EQ(first_error(R"({"width": 1})").at("pointer"), "choices:/width");
+  EXPECT_EQ(first_error(R"({"state": -1})").at("pointer"), "choices:/state");
+  EXPECT_EQ(first_error(R"({"where": {"a": 1}})").at("pointer"), "choices:/where");
+  EXPECT_EQ(first_error("[]").at("pointer"), "choices:");
+  EXPECT_EQ(first_error("{").at("code"), "malformed");
+  EXPECT_EQ(first_error(R"({"kind": "shape", "state": 4711})").at("code"), "no_figure");
+  EXPECT_EQ(plot("{}", "{}")->status, SNAPTHROUGH_WRONG_REQUEST);
+  EXPECT_EQ(plot("", "{}")->status, SNAPTHROUGH_WRONG_REQUEST);
 }
 
 }  // namespace

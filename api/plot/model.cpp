@@ -1,0 +1,199 @@
+#include "api/plot/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "api/plot/plot.h"
+
+namespace snapthrough::api::plot {
+namespace {
+
+/// Calls `take` with every item of a list that may be absent.
+template <class Take>
+void for_each(const Field& model, std::string_view key, const Take& take) {
+  if (const std::optional<Field> list = model.find(key)) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      take(list->item(i));
+    }
+  }
+}
+
+Point read_point(const Field& field) {
+  const std::vector<double> pair = field.numbers(2);
+  return {pair[0], pair[1]};
+}
+
+Location read_location(const Field& field) {
+  if (const std::optional<Field> node = field.find("node")) {
+    return {node->text(), "", 0};
+  }
+  return {"", field.at("member").text(), field.at("fraction").number()};
+}
+
+std::pair<double, double> read_range(const Field& field) {
+  const std::optional<Field> range = field.find("range");
+  if (!range) {
+    return {0, 1};
+  }
+  const std::vector<double> ends = range->numbers(2);
+  if (!(ends[0] >= 0 && ends[0] < ends[1] && ends[1] <= 1)) {
+    range->fail("must be two increasing fractions from 0 to 1");
+  }
+  return {ends[0], ends[1]};
+}
+
+bool has_hinge(const Field& member, std::string_view end) {
+  const std::optional<Field> release = member.find("release");
+  const std::optional<Field> list = release ? release->find(end) : std::nullopt;
+  return list && list->size() > 0;
+}
+
+ModelMember read_member(const Field& field, const Model& model) {
+  ModelMember member;
+  member.id = field.at("id").text();
+  const auto node = [&](const char* key) {
+    const Field name = field.at(key);
+    const auto found = model.nodes.find(name.text());
+    if (found == model.nodes.end()) {
+      name.fail("must be the id of a node");
+    }
+    return *found;
+  };
+  const auto [start, from] = node("start");
+  const auto [end, to] = node("end");
+  member.start = start;
+  member.end = end;
+  member.axis = member_axis(field, field.find("curve"), from, to);
+  member.hinge_at_start = has_hinge(field, "start");
+  member.hinge_at_end = has_hinge(field, "end");
+  return member;
+}
+
+ModelSupport read_support(const Field& field) {
+  ModelSupport support{field.at("node").text(), false, false, false, number_or(field, "angle_degrees", 0)};
+  const Field fixed = field.at("fixed");
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    const std::string component = fixed.item(i).text();
+    support.x = support.x || component == "x";
+    support.y = support.y || component == "y";
+    support.rotation = support.rotation || component == "rotation";
+  }
+  return support;
+}
+
+bool is_one_sided(const Field& field) { return text_or(field, "reaction", "bilateral") != "bilateral"; }
+
+Point unit_vector(const Field& field) {
+  const Point given = read_point(field);
+  const double length = std::hypot(given.x, given.y);
+  if (!(length > 0)) {
+    field.fail("must have a direction");
+  }
+  return {given.x / length, given.y / length};
+}
+
+ModelSpring read_spring(const Field& field) {
+  ModelSpring spring;
+  spring.id = field.at("id").text();
+  spring.at = read_location(field.at("at"));
+  const Field direction = field.at("direction");
+  if (!direction.json().is_string()) {
+    spring.direction = unit_vector(direction);
+  }
+  spring.one_sided = is_one_sided(field);
+  spring.gap = std::max(0.0, number_or(field, "gap", 0));
+  return spring;
+}
+
+ModelFoundation read_foundation(const Field& field) {
+  ModelFoundation foundation;
+  foundation.id = field.at("id").text();
+  foundation.member = field.at("member").text();
+  foundation.side = text_or(field, "side", "left") == "right" ? -1 : 1;
+  if (const std::optional<Field> direction = field.find("direction");
+      direction && direction->json().is_array()) {
+    foundation.direction = unit_vector(*direction);
+  }
+  foundation.one_sided = is_one_sided(field);
+  foundation.compression_only = text_or(field, "reaction", "bilateral") == "compression_only";
+  foundation.gap = std::max(0.0, number_or(field, "gap", 0));
+  foundation.range = read_range(field);
+  return foundation;
+}
+
+ModelLoad read_load(const Field& field) {
+  ModelLoad load;
+  const std::string type = field.at("type").text();
+  load.constant = text_or(field, "pattern", "proportional") == "constant";
+  if (type == "point") {
+    load.at = read_location(field.at("at"));
+    const std::optional<Field> force = field.find("force");
+    load.force = force ? read_point(*force) : Point();
+    load.moment = number_or(field, "moment", 0);
+    return load;
+  }
+  load.at.member = field.at("member").text();
+  load.range = read_range(field);
+  if (type == "distributed") {
+    load.type = ModelLoad::Type::distributed;
+    load.force = read_point(field.at("force"));
+    load.per = text_or(field, "per", "length");
+  } else if (type == "pressure") {
+    load.type = ModelLoad::Type::pressure;
+    load.value = field.at("value").number();
+    load.side = text_or(field, "side", "left") == "right" ? -1 : 1;
+  } else if (type == "initial_strain") {
+    load.type = ModelLoad::Type::initial_strain;
+    load.axial = number_or(field, "axial", 0);
+    load.curvature = number_or(field, "curvature", 0);
+  } else {
+    field.at("type").fail("is a type of load that no figure knows");
+  }
+  return load;
+}
+
+}  // namespace
+
+const ModelMonitor* Model::monitor(const std::string& id) const {
+  const auto found =
+      std::find_if(monitors.begin(), monitors.end(), [&](const ModelMonitor& one) { return one.id == id; });
+  return found == monitors.end() ? nullptr : &*found;
+}
+
+std::string sense_of(const ModelMonitor& monitor, bool negative) {
+  if (monitor.component == "x") {
+    return negative ? "to the left" : "to the right";
+  }
+  if (monitor.component == "y") {
+    return negative ? "down" : "up";
+  }
+  if (monitor.component == "rotation") {
+    return negative ? "clockwise" : "counter-clockwise";
+  }
+  return negative ? "to the member's right" : "to the member's left";
+}
+
+Model read_model(const nlohmann::json& request) {
+  const Field field = Field(request, PointerPath("request:")).at("model");
+  Model model;
+  const Field nodes = field.at("nodes");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Field node = nodes.item(i);
+    model.nodes.emplace(node.at("id").text(), Point{node.at("x").number(), node.at("y").number()});
+  }
+  const Field members = field.at("members");
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    model.members.push_back(read_member(members.item(i), model));
+  }
+  for_each(field, "supports", [&](const Field& one) { model.supports.push_back(read_support(one)); });
+  for_each(field, "springs", [&](const Field& one) { model.springs.push_back(read_spring(one)); });
+  for_each(field, "foundations",
+           [&](const Field& one) { model.foundations.push_back(read_foundation(one)); });
+  for_each(field, "loads", [&](const Field& one) { model.loads.push_back(read_load(one)); });
+  for_each(field, "monitors", [&](const Field& one) {
+    model.monitors.push_back({one.at("id").text(), read_location(one.at("at")), one.at("component").text()});
+  });
+  return model;
+}
+
+}  // namespace snapthrough::api::plot

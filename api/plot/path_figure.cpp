@@ -1,0 +1,485 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "api/plot/axes.h"
+#include "api/plot/figures.h"
+#include "api/plot/labels.h"
+#include "api/plot/result.h"
+
+namespace snapthrough::api::plot {
+namespace {
+
+/// A place of a curve: a row of a branch, or a critical point between rows.
+struct Vertex {
+  double x = 0;
+  double y = 0;
+  double arc = 0;
+  std::optional<double> negative;  ///< nothing: a critical point, where stability changes; kNone: not counted
+};
+
+enum class Stability { stable, unstable, not_counted };
+
+struct Curve {
+  std::size_t branch = 0;
+  std::vector<Vertex> vertices;
+  std::vector<Stability> pieces;  ///< of each vertex but the last to the next
+};
+
+/// What the horizontal axis shows.
+struct Abscissa {
+  std::string monitor;  ///< empty: the arc length
+  double sign = 1;      ///< -1 where minus the monitor's value is shown
+};
+
+struct PathData {
+  std::vector<Branch> branches;
+  std::vector<CriticalPoint> points;
+  std::vector<ContactEvent> events;
+  Abscissa x;
+  bool is_static = false;
+};
+
+/// The quantity along a branch; empty where it has no such monitor.
+std::vector<double> values_of(const Branch& branch, const Abscissa& quantity) {
+  if (quantity.monitor.empty()) {
+    return branch.arc_length;
+  }
+  const auto found = branch.monitors.find(quantity.monitor);
+  std::vector<double> values = found == branch.monitors.end() ? std::vector<double>() : found->second;
+  for (double& value : values) {
+    value *= quantity.sign;
+  }
+  return values;
+}
+
+double value_of(const CriticalPoint& point, const Abscissa& quantity) {
+  if (quantity.monitor.empty()) {
+    return point.arc_length;
+  }
+  const auto found = point.monitors.find(quantity.monitor);
+  return found == point.monitors.end() ? kNone : quantity.sign * found->second;
+}
+
+/// -1 where a monitor is negative along the primary path, so that the path begins to the right.
+double sign_of(const std::vector<Branch>& branches, const std::string& monitor) {
+  double largest = 0;
+  for (const Branch& branch : branches) {
+    for (const double value : values_of(branch, {monitor, 1})) {
+      largest = std::max(largest, std::abs(value));
+    }
+  }
+  const std::vector<double> values = values_of(branches.front(), {monitor, 1});
+  double mean = 0;
+  for (const double value : values) {
+    mean += value / static_cast<double>(values.size());
+  }
+  // Values of the size of rounding have no sense: only other branches move the monitor then.
+  return mean < -1e-9 * largest ? -1 : 1;
+}
+
+/// The ids of the monitors, for a sentence.
+std::string monitor_names(const Monitors& monitors) {
+  std::string all;
+  for (const auto& [id, values] : monitors) {
+    all += (all.empty() ? "" : ", ") + id;
+  }
+  return all.empty() ? "there are none" : "there are: " + all;
+}
+
+std::string first_monitor(const ResultInput& input, const Monitors& monitors) {
+  if (input.model) {
+    for (const ModelMonitor& monitor : input.model->monitors) {
+      if (monitors.contains(monitor.id)) {
+        return monitor.id;
+      }
+    }
+  }
+  return monitors.empty() ? "" : monitors.begin()->first;
+}
+
+Abscissa chosen_quantity(const ResultInput& input, const PlotRequest& request,
+                         const std::vector<Branch>& branches) {
+  if (request.over_arc_length) {
+    return {};
+  }
+  const Monitors& monitors = branches.front().monitors;
+  const std::string id = request.monitor.value_or(first_monitor(input, monitors));
+  if (request.monitor && !monitors.contains(id)) {
+    throw PlotError((input.result.find("static") ? "/static/monitors/" : "/branches/0/monitors/") +
+                        escape_pointer_token(id),
+                    "the result has no such monitor; " + monitor_names(monitors));
+  }
+  return id.empty() ? Abscissa{} : Abscissa{id, sign_of(branches, id)};
+}
+
+/// Says why there is no path.
+[[noreturn]] void fail_without_path(const Field& result) {
+  if (const std::optional<Field> failure = result.find("failure")) {
+    throw PlotError("/failure",
+                    "the analysis failed before it had a path: " + text_or(*failure, "detail", ""));
+  }
+  throw PlotError("/branches", "the result has no path; an analysis of type path or static has one");
+}
+
+PathData read_path(const ResultInput& input, const PlotRequest& request) {
+  PathData path{read_branches(input.result),
+                read_critical_points(input.result),
+                read_contact_events(input.result),
+                {},
+                false};
+  if (std::all_of(path.branches.begin(), path.branches.end(),
+                  [](const Branch& branch) { return branch.load_factor.empty(); })) {
+    fail_without_path(input.result);
+  }
+  const std::optional<Field> branches = input.result.find("branches");
+  path.is_static = !branches || branches->size() == 0;
+  if (request.branch && *request.branch >= path.branches.size()) {
+    throw PlotError("/branches/" + std::to_string(*request.branch),
+                    "the result has branches 0 to " + std::to_string(path.branches.size() - 1));
+  }
+  path.x = chosen_quantity(input, request, path.branches);
+  if (path.is_static && path.x.monitor.empty()) {
+    path.points.clear();  // the axis counts rows, which a critical point between them has no place on
+  }
+  if (request.branch) {
+    std::erase_if(path.points, [&](const CriticalPoint& one) { return one.branch != *request.branch; });
+    std::erase_if(path.events, [&](const ContactEvent& one) { return one.branch != *request.branch; });
+  }
+  return path;
+}
+
+/// Rows of a branch with its critical points between them, in the order of the arc length.
+std::vector<Vertex> vertices_of(const PathData& path, std::size_t index) {
+  const Branch& branch = path.branches[index];
+  const std::vector<double> xs = values_of(branch, path.x);
+  if (xs.empty()) {
+    return {};
+  }
+  std::vector<Vertex> points;
+  for (const CriticalPoint& point : path.points) {
+    if (!path.is_static && point.branch == index && std::isfinite(value_of(point, path.x))) {
+      points.push_back({value_of(point, path.x), point.load_factor, point.arc_length, std::nullopt});
+    }
+  }
+  std::stable_sort(points.begin(), points.end(),
+                   [](const Vertex& a, const Vertex& b) { return a.arc < b.arc; });
+  const double near = 1e-9 * branch.arc_length.back();  // of the path: less is the same place
+  std::vector<Vertex> merged;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < xs.size(); ++i) {
+    const Vertex row{xs[i], branch.load_factor[i], branch.arc_length[i], branch.negative_eigenvalues[i]};
+    for (; next < points.size() && points[next].arc < row.arc - near; ++next) {
+      if (!merged.empty() && merged.back().arc < points[next].arc - near) {
+        merged.push_back(points[next]);
+      }
+    }
+    merged.push_back(row);
+    for (; next < points.size() && points[next].arc <= row.arc + near; ++next) {
+      merged.back().negative = std::nullopt;
+    }
+  }
+  return merged;
+}
+
+/// Stability of each piece from the rows at its ends; between two critical points it is that of the piece
+/// before.
+std::vector<Stability> pieces_of(const std::vector<Vertex>& vertices) {
+  std::vector<Stability> pieces;
+  for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+    const std::optional<double>& here = vertices[i].negative;
+    const std::optional<double>& next = vertices[i + 1].negative;
+    if (!here && !next) {
+      pieces.push_back(i == 0 ? Stability::stable : pieces.back());
+    } else if (std::isnan(here.value_or(0)) || std::isnan(next.value_or(0))) {
+      pieces.push_back(Stability::not_counted);
+    } else {
+      pieces.push_back(std::max(here.value_or(0), next.value_or(0)) == 0 ? Stability::stable
+                                                                         : Stability::unstable);
+    }
+  }
+  return pieces;
+}
+
+std::vector<Curve> curves_of(const PathData& path, const PlotRequest& request) {
+  std::vector<Curve> curves;
+  for (std::size_t i = 0; i < path.branches.size(); ++i) {
+    if (request.branch && *request.branch != i) {
+      continue;
+    }
+    Curve curve{i, vertices_of(path, i), {}};
+    curve.pieces = pieces_of(curve.vertices);
+    if (!curve.vertices.empty()) {
+      curves.push_back(std::move(curve));
+    }
+  }
+  return curves;
+}
+
+const char* looks_of(Stability stability) {
+  switch (stability) {
+    case Stability::stable:
+      return "stable";
+    case Stability::unstable:
+      return "unstable";
+    case Stability::not_counted:
+      return "untold";
+  }
+  return "";
+}
+
+/// Pieces of one stability as lines; neighbours share their end.
+void draw_curve(const Curve& curve, const Frame& frame, Occupancy& taken, std::vector<Shape>& shapes) {
+  std::vector<Pixel> all;
+  for (const Vertex& vertex : curve.vertices) {
+    all.push_back(place(frame, vertex.x, vertex.y));
+  }
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i <= curve.pieces.size(); ++i) {
+    if (i < curve.pieces.size() && curve.pieces[i] == curve.pieces[begin]) {
+      continue;
+    }
+    const std::vector<Pixel> points = thinned_points(std::span(all).subspan(begin, i - begin + 1));
+    taken.add_line(points, 7);
+    shapes.push_back(plot::path(
+        std::string(curve.branch == 0 ? "path " : "path branch ") + looks_of(curve.pieces[begin]), points));
+    begin = i;
+  }
+}
+
+struct PlacedMark {
+  Mark mark;
+  Pixel at;
+  std::vector<Run> runs;
+};
+
+struct Softest {
+  double load_factor = 0;
+  double ratio = 0;
+};
+
+std::optional<Softest> read_softest(const Field& result) {
+  const std::optional<Field> summary = result.find("summary");
+  const std::optional<Field> softest = summary ? summary->find("softest") : std::nullopt;
+  if (!softest) {
+    return std::nullopt;
+  }
+  const Softest found{softest->at("load_factor").number(), softest->at("stiffness_ratio").number()};
+  return found.ratio > 0 ? std::optional(found) : std::nullopt;  // zero: it is a critical point
+}
+
+/// Where the primary path first comes to a load factor.
+std::optional<Pixel> first_at_load(const Curve& curve, const Frame& frame, double load) {
+  for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
+    const Vertex& a = curve.vertices[i - 1];
+    const Vertex& b = curve.vertices[i];
+    if ((a.y <= load && load <= b.y) || (b.y <= load && load <= a.y)) {
+      const double share = a.y == b.y ? 0 : (load - a.y) / (b.y - a.y);
+      return place(frame, a.x + share * (b.x - a.x), load);
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<PlacedMark> marks_of(const PathData& path, const ResultInput& input,
+                                 const std::vector<Curve>& curves, const Frame& frame) {
+  std::vector<PlacedMark> marks;
+  for (const CriticalPoint& point : path.points) {
+    const double x = value_of(point, path.x);
+    if (std::isfinite(x)) {
+      marks.push_back(
+          {point.mark,
+           place(frame, x, point.load_factor),
+           {{format_number(point.load_factor, 5), "", true},
+            {std::string(mark_text(point.mark)) + (point.confirmed ? "" : ", not confirmed"), "muted"}}});
+    }
+  }
+  const std::optional<Softest> softest = read_softest(input.result);
+  if (softest && !curves.empty() && curves.front().branch == 0) {
+    if (const std::optional<Pixel> at = first_at_load(curves.front(), frame, softest->load_factor)) {
+      marks.push_back({Mark::softest,
+                       *at,
+                       {{format_number(softest->load_factor, 5), "", true},
+                        {"softest, ratio " + format_number(softest->ratio, 3), "muted"}}});
+    }
+  }
+  return marks;
+}
+
+/// Marks, then their labels where these cover neither a line nor one another; the first always has its label.
+void draw_marks(const std::vector<PlacedMark>& marks, Occupancy& taken, std::vector<Shape>& shapes) {
+  std::vector<Shape> drawn;
+  for (const PlacedMark& mark : marks) {
+    const auto [x, y] = mark.at;
+    taken.add_box({x - 11, y - 11, x + 11, y + 11}, 14);
+    taken.add_box({x - 4, y - 5, x + 4, y + 4}, 60);
+    drawn.push_back(mark_shape(mark.mark, mark.at));
+  }
+  std::vector<Shape> labels;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    LabelRequest wanted{marks[i].at, marks[i].runs, "mark-label", 14};
+    wanted.leader = true;
+    wanted.tolerance = i == 0 ? 400 : 110;
+    wanted.prefer = marks[i].mark == Mark::limit_min || marks[i].mark == Mark::softest ? 1 : 7;
+    if (std::optional<Shape> text = place_label(wanted, taken)) {
+      labels.push_back(std::move(*text));
+    }
+  }
+  shapes.push_back(group("marks", std::move(drawn)));
+  shapes.push_back(group("mark-labels", std::move(labels)));
+}
+
+void draw_events(const PathData& path, const Frame& frame, std::vector<Shape>& shapes) {
+  std::vector<Shape> drawn;
+  for (const ContactEvent& event : path.events) {
+    if (event.branch < path.branches.size() && !path.is_static) {
+      const Branch& branch = path.branches[event.branch];
+      const std::vector<double>& arcs = branch.arc_length;
+      const auto found = branch.monitors.find(path.x.monitor);
+      const double x = path.x.monitor.empty() ? event.arc_length
+                       : found == branch.monitors.end() || arcs.empty()
+                           ? kNone
+                           : path.x.sign * interpolate(arcs, found->second, event.arc_length);
+      if (std::isfinite(x)) {
+        drawn.push_back(mark_shape(event.mark, place(frame, x, event.load_factor)));
+      }
+    }
+  }
+  shapes.push_back(group("events", std::move(drawn)));
+}
+
+/// A static analysis has few rows, each of which was asked for.
+void draw_rows(const PathData& path, const std::vector<Curve>& curves, const Frame& frame,
+               std::vector<Shape>& shapes) {
+  constexpr std::size_t kMost = 200;  // more run into one another
+  for (const Curve& curve : curves) {
+    const bool alone = curve.vertices.size() == 1;
+    for (std::size_t i = 0;
+         (path.is_static || alone) && curve.vertices.size() <= kMost && i < curve.vertices.size(); ++i) {
+      shapes.push_back(circle("row", place(frame, curve.vertices[i].x, curve.vertices[i].y), 2.5));
+    }
+  }
+}
+
+std::vector<LegendEntry> legend_of(const PathData& path, const std::vector<Curve>& curves, bool softest) {
+  std::set<Stability> kinds;
+  bool branches = false;
+  for (const Curve& curve : curves) {
+    kinds.insert(curve.pieces.begin(), curve.pieces.end());
+    branches = branches || curve.branch != 0;
+  }
+  std::vector<LegendEntry> entries;
+  const auto entry = [&](Stability kind, const char* text) {
+    if (kinds.contains(kind)) {
+      entries.push_back({text, std::string("path ") + looks_of(kind)});
+    }
+  };
+  entry(Stability::stable, "stable");
+  entry(Stability::unstable, "unstable");
+  entry(Stability::not_counted, "stability not counted");
+  if (branches) {
+    entries.push_back({"branch", "path branch stable"});
+  }
+  std::set<Mark> marks;
+  for (const CriticalPoint& point : path.points) {
+    marks.insert(point.mark);
+  }
+  for (const ContactEvent& event : path.events) {
+    marks.insert(event.mark);
+  }
+  if (softest) {
+    marks.insert(Mark::softest);
+  }
+  for (LegendEntry& mark : mark_entries(marks)) {
+    entries.push_back(std::move(mark));
+  }
+  return entries;
+}
+
+std::string axis_name(const ResultInput& input, const PathData& path) {
+  if (path.x.monitor.empty()) {
+    return path.is_static ? "row" : "arc length of the path";
+  }
+  const ModelMonitor* monitor = input.model ? input.model->monitor(path.x.monitor) : nullptr;
+  if (monitor != nullptr) {
+    const Quantity quantity = monitor->component == "rotation" ? Quantity::rotation : Quantity::length;
+    return name_with_unit(path.x.monitor + ", " + sense_of(*monitor, path.x.sign < 0),
+                          unit_of(input.units, quantity));
+  }
+  return (path.x.sign < 0 ? "\u2212" : "") + path.x.monitor;
+}
+
+Frame frame_of(const ResultInput& input, const PathData& path, const std::vector<Curve>& curves, Size size,
+               double legend) {
+  Range x;
+  Range y;
+  const auto include = [&](double at, double load) {
+    if (std::isfinite(at)) {
+      x.include(at);
+      y.include(load);
+    }
+  };
+  for (const Curve& curve : curves) {
+    for (const Vertex& vertex : curve.vertices) {
+      include(vertex.x, vertex.y);
+    }
+  }
+  for (const CriticalPoint& point : path.points) {
+    include(value_of(point, path.x), point.load_factor);
+  }
+  const Range across = widened(x);
+  const Range up = widened(y);
+  Frame frame;
+  frame.x_label = axis_name(input, path);
+  frame.y_label = "load factor";
+  frame.y = {up.low, up.high, std::max(60.0, size.height - 44), 14 + legend};
+  const double left = room_for_numbers(frame);
+  frame.x = {across.low, across.high, left, std::max(left + 28, size.width - 14)};
+  return frame;
+}
+
+std::string description_of(const PathData& path, const std::vector<Curve>& curves) {
+  constexpr std::size_t kMost = 50;
+  std::string text = std::to_string(curves.size()) + (curves.size() == 1 ? " branch." : " branches.");
+  for (std::size_t i = 0; i < path.points.size() && i < kMost; ++i) {
+    text += std::string(" ") + mark_text(path.points[i].mark) + " at load factor " +
+            format_number(path.points[i].load_factor, 6) +
+            (path.points[i].confirmed ? "." : ", not confirmed.");
+  }
+  if (path.points.size() > kMost) {
+    text += " And " + std::to_string(path.points.size() - kMost) + " more critical points.";
+  }
+  return text;
+}
+
+/// Nothing is written where the numbers of the axes and the legend stand.
+void keep_margins(const Frame& frame, Size size, Occupancy& taken) {
+  taken.add_box({0, 0, size.width, frame.y.end - 4});
+  taken.add_box({0, 0, frame.x.start - 4, size.height});
+  taken.add_box({0, frame.y.start + 4, size.width, size.height});
+}
+
+}  // namespace
+
+Figure path_figure(const ResultInput& input, const PlotRequest& request, Size size) {
+  const PathData path = read_path(input, request);
+  const std::vector<Curve> curves = curves_of(path, request);
+  const std::vector<LegendEntry> legend = legend_of(path, curves, read_softest(input.result).has_value());
+  const Frame frame = frame_of(input, path, curves, size, legend_height(legend, size.width));
+  Occupancy taken(size);
+  keep_margins(frame, size, taken);
+  Figure figure;
+  figure.title = "Equilibrium path, load factor over " + frame.x_label;
+  figure.description = description_of(path, curves);
+  figure.shapes.push_back(frame_shape(frame, size));
+  for (const Curve& curve : curves) {
+    draw_curve(curve, frame, taken, figure.shapes);
+  }
+  draw_rows(path, curves, frame, figure.shapes);
+  draw_events(path, frame, figure.shapes);
+  draw_marks(marks_of(path, input, curves, frame), taken, figure.shapes);
+  figure.shapes.push_back(legend_shape(legend, size.width));
+  return figure;
+}
+
+}  // namespace snapthrough::api::plot

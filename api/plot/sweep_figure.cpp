@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "api/plot/axes.h"
+#include "api/plot/figures.h"
+#include "api/plot/labels.h"
+#include "api/plot/marks.h"
+#include "api/plot/numbers.h"
+#include "api/plot/sweep_axes.h"
+#include "api/plot/table.h"
+
+namespace snapthrough::api::plot {
+namespace {
+
+constexpr std::size_t kNamed = 16;   // more curves than these are crowded: not named, without dots
+constexpr std::size_t kColours = 6;  // further curves begin again
+constexpr double kTolerance = 0.25;  // pixels that a thinned line may be off
+constexpr double kCrowdedTolerance = 0.75;
+
+/// Rows of one value of the second parameter, in the order of the first.
+struct Curve {
+  std::string name;
+  std::vector<std::size_t> rows;
+};
+
+/// All parameters but that of the horizontal axis: a curve for each choice of their values.
+std::vector<const Column*> series_of(const Table& table, const PlotRequest& request, const Column& x) {
+  std::vector<const Column*> series;
+  if (request.by) {
+    series.push_back(&parameter(table, *request.by));
+  }
+  for (const Column* column : varied_parameters(table)) {
+    if (column != &x && (series.empty() || column != series.front()) && column->distinct() > 1) {
+      series.push_back(column);
+    }
+  }
+  return series;
+}
+
+std::vector<Curve> curves_of(const std::vector<const Column*>& series, const Column& x) {
+  std::map<std::vector<double>, std::size_t> known;
+  std::vector<Curve> curves;
+  for (std::size_t row = 0; row < x.values.size(); ++row) {
+    std::vector<double> key;
+    std::string name;
+    for (const Column* column : series) {
+      const double value = column->values[row];
+      key.push_back(std::isfinite(value) ? value : -1e300);  // rows without a value make one curve
+      name += (name.empty() ? "" : ", ") + column->name + " = " + value_text(*column, value);
+    }
+    const auto [place, is_new] = known.emplace(std::move(key), curves.size());
+    if (is_new) {
+      curves.push_back({name, {}});
+    }
+    if (std::isfinite(x.values[row])) {
+      curves[place->second].rows.push_back(row);
+    }
+  }
+  for (Curve& curve : curves) {
+    std::stable_sort(curve.rows.begin(), curve.rows.end(),
+                     [&](std::size_t a, std::size_t b) { return x.values[a] < x.values[b]; });
+  }
+  return curves;
+}
+
+std::vector<LegendEntry> legend_of(const std::vector<Curve>& curves, const Column& y) {
+  std::vector<LegendEntry> entries;
+  if (curves.size() < 2 || curves.size() > kNamed) {
+    return entries;
+  }
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const bool empty = std::none_of(curves[i].rows.begin(), curves[i].rows.end(),
+                                    [&](std::size_t row) { return std::isfinite(y.values[row]); });
+    entries.push_back({curves[i].name + (empty ? " (no value)" : ""), "series-line",
+                       "series series-" + std::to_string(i % kColours)});
+  }
+  return entries;
+}
+
+/// A curve with its gaps where rows have no value, thinned between them.
+std::string line_data(const std::vector<Pixel>& points, double tolerance) {
+  std::string text;
+  std::vector<Pixel> part;
+  const auto finish = [&] {
+    text += path_data(thinned_points(part, tolerance));
+    part.clear();
+  };
+  for (const Pixel& point : points) {
+    if (std::isfinite(point.y)) {
+      part.push_back(point);
+    } else {
+      finish();
+    }
+  }
+  finish();
+  return text;
+}
+
+Shape curve_shape(const Curve& curve, std::size_t number, bool crowded, const Frame& frame, const Column& x,
+                  const Column& y) {
+  constexpr std::size_t kMostDots = 80;  // more run into a band
+  std::vector<Pixel> points;
+  std::vector<Pixel> seen;
+  for (const std::size_t row : curve.rows) {
+    const bool shown = std::isfinite(y.values[row]) && !(frame.y.log && y.values[row] <= 0);
+    points.push_back(shown ? place(frame, x.values[row], y.values[row]) : Pixel{0, kNone});
+    if (shown) {
+      seen.push_back(points.back());
+    }
+  }
+  std::vector<Shape> shapes{
+      path_of("series-line", line_data(points, crowded ? kCrowdedTolerance : kTolerance))};
+  for (std::size_t i = 0; !crowded && seen.size() <= kMostDots && i < seen.size(); ++i) {
+    shapes.push_back(circle("series-dot", seen[i], 2.4));
+  }
+  return group("series series-" + std::to_string(number % kColours), std::move(shapes));
+}
+
+/// Crosses on the axis where points failed, one for all that fall on the same pixel.
+Shape failed_shape(const Table& table, const Column& x, const Frame& frame) {
+  std::set<long> seen;
+  std::string data;
+  for (std::size_t row = 0; row < x.values.size(); ++row) {
+    if (table.errors[row].empty() || !std::isfinite(x.values[row])) {
+      continue;
+    }
+    const double pixel = std::round(place(frame.x, x.values[row]));
+    if (seen.insert(static_cast<long>(pixel)).second) {
+      data += cross({pixel, frame.y.start - 7}, 4);
+    }
+  }
+  return path_of("mark failed", data);
+}
+
+Frame frame_of(const Column& x, const Column& y, Size size, double top) {
+  Frame frame;
+  frame.y = axis_of(y, std::max(60.0, size.height - 44), top, false);
+  frame.y_names = y.names;
+  frame.y_label = y.label;
+  frame.x_label = x.label;
+  frame.x_names = x.names;
+  frame.x = axis_of(x, std::max(66.0, room_for_numbers(frame)), std::max(110.0, size.width - 28), true);
+  return frame;
+}
+
+}  // namespace
+
+Figure sweep_figure(const Field& document, const PlotRequest& request, Size size) {
+  const Table table = read_table(document, request);
+  const Column& x = request.x ? parameter(table, *request.x) : *default_parameters(table, request).x;
+  const std::vector<Curve> curves = curves_of(series_of(table, request, x), x);
+  const std::string failures = failure_text(table.errors);
+  const std::vector<LegendEntry> legend = legend_of(curves, table.output);
+  const double under_failures = failures.empty() ? 0 : 18;
+  const Frame frame =
+      frame_of(x, table.output, size, 12 + under_failures + legend_height(legend, size.width));
+  Figure figure;
+  figure.title = table.output.label + " over " + x.label;
+  figure.description = std::to_string(x.values.size()) + " points, " + std::to_string(curves.size()) +
+                       (curves.size() == 1 ? " curve." : " curves.") +
+                       (failures.empty() ? "" : " " + failures + ".");
+  figure.shapes.push_back(frame_shape(frame, size));
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    figure.shapes.push_back(curve_shape(curves[i], i, curves.size() > kNamed, frame, x, table.output));
+  }
+  figure.shapes.push_back(failed_shape(table, x, frame));
+  figure.shapes.push_back(legend_shape(legend, size.width, under_failures));
+  if (!failures.empty()) {
+    figure.shapes.push_back(failure_note(failures, size));
+  }
+  return figure;
+}
+
+}  // namespace snapthrough::api::plot

@@ -1,0 +1,97 @@
+"""Drawings of results with matplotlib, which is imported when something is drawn."""
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Tuple
+
+if TYPE_CHECKING:
+    from ._result import Result
+
+_KINDS = ("path", "shape", "static", "buckling")
+
+
+def draw(result: "Result", kind: Optional[str], ax: Any) -> Any:
+    """Draws a result of one of _KINDS on the axes, or on new ones, which are given back."""
+    chosen = kind or _default_kind(result)
+    if chosen not in _KINDS:
+        raise ValueError(f"kind: {kind!r} is none of {', '.join(_KINDS)}")
+    if ax is None:
+        from matplotlib import pyplot
+        _, ax = pyplot.subplots()
+    {"path": _path, "shape": _shape, "static": _static, "buckling": _buckling}[chosen](result, ax)
+    if result.model.title:
+        ax.set_title(result.model.title, fontsize="medium", wrap=True)
+    return ax
+
+
+def _default_kind(result: "Result") -> str:
+    document = result.document
+    for kind, source in (("path", "branches"), ("static", "static"), ("buckling", "buckling"), ("shape", "states")):
+        if document.get(source):
+            return kind
+    raise ValueError("this result has nothing to draw: no paths, rows, buckling loads or states")
+
+
+def _unit(result: "Result", quantity: str) -> str:
+    unit = result.model.units.get(quantity)
+    return f" [{unit}]" if unit else ""
+
+
+def _runs(counts: List[Optional[int]]) -> Iterator[Tuple[int, int, bool]]:
+    """Runs of equal stability: first point, end, and whether they are stable; each begins where the last one ends."""
+    first = 0
+    for at in range(1, len(counts) + 1):
+        if at == len(counts) or bool(counts[at]) != bool(counts[first]):
+            yield max(0, first - 1), at, not counts[first]
+            first = at
+
+
+def _path(result: "Result", ax: Any) -> None:
+    monitor = next((name for branch in result.branches for name in branch.monitors), None)
+    for branch in result.branches:
+        along = branch.monitors[monitor] if monitor else branch.arc_length
+        colour = None
+        for first, end, stable in _runs(list(branch.negative_eigenvalues)):
+            line, = ax.plot(along[first:end], branch.load_factor[first:end], "-" if stable else "--", color=colour)
+            colour = line.get_color()
+    marks = {"limit_max": "^", "limit_min": "v"}
+    for point in result.critical_points:
+        at = point.monitors[monitor] if monitor else point.arc_length
+        ax.plot([at], [point.load_factor], marks.get(point.type, "o"), color="black", markersize=5)
+    ax.set_xlabel(f"{monitor}{_unit(result, 'length')}" if monitor else "arc length")
+    ax.set_ylabel("load factor")
+
+
+def _shape(result: "Result", ax: Any) -> None:
+    if not result.states:
+        raise ValueError("kind: there are no states to draw; ask for them with analysis.output.states")
+    for member in result.states[0].members.values():
+        ax.plot(member.x0, member.y0, ":", color="grey")
+    for number, state in enumerate(result.states):
+        for member in state.members.values():
+            ax.plot(member.x, member.y, color=f"C{number % 10}")
+        ax.plot([], [], color=f"C{number % 10}", label=f"load factor {state.load_factor:.5g}")
+    ax.set_aspect("equal")
+    ax.set_xlabel("x" + _unit(result, "length"))
+    ax.set_ylabel("y" + _unit(result, "length"))
+    ax.legend(fontsize="small")
+
+
+def _static(result: "Result", ax: Any) -> None:
+    columns = result.columns("static")
+    monitors: Dict[str, List[float]] = result.document["static"]["monitors"]
+    for name, values in (monitors or {"row": list(range(len(columns["load_factor"])))}).items():
+        ax.plot(values, columns["load_factor"], "o-", label=name)
+    ax.set_xlabel("monitors" + _unit(result, "length"))
+    ax.set_ylabel("load factor")
+    ax.legend(fontsize="small")
+
+
+def _buckling(result: "Result", ax: Any) -> None:
+    if result.buckling is None:
+        raise ValueError("kind: the result has no buckling loads")
+    for number, (load, mode) in enumerate(zip(result.buckling.load_factors, result.buckling.modes)):
+        for member in mode.members.values():
+            size = [(u * u + v * v) ** 0.5 for u, v in zip(member.u, member.v)]
+            ax.plot(member.s, size, color=f"C{number % 10}")
+        ax.plot([], [], color=f"C{number % 10}", label=f"load factor {load:.5g}")
+    ax.set_xlabel("s along each member" + _unit(result, "length"))
+    ax.set_ylabel("displacement of the mode, largest 1")
+    ax.legend(fontsize="small")

@@ -1,0 +1,184 @@
+"""Tables of sweeps: rows with the digits that they were received with, as CSV, JSON, NDJSON and data frames."""
+import json
+import os
+from typing import IO, Any, Dict, Iterator, List, Optional, Sequence, Union
+
+from . import _spans
+
+#: A file by its path, or one that is open for text.
+Target = Union[str, "os.PathLike[str]", IO[str]]
+
+
+def _dump(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, separators=(",", ":"))
+
+
+def csv_field(field: str) -> str:
+    """A field of CSV: quoted where it has a comma, a quote or the end of a line."""
+    if any(mark in field for mark in ',"\r\n'):
+        return '"' + field.replace('"', '""') + '"'
+    return field
+
+
+def csv_text(text: str) -> str:
+    """A text as a field: one that a spreadsheet would take for a formula begins with an apostrophe."""
+    return csv_field("'" + text if text[:1] and text[0] in "=+-@\t\r" else text)
+
+
+def csv_value(value: Any, text: str) -> str:
+    """A value as a field: null is empty, a text is itself, anything else is its JSON text."""
+    if value is None:
+        return ""
+    return csv_text(value) if isinstance(value, str) else csv_field(text)
+
+
+class Table:
+    """Rows of a sweep in the order of their points.
+
+    `columns` are the names of the parameters, the pointers of the outputs, and "error"; `rows` are lists in that
+    order; `points` has the number of each row's point, from 0; `total` is the number of points of the sweep. A row's
+    "error" is None, or {"code", "detail"} of a point that failed. Iterating gives each row as a dictionary.
+    """
+
+    def __init__(self, columns: Sequence[str], total: int) -> None:
+        self.columns: List[str] = list(columns)
+        self.total = total
+        self.rows: List[List[Any]] = []
+        self.points: List[int] = []
+        self._texts: List[str] = []
+
+    def append(self, point: int, row: List[Any], text: str) -> None:
+        """Adds a row and the JSON text that it came as."""
+        self.rows.append(row)
+        self.points.append(point)
+        self._texts.append(text)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every point of the sweep has its row."""
+        return len(self.rows) == self.total
+
+    @property
+    def failed(self) -> int:
+        """Number of rows with an error."""
+        return sum(row[-1] is not None for row in self.rows)
+
+    def column(self, name: str) -> List[Any]:
+        """The values of a column, one a row."""
+        at = self.columns.index(name)
+        return [row[at] for row in self.rows]
+
+    def text_of(self, index: int) -> str:
+        """The JSON text of a row, as it was received."""
+        return self._texts[index]
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[Dict[str, Any]]:
+        return (dict(zip(self.columns, row)) for row in self.rows)
+
+    def __getitem__(self, index: int) -> Dict[str, Any]:
+        return dict(zip(self.columns, self.rows[index]))
+
+    def __repr__(self) -> str:
+        failed = f", {self.failed} with an error" if self.failed else ""
+        return f"Table({len(self.rows)} of {self.total} rows{failed}; columns {', '.join(self.columns)})"
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame with the columns of the table, and the numbers of points as its index."""
+        import pandas
+        return pandas.DataFrame(self.rows, columns=self.columns, index=pandas.Index(self.points, name="point"))
+
+    def to_numpy(self, *columns: str) -> Any:
+        """A numpy.ndarray of 64-bit floats of shape (rows, columns); a value that is no number is nan.
+
+        By default every column of which all values are numbers or null.
+        """
+        import numpy
+        names = columns or [name for name in self.columns if self._is_numeric(name)]
+        lists = [[value if _is_number(value) else float("nan") for value in self.column(name)] for name in names]
+        return numpy.array(lists, dtype=float).reshape(len(names), len(self.rows)).T
+
+    def _is_numeric(self, name: str) -> bool:
+        values = self.column(name)
+        return any(_is_number(value) for value in values) and all(
+            value is None or _is_number(value) for value in values)
+
+    def to_csv(self, target: Optional[Target] = None) -> Optional[str]:
+        """Writes what `snapthrough sweep --csv` writes, byte for byte; without a target the text is returned."""
+        return _deliver(self._csv_lines(), target)
+
+    def to_json(self, target: Optional[Target] = None) -> Optional[str]:
+        """Writes what `snapthrough sweep` writes, byte for byte; without a target the text is returned."""
+        return _deliver(self._json_pieces(), target)
+
+    def to_ndjson(self, target: Optional[Target] = None) -> Optional[str]:
+        """Writes what `snapthrough sweep --ndjson` writes, byte for byte; without a target the text is returned."""
+        keys = [_dump(name) for name in self.columns]
+        return _deliver((ndjson_line(keys, text, point) for text, point in zip(self._texts, self.points)), target)
+
+    def _csv_lines(self) -> Iterator[str]:
+        yield ",".join(csv_text(name) for name in self.columns) + "\n"
+        for text in self._texts:
+            values, _ = _spans.elements(text)
+            yield ",".join(csv_value(value, own) for value, own in values) + "\n"
+
+    def _json_pieces(self) -> Iterator[str]:
+        yield '{"columns": ' + _dump(self.columns) + ',\n "rows": ['
+        for index, text in enumerate(self._texts):
+            yield (",\n  " if index else "\n  ") + text
+        yield '\n ],\n "points": [' + ",".join(map(str, self.points)) + "]}\n"
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def ndjson_line(keys: Sequence[str], text: str, point: int) -> str:
+    """A line of NDJSON; `keys` are the columns' names as JSON texts."""
+    values, _ = _spans.elements(text)
+    pairs = ",".join(f"{key}:{own}" for key, (_, own) in zip(keys, values))
+    return f'{{{pairs},"point":{point}}}\n'
+
+
+def _deliver(pieces: Iterator[str], target: Optional[Target]) -> Optional[str]:
+    if target is None:
+        return "".join(pieces)
+    if isinstance(target, (str, os.PathLike)):
+        with open(target, "w", encoding="utf-8", newline="") as file:
+            file.writelines(pieces)
+    else:
+        target.writelines(pieces)
+    return None
+
+
+def read_table(path: Union[str, "os.PathLike[str]"]) -> Table:
+    """Reads a JSON table or NDJSON, as the package, the command line and the service write them.
+
+    A last line of NDJSON that was cut off, as when its writer was killed, is left out.
+    """
+    with open(path, encoding="utf-8", newline="") as file:
+        text = file.read()
+    first = text.split("\n", 1)[0].rstrip()
+    if first.endswith("}") and first.startswith("{"):
+        return _read_ndjson(text)
+    others, rows = _spans.parts_of_table(text)
+    points = others.get("points") or range(len(rows))
+    table = Table(others["columns"], len(rows))
+    for point, (row, own) in zip(points, rows):
+        table.append(point, row, own)
+    return table
+
+
+def _read_ndjson(text: str) -> Table:
+    table: Optional[Table] = None
+    for line in text.split("\n")[:-1]:
+        row = json.loads(line)
+        point = row.pop("point")
+        texts = [_spans.value_text(line, at) for name, at in _spans.members(line) if name != "point"]
+        table = table or Table(list(row), 0)
+        table.append(point, list(row.values()), "[" + ",".join(texts) + "]")
+    result = table or Table([], 0)
+    result.total = len(result.rows)
+    return result

@@ -1,0 +1,145 @@
+#include "server/cli/plot_file.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+
+extern char** environ;
+
+namespace snapthrough::server::cli {
+namespace {
+
+/// An open file, closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) {
+      ::close(number_);
+    }
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&&) = delete;
+  Descriptor& operator=(Descriptor&&) = delete;
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+std::string reason(const std::string& what) { return what + ": " + std::strerror(errno); }
+
+bool write_all(int descriptor, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t written = ::write(descriptor, text.data() + done, text.size() - done);
+    if (written < 0 && errno != EINTR) {
+      return false;
+    }
+    done += written > 0 ? static_cast<std::size_t>(written) : 0;
+  }
+  return true;
+}
+
+/// The permissions that a new file gets.
+mode_t new_file_mode() {
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return 0666 & ~mask;
+}
+
+/// Has `fill` write to a file beside the one that is meant, and puts it in its place when that went well.
+/// Something that is no file, such as a pipe, is written to as it is.
+std::string replace(const std::string& file, const std::function<std::string(int)>& fill) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+    const Descriptor target(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+    return target.number() < 0 ? reason("cannot write " + file) : fill(target.number());
+  }
+  std::string beside = file + ".XXXXXX";
+  std::string problem;
+  {
+    const Descriptor target(::mkostemp(beside.data(), O_CLOEXEC));
+    if (target.number() < 0) {
+      return reason("cannot write " + file);
+    }
+    problem = fill(target.number());
+    if (problem.empty() &&
+        (::fchmod(target.number(), new_file_mode()) != 0 || ::fsync(target.number()) != 0)) {
+      problem = reason("cannot write " + file);
+    }
+  }
+  if (problem.empty() && std::rename(beside.c_str(), file.c_str()) != 0) {
+    problem = reason("cannot write " + file);
+  }
+  if (!problem.empty()) {
+    ::unlink(beside.c_str());
+  }
+  return problem;
+}
+
+/// The first line of what a program wrote about its failure.
+std::string first_line(int descriptor) {
+  std::array<char, 300> text{};
+  const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);
+  const std::string all(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+  return all.substr(0, all.find('\n'));
+}
+
+std::string convert(const std::string& svg, int output, double scale) {
+  const Descriptor input(::memfd_create("figure", MFD_CLOEXEC));
+  const Descriptor errors(::memfd_create("errors", MFD_CLOEXEC));
+  if (input.number() < 0 || errors.number() < 0 || !write_all(input.number(), svg) ||
+      ::lseek(input.number(), 0, SEEK_SET) != 0) {
+    return reason("cannot hand the figure to rsvg-convert");
+  }
+  posix_spawn_file_actions_t streams;
+  ::posix_spawn_file_actions_init(&streams);
+  ::posix_spawn_file_actions_adddup2(&streams, input.number(), STDIN_FILENO);
+  ::posix_spawn_file_actions_adddup2(&streams, output, STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&streams, errors.number(), STDERR_FILENO);
+  std::array<std::string, 5> words{"rsvg-convert", "--format", "png", "--zoom", std::to_string(scale)};
+  std::array<char*, 6> argv{};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    argv[i] = words[i].data();
+  }
+  pid_t child = 0;
+  const int failure = ::posix_spawnp(&child, argv[0], &streams, nullptr, argv.data(), environ);
+  ::posix_spawn_file_actions_destroy(&streams);
+  if (failure == ENOENT) {
+    return "PNG needs the program rsvg-convert, which is not there: install the package librsvg2-bin, or "
+           "write .svg";
+  }
+  if (failure != 0) {
+    return std::string("cannot run rsvg-convert: ") + std::strerror(failure);
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0
+             ? ""
+             : "rsvg-convert failed: " + first_line(errors.number());
+}
+
+}  // namespace
+
+std::string write_whole(const std::string& text, const std::string& file) {
+  return replace(file, [&](int descriptor) {
+    return write_all(descriptor, text) ? std::string() : reason("cannot write " + file);
+  });
+}
+
+std::string write_png(const std::string& svg, const std::string& file, double scale) {
+  return replace(file, [&](int descriptor) { return convert(svg, descriptor, scale); });
+}
+
+}  // namespace snapthrough::server::cli
