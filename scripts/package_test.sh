@@ -226,6 +226,7 @@ say "upgrade"
 stop_by_hand
 install_it after
 check_is_installed
+# shellcheck disable=SC2016
 [ "$(inside dpkg-query -W -f '${Version}' snapthrough)" != 0.0.1-1 ] || fail "it was not upgraded"
 [ "$(service_pid)" != "$pid_before" ] || fail "the service was not restarted"
 inside /root/client fetch "$job" >"$work/result_after"
@@ -238,6 +239,7 @@ fi
 second="$(inside snapthrough submit "$example" --label after)"
 [ "$(inside snapthrough wait "$second")" = successful ]
 say "the commands of docs/howto/install-the-package.md"
+# shellcheck disable=SC2016
 { echo "set -eu; cd /root"; sed -n '/^```sh$/,/^```$/p' docs/howto/install-the-package.md | grep -v '^```'; } >"$root/root/page.sh"
 [ "$(inside sh /root/page.sh)" = successful ] || fail "the page's commands"
 [ "$(head -c 6 "$root/root/path.csv")" = branch ] || fail "the page's table"
