@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs, uses, upgrades, removes and purges the Debian package in a bare Debian 12, and looks after each step at what is there.
 #   scripts/package_test.sh [PACKAGE.deb]      the package: build/package/packages/snapthrough_*.deb, from scripts/package.sh
+# The libraries beside it are installed and used, too.
 # BEFORE=PROGRAM is the executable of an earlier version: the store that it wrote is upgraded, its schema too. Without it the
 # package before has the same program under a lower version. It needs root. Where systemd-nspawn can boot a system the unit
 # is run by systemd; elsewhere (or with BY_HAND=1) its ExecStart line is run as its user.
@@ -8,7 +9,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source=scripts/lib/packages.sh
 source scripts/lib/packages.sh
-install_packages debootstrap systemd-container dpkg-dev util-linux iproute2 sqlite3
+install_packages debootstrap systemd-container dpkg-dev util-linux iproute2 sqlite3 gcc libc6-dev pkg-config
 
 package="${1:-$(ls build/package/packages/snapthrough_*.deb)}"
 work="$(mktemp -d)"
@@ -190,6 +191,13 @@ if [ ! -d "$root" ]; then
   tar -C "$root" -xf "$base"
 fi
 pack_before
+libraries=()
+for file in "$(dirname "$package")"/libsnapthrough*.deb; do
+  if [ -f "$file" ]; then
+    cp "$file" "$root/root/"
+    libraries+=("/root/$(basename "$file")")
+  fi
+done
 say "dependencies are downloaded: the system itself has no network"
 apt_get chroot "$root" update -qq
 apt_get chroot "$root" install -y -qq --download-only /root/before.deb >/dev/null
@@ -218,6 +226,7 @@ say "upgrade"
 stop_by_hand
 install_it after
 check_is_installed
+# shellcheck disable=SC2016
 [ "$(inside dpkg-query -W -f '${Version}' snapthrough)" != 0.0.1-1 ] || fail "it was not upgraded"
 [ "$(service_pid)" != "$pid_before" ] || fail "the service was not restarted"
 inside /root/client fetch "$job" >"$work/result_after"
@@ -230,6 +239,7 @@ fi
 second="$(inside snapthrough submit "$example" --label after)"
 [ "$(inside snapthrough wait "$second")" = successful ]
 say "the commands of docs/howto/install-the-package.md"
+# shellcheck disable=SC2016
 { echo "set -eu; cd /root"; sed -n '/^```sh$/,/^```$/p' docs/howto/install-the-package.md | grep -v '^```'; } >"$root/root/page.sh"
 [ "$(inside sh /root/page.sh)" = successful ] || fail "the page's commands"
 [ "$(head -c 6 "$root/root/path.csv")" = branch ] || fail "the page's table"
@@ -244,6 +254,18 @@ cmp "$work/config_before" "$root/etc/snapthrough/config.toml" || fail "remove ch
 install_it after
 check_is_installed
 inside /root/client fetch "$job" | cmp - "$work/result_before"
+
+if [ "${#libraries[@]}" -gt 0 ]; then
+  say "the libraries: a program in C is compiled with what they have, and run"
+  apt_get inside install -y "${libraries[@]}" >/dev/null 2>&1 || fail "apt-get install of ${libraries[*]}"
+  export PKG_CONFIG_SYSROOT_DIR="$root" PKG_CONFIG_PATH
+  PKG_CONFIG_PATH="$(dirname "$(find "$root/usr/lib" -name snapthrough.pc)")"
+  # shellcheck disable=SC2046
+  cc -std=c99 examples/c/critical_load.c $(pkg-config --cflags --libs snapthrough) -o "$root/root/critical_load"
+  inside /root/critical_load "$example" >"$work/library_result" 2>/dev/null
+  grep -q critical_load_factor "$work/library_result" || fail "the library does not solve"
+  apt_get inside purge -y libsnapthrough1 libsnapthrough-dev >/dev/null 2>&1
+fi
 
 if [ -n "$booted" ]; then
   say "systemd-analyze security"

@@ -101,7 +101,9 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_CONTROL_EXTRA
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library_name})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+file(WRITE ${made}/shlibs "libsnapthrough 1 ${library_name} (>= ${CPACK_PACKAGE_VERSION})\n")
+file(WRITE ${made}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${made}/shlibs;${made}/triggers")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "stability of slender structures on elastic bases, as a shared library
 The solver of snapthrough behind a C interface: a request document in, a result
 document out, in the process of the caller and without a service.")

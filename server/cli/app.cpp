@@ -21,6 +21,9 @@
 namespace snapthrough::server::cli {
 namespace {
 
+/// A default that is shown in words: manual pages are made on another machine than they are read on.
+constexpr const char* kOneForEachCore = "one for each core";
+
 /// Runs a command whose arguments are known; returns the exit status.
 using Action = std::function<int(const Streams&)>;
 
@@ -85,7 +88,7 @@ CLI::App* add_sweep_command(CLI::App& app, Arguments& arguments) {
       ->excludes(csv);
   command->add_option("--threads", arguments.threads, "Points at the same time; rows do not depend on it")
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+      ->default_str(kOneForEachCore);
   CLI::Option* point = command->add_option("--point", arguments.point,
                                            "Only write the request of this point, numbered from 0");
   CLI::Option* out =
@@ -134,7 +137,7 @@ CLI::App* add_service_command(CLI::App& app, const char* name, const char* descr
     command->add_option_function<std::string>(
         flag,
         [&arguments, name = setting.name](const std::string& value) { arguments.settings[name] = value; },
-        setting.help + " [" + setting.get(defaults) + "]");
+        setting.help + " [" + (setting.name == "workers" ? kOneForEachCore : setting.get(defaults)) + "]");
   }
   command
       ->add_flag_callback(

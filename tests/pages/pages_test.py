@@ -57,7 +57,11 @@ class ManualPages(unittest.TestCase):
             for name in re.findall(r"^  ([a-z]+) ", help_text[:help_text.find("Options:")], re.MULTILINE):
                 self.assertIn(f"\\fI{name}\\fR", text, command)
             for default in re.findall(r"^  --?[a-z-]+ [A-Z]+=(\S+)", help_text, re.MULTILINE):
-                self.assertIn(f"Default: {default}.", text, command)
+                self.assertIn(f"Default: {default}", text, command)
+
+    def test_defaults_are_those_of_any_machine(self):
+        self.assertIn("Default: one for each core.", page("snapthrough-sweep"))
+        self.assertIn("[one for each core]", " ".join(page("snapthrough-serve").split()))
 
     def test_man_and_mandoc_have_nothing_to_say(self):
         with tempfile.TemporaryDirectory() as folder:

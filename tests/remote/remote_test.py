@@ -9,7 +9,9 @@ import pathlib
 import os
 import pty
 import re
+import shutil
 import signal
+import ssl
 import subprocess
 import sys
 import tempfile
@@ -301,7 +303,7 @@ class AgainstTrouble(unittest.TestCase):
     def serve(self, *replies):
         server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Scripted)
         server.replies, server.asked = list(replies), []
-        thread = threading.Thread(target=server.serve_forever, daemon=True)
+        thread = threading.Thread(target=server.serve_forever, args=(0.02,), daemon=True)
         thread.start()
         self.addCleanup(server.server_close)
         self.addCleanup(server.shutdown)
@@ -389,6 +391,24 @@ class AgainstTrouble(unittest.TestCase):
                                        pathlib.Path(folder) / "table.csv")
                 self.assertEqual((status, out), (1, ""), err)
                 self.assertEqual(list(pathlib.Path(folder).iterdir()), [])
+
+    @unittest.skipUnless(shutil.which("openssl"), "no openssl to make a certificate")
+    def test_https_is_verified(self):
+        with tempfile.TemporaryDirectory() as folder:
+            certificate, key = pathlib.Path(folder) / "certificate.pem", pathlib.Path(folder) / "key.pem"
+            subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "1",
+                            "-subj", "/CN=127.0.0.1", "-addext", "subjectAltName=IP:127.0.0.1", "-keyout", key, "-out", certificate],
+                           check=True, capture_output=True)
+            server, url = self.serve(self.taken)
+            context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+            context.load_cert_chain(certificate, key)
+            server.socket = context.wrap_socket(server.socket, server_side=True)
+            url = url.replace("http:", "https:")
+            status, out, err = run("submit", EXAMPLES / "arch_no_base.json", "--service", url)
+            self.assertEqual((status, out), (1, ""), err)
+            self.assertEqual(server.asked, [], "nothing is sent to who is not known")
+            status, out, err = run("submit", EXAMPLES / "arch_no_base.json", "--service", url, "--ca-file", certificate)
+            self.assertEqual((status, out), (0, "0a\n"), err)
 
     def test_an_address_may_have_a_path(self):
         server, url = self.serve(self.taken)

@@ -18,13 +18,13 @@ struct ExitStatus {
 
 std::vector<ExitStatus> exit_statuses() {
   return {{std::to_string(kDone), "Done."},
+          {std::to_string(kOther), "Anything else: usage, files, connections."},
           {std::to_string(kWrongRequest),
            "The document is wrong: each mistake is on a line of standard error, JSON Pointer first."},
           {std::to_string(kNotCompleted),
            "The analysis, or a row of the sweep, could not be completed; standard error says why."},
           {std::to_string(kUnfinished), "What a service was asked for has not ended yet."},
-          {"128 + N", "Ended by signal N; what was reached is written."},
-          {std::to_string(kOther), "Anything else: usage, files, connections."}};
+          {"128 + N", "Ended by signal N; what was reached is written."}};
 }
 
 /// A text that roff takes literally. Hyphens of options and names are the character of the keyboard.
