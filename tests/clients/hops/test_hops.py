@@ -410,8 +410,8 @@ class ComponentsOfAFolder(unittest.TestCase):
 
     def test_an_analysis_that_takes_longer_than_the_wait(self):
         service = self.service("--default-wait-s", "0", "--longest-wait-s", "0")
-        pipe = Component(service.address + "/v1/hops/buried_pipe")
-        answer = pipe.solve(**FIVE)
+        component = Component(service.address + "/v1/hops/solve-request")
+        answer = component.solve(request=(ROOT / "tests/clients/requests/cancelled.json").read_text())
         self.assertEqual(answer.status, 503)
         self.assertIn("The same inputs are answered at once", answer.errors[0])
         self.assertIn("/v1/jobs/", answer.errors[0])
