@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
-# Fuzzes the reader of requests, the HTTP front and the C interface, each for SECONDS (600), and merges what is new into the corpus.
+# Fuzzes the reader of requests, the HTTP front and the C interface, each for SECONDS (600), and merges what is new into
+# the corpus.
 #   [TARGETS="request http library"] scripts/fuzz.sh [SECONDS]      needs clang 16 (clang-16, libclang-rt-16-dev)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds="${1:-600}"
+read -ra targets <<<"${TARGETS:-request http library}"
 build=build/fuzz
 cmake -S . -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang-16 -DCMAKE_CXX_COMPILER=clang++-16 -DCMAKE_BUILD_TYPE=Release \
   -DSNAPTHROUGH_FUZZ=ON -DSNAPTHROUGH_BENCH=OFF -DSNAPTHROUGH_WERROR=OFF \
   -DCMAKE_CXX_FLAGS_RELEASE=-O1 -DSNAPTHROUGH_SANITIZE= >/dev/null
-cmake --build "$build" --parallel "${JOBS:-$(nproc)}" --target fuzz_request fuzz_http fuzz_library
-for target in ${TARGETS:-request http library}; do
+cmake --build "$build" --parallel "${JOBS:-$(nproc)}" --target "${targets[@]/#/fuzz_}"
+for target in "${targets[@]}"; do
   documents="${target/library/request}"  # both take documents
   corpus="tests/fuzz/corpus/$documents"
   more=()
@@ -19,6 +21,7 @@ for target in ${TARGETS:-request http library}; do
   found="$build/found_$target"
   mkdir -p "$found"
   "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len=8192 -timeout=10 -rss_limit_mb=2048 \
-    -dict="tests/fuzz/$documents.dict" -print_final_stats=1 -artifact_prefix="$build/" "$found" "$corpus" "${more[@]}" 2>&1 | tail -12
+    -dict="tests/fuzz/$documents.dict" -print_final_stats=1 -artifact_prefix="$build/" "$found" "$corpus" \
+    "${more[@]}" 2>&1 | tail -12
   "$build/tests/fuzz/fuzz_$target" -use_counters=0 -set_cover_merge=1 "$corpus" "$found" 2>&1 | tail -1
 done

@@ -65,6 +65,9 @@ bash scripts/web.sh --check
 step "page: figures, and in Chromium"
 bash scripts/web_test.sh "build/$preset/snapthrough"
 
+step "Python client"
+bash scripts/clients_python_test.sh "build/$preset"
+
 step "thesis examples"
 python3 scripts/report.py --self-test
 python3 scripts/report.py "build/$preset/snapthrough" --check
