@@ -168,7 +168,7 @@ check_is_installed() {
   pid="$(service_pid)"
   user="$(inside stat -c %U "/proc/$pid")"
   [ "$user" = snapthrough ] || fail "the service runs as $user"
-  [ "$(inside stat -c '%U %a' /var/lib/snapthrough)" = "snapthrough 750" ] || fail "/var/lib/snapthrough is open"
+  [ "$(inside stat -c '%U %a' /var/lib/snapthrough)" = "snapthrough 700" ] || fail "/var/lib/snapthrough is open"
   if [ -n "$booted" ]; then
     [ "$(inside systemctl is-enabled snapthrough)" = enabled ] || fail "the unit is not enabled"
     [ "$(inside systemctl --failed --no-legend | wc -l)" = 0 ] || fail "a unit failed"
