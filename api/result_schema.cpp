@@ -125,6 +125,19 @@ NoSuchPlace nowhere(std::span<const std::string> tokens, std::size_t at, const S
 
 }  // namespace
 
+PlaceTypes types_at(std::string_view schema, std::span<const std::string> tokens) {
+  Alternatives here;
+  expand(published_schema(schema), here);
+  for (const std::string& token : tokens) {
+    here = step_from(here, token).next;
+  }
+  const auto any_has = [&](const char* type) {
+    return std::any_of(here.begin(), here.end(), [&](const Json* one) { return has_type(*one, type); });
+  };
+  return {any_has("number"),  any_has("integer"), any_has("string"),
+          any_has("boolean"), any_has("array"),   any_has("object")};
+}
+
 std::optional<NoSuchPlace> find_no_such_place(std::span<const std::string> tokens, const IdsIn& ids_in) {
   Alternatives here;
   expand(published_schema("Result"), here);

@@ -29,4 +29,20 @@ struct NoSuchPlace {
 [[nodiscard]] std::optional<NoSuchPlace> find_no_such_place(std::span<const std::string> tokens,
                                                             const IdsIn& ids_in);
 
+/// Types that values at a place may have.
+struct PlaceTypes {
+  bool number = false;  ///< with or without a fraction
+  bool integer = false;
+  bool text = false;
+  bool boolean = false;
+  bool list = false;
+  bool object = false;
+};
+
+/// @brief The types that a published schema allows at a place of its documents. Thread-safe.
+/// @param schema its name, such as "Result" or "Request"
+/// @param tokens of a JSON Pointer, unescaped; an index stands for any element of its list
+/// @return nothing set when the schema has no such place, or says nothing of it
+[[nodiscard]] PlaceTypes types_at(std::string_view schema, std::span<const std::string> tokens);
+
 }  // namespace snapthrough::api

@@ -220,6 +220,11 @@ void Sweep::drop_unused(Result& result) const {
   }
 }
 
+Json Sweep::value_at(const Json& result, std::size_t output) const {
+  const Found found = look_up(result, data_->outputs[output].tokens);
+  return found.value == nullptr ? Json() : *found.value;
+}
+
 PointOutcome Sweep::outcome(const Json& result) const {
   Json outputs = Json::array();
   for (const SweepOutput& output : data_->outputs) {

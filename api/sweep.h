@@ -41,6 +41,8 @@ class Sweep {
  public:
   explicit Sweep(std::shared_ptr<const SweepData> data) : data_(std::move(data)) {}
 
+  /// What the document says, for api/ itself (sweep_data.h).
+  [[nodiscard]] const SweepData& data() const { return *data_; }
   /// Number of points, 1 to kMaxSweepPoints.
   [[nodiscard]] std::uint64_t size() const;
 
@@ -103,6 +105,8 @@ class Sweep {
   /// @param result what write_result() gave, with at least parts(). An output whose place the result cannot
   /// have is a failure; one past the end of a list (a second critical point where there is one) is null.
   [[nodiscard]] PointOutcome outcome(const nlohmann::json& result) const;
+  /// @brief What an output finds in a result; null where there is nothing. @pre output < output_count()
+  [[nodiscard]] nlohmann::json value_at(const nlohmann::json& result, std::size_t output) const;
   /// Members of the result document that outputs look into. Refers to the sweep.
   [[nodiscard]] std::vector<std::string_view> parts() const;
 

@@ -79,8 +79,11 @@ CONF
 }
 
 without=()
-if ! start_slurm; then
+if start_slurm; then
+  /usr/bin/python3 clients/python/tests/engines/page.py "$1"
+else
   echo "The job array runs without Slurm, with the variables set by hand." >&2
   without=(--without slurm)
+  /usr/bin/python3 clients/python/tests/engines/page.py "$1" --without-slurm
 fi
 /usr/bin/python3 clients/python/tests/engines/check.py "$@" "${without[@]}"

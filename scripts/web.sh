@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Builds the page: types from the interface's document, type check, bundle in web/dist, sizes.
-#   scripts/web.sh            writes web/dist, which is committed
-#   scripts/web.sh --check    builds it beside and compares every byte with web/dist
-#   scripts/web.sh --types    writes web/src/api/types.ts anew after a change of api/openapi/openapi.json
+# Builds the page and the JavaScript client: types from the interface's document, type check, bundle in web/dist, sizes,
+# clients/js/dist.
+#   scripts/web.sh            writes web/dist and clients/js/dist, which are committed
+#   scripts/web.sh --check    builds them beside and compares every byte
+#   scripts/web.sh --types    writes clients/js/src/types.ts anew after a change of api/openapi/openapi.json
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source=scripts/lib/packages.sh
@@ -25,9 +26,13 @@ if [ "${1:-}" = --check ]; then
   built="$(mktemp -d)"
   trap 'rm -rf "$built"' EXIT
   npm run --silent build -- "$built/dist"
+  npm run --silent client -- "$built/client"
   diff -r "$built/dist" dist ||
     { echo "web/dist is not what web/src gives: run scripts/web.sh and commit it." >&2; exit 1; }
-  echo "web/dist is what web/src gives."
+  diff -r "$built/client" ../clients/js/dist ||
+    { echo "clients/js/dist is not what clients/js/src gives: run scripts/web.sh and commit it." >&2; exit 1; }
+  echo "web/dist and clients/js/dist are what their sources give."
 else
   npm run --silent build
+  npm run --silent client
 fi

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests the page: its figures on stored results, and all of it in Chromium against the executable.
+# Tests the page: its figures on stored results, and all of it in Chromium against the executable; and the JavaScript client in Node.
 #   scripts/web_test.sh [executable]     default: build/release/snapthrough; CHROMIUM names another browser
 # scripts/web.sh has to have run: the figures' tests use its packages.
 set -euo pipefail
@@ -13,6 +13,7 @@ fi
 SERVICE_EXECUTABLE="$(realpath "${1:-build/release/snapthrough}")"
 export SERVICE_EXECUTABLE
 node tests/web/figures/run.mjs
+node --test tests/clients/js/*.test.mjs
 cd tests/web
 # The lock file fixes every package by its hash.
 npm ci --ignore-scripts --no-audit --no-fund --loglevel=error

@@ -90,6 +90,8 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   require(web == http::kEmbeddedPage || web == http::kNoPage ||
               std::filesystem::is_regular_file(std::filesystem::path(web) / "index.html"),
           "web", "must be built-in, none, or a folder with the index.html of the page");
+  require(hops_folder.empty() || std::filesystem::is_directory(hops_folder), "hops_folder",
+          "must be a folder with a sweep document NAME.json for each component");
   require(ballast_bytes >= 0, "ballast_bytes", "must be >= 0");
   require(least_free_bytes >= 0, "least_free_bytes", "must be >= 0");
   for (const std::string& origin : allowed_origins) {

@@ -38,6 +38,7 @@ struct ServiceConfig {
   std::string callback_secret_file;  ///< what callbacks are signed with; empty: there are none
   WebhookTimes callback_times;
   std::string web{http::kEmbeddedPage};              ///< the page: built in, none, or a folder
+  std::string hops_folder;                           ///< components of Grasshopper; empty: the built-in ones
   std::int64_t ballast_bytes = 4 * 1024 * 1024;      ///< reserve on the disk of the store; 0: none
   std::int64_t least_free_bytes = 64 * 1024 * 1024;  ///< with less on that disk no jobs are taken
   std::chrono::seconds drain_delay{0};               ///< from SIGTERM until workers are stopped

@@ -126,7 +126,7 @@ struct Service::Parts {
                 runners ? runners : child_runners(runner_options(config), runner_counters)),
         routes(jobs, config.waits,
                {[this] { return metrics_text(); }, [this] { return not_ready(); }, published_limits(config),
-                http::Page(config.web)}),
+                http::Page(config.web), config.hops_folder}),
         keys(config.keys),
         gateway(routes, environment, log, keys, metrics, http::CrossOrigin(config.allowed_origins),
                 config.front ? http::Answers::all : http::Answers::state),

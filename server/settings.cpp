@@ -102,6 +102,19 @@ Setting store_setting() {
       [](const ServiceConfig& config) { return shown_location(config.store_path); }};
 }
 
+/// A setting that is a text.
+template <class Field>
+Setting text(std::string name, std::string help, Field field) {
+  return {std::move(name), std::move(help),
+          [field](ServiceConfig& config, const std::string& value) -> Mistake {
+            field(config) = value;
+            return std::nullopt;
+          },
+          [field](const ServiceConfig& config) {
+            return field(const_cast<ServiceConfig&>(config));  // read only
+          }};
+}
+
 /// A setting that is a list of texts with commas between.
 template <class Field>
 Setting text_list(std::string name, std::string help, Field field) {
@@ -188,18 +201,13 @@ std::vector<Setting> front_settings() {
       text_list("callback_hosts",
                 "Hosts, host[:port], that may be told of the end of jobs, with commas between; none: refused",
                 [](ServiceConfig& c) -> std::vector<std::string>& { return c.jobs.callback_hosts; }),
-      {"callback_secret_file", "File with the secret that callbacks are signed with: whsec_ and base64",
-       [](ServiceConfig& config, const std::string& text) -> Mistake {
-         config.callback_secret_file = text;
-         return std::nullopt;
-       },
-       [](const ServiceConfig& config) { return config.callback_secret_file; }},
-      {"web", "The page at /: built-in, none (as --no-web), or a folder that is read at every request",
-       [](ServiceConfig& config, const std::string& text) -> Mistake {
-         config.web = text;
-         return std::nullopt;
-       },
-       [](const ServiceConfig& config) { return config.web; }},
+      text("callback_secret_file", "File with the secret that callbacks are signed with: whsec_ and base64",
+           [](ServiceConfig& c) -> std::string& { return c.callback_secret_file; }),
+      text("web", "The page at /: built-in, none (as --no-web), or a folder that is read at every request",
+           [](ServiceConfig& c) -> std::string& { return c.web; }),
+      text("hops_folder",
+           "Folder with a sweep document NAME.json for each component of Grasshopper; empty: built-in ones",
+           [](ServiceConfig& c) -> std::string& { return c.hops_folder; }),
       log_level_setting(),
   };
 }

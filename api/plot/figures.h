@@ -31,12 +31,12 @@ struct ResultInput {
 [[nodiscard]] Figure mode_figure(const ResultInput& input, const PlotRequest& request, Size size);
 
 /// An output over one parameter; failed points are crosses on the axis.
-[[nodiscard]] Figure sweep_figure(const Field& table, const PlotRequest& request, Size size);
+[[nodiscard]] Figure sweep_figure(const Field& document, const PlotRequest& request, Size size);
 
 /// An output over two parameters in bands between round values; cells that failed are hatched.
-[[nodiscard]] Figure heatmap_figure(const Field& table, const PlotRequest& request, Size size);
+[[nodiscard]] Figure heatmap_figure(const Field& document, const PlotRequest& request, Size size);
 
 /// Whether a sweep's table is better seen as a map; see default_plot_kind().
-[[nodiscard]] bool is_for_heatmap(const Field& table);
+[[nodiscard]] bool is_for_heatmap(const Field& document);
 
 }  // namespace snapthrough::api::plot

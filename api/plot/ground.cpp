@@ -198,6 +198,7 @@ Shape ground_shape(const Scene& scene, const View& view, Size size) {
     add_mirrored(surfaces, twice);
   }
   std::vector<Shape> shapes;
+  shapes.reserve(bands.size() + surfaces.size() + 1);
   for (const std::vector<Pixel>& band : bands) {
     shapes.push_back(path("ground-body", band, true));
   }
@@ -265,6 +266,7 @@ std::vector<Shape> contact_shapes(const Scene& scene, const View& view) {
       places.insert(places.end(), first, last);
       places.push_back(to);
       std::vector<Pixel> points;
+      points.reserve(places.size());
       for (const double s : places) {
         points.push_back(
             to_pixel(view, {interpolate(member->s, member->x, s), interpolate(member->s, member->y, s)}));

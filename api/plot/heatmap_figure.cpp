@@ -217,6 +217,7 @@ std::vector<Shape> cell_shapes(const Map& map) {
     }
   }
   std::vector<Shape> shapes;
+  shapes.reserve(data.size() + 1);
   for (auto& [looks, d] : data) {
     shapes.push_back(path_of(looks, std::move(d)));
   }

@@ -108,6 +108,7 @@ Shape legend_shape(const std::vector<LegendEntry>& entries, double width, double
 
 std::vector<LegendEntry> mark_entries(const std::set<Mark>& marks) {
   std::vector<LegendEntry> entries;
+  entries.reserve(marks.size());
   for (const Mark mark : marks) {
     entries.push_back({mark_text(mark), "", "sample", mark});
   }

@@ -464,7 +464,8 @@ void keep_margins(const Frame& frame, Size size, Occupancy& taken) {
 Figure path_figure(const ResultInput& input, const PlotRequest& request, Size size) {
   const PathData path = read_path(input, request);
   const std::vector<Curve> curves = curves_of(path, request);
-  const std::vector<LegendEntry> legend = legend_of(path, curves, read_softest(input.result).has_value());
+  const bool softest = request.branch.value_or(0) == 0 && read_softest(input.result).has_value();
+  const std::vector<LegendEntry> legend = legend_of(path, curves, softest);
   const Frame frame = frame_of(input, path, curves, size, legend_height(legend, size.width));
   Occupancy taken(size);
   keep_margins(frame, size, taken);

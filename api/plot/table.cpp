@@ -85,24 +85,39 @@ std::string text_of(const nlohmann::json& cell) {
   return cell.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// What of a column holds for all its cells.
-Column column_of(const std::string& name, const std::vector<Field>& cells) {
+/// The document's rows that are drawn, with the columns' names. Refers to the document.
+struct Raw {
+  std::vector<std::string> columns;
+  Field all;                      ///< the list of rows
+  std::vector<std::size_t> rows;  ///< indices of those that are drawn
+
+  [[nodiscard]] Field cell(std::size_t row, std::size_t column) const {
+    return all.item(rows[row]).item(column);
+  }
+  [[nodiscard]] const nlohmann::json& value(std::size_t row, std::size_t column) const {
+    return all.json()[rows[row]][column];
+  }
+};
+
+/// What a column holds; numbers only where all its cells are numbers or null.
+Column column_of(const Raw& raw, std::size_t index) {
+  const std::string& name = raw.columns[index];
   Column column{name, label_of(name), {}, std::nullopt};
-  const auto is_plain = [](const Field& cell) { return cell.json().is_number() || cell.json().is_null(); };
-  if (std::all_of(cells.begin(), cells.end(), is_plain)) {
-    for (const Field& cell : cells) {
-      column.values.push_back(cell.number_or_none());
-    }
-    return column;
+  bool plain = true;
+  for (std::size_t row = 0; row < raw.rows.size() && plain; ++row) {
+    plain = raw.value(row, index).is_number() || raw.value(row, index).is_null();
   }
   std::map<std::string, std::size_t> places;
-  column.names.emplace();
-  for (const Field& cell : cells) {
-    if (cell.json().is_null()) {
-      column.values.push_back(kNone);
+  if (!plain) {
+    column.names.emplace();
+  }
+  for (std::size_t row = 0; row < raw.rows.size(); ++row) {
+    const nlohmann::json& cell = raw.value(row, index);
+    if (plain || cell.is_null()) {
+      column.values.push_back(raw.cell(row, index).number_or_none());
       continue;
     }
-    const std::string text = text_of(cell.json());
+    const std::string text = text_of(cell);
     const auto [place, is_new] = places.emplace(text, column.names->size());
     if (is_new) {
       column.names->push_back(text);
@@ -112,34 +127,19 @@ Column column_of(const std::string& name, const std::vector<Field>& cells) {
   return column;
 }
 
-/// The document's rows with the columns' names.
-struct Raw {
-  std::vector<std::string> columns;
-  std::vector<Field> rows;
-
-  [[nodiscard]] std::vector<Field> cells(std::size_t column) const {
-    std::vector<Field> all;
-    all.reserve(rows.size());
-    for (const Field& row : rows) {
-      all.push_back(row.item(column));
-    }
-    return all;
-  }
-};
-
 Raw read_raw(const Field& document) {
-  Raw raw;
+  const Field rows = document.at("rows");
+  Raw raw{{}, rows, {}};
   const Field columns = document.at("columns");
   for (std::size_t i = 0; i < columns.size(); ++i) {
     raw.columns.push_back(columns.item(i).text());
   }
-  const Field rows = document.at("rows");
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    raw.rows.push_back(rows.item(i));
-    if (raw.rows.back().size() != raw.columns.size()) {
-      raw.rows.back().fail("must have a value for each of the " + std::to_string(raw.columns.size()) +
-                           " columns");
+    if (rows.item(i).size() != raw.columns.size()) {
+      rows.item(i).fail("must have a value for each of the " + std::to_string(raw.columns.size()) +
+                        " columns");
     }
+    raw.rows.push_back(i);
   }
   if (raw.rows.empty()) {
     rows.fail("has no row to draw");
@@ -181,8 +181,9 @@ void keep_rows(Raw& raw, const PlotRequest& request) {
       throw PlotError("/columns", "has no parameter \"" + name + "\"; " + names_of(names));
     }
     const auto column = static_cast<std::size_t>(found - raw.columns.begin());
-    std::erase_if(raw.rows,
-                  [&, text = value](const Field& row) { return !is_value(row.item(column).json(), text); });
+    std::erase_if(raw.rows, [&, text = value](std::size_t row) {
+      return !is_value(raw.all.json()[row][column], text);
+    });
     if (raw.rows.empty()) {
       throw PlotError("/rows", "has no row where " + name + " is " + value);
     }
@@ -201,7 +202,7 @@ Column read_output(const Raw& raw, const PlotRequest& request) {
     if (request.output ? name != *request.output : name == "point") {
       continue;
     }
-    Column column = column_of(name, raw.cells(i));
+    Column column = column_of(raw, i);
     if (request.output || (!column.names && column.has_values())) {
       return column;
     }
@@ -215,7 +216,7 @@ std::vector<std::string> read_errors(const Raw& raw) {
   std::vector<std::string> errors(raw.rows.size());
   const auto found = std::find(raw.columns.begin(), raw.columns.end(), "error");
   for (std::size_t i = 0; found != raw.columns.end() && i < raw.rows.size(); ++i) {
-    const Field cell = raw.rows[i].item(static_cast<std::size_t>(found - raw.columns.begin()));
+    const Field cell = raw.cell(i, static_cast<std::size_t>(found - raw.columns.begin()));
     if (cell.json().is_object()) {
       errors[i] = text_or(cell, "code", "failed");
     } else if (!cell.json().is_null()) {
@@ -253,7 +254,7 @@ Table read_table(const Field& document, const PlotRequest& request) {
   Table table;
   for (std::size_t i = 0; i < raw.columns.size(); ++i) {
     if (is_parameter(raw.columns[i])) {
-      table.parameters.push_back(column_of(raw.columns[i], raw.cells(i)));
+      table.parameters.push_back(column_of(raw, i));
     }
   }
   table.output = read_output(raw, request);

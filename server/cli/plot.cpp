@@ -1,6 +1,5 @@
 #include "server/cli/plot.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>

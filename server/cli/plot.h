@@ -2,13 +2,10 @@
 /// @file
 /// The command that makes figures of results and sweeps.
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "server/cli/app.h"
-
-namespace CLI {
-class App;
-}
 
 namespace snapthrough::server::cli {
 

@@ -13,8 +13,6 @@
 #include <cstring>
 #include <functional>
 
-extern char** environ;
-
 namespace snapthrough::server::cli {
 namespace {
 

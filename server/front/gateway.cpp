@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/authority.h"
+#include "server/resources/hops/protocol.h"
 #include "server/resources/page.h"
 
 namespace snapthrough::server::http {
@@ -39,9 +40,13 @@ bool is_probe(std::string_view path) { return path == "/livez" || path == "/read
 /// What tells how the process is.
 bool is_state(std::string_view path) { return is_probe(path) || path == "/metrics"; }
 
-/// What tells nothing about anybody's jobs is answered without a key.
-bool is_public(std::string_view path) {
-  return is_probe(path) || path == "/v1/openapi.json" || is_page_path(path);
+/// What tells nothing about anybody's jobs is answered without a key. Hops sends none when it asks for the
+/// description of a component.
+bool is_public(const Request& request) {
+  const std::string_view path = request.path;
+  const bool reads = request.method == "GET" || request.method == "HEAD";
+  return is_probe(path) || path == "/v1/openapi.json" || is_page_path(path) ||
+         (reads && hops::is_description_path(path));
 }
 
 const char* problem_kind(int status) {
@@ -134,7 +139,7 @@ std::optional<Response> Gateway::without_resource(const Request& request, bool k
          ""},
         request);
   }
-  if (keys_.open() && !is_public(request.path) && comes_from_elsewhere(request, cross_origin_)) {
+  if (keys_.open() && !is_public(request) && comes_from_elsewhere(request, cross_origin_)) {
     return problem_response(
         {403,
          "foreign-origin",
@@ -150,11 +155,12 @@ std::optional<Response> Gateway::without_resource(const Request& request, bool k
     const std::string methods = Routes::methods_at(request.path);
     return methods.empty() ? std::nullopt : std::optional(CrossOrigin::preflight(methods));
   }
-  if (!known && !is_public(request.path)) {
+  if (!known && !is_public(request)) {
     Response refused = problem_response({401,
                                          "unauthorized",
                                          "Unauthorized",
-                                         "This service needs a bearer key (Authorization: Bearer ...).",
+                                         "This service needs a key (Authorization: Bearer ..., or "
+                                         "RhinoComputeKey: ...) that it knows.",
                                          {},
                                          "",
                                          ""},

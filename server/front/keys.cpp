@@ -11,16 +11,33 @@ void KeyRing::replace(std::vector<ApiKey> keys) {
   keys_ = std::move(keys);
 }
 
+namespace {
+
+/// The key that came with a request. Hops (Grasshopper) can send none as a bearer key, but has a header of
+/// its own, which counts where there is no Authorization.
+std::optional<std::string_view> key_of(const Request& request) {
+  const std::optional<std::string_view> value = request.header("Authorization");
+  if (!value) {
+    return request.header("RhinoComputeKey");
+  }
+  const std::size_t space = value->find(' ');
+  if (space == std::string_view::npos || !equal_ignoring_case(value->substr(0, space), "Bearer")) {
+    return std::nullopt;
+  }
+  return value->substr(space + 1);
+}
+
+}  // namespace
+
 std::optional<std::string> KeyRing::owner(const Request& request) const {
   if (open()) {
     return "";
   }
-  const std::string_view value = request.header("Authorization").value_or("");
-  const std::size_t space = value.find(' ');
-  if (space == std::string_view::npos || !equal_ignoring_case(value.substr(0, space), "Bearer")) {
+  const std::optional<std::string_view> given = key_of(request);
+  if (!given) {
     return std::nullopt;
   }
-  const std::string digest = sha256_hex(trimmed(value.substr(space + 1)));
+  const std::string digest = sha256_hex(trimmed(*given));
   std::optional<std::string> owner;
   const std::shared_lock guard(mutex_);
   for (const ApiKey& key : keys_) {  // all of them, so that the time does not tell which

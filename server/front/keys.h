@@ -27,7 +27,8 @@ class KeyRing {
   [[nodiscard]] bool open() const { return open_; }
   /// These are accepted from now on, and no others. @pre they are empty exactly when open()
   void replace(std::vector<ApiKey> keys);
-  /// The owner of the request's bearer key; nothing when it has none that is known.
+  /// The owner of the key that came with the request (Authorization: Bearer, else RhinoComputeKey); nothing
+  /// when it has none that is known.
   [[nodiscard]] std::optional<std::string> owner(const Request& request) const;
 
  private:

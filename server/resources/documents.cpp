@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/api.h"
+#include "server/resources/hops/protocol.h"
 
 namespace snapthrough::server::http {
 namespace {
@@ -167,7 +168,27 @@ std::string job_list_document(const JobPage& page, std::string_view next) {
   return to_text({{"jobs", std::move(jobs)}, {"links", std::move(links)}});
 }
 
+namespace {
+
+/// The sentences of a problem for a client that shows nothing else of it.
+std::vector<std::string> sentences_of(const Problem& problem) {
+  if (!problem.errors.empty()) {
+    return hops::sentences_of(problem.errors);
+  }
+  const std::string code = problem.code.empty() ? "" : " (" + problem.code + ")";
+  return {problem.title + ": " + problem.detail + code};
+}
+
+}  // namespace
+
 Response problem_response(const Problem& problem, const Request& request) {
+  if (const hops::Form form = hops::form_of(request.method, request.path); form != hops::Form::none) {
+    Response response;
+    response.status = problem.status;
+    response.content_type = "application/json";
+    response.body = hops::refusal(form, sentences_of(problem));
+    return response;
+  }
   ordered_json document{{"type", "urn:snapthrough:problem:" + problem.kind},
                         {"title", problem.title},
                         {"status", problem.status},

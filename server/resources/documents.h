@@ -46,7 +46,8 @@ struct Problem {
 /// A page of sweeps; `next` is the path of the following page, empty on the last.
 [[nodiscard]] std::string sweep_list_document(const SweepPage& page, std::string_view next);
 
-/// application/problem+json for a request.
+/// application/problem+json for a request; to a client that speaks the protocol of Hops a document of that
+/// protocol, which has room for sentences only.
 [[nodiscard]] Response problem_response(const Problem& problem, const Request& request);
 
 }  // namespace snapthrough::server::http

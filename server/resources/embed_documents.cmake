@@ -1,6 +1,6 @@
-# Turns examples/*.json into one C++ source that defines what embedded.h declares.
-function(embed_documents examples output)
-  file(GLOB files CONFIGURE_DEPENDS ${examples}/*.json)
+# Turns the JSON files of a folder into one C++ source that defines a function that embedded.h declares.
+function(embed_documents folder function output)
+  file(GLOB files CONFIGURE_DEPENDS ${folder}/*.json)
   list(SORT files)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
   set(rows "")
@@ -14,10 +14,10 @@ function(embed_documents examples output)
 
 namespace snapthrough::server::http {
 
-const std::vector<Example>& embedded_examples() {
-  static const std::vector<Example> examples{
+const std::vector<Example>& @function@() {
+  static const std::vector<Example> documents{
 @rows@  };
-  return examples;
+  return documents;
 }
 
 }  // namespace snapthrough::server::http

@@ -240,6 +240,17 @@ std::optional<Response> refusal_of(const Request& request, Submission& submissio
   return std::nullopt;
 }
 
+std::optional<Request> as_csv(const Request& request) {
+  const bool named = std::any_of(request.query.begin(), request.query.end(),
+                                 [](const auto& one) { return one.first == "format"; });
+  if (named) {
+    return std::nullopt;
+  }
+  Request csv = request;
+  csv.query.emplace_back("format", "csv");
+  return csv;
+}
+
 std::optional<api::TableForm> wanted_table_form(const Request& request) {
   for (const auto& [name, value] : request.query) {
     if (name == "format") {

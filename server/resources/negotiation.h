@@ -67,6 +67,10 @@ inline constexpr int kLargestPage = 1000;
 [[nodiscard]] std::optional<Response> refusal_of(const Request& request, Submission& submission,
                                                  const char* what);
 
+/// @brief The request as if its query asked for CSV, whatever it accepts; nothing when the query has a
+/// format. Refers to nothing of the request.
+[[nodiscard]] std::optional<Request> as_csv(const Request& request);
+
 /// The form of a table that the client takes: by ?format= before Accept; JSON when any will do.
 [[nodiscard]] std::optional<api::TableForm> wanted_table_form(const Request& request);
 

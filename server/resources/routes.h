@@ -13,6 +13,7 @@
 #include "api/result_table.h"
 #include "server/jobs/job_service.h"
 #include "server/resources/documents.h"
+#include "server/resources/hops/catalogue.h"
 #include "server/resources/message.h"
 #include "server/resources/page.h"
 #include "server/resources/prefer.h"
@@ -31,6 +32,7 @@ struct ServiceFacts {
   std::function<std::string()> not_ready;              ///< why no work should be sent here; empty: it should
   std::vector<std::pair<std::string, double>> limits;  ///< name with unit, value
   Page page;                                           ///< what people look at; by default none
+  std::string hops_folder;                             ///< see hops::Catalogue
 };
 
 /// @brief Answers every request, wrong ones with a problem. Thread-safe; never waits for a job: a response
@@ -38,7 +40,7 @@ struct ServiceFacts {
 class Routes {
  public:
   Routes(JobService& jobs, WaitLimits waits, ServiceFacts facts = {})
-      : jobs_(jobs), waits_(waits), facts_(std::move(facts)) {}
+      : jobs_(jobs), waits_(waits), facts_(std::move(facts)), components_(facts_.hops_folder) {}
 
   /// Throws only for what is nobody's fault but the program's (std::bad_alloc, a defect).
   [[nodiscard]] Response respond(const Request& request);
@@ -60,6 +62,9 @@ class Routes {
   Response list_jobs(const Request& request, const std::string& id);
   Response job_status(const Request& request, const std::string& id);
   Response job_result(const Request& request, const std::string& id);
+  /// A table of the result as CSV, for programs that can send an address and nothing else: what the query
+  /// does not say is decided here, and a job that still runs is waited for.
+  Response job_csv(const Request& request, const std::string& id);
   Response job_request(const Request& request, const std::string& id);
   Response job_events(const Request& request, const std::string& id);
   Response dismiss_job(const Request& request, const std::string& id);
@@ -79,6 +84,8 @@ class Routes {
   Response sweep_status(const Request& request, const std::string& id);
   Response sweep_request(const Request& request, const std::string& id);
   Response sweep_table(const Request& request, const std::string& id);
+  /// The rows as CSV, see job_csv().
+  Response sweep_csv(const Request& request, const std::string& id);
   Response sweep_events(const Request& request, const std::string& id);
   Response point_request(const Request& request, const std::string& id, const std::string& point);
   Response create_point_job(const Request& request, const std::string& id, const std::string& point);
@@ -93,6 +100,20 @@ class Routes {
                       const std::function<Response(std::string)>& answer);
   Response status_of_sweep(const Request& request, const std::string& id, int status);
 
+  // routes_hops.cpp
+  Response list_components(const Request& request, const std::string& id);
+  Response describe_component(const Request& request, const std::string& id);
+  /// A call that names its component in `pointer`.
+  Response solve(const Request& request, const std::string& id);
+  /// A call of the component of that name; of the one in `pointer` when the name is "solve".
+  Response solve_component(const Request& request, const std::string& id);
+  Response submit_call(const Request& request, const std::string& name,
+                       const std::shared_ptr<const hops::Definition>& definition,
+                       const std::string& document);
+  /// What has become of the job of a call, as an answer to it.
+  Response answer_call(const Request& request, const std::string& name,
+                       const std::shared_ptr<const hops::Definition>& definition, const std::string& id);
+
   // routes_service.cpp
   Response check(const Request& request, const std::string& id);
   Response limits(const Request& request, const std::string& id);
@@ -105,6 +126,7 @@ class Routes {
   JobService& jobs_;
   WaitLimits waits_;
   ServiceFacts facts_;
+  hops::Catalogue components_;
 };
 
 // What several resources answer with.

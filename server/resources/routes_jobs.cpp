@@ -239,6 +239,15 @@ Response Routes::job_result(const Request& request, const std::string& id) {
   return job->has_value() ? result_of(request, **job) : job_missing(request, id);
 }
 
+Response Routes::job_csv(const Request& request, const std::string& id) {
+  std::optional<Request> csv = as_csv(request);
+  if (!csv) {
+    return wrong_parameter(request, "table: the form is that of the address", "format", "");
+  }
+  return when_ended(request, id, waits_.default_wait,
+                    [this, csv = *std::move(csv), id] { return job_result(csv, id); });
+}
+
 Response Routes::result_of(const Request& request, const Job& job) {
   if (job.failure) {
     return problem_response(failure_problem(*job.failure), request);

@@ -246,6 +246,13 @@ Response Routes::sweep_table(const Request& request, const std::string& id) {
   });
 }
 
+Response Routes::sweep_csv(const Request& request, const std::string& id) {
+  const std::optional<Request> csv = as_csv(request);
+  return csv ? sweep_table(*csv, id)
+             : wrong_parameter(request, "status, links, first and count: the form is that of the address",
+                               "format", "");
+}
+
 Response Routes::with_point(const Request& request, const std::string& id, const std::string& point,
                             const std::function<Response(std::string)>& answer) {
   return with_sweep(request, id, [&](const SweepRecord& record) {

@@ -120,6 +120,9 @@ test('the life of a job', async () => {
   for (const query of ['', '?format=csv', '?format=json', '?format=xml', '?format=csv&table=states', '?format=csv&table=points']) {
     await call('GET', '/v1/jobs/{id}/result', `${job}/result${query}`);
   }
+  for (const query of ['', '?table=states', '?table=static', '?format=csv']) {
+    await call('GET', '/v1/jobs/{id}/table.csv', `${job}/table.csv${query}`);
+  }
   const {headers} = await call('GET', '/v1/jobs/{id}/result', `${job}/result`);
   const again = await call('GET', '/v1/jobs/{id}/result', `${job}/result`, {headers: {'If-None-Match': headers.get('ETag')}});
   assert.equal(again.status, 304);
@@ -204,6 +207,9 @@ async function useSweep(sweep) {
                        '?format=xml', '?rows=1']) {
     await call('GET', '/v1/sweeps/{id}/table', `${at}/table${query}`);
   }
+  for (const query of ['', '?first=1&count=1', '?format=csv']) {
+    await call('GET', '/v1/sweeps/{id}/table.csv', `${at}/table.csv${query}`);
+  }
   await call('GET', '/v1/sweeps/{id}/request', `${at}/request`);
   await call('GET', '/v1/sweeps/{id}/points/{n}/request', `${at}/points/1/request`);
   await call('GET', '/v1/sweeps/{id}/points/{n}/request', `${at}/points/1000/request`);
@@ -232,6 +238,26 @@ test('sweeps', async (t) => {
       assert.equal((await call(method.toUpperCase(), path, target, options)).status, 404);
     }
   }
+});
+
+test('components of Grasshopper', async () => {
+  const {json: components} = await call('GET', '/v1/hops', '/v1/hops');
+  for (const {Name, Inputs} of components) {
+    const values = Inputs.map(({Name: name, ResultType: type, Default: value}) => (
+      {ParamName: name, InnerTree: {'{0}': [{type, data: JSON.stringify(value)}]}}));
+    await call('GET', '/v1/hops/{id}', `/v1/hops/${Name}`);
+    const body = {pointer: `v1/hops/${Name}`, algo: null, cachesolve: false, modelunits: 'Meters', values};
+    assert.deepEqual(faults(validatorOf({$ref: '#/components/schemas/HopsCall'}), body), []);
+    for (const [path, target] of [['/solve', '/solve'], ['/v1/hops/{id}', `/v1/hops/${Name}`]]) {
+      assert.equal((await call('POST', path, target, {body})).status, 200);
+      assert.equal((await call('POST', path, target, {body: {...body, values: []}})).status, 422);
+      assert.equal((await call('POST', path, target, {body: '{'})).status, 400);
+      assert.equal((await call('POST', path, target, {body: '{}', headers: {'Content-Type': 'text/plain'}})).status, 415);
+      assert.equal((await call('POST', path, target, {body: ' '.repeat(2_000_001)})).status, 413);
+    }
+  }
+  assert.equal((await call('GET', '/v1/hops/{id}', '/v1/hops/none')).status, 404);
+  assert.equal((await call('POST', '/v1/hops/{id}', '/v1/hops/none', {body: {values: []}})).status, 404);
 });
 
 test('lists and the service itself', async () => {

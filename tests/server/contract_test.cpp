@@ -234,6 +234,8 @@ class ContractOverHttp : public ServiceTest {
       use("GET", "/v1/sweeps/{id}/table", at + "/table?format=xml");
       use("GET", "/v1/sweeps/{id}/table", at + "/table?rows=1");
       use("GET", "/v1/sweeps/{id}/table", at + "/table", "", {"If-None-Match: *"});
+      use("GET", "/v1/sweeps/{id}/table.csv", at + "/table.csv");
+      use("GET", "/v1/sweeps/{id}/table.csv", at + "/table.csv?format=csv");
       use("GET", "/v1/sweeps/{id}/points/{n}/request", at + "/points/0/request");
       use("GET", "/v1/sweeps/{id}/points/{n}/request", at + "/points/9/request");
       use("POST", "/v1/sweeps/{id}/points/{n}/job", at + "/points/0/job", "", {});  // not a stiffness
@@ -257,6 +259,21 @@ class ContractOverHttp : public ServiceTest {
     use("GET", "/v1/sweeps", "/v1/sweeps?limit=0");
   }
 
+  void use_components() {
+    use("GET", "/v1/hops", "/v1/hops");
+    for (const char* name : {"solve-request", "none"}) {
+      use("GET", "/v1/hops/{id}", "/v1/hops/" + std::string(name));
+    }
+    const json item{{"type", "System.String"}, {"data", json(column_request()).dump()}};
+    const json value{{"ParamName", "request"}, {"InnerTree", {{"{0}", json::array({item})}}}};
+    const json call{{"pointer", "v1/hops/solve-request"}, {"values", json::array({value})}};
+    for (const std::string& body : {call.dump(), std::string("{}"), std::string("[]"), std::string("{")}) {
+      use("POST", "/v1/hops/{id}", "/v1/hops/solve-request", body);
+      use("POST", "/solve", "/solve", body);
+    }
+    use("POST", "/solve", "/solve", call.dump(), {"Content-Type: text/plain"});
+  }
+
   Schemas schemas_{description()};
   std::set<std::string> seen_;
 };
@@ -273,6 +290,8 @@ TEST_F(ContractOverHttp, EveryResponseIsAsPublished) {
     use("GET", "/v1/jobs/{id}/result", at + "/result?table=static");  // of a path
     use("GET", "/v1/jobs/{id}/result", at + "/result", "", {"Accept: image/png"});
     use("GET", "/v1/jobs/{id}/result", at + "/result", "", {"If-None-Match: *"});
+    use("GET", "/v1/jobs/{id}/table.csv", at + "/table.csv");
+    use("GET", "/v1/jobs/{id}/table.csv", at + "/table.csv?format=csv");
     use("GET", "/v1/jobs/{id}/request", at + "/request");
     use("GET", "/v1/jobs/{id}/events", at + "/events");
     use("POST", "/v1/jobs/{id}/dismiss", at + "/dismiss");
@@ -298,6 +317,7 @@ TEST_F(ContractOverHttp, EveryResponseIsAsPublished) {
   use("GET", "/v1/jobs", "/v1/jobs?label=a&analysis=path&created_after=2020-01-01T00:00:00Z");
   use("POST", "/v1/check", "/v1/check", column_request());
   use_sweeps();
+  use_components();
   use("GET", "/v1/jobs", "/v1/jobs?limit=1");
   use("GET", "/v1/jobs", "/v1/jobs?limit=0");
   for (const char* path :
@@ -500,6 +520,10 @@ TEST_F(ContractOverHttp, AStrangersJobIsNotThere) {
   ASSERT_TRUE(service_->start().ok());
   const std::string json_type = "Content-Type: application/json";
   EXPECT_EQ(post(port(), "/v1/jobs", column_request()).status, 401);
+  EXPECT_EQ(get(port(), "/v1/jobs", {"RhinoComputeKey: alice"}).status, 200);
+  EXPECT_EQ(get(port(), "/v1/jobs", {"RhinoComputeKey: wrong"}).status, 401);
+  EXPECT_EQ(get(port(), "/v1/jobs", {"Authorization: Basic x", "RhinoComputeKey: alice"}).status, 401);
+  EXPECT_EQ(get(port(), "/v1/hops").status, 200);
   EXPECT_EQ(get(port(), "/v1/jobs", {"Authorization: Bearer wrong"}).status, 401);
   const Reply mine = post(port(), "/v1/jobs", column_request(), {json_type, "Authorization: Bearer alice"});
   ASSERT_EQ(mine.status, 200) << mine.body;

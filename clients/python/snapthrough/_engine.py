@@ -9,8 +9,9 @@ from typing import Any, Callable, Deque, Dict, Iterable, Iterator, List, Optiona
 from ._errors import SnapthroughError, WorkerDied
 from ._spans import Element
 
-#: Processor seconds that one chunk is to take: long beside what sending it takes, short beside what one waits for.
-_CHUNK_SECONDS = 0.1
+#: Processor seconds that one chunk is to take: long beside the milliseconds that an engine needs for it, short beside
+#: what a person waits for.
+_CHUNK_SECONDS = 0.2
 #: A chunk is at most this many times as large as the one that told how long points take.
 _GROWTH = 4
 #: How often a chunk is tried whose worker died.

@@ -117,8 +117,11 @@ class Local:
     def plot(self, document: Any, **options: Any) -> str:
         """Draws a result or a table as SVG text, as `snapthrough plot` does.
 
-        `document` is a Result, a Table, or the JSON text of one; `options` are those of the library, such as
-        kind="path", "shape", "sections", "mode", "sweep" or "heatmap". Raises UsageError when the library cannot plot.
+        `document` is a Result, a Table, or the JSON text of one. `options` are the choices of
+        docs/howto/plot-results.md: kind ("path", "shape", "sections", "mode", "sweep" or "heatmap"), width, height,
+        dark, state, mode, monitor and so on; solved_request={"model": model, "analysis": analysis} lets supports,
+        ground and loads be drawn. Raises InvalidRequest with a pointer that begins with "choices:" where one is
+        wrong, and UsageError when the library is too old to plot.
         """
         if not self._library.can_plot:
             raise UsageError(f"{self.library} (version {self.version}) has no snapthrough_plot")

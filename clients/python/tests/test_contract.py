@@ -2,8 +2,10 @@
 import dataclasses
 import inspect
 import json
+import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 from .support import EXPECTED, PACKAGE, ROOT, Case, column, local, request, snapthrough
@@ -25,6 +27,32 @@ class Generated(Case):
         run = subprocess.run([sys.executable, str(PACKAGE / "generate.py"), "--check"], capture_output=True, text=True)
         self.assertEqual(run.returncode, 1)
         self.assertIn("_builders.py", run.stderr)
+
+    def test_a_new_field_of_the_contract_appears_by_itself(self):
+        sys.path.insert(0, str(PACKAGE))
+        self.addCleanup(sys.path.remove, str(PACKAGE))
+        import generate
+        document = json.loads(json.dumps(CONTRACT))
+        schemas = document["components"]["schemas"]
+        colour = {"type": "string", "description": "Colour of it", "x-unit": "nanometre"}
+        for name in ("Node", "Summary"):
+            schemas[name]["properties"]["colour"] = colour
+        schemas["Analysis"]["properties"]["colour"] = {**colour, "description": "path: colour of the path"}
+        schemas["Load"]["oneOf"].append({"type": "object", "description": "A wind", "properties": {
+            "type": {"const": "wind", "description": "A wind"}, "from": colour}, "required": ["type", "from"]})
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "openapi.json")
+            path.write_text(json.dumps(document), encoding="utf-8")
+            contract = generate.Contract(path)
+        builders = generate.Builders(contract).text()
+        self.assertIn("def node(self: _Self, id: documents.Id, x: float, y: float, *, colour: Optional[str] = None)",
+                      builders)
+        self.assertIn("colour: Colour of it [nanometre].", builders)
+        self.assertIn("def wind_load(self: _Self, from_: str) -> _Self:", builders)
+        self.assertIn('{"type": "wind", "from": from_}', builders)
+        self.assertEqual(builders.count("    colour: colour of the path"), 1)  # of Path, and of no other analysis
+        self.assertIn("def colour(self)", generate.Received(contract).text())
+        self.assertIn("    colour: str", generate.Documents(contract).text())
 
     def test_every_field_of_an_analysis_is_that_of_a_builder(self):
         builders = (snapthrough.Buckling, snapthrough.Critical, snapthrough.Path, snapthrough.Static)

@@ -8,8 +8,10 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
-from .support import EXECUTABLE, LIBRARY, PACKAGE, ROOT, SWEEP, Case, Service, local, request, shared_table, snapthrough
+from .support import (EXECUTABLE, LIBRARY, PACKAGE, ROOT, SWEEP, Case, Service, column, local, request, shared_table,
+                      snapthrough)
 
 WRONG = '''
 import snapthrough as st
@@ -62,7 +64,8 @@ class Installation(Case):
                         "--no-build-isolation", "--target", folder + "/target", source])
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertTrue(pathlib.Path(folder, "target", "snapthrough", "py.typed").is_file())
-            program = f"import sys; sys.path.insert(0, {folder + '/target'!r}); import snapthrough as s; print(s.__file__)"
+            program = (f"import sys; sys.path.insert(0, {folder + '/target'!r}); "
+                       "import snapthrough; print(snapthrough.__file__)")
             told = subprocess.run([sys.executable, "-I", "-c", program], capture_output=True, text=True).stdout
             self.assertTrue(told.startswith(folder), told)
 
@@ -98,9 +101,18 @@ class Drawings(Case):
         marks = [(x[0], y[0]) for x, y in lines if len(x) == 1]
         self.assertEqual(marks, [(point.monitors["crown"], point.load_factor) for point in result.critical_points])
 
-    def test_notebooks_show_the_librarys_drawing_where_there_is_one(self):
-        svg = local().solve(request("arch"))._repr_svg_()
-        self.assertTrue(svg is None or "<svg" in svg)
+    def test_the_library_draws_results_and_tables(self):
+        result, model = local().solve(column(), snapthrough.Critical()), column()
+        solved = {"model": model, "analysis": snapthrough.Critical()}
+        for svg in (local().plot(result), local().plot(result, kind="mode", solved_request=solved),
+                    local().plot(shared_table(), kind="sweep", where={"feet": "pinned", "EI": "1"}, x="K")):
+            self.assertIn("</svg>", svg)
+        with self.assertRaisesRegex(snapthrough.InvalidRequest, "choices:/kind"):
+            local().plot(result, kind="pie")
+
+    def test_notebooks_show_the_librarys_drawing(self):
+        with mock.patch.dict(os.environ, {"PYTHONSNAPTHROUGH_LIBRARY": LIBRARY}):
+            self.assertIn("</svg>", local().solve(request("arch"))._repr_svg_())
 
 
 @unittest.skipUnless(is_there("nbconvert") and is_there("ipykernel") and is_there("pandas"), "nbconvert is not there")
@@ -114,7 +126,8 @@ class Notebook(Case):
             cells = json.loads(pathlib.Path(folder, "executed.ipynb").read_text(encoding="utf-8"))["cells"]
         outputs = [output for cell in cells for output in cell.get("outputs", [])]
         drawn = [output for output in outputs if "image/png" in output.get("data", {})]
-        self.assertGreaterEqual(len(drawn), 2)
+        self.assertEqual(len(drawn), 3)
+        self.assertTrue(any("image/svg+xml" in output.get("data", {}) for output in outputs))
 
 
 class Pages(Case):

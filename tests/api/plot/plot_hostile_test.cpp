@@ -182,7 +182,7 @@ TEST(HostileDocument, LongPathsAreDrawnByWhatCanBeSeen) {
   EXPECT_LT(text.size(), 100'000U);
 }
 
-/// Pointers of all values of a document; of long lists the first two and the last.
+/// Pointers of all values of a document; of lists the first and the last.
 void collect(const json& value, const json::json_pointer& place, std::vector<json::json_pointer>& all) {
   if (!place.empty()) {
     all.push_back(place);
@@ -193,7 +193,7 @@ void collect(const json& value, const json::json_pointer& place, std::vector<jso
     }
   } else if (value.is_array()) {
     for (std::size_t i = 0; i < value.size(); ++i) {
-      if (i < 2 || i + 1 == value.size()) {
+      if (i == 0 || i + 1 == value.size()) {
         collect(value[i], place / i, all);
       }
     }
@@ -203,18 +203,8 @@ void collect(const json& value, const json::json_pointer& place, std::vector<jso
 /// Every value of a document in turn replaced by values of other types, or taken away: each figure is
 /// well-formed, or refused.
 void expect_figures_or_errors(const json& sound, const std::vector<PlotRequest>& requests) {
-  const json others[] = {nullptr,
-                         "x",
-                         -1,
-                         0,
-                         1e99,
-                         1e300,
-                         true,
-                         std::numeric_limits<double>::infinity(),
-                         json::array(),
-                         json::object(),
-                         {0, 0},
-                         "\xff"};
+  const json others[] = {nullptr,       "x",           -1, 1e99, std::numeric_limits<double>::infinity(),
+                         json::array(), json::object()};
   std::vector<json::json_pointer> places;
   collect(sound, json::json_pointer(), places);
   std::size_t figures = 0;

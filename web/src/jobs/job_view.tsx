@@ -3,7 +3,6 @@
 import { useEffect, useState } from "preact/hooks";
 import type { Branch, Job, PathPointsEvent, RequestDocument, Result } from "../api/documents";
 import { isAbort, Refused, service } from "../api/client";
-import { follow } from "../api/events";
 import { go } from "../app/router";
 import { badgeOf, duration } from "../app/words";
 import type { Choice } from "../model/gallery";
@@ -37,7 +36,7 @@ async function watch(id: string, signal: AbortSignal, show: (part: Partial<Shown
   show({ job, request });
   if (job.status === "accepted" || job.status === "running") {
     const branches: Branch[] = [];
-    await follow(`/v1/jobs/${id}/events`, (event) => {
+    await service.follow(`/v1/jobs/${id}`, (event) => {
       if (event.type === "status") show({ job: event.data as Job });
       if (event.type !== "points") return;
       addPoints(branches, event.data as PathPointsEvent);

@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from "preact/hooks";
 import type { Job } from "../api/documents";
-import { call, service } from "../api/client";
+import { service } from "../api/client";
 import { usePolled } from "../app/polled";
 import { ago, badgeOf, duration, kStatuses } from "../app/words";
 import { formatNumber } from "../figures";
@@ -30,7 +30,7 @@ function firstRow(csv: string): Record<string, string> {
 
 async function readCritical(job: Job): Promise<Critical> {
   const table = job.analysis === "buckling" ? "buckling" : "critical_points";
-  const row = firstRow(await (await call(`/v1/jobs/${job.id}/result?format=csv&table=${table}`)).text());
+  const row = firstRow(await (await service.call(`/v1/jobs/${job.id}/result?format=csv&table=${table}`)).text());
   const load = Number(row["load_factor"] ?? "");
   const there = row["load_factor"] !== undefined && row["confirmed"] !== "0" && row["confirmed"] !== "false";
   return { load: there && Number.isFinite(load) ? load : null, kind: row["type"] ?? (table === "buckling" ? "buckling" : "") };

@@ -2,7 +2,6 @@
 
 import type { Branch, PathPointsEvent, RequestDocument, Result } from "../api/documents";
 import { connection, idOf, isAbort, Refused, service, type Answer } from "../api/client";
-import { follow } from "../api/events";
 import { Latest, type Question } from "../api/latest";
 import { kProblems, type Choice, type Problem } from "../model/gallery";
 import { forPictures, forWalking } from "../model/prepare";
@@ -116,7 +115,7 @@ async function followJob(question: Question, job: string): Promise<void> {
   const branches: Branch[] = [];
   const start = performance.now();
   try {
-    await follow(`/v1/jobs/${job}/events`, (event) => {
+    await service.follow(`/v1/jobs/${job}`, (event) => {
       if (event.type !== "points" || control.signal.aborted) return;
       addPoints(branches, event.data as PathPointsEvent);
       studio.change({ growing: [...branches] });

@@ -2,8 +2,7 @@
 
 import { useEffect, useMemo, useState } from "preact/hooks";
 import type { Sweep, SweepDocument, Table } from "../api/documents";
-import { call, isAbort, service } from "../api/client";
-import { follow } from "../api/events";
+import { isAbort, service } from "../api/client";
 import { go } from "../app/router";
 import { shapeNode } from "../app/shape_view";
 import { useSize } from "../app/size";
@@ -33,18 +32,18 @@ interface Shown {
 const kNothing: Shown = { sweep: null, document: null, table: null, trouble: null };
 
 async function watch(id: string, signal: AbortSignal, show: (part: Partial<Shown>) => void): Promise<void> {
-  const [sweep, document] = await Promise.all([service.sweep(id), service.sweepRequest(id)]);
+  const [sweep, document] = await Promise.all([service.sweepStatus(id), service.sweepRequest(id)]);
   show({ sweep, document });
   let reading = false;
   let last = 0;
   const read = async (): Promise<void> => {
     reading = true;
-    show({ table: await service.sweepTable(id), sweep: await service.sweep(id) });
+    show({ table: await service.sweepTable(id), sweep: await service.sweepStatus(id) });
     reading = false;
     last = performance.now();
   };
   await read();
-  await follow(`/v1/sweeps/${id}/events`, () => {
+  await service.follow(`/v1/sweeps/${id}`, () => {
     if (!reading && performance.now() - last > kReadAgain) void read().catch(() => (reading = false));
   }, signal);
   await read();
@@ -198,7 +197,7 @@ function ChartCard({ id, sweep, document, table }: { id: string; sweep: Sweep; d
   const rows = useMemo(() => <LongTable table={sweepTable(table)} caption="Rows of the sweep" onRow={open} />, [table, id]);
   const take = (): Shape => pictureOf(document, table, output, map, { width: 800, height: 520 }).shape;
   const csv = async (): Promise<void> => {
-    const text = await (await call(`/v1/sweeps/${id}/table?format=csv`)).text();
+    const text = await (await service.call(`/v1/sweeps/${id}/table?format=csv`)).text();
     saveText(`${name}.csv`, text, "text/csv");
   };
   return (

@@ -6,7 +6,8 @@
 The default is 20 000 points of about 1 ms: buckling loads of columns drawn at random. Prints a table: wall time and the
 speed-up over one process; processor time of all processes that take part, that of the library's calls alone, and the
 difference for each point, which is what the engine costs. Measured from when the workers of an engine are there, and
-with their start where one of them is killed. For the executable the command line's sweep takes the place of the calls.
+with their start where a pool is replaced. What Dask's processes take without work, which is told, is left out of what
+a point costs. For the executable the command line's sweep takes the place of the calls.
 Engines that are not installed are named and fail the run. Exit status 1: rows differ, or an engine is missing.
 """
 import argparse
@@ -84,8 +85,8 @@ class Engines:
         document["design"]["latin_hypercube"]["samples"] = points
         document["analysis"]["discretization"]["elements"] = 24
         self.points = points
-        self.begun = None
-        self.calls = 0.0
+        self.begun = self.ended = None
+        self.calls = self.idle = 0.0
         self.text = json.dumps(document)
         self.local = snapthrough.Local(self.library)
         self.folder = tempfile.mkdtemp()
@@ -143,6 +144,10 @@ class Engines:
                 client.wait_for_workers(2, timeout=60)
                 killer = Killer(self.points // 4, lambda: started[-1].pid)
                 executor = self.begin(client.get_executor())
+                cpu = processor_seconds()
+                time.sleep(5)
+                self.idle = (processor_seconds() - cpu) / 5
+                self.begun = (processor_seconds(), time.perf_counter())
                 text = self.sweep(executor=executor, workers=2, on_progress=killer if kill else None)
                 assert not kill or killer.killed, "no worker was killed"
                 return text
@@ -211,7 +216,9 @@ class Engines:
             learn(engine, chunk, seconds)
 
         with mock.patch.object(_engine.Engine, "_learn", add):
-            return self.local.sweep(self.text, **options).table().to_json()
+            text = self.local.sweep(self.text, **options).table().to_json()
+        self.ended = (processor_seconds(), time.perf_counter())
+        return text
 
 
 NAMES = ("command_line", "one_process", "threads", "process_pool", "process_pool_with_one_killed", "joblib", "dask",
@@ -222,10 +229,13 @@ WITHOUT_PROCESSOR_TIME = ("mpi", "slurm")
 
 def measure(computed, name):
     """What an engine gives, its wall time and the processor time that it took since begin()."""
-    computed.begun, computed.calls, begun = None, 0.0, (processor_seconds(), time.perf_counter())
+    computed.begun = computed.ended = None
+    computed.calls = computed.idle = 0.0
+    now = (processor_seconds(), time.perf_counter())
     value = getattr(computed, name)()
-    cpu, start = computed.begun or begun
-    return value, time.perf_counter() - start, processor_seconds() - cpu
+    cpu, start = computed.begun or now
+    last_cpu, last = computed.ended or (processor_seconds(), time.perf_counter())
+    return value, last - start, last_cpu - cpu
 
 
 def main(arguments):
@@ -252,7 +262,9 @@ def main(arguments):
         cost = "- | - | -"
         if name not in WITHOUT_PROCESSOR_TIME:
             calls = computed.calls or base_cpu
-            more = f"{1e6 * (cpu - calls) / options.points:.0f} ({100 * (cpu / calls - 1):.1f} %)"
+            own = cpu - calls - computed.idle * wall
+            more = f"{1e6 * own / options.points:.0f} ({100 * own / calls:.1f} %)"
+            more += f"; without work {100 * computed.idle:.0f} % of a core" if computed.idle else ""
             cost = f"{cpu:.2f} | {calls:.2f} | {more}"
         print(f"| {name} | {wall:.2f} | {single_wall / wall:.2f} | {cost} |", flush=True)
         if text != expected:

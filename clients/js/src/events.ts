@@ -1,7 +1,5 @@
 // Server-sent events read by fetch, since an EventSource cannot send a key.
 
-import { call } from "./client";
-
 export interface ServerEvent {
   id: string;
   type: string;
@@ -23,14 +21,16 @@ export function parseEvent(block: string): ServerEvent | null {
 }
 
 /**
- * Calls `take` with each event until the stream ends or `signal` stops it. Throws as `call` does; a stream that breaks
- * off is taken up where it was left.
+ * Calls `take` with each event until the stream ends or `signal` stops it. Throws as `open` does; a stream that breaks off is taken
+ * up where it was left.
+ * @param open the response of the stream to a request with these headers
  */
-export async function follow(path: string, take: (event: ServerEvent) => void, signal: AbortSignal): Promise<void> {
+export async function follow(open: (init: RequestInit) => Promise<Response>, take: (event: ServerEvent) => void,
+                             signal: AbortSignal): Promise<void> {
   let seen = "";
   for (let ended = false; !ended && !signal.aborted;) {
     const headers: Record<string, string> = seen === "" ? {} : { "Last-Event-ID": seen };
-    const response = await call(path, { headers, signal });
+    const response = await open({ headers, signal });
     if (response.status === 204 || !response.body) return;
     ended = await readStream(response.body, (event) => {
       seen = event.id === "" ? seen : event.id;
