@@ -168,11 +168,51 @@ check_is_installed() {
   pid="$(service_pid)"
   user="$(inside stat -c %U "/proc/$pid")"
   [ "$user" = snapthrough ] || fail "the service runs as $user"
-  [ "$(inside stat -c '%U %a' /var/lib/snapthrough)" = "snapthrough 750" ] || fail "/var/lib/snapthrough is open"
+  [ "$(inside stat -c '%U %a' /var/lib/snapthrough)" = "snapthrough 700" ] || fail "/var/lib/snapthrough is open"
   if [ -n "$booted" ]; then
     [ "$(inside systemctl is-enabled snapthrough)" = enabled ] || fail "the unit is not enabled"
     [ "$(inside systemctl --failed --no-legend | wc -l)" = 0 ] || fail "a unit failed"
   fi
+}
+
+# filters PROCESS: how many filters of system calls the kernel applies to it.
+filters() { inside sed -n 's/^Seccomp_filters:[^0-9]*//p' "/proc/$1/status"; }
+
+# The unit's filter does not keep processes that compute from applying their own.
+check_runners_are_confined() {
+  local pid runner
+  pid="$(service_pid)"
+  runner="$(inside sh -c "cat /proc/$pid/task/*/children" | tr ' ' '\n' | grep -m 1 .)" || fail "there is no runner"
+  [ "$(filters "$runner")" -gt "$(filters "$pid")" ] || fail "the runner has no filter of its own"
+}
+
+# add_key NAME: a key in /root/NAME, and its digest in the configuration.
+add_key() {
+  local key
+  key="$(head -c 32 /dev/urandom | sha256sum | cut -d ' ' -f 1)"
+  echo "$key" >"$root/root/$1"
+  printf '[[keys]]\nowner = "%s"\nsha256 = "%s"\n' "$1" "$(printf %s "$key" | sha256sum | cut -d ' ' -f 1)" \
+    >>"$root/etc/snapthrough/config.toml"
+}
+
+# Whether keys are asked for is decided at the start; others are read by a reload, without a restart.
+check_keys_are_read() {
+  local pid
+  add_key ann
+  inside systemctl restart snapthrough
+  service_up
+  pid="$(service_pid)"
+  ! inside snapthrough submit "$example" >"$work/refused" 2>&1 || fail "a key is not asked for"
+  grep -q unauthorized "$work/refused" || fail "refused otherwise: $(cat "$work/refused")"
+  inside snapthrough submit "$example" --key-file /root/ann >/dev/null || fail "the first key is not taken"
+  add_key ben
+  inside systemctl reload snapthrough
+  for _ in $(seq 50); do
+    inside snapthrough submit "$example" --key-file /root/ben >/dev/null 2>&1 && break
+    sleep 0.1
+  done
+  inside snapthrough submit "$example" --key-file /root/ben >/dev/null || fail "the second key is not taken"
+  [ "$(service_pid)" = "$pid" ] || fail "the service was restarted for a second key"
 }
 
 check_is_purged() {
@@ -268,6 +308,9 @@ if [ "${#libraries[@]}" -gt 0 ]; then
 fi
 
 if [ -n "$booted" ]; then
+  say "runners are confined; keys are read"
+  check_runners_are_confined
+  check_keys_are_read
   say "systemd-analyze security"
   inside systemd-analyze security --no-pager snapthrough.service >"$work/security"
   tail -n 1 "$work/security"
