@@ -232,7 +232,7 @@ if [ ! -d "$root" ]; then
 fi
 pack_before
 libraries=()
-for file in "$(dirname "$package")"/libsnapthrough*.deb; do
+for file in "$(dirname "$package")"/{libsnapthrough,python3-snapthrough}*.deb; do
   if [ -f "$file" ]; then
     cp "$file" "$root/root/"
     libraries+=("/root/$(basename "$file")")
@@ -241,6 +241,9 @@ done
 say "dependencies are downloaded: the system itself has no network"
 apt_get chroot "$root" update -qq
 apt_get chroot "$root" install -y -qq --download-only /root/before.deb >/dev/null
+if [ "${#libraries[@]}" -gt 0 ]; then
+  apt_get chroot "$root" install -y -qq --download-only --no-install-recommends "${libraries[@]}" >/dev/null
+fi
 booted=yes
 if [ -n "${BY_HAND:-}" ] || ! start_system; then
   say "no systemd: the unit's ExecStart line is run by hand"
@@ -297,14 +300,18 @@ inside /root/client fetch "$job" | cmp - "$work/result_before"
 
 if [ "${#libraries[@]}" -gt 0 ]; then
   say "the libraries: a program in C is compiled with what they have, and run"
-  apt_get inside install -y "${libraries[@]}" >/dev/null 2>&1 || fail "apt-get install of ${libraries[*]}"
+  apt_get inside install -y --no-install-recommends "${libraries[@]}" >/dev/null 2>&1 || fail "apt-get install of ${libraries[*]}"
   export PKG_CONFIG_SYSROOT_DIR="$root" PKG_CONFIG_PATH
   PKG_CONFIG_PATH="$(dirname "$(find "$root/usr/lib" -name snapthrough.pc)")"
   # shellcheck disable=SC2046
   cc -std=c99 examples/c/critical_load.c $(pkg-config --cflags --libs snapthrough) -o "$root/root/critical_load"
   inside /root/critical_load "$example" >"$work/library_result" 2>/dev/null
   grep -q critical_load_factor "$work/library_result" || fail "the library does not solve"
-  apt_get inside purge -y libsnapthrough1 libsnapthrough-dev >/dev/null 2>&1
+  say "the Python package solves with the library"
+  inside python3 -c 'import snapthrough as st, sys; print(st.solve(open(sys.argv[1]).read()).summary.critical_load_factor)' \
+    "$example" >"$work/python_result"
+  grep -qF "$(cat "$work/python_result")" "$work/library_result" || fail "Python's critical load is not the library's"
+  apt_get inside purge -y libsnapthrough1 libsnapthrough-dev python3-snapthrough >/dev/null 2>&1
 fi
 
 if [ -n "$booted" ]; then

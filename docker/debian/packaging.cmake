@@ -12,7 +12,9 @@ set(debian ${CMAKE_CURRENT_LIST_DIR})
 set(made ${CMAKE_CURRENT_BINARY_DIR}/debian)
 set(packages programs development)
 if(TARGET snapthrough_shared)
-  list(APPEND packages library)
+  list(APPEND packages library python)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/clients/python/snapthrough DESTINATION lib/python3/dist-packages COMPONENT python
+    PATTERN __pycache__ EXCLUDE)
 endif()
 
 # The service.
@@ -55,6 +57,7 @@ endforeach()
 set(programs_name snapthrough)
 set(library_name libsnapthrough1)
 set(development_name libsnapthrough-dev)
+set(python_name python3-snapthrough)
 foreach(package IN LISTS packages)
   install(FILES ${made}/copyright ${made}/changelog.gz ${made}/changelog.Debian.gz
     DESTINATION share/doc/${${package}_name} COMPONENT ${package})
@@ -84,6 +87,7 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME ${programs_name})
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS adduser)
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS librsvg2-bin)  # figures as PNG
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "stability of slender structures on elastic bases
 Computes how beams, columns, piles, arches (tunnels), rings (buried pipes) and
 plane frames lose stability when they press on, or are held by, an elastic
@@ -117,5 +121,16 @@ and, where the shared library is packaged, its C header and pkg-config file.")
 if(TARGET snapthrough_shared)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library_name} (= ${package_version})")
 endif()
+
+# python3-snapthrough: no compiled module, so that it serves every version of Python and every architecture
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME ${python_name})
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.9)")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "${library_name}, python3-matplotlib")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "stability of slender structures on elastic bases, for Python
+Models, analyses, sweeps and results of snapthrough as typed Python, in process
+with libsnapthrough1 or by a service. Needs the standard library only; data
+frames and plots use pandas and matplotlib where they are there.")
 
 include(CPack)
