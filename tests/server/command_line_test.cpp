@@ -276,7 +276,10 @@ TEST_F(CommandLine, TheShellScriptOfTheDocumentEndsWhateverTheServiceSays) {
 TEST_F(CommandLine, TheCommandsOfTheReadmeRun) {
   const std::string program = "build/release/snapthrough ";
   const auto runs = [&](std::string line) {
-    line.replace(line.find(program), program.size(), std::string(SNAPTHROUGH_EXECUTABLE) + " ");
+    const std::string built = std::string(SNAPTHROUGH_EXECUTABLE) + " ";
+    for (std::size_t at = line.find(program); at != line.npos; at = line.find(program, at + built.size())) {
+      line.replace(at, program.size(), built);
+    }
     const std::string command = "cd " SNAPTHROUGH_SOURCE_DIR " && timeout 60 " +
                                 line.substr(0, line.find('#')) + " > " + folder_.file("out");
     EXPECT_EQ(std::system(command.c_str()), 0) << line;
