@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that dependencies point one way: solver <- api <- server, the folders of the solver from the ground up, and
+"""Checks that dependencies point one way: solver <- api <- server and clients, the folders of the solver from the ground up, and
 which libraries each layer sees.
 
   check_includes.py              exit status 1 names the includes that are not allowed
@@ -59,12 +59,15 @@ def is_json(name):
 def allowed(layer, quoted, name):
     """Whether a file of that layer may include this."""
     if quoted:
-        layers = {"solver": ("solver/",), "api": ("solver/", "api/"), "server": ("solver/", "api/", "server/")}
+        layers = {"solver": ("solver/",), "api": ("solver/", "api/"), "server": ("solver/", "api/", "server/"),
+                  "clients": ("solver/", "api/", "clients/", "snapthrough.h")}
         return name.startswith(layers[layer])
     if layer == "solver":
         return name in SOLVER_STANDARD or is_eigen(name)
     if layer == "api":
         return name in API_STANDARD or is_json(name)
+    if layer == "clients":
+        return name in API_STANDARD | {"chrono", "stddef.h", "stdint.h"} or is_json(name)
     return not is_eigen(name)
 
 
@@ -107,6 +110,8 @@ BAD = [("solver", f"#include <{name}>") for name in FORBIDDEN_SOLVER] + [
     ("api", "#include <Eigen/Core>"),
     ("api", "#include <fstream>"),
     ("api", "#include \"server/status.h\""),
+    ("clients", "#include \"server/status.h\""),
+    ("clients", "#include <thread>"),
     ("server", "#include <Eigen/Dense>"),
     ("server", "#include \"tests/server/x.h\""),
 ]
@@ -124,7 +129,7 @@ def main(arguments):
         return self_test()
     offenders = 0
     files = 0
-    for layer in ("solver", "api", "server"):
+    for layer in ("solver", "api", "server", "clients"):
         for path in sorted((ROOT / layer).rglob("*")):
             if path.suffix not in (".h", ".cpp"):
                 continue

@@ -16,9 +16,9 @@ if [ "${1:-}" = --changed ]; then
     echo "tidy: no $ref here to compare with"
     exit 0
   fi
-  mapfile -t files < <(git diff --name-only --diff-filter=AMR "$ref" -- 'solver/*.cpp' 'api/*.cpp' 'server/*.cpp')
+  mapfile -t files < <(git diff --name-only --diff-filter=AMR "$ref" -- 'solver/*.cpp' 'api/*.cpp' 'server/*.cpp' 'clients/*.cpp')
   if [ "${#files[@]}" -eq 0 ]; then
-    echo "tidy: no source of solver, api or server changed since $ref"
+    echo "tidy: no source of solver, api, server or clients changed since $ref"
     exit 0
   fi
   if [ "${#files[@]}" -gt "$most_changed" ]; then
@@ -26,7 +26,7 @@ if [ "${1:-}" = --changed ]; then
     files=("${files[@]:0:most_changed}")
   fi
 elif [ "${#files[@]}" -eq 0 ]; then
-  mapfile -t files < <(git ls-files 'solver/*.cpp' 'api/*.cpp' 'server/*.cpp')
+  mapfile -t files < <(git ls-files 'solver/*.cpp' 'api/*.cpp' 'server/*.cpp' 'clients/*.cpp')
 fi
 # Version 16: version 14, Debian's default, fails on <ranges> in C++20.
 install_packages "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}" clang-tidy-16
