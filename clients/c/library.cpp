@@ -323,7 +323,7 @@ snapthrough_document* snapthrough_sweep(const char* document, size_t length, uin
     if (!read.sweep) {
       return refused(read.malformed, read.findings);
     }
-    if (std::string rule = broken_rule(*read.sweep, {first, count}); !rule.empty()) {
+    if (const std::string rule = broken_rule(*read.sweep, {first, count}); !rule.empty()) {
       return wrong_use(rule);
     }
     Caller caller(*stop, callback, user);

@@ -102,7 +102,9 @@ export declare class Client {
     call(path: string, request?: RequestInit): Promise<Response>;
     /** The JSON document that is the body of the response. */
     read<T>(path: string, request?: RequestInit): Promise<T>;
-    private resultOf;
+    private solveUnwatched;
+    /** Events are told however fast the analysis is: the job is handed in, and followed, before its result is asked for. */
+    private solveWatched;
     /** Follows a job or sweep to its end; when the signal aborts, it is dismissed. */
     private ended;
     /** All rows of a sweep, in as many parts as the service wants. */

@@ -100,8 +100,7 @@ export class Client {
   /** The result of a request, however long it takes. */
   async solve(request: RequestDocument, options: SolveOptions = {}): Promise<Solution> {
     const watched = options.onProgress ?? options.onPoints ?? options.onCriticalPoint ?? options.signal;
-    const answer = await this.ask(request, watched ? 0 : kLongestWait, options);
-    const solution = answer.result ? answer : await this.resultOf(answer.job, options);
+    const solution = watched ? await this.solveWatched(request, options) : await this.solveUnwatched(request, options);
     for (const warning of solution.result.warnings) this.onWarning(warning, solution.job);
     return solution;
   }
@@ -235,18 +234,22 @@ export class Client {
     }
   }
 
-  private async resultOf(job: string, options: SolveOptions): Promise<Solution> {
-    const path = `/v1/jobs/${job}`;
-    if (options.onProgress ?? options.onPoints ?? options.onCriticalPoint ?? options.signal) {
-      await this.ended(path, options.signal, (event) => {
-        if (event.type === "progress") options.onProgress?.(event.data as JobProgressEvent);
-        if (event.type === "points") options.onPoints?.(event.data as PathPointsEvent);
-        if (event.type === "critical_point") options.onCriticalPoint?.(event.data as CriticalPointEvent);
-      });
-    } else {
-      while (isActive((await this.job(job, kLongestWait)).status));
-    }
-    return { job, result: await this.jobResult(job), cached: false };
+  private async solveUnwatched(request: RequestDocument, options: SolveOptions): Promise<Solution> {
+    const answer = await this.ask(request, kLongestWait, options);
+    if (answer.result) return answer;
+    while (isActive((await this.job(answer.job, kLongestWait)).status));
+    return { job: answer.job, result: await this.jobResult(answer.job), cached: false };
+  }
+
+  /** Events are told however fast the analysis is: the job is handed in, and followed, before its result is asked for. */
+  private async solveWatched(request: RequestDocument, options: SolveOptions): Promise<Solution> {
+    const { id, status } = await this.submit(request, options);
+    await this.ended(`/v1/jobs/${id}`, options.signal, (event) => {
+      if (event.type === "progress") options.onProgress?.(event.data as JobProgressEvent);
+      if (event.type === "points") options.onPoints?.(event.data as PathPointsEvent);
+      if (event.type === "critical_point") options.onCriticalPoint?.(event.data as CriticalPointEvent);
+    });
+    return { job: id, result: await this.jobResult(id), cached: status === "successful" };
   }
 
   /** Follows a job or sweep to its end; when the signal aborts, it is dismissed. */
