@@ -19,6 +19,9 @@ sys.path.insert(0, str(PACKAGE))
 
 import snapthrough  # noqa: E402
 
+# Where a shell starts a job in the background it ignores SIGINT, and so would these tests.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
 BUILD = pathlib.Path(os.environ.get("BUILD_FOLDER", ROOT / "build" / "release")).resolve()
 EXECUTABLE = str(BUILD / "snapthrough")
 LIBRARY = str(BUILD / "libsnapthrough.so.1")
