@@ -83,7 +83,7 @@ std::shared_ptr<nlohmann::json> read_document(const std::string& path, const Str
     status = kOther;
     return nullptr;
   }
-  api::ParsedText parsed = api::parse_json(*text, api::kFigureLimits);
+  const api::ParsedText parsed = api::parse_json(*text, api::kFigureLimits);
   print_findings(parsed.findings, streams);
   status = parsed.document == nullptr ? kWrongRequest : kDone;
   return parsed.document;

@@ -33,7 +33,7 @@ std::string kind_of(const json& problem) {
 }
 
 json document_of(const Answer& answer) {
-  json document = json::parse(answer.body, nullptr, false);
+  const json document = json::parse(answer.body, nullptr, false);
   return document.is_discarded() ? json() : document;
 }
 

@@ -102,11 +102,11 @@ class Routes {
 
   // routes_hops.cpp
   Response list_components(const Request& request, const std::string& id);
-  Response describe_component(const Request& request, const std::string& id);
+  Response describe_component(const Request& request, const std::string& name);
   /// A call that names its component in `pointer`.
   Response solve(const Request& request, const std::string& id);
   /// A call of the component of that name; of the one in `pointer` when the name is "solve".
-  Response solve_component(const Request& request, const std::string& id);
+  Response solve_component(const Request& request, const std::string& name);
   Response submit_call(const Request& request, const std::string& name,
                        const std::shared_ptr<const hops::Definition>& definition,
                        const std::string& document);

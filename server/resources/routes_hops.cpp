@@ -72,7 +72,7 @@ std::vector<Finding> mistakes_of(const api::ParsedText& parsed) {
     return {{"", "wrong_type", "a call is an object with pointer and values"}};
   }
   const json algorithm = parsed.document->value("algo", json());
-  if (!algorithm.is_null() && algorithm != "") {
+  if (!algorithm.is_null() && algorithm != json("")) {
     return {
         {"/algo", "not_supported", "this service computes its own components, no Grasshopper definitions"}};
   }

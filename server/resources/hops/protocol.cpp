@@ -352,6 +352,7 @@ ReadValues read_values(const json& call, const Definition& definition) {
     const std::string at = "/" + escape_pointer_token(name);
     if (input == inputs.end()) {
       std::vector<std::string_view> known;
+      known.reserve(inputs.size());
       for (const ComponentInput& one : inputs) {
         known.push_back(one.name);
       }
