@@ -5,6 +5,8 @@
 
 #include <future>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 #include <system_error>
 #include <thread>
 
@@ -337,6 +339,49 @@ TEST_F(ServiceTest, TakesABodyInChunks) {
   }
   socket.send("0\r\n\r\n");
   EXPECT_EQ(socket.receive().status, 200);
+}
+
+/// The requests of clients that people have, byte for byte as their sources send them:
+/// HttpClient.PostAsJsonAsync of .NET (chunks, since JsonContent has no length; hexadecimal digits in
+/// capitals), fetch of a stream in Node (undici), curl -T -, requests and http.client of Python,
+/// Invoke-RestMethod, Power Query's Web.Contents.
+TEST_F(ServiceTest, TakesTheRequestsOfOtherPeoplesClients) {
+  start(solved);
+  const std::string body = column_request();
+  const std::string host = "Host: localhost:" + std::to_string(port()) + "\r\n";
+  std::ostringstream capitals;
+  capitals << std::hex << std::uppercase << body.size() << "\r\n" << body << "\r\n0\r\n\r\n";
+  std::ostringstream small;
+  small << std::hex << body.size() << "\r\n" << body << "\r\n0\r\n\r\n";
+  const std::string length = "Content-Length: " + std::to_string(body.size()) + "\r\n";
+  const std::string chunks = "Transfer-Encoding: chunked\r\n";
+  const std::string requests[] = {
+      host + chunks + "Content-Type: application/json; charset=utf-8\r\n\r\n" + capitals.str(),
+      host +
+          "connection: keep-alive\r\ncontent-type: application/json\r\naccept: */*\r\naccept-language: *\r\n"
+          "sec-fetch-mode: cors\r\nuser-agent: node\r\naccept-encoding: br, gzip, deflate\r\n" +
+          "transfer-encoding: chunked\r\n\r\n" + small.str(),
+      host + "User-Agent: curl/7.88.1\r\nAccept: */*\r\n" + chunks +
+          "Content-Type: application/json\r\n\r\n" + small.str(),
+      host +
+          "User-Agent: python-requests/2.28.1\r\nAccept-Encoding: gzip, deflate\r\nAccept: */*\r\n"
+          "Connection: keep-alive\r\n" +
+          length + "Content-Type: application/json\r\n\r\n" + body,
+      host + "Accept-Encoding: identity\r\n" + length + "Content-Type: application/json\r\n\r\n" + body,
+      host +
+          "User-Agent: Mozilla/5.0 (Windows NT; Windows NT 10.0; en-US) WindowsPowerShell/5.1\r\n"
+          "Content-Type: application/json\r\n" +
+          length + "Connection: Keep-Alive\r\n\r\n" + body,
+      host +
+          "Content-Type: application/json\r\nPrefer: return=minimal\r\nUser-Agent: Microsoft.Data.Mashup\r\n"
+          "Accept-Encoding: gzip, deflate\r\n" +
+          length + "\r\n" + body};
+  for (const std::string& request : requests) {
+    Socket socket(port());
+    socket.send("POST /v1/jobs HTTP/1.1\r\n" + request);
+    const int status = socket.receive().status;
+    EXPECT_TRUE(status == 200 || status == 201) << status << '\n' << request;
+  }
 }
 
 TEST_F(ServiceTest, APortInUseIsReported) {
