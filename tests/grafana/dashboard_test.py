@@ -7,6 +7,7 @@ import json
 import pathlib
 import re
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
@@ -31,6 +32,13 @@ def get(url, body=None):
     headers = {"Content-Type": "application/json"} if body else {}
     with urllib.request.urlopen(urllib.request.Request(url, body, headers)) as response:
         return response.read().decode()
+
+
+def free_port():
+    """A port that nobody listens on: the system's choice, released again."""
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
 
 
 def has_ended(service):
@@ -93,12 +101,12 @@ class Dashboard(unittest.TestCase):
             config.write_text("global: {scrape_interval: 500ms, scrape_timeout: 500ms}\nscrape_configs:\n"
                               f"  - job_name: snapthrough\n    static_configs: [{{targets: ['127.0.0.1:{self.service.port}']}}]\n",
                               encoding="utf-8")
-            port = self.service.port + 1 if self.service.port < 65535 else self.service.port - 1
+            port = free_port()
             url = f"http://127.0.0.1:{port}"
             server = subprocess.Popen(["prometheus", f"--config.file={config}", f"--storage.tsdb.path={folder}/data",
                                        f"--web.listen-address=127.0.0.1:{port}"], stderr=subprocess.DEVNULL)
             try:
-                self.wait_for_scrapes(url)
+                self.wait_for_scrapes(server, url)
                 for title, expression in queries():
                     query = expression.replace("$__rate_interval", "10s").replace("$instance", ".*")
                     answer = json.loads(get(f"{url}/api/v1/query?" + urllib.parse.urlencode({"query": query})))
@@ -109,10 +117,10 @@ class Dashboard(unittest.TestCase):
                 server.terminate()
                 server.wait(timeout=20)
 
-    def wait_for_scrapes(self, url):
+    def wait_for_scrapes(self, server, url):
         count = f"{url}/api/v1/query?" + urllib.parse.urlencode({"query": "min(count_over_time(snapthrough_connections[1m]))"})
         deadline = time.monotonic() + 25
-        while time.monotonic() < deadline:
+        while time.monotonic() < deadline and server.poll() is None:
             try:
                 result = json.loads(get(count))["data"]["result"]
                 if result and float(result[0]["value"][1]) >= 4:
@@ -120,7 +128,8 @@ class Dashboard(unittest.TestCase):
             except OSError:
                 pass
             time.sleep(0.2)
-        self.fail("Prometheus does not read the service")
+        self.fail("Prometheus does not read the service; " +
+                  ("it runs" if server.poll() is None else f"it ended with {server.returncode}"))
 
 
 if __name__ == "__main__":
