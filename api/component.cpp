@@ -142,8 +142,8 @@ PlugType type_of_place(std::vector<std::string> tokens) {
   return types.boolean ? PlugType::boolean : PlugType::text;
 }
 
-/// The last token that is a name, and what follows it; with more tokens before it while another output has
-/// that name.
+/// The name of an output: the last token of its JSON Pointer that is no index, and the indices after it.
+/// While another output has that name, the token before it is added.
 std::string name_of_place(const std::vector<std::string>& tokens, const std::set<std::string>& taken) {
   std::size_t begin = tokens.size() - 1;
   while (begin > 0 && array_index(tokens[begin])) {

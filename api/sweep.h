@@ -41,7 +41,8 @@ class Sweep {
  public:
   explicit Sweep(std::shared_ptr<const SweepData> data) : data_(std::move(data)) {}
 
-  /// What the document says, for api/ itself (sweep_data.h).
+  /// The sweep document as it was read. Only files of api/ can use it: SweepData is defined in
+  /// api/sweep_data.h.
   [[nodiscard]] const SweepData& data() const { return *data_; }
   /// Number of points, 1 to kMaxSweepPoints.
   [[nodiscard]] std::uint64_t size() const;

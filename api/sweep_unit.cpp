@@ -1,5 +1,8 @@
 #include "api/sweep_unit.h"
 
+#include <algorithm>
+#include <exception>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -83,10 +86,9 @@ std::vector<PointOutcome> followed(const Sweep& sweep, std::uint64_t first, cons
   return outcomes;
 }
 
-}  // namespace
-
-std::vector<PointOutcome> unit_outcomes(const Sweep& sweep, std::uint64_t unit, const SolvePoint& solve,
-                                        const Hooks& hooks, std::shared_ptr<nlohmann::json>& document) {
+/// unit_outcomes(), but for what is thrown.
+std::vector<PointOutcome> outcomes_of(const Sweep& sweep, std::uint64_t unit, const SolvePoint& solve,
+                                      const Hooks& hooks, std::shared_ptr<nlohmann::json>& document) {
   const std::uint64_t first = unit * sweep.unit_size();
   if (sweep.follows()) {
     return followed(sweep, first, hooks.stop);
@@ -95,6 +97,34 @@ std::vector<PointOutcome> unit_outcomes(const Sweep& sweep, std::uint64_t unit, 
   std::vector<PointOutcome> alone;
   alone.push_back(solved(sweep, document, solve, hooks));
   return alone;
+}
+
+}  // namespace
+
+std::vector<PointOutcome> unit_outcomes(const Sweep& sweep, std::uint64_t unit, const SolvePoint& solve,
+                                        const Hooks& hooks, std::shared_ptr<nlohmann::json>& document) {
+  try {
+    return outcomes_of(sweep, unit, solve, hooks, document);
+  } catch (...) {
+    return std::vector<PointOutcome>(sweep.unit_size(), mishap_now());
+  }
+}
+
+bool is_cut_short(const std::vector<PointOutcome>& outcomes) {
+  return std::any_of(outcomes.begin(), outcomes.end(),
+                     [](const PointOutcome& outcome) { return outcome.code == "cancelled"; });
+}
+
+PointOutcome mishap_now() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return {"", "out_of_memory", "the analysis needs more memory than there is"};
+  } catch (const std::exception& error) {
+    return {"", "internal_error", error.what()};
+  } catch (...) {
+    return {"", "internal_error", "unknown exception"};
+  }
 }
 
 }  // namespace snapthrough::api

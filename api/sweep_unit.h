@@ -29,10 +29,17 @@ using SolvePoint = std::function<TimedResult(const Model&, const Analysis&, cons
 /// curve is followed by follow_critical_point() (solver/sweep/critical_curve.h).
 /// @param unit number of the unit, less than sweep.units()
 /// @param document of a point of the sweep, to be written over; null makes a new one
-/// @throws what `solve` throws, std::bad_alloc, and std::runtime_error where a model between two points of a
-/// curve is no valid request
+/// Never throws for what an analysis does: a thrown exception is the outcome of every point (mishap_now()).
 [[nodiscard]] std::vector<PointOutcome> unit_outcomes(const Sweep& sweep, std::uint64_t unit,
                                                       const SolvePoint& solve, const Hooks& hooks,
                                                       std::shared_ptr<nlohmann::json>& document);
+
+/// Whether outcomes are missing because the unit was asked to stop.
+[[nodiscard]] bool is_cut_short(const std::vector<PointOutcome>& outcomes);
+
+/// @brief The exception that is being handled, as the outcome of a point: "out_of_memory" or
+/// "internal_error".
+/// @pre called in a catch block
+[[nodiscard]] PointOutcome mishap_now();
 
 }  // namespace snapthrough::api

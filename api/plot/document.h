@@ -63,7 +63,7 @@ class Field {
 
 /// The member's number, or what stands for it where it is absent.
 [[nodiscard]] double number_or(const Field& object, std::string_view key, double otherwise);
-/// The member's text, or what stands for it where it is absent.
+/// The text of a member of an object, or a default where the object has no such member.
 [[nodiscard]] std::string text_or(const Field& object, std::string_view key, std::string_view otherwise);
 
 }  // namespace snapthrough::api::plot

@@ -235,11 +235,6 @@ std::string broken_rule(const api::Sweep& sweep, const Points& points) {
   return "";
 }
 
-bool is_cut_short(const std::vector<api::PointOutcome>& outcomes) {
-  return std::any_of(outcomes.begin(), outcomes.end(),
-                     [](const api::PointOutcome& outcome) { return outcome.code == "cancelled"; });
-}
-
 Answer swept(const api::Sweep& sweep, Points points, Caller& caller) {
   const Hooks hooks{.stop = caller.stopped()};
   points.count = std::min(points.count, sweep.size() - points.first);
@@ -253,7 +248,7 @@ Answer swept(const api::Sweep& sweep, Points points, Caller& caller) {
     const std::vector<api::PointOutcome> outcomes =
         hooks.stop.stop_requested() ? std::vector<api::PointOutcome>()
                                     : api::unit_outcomes(sweep, unit, timed, hooks, document);
-    if (outcomes.empty() || is_cut_short(outcomes)) {
+    if (outcomes.empty() || api::is_cut_short(outcomes)) {
       answer.status = SNAPTHROUGH_CANCELLED;
       break;
     }

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <utility>
 
+#include "api/sweep_unit.h"
 #include "server/pause.h"
 #include "server/sweeps/unit.h"
 
@@ -109,7 +110,7 @@ void compute(const Chunk& chunk, double seconds, const SweepSurroundings& world,
   std::size_t next = 0;
   const auto late = [&] { return is_late(world.environment.monotonic_seconds() - start, seconds, world); };
   const auto take = [&](std::vector<api::PointOutcome> outcomes) {
-    if (is_cut_short(outcomes) && watch.reason() != StopReason::time_limit) {
+    if (api::is_cut_short(outcomes) && watch.reason() != StopReason::time_limit) {
       return;
     }
     add_rows(work.pending[next], std::move(outcomes), world, work.rows);

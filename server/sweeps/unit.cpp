@@ -1,6 +1,5 @@
 #include "server/sweeps/unit.h"
 
-#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -29,22 +28,12 @@ std::vector<api::PointOutcome> SweepUnit::compute(const SolveFunction& solve, co
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     return api::TimedResult{std::move(result), elapsed.count()};
   };
-  try {
-    return api::unit_outcomes(sweep_, number_, timed, hooks, document);
-  } catch (...) {
-    const JobFailure mishap = mishap_now();
-    return std::vector<api::PointOutcome>(count(), {"", mishap.code, mishap.detail});
-  }
+  return api::unit_outcomes(sweep_, number_, timed, hooks, document);
 }
 
 std::string SweepUnit::too_long(std::chrono::seconds longest) const {
   return sweep_.follows() ? "the curve took longer than one analysis may take"
                           : "the analysis took longer than " + std::to_string(longest.count()) + " s";
-}
-
-bool is_cut_short(const std::vector<api::PointOutcome>& outcomes) {
-  return std::any_of(outcomes.begin(), outcomes.end(),
-                     [](const api::PointOutcome& outcome) { return outcome.code == kCancelled; });
 }
 
 void compute_units(const UnitTask& task, const SolveFunction& solve) {
@@ -55,7 +44,7 @@ void compute_units(const UnitTask& task, const SolveFunction& solve) {
     }
     std::vector<api::PointOutcome> outcomes =
         SweepUnit(task.sweep, task.units[i]).compute(solve, {task.stop}, document);
-    const bool stopped = is_cut_short(outcomes);
+    const bool stopped = api::is_cut_short(outcomes);
     task.tell(std::move(outcomes));
     if (stopped) {
       return;

@@ -34,8 +34,7 @@ class SweepUnit {
   [[nodiscard]] std::vector<std::string> keys(const std::string& outputs, std::string_view owner,
                                               std::shared_ptr<nlohmann::json>& document) const;
 
-  /// @brief The outcomes of its points, in their order (api::unit_outcomes()). Whatever is thrown is an
-  /// outcome, too: mishap_now() of every point. Thread-safe if `solve` is.
+  /// @brief The outcomes of its points, in their order (api::unit_outcomes()). Thread-safe if `solve` is.
   /// @param document as above
   [[nodiscard]] std::vector<api::PointOutcome> compute(const SolveFunction& solve, const Hooks& hooks,
                                                        std::shared_ptr<nlohmann::json>& document) const;
@@ -47,9 +46,6 @@ class SweepUnit {
   const api::Sweep& sweep_;
   std::uint64_t number_;
 };
-
-/// Whether outcomes are missing because it was asked to stop.
-[[nodiscard]] bool is_cut_short(const std::vector<api::PointOutcome>& outcomes);
 
 /// @brief Computes the units of a task one after the other on this thread, and tells the outcomes of each.
 /// Ends early when it is enough, or asked to stop.

@@ -1,12 +1,11 @@
 #include "server/worker/solve_job.h"
 
 #include <chrono>
-#include <exception>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "api/api.h"
+#include "api/sweep_unit.h"
 
 namespace snapthrough::server {
 namespace {
@@ -28,15 +27,8 @@ JobRun outcome_of(const api::Request& request, Result result, double seconds) {
 }  // namespace
 
 JobFailure mishap_now() {
-  try {
-    throw;
-  } catch (const std::bad_alloc&) {
-    return {kOutOfMemory, "the analysis needs more memory than there is", ""};
-  } catch (const std::exception& error) {
-    return {"internal_error", error.what(), ""};
-  } catch (...) {
-    return {"internal_error", "unknown exception", ""};
-  }
+  api::PointOutcome mishap = api::mishap_now();
+  return {std::move(mishap.code), std::move(mishap.detail), ""};
 }
 
 JobRun solve_job(std::string_view request, const SolveFunction& solve, const Hooks& hooks) {
