@@ -23,17 +23,8 @@ MeshAnswer said_by(const Structure& structure, const FoundPoint* found) {
 
 }  // namespace
 
-TraceSink CriticalLoads::watch(TraceSink sink) {
-  TraceSink out = sink;
-  out.on_point = [this, inner = sink.on_point](const PathPoint& point) {
-    inner(point);
-    last_ = point;
-  };
-  out.on_critical = [this, inner = sink.on_critical](const CriticalEvent& event) {
-    inner(event);
-    targets_.push_back({event, last_, result_.critical_points.size() - 1});
-  };
-  return out;
+void CriticalLoads::on_critical(const CriticalEvent& event) {
+  targets_.push_back({event, last_, result_.critical_points.size() - 1});
 }
 
 const Structure& CriticalLoads::structure_of(int number) const {
@@ -49,7 +40,7 @@ FineMesh* CriticalLoads::level(int number) {
     const Discretization& asked = analysis_.discretization;
     const double tolerance = asked.fixed_mesh ? 1e-9 : std::min(1e-7, 1e-3 * asked.accuracy);
     levels_.push_back(
-        std::make_unique<FineMesh>(with_finer_piece(model_, coarse, *mesh), continuation_, tolerance));
+        std::make_unique<FineMesh>(with_finer_piece(model_, coarse, *mesh), follower_, tolerance));
   }
   return levels_[number - 1].get();
 }

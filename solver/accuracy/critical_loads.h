@@ -11,7 +11,7 @@
 
 #include "solver/accuracy/polish.h"
 #include "solver/hooks.h"
-#include "solver/trace/trace.h"
+#include "solver/trace/path_observer.h"
 
 namespace snapthrough {
 
@@ -31,21 +31,22 @@ using Complete =
 /// A point that finer meshes do not have belongs to a mesh that is too coarse for the path as a whole: then
 /// the path is to be followed again on a finer one. What both paths have within the accuracy is confirmed,
 /// too.
-class CriticalLoads {
+class CriticalLoads final : public PathObserver {
  public:
   /// @param earlier critical points of the path on a coarser mesh; kept by reference
-  /// @param continuation the follower of the path; it has to be alive and started when confirm() is called
+  /// @param follower of the path; it has to be alive and started when confirm() is called
   CriticalLoads(const Model& model, const Analysis& analysis, const Structure& structure,
-                const Continuation& continuation, const std::vector<CriticalPoint>& earlier, Result& result)
+                const PathFollower& follower, const std::vector<CriticalPoint>& earlier, Result& result)
       : model_(model),
         analysis_(analysis),
         structure_(structure),
-        continuation_(continuation),
+        follower_(follower),
         earlier_(earlier),
         result_(result) {}
 
-  /// @brief The same sink, which also remembers the critical points as they are added to the result.
-  [[nodiscard]] TraceSink watch(TraceSink sink);
+  void on_point(const PathPoint& point) override { last_ = point; }
+  /// Remembers a critical point. @pre an observer before this one has added the point to the result
+  void on_critical(const CriticalEvent& event) override;
   /// @brief Sets the error estimates of all critical points seen, refines where they exceed the accuracy, and
   /// reports the meshes.
   /// @param text what is to be said of it is added
@@ -84,7 +85,7 @@ class CriticalLoads {
   const Model& model_;
   const Analysis& analysis_;
   const Structure& structure_;
-  const Continuation& continuation_;
+  const PathFollower& follower_;
   const std::vector<CriticalPoint>& earlier_;
   Result& result_;
   PathPoint last_;

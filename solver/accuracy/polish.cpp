@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "solver/discrete/transfer.h"
+#include "solver/events/locate.h"
 #include "solver/events/newton_event.h"
+#include "solver/path/segment.h"
 
 namespace snapthrough {
 namespace {
@@ -19,7 +21,7 @@ constexpr double kWidening = 6.0;
 /// Corrections at most: a base that the finer mesh takes as stiffer presses another way, and settles slowly.
 constexpr int kMostCorrections = 40;
 
-ContinuationOptions patient(ContinuationOptions options) {
+PathOptions patient(PathOptions options) {
   options.corrector.max_iterations = kMostCorrections;
   options.corrector.most_stalled = kMostCorrections;
   return options;
@@ -41,19 +43,19 @@ std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<
 
 }  // namespace
 
-FineMesh::FineMesh(Structure structure, const Continuation& measure, double tolerance)
+FineMesh::FineMesh(Structure structure, const PathFollower& measure, double tolerance)
     : structure_(std::move(structure)),
       problem_(structure_),
-      continuation_(problem_, patient(measure.options())),
+      follower_(problem_, patient(measure.options())),
       tolerance_(tolerance) {
-  continuation_.measure_as(measure);
+  follower_.norm().adopt(measure.norm());
 }
 
 PathPoint FineMesh::transferred(const Structure& from, const PathPoint& point) const {
   PathPoint out = point;
   out.y = transfer(from, point.y, structure_);
   out.tangent = transfer(from, point.tangent, structure_);
-  const double norm = continuation_.metric().norm(out.tangent, out.tangent_lambda);
+  const double norm = follower_.norm().metric().norm(out.tangent, out.tangent_lambda);
   out.tangent /= norm;
   out.tangent_lambda /= norm;
   return out;
@@ -61,7 +63,6 @@ PathPoint FineMesh::transferred(const Structure& from, const PathPoint& point) c
 
 /// The path's point in the plane normal to the guess' tangent, `along` (from -1 to 1) reaches from the guess.
 std::optional<PathPoint> FineMesh::corrected(const PathPoint& guess, double along, double reach) {
-  const Chord chord{guess.tangent, guess.tangent_lambda, false};
   PathPoint lo = guess;
   PathPoint hi = guess;
   lo.y -= reach * guess.tangent;
@@ -70,7 +71,8 @@ std::optional<PathPoint> FineMesh::corrected(const PathPoint& guess, double alon
   hi.y += reach * guess.tangent;
   hi.lambda += reach * guess.tangent_lambda;
   hi.arc_length += reach;
-  return continuation_.between(chord, lo, hi, 0.5 * (1.0 + along));
+  const Segment around(follower_.solver(), lo, hi, guess.tangent, guess.tangent_lambda);
+  return around.point_at(0.5 * (1.0 + along));
 }
 
 std::optional<FoundPoint> FineMesh::near(const CriticalEvent& known, const PathPoint& at, double reach) {
@@ -78,7 +80,7 @@ std::optional<FoundPoint> FineMesh::near(const CriticalEvent& known, const PathP
   if (!before) return std::nullopt;
   const auto after = corrected(at, 1.0, reach);
   if (!after) return std::nullopt;
-  const LocatedEvents located = locate_critical_points(continuation_, *before, *after, {tolerance_});
+  const LocatedEvents located = locate_critical_points(follower_.solver(), *before, *after, {tolerance_});
   if (!located.same_path) return std::nullopt;
   return same_as(known, located.events);
 }
@@ -91,13 +93,13 @@ std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const Pat
   StepSize size{0.0, distance};
   PathPoint to;
   for (int n = 0; n < kMostSteps; ++n) {
-    const StepOutcome outcome = continuation_.step(*from, size, to);
+    const StepOutcome outcome = follower_.step(*from, size, to);
     if (outcome == StepOutcome::step_underflow) return std::nullopt;
     const LocatedEvents located = outcome == StepOutcome::kinked
-                                      ? locate_at_kink(continuation_, *from, to, size.taken, {tolerance_})
-                                      : locate_critical_points(continuation_, *from, to, {tolerance_});
+                                      ? locate_at_kink(follower_, *from, to, size.taken, {tolerance_})
+                                      : locate_critical_points(follower_.solver(), *from, to, {tolerance_});
     if (!located.same_path) {
-      continuation_.reject(size);
+      follower_.reject(size);
       continue;
     }
     if (auto found = same_as(known, located.events)) return found;
@@ -108,18 +110,18 @@ std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const Pat
 
 bool FineMesh::has(const Structure& from, const PathPoint& point) {
   const PathPoint at = transferred(from, point);
-  const double reach = kReach * continuation_.metric().norm(at.y, 0.0);
+  const double reach = kReach * follower_.norm().metric().norm(at.y, 0.0);
   if (!(reach > 0.0)) return true;  // nothing has moved
   const auto found = corrected(at, 0.0, reach);
-  return found && found->negative == point.negative && continuation_.distance(*found, at) <= reach;
+  return found && found->negative == point.negative && follower_.norm().distance(*found, at) <= reach;
 }
 
 std::optional<CriticalEvent> FineMesh::by_newton(const Structure& from, const CriticalEvent& known,
                                                  const PathPoint& at) {
   Eigen::MatrixXd null(structure_.size, known.null.cols());
   for (Eigen::Index i = 0; i < null.cols(); ++i) null.col(i) = transfer(from, known.null.col(i), structure_);
-  const double reach = kReach * kWidening * continuation_.path_length_to(at);
-  return critical_point_near(continuation_, known, at, std::move(null), reach, tolerance_);
+  const double reach = kReach * kWidening * follower_.norm().search_scale(at);
+  return critical_point_near(follower_.solver(), known, at, std::move(null), reach, tolerance_);
 }
 
 std::optional<CriticalEvent> FineMesh::bifurcation(const Structure& from, const CriticalEvent& known) {
@@ -129,7 +131,7 @@ std::optional<CriticalEvent> FineMesh::bifurcation(const Structure& from, const 
 std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEvent& known,
                                          const Structure& base, const PathPoint& before) {
   const PathPoint at = transferred(from, known.point);
-  const double path = continuation_.path_length_to(at);
+  const double path = follower_.norm().search_scale(at);
   if (!(path > 0.0)) return std::nullopt;
   if (known.null.size() > 0)
     if (const auto event = by_newton(from, known, at)) return FoundPoint{*event, event->point};
@@ -137,7 +139,7 @@ std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEv
   for (const double reach : {kReach * path, kReach * kWidening * path})
     if (auto found = near(known, at, reach)) return found;
   const PathPoint start = transferred(base, before);
-  return follow(known, start, continuation_.distance(start, at));
+  return follow(known, start, follower_.norm().distance(start, at));
 }
 
 }  // namespace snapthrough

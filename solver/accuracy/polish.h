@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "solver/discrete/structure.h"
-#include "solver/events/locate.h"
-#include "solver/path/continuation.h"
+#include "solver/events/critical_event.h"
+#include "solver/path/path_follower.h"
 #include "solver/problem/structural_problem.h"
 
 namespace snapthrough {
@@ -22,11 +22,11 @@ class FineMesh {
  public:
   /// @param measure a follower that has started on a coarser mesh: its norm and load scale are used here
   /// @param tolerance of located points, relative in the load factor
-  FineMesh(Structure structure, const Continuation& measure, double tolerance);
+  FineMesh(Structure structure, const PathFollower& measure, double tolerance);
 
   [[nodiscard]] const Structure& structure() const { return structure_; }
   [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
-  [[nodiscard]] const ContinuationStatistics& statistics() const { return continuation_.statistics(); }
+  [[nodiscard]] const PathStatistics& statistics() const { return follower_.statistics(); }
 
   /// @brief The critical point of this mesh that belongs to one of a coarser mesh: of the same type, with the
   /// same inertia on both sides, the nearest by load.
@@ -38,7 +38,7 @@ class FineMesh {
   /// @return empty when there is no such point nearby
   [[nodiscard]] std::optional<FoundPoint> find(const Structure& from, const CriticalEvent& known,
                                                const Structure& base, const PathPoint& before);
-  /// @brief The same bifurcation of this mesh, by Newton's method alone.
+  /// @brief The bifurcation of this mesh that belongs to one of a coarser mesh, by Newton's method alone.
   /// @pre known.null
   [[nodiscard]] std::optional<CriticalEvent> bifurcation(const Structure& from, const CriticalEvent& known);
   /// @brief Whether this mesh has an equilibrium near a point of a coarser one, with the same inertia.
@@ -55,7 +55,7 @@ class FineMesh {
 
   Structure structure_;
   StructuralProblem problem_;
-  Continuation continuation_;
+  PathFollower follower_;
   double tolerance_;
 };
 

@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "solver/discrete/structure.h"
-#include "solver/events/locate.h"
+#include "solver/events/critical_event.h"
 #include "solver/hooks.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
-#include "solver/path/continuation.h"
-#include "solver/path/path_point.h"
+#include "solver/path/path_start.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/result.h"
 
@@ -65,17 +64,17 @@ void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reve
 ///
 /// Constant actions are put on by a path of their own, from nothing to their full size.
 /// @param on_unloaded receives that path's first point, the unloaded structure, with its modes; may be empty
-/// @return empty, with the failure in `result`, when there is no such state or it is not stable
-[[nodiscard]] std::optional<PathPoint> start_of_path(
-    const Model& model, const Structure& structure, StructuralProblem& problem, Continuation& continuation,
-    double direction, const Hooks& hooks, Result& result,
-    const std::function<void(const PathPoint&)>& on_unloaded = {});
+/// @return without a point, with the failure in `result`, when there is no such state or it is not stable
+[[nodiscard]] PathStart start_of_path(const Model& model, const Structure& structure,
+                                      StructuralProblem& problem, PointSolver& solver, double direction,
+                                      const Hooks& hooks, Result& result,
+                                      const std::function<void(const PathPoint&)>& on_unloaded = {});
 
 /// @brief The start of a path at Analysis::start, corrected on the structure's mesh.
-/// @return empty, with the failure `no_start` in `result`, when no equilibrium is within a fiftieth of it
+/// @return without a point, with the failure `no_start` in `result`, when no equilibrium is within a fiftieth
+/// of the given displacement gradients
 /// @pre analysis.start
-[[nodiscard]] std::optional<PathPoint> start_at_state(const Model& model, const Structure& structure,
-                                                      Continuation& continuation, const Analysis& analysis,
-                                                      Result& result);
+[[nodiscard]] PathStart start_at_state(const Model& model, const Structure& structure, PointSolver& solver,
+                                       const Analysis& analysis, Result& result);
 
 }  // namespace snapthrough

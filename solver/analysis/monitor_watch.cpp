@@ -23,14 +23,10 @@ bool MonitorWatch::has_moved(const Eigen::VectorXd& y) const {
   return std::abs(row_->dot(y) - row_->dot(start_)) > unit * std::max(kOfMotion * largest_motion(y), kOfSize);
 }
 
-TraceSink MonitorWatch::watch(TraceSink sink) {
-  if (row_ == nullptr) return sink;
-  sink.on_point = [this, next = std::move(sink.on_point)](const PathPoint& point) {
-    structure_moved_ = structure_moved_ || largest_motion(point.y) > 0.0;
-    monitor_moved_ = monitor_moved_ || has_moved(point.y);
-    if (next) next(point);
-  };
-  return sink;
+void MonitorWatch::on_point(const PathPoint& point) {
+  if (row_ == nullptr) return;
+  structure_moved_ = structure_moved_ || largest_motion(point.y) > 0.0;
+  monitor_moved_ = monitor_moved_ || has_moved(point.y);
 }
 
 }  // namespace snapthrough

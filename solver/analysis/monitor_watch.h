@@ -6,15 +6,14 @@
 #include <utility>
 
 #include "solver/discrete/structure.h"
-#include "solver/path/path_point.h"
-#include "solver/trace/trace.h"
+#include "solver/trace/path_observer.h"
 
 namespace snapthrough {
 
 /// @brief Compares what a monitor has moved by since the start of the first path with the displacements of
 /// the whole structure. A monitor that symmetry, a support or a hinge keeps in place moves by rounding only:
 /// a stop rule for its range cannot act.
-class MonitorWatch {
+class MonitorWatch final : public PathObserver {
  public:
   /// @param structure kept by reference
   /// @param row of the monitor, kept by reference; null: there is no such rule
@@ -24,8 +23,7 @@ class MonitorWatch {
 
   /// Whether the monitor has moved by more than rounding at scaled unknowns y.
   [[nodiscard]] bool has_moved(const Eigen::VectorXd& y) const;
-  /// @brief The same sink, whose points are looked at on the way. This must outlive it.
-  [[nodiscard]] TraceSink watch(TraceSink sink);
+  void on_point(const PathPoint& point) override;
   /// Whether the structure moved and the monitor did not at any point that was looked at.
   [[nodiscard]] bool is_still() const { return row_ != nullptr && structure_moved_ && !monitor_moved_; }
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "solver/path/segment.h"
+
 namespace snapthrough {
 namespace {
 
@@ -18,7 +20,7 @@ int negative_at(const PathPoint& from, const std::vector<CriticalEvent>& critica
 
 }  // namespace
 
-std::vector<PathPoint> PathPoints::spread(Continuation& continuation, int count, const std::stop_token& stop,
+std::vector<PathPoint> PathPoints::spread(PointSolver& solver, int count, const std::stop_token& stop,
                                           int& missing) const {
   constexpr double kSamePlace = 1e-12;  // of the branch's length: a branch may end at a critical point
   std::vector<PathPoint> out;
@@ -39,17 +41,15 @@ std::vector<PathPoint> PathPoints::spread(Continuation& continuation, int count,
     }
     const int pieces =
         spacing > 0.0 ? static_cast<int>(std::ceil((to.arc_length - from.arc_length) / spacing)) : 1;
-    const Chord chord = continuation.chord(from, to);
+    const Segment step(solver, from, to);
     for (int k = 1; k < pieces; ++k) {
-      auto point = stop.stop_requested()
-                       ? std::nullopt
-                       : continuation.between(chord, from, to, static_cast<double>(k) / pieces);
+      auto point = stop.stop_requested() ? std::nullopt : step.point_at(static_cast<double>(k) / pieces);
       if (!point) {
         ++missing;
         continue;
       }
       point->negative = negative_at(from, accepted_[i].then, point->arc_length);
-      continuation.find_modes(*point, from.modes);
+      solver.find_modes(*point, from.modes);
       out.push_back(std::move(*point));
     }
     std::stable_sort(out.begin() + first, out.end(),

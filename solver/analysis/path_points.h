@@ -5,9 +5,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "solver/events/locate.h"
-#include "solver/path/continuation.h"
-#include "solver/path/path_point.h"
+#include "solver/events/critical_event.h"
+#include "solver/path/point_solver.h"
 
 namespace snapthrough {
 
@@ -22,8 +21,8 @@ class PathPoints {
   /// @brief The branch's points in order: those added, and between accepted ones others, equally spaced and
   /// corrected to equilibrium, so that no distance is longer than the branch's length over count - 1.
   /// @param missing overwritten: points that could not be corrected, or were not for the stop
-  [[nodiscard]] std::vector<PathPoint> spread(Continuation& continuation, int count,
-                                              const std::stop_token& stop, int& missing) const;
+  [[nodiscard]] std::vector<PathPoint> spread(PointSolver& solver, int count, const std::stop_token& stop,
+                                              int& missing) const;
 
  private:
   struct Accepted {

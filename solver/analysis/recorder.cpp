@@ -7,6 +7,7 @@
 
 #include "solver/analysis/analyses.h"
 #include "solver/discrete/structure.h"
+#include "solver/events/root_finder.h"
 #include "solver/hooks.h"
 #include "solver/numeric/number_text.h"
 #include "solver/report/mode.h"
@@ -31,7 +32,12 @@ int Recorder::add_state(const PathPoint& point) {
   return static_cast<int>(result_.states.size()) - 1;
 }
 
-void Recorder::start_branch(std::optional<int> parent) {
+void Recorder::begin_branch(int branch_number, std::optional<int> parent) {
+  branch_ = branch_number;
+  branch_points_ = 0;
+  neutral_.start(branch_);
+  at_branch_start_ = true;
+  if (analysis_.type != AnalysisType::path) return;
   Branch branch;
   branch.id = branch_;
   branch.parent = parent;
@@ -76,7 +82,7 @@ void Recorder::add_row(const PathPoint& point) {
 void Recorder::spread_points() {
   const int asked = *analysis_.output.path_points;
   int missing = 0;
-  const std::vector<PathPoint> points = kept_.spread(continuation_, asked, stop_, missing);
+  const std::vector<PathPoint> points = kept_.spread(solver_, asked, hooks_.stop, missing);
   for (const PathPoint& point : points) add_row(point);
   kept_ = {};
   const auto count = static_cast<int>(points.size());
@@ -110,7 +116,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
     if (const auto member = member_that_buckles(structure_, model_, event.null.col(0)))
       point.member = model_.members[*member].id;
   if (point.state && analysis_.output.modes)
-    point.mode = mode_at(structure_, model_, continuation_.problem(), event, analysis_);
+    point.mode = mode_at(structure_, model_, solver_.problem(), event, analysis_);
   if (!passed_by && analysis_.output.path_points && analysis_.type == AnalysisType::path)
     kept_.add_critical(event);
   if (is_loss_of_stability(analysis_, point) && !result_.summary.critical_load_factor) {
@@ -124,7 +130,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
   result_.critical_points.push_back(std::move(point));
 }
 
-void Recorder::add_contact(const ContactChange& change) {
+void Recorder::on_contact(const ContactChange& change) {
   for (std::size_t i = 0; i < zones_.ids().size(); ++i) {
     if (change.before[i] == change.after[i]) continue;
     ContactEvent event;
@@ -173,45 +179,37 @@ void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
       continue;
     }
     if ((va > 0.0) == (vb > 0.0)) continue;
-    add_state(point_at_load(continuation_, from, to, target));
+    add_state(point_at_load(solver_, from, to, target));
     reached_[i] = 1;
   }
   at_branch_start_ = false;
 }
 
-TraceSink Recorder::sink(const Hooks& hooks, int branch, std::optional<int> parent) {
-  branch_ = branch;
-  neutral_.start(branch);
-  stop_ = hooks.stop;
-  at_branch_start_ = true;
-  TraceSink sink;
-  if (analysis_.type == AnalysisType::path) start_branch(parent);
-  const auto progress = hooks.on_progress;
-  const auto traced = hooks.on_point;
-  sink.on_point = [this, progress, traced, step = 0](const PathPoint& point) mutable {
-    add_point(point);
-    if (traced) traced({branch_, step, user_load(point), point.arc_length, point.negative, monitors(point)});
-    if (progress) progress({branch_, step, user_load(point), point.negative});
-    ++step;
-  };
-  sink.on_touching = [this](const PathPoint& point) {
-    result_.warnings.push_back(
-        {"touching_eigenvalue", "a stiffness falls to zero within rounding at load factor " +
-                                    number(user_load(point)) +
-                                    " and rises again: whether two critical points lie "
-                                    "there cannot be told"});
-  };
-  sink.on_holds = [this](const PathPoint& point) { neutral_.note(point.holds, user_load(point)); };
-  sink.on_contact = [this](const ContactChange& change) { add_contact(change); };
-  sink.on_critical = [this, found = hooks.on_critical](const CriticalEvent& event) {
-    add_critical(event);
-    if (found) found(result_.critical_points.back());
-  };
-  sink.on_step = [this](const PathPoint& from, const PathPoint& to) {
-    if (branch_ == 0) softest_.add_step(from, to);
-    if (analysis_.output.states == StateOutput::at_load_factors) add_states_at_loads(from, to);
-  };
-  return sink;
+void Recorder::on_point(const PathPoint& point) {
+  add_point(point);
+  const int step = branch_points_++;
+  if (hooks_.on_point)
+    hooks_.on_point({branch_, step, user_load(point), point.arc_length, point.negative, monitors(point)});
+  if (hooks_.on_progress) hooks_.on_progress({branch_, step, user_load(point), point.negative});
+}
+
+void Recorder::on_touching(const PathPoint& point) {
+  result_.warnings.push_back(
+      {"touching_eigenvalue", "a stiffness falls to zero within rounding at load factor " +
+                                  number(user_load(point)) +
+                                  " and rises again: whether two critical points lie there cannot be told"});
+}
+
+void Recorder::on_unpinned(const PathPoint& point) { neutral_.note(point.holds, user_load(point)); }
+
+void Recorder::on_critical(const CriticalEvent& event) {
+  add_critical(event);
+  if (hooks_.on_critical) hooks_.on_critical(result_.critical_points.back());
+}
+
+void Recorder::on_step(const PathPoint& from, const PathPoint& to) {
+  if (branch_ == 0) softest_.add_step(from, to);
+  if (analysis_.output.states == StateOutput::at_load_factors) add_states_at_loads(from, to);
 }
 
 }  // namespace snapthrough

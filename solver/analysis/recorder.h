@@ -11,31 +11,40 @@
 #include "solver/hooks.h"
 #include "solver/report/contact.h"
 #include "solver/report/neutral_motion.h"
-#include "solver/trace/trace.h"
+#include "solver/trace/path_observer.h"
 
 namespace snapthrough {
 
 struct Structure;
 
 /// Collects the path, the critical points and the states that were asked for.
-class Recorder {
+class Recorder final : public PathObserver {
  public:
-  Recorder(const Model& model, const Analysis& analysis, const Structure& structure,
-           Continuation& continuation, SoftestPoint& softest, Result& result)
+  Recorder(const Model& model, const Analysis& analysis, const Structure& structure, PointSolver& solver,
+           SoftestPoint& softest, const Hooks& hooks, Result& result)
       : model_(model),
         analysis_(analysis),
         structure_(structure),
-        continuation_(continuation),
+        solver_(solver),
         softest_(softest),
+        hooks_(hooks),
         result_(result),
         zones_(structure, model),
         neutral_(structure, model, result.neutral_motion),
         observer_(model, analysis, structure),
         reached_(analysis.output.at_load_factors.size(), 0) {}
 
-  /// What to give to trace() for a branch; its points are recorded under `branch` from then on.
-  [[nodiscard]] TraceSink sink(const Hooks& hooks, int branch = 0, std::optional<int> parent = std::nullopt);
-  /// Counts what add_contact() reports; empty when no support is one-sided.
+  /// What a path reports is recorded under `branch` from now on. To be called before each path.
+  void begin_branch(int branch = 0, std::optional<int> parent = std::nullopt);
+
+  void on_point(const PathPoint& point) override;
+  void on_critical(const CriticalEvent& event) override;
+  void on_contact(const ContactChange& change) override;
+  void on_touching(const PathPoint& point) override;
+  void on_unpinned(const PathPoint& point) override;
+  void on_step(const PathPoint& from, const PathPoint& to) override;
+
+  /// Counts what on_contact() reports; empty when no support is one-sided.
   [[nodiscard]] ZoneCounter zone_counter() const;
   /// Completes the branch that was recorded last and sets how it ended.
   void end_branch(const char* code);
@@ -45,11 +54,9 @@ class Recorder {
   void finish();
 
  private:
-  void start_branch(std::optional<int> parent);
   void add_row(const PathPoint& point);
   void spread_points();
   void add_critical(const CriticalEvent& event);
-  void add_contact(const ContactChange& change);
   void add_states_at_loads(const PathPoint& from, const PathPoint& to);
   int add_state(const PathPoint& point);
   [[nodiscard]] std::vector<NamedValue> monitors(const PathPoint& point) const;
@@ -58,17 +65,18 @@ class Recorder {
   const Model& model_;
   const Analysis& analysis_;
   const Structure& structure_;
-  Continuation& continuation_;
+  PointSolver& solver_;
   SoftestPoint& softest_;
+  const Hooks& hooks_;
   Result& result_;
   ContactZones zones_;
   NeutralMotionLog neutral_;
   Observer observer_;
   std::vector<char> reached_;  ///< of the load factors whose states were asked for
   PathPoints kept_;            ///< of the current branch, where points are asked for between them
-  std::stop_token stop_;
   int points_ = 0;
   int branch_ = 0;
+  int branch_points_ = 0;  ///< reported on the current branch
   /// Arc length of the point where stability was lost: there the stiffness is zero without being computed.
   std::optional<double> lost_;
   bool at_branch_start_ = true;  ///< no step of the current branch was taken

@@ -58,17 +58,15 @@ TraceRules rules_of(const Model& model, const Analysis& analysis, const Structur
   if (stop.load_factor)
     rules.load = {
         {(*stop.load_factor)[0] * structure.scales.load, (*stop.load_factor)[1] * structure.scales.load}};
-  if (stop.monitor) {
-    const SparseRow* row = row_of(structure, stop.monitor->id);
-    rules.monitor = [row](const PathPoint& at) { return row->dot(at.y); };
-    rules.monitor_range = stop.monitor->range;
-  }
+  const auto value_of = [](const SparseRow* row) {
+    return [row](const PathPoint& point) { return row->dot(point.y); };
+  };
+  if (stop.monitor) rules.monitor = {value_of(row_of(structure, stop.monitor->id)), stop.monitor->range};
   if (analysis.control.type == ControlType::load) rules.limit_points = 1;
   if (analysis.control.type == ControlType::displacement) {
     const SparseRow* row = row_of(structure, analysis.control.monitor);
-    rules.monitor_turns = true;
-    rules.controlled = [row](const PathPoint& at) { return row->dot(at.y); };
-    rules.monitor_rate = [row](const PathPoint& at) { return row->dot(at.tangent); };
+    // a monitor is linear in the unknowns: its rate is its value on the tangent
+    rules.controlled = {value_of(row), [row](const PathPoint& point) { return row->dot(point.tangent); }};
   }
   return rules;
 }
@@ -94,8 +92,8 @@ void bound_negative(const Analysis& analysis, int at_start, const MonitorWatch& 
 
 /// Where the path's points are not returned as states they need not be equilibria to rounding: those of a
 /// chosen mesh are the path's to a small part of the accuracy asked for.
-ContinuationOptions options_of(const Analysis& analysis) {
-  ContinuationOptions options;
+PathOptions options_of(const Analysis& analysis) {
+  PathOptions options;
   if (points_are_not_polished(analysis))
     options.corrector.tangent_tolerance = std::min(1e-4, 10.0 * analysis.discretization.accuracy);
   return options;
@@ -240,11 +238,11 @@ struct Pending {
 class BranchFollower {
  public:
   BranchFollower(const Model& model, const Analysis& analysis, const Structure& structure,
-                 Continuation& continuation, Recorder& recorder, CriticalLoads& loads, MonitorWatch& watch,
+                 PathFollower& follower, Recorder& recorder, CriticalLoads& loads, MonitorWatch& watch,
                  const Hooks& hooks)
       : analysis_(analysis),
         rules_(rules_of(model, analysis, structure)),
-        continuation_(continuation),
+        follower_(follower),
         recorder_(recorder),
         loads_(loads),
         watch_(watch),
@@ -262,7 +260,7 @@ class BranchFollower {
 
   const Analysis& analysis_;
   TraceRules rules_;
-  Continuation& continuation_;
+  PathFollower& follower_;
   Recorder& recorder_;
   CriticalLoads& loads_;
   MonitorWatch& watch_;
@@ -284,10 +282,10 @@ void BranchFollower::add(const TraceOutcome& outcome, int branch) {
 }
 
 bool BranchFollower::follow(const Pending& pending) {
-  const auto first = first_point_of_branch(continuation_, pending.at, pending.sign);
+  const auto first = first_point_of_branch(follower_, pending.at, pending.sign);
   if (!first) return false;
   const int id = ++branches_;
-  const TraceSink sink = watch_.watch(loads_.watch(recorder_.sink(hooks_, id, pending.parent)));
+  recorder_.begin_branch(id, pending.parent);
   PathPoint origin = pending.at.point;
   origin.arc_length = 0.0;
   recorder_.add_point(origin);
@@ -296,7 +294,8 @@ bool BranchFollower::follow(const Pending& pending) {
   bound_negative(analysis_, first->negative, watch_, rules);
   rules.finer_imperfection = [this](const CriticalEvent& event) { return loads_.finer_imperfection(event); };
   rules.zones = recorder_.zone_counter();
-  const TraceOutcome outcome = trace(continuation_, first, rules, analysis_.step, sink, hooks_.stop);
+  const TraceOutcome outcome =
+      trace(follower_, first, rules, analysis_.step, {&watch_, &recorder_, &loads_}, hooks_.stop);
   recorder_.end_branch(text_of(outcome.end).code);
   if (outcome.end == TraceEnd::rejoined) ++rejoined_;
   if (analysis_.branches.follow == Follow::all) add(outcome, id);
@@ -320,13 +319,13 @@ std::string BranchFollower::run() {
 namespace {
 
 /// What adds to critical points what was asked for beside their loads; empty: nothing was.
-Complete completer(const Model& model, const Analysis& analysis, const Continuation& continuation,
-                   const Hooks& hooks, Result& result) {
+Complete completer(const Model& model, const Analysis& analysis, const PathNorm& norm, const Hooks& hooks,
+                   Result& result) {
   if (analysis.sensitivities.empty() && !analysis.koiter) return {};
   return [&](const Structure& structure, const CriticalEvent& event, CriticalPoint& point) {
     constexpr double kReach = 0.02;  // of the path so far
-    const LocatedPoint at{event, continuation.metric().load_weight,
-                          kReach * continuation.path_length_to(event.point), continuation.least_load()};
+    const LocatedPoint at{event, norm.metric().load_weight, kReach * norm.search_scale(event.point),
+                          norm.least_load()};
     int& factorisations = result.diagnostics.factorizations;
     const auto offsets = [&](const Model& changed) { return mode_offsets(changed, analysis, hooks.stop); };
     if (!analysis.sensitivities.empty())
@@ -346,38 +345,40 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
                const std::vector<CriticalPoint>& earlier, const Hooks& hooks, Result& result,
                std::vector<double>& decays) {
   StructuralProblem problem(structure);
-  Continuation continuation(problem, options_of(analysis));
-  SoftestPoint softest(continuation);
+  PathFollower follower(problem, options_of(analysis));
+  PointSolver& solver = follower.solver();
+  SoftestPoint softest(solver);
   const auto start =
       analysis.start
-          ? start_at_state(model, structure, continuation, analysis, result)
-          : start_of_path(model, structure, problem, continuation, path_direction(analysis), hooks, result,
+          ? start_at_state(model, structure, solver, analysis, result)
+          : start_of_path(model, structure, problem, solver, path_direction(analysis), hooks, result,
                           [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
-  if (const auto touching = with_least_piece(model, structure, problem, continuation, start, result)) {
+  if (const auto touching = with_least_piece(model, structure, problem, solver.norm(), start, result)) {
     result.failure.reset();
     return follow_on(model, analysis, *touching, earlier, hooks, result, decays);
   }
   if (!start) return true;
-  Recorder recorder(model, analysis, structure, continuation, softest, result);
-  CriticalLoads loads(model, analysis, structure, continuation, earlier, result);
-  MonitorWatch watch(structure, row_of_stop(structure, analysis), start->y);
-  const TraceSink sink = watch.watch(loads.watch(recorder.sink(hooks)));
+  Recorder recorder(model, analysis, structure, solver, softest, hooks, result);
+  CriticalLoads loads(model, analysis, structure, follower, earlier, result);
+  MonitorWatch watch(structure, row_of_stop(structure, analysis), start.point->y);
+  recorder.begin_branch();
   TraceRules rules = rules_of(model, analysis, structure);
-  bound_negative(analysis, start->negative, watch, rules);
+  bound_negative(analysis, start.point->negative, watch, rules);
   if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
   rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
   for (const CriticalPoint& point : earlier)
     if (point.branch == 0) rules.expected.push_back(point.load_factor * structure.scales.load);
-  const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);
+  const TraceOutcome outcome =
+      trace(follower, start.point, rules, analysis.step, {&watch, &recorder, &loads}, hooks.stop);
   recorder.end_branch(text_of(outcome.end).code);
   const std::size_t primary = result.critical_points.size();
   std::string branches;
   if (analysis.type == AnalysisType::path && analysis.branches.follow != Follow::primary) {
-    BranchFollower follower(model, analysis, structure, continuation, recorder, loads, watch, hooks);
-    follower.add(outcome, 0);
-    static_cast<void>(unless_cancelled([&] { branches = follower.run(); }));
+    BranchFollower followed(model, analysis, structure, follower, recorder, loads, watch, hooks);
+    followed.add(outcome, 0);
+    static_cast<void>(unless_cancelled([&] { branches = followed.run(); }));
   }
-  add_statistics(continuation.statistics(), result);
+  add_statistics(follower.statistics(), result);
   bool confirmed = true;
   std::string meshes;
   if (!analysis.discretization.fixed_mesh && !outcome.on_critical && !text_of(outcome.end).failure) {
@@ -385,7 +386,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
     if (confirmed && result.critical_points.empty())
       meshes = "; no critical point was met, and a finer mesh agrees at the path's end";
   }
-  const Complete complete = completer(model, analysis, continuation, hooks, result);
+  const Complete complete = completer(model, analysis, solver.norm(), hooks, result);
   confirmed = loads.confirm(hooks.stop, meshes, complete) && confirmed;
   const double at = outcome.on_critical ? result.critical_points[primary - 1].load_factor
                                         : outcome.last.lambda / structure.scales.load;

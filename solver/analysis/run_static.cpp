@@ -11,7 +11,7 @@
 #include "solver/analysis/observer.h"
 #include "solver/analysis/softest_point.h"
 #include "solver/events/critical_mode.h"
-#include "solver/events/locate.h"
+#include "solver/events/root_finder.h"
 #include "solver/events/touching.h"
 #include "solver/hooks.h"
 #include "solver/newton/contact_state.h"
@@ -212,6 +212,47 @@ void fail_at_end(const Model& model, const Analysis& analysis, const Structure& 
   }
 }
 
+/// Keeps the states at the asked load factors that a path passes.
+class StaticObserver final : public PathObserver {
+ public:
+  StaticObserver(const Model& model, const Analysis& analysis, const Structure& structure,
+                 PointSolver& solver, SoftestPoint& softest, StaticRows& states, Result& result)
+      : analysis_(analysis),
+        structure_(structure),
+        solver_(solver),
+        softest_(softest),
+        states_(states),
+        neutral_(structure, model, result.neutral_motion) {}
+
+  void on_point(const PathPoint& point) override {
+    softest_.set_unloaded(point);
+    neutral_.note(point.holds, point.lambda / structure_.scales.load);
+  }
+  void on_unpinned(const PathPoint& point) override { on_point(point); }
+  void on_critical(const CriticalEvent& event) override {
+    if (event.negative_before == 0 && event.negative_after > 0) softest_.lose(event.point);
+  }
+  void on_step(const PathPoint& from, const PathPoint& to) override {
+    softest_.add_step(from, to);
+    for (std::size_t i = 0; i < analysis_.load_factors.size(); ++i) {
+      const double target = analysis_.load_factors[i] * structure_.scales.load;
+      const bool reached = std::abs(to.lambda - target) <= kSameLoadFactor * std::abs(target);
+      const bool passed = (from.lambda - target) * (to.lambda - target) <= 0.0;
+      if (!states_.lacks(i) || !(reached || passed)) continue;
+      const PathPoint point = reached ? to : point_at_load(solver_, from, to, target);
+      states_.set(i, point.y, point.negative);
+    }
+  }
+
+ private:
+  const Analysis& analysis_;
+  const Structure& structure_;
+  PointSolver& solver_;
+  SoftestPoint& softest_;
+  StaticRows& states_;
+  NeutralMotionLog neutral_;
+};
+
 /// Follows the path towards the factors of one sign and keeps the states it passes; false when it ends before
 /// the last.
 bool follow(const Model& model, const Analysis& analysis, const Structure& structure, double direction,
@@ -220,45 +261,25 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
     if (states.lacks(i)) last = std::max(last, analysis.load_factors[i] * direction);
   StructuralProblem problem(structure);
-  Continuation continuation(problem, {});
-  SoftestPoint softest(continuation);
-  const auto start = start_of_path(model, structure, problem, continuation, direction, hooks, result,
-                                   [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
-  if (const auto touching = with_least_piece(model, structure, problem, continuation, start, result)) {
+  PathFollower follower(problem);
+  PointSolver& solver = follower.solver();
+  SoftestPoint softest(solver);
+  const PathStart start =
+      start_of_path(model, structure, problem, solver, direction, hooks, result,
+                    [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
+  if (const auto touching = with_least_piece(model, structure, problem, solver.norm(), start, result)) {
     result.failure.reset();
     return follow(model, analysis, *touching, direction, hooks, states, result);
   }
   if (!start) return false;
   for (std::size_t i = 0; i < analysis.load_factors.size(); ++i)
-    if (analysis.load_factors[i] == 0.0 && states.lacks(i)) states.set(i, start->y, start->negative);
+    if (analysis.load_factors[i] == 0.0 && states.lacks(i))
+      states.set(i, start.point->y, start.point->negative);
   if (last == 0.0) return true;
   const TraceRules rules = static_rules(model, analysis, last * structure.scales.load);
-  TraceSink sink;
-  NeutralMotionLog neutral(structure, model, result.neutral_motion);
-  sink.on_point = [&](const PathPoint& point) {
-    softest.set_unloaded(point);
-    neutral.note(point.holds, point.lambda / structure.scales.load);
-  };
-  sink.on_holds = sink.on_point;
-  sink.on_critical = [&](const CriticalEvent& event) {
-    if (event.negative_before == 0 && event.negative_after > 0) softest.lose(event.point);
-  };
-  sink.on_step = [&](const PathPoint& from, const PathPoint& to) {
-    softest.add_step(from, to);
-    for (std::size_t i = 0; i < analysis.load_factors.size(); ++i) {
-      const double target = analysis.load_factors[i] * structure.scales.load;
-      const bool reached = std::abs(to.lambda - target) <= kSameLoadFactor * std::abs(target);
-      if (!states.lacks(i) || (!reached && (from.lambda - target) * (to.lambda - target) > 0.0)) continue;
-      if (reached) {
-        states.set(i, to.y, to.negative);
-        continue;
-      }
-      const PathPoint at = point_at_load(continuation, from, to, target);
-      states.set(i, at.y, at.negative);
-    }
-  };
-  const TraceOutcome outcome = trace(continuation, start, rules, analysis.step, sink, hooks.stop);
-  add_statistics(continuation.statistics(), result);
+  StaticObserver observer(model, analysis, structure, solver, softest, states, result);
+  const TraceOutcome outcome = trace(follower, start.point, rules, analysis.step, {&observer}, hooks.stop);
+  add_statistics(follower.statistics(), result);
   softest.report(structure, model, analysis, result);
   if (outcome.end == TraceEnd::load_factor) return true;
   fail_at_end(model, analysis, structure, problem, outcome, result);

@@ -11,6 +11,7 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/numeric/cubic.h"
 #include "solver/numeric/number_text.h"
+#include "solver/path/segment.h"
 #include "solver/report/mode.h"
 #include "solver/report/strain.h"
 
@@ -99,7 +100,7 @@ void SoftestPoint::add_step(const PathPoint& from, const PathPoint& to) {
     search_before_fall(from, to);
     return;
   }
-  if (lowest_ && lower_bound(*a, *b, continuation_.distance(from, to)) >= stiffness_of(*lowest_)->value)
+  if (lowest_ && lower_bound(*a, *b, solver_.norm().distance(from, to)) >= stiffness_of(*lowest_)->value)
     return;
   search(from, to);
 }
@@ -107,13 +108,13 @@ void SoftestPoint::add_step(const PathPoint& from, const PathPoint& to) {
 void SoftestPoint::search_before_fall(const PathPoint& from, const PathPoint& to) {
   const auto a = stiffness_of(from);
   const auto b = stiffness_of(to);
-  const double length = continuation_.distance(from, to);
+  const double length = solver_.norm().distance(from, to);
   const Cubic cubic{a->value, length * a->rate, b->value, length * b->rate};
   const auto steepest = cubic.inflection();
   if (!steepest || cubic.slope(*steepest) <= 0.0) return;
-  auto middle = continuation_.between(continuation_.chord(from, to), from, to, *steepest);
+  auto middle = Segment(solver_, from, to).point_at(*steepest);
   if (!middle) return;
-  continuation_.find_modes(*middle, from.modes);
+  solver_.find_modes(*middle, from.modes);
   const auto m = stiffness_of(*middle);
   if (m && middle->negative == 0 && m->rate > 0.0) search(from, *std::move(middle));
 }
@@ -126,12 +127,11 @@ void SoftestPoint::search_before_critical(PathPoint from) {
     const auto a = stiffness_of(from);
     if (!a || from.negative > 0 || !(a->rate < 0.0)) return;
     if (lowest_ && ratio(*lowest_).value_or(1.0) < kNearlyUnstable) return;
-    const double share = a->value / (-a->rate * continuation_.distance(from, *critical_));
+    const double share = a->value / (-a->rate * solver_.norm().distance(from, *critical_));
     if (!(share < kStraight)) return;
-    auto middle =
-        continuation_.between(continuation_.chord(from, *critical_), from, *critical_, std::max(share, 0.1));
+    auto middle = Segment(solver_, from, *critical_).point_at(std::max(share, 0.1));
     if (!middle) return;
-    continuation_.find_modes(*middle, from.modes);
+    solver_.find_modes(*middle, from.modes);
     const auto m = stiffness_of(*middle);
     if (m && middle->negative == 0 && m->rate > 0.0) {
       search(std::move(from), *std::move(middle));
@@ -148,15 +148,14 @@ void SoftestPoint::search(PathPoint low, PathPoint high) {
   for (int i = 0; i < kMostLooks; ++i) {
     const auto a = stiffness_of(low);
     const auto b = stiffness_of(high);
-    const double length = continuation_.distance(low, high);
+    const double length = solver_.norm().distance(low, high);
     const double least = std::min(a->value, b->value);
     const bool is_near = std::abs(high.lambda - low.lambda) <=
                          kSameLoad * std::max(std::abs(low.lambda), std::abs(high.lambda));
     if (is_near && lower_bound(*a, *b, length) >= (1.0 - kSameStiffness) * least) break;
-    auto middle =
-        continuation_.between(continuation_.chord(low, high), low, high, place_of_minimum(*a, *b, length));
+    auto middle = Segment(solver_, low, high).point_at(place_of_minimum(*a, *b, length));
     if (!middle) break;
-    continuation_.find_modes(*middle, low.modes);
+    solver_.find_modes(*middle, low.modes);
     const auto m = stiffness_of(*middle);
     if (!m || middle->negative > 0) break;
     const bool is_before = m->rate < 0.0 && m->value <= a->value;

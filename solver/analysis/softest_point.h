@@ -7,8 +7,7 @@
 #include "solver/discrete/structure.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
-#include "solver/path/continuation.h"
-#include "solver/path/path_point.h"
+#include "solver/path/point_solver.h"
 #include "solver/result.h"
 
 namespace snapthrough {
@@ -27,8 +26,8 @@ namespace snapthrough {
 /// reach of a design.
 class SoftestPoint {
  public:
-  /// @param continuation follower of the path; kept by reference
-  explicit SoftestPoint(Continuation& continuation) : continuation_(continuation) {}
+  /// @param solver of the path's points; kept by reference
+  explicit SoftestPoint(PointSolver& solver) : solver_(solver) {}
 
   /// Sets the stiffness that ratios are relative to, once. @param unloaded with its modes
   void set_unloaded(const PathPoint& unloaded);
@@ -55,7 +54,7 @@ class SoftestPoint {
   /// A local minimum between a point and the critical point, where the stiffness is zero.
   void search_before_critical(PathPoint from);
 
-  Continuation& continuation_;
+  PointSolver& solver_;
   double unloaded_ = 0.0;  ///< least stiffness of the unloaded structure; 0: not known
   std::optional<PathPoint> critical_;
   bool ended_ = false;

@@ -16,12 +16,13 @@ namespace snapthrough {
 namespace {
 
 /// Why there is no equilibrium under the first small load.
-std::string nothing_found(const Model& model, const Structure& structure, const Continuation& continuation) {
-  const Eigen::VectorXd& motion = continuation.loose_motion();
-  if (const auto& far = continuation.far_start()) {
+std::string nothing_found(const Model& model, const Structure& structure, const PathStart& start) {
+  const Eigen::VectorXd& motion = start.free_motion;
+  if (const auto& far = start.far_state) {
     return "the first state that was found lies farther from the unloaded structure than its gaps and "
            "elastic strains explain: displacement gradients (root mean square) of " +
-           rounded(far->moved) + ", those of small displacements are " + rounded(far->explained);
+           rounded(far->gradient) + ", those of small displacements are " +
+           rounded(far->small_displacement_gradient);
   }
   if (motion.size() == 0)
     return "no equilibrium was found for the first small load: contact alone may not hold the structure";
@@ -38,26 +39,37 @@ std::string nothing_found(const Model& model, const Structure& structure, const 
          model.nodes[node].id + "\")";
 }
 
-void fail_to_start(const Model& model, const Structure& structure, const Continuation& continuation,
-                   Result& result) {
-  const bool loose = continuation.loose_motion().size() > 0;
-  fail(result, loose ? "loose_part" : "no_start", nothing_found(model, structure, continuation));
+void fail_to_start(const Model& model, const Structure& structure, const PathStart& start, Result& result) {
+  const bool loose = start.free_motion.size() > 0;
+  fail(result, loose ? "loose_part" : "no_start", nothing_found(model, structure, start));
 }
+
+/// Hands on the first point of a path.
+class UnloadedPoint final : public PathObserver {
+ public:
+  /// @param receive may be empty
+  explicit UnloadedPoint(const std::function<void(const PathPoint&)>& receive) : receive_(receive) {}
+  void on_point(const PathPoint& point) override {
+    if (receive_ && point.arc_length == 0.0) receive_(point);
+  }
+
+ private:
+  const std::function<void(const PathPoint&)>& receive_;
+};
 
 /// The end of the constant actions' path as the start of the next, where they act in full: its load factor is
 /// one to a share of its last step, which may be far longer.
-PathPoint fully_loaded(Continuation& continuation, const PathPoint& end) {
+PathPoint fully_loaded(PointSolver& solver, const PathPoint& end) {
   PathPoint full = end;
   full.lambda = 0.0;
-  const double moved = continuation.metric().norm(end.y, 0.0);
-  return moved > 0.0 && continuation.correct_at_load(moved, full) ? full : end;
+  const double moved = solver.norm().metric().norm(end.y, 0.0);
+  return moved > 0.0 && solver.correct_at_load(moved, full) ? full : end;
 }
 
 }  // namespace
 
-std::optional<PathPoint> start_at_state(const Model& model, const Structure& structure,
-                                        Continuation& continuation, const Analysis& analysis,
-                                        Result& result) {
+PathStart start_at_state(const Model& model, const Structure& structure, PointSolver& solver,
+                         const Analysis& analysis, Result& result) {
   constexpr double kNear = 0.02;  // of the given displacements, by which the equilibrium may differ from them
   const StartState& state = *analysis.start;
   Eigen::VectorXd given;
@@ -65,58 +77,53 @@ std::optional<PathPoint> start_at_state(const Model& model, const Structure& str
     given = unknowns_of(structure, model, state);
   } catch (const std::invalid_argument& error) {
     fail(result, "no_start", std::string("the given state can't be joined by splines: ") + error.what());
-    return std::nullopt;
+    return {};
   }
-  auto start =
-      continuation.start_from(given, state.load_factor * structure.scales.load, analysis.step.direction);
+  PathStart start =
+      start_near(solver, given, state.load_factor * structure.scales.load, analysis.step.direction);
   const std::string where = " next to the given state at load factor " + number(state.load_factor);
   if (!start) {
     fail(result, "no_start", "no equilibrium was found" + where);
-    return std::nullopt;
+    return {};
   }
-  if (std::abs(start->lambda) >= continuation.load_bound()) {
+  if (std::abs(start.point->lambda) >= solver.norm().load_bound()) {
     fail(result, "no_start",
          "the structure has no stiffness at the equilibrium" + where +
              ": it is a critical point; give a state of the path beside it");
-    return std::nullopt;
+    return {};
   }
-  const PathMetric& metric = continuation.metric();
-  const double moved = metric.norm(start->y - given, 0.0);
+  const PathMetric& metric = solver.norm().metric();
+  const double moved = metric.norm(start.point->y - given, 0.0);
   const double size = metric.norm(given, 0.0);
   if (moved <= kNear * size) return start;
   fail(result, "no_start",
        "the equilibrium that was found" + where + " differs from it by " + rounded(moved / size) +
            " of its displacement gradients (root mean square): it is a state of another model");
-  return std::nullopt;
+  return {};
 }
 
-std::optional<PathPoint> start_of_path(const Model& model, const Structure& structure,
-                                       StructuralProblem& problem, Continuation& continuation,
-                                       double direction, const Hooks& hooks, Result& result,
-                                       const std::function<void(const PathPoint&)>& on_unloaded) {
+PathStart start_of_path(const Model& model, const Structure& structure, StructuralProblem& problem,
+                        PointSolver& solver, double direction, const Hooks& hooks, Result& result,
+                        const std::function<void(const PathPoint&)>& on_unloaded) {
   if (!structure.has_constant) {
-    auto start = continuation.start(direction);
-    if (!start) fail_to_start(model, structure, continuation, result);
+    PathStart start = find_start(solver, direction);
+    if (!start) fail_to_start(model, structure, start, result);
     return start;
   }
   problem.set_stage(StructuralProblem::Stage::constant);
-  ContinuationOptions options;
-  options.largest_first_load = 1e-2;
-  Continuation loading(problem, options);
+  constexpr double kLargestFirstLoad = 1e-2;  // share of the constant actions
+  PathFollower loading(problem);
   TraceRules rules;
   rules.load = {{-1.0, 1.0}};
   rules.limit_points = 1;
-  TraceSink sink;
-  if (on_unloaded)
-    sink.on_point = [&on_unloaded](const PathPoint& point) {
-      if (point.arc_length == 0.0) on_unloaded(point);
-    };
-  const TraceOutcome outcome = trace(loading, loading.start(), rules, {}, sink, hooks.stop);
+  UnloadedPoint unloaded(on_unloaded);
+  const PathStart first = find_start(loading.solver(), 1.0, kLargestFirstLoad);
+  const TraceOutcome outcome = trace(loading, first.point, rules, {}, {&unloaded}, hooks.stop);
   problem.set_stage(StructuralProblem::Stage::proportional);
   add_statistics(loading.statistics(), result);
   if (outcome.end == TraceEnd::cancelled) {
     fail(result, "cancelled", "cancelled while the constant actions were put on");
-    return std::nullopt;
+    return {};
   }
   if (outcome.end == TraceEnd::limit_points ||
       (outcome.end != TraceEnd::load_factor && outcome.last.negative > 0)) {
@@ -125,22 +132,22 @@ std::optional<PathPoint> start_of_path(const Model& model, const Structure& stru
              std::string(outcome.end == TraceEnd::limit_points ? "their limit point is"
                                                                : "the path, unstable by then, was left") +
              " at " + rounded(outcome.last.lambda) + " of them");
-    return std::nullopt;
+    return {};
   }
   if (outcome.end == TraceEnd::no_start) {
     fail(result, "constant_actions",
-         "the constant actions can't be put on: " + nothing_found(model, structure, loading));
-    return std::nullopt;
+         "the constant actions can't be put on: " + nothing_found(model, structure, first));
+    return {};
   }
   if (outcome.end != TraceEnd::load_factor) {
     fail(result, "constant_actions",
          "the constant actions can't be put on: equilibrium was followed to " + rounded(outcome.last.lambda) +
              " of them");
-    return std::nullopt;
+    return {};
   }
-  auto start =
-      continuation.start_at(fully_loaded(continuation, outcome.last).y, direction, outcome.last.holds);
-  if (!start) fail_to_start(model, structure, continuation, result);
+  PathStart start =
+      start_at_equilibrium(solver, fully_loaded(solver, outcome.last).y, direction, outcome.last.holds);
+  if (!start) fail_to_start(model, structure, start, result);
   return start;
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "solver/path/soft_mode.h"
+#include "solver/problem/derivatives.h"
 
 namespace snapthrough {
 

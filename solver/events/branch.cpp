@@ -14,9 +14,9 @@ using Eigen::VectorXd;
 constexpr double kFirstStep = 0.01;  ///< displacement gradient
 
 /// The sense in which the largest displacement of a motion is positive.
-double sense_of(const Continuation& continuation, const VectorXd& motion) {
+double sense_of(const PathNorm& norm, const VectorXd& motion) {
   Index largest = 0;
-  continuation.metric().weights->cwiseSqrt().cwiseProduct(motion).cwiseAbs().maxCoeff(&largest);
+  norm.metric().weights->cwiseSqrt().cwiseProduct(motion).cwiseAbs().maxCoeff(&largest);
   return motion[largest] < 0.0 ? -1.0 : 1.0;
 }
 
@@ -27,11 +27,11 @@ struct Direction {
 };
 
 /// Response to the load without its part along the null vector.
-Direction load_direction(Continuation& continuation, const PathPoint& point, const VectorXd& null) {
-  const PathMetric& metric = continuation.metric();
+Direction load_direction(PointSolver& solver, const PathPoint& point, const VectorXd& null) {
+  const PathMetric& metric = solver.norm().metric();
   Direction out{VectorXd(), 1.0};
-  continuation.problem().load(point.y, point.lambda, out.y);
-  continuation.problem().solve(out.y);
+  solver.problem().load(point.y, point.lambda, out.y);
+  solver.problem().solve(out.y);
   out.y -= metric.inner(out.y, 0.0, null, 0.0) * null;
   const double norm = metric.norm(out.y, out.lambda);
   out.y /= norm;
@@ -41,12 +41,12 @@ Direction load_direction(Continuation& continuation, const PathPoint& point, con
 
 /// The direction across the known path in the plane of the null vector and the response to the load, in which
 /// both paths' tangents lie; along the null vector, its largest displacement positive.
-Direction direction_across(Continuation& continuation, const PathPoint& point) {
-  EquilibriumProblem& problem = continuation.problem();
+Direction direction_across(PointSolver& solver, const PathPoint& point) {
+  EquilibriumProblem& problem = solver.problem();
   VectorXd null = null_vector(problem, point, pseudo_random(problem.size(), 1U));
-  null *= sense_of(continuation, null);
-  const Direction load = load_direction(continuation, point, null);
-  const PathMetric& metric = continuation.metric();
+  null *= sense_of(solver.norm(), null);
+  const Direction load = load_direction(solver, point, null);
+  const PathMetric& metric = solver.norm().metric();
   const double along_null = metric.inner(null, 0.0, point.tangent, point.tangent_lambda);
   const double along_load = metric.inner(load.y, load.lambda, point.tangent, point.tangent_lambda);
   const double scale = (along_load < 0.0 ? -1.0 : 1.0) / std::hypot(along_null, along_load);
@@ -55,15 +55,15 @@ Direction direction_across(Continuation& continuation, const PathPoint& point) {
 
 }  // namespace
 
-std::optional<PathPoint> first_point_of_branch(Continuation& continuation, const CriticalEvent& bifurcation,
+std::optional<PathPoint> first_point_of_branch(PathFollower& follower, const CriticalEvent& bifurcation,
                                                double sign) {
-  continuation.problem().set_holds(bifurcation.point.holds);
+  follower.problem().set_holds(bifurcation.point.holds);
   Direction direction{bifurcation.across, bifurcation.across_lambda};
   if (direction.y.size() == 0) {
-    direction = direction_across(continuation, bifurcation.point);
+    direction = direction_across(follower.solver(), bifurcation.point);
   } else {
-    const double along = continuation.metric().inner(direction.y, 0.0, bifurcation.null.col(0), 0.0);
-    sign *= sense_of(continuation, bifurcation.null.col(0)) * (along < 0.0 ? -1.0 : 1.0);
+    const double along = follower.norm().metric().inner(direction.y, 0.0, bifurcation.null.col(0), 0.0);
+    sign *= sense_of(follower.norm(), bifurcation.null.col(0)) * (along < 0.0 ? -1.0 : 1.0);
   }
   if (!direction.y.allFinite()) return std::nullopt;
   PathPoint from = bifurcation.point;
@@ -72,7 +72,7 @@ std::optional<PathPoint> first_point_of_branch(Continuation& continuation, const
   from.arc_length = 0.0;
   StepSize size{0.0, kFirstStep};
   PathPoint to;
-  if (continuation.step(from, size, to) != StepOutcome::advanced) return std::nullopt;
+  if (follower.step(from, size, to) != StepOutcome::advanced) return std::nullopt;
   return to;
 }
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "solver/events/locate.h"
-#include "solver/path/continuation.h"
+#include "solver/events/critical_event.h"
+#include "solver/path/path_follower.h"
 
 namespace snapthrough {
 
@@ -18,7 +18,7 @@ namespace snapthrough {
 /// @param bifurcation a located bifurcation, with the tangent of the known path
 /// @param sign +1 or -1: which way along the null vector (its largest component positive)
 /// @return empty when no point was found nearby; otherwise its arc length counts from the bifurcation
-[[nodiscard]] std::optional<PathPoint> first_point_of_branch(Continuation& continuation,
+[[nodiscard]] std::optional<PathPoint> first_point_of_branch(PathFollower& follower,
                                                              const CriticalEvent& bifurcation, double sign);
 
 }  // namespace snapthrough

@@ -18,51 +18,52 @@ struct Bracket {
   PathPoint after;
 };
 
-/// Share of the bracket at which the interpolated path leaves the old counts.
-double predicted_share(const Continuation& continuation, const Chord& chord, const Bracket& bracket,
-                       const ZoneCounter& count, const std::vector<int>& old) {
+/// Fraction of a bracket at which the interpolated path leaves the old counts.
+double predicted_fraction(const Segment& bracket, const ZoneCounter& count, const std::vector<int>& old) {
   std::vector<int> zones;
-  PathPoint at;
-  return bisect(0.0, 1.0, 1e-9, [&](double share) {
-    continuation.interpolate(chord, bracket.before, bracket.after, share, at);
-    count(at.y, zones);
+  PathPoint point;
+  return bisect(0.0, 1.0, 1e-9, [&](double fraction) {
+    bracket.interpolate(fraction, point);
+    count(point.y, zones);
     return zones != old;
   });
 }
 
-/// Whether the counts change at the start of the bracket itself, so that they are others at once beyond it:
-/// as where the load begins and everything that touches touches from nothing. Sets the counts beyond.
-bool changes_at_start(const Continuation& continuation, const Chord& chord, const Bracket& bracket,
-                      const ZoneCounter& count, const std::vector<int>& old, std::vector<int>& beyond) {
+/// Whether the counts change at the start of a segment itself, so that they are others at once beyond it:
+/// where the load begins, everything that touches touches from nothing. Sets the counts beyond.
+bool changes_at_start(const Segment& segment, const ZoneCounter& count, const std::vector<int>& old,
+                      std::vector<int>& beyond) {
   constexpr double kAtOnce = 1e-6;  // enough for zones to be deeper than rounding where all grow from nothing
-  PathPoint at;
-  continuation.interpolate(chord, bracket.before, bracket.after, kAtOnce, at);
-  count(at.y, beyond);
+  PathPoint point;
+  segment.interpolate(kAtOnce, point);
+  count(point.y, beyond);
   return beyond != old;
 }
 
 /// Just beyond the prediction, seen from the nearer end, so that the bracket closes from both sides.
-double next_share(double share) {
+double next_fraction(double predicted) {
   constexpr double kBeyond = 1.5;
-  share = share < 0.5 ? kBeyond * share : 1.0 - kBeyond * (1.0 - share);
-  return std::clamp(share, 1e-6, 1.0 - 1e-6);
+  constexpr double kLeast = 1e-6;  // distance from the bracket's ends, a fraction
+  const double beyond = predicted < 0.5 ? kBeyond * predicted : 1.0 - kBeyond * (1.0 - predicted);
+  return std::clamp(beyond, kLeast, 1.0 - kLeast);
 }
 
-bool is_closed(const Continuation& continuation, const Bracket& bracket, double tolerance) {
+bool is_closed(const PathNorm& norm, const Bracket& bracket, double tolerance) {
+  constexpr double kNear = 1e-3;  // distance of the ends, in the path's norm
   const double size =
-      std::max({std::abs(bracket.before.lambda), std::abs(bracket.after.lambda), continuation.least_load()});
+      std::max({std::abs(bracket.before.lambda), std::abs(bracket.after.lambda), norm.least_load()});
   return std::abs(bracket.after.lambda - bracket.before.lambda) <= tolerance * size &&
-         continuation.distance(bracket.before, bracket.after) <= 1e-3;
+         norm.distance(bracket.before, bracket.after) <= kNear;
 }
 
 /// Closes the bracket round its first change; false when it stays as wide as it is.
-bool close(Continuation& continuation, const Chord& chord, const ZoneCounter& count,
-           const std::vector<int>& old, double tolerance, Bracket& bracket) {
+bool close(const Segment& step, const ZoneCounter& count, const std::vector<int>& old, double tolerance,
+           Bracket& bracket) {
   std::vector<int> zones;
-  for (int i = 0; i < kMostCorrections && !is_closed(continuation, bracket, tolerance); ++i) {
-    const double share = next_share(predicted_share(continuation, chord, bracket, count, old));
-    auto point = continuation.between(chord, bracket.before, bracket.after, share);
-    if (!point) point = continuation.between(chord, bracket.before, bracket.after, 0.5);
+  for (int i = 0; i < kMostCorrections && !is_closed(step.solver().norm(), bracket, tolerance); ++i) {
+    const Segment piece = step.part(bracket.before, bracket.after);
+    auto point = piece.point_at(next_fraction(predicted_fraction(piece, count, old)));
+    if (!point) point = piece.point_at(0.5);
     if (!point) return false;
     count(point->y, zones);
     (zones == old ? bracket.before : bracket.after) = std::move(*point);
@@ -72,25 +73,24 @@ bool close(Continuation& continuation, const Chord& chord, const ZoneCounter& co
 
 }  // namespace
 
-std::vector<ContactChange> locate_contact_changes(Continuation& continuation, const PathPoint& a,
-                                                  const PathPoint& b, bool at_kink, const ZoneCounter& count,
-                                                  double tolerance) {
+std::vector<ContactChange> locate_contact_changes(PointSolver& solver, const PathPoint& a, const PathPoint& b,
+                                                  bool at_kink, const ZoneCounter& count, double tolerance) {
   std::vector<ContactChange> out;
   std::vector<int> old;
   std::vector<int> last;
   count(a.y, old);
   count(b.y, last);
   if (old == last) return out;
-  const Chord chord = at_kink ? continuation.displacement_chord(a, b) : continuation.chord(a, b);
+  const Segment step(solver, a, b, at_kink ? Segment::Measure::displacement : Segment::Measure::path_norm);
   PathPoint from = a;
   std::vector<int> beyond;
-  if (changes_at_start(continuation, chord, {a, b}, count, old, beyond)) {
+  if (changes_at_start(step, count, old, beyond)) {
     out.push_back({a, old, beyond});
     old = std::move(beyond);
   }
   while (old != last && out.size() < kMostChanges) {
     Bracket bracket{from, b};
-    const bool closed = close(continuation, chord, count, old, tolerance, bracket);
+    const bool closed = close(step, count, old, tolerance, bracket);
     ContactChange change;
     change.before = old;
     count(bracket.after.y, old);

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "solver/path/continuation.h"
+#include "solver/path/segment.h"
 
 namespace snapthrough {
 
@@ -25,9 +25,8 @@ struct ContactChange {
 /// both sides, in a few corrections a change. Zones that begin and end within one step are not seen.
 /// @param at_kink whether the step led round a kink, so that places are told by the displacement alone
 /// @param tolerance on the load factor, relative
-[[nodiscard]] std::vector<ContactChange> locate_contact_changes(Continuation& continuation,
-                                                                const PathPoint& a, const PathPoint& b,
-                                                                bool at_kink, const ZoneCounter& count,
-                                                                double tolerance);
+[[nodiscard]] std::vector<ContactChange> locate_contact_changes(PointSolver& solver, const PathPoint& a,
+                                                                const PathPoint& b, bool at_kink,
+                                                                const ZoneCounter& count, double tolerance);
 
 }  // namespace snapthrough

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "solver/events/locate.h"
+#include "solver/events/critical_event.h"
 #include "solver/path/path_point.h"
 #include "solver/problem/equilibrium_problem.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "solver/numeric/pseudo_random.h"
-#include "solver/path/soft_mode.h"
+#include "solver/problem/derivatives.h"
 
 namespace snapthrough {
 

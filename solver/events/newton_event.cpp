@@ -6,7 +6,7 @@
 
 #include "solver/events/critical_system.h"
 #include "solver/numeric/cubic.h"
-#include "solver/path/soft_mode.h"
+#include "solver/problem/derivatives.h"
 
 namespace snapthrough {
 
@@ -15,15 +15,15 @@ using Eigen::VectorXd;
 
 namespace {
 
-CriticalOptions options_for(const Continuation& continuation, double tolerance, double reach) {
+CriticalOptions options_for(const PointSolver& solver, double tolerance, double reach) {
   constexpr double kPlaceOfNoState = 1e-3;  // where only the load is reported, which errs by the square
   CriticalOptions options;
-  if (continuation.options().corrector.tangent_tolerance > 0.0) {
+  if (solver.options().tangent_tolerance > 0.0) {
     options.place = kPlaceOfNoState;
     options.to_rounding = false;
   }
   options.tolerance = 0.1 * tolerance;
-  options.least_load = continuation.least_load();
+  options.least_load = solver.norm().least_load();
   options.reach = reach;
   return options;
 }
@@ -78,14 +78,13 @@ struct Solved {
   CriticalSolution::Spectrum spectrum;
 };
 
-std::optional<Solved> solve_on_path(Continuation& continuation, const CriticalGuess& guess,
-                                    const PathDirection& way, const CriticalOptions& options) {
+std::optional<Solved> solve_on_path(PointSolver& solver, const CriticalGuess& guess, const PathDirection& way,
+                                    const CriticalOptions& options) {
   int factorisations = 0;
-  auto found =
-      solve_bifurcation(continuation.problem(), continuation.metric(), guess, options, factorisations);
-  continuation.count_factorisations(factorisations);
+  auto found = solve_bifurcation(solver.problem(), solver.norm().metric(), guess, options, factorisations);
+  solver.statistics().factorizations += factorisations;
   if (!found) return std::nullopt;
-  auto tangents = tangents_along(continuation.metric(), *found, way);
+  auto tangents = tangents_along(solver.norm().metric(), *found, way);
   auto spectrum = found->spectrum();
   if (!tangents || !spectrum) return std::nullopt;
   return Solved{*std::move(found), *std::move(tangents), *std::move(spectrum)};
@@ -93,22 +92,22 @@ std::optional<Solved> solve_on_path(Continuation& continuation, const CriticalGu
 
 /// The same bifurcation, found for itself: seen from another of several its place is right to the square of
 /// the distance only.
-CriticalEvent settled(Continuation& continuation, const CriticalEvent& event, Index target,
-                      const PathDirection& way, const CriticalOptions& options) {
+CriticalEvent settled(PointSolver& solver, const CriticalEvent& event, Index target, const PathDirection& way,
+                      const CriticalOptions& options) {
   const CriticalGuess guess{event.point.y, event.point.lambda, event.null, target};
-  const auto found = solve_on_path(continuation, guess, way, options);
+  const auto found = solve_on_path(solver, guess, way, options);
   if (!found) return event;
   return bifurcation_event(found->at, found->tangents, 0.0, found->spectrum.shares.col(target));
 }
 
 /// Whether the inertia changes as bifurcations say, just before the first and beyond the last. Where supports
 /// act on one side only the tangent's derivatives may be those of a contact that ends there.
-bool inertia_confirms(Continuation& continuation, const std::vector<CriticalEvent>& events, double apart) {
-  EquilibriumProblem& problem = continuation.problem();
+bool inertia_confirms(PointSolver& solver, const std::vector<CriticalEvent>& events, double apart) {
+  EquilibriumProblem& problem = solver.problem();
   if (!problem.one_sided() || events.empty()) return true;
   const auto negative = [&](const CriticalEvent& event, double way) {
     VectorXd residual;
-    continuation.count_factorisations(1);
+    ++solver.statistics().factorizations;
     return problem
         .linearise(event.point.y + way * event.point.tangent,
                    event.point.lambda + way * event.point.tangent_lambda, residual)
@@ -121,13 +120,13 @@ bool inertia_confirms(Continuation& continuation, const std::vector<CriticalEven
 /// The bifurcations next to a guess as a path meets them that goes some way: the first that is asked for, and
 /// those close to it; those within the tolerance are one of higher multiplicity.
 /// @param before negative eigenvalues on the near side; -1: as many as there are
-std::vector<CriticalEvent> bifurcations_near(Continuation& continuation, const CriticalGuess& guess,
+std::vector<CriticalEvent> bifurcations_near(PointSolver& solver, const CriticalGuess& guess,
                                              const PathDirection& way, int before,
                                              const CriticalOptions& options) {
   constexpr double kExact = 1e-5;  // of the load: distances whose square does not count
   constexpr double kClose = 1e-2;
   constexpr double kBeside = 1e-2;  // of the reach
-  const auto solved = solve_on_path(continuation, guess, way, options);
+  const auto solved = solve_on_path(solver, guess, way, options);
   if (!solved) return {};
   const auto& [found, tangents, spectrum] = *solved;
   const auto count = static_cast<int>(found.null.cols());
@@ -141,7 +140,7 @@ std::vector<CriticalEvent> bifurcations_near(Continuation& continuation, const C
     const double distance = count > 1 && i != guess.target ? spectrum.distances[i] : 0.0;
     if (std::abs(distance) > kClose * size) break;
     CriticalEvent event = bifurcation_event(found, tangents, distance, spectrum.shares.col(i));
-    if (std::abs(distance) > kExact * size) event = settled(continuation, event, i, way, options);
+    if (std::abs(distance) > kExact * size) event = settled(solver, event, i, way, options);
     event.negative_before = first + change * n;
     event.negative_after = event.negative_before + change;
     event.point.negative = event.negative_before;
@@ -153,32 +152,31 @@ std::vector<CriticalEvent> bifurcations_near(Continuation& continuation, const C
       ++events.back().multiplicity;
     }
   }
-  if (!inertia_confirms(continuation, events, kBeside * options.reach)) return {};
+  if (!inertia_confirms(solver, events, kBeside * options.reach)) return {};
   return events;
 }
 
 }  // namespace
 
-std::vector<CriticalEvent> bifurcations_beyond(Continuation& continuation, const PathPoint& from,
+std::vector<CriticalEvent> bifurcations_beyond(PointSolver& solver, const PathPoint& from,
                                                const std::vector<Index>& modes, double distance, double reach,
                                                double tolerance) {
-  const PathMetric& metric = continuation.metric();
+  const PathMetric& metric = solver.norm().metric();
   CriticalGuess guess{from.y + distance * from.tangent, from.lambda + distance * from.tangent_lambda,
                       from.modes->motions(Eigen::all, modes),
                       from.tangent_lambda < 0.0 ? static_cast<Index>(modes.size()) - 1 : 0};
   for (Index i = 0; i < guess.null.cols(); ++i)
     guess.y -= distance * metric.inner(from.tangent, 0.0, guess.null.col(i), 0.0) * guess.null.col(i);
-  continuation.problem().set_holds(from.holds);
+  solver.problem().set_holds(from.holds);
   const PathDirection way{from.tangent, from.tangent_lambda};
-  auto events =
-      bifurcations_near(continuation, guess, way, from.negative, options_for(continuation, tolerance, reach));
+  auto events = bifurcations_near(solver, guess, way, from.negative, options_for(solver, tolerance, reach));
   for (const CriticalEvent& event : events)
     if (!(metric.inner(event.point.y - from.y, event.point.lambda - from.lambda, way.y, way.lambda) > 0.0))
       return {};
   double arc = from.arc_length;
   const PathPoint* last = &from;
   for (CriticalEvent& event : events) {
-    arc += continuation.arc(*last, event.point);
+    arc += solver.norm().arc(*last, event.point);
     event.point.arc_length = arc;
     event.point.log_abs_det = from.log_abs_det;
     event.point.holds = from.holds;
@@ -211,13 +209,13 @@ double predicted_share(const PathMetric& metric, const SoftModes& a, Index i, co
   return Cubic{a.stiffness[i], length * a.rate[i], b.stiffness[j], length * b.rate[j]}.zero();
 }
 
-CriticalEvent limit_event(const Continuation& continuation, const CriticalSolution& found,
-                          const CriticalEvent& kind, const VectorXd& direction) {
+CriticalEvent limit_event(const PointSolver& solver, const CriticalSolution& found, const CriticalEvent& kind,
+                          const VectorXd& direction) {
   CriticalEvent event = kind;
   event.point.y = found.y;
   event.point.lambda = found.lambda;
   const VectorXd null = found.null.col(0);
-  const double along = continuation.metric().inner(null, 0.0, direction, 0.0);
+  const double along = solver.norm().metric().inner(null, 0.0, direction, 0.0);
   event.point.tangent = along < 0.0 ? VectorXd(-null) : null;
   event.point.tangent_lambda = 0.0;
   event.point.negative = kind.negative_before;
@@ -229,12 +227,12 @@ CriticalEvent limit_event(const Continuation& continuation, const CriticalSoluti
 /// The simple critical point of a kind next to a guess, by Newton's method.
 /// @param kind its type and the inertia on both sides
 /// @param way direction of the path there
-std::optional<CriticalEvent> solve_event(Continuation& continuation, const CriticalGuess& guess,
+std::optional<CriticalEvent> solve_event(PointSolver& solver, const CriticalGuess& guess,
                                          const CriticalEvent& kind, const PathDirection& way,
                                          const CriticalOptions& options) {
   if (!is_limit(kind.type)) {
     // of several close together, the one with the same inertia on both sides
-    for (CriticalEvent& event : bifurcations_near(continuation, guess, way, -1, options))
+    for (CriticalEvent& event : bifurcations_near(solver, guess, way, -1, options))
       if (event.negative_before == kind.negative_before && event.negative_after == kind.negative_after) {
         event.type = kind.type;
         return std::move(event);
@@ -244,23 +242,23 @@ std::optional<CriticalEvent> solve_event(Continuation& continuation, const Criti
   if (guess.null.cols() != 1) return std::nullopt;
   int factorisations = 0;
   const auto found =
-      solve_limit_point(continuation.problem(), continuation.metric(), guess, options, factorisations);
-  continuation.count_factorisations(factorisations);
+      solve_limit_point(solver.problem(), solver.norm().metric(), guess, options, factorisations);
+  solver.statistics().factorizations += factorisations;
   if (!found || found->others != std::min(kind.negative_before, kind.negative_after)) return std::nullopt;
-  return limit_event(continuation, *found, kind, way.y);
+  return limit_event(solver, *found, kind, way.y);
 }
 
 }  // namespace
 
-std::optional<CriticalEvent> critical_point_near(Continuation& continuation, const CriticalEvent& known,
+std::optional<CriticalEvent> critical_point_near(PointSolver& solver, const CriticalEvent& known,
                                                  const PathPoint& at, Eigen::MatrixXd null, double reach,
                                                  double tolerance) {
   if (known.cause == CriticalCause::contact) return std::nullopt;
-  continuation.problem().set_holds(at.holds);
+  solver.problem().set_holds(at.holds);
   CriticalGuess guess{at.y, at.lambda, std::move(null)};
   guess.target = at.tangent_lambda < 0.0 ? guess.null.cols() - 1 : 0;
-  auto event = solve_event(continuation, guess, known, {at.tangent, at.tangent_lambda},
-                           options_for(continuation, tolerance, reach));
+  auto event = solve_event(solver, guess, known, {at.tangent, at.tangent_lambda},
+                           options_for(solver, tolerance, reach));
   if (!event) return std::nullopt;
   event->point.arc_length = at.arc_length;
   event->point.log_abs_det = at.log_abs_det;
@@ -268,31 +266,30 @@ std::optional<CriticalEvent> critical_point_near(Continuation& continuation, con
   return event;
 }
 
-std::optional<CriticalEvent> crossing_between(Continuation& continuation, const Chord& chord,
-                                              const PathPoint& a, const PathPoint& b, bool limit,
+std::optional<CriticalEvent> crossing_between(PointSolver& solver, const Segment& segment, bool limit,
                                               const LocateOptions& options) {
+  const PathPoint& a = segment.from();
+  const PathPoint& b = segment.to();
   const bool lost = b.negative > a.negative;
   if (!a.modes || !b.modes) return std::nullopt;
   const Index i = crossing_mode(*a.modes, lost ? 1.0 : -1.0, 1.0);
   const Index j = crossing_mode(*b.modes, lost ? -1.0 : 1.0, -1.0);
   if (i < 0 || j < 0) return std::nullopt;
-  const PathMetric& metric = continuation.metric();
-  const double length = continuation.distance_along(chord, a, b);
+  const PathMetric& metric = solver.norm().metric();
+  const double length = segment.length();
   const double share = std::clamp(predicted_share(metric, *a.modes, i, *b.modes, j, length), 0.0, 1.0);
   PathPoint at;
-  continuation.interpolate(chord, a, b, share, at);
+  segment.interpolate(share, at);
   const CriticalGuess guess{at.y, at.lambda, share < 0.5 ? a.modes->motions.col(i) : b.modes->motions.col(j)};
-  continuation.problem().set_holds(a.holds);
+  solver.problem().set_holds(a.holds);
   CriticalEvent kind;
-  kind.type = !limit                   ? CriticalType::bifurcation
-              : a.tangent_lambda > 0.0 ? CriticalType::limit_max
-                                       : CriticalType::limit_min;
+  kind.type = limit ? limit_type(a) : CriticalType::bifurcation;
   kind.negative_before = a.negative;
   kind.negative_after = b.negative;
-  auto event = solve_event(continuation, guess, kind, {chord.y, chord.lambda},
-                           options_for(continuation, options.tolerance, length));
+  auto event = solve_event(solver, guess, kind, {segment.direction(), segment.direction_lambda()},
+                           options_for(solver, options.tolerance, length));
   if (!event || event->imperfection > options.perfect) return std::nullopt;
-  const double along = continuation.distance_along(chord, a, event->point);
+  const double along = segment.length_to(event->point);
   if (!(along >= 0.0 && along <= length)) return std::nullopt;
   event->point.arc_length = a.arc_length + along / length * (b.arc_length - a.arc_length);
   event->point.log_abs_det = a.log_abs_det;

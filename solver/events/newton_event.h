@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "solver/events/locate.h"
-#include "solver/path/continuation.h"
+#include "solver/events/critical_event.h"
+#include "solver/path/segment.h"
 
 namespace snapthrough {
 
@@ -19,8 +19,7 @@ namespace snapthrough {
 /// @return in the order they are met, with the tangent of the path that goes on; none where there are none
 /// within reach, or where other motions lose their stiffness before
 /// @pre from.modes
-[[nodiscard]] std::vector<CriticalEvent> bifurcations_beyond(Continuation& continuation,
-                                                             const PathPoint& from,
+[[nodiscard]] std::vector<CriticalEvent> bifurcations_beyond(PointSolver& solver, const PathPoint& from,
                                                              const std::vector<Eigen::Index>& modes,
                                                              double distance, double reach, double tolerance);
 
@@ -29,16 +28,15 @@ namespace snapthrough {
 /// @param at guess of the point, with the path's direction
 /// @param null guess of the motion without stiffness, and of those that lose it close by
 /// @param reach farthest from the guess
-[[nodiscard]] std::optional<CriticalEvent> critical_point_near(Continuation& continuation,
+[[nodiscard]] std::optional<CriticalEvent> critical_point_near(PointSolver& solver,
                                                                const CriticalEvent& known,
                                                                const PathPoint& at, Eigen::MatrixXd null,
                                                                double reach, double tolerance);
 
-/// @brief The simple critical point between two points of a path whose inertia differs by one.
+/// @brief The simple critical point on a segment whose ends differ by one in their inertia.
 /// @param limit whether the load turns there
 /// @return empty when Newton's method does not find it between them
-[[nodiscard]] std::optional<CriticalEvent> crossing_between(Continuation& continuation, const Chord& chord,
-                                                            const PathPoint& a, const PathPoint& b,
+[[nodiscard]] std::optional<CriticalEvent> crossing_between(PointSolver& solver, const Segment& segment,
                                                             bool limit, const LocateOptions& options);
 
 }  // namespace snapthrough

@@ -81,16 +81,16 @@ bool glued_touches(const Structure& structure, StructuralProblem& problem) {
 }  // namespace
 
 std::optional<Structure> with_least_piece(const Model& model, const Structure& structure,
-                                          StructuralProblem& problem, const Continuation& continuation,
-                                          const std::optional<PathPoint>& start, Result& result) {
+                                          StructuralProblem& problem, const PathNorm& norm,
+                                          const PathStart& start, Result& result) {
   if (!structure.one_sided || is_known(structure.touching)) return std::nullopt;
-  if (start ? start->tangent_lambda <= 0.0 : structure.has_constant) return std::nullopt;
-  const double ahead = start && continuation.loosening() <= kLoose ? kOnTheWay * continuation.load_scale()
-                                                                   : structure.scales.load;
-  if (start) {
-    const VectorXd linear = start->y + (ahead / start->tangent_lambda) * start->tangent;
-    if (!has_any(problem.marks_at(linear)) &&
-        !(continuation.loosening() > kLoose && glued_touches(structure, problem)))
+  const std::optional<PathPoint>& point = start.point;
+  const bool is_loose = start.contact_flexibility_ratio > kLoose;
+  if (point ? point->tangent_lambda <= 0.0 : structure.has_constant) return std::nullopt;
+  const double ahead = point && !is_loose ? kOnTheWay * norm.load_scale() : structure.scales.load;
+  if (point) {
+    const VectorXd linear = point->y + (ahead / point->tangent_lambda) * point->tangent;
+    if (!has_any(problem.marks_at(linear)) && !(is_loose && glued_touches(structure, problem)))
       return std::nullopt;
   }
   LinearBuckling buckling;
@@ -98,7 +98,7 @@ std::optional<Structure> with_least_piece(const Model& model, const Structure& s
   result.diagnostics.factorizations += buckling.factorizations;
   if (!is_known(touching)) return std::nullopt;
   std::optional<Structure> out = with_touching(structure, model, std::move(touching));
-  const VectorXd from = start ? start->y : VectorXd::Zero(structure.size);
+  const VectorXd from = point ? point->y : VectorXd::Zero(structure.size);
   if (!still_touch(*out, from, kOnTheWay * buckling.loads.front())) return std::nullopt;
   warn_of_touching(structure, buckling.piece, result);
   return out;

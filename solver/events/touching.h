@@ -6,8 +6,7 @@
 
 #include "solver/discrete/structure.h"
 #include "solver/events/least_piece.h"
-#include "solver/path/continuation.h"
-#include "solver/path/path_point.h"
+#include "solver/path/path_start.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/result.h"
 
@@ -20,15 +19,14 @@ namespace snapthrough {
 /// load leave them where they are to 1e-9 of the largest displacement. The start's tangent, which is there
 /// anyway, tells whether there are any. Where supports are so stiff that rounding presses them there may be
 /// no start without knowing.
-/// @param problem of `structure`; continuation: has started on it, or tried to
-/// @param start empty: there was none
+/// @param problem of `structure`
+/// @param norm with the scales of the start
+/// @param start without a point: none was found
 /// @return the structure that knows which of them act, to start the path anew; empty: there are none, or no
 /// buckling load was found
 [[nodiscard]] std::optional<Structure> with_least_piece(const Model& model, const Structure& structure,
-                                                        StructuralProblem& problem,
-                                                        const Continuation& continuation,
-                                                        const std::optional<PathPoint>& start,
-                                                        Result& result);
+                                                        StructuralProblem& problem, const PathNorm& norm,
+                                                        const PathStart& start, Result& result);
 
 /// @brief The structure of a finer mesh with the ends of contact of the critical motion that are its own.
 /// @param coarse with_least_piece(), or this one

@@ -23,10 +23,6 @@ double SoftModes::distance_to_zero(Index mode, double sense) const {
 
 namespace {
 
-/// Size of the difference that tangents are differentiated by: displacement gradients, as the metric has
-/// them. Where supports act on one side only it stays within what still touches.
-double difference(const EquilibriumProblem& problem) { return problem.one_sided() ? 1e-7 : 1e-4; }
-
 /// A block of motions z with the motions x that they come from, J z = W x.
 struct Block {
   MatrixXd z;
@@ -119,25 +115,6 @@ SoftModes soft_modes(EquilibriumProblem& problem, const MatrixXd& start, Index c
   }
   out.motions = std::move(block.x);
   return out;
-}
-
-MatrixXd tangent_change(EquilibriumProblem& problem, const VectorXd& y, double lambda,
-                        const PathDirection& along, const Eigen::Ref<const MatrixXd>& b) {
-  const double e = difference(problem) / along.norm;
-  MatrixXd change = problem.tangent_products(y + e * along.y, lambda + e * along.lambda, b);
-  change -= problem.tangent_products(y - e * along.y, lambda - e * along.lambda, b);
-  change /= 2.0 * e;
-  return change;
-}
-
-VectorXd load_change(EquilibriumProblem& problem, const VectorXd& y, double lambda,
-                     const PathDirection& along) {
-  const double e = difference(problem) / along.norm;
-  VectorXd after;
-  VectorXd before;
-  problem.load(y + e * along.y, lambda + e * along.lambda, after);
-  problem.load(y - e * along.y, lambda - e * along.lambda, before);
-  return (after - before) / (2.0 * e);
 }
 
 }  // namespace snapthrough

@@ -8,7 +8,7 @@
 
 namespace snapthrough {
 
-void add_statistics(const ContinuationStatistics& statistics, Result& result) {
+void add_statistics(const PathStatistics& statistics, Result& result) {
   Diagnostics& d = result.diagnostics;
   d.steps += statistics.steps;
   d.rejected_steps += statistics.rejected_steps;

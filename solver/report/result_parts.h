@@ -5,10 +5,10 @@
 #include <string>
 
 #include "solver/discrete/structure.h"
-#include "solver/events/locate.h"
+#include "solver/events/critical_event.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
-#include "solver/path/continuation.h"
+#include "solver/path/path_point.h"
 #include "solver/problem/equilibrium_problem.h"
 #include "solver/result.h"
 
@@ -19,8 +19,8 @@ namespace snapthrough {
 [[nodiscard]] Mode mode_at(const Structure& structure, const Model& model, EquilibriumProblem& problem,
                            const CriticalEvent& event, const Analysis& analysis);
 
-/// Copies the counts of a continuation into a result, adding to what is there.
-void add_statistics(const ContinuationStatistics& statistics, Result& result);
+/// Adds the counts of a path to those of a result.
+void add_statistics(const PathStatistics& statistics, Result& result);
 /// Reports the mesh that the reported loads are from, and how often it was refined.
 void report_mesh(const Structure& structure, int refinements, Result& result);
 /// Reports the mesh of a path: how many were followed up to it, and where its elements end.

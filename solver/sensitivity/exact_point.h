@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "solver/events/critical_event.h"
 #include "solver/events/critical_system.h"
-#include "solver/events/locate.h"
 
 namespace snapthrough {
 

@@ -64,7 +64,7 @@ struct Family {
         structure(make_structure(model, request.analysis.discretization, request.analysis.geometry,
                                  mode_offsets(model, request.analysis), MeshUse::first)),
         problem(structure),
-        continuation(problem, {}) {
+        follower(problem) {
     const FreeMotions motions(model);
     structure.free_motions = motions.of_nodes();
     structure.stop = request.stop;
@@ -74,27 +74,28 @@ struct Family {
       : model(std::move(model_of_value)),
         structure(std::move(known)),
         problem(structure),
-        continuation(problem, {}) {}
+        follower(problem) {}
 
-  [[nodiscard]] std::optional<PathPoint> start(Result& result) {
-    return start_of_path(model, structure, problem, continuation, 1.0, {}, result);
+  [[nodiscard]] PathStart start(Result& result) {
+    return start_of_path(model, structure, problem, follower.solver(), 1.0, {}, result);
   }
 
   Model model;
   Structure structure;
   StructuralProblem problem;
-  Continuation continuation;
+  PathFollower follower;
   bool is_held = true;  ///< one-sided supports hold the loads that the path begins with
 };
 
-/// The path between two points as a cubic, in the distance along a chord from the first.
+/// A segment of the path as a cubic, in the length from its first point.
 class Cubic {
  public:
-  Cubic(const Continuation& continuation, const Chord& chord, const PathPoint& a, const PathPoint& b)
-      : a_(a), b_(b), length_(continuation.distance_along(chord, a, b)) {
-    rate_a_ = continuation.metric().inner(a.tangent, a.tangent_lambda, chord.y, chord.lambda);
-    rate_b_ = continuation.metric().inner(b.tangent, b.tangent_lambda, chord.y, chord.lambda);
-  }
+  explicit Cubic(const Segment& segment)
+      : a_(segment.from()),
+        b_(segment.to()),
+        length_(segment.length()),
+        rate_a_(segment.cosine(a_)),
+        rate_b_(segment.cosine(b_)) {}
   [[nodiscard]] double length() const { return length_; }
   [[nodiscard]] double load_rate_a() const { return a_.tangent_lambda / rate_a_; }
   [[nodiscard]] double load_rate_b() const { return b_.tangent_lambda / rate_b_; }
@@ -167,26 +168,26 @@ void Follower::remember(std::optional<Expansion> node) {
 }
 
 /// The path's direction at the critical point, of norm one; that of the displacement alone at a limit point.
-Chord direction_of(const Expansion& node, const Continuation& continuation) {
+Place direction_of(const Expansion& node, const PathNorm& path_norm) {
   const Place& first = node.series[1];
   const double load = node.bifurcation ? first.lambda : 0.0;
-  const double norm = continuation.metric().norm(first.y, load);
-  return {first.y / norm, load / norm, false};
+  const double norm = path_norm.metric().norm(first.y, load);
+  return {first.y / norm, load / norm};
 }
 
-/// The equilibrium in the plane normal to the chord at a distance from the guessed critical point.
-std::optional<PathPoint> equilibrium(Continuation& continuation, const Expansion& guess, const Chord& chord,
+/// The equilibrium in the plane normal to a direction at a distance from the guessed critical point.
+std::optional<PathPoint> equilibrium(PointSolver& solver, const Expansion& guess, const Place& direction,
                                      double distance) {
   const Place place = guess.at(distance);
   PathPoint lo;
-  lo.y = place.y - guess.reach * chord.y;
-  lo.lambda = place.lambda - guess.reach * chord.lambda;
-  lo.tangent = chord.y;
-  lo.tangent_lambda = chord.lambda;
+  lo.y = place.y - guess.reach * direction.y;
+  lo.lambda = place.lambda - guess.reach * direction.lambda;
+  lo.tangent = direction.y;
+  lo.tangent_lambda = direction.lambda;
   PathPoint hi = lo;
-  hi.y = place.y + guess.reach * chord.y;
-  hi.lambda = place.lambda + guess.reach * chord.lambda;
-  return continuation.between(chord, lo, hi, 0.5);
+  hi.y = place.y + guess.reach * direction.y;
+  hi.lambda = place.lambda + guess.reach * direction.lambda;
+  return Segment(solver, lo, hi, direction.y, direction.lambda).point_at(0.5);
 }
 
 /// A critical point's distance from the first of two neighbours, and how far off a lower order would be in
@@ -207,10 +208,11 @@ Found limit_point(const Cubic& path, const PathPoint& before) {
 }
 
 /// Where the determinant is zero: by the parabola through three points, held against the line through two.
-Found bifurcation(const Continuation& continuation, const Chord& chord, const Cubic& path,
-                  const PathPoint& before, const PathPoint& middle, const PathPoint& after) {
+Found bifurcation(const Segment& segment, const Cubic& path, const PathPoint& middle) {
+  const PathPoint& before = segment.from();
+  const PathPoint& after = segment.to();
   const auto det = [&middle](const PathPoint& at) { return at.determinant(middle.log_abs_det); };
-  const double x1 = continuation.distance_along(chord, before, middle);
+  const double x1 = segment.length_to(middle);
   const double x2 = path.length();
   const double d0 = det(before);
   const double slope = (det(after) - d0) / x2;
@@ -223,18 +225,19 @@ Found bifurcation(const Continuation& continuation, const Chord& chord, const Cu
 }
 
 /// The critical point that a guess is near to; empty when it can't be told with certainty.
-std::optional<Expansion> corrected(Continuation& continuation, const Expansion& guess, int attempts = 3) {
-  const Chord chord = direction_of(guess, continuation);
-  const auto before = equilibrium(continuation, guess, chord, -guess.reach);
+std::optional<Expansion> corrected(PointSolver& solver, const Expansion& guess, int attempts = 3) {
+  const Place direction = direction_of(guess, solver.norm());
+  const auto before = equilibrium(solver, guess, direction, -guess.reach);
   if (!before || before->negative != guess.negative_before) return std::nullopt;
-  const auto after = equilibrium(continuation, guess, chord, guess.reach);
+  const auto after = equilibrium(solver, guess, direction, guess.reach);
   if (!after || after->negative != guess.negative_after) return std::nullopt;
-  const Cubic path(continuation, chord, *before, *after);
+  const Segment segment(solver, *before, *after, direction.y, direction.lambda);
+  const Cubic path(segment);
   if (!(path.length() > 0.0)) return std::nullopt;
   Found found;
   if (guess.bifurcation) {
-    const auto middle = equilibrium(continuation, guess, chord, 0.0);
-    if (middle) found = bifurcation(continuation, chord, path, *before, *middle, *after);
+    const auto middle = equilibrium(solver, guess, direction, 0.0);
+    if (middle) found = bifurcation(segment, path, *middle);
   } else {
     found = limit_point(path, *before);
   }
@@ -245,7 +248,7 @@ std::optional<Expansion> corrected(Continuation& continuation, const Expansion& 
   const double wanted = 0.1 * kInterpolation * std::abs(node.series[0].lambda) / kReach;
   node.reach = guess.reach * std::clamp(std::cbrt(wanted / std::max(found.change, 1e-3 * wanted)), 0.3, 1.2);
   if (found.change <= 10.0 * wanted) return node;
-  return attempts > 1 ? corrected(continuation, node, attempts - 1) : std::nullopt;
+  return attempts > 1 ? corrected(solver, node, attempts - 1) : std::nullopt;
 }
 
 /// Extrapolates (Lagrange) from the latest nodes.
@@ -278,9 +281,9 @@ bool Follower::follow_to(double value, int halvings) {
   if (member.structure.size != measure_->structure.size || member.structure.scales.load != scales.load ||
       member.structure.scales.force != scales.force || member.structure.scales.length != scales.length)
     return false;
-  member.continuation.measure_as(measure_->continuation);
-  std::optional<Expansion> node = corrected(member.continuation, predicted(t));
-  curve_.factorizations += member.continuation.statistics().factorizations;
+  member.follower.norm().adopt(measure_->follower.norm());
+  std::optional<Expansion> node = corrected(member.follower.solver(), predicted(t));
+  curve_.factorizations += member.follower.statistics().factorizations;
   if (node) {
     remember(std::move(node));
     return true;
@@ -304,7 +307,7 @@ CriticalCurvePoint Follower::trace_at(double value) {
   }
   Result result;
   auto start = member->start(result);
-  auto touching = with_least_piece(member->model, member->structure, member->problem, member->continuation,
+  auto touching = with_least_piece(member->model, member->structure, member->problem, member->follower.norm(),
                                    start, result);
   if (touching) {
     member = std::make_unique<Family>(Model(member->model), std::move(*touching));
@@ -316,7 +319,7 @@ CriticalCurvePoint Follower::trace_at(double value) {
   }
   TraceRules rules;
   rules.first_loss_of_stability = true;
-  const TraceOutcome outcome = trace(member->continuation, start, rules, request_.analysis.step, {}, {});
+  const TraceOutcome outcome = trace(member->follower, start.point, rules, request_.analysis.step, {}, {});
   if (outcome.end == TraceEnd::step_underflow) point.failure = "step_underflow";
   if (outcome.end == TraceEnd::critical_point) {
     const CriticalEvent& event = outcome.critical.back();
@@ -326,21 +329,20 @@ CriticalCurvePoint Follower::trace_at(double value) {
     if (!touching && event.cause == CriticalCause::smooth && event.multiplicity == 1 && !event.point.holds) {
       Expansion guess;
       guess.t = place_of(value);
-      guess.reach = kReach * member->continuation.path_length_to(event.point);
+      guess.reach = kReach * member->follower.norm().search_scale(event.point);
       const VectorXd zero = VectorXd::Zero(event.point.y.size());
       guess.bifurcation = event.type == CriticalType::bifurcation;
       guess.series = {Place{event.point.y, event.point.lambda},
                       {event.point.tangent, event.point.tangent_lambda},
                       {zero, 0.0},
                       {zero, 0.0}};
-      const Chord along = direction_of(guess, member->continuation);
-      guess.series[1] = {along.y, along.lambda};
+      guess.series[1] = direction_of(guess, member->follower.norm());
       guess.negative_before = event.negative_before;
       guess.negative_after = event.negative_after;
-      remember(corrected(member->continuation, guess));
+      remember(corrected(member->follower.solver(), guess));
     }
   }
-  curve_.factorizations += member->continuation.statistics().factorizations;
+  curve_.factorizations += member->follower.statistics().factorizations;
   measure_ = std::move(member);
   return point;
 }

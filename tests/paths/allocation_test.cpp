@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <thread>
 
-#include "solver/path/continuation.h"
+#include "solver/path/path_follower.h"
 #include "solver/problem/structural_problem.h"
 #include "tests/paths/reference_problems.h"
 
@@ -37,18 +37,18 @@ using namespace testing;
 long allocations_of_corrections(const ReferenceProblem& problem) {
   const Structure structure = make_structure(problem.model, {}, Geometry::nonlinear);
   StructuralProblem equations(structure);
-  Continuation continuation(equations, {});
-  auto at = continuation.start();
+  PathFollower follower(equations);
+  auto at = find_start(follower.solver()).point;
   if (!at) return -1;
   StepSize size{0.0, 0.02};
   PathPoint next = *at;
   for (int i = 0; i < 5; ++i) {
-    if (continuation.step(*at, size, next) != StepOutcome::advanced) return -1;
+    if (follower.step(*at, size, next) != StepOutcome::advanced) return -1;
     std::swap(*at, next);
   }
   SideCondition side;
   side.normal = equations.metric().cwiseProduct(at->tangent);
-  side.normal_lambda = continuation.metric().load_weight * at->tangent_lambda;
+  side.normal_lambda = follower.norm().metric().load_weight * at->tangent_lambda;
   Workspace work;
   Eigen::VectorXd y;
   long counted = 0;
@@ -56,7 +56,7 @@ long allocations_of_corrections(const ReferenceProblem& problem) {
     y = at->y + 0.05 * at->tangent;
     double lambda = at->lambda + 0.05 * at->tangent_lambda;
     const long before = allocations.load();
-    const auto outcome = correct(equations, continuation.metric(), side, 0.05, {}, y, lambda, work);
+    const auto outcome = correct(equations, follower.norm().metric(), side, 0.05, {}, y, lambda, work);
     counted = allocations.load() - before;
     EXPECT_EQ(outcome.status, CorrectorStatus::converged) << problem.name;
     EXPECT_GE(outcome.factorisations, 2) << problem.name;

@@ -1,4 +1,4 @@
-/// No step of a path leads to another path: halfway between its ends, in the plane across the chord, there is
+/// No step of a path leads to another path: halfway between its ends, in the plane across the step, there is
 /// an equilibrium where the cubic through both ends and their tangents says. Between two paths it is
 /// elsewhere (symmetric ones apart), whatever the angle of a step, its inertia and the length of its chord.
 #include <gtest/gtest.h>
@@ -7,9 +7,11 @@
 #include <limits>
 #include <vector>
 
+#include "solver/path/segment.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/trace/trace.h"
 #include "tests/paths/reference_problems.h"
+#include "tests/solver/trace/follow.h"
 
 namespace snapthrough {
 namespace {
@@ -18,22 +20,22 @@ using namespace testing;
 
 /// Distance of the equilibrium halfway from the cubic there, over the chord; infinite where there is none.
 /// Chords that are shorter than rounding leaves singular points apart are counted as that long.
-double off_halfway(Continuation& probe, const PathPoint& from, const PathPoint& to) {
-  const Chord chord = probe.chord(from, to);
-  const auto middle = probe.between(chord, from, to, 0.5);
+double off_halfway(PointSolver& probe, const PathPoint& from, const PathPoint& to) {
+  const Segment step(probe, from, to);
+  const auto middle = step.point_at(0.5);
   if (!middle) return std::numeric_limits<double>::infinity();
   PathPoint guess;
-  probe.interpolate(chord, from, to, 0.5, guess);
+  step.interpolate(0.5, guess);
   constexpr double kSingular = 1e-5;
-  return probe.distance(guess, *middle) / std::max(probe.distance(from, to), kSingular);
+  return probe.norm().distance(guess, *middle) / std::max(probe.norm().distance(from, to), kSingular);
 }
 
 /// The largest of the path to the first limit point or load that the problem asks for; points are appended.
 double largest_off_halfway(const ReferenceProblem& problem, std::vector<PathPoint>& points) {
   const Structure structure = make_structure(problem.model, {}, Geometry::nonlinear);
   StructuralProblem equations(structure);
-  Continuation path(equations, {});
-  Continuation probe(equations, {});
+  PathFollower path(equations);
+  PointSolver probe(equations, {});
   TraceRules rules;
   rules.limit_points = problem.analysis.stop.limit_points;
   if (problem.analysis.stop.load_factor) {
@@ -42,13 +44,13 @@ double largest_off_halfway(const ReferenceProblem& problem, std::vector<PathPoin
   }
   rules.steps = 60;
   double largest = 0.0;
-  TraceSink sink;
-  sink.on_step = [&](const PathPoint& from, const PathPoint& to) {
-    probe.measure_as(path);
+  Observed observer;
+  observer.step = [&](const PathPoint& from, const PathPoint& to) {
+    probe.norm().adopt(path.norm());
     largest = std::max(largest, off_halfway(probe, from, to));
     points.push_back(to);
   };
-  static_cast<void>(trace(path, path.start(), rules, {}, sink, {}));
+  static_cast<void>(trace(path, find_start(path.solver()).point, rules, {}, {&observer}, {}));
   return largest;
 }
 
@@ -77,8 +79,8 @@ TEST(Continuity, AJumpHasItElsewhere) {
   ASSERT_NE(snapped, points.end());
   const Structure structure = make_structure(arch.model, {}, Geometry::nonlinear);
   StructuralProblem equations(structure);
-  Continuation probe(equations, {});
-  ASSERT_TRUE(probe.start());
+  PointSolver probe(equations, {});
+  ASSERT_TRUE(find_start(probe));
   EXPECT_GT(off_halfway(probe, points.front(), *snapped), 2.0 * kSmooth);
 }
 

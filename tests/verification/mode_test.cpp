@@ -7,6 +7,7 @@
 #include "solver/problem/structural_problem.h"
 #include "solver/trace/trace.h"
 #include "tests/paths/reference_problems.h"
+#include "tests/solver/trace/follow.h"
 #include "tests/verification/cases.h"
 
 namespace snapthrough {
@@ -33,20 +34,19 @@ double force_in(const Structure& structure, const Eigen::VectorXd& mode) {
 std::vector<Measured> measure(const Model& model, const Discretization& mesh, int limit_points) {
   const Structure structure = make_structure(model, mesh, Geometry::nonlinear);
   StructuralProblem problem(structure);
-  Continuation continuation(problem, {});
   std::vector<Measured> out;
   std::size_t done = 0;
   TraceRules rules;
   rules.limit_points = limit_points;
-  TraceSink sink;
+  testing::Observed observer;
   PathPoint last;
   std::vector<PathPoint> starts;  // the path's points before the events
-  sink.on_point = [&](const PathPoint& point) { last = point; };
-  sink.on_critical = [&](const CriticalEvent& event) {
+  observer.point = [&](const PathPoint& point) { last = point; };
+  observer.critical = [&](const CriticalEvent& event) {
     out.push_back({event});
     starts.push_back(last);
   };
-  sink.on_step = [&](const PathPoint&, const PathPoint& to) {
+  observer.step = [&](const PathPoint&, const PathPoint& to) {
     for (; done < out.size(); ++done) {
       const PathPoint& at = out[done].event.point;
       // a step may end on the point itself
@@ -58,7 +58,7 @@ std::vector<Measured> measure(const Model& model, const Discretization& mesh, in
       out[done].after = mode.dot(problem.tangent_product(to.y, to.lambda, mode));
     }
   };
-  static_cast<void>(trace(continuation, continuation.start(), rules, {}, sink, {}));
+  static_cast<void>(testing::follow(problem, rules, {&observer}));
   return out;
 }
 

@@ -14,6 +14,7 @@
 #include "solver/trace/trace.h"
 #include "tests/solver/linear_response.h"
 #include "tests/solver/structures.h"
+#include "tests/solver/trace/follow.h"
 
 namespace snapthrough {
 namespace {
@@ -68,25 +69,26 @@ struct Coarse {
       : model(drawn),
         structure(make_structure(model, mesh, Geometry::nonlinear)),
         problem(structure),
-        continuation(problem, {}) {
+        follower(problem) {
     TraceRules rules;
     rules.first_loss_of_stability = true;
     rules.locate.tolerance = 1e-11;
-    TraceSink sink;
-    sink.on_point = [this](const PathPoint& at) { last = at; };
-    sink.on_critical = [this](const CriticalEvent&) { before = last; };
-    const TraceOutcome outcome = trace(continuation, continuation.start(), rules, {}, sink, {});
+    testing::Observed observer;
+    observer.point = [this](const PathPoint& at) { last = at; };
+    observer.critical = [this](const CriticalEvent&) { before = last; };
+    const TraceOutcome outcome =
+        trace(follower, find_start(follower.solver()).point, rules, {}, {&observer}, {});
     EXPECT_EQ(outcome.critical.size(), 1U);
     if (!outcome.critical.empty()) event = outcome.critical[0];
   }
   [[nodiscard]] FineMesh finer() const {
-    return {on_mesh(structure, model, *finer_mesh(structure.mesh)), continuation, 1e-11};
+    return {on_mesh(structure, model, *finer_mesh(structure.mesh)), follower, 1e-11};
   }
 
   Model model;
   Structure structure;
   StructuralProblem problem;
-  Continuation continuation;
+  PathFollower follower;
   CriticalEvent event;
   PathPoint last, before;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/numeric/number_text.h"
+#include "solver/path/path_start.h"
 #include "tests/solver/path/small_problem.h"
 
 namespace snapthrough {
@@ -15,8 +16,8 @@ using testing::SmallProblem;
 
 /// Points of the pitchfork's primary path at some places, as accepted steps, with its bifurcation at a = 0.6.
 struct Branch06 {
-  Branch06() : problem(testing::pitchfork(0.6, 0.0)), continuation(problem, {}) {
-    auto start = continuation.start();
+  Branch06() : problem(testing::pitchfork(0.6, 0.0)), solver(problem, {}) {
+    auto start = find_start(solver).point;
     EXPECT_TRUE(start);
     PathPoint before = *start;
     points.add(before);
@@ -25,16 +26,16 @@ struct Branch06 {
       at.y = Eigen::Vector2d(a, 0.0);
       at.lambda = a - 0.5 * a * a;
       at.negative = a > 0.6 ? 1 : 0;
-      const double norm = continuation.metric().norm(Eigen::Vector2d(1.0, 0.0), 1.0 - a);
+      const double norm = solver.norm().metric().norm(Eigen::Vector2d(1.0, 0.0), 1.0 - a);
       at.tangent = Eigen::Vector2d(1.0 / norm, 0.0);
       at.tangent_lambda = (1.0 - a) / norm;
-      at.arc_length = before.arc_length + continuation.arc(before, at);
+      at.arc_length = before.arc_length + solver.norm().arc(before, at);
       if (a == 0.8) {
         CriticalEvent event;
         event.point = before;
         event.point.y[0] = 0.6;
         event.point.lambda = 0.42;
-        event.point.arc_length = before.arc_length + continuation.arc(before, event.point);
+        event.point.arc_length = before.arc_length + solver.norm().arc(before, event.point);
         event.negative_after = 1;
         points.add_critical(event);
       }
@@ -45,7 +46,7 @@ struct Branch06 {
   }
 
   SmallProblem problem;
-  Continuation continuation;
+  PointSolver solver;
   PathPoints points;
   double length = 0.0;
 };
@@ -54,7 +55,7 @@ TEST(PathPoints, AreNoFartherApartThanAskedAndOnThePath) {
   constexpr int kCount = 40;
   Branch06 branch;
   int missing = -1;
-  const auto spread = branch.points.spread(branch.continuation, kCount, {}, missing);
+  const auto spread = branch.points.spread(branch.solver, kCount, {}, missing);
   EXPECT_EQ(missing, 0);
   ASSERT_GE(spread.size(), static_cast<std::size_t>(kCount));
   EXPECT_LE(spread.size(), static_cast<std::size_t>(kCount) + 5) << "one more for each that was there";
@@ -75,7 +76,7 @@ TEST(PathPoints, AreNoFartherApartThanAskedAndOnThePath) {
 TEST(PathPoints, KeepThoseThatWereThere) {
   Branch06 branch;
   int missing = -1;
-  EXPECT_EQ(branch.points.spread(branch.continuation, 2, {}, missing).size(), 6U);
+  EXPECT_EQ(branch.points.spread(branch.solver, 2, {}, missing).size(), 6U);
   EXPECT_EQ(missing, 0);
 }
 
@@ -84,7 +85,7 @@ TEST(PathPoints, AreMissingAfterAStop) {
   std::stop_source stop;
   stop.request_stop();
   int missing = -1;
-  EXPECT_EQ(branch.points.spread(branch.continuation, 40, stop.get_token(), missing).size(), 6U);
+  EXPECT_EQ(branch.points.spread(branch.solver, 40, stop.get_token(), missing).size(), 6U);
   EXPECT_GT(missing, 30);
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "solver/path/path_start.h"
 #include "tests/solver/path/small_problem.h"
 
 namespace snapthrough {
@@ -18,8 +19,8 @@ constexpr double kTolerance = 1e-7;  // far above what the corrector leaves of a
 /// Changes along lambda = a - a^2/2 from one a to another.
 std::vector<ContactChange> changes(double from, double to, const ZoneCounter& count) {
   SmallProblem problem = pitchfork(5.0, 0.0);
-  Continuation continuation(problem, {});
-  const auto start = continuation.start();
+  PointSolver solver(problem, {});
+  const auto start = find_start(solver).point;
   EXPECT_TRUE(start);
   const auto at = [&](double a) {
     PathPoint point = *start;
@@ -27,12 +28,12 @@ std::vector<ContactChange> changes(double from, double to, const ZoneCounter& co
     point.lambda = a - 0.5 * a * a;
     point.arc_length = a;
     point.tangent = Eigen::Vector2d(1.0, 0.0);
-    const double norm = continuation.metric().norm(point.tangent, 1.0 - a);
+    const double norm = solver.norm().metric().norm(point.tangent, 1.0 - a);
     point.tangent /= norm;
     point.tangent_lambda = (1.0 - a) / norm;
     return point;
   };
-  return locate_contact_changes(continuation, at(from), at(to), false, count, kTolerance);
+  return locate_contact_changes(solver, at(from), at(to), false, count, kTolerance);
 }
 
 TEST(ContactChange, IsWhereTheCountsAreOthers) {

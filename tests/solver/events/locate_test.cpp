@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "solver/events/hidden_events.h"
+#include "solver/events/root_finder.h"
 #include "solver/numeric/cancelled.h"
 #include "tests/solver/path/failing_problem.h"
 #include "tests/solver/path/small_problem.h"
@@ -19,13 +21,13 @@ using testing::pitchfork;
 using testing::SmallProblem;
 
 /// A point of a path with its exact tangent, inertia and determinant.
-PathPoint point_of(const Continuation& continuation, EquilibriumProblem& problem, Eigen::VectorXd y,
-                   double lambda, Eigen::VectorXd dy, double dlambda) {
+PathPoint point_of(const PathNorm& path_norm, EquilibriumProblem& problem, Eigen::VectorXd y, double lambda,
+                   Eigen::VectorXd dy, double dlambda) {
   PathPoint at;
   Eigen::VectorXd f;
   const TangentReport report = problem.linearise(y, lambda, f);
   EXPECT_LT(f.norm(), 1e-13) << "not on the path";
-  const double norm = continuation.metric().norm(dy, dlambda);
+  const double norm = path_norm.metric().norm(dy, dlambda);
   at.y = std::move(y);
   at.lambda = lambda;
   at.tangent = dy / norm;
@@ -37,29 +39,27 @@ PathPoint point_of(const Continuation& continuation, EquilibriumProblem& problem
 
 /// A started follower of a problem, so that its norm is that of a path.
 struct Follower {
-  explicit Follower(EquilibriumProblem& p) : problem(p), continuation(p, {}) {
-    EXPECT_TRUE(continuation.start().has_value());
-  }
+  explicit Follower(EquilibriumProblem& p) : problem(p), solver(p, {}) { EXPECT_TRUE(find_start(solver)); }
   /// Of the pitchfork's primary path b = 0, lambda = a - a^2/2.
   [[nodiscard]] PathPoint primary(double a) {
-    return point_of(continuation, problem, Eigen::Vector2d(a, 0.0), a - 0.5 * a * a,
+    return point_of(solver.norm(), problem, Eigen::Vector2d(a, 0.0), a - 0.5 * a * a,
                     Eigen::Vector2d(1.0, 0.0), 1.0 - a);
   }
   /// All critical points between two points.
   /// @param modes whether the softest motions are known at both, as they are along a path
   [[nodiscard]] LocatedEvents between(PathPoint a, PathPoint b, bool modes, const LocateOptions& options) {
-    b.arc_length = a.arc_length + continuation.arc(a, b);
+    b.arc_length = a.arc_length + solver.norm().arc(a, b);
     for (PathPoint* at : {&a, &b}) {
       if (!modes) continue;
       Eigen::VectorXd f;
       problem.linearise(at->y, at->lambda, f);
-      continuation.find_modes(*at, nullptr);
+      solver.find_modes(*at, nullptr);
     }
-    return locate_critical_points(continuation, a, b, options);
+    return locate_critical_points(solver, a, b, options);
   }
 
   EquilibriumProblem& problem;
-  Continuation continuation;
+  PointSolver solver;
 };
 
 constexpr double kTolerance = 1e-9;
@@ -113,7 +113,7 @@ TEST_P(SimplePoint, IsAMinimumOnTheWayBack) {
   const auto at = [&](double a) {
     const double x = a - 2.0;
     const double lambda = x * x * x / 3.0 - 0.25 * x + 8.0 / 3.0 - 0.5;
-    return point_of(path.continuation, problem, Eigen::VectorXd::Constant(1, a), lambda,
+    return point_of(path.solver.norm(), problem, Eigen::VectorXd::Constant(1, a), lambda,
                     Eigen::VectorXd::Ones(1), x * x - 0.25);
   };
   const LocatedEvents found = path.between(at(2.2), at(2.8), GetParam(), {kTolerance});
@@ -144,7 +144,7 @@ TEST_P(SimplePoint, IsFoundBeforeAKnee) {
     SmallProblem problem = testing::knee(width);
     Follower path(problem);
     const auto at = [&](double a) {
-      return point_of(path.continuation, problem, Eigen::VectorXd::Constant(1, a),
+      return point_of(path.solver.norm(), problem, Eigen::VectorXd::Constant(1, a),
                       testing::load_before_knee(a, width), Eigen::VectorXd::Ones(1),
                       testing::rate_before_knee(a, width));
     };
@@ -215,7 +215,7 @@ LocatedEvents between_motions(double c1, double c2) {
   SmallProblem problem = two_motions(c1, c2);
   Follower path(problem);
   const auto at = [&](double a) {
-    return point_of(path.continuation, problem, Eigen::Vector3d(a, 0.0, 0.0), a - 0.5 * a * a,
+    return point_of(path.solver.norm(), problem, Eigen::Vector3d(a, 0.0, 0.0), a - 0.5 * a * a,
                     Eigen::Vector3d(1.0, 0.0, 0.0), 1.0 - a);
   };
   return path.between(at(0.4), at(0.8), false, {kTolerance});
@@ -251,15 +251,15 @@ SmallProblem corner(bool one_sided) {
 TEST(Locate, KnowsALimitPointThatContactCauses) {
   for (const bool one_sided : {true, false}) {
     SmallProblem problem = corner(one_sided);
-    Continuation continuation(problem, {});
+    PointSolver solver(problem, {});
     const SmallProblem::Gradient load = [](const Eigen::VectorXd& y) {
       return Eigen::VectorXd(Eigen::VectorXd::Constant(1, y[0] < 1.0 ? y[0] : 1.5 - 0.5 * y[0]));
     };
     const auto at = [&](double a) {
       const Eigen::VectorXd y = Eigen::VectorXd::Constant(1, a);
-      return point_of(continuation, problem, y, load(y)[0], Eigen::VectorXd::Ones(1), a < 1.0 ? 1.0 : -0.5);
+      return point_of(solver.norm(), problem, y, load(y)[0], Eigen::VectorXd::Ones(1), a < 1.0 ? 1.0 : -0.5);
     };
-    const LocatedEvents found = locate_critical_points(continuation, at(0.7), at(1.2), {kTolerance});
+    const LocatedEvents found = locate_critical_points(solver, at(0.7), at(1.2), {kTolerance});
     ASSERT_EQ(found.events.size(), 1U);
     EXPECT_EQ(found.events[0].type, CriticalType::limit_max);
     EXPECT_NEAR(found.events[0].point.lambda, 1.0, kTolerance);
@@ -278,19 +278,19 @@ TEST(LocateAtTurn, PutsALimitPointAtTheCorner) {
         return Eigen::MatrixXd(Eigen::MatrixXd::Constant(1, 1, y[0] < 1.0 ? 1.0 : -kStiff));
       },
       Eigen::VectorXd::Ones(1), true);
-  Continuation continuation(problem, {});
-  const auto start = continuation.start();
+  PathFollower follower(problem);
+  const auto start = find_start(follower.solver()).point;
   ASSERT_TRUE(start);
   PathPoint from = *start;
   StepSize size{0.0, 0.1};
   PathPoint to;
   StepOutcome outcome = StepOutcome::advanced;
   for (int i = 0; i < 200 && outcome == StepOutcome::advanced && from.lambda < 1.1; ++i) {
-    outcome = continuation.step(from, size, to);
+    outcome = follower.step(from, size, to);
     if (outcome == StepOutcome::advanced) std::swap(from, to);
   }
   ASSERT_EQ(outcome, StepOutcome::kinked);
-  const LocatedEvents found = locate_at_kink(continuation, from, to, size.taken, {kTolerance});
+  const LocatedEvents found = locate_at_kink(follower, from, to, size.taken, {kTolerance});
   ASSERT_EQ(found.events.size(), 1U);
   EXPECT_EQ(found.events[0].type, CriticalType::limit_max);
   EXPECT_EQ(found.events[0].cause, CriticalCause::contact);
@@ -311,7 +311,7 @@ TEST(Locate, SeesThatTheEndsAreOnTwoPaths) {
     const auto on_arm = [&](double b) {
       const double a = c + b * b - e / b;
       const double da = 2.0 * b + e / (b * b);
-      return point_of(path.continuation, problem, Eigen::Vector2d(a, b), a - 0.5 * a * a - 0.5 * b * b,
+      return point_of(path.solver.norm(), problem, Eigen::Vector2d(a, b), a - 0.5 * a * a - 0.5 * b * b,
                       Eigen::Vector2d(da, 1.0), (1.0 - a) * da - b);
     };
     const double b = 10.0 * e;
@@ -343,7 +343,7 @@ TEST(FindRoot, ClosesTheBracketFromBothSides) {
   Follower path(problem);
   const PathPoint a = path.primary(0.1);
   const PathPoint b = path.primary(0.9);
-  const Chord chord = path.continuation.chord(a, b);
+  const Segment segment(path.solver, a, b);
   const auto value = [](const PathPoint& at) { return at.lambda - 0.32; };
   int looks = 0;
   const auto counted = [&](const PathPoint& at) {
@@ -353,7 +353,7 @@ TEST(FindRoot, ClosesTheBracketFromBothSides) {
   const auto done = [](const PathPoint& lo, const PathPoint& hi, double) {
     return hi.lambda - lo.lambda < 1e-10;
   };
-  const LocatedRoot root = find_root(path.continuation, chord, a, value(a), b, value(b), counted, done);
+  const LocatedRoot root = find_root(segment, value(a), value(b), {counted, done});
   ASSERT_TRUE(root.found);
   EXPECT_LT(root.value_before, 0.0);
   EXPECT_GT(root.value_after, 0.0);
@@ -364,7 +364,7 @@ TEST(FindRoot, ClosesTheBracketFromBothSides) {
   // a bracket that is never closed enough is not reported as found
   const auto never = [](const PathPoint&, const PathPoint&, double) { return false; };
   const auto off = [](const PathPoint& at) { return at.lambda > 0.32 ? 1.0 : -1.0; };
-  EXPECT_FALSE(find_root(path.continuation, chord, a, -1.0, b, 1.0, off, never).found);
+  EXPECT_FALSE(find_root(segment, -1.0, 1.0, {off, never}).found);
 }
 
 PathPoint with_mode(double stiffness, double rate) {
@@ -381,10 +381,10 @@ PathPoint with_mode(double stiffness, double rate) {
 TEST(FindDip, SeesTangentsThatMeetBeyondZero) {
   const auto dip = find_dip(with_mode(1.0, -4.0), with_mode(1.0, 4.0), 1.0);
   ASSERT_TRUE(dip);
-  EXPECT_DOUBLE_EQ(dip->share, 0.5);
+  EXPECT_DOUBLE_EQ(dip->fraction, 0.5);
   const auto uneven = find_dip(with_mode(1.0, -4.0), with_mode(2.0, 8.0), 1.0);
   ASSERT_TRUE(uneven);
-  EXPECT_DOUBLE_EQ(uneven->share, 7.0 / 12.0);
+  EXPECT_DOUBLE_EQ(uneven->fraction, 7.0 / 12.0);
   EXPECT_TRUE(find_dip(with_mode(-1.0, 4.0), with_mode(-1.0, -4.0), 1.0)) << "from below as well";
   EXPECT_FALSE(find_dip(with_mode(1.0, -1.9), with_mode(1.0, 1.9), 1.0)) << "they meet above zero";
   EXPECT_FALSE(find_dip(with_mode(1.0, 4.0), with_mode(1.0, -4.0), 1.0)) << "it rises first";

@@ -22,11 +22,10 @@ TEST(TraceEnd, AtItsLastStep) {
   SmallProblem problem = pitchfork(5.0, 0.0);
   TraceRules rules;
   rules.steps = 3;
-  Continuation continuation(problem, {});
   int points = 0;
-  TraceSink sink;
-  sink.on_point = [&points](const PathPoint&) { ++points; };
-  const TraceOutcome outcome = trace(continuation, continuation.start(), rules, {}, sink, {});
+  testing::Observed observer;
+  observer.point = [&points](const PathPoint&) { ++points; };
+  const TraceOutcome outcome = follow(problem, rules, {&observer});
   EXPECT_EQ(outcome.end, TraceEnd::steps);
   EXPECT_EQ(points, 4) << "the start, and three";
   EXPECT_GT(outcome.last.lambda, 0.0);
@@ -83,11 +82,9 @@ TEST(TraceEnd, AtOnceWhereTooManyAreNegativeAlready) {
 TEST(TraceEnd, WhereTheMonitorTurns) {
   SmallProblem problem = pitchfork(5.0, 0.0);
   TraceRules rules;
-  rules.monitor_turns = true;
-  rules.monitor = [](const PathPoint& at) { return at.lambda; };
-  rules.controlled = [](const PathPoint& at) { return at.lambda; };
-  rules.monitor_rate = [](const PathPoint& at) { return at.tangent_lambda; };
-  rules.monitor_range = {{-10.0, 10.0}};
+  const auto load = [](const PathPoint& at) { return at.lambda; };
+  rules.monitor = {load, {-10.0, 10.0}};
+  rules.controlled = {load, [](const PathPoint& at) { return at.tangent_lambda; }};
   const TraceOutcome outcome = follow(problem, rules);
   EXPECT_EQ(outcome.end, TraceEnd::monitor_turned);
   EXPECT_NEAR(outcome.last.lambda, 0.5, 1e-6);
@@ -136,27 +133,27 @@ TEST(TraceEnd, WhereItIsCancelled) {
 /// f(a) = a^2 has no stiffness to start with.
 TEST(TraceEnd, BeforeItStartsWhereTheTangentIsSingular) {
   ScalarProblem problem([](double a) { return a * a; }, [](double a) { return 2.0 * a; });
-  Continuation continuation(problem, {});
-  const auto start = continuation.start();
+  PathFollower follower(problem);
+  const PathStart start = find_start(follower.solver());
   EXPECT_FALSE(start);
-  EXPECT_EQ(trace(continuation, start, {}, {}, {}, {}).end, TraceEnd::no_start);
+  EXPECT_EQ(trace(follower, start.point, {}, {}, {}, {}).end, TraceEnd::no_start);
 }
 
 /// A path that meets a critical point of another branch has rejoined it.
 TEST(TraceEnd, WhereItMeetsAnotherBranch) {
   SmallProblem problem = pitchfork(0.6, 0.0);
-  Continuation continuation(problem, {});
-  const auto start = continuation.start();
+  PathFollower follower(problem);
+  const PathStart start = find_start(follower.solver());
   ASSERT_TRUE(start);
   TraceRules rules;
   const TraceOutcome first = [&] {
     TraceRules once;
     once.first_loss_of_stability = true;
-    return trace(continuation, start, once, {}, {}, {});
+    return trace(follower, start.point, once, {}, {}, {});
   }();
   ASSERT_EQ(first.critical.size(), 1U);
   rules.known = {first.critical[0].point};
-  const TraceOutcome outcome = trace(continuation, start, rules, {}, {}, {});
+  const TraceOutcome outcome = trace(follower, start.point, rules, {}, {}, {});
   EXPECT_EQ(outcome.end, TraceEnd::rejoined);
   EXPECT_NEAR(outcome.last.lambda, 0.42, 1e-6);
 }

@@ -106,18 +106,16 @@ TEST(Trace, FindsPairsInsideAStep) {
       for (double d = 0.1; d > 0.9e-8; d *= 0.1) {
         const double c = 1.3 + place;
         SmallProblem problem = folds ? two_folds(c, d) : two_bifurcations(c, d);
-        Continuation continuation(problem, {});
         TraceRules rules;
-        rules.monitor = [](const PathPoint& at) { return at.y[0]; };
-        rules.monitor_range = {{-1.0, 3.5}};
+        rules.monitor = {[](const PathPoint& at) { return at.y[0]; }, {-1.0, 3.5}};
         rules.locate.tolerance = 1e-10;
         int told = 0;
-        TraceSink sink;
-        sink.on_touching = [&](const PathPoint& at) {
+        testing::Observed observer;
+        observer.touching = [&](const PathPoint& at) {
           EXPECT_NEAR(at.y[0], c, 1e-3);
           ++told;
         };
-        const TraceOutcome outcome = trace(continuation, continuation.start(), rules, {}, sink, {});
+        const TraceOutcome outcome = follow(problem, rules, {&observer});
         EXPECT_EQ(outcome.end, TraceEnd::monitor) << folds << " " << c << " " << d;
         if (outcome.critical.empty()) {
           EXPECT_EQ(told, 1) << folds << " " << c << " " << d;
@@ -152,8 +150,7 @@ SmallProblem knee(double b, double c, double w, double x0) {
 void expect_pair_before_knee(double b, double c, double w, double x0) {
   SmallProblem problem = knee(b, c, w, x0);
   TraceRules rules;
-  rules.monitor = [](const PathPoint& at) { return at.y[0]; };
-  rules.monitor_range = {{-1.0, x0 + 3.0}};
+  rules.monitor = {[](const PathPoint& at) { return at.y[0]; }, {-1.0, x0 + 3.0}};
   rules.gradient = 10.0;
   const TraceOutcome outcome = follow(problem, rules);
   EXPECT_EQ(outcome.critical.size(), 2u) << b << " " << c << " " << w << " " << x0;
@@ -234,19 +231,18 @@ TEST(Branch, LeavesAPitchforkBothWays) {
   const double c = 0.6;
   for (const double sign : {1.0, -1.0}) {
     SmallProblem problem = pitchfork(c, 0.0);
-    Continuation continuation(problem, {});
+    PathFollower follower(problem);
     TraceRules rules;
     rules.first_loss_of_stability = true;
-    const TraceOutcome primary = trace(continuation, continuation.start(), rules, {}, {}, {});
+    const TraceOutcome primary = trace(follower, find_start(follower.solver()).point, rules, {}, {}, {});
     ASSERT_EQ(primary.critical.size(), 1u);
-    const auto first = first_point_of_branch(continuation, primary.critical[0], sign);
+    const auto first = first_point_of_branch(follower, primary.critical[0], sign);
     ASSERT_TRUE(first);
     EXPECT_GT(sign * first->y[1], 0.0);
     TraceRules until;
-    until.monitor = [](const PathPoint& at) { return at.y[1]; };
-    until.monitor_range = {{-0.5, 0.5}};
+    until.monitor = {[](const PathPoint& at) { return at.y[1]; }, {-0.5, 0.5}};
     until.first_step = 0.02;
-    const TraceOutcome branch = trace(continuation, first, until, {}, {}, {});
+    const TraceOutcome branch = trace(follower, first, until, {}, {}, {});
     EXPECT_EQ(branch.end, TraceEnd::monitor);
     const double a = branch.last.y[0];
     EXPECT_NEAR(branch.last.y[1], 0.5 * sign, 1e-11);
@@ -269,8 +265,7 @@ TEST(Trace, EndsExactlyAtALoadBound) {
 TEST(Trace, EndsExactlyAtAMonitorBound) {
   SmallProblem problem = pitchfork(2.0, 0.0);
   TraceRules rules;
-  rules.monitor = [](const PathPoint& at) { return at.y[0]; };
-  rules.monitor_range = {{-1.0, 1.5}};
+  rules.monitor = {[](const PathPoint& at) { return at.y[0]; }, {-1.0, 1.5}};
   const TraceOutcome outcome = follow(problem, rules);
   EXPECT_EQ(outcome.end, TraceEnd::monitor);
   EXPECT_NEAR(outcome.last.y[0], 1.5, 1e-12);
@@ -280,21 +275,20 @@ TEST(Trace, EndsExactlyAtAMonitorBound) {
 
 TEST(Trace, StopsWhenAskedTo) {
   SmallProblem problem = pitchfork(0.6, 0.0);
-  Continuation continuation(problem, {});
+  PathFollower follower(problem);
   std::stop_source source;
   source.request_stop();
   const TraceOutcome outcome =
-      trace(continuation, continuation.start(), until_limit_points(1), {}, {}, source.get_token());
+      trace(follower, find_start(follower.solver()).point, until_limit_points(1), {}, {}, source.get_token());
   EXPECT_EQ(outcome.end, TraceEnd::cancelled);
 }
 
 TEST(Trace, ReportsPointsInOrderOfArcLength) {
   SmallProblem problem = pitchfork(0.6, 0.0);
-  Continuation continuation(problem, {});
   std::vector<double> lengths;
-  TraceSink sink;
-  sink.on_point = [&lengths](const PathPoint& at) { lengths.push_back(at.arc_length); };
-  const TraceOutcome outcome = trace(continuation, continuation.start(), until_limit_points(1), {}, sink, {});
+  testing::Observed observer;
+  observer.point = [&lengths](const PathPoint& at) { lengths.push_back(at.arc_length); };
+  const TraceOutcome outcome = follow(problem, until_limit_points(1), {&observer});
   ASSERT_GT(lengths.size(), 3u);
   for (std::size_t i = 1; i < lengths.size(); ++i) EXPECT_GT(lengths[i], lengths[i - 1]);
   EXPECT_EQ(lengths.back(), outcome.last.arc_length);

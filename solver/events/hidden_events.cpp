@@ -1,0 +1,83 @@
+#include "solver/events/hidden_events.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/numeric/cubic.h"
+
+namespace snapthrough {
+
+using Eigen::Index;
+
+namespace {
+
+/// Distance at which a value vanishes that has this rate and bends towards zero by `bend` times the squared
+/// distance.
+double bent_to_zero(double value, double rate, double bend) {
+  return 2.0 * value / (std::sqrt(rate * rate + 4.0 * bend * value) - rate);
+}
+
+/// Position where a stiffness could cross zero if its curvature were four times the mismatch of its end
+/// slopes: a change of slope that half of the way brings about.
+std::optional<double> bent_dip(const Cubic& stiffness) {
+  constexpr double kCurvature = 4.0;
+  const double change = stiffness.f1 - stiffness.f0;
+  const double bend = kCurvature * std::max(std::abs(change - stiffness.m0), std::abs(change - stiffness.m1));
+  const double from = bent_to_zero(stiffness.f0, stiffness.m0, bend);
+  const double to = 1.0 - bent_to_zero(stiffness.f1, -stiffness.m1, bend);
+  return from < to ? std::optional(0.5 * (from + to)) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Dip> find_dip(const PathPoint& a, const PathPoint& b, double length) {
+  constexpr double kLeast = 1e-3;  // distance from the ends, a fraction
+  if (!a.modes || !b.modes) return std::nullopt;
+  const SoftModes& from = *a.modes;
+  const SoftModes& to = *b.modes;
+  for (Index i = 0; i < from.count(); ++i) {
+    for (Index j = 0; j < to.count(); ++j) {
+      if ((from.stiffness[i] > 0.0) != (to.stiffness[j] > 0.0)) continue;
+      if (!(from.distance_to_zero(i, 1.0) + to.distance_to_zero(j, -1.0) < length)) continue;
+      const double meet =
+          (to.stiffness[j] - from.stiffness[i] - to.rate[j] * length) / (from.rate[i] - to.rate[j]);
+      return Dip{i, std::clamp(meet / length, kLeast, 1.0 - kLeast)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<double> knee_fraction(const Segment& segment) {
+  constexpr double kSameMotion = 0.7;  // least cosine of two points' modes that are one motion
+  const PathPoint& a = segment.from();
+  const PathPoint& b = segment.to();
+  if (!a.modes || !b.modes) return std::nullopt;
+  const PathMetric& metric = segment.solver().norm().metric();
+  const double length = segment.length();
+  for (Index i = 0; i < a.modes->count(); ++i) {
+    const double sign = std::copysign(1.0, a.modes->stiffness[i]);
+    for (Index j = 0; j < b.modes->count(); ++j) {
+      if (sign * b.modes->stiffness[j] <= 0.0) continue;
+      if (std::abs(metric.inner(a.modes->motions.col(i), 0.0, b.modes->motions.col(j), 0.0)) < kSameMotion)
+        continue;
+      const auto fraction = bent_dip({sign * a.modes->stiffness[i], sign * length * a.modes->rate[i],
+                                      sign * b.modes->stiffness[j], sign * length * b.modes->rate[j]});
+      if (fraction) return fraction;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<double> turn_fraction(const Segment& segment, bool inside, double tolerance) {
+  const PathPoint& a = segment.from();
+  const PathPoint& b = segment.to();
+  const double length = segment.distance();
+  const Cubic load{a.lambda, length * segment.load_rate(a), b.lambda, length * segment.load_rate(b)};
+  const double excess = std::min(std::abs(load.m0), std::abs(load.m1)) - std::abs(load.f1 - load.f0);
+  const double least = tolerance * std::max(std::abs(a.lambda), segment.solver().norm().least_load());
+  if (inside && excess <= least) return std::nullopt;
+  const auto at = load.inflection();
+  return at && (load.slope(*at) > 0.0) != (load.m0 > 0.0) ? at : std::nullopt;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,77 @@
+#pragma once
+/// @file
+/// What ends a path.
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "solver/events/contact_change.h"
+#include "solver/events/critical_event.h"
+#include "solver/path/path_point.h"
+
+namespace snapthrough {
+
+/// A number along a path and its derivative by arc length.
+struct Quantity {
+  std::function<double(const PathPoint&)> value;
+  std::function<double(const PathPoint&)> rate;
+};
+
+/// A number along a path that ends it where it leaves a range.
+struct BoundedQuantity {
+  std::function<double(const PathPoint&)> value;
+  std::array<double, 2> range{};
+};
+
+/// Stop rules in the path's own units (scaled load factors, scaled unknowns); empty rules do not stop.
+struct TraceRules {
+  bool first_loss_of_stability = false;
+  std::optional<int> limit_points;            ///< number of limit points, the last of which ends the path
+  std::optional<std::array<double, 2>> load;  ///< range of the load factor
+  std::optional<BoundedQuantity> monitor;
+  std::optional<Quantity> controlled;  ///< ends the path where it turns back (displacement control)
+  int steps = 1000;
+  ZoneCounter zones;       ///< empty: contact that begins or ends is not looked for
+  double gradient = 4.0;   ///< norm of the displacement (rms gradient) at which a path is given up
+  double travel = 1000.0;  ///< that bound for the sum of all steps' displacements: members that wind up
+  /// Whether the beam theory no longer holds at a point, where a path is given up as well; empty: it holds.
+  std::function<bool(const PathPoint&)> beyond_theory;
+  /// A point with more negative eigenvalues ends the path, as a rule the critical point that leads there;
+  /// empty: no number of them does.
+  std::optional<int> most_negative;
+  /// Whether `most_negative` does not hold at a point; empty: it holds everywhere.
+  std::function<bool(const PathPoint&)> most_negative_waits;
+  std::optional<double> first_step;  ///< in the path's norm; empty: from the load's scale
+  /// Critical points of other branches: the path ends where it meets one of them again.
+  std::vector<PathPoint> known;
+  /// Load factors of critical points on another mesh, which the path approaches by short steps.
+  std::vector<double> expected;
+  LocateOptions locate;
+  /// Imperfection of a bifurcation on a finer mesh, to tell one that the mesh makes from a real one; none
+  /// where that mesh does not have the bifurcation. Empty: there is no finer mesh.
+  std::function<std::optional<double>(const CriticalEvent&)> finer_imperfection;
+  /// Largest imperfection of a bifurcation that the path passes by and that is reported.
+  double most_broken = 1e-3;
+};
+
+/// Why a trace ended.
+enum class TraceEnd {
+  critical_point,
+  unstable_at_start,
+  limit_points,
+  load_factor,
+  monitor,
+  monitor_turned,
+  rejoined,
+  steps,
+  negative_eigenvalues,
+  displacement_bound,
+  load_bound,
+  cancelled,
+  step_underflow,
+  no_start
+};
+
+}  // namespace snapthrough
