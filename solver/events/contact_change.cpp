@@ -10,15 +10,15 @@ namespace snapthrough {
 namespace {
 
 constexpr int kMostCorrections = 25;
-constexpr int kMostChanges = 200;  ///< on one step
+constexpr int kMostChanges = 200;  ///< largest number of contact changes located per step
 
-/// A bracket of a change: the counts at `before` are the old ones, those at `after` are not.
+/// Two path points around a contact change: zone counts are unchanged at `before` and changed at `after`.
 struct Bracket {
   PathPoint before;
   PathPoint after;
 };
 
-/// Share of the bracket at which the interpolated path leaves the old counts.
+/// Fraction of the bracket at which the counts change along the interpolated path.
 double predicted_share(const Continuation& continuation, const Chord& chord, const Bracket& bracket,
                        const ZoneCounter& count, const std::vector<int>& old) {
   std::vector<int> zones;
@@ -30,18 +30,20 @@ double predicted_share(const Continuation& continuation, const Chord& chord, con
   });
 }
 
-/// Whether the counts change at the start of the bracket itself, so that they are others at once beyond it:
-/// as where the load begins and everything that touches touches from nothing. Sets the counts beyond.
+/// Whether the counts change immediately after the start of the bracket, for example at zero load where
+/// touching supports gain contact at once; `beyond` gets the counts just after the start.
 bool changes_at_start(const Continuation& continuation, const Chord& chord, const Bracket& bracket,
                       const ZoneCounter& count, const std::vector<int>& old, std::vector<int>& beyond) {
-  constexpr double kAtOnce = 1e-6;  // enough for zones to be deeper than rounding where all grow from nothing
+  // fraction of the bracket at which new contact zones are deeper than rounding
+  constexpr double kAtOnce = 1e-6;
   PathPoint at;
   continuation.interpolate(chord, bracket.before, bracket.after, kAtOnce, at);
   count(at.y, beyond);
   return beyond != old;
 }
 
-/// Just beyond the prediction, seen from the nearer end, so that the bracket closes from both sides.
+/// Fraction slightly past the prediction, counted from the nearer end, so that the bracket shrinks from both
+/// sides.
 double next_share(double share) {
   constexpr double kBeyond = 1.5;
   share = share < 0.5 ? kBeyond * share : 1.0 - kBeyond * (1.0 - share);
@@ -55,7 +57,7 @@ bool is_closed(const Continuation& continuation, const Bracket& bracket, double 
          continuation.distance(bracket.before, bracket.after) <= 1e-3;
 }
 
-/// Closes the bracket round its first change; false when it stays as wide as it is.
+/// Shrinks the bracket around its first change to the tolerance; false when no corrected point was found.
 bool close(Continuation& continuation, const Chord& chord, const ZoneCounter& count,
            const std::vector<int>& old, double tolerance, Bracket& bracket) {
   std::vector<int> zones;
@@ -95,7 +97,7 @@ std::vector<ContactChange> locate_contact_changes(Continuation& continuation, co
     change.before = old;
     count(bracket.after.y, old);
     change.after = old;
-    // a path turns where its contact changes, which is next to the start
+    // at a kink the contact change is next to the start of the step
     change.point = at_kink && !closed ? bracket.before : bracket.after;
     out.push_back(std::move(change));
     from = std::move(bracket.after);

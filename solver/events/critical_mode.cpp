@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 
 VectorXd null_vector(EquilibriumProblem& problem, const PathPoint& point, VectorXd start) {
   constexpr int kLeastIterations = 4;
-  constexpr int kMostIterations = 60;  // the softest motion of a stiff structure is found more slowly
+  constexpr int kMostIterations = 60;  // the lowest mode of a stiff structure converges more slowly
   constexpr double kSettled = 1e-12;
   const VectorXd& weights = problem.metric();
   const auto norm = [&weights](const VectorXd& x) {
