@@ -8,7 +8,7 @@
 namespace snapthrough {
 namespace {
 
-/// The stability count at an arc length beyond an accepted point.
+/// Number of negative eigenvalues at an arc length after an accepted point.
 int negative_at(const PathPoint& from, const std::vector<CriticalEvent>& critical, double arc) {
   int negative = from.negative;
   for (const CriticalEvent& event : critical)
@@ -20,7 +20,7 @@ int negative_at(const PathPoint& from, const std::vector<CriticalEvent>& critica
 
 std::vector<PathPoint> PathPoints::spread(Continuation& continuation, int count, const std::stop_token& stop,
                                           int& missing) const {
-  constexpr double kSamePlace = 1e-12;  // of the branch's length: a branch may end at a critical point
+  constexpr double kSamePlace = 1e-12;  // over the branch's length; a branch may end at a critical point
   std::vector<PathPoint> out;
   missing = 0;
   if (accepted_.empty()) return out;

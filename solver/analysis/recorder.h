@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Turns what a path follower reports into the result document's branches, critical points and states.
+/// Writes points and events of traced paths into the result: branches, critical points and states.
 
 #include <optional>
 #include <vector>
@@ -17,7 +17,7 @@ namespace snapthrough {
 
 struct Structure;
 
-/// Collects the path, the critical points and the states that were asked for.
+/// Records the path, its critical points and the requested states.
 class Recorder {
  public:
   Recorder(const Model& model, const Analysis& analysis, const Structure& structure,
@@ -33,15 +33,15 @@ class Recorder {
         observer_(model, analysis, structure),
         reached_(analysis.output.at_load_factors.size(), 0) {}
 
-  /// What to give to trace() for a branch; its points are recorded under `branch` from then on.
+  /// Sink for tracing one branch; later points are recorded under `branch`.
   [[nodiscard]] TraceSink sink(const Hooks& hooks, int branch = 0, std::optional<int> parent = std::nullopt);
-  /// Counts what add_contact() reports; empty when no support is one-sided.
+  /// Zone counts that add_contact() needs; empty when no support is one-sided.
   [[nodiscard]] ZoneCounter zone_counter() const;
-  /// Completes the branch that was recorded last and sets how it ended.
+  /// Completes the last branch and sets its termination code.
   void end_branch(const char* code);
-  /// Records a point that the path follower does not report itself.
+  /// Records a point that trace() does not report.
   void add_point(const PathPoint& point);
-  /// Reports what was gathered over all branches, once their states are final.
+  /// Writes extremes and warnings of all branches, after their states are final.
   void finish();
 
  private:
@@ -64,14 +64,14 @@ class Recorder {
   ContactZones zones_;
   NeutralMotionLog neutral_;
   Observer observer_;
-  std::vector<char> reached_;  ///< of the load factors whose states were asked for
-  PathPoints kept_;            ///< of the current branch, where points are asked for between them
+  std::vector<char> reached_;  ///< requested load factors whose states were recorded
+  PathPoints kept_;            ///< current branch, when `output.path_points` is requested
   std::stop_token stop_;
   int points_ = 0;
   int branch_ = 0;
-  /// Arc length of the point where stability was lost: there the stiffness is zero without being computed.
+  /// Arc length at which stability was lost; the stiffness ratio is zero there by definition.
   std::optional<double> lost_;
-  bool at_branch_start_ = true;  ///< no step of the current branch was taken
+  bool at_branch_start_ = true;  ///< no step of the current branch has been accepted
 };
 
 }  // namespace snapthrough

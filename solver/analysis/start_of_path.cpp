@@ -15,7 +15,7 @@ namespace snapthrough {
 
 namespace {
 
-/// Why there is no equilibrium under the first small load.
+/// Explains why no equilibrium was found under the first small load.
 std::string nothing_found(const Model& model, const Structure& structure, const Continuation& continuation) {
   const Eigen::VectorXd& motion = continuation.loose_motion();
   if (const auto& far = continuation.far_start()) {
@@ -44,8 +44,8 @@ void fail_to_start(const Model& model, const Structure& structure, const Continu
   fail(result, loose ? "loose_part" : "no_start", nothing_found(model, structure, continuation));
 }
 
-/// The end of the constant actions' path as the start of the next, where they act in full: its load factor is
-/// one to a share of its last step, which may be far longer.
+/// Converts the end of the constant actions' path to the start of the next path, with constant actions in
+/// full: corrects the load factor error of the last step.
 PathPoint fully_loaded(Continuation& continuation, const PathPoint& end) {
   PathPoint full = end;
   full.lambda = 0.0;
@@ -58,7 +58,8 @@ PathPoint fully_loaded(Continuation& continuation, const PathPoint& end) {
 std::optional<PathPoint> start_at_state(const Model& model, const Structure& structure,
                                         Continuation& continuation, const Analysis& analysis,
                                         Result& result) {
-  constexpr double kNear = 0.02;  // of the given displacements, by which the equilibrium may differ from them
+  // allowed distance of the equilibrium over the norm of the given displacements
+  constexpr double kNear = 0.02;
   const StartState& state = *analysis.start;
   Eigen::VectorXd given;
   try {

@@ -574,10 +574,8 @@ double StructuralProblem::force_scale(const VectorXd& y, double lambda) const {
 }
 
 double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) const {
-  constexpr double kRoundings =
-      0.5;  // expected share of the worst-case rounding: half a unit in the last place
-  // largest tolerated rounding; stiffer supports exceed double precision
-  constexpr double kMostRounding = 1e-7;
+  constexpr double kRoundings = 0.5;      // half a unit in the last place
+  constexpr double kMostRounding = 1e-7;  // larger rounding: supports too stiff for double precision
   double largest = elements_->support_rounding();
   for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
     const NodeSpring& spring = structure_.node_springs[i];
