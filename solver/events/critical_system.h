@@ -35,8 +35,8 @@ struct CriticalSolution {
   /// n: columns, orthonormal in W. The first has no stiffness, the others almost none.
   Eigen::MatrixXd null;
   Eigen::VectorXd response;  ///< q: J q = load, orthogonal to n
-  /// Second derivatives of F along the null motions and z = (q, 1): A[k](i, j) = n_i.F''[n_j, n_k], B(i, j) =
-  /// n_i.F''[n_j, z], C(i) = n_i.F''[z, z]. A and B are the rates of the stiffness of n along n and z.
+  /// Second derivatives of F along the null motions and z = (q, 1): A[k](i, j) = n_i.F''[n_j, n_k], B(i,
+  /// j) = n_i.F''[n_j, z], C(i) = n_i.F''[z, z]. A and B are the rates of the stiffness of n along n and z.
   std::vector<Eigen::MatrixXd> A;
   Eigen::MatrixXd B;
   Eigen::VectorXd C;
@@ -70,8 +70,8 @@ struct CriticalOptions {
   double largest_imperfection = 1e-2;  ///< iteration stops at larger imperfections
 };
 
-/// @brief Finds the bifurcation next to a guess by Newton's method on Moore's system: F + W n mu = 0, J n =
-/// 0, n.load = 0 in y, lambda and mu. The system is regular also on a path that misses the bifurcation by a
+/// @brief Finds the bifurcation next to a guess by Newton's method on Moore's system F + W n mu = 0, J n = 0,
+/// n.load = 0 in y, lambda and mu. The system is regular also on a path that misses the bifurcation by a
 /// small imperfection, which mu measures.
 ///
 /// Neighbouring null motions are bordered together, including motions that the guess does not have, because
