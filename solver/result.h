@@ -172,7 +172,7 @@ struct FoundationState {
   std::vector<double> s, reaction;
   std::vector<double> displacement;            ///< into the medium
   std::vector<std::array<double, 2>> contact;  ///< intervals [s0, s1] in contact, in the member's s
-  Resultant resultant;                         ///< of the medium on the structure, with the shear layer
+  Resultant resultant;                         ///< force of the medium on the structure, with the shear layer
 };
 /// Equilibrium state: reactions and the resultants of springs, foundations and loads sum to zero.
 struct State {
@@ -183,7 +183,7 @@ struct State {
   std::vector<SupportState> supports;
   std::vector<SpringState> springs;
   std::vector<FoundationState> foundations;
-  Resultant loads;  ///< of all loads in the state
+  Resultant loads;  ///< resultant of all loads in the state
 };
 
 /// Equilibria at the requested load factors that were reached, in the order of the request.

@@ -19,7 +19,7 @@ class Differences {
  public:
   /// @return estimated relative error of `coarse`
   double add(double coarse, double fine) {
-    constexpr double kSafety = 2.0;
+    constexpr double kSafety = 2.0;  // see the class comment
     const double size = std::abs(fine);
     const double difference = size > 0.0 ? std::abs(coarse - fine) / size : 1.0;
     const bool falls = last_ < 0.0 || difference <= last_ / kFall;
@@ -32,7 +32,7 @@ class Differences {
   [[nodiscard]] bool confirm(double accuracy) const { return (first_ ? kFall : 1.0) * error_ <= accuracy; }
 
  private:
-  static constexpr double kFall = 4.0;
+  static constexpr double kFall = 4.0;  // least ratio of successive differences
   double last_ = -1.0;
   double error_ = 1.0;
   bool first_ = true;

@@ -73,7 +73,7 @@ void withdraw_load_not_held(const Model& model, const UnilateralBalance& balance
   if (!load || balance.is_proportional()) return;
   const std::optional<Escape> escape = balance.escape(*load);
   if (!escape) return;
-  constexpr int kDigits = 9;  // of the limit, which is known to eleven digits
+  constexpr int kDigits = 9;  // significant digits of the reported limit, which is exact to 1e-11
   const double most = balance.largest_held(std::min(1.0, *load), *load);
   withdraw_critical_load(result);
   std::erase_if(result.warnings, [](const Warning& warning) { return warning.code == "contact_changes"; });

@@ -68,7 +68,7 @@ ContactShares shares_of(const Structure& structure, const Model& laws, const Str
 
 /// Share in per cent; shares below 1e-6 are within the tolerance of touching and print as zero.
 std::string percent(double share) {
-  constexpr double kNothing = 1e-6;
+  constexpr double kNothing = 1e-6;  // share of a range that is within the tolerance of touching
   return rounded(share > kNothing ? 100.0 * share : 0.0) + " %";
 }
 

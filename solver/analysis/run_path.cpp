@@ -173,7 +173,7 @@ void describe_end(const Analysis& analysis, const TraceOutcome& outcome, double 
 
 /// Message on the critical points that meshes do not agree on; at most kMost points.
 std::string disagreements(const Result& result) {
-  constexpr int kMost = 3;
+  constexpr int kMost = 3;  // points that the message lists
   std::string text;
   int left = 0;
   for (const CriticalPoint& point : result.critical_points) {
@@ -249,7 +249,7 @@ class BranchFollower {
         loads_(loads),
         watch_(watch),
         hooks_(hooks) {
-    constexpr int kMostBranches = 20;
+    constexpr int kMostBranches = 20;  // unless the request has a limit
     limit_ = analysis.branches.limit.value_or(analysis.branches.follow == Follow::first ? 2 : kMostBranches);
   }
 
@@ -441,7 +441,7 @@ bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) 
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
-  constexpr int kMostPaths = 4;
+  constexpr int kMostPaths = 4;  // paths on successively finer meshes
   // limit on elements times factorisations of the next path, about ten seconds
   constexpr double kMostWork = 1e7;
   const Structure* mesh = &structure;

@@ -119,9 +119,8 @@ void SoftestPoint::search_before_fall(const PathPoint& from, const PathPoint& to
 }
 
 void SoftestPoint::search_before_critical(PathPoint from) {
-  constexpr int kMostLooks = 4;
-  constexpr double kStraight =
-      0.7;  // fraction of the interval; the stiffness has an inflection when its tangent reaches zero earlier
+  constexpr int kMostLooks = 4;      // corrected points per search
+  constexpr double kStraight = 0.7;  // tangent's zero before this fraction of the interval: inflection
   for (int i = 0; i < kMostLooks; ++i) {
     const auto a = stiffness_of(from);
     if (!a || from.negative > 0 || !(a->rate < 0.0)) return;
@@ -142,7 +141,7 @@ void SoftestPoint::search_before_critical(PathPoint from) {
 }
 
 void SoftestPoint::search(PathPoint low, PathPoint high) {
-  constexpr int kMostLooks = 8;
+  constexpr int kMostLooks = 8;            // corrected points per search
   constexpr double kSameLoad = 1e-3;       // relative load factor difference at the minimum
   constexpr double kSameStiffness = 1e-2;  // relative stiffness difference at the minimum
   for (int i = 0; i < kMostLooks; ++i) {

@@ -107,7 +107,7 @@ std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
 
 /// Members at a node, with the verb: 'member "a" is', 'members "a", "b" and 7 more are'.
 std::string members_at(const Model& model, const std::string& node) {
-  constexpr int kMostNames = 5;
+  constexpr int kMostNames = 5;  // ids that a message lists
   std::string text;
   int count = 0;
   for (const Member& member : model.members) {

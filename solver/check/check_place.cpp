@@ -39,7 +39,7 @@ std::string text(double value) {
 }
 
 std::string in_quotes(std::string_view id) {
-  constexpr std::size_t kShown = 60;
+  constexpr std::size_t kShown = 60;  // bytes of an id that a message shows
   std::size_t length = std::min(id.size(), kShown);
   while (length < id.size() && length > 0 && (static_cast<unsigned char>(id[length]) & 0xC0U) == 0x80U) {
     --length;  // do not cut inside a UTF-8 sequence

@@ -10,7 +10,7 @@
 namespace snapthrough {
 namespace {
 
-constexpr int kTerms = 13;
+constexpr int kTerms = 13;  // terms of the power series
 /// Largest product of piece length and characteristic exponent: the series are then exact to one digit less
 /// than rounding.
 constexpr double kLongest = 2.2;

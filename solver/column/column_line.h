@@ -21,7 +21,7 @@ struct ColumnSpan {
   double constant = 0.0;      ///< compression by the constant actions
   double proportional = 0.0;  ///< compression per unit load factor
   int member = 0;
-  std::array<double, 2> fractions{};  ///< of the member at both ends; falling if the member runs backwards
+  std::array<double, 2> fractions{};  ///< member fractions at both ends; falling if the member runs backwards
 };
 
 /// Rotational restraint beside a joint, scaled.

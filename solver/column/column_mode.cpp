@@ -169,7 +169,7 @@ double ModeSearch::independence(const ColumnMode& mode, const std::vector<Column
 }
 
 void ModeSearch::find(std::size_t count, std::vector<ColumnMode>& out) const {
-  constexpr double kIndependent = 0.05;
+  constexpr double kIndependent = 0.05;  // least independent part of a mode among those of equal loads
   const std::size_t first = out.size();
   for (const Match& match : best_matches(count)) {
     if (out.size() == first + count) break;
@@ -194,7 +194,7 @@ ColumnMode::Value ColumnMode::at(int span, double x) const {
 }
 
 std::vector<ColumnMode> column_modes(const ColumnLine& line, const std::vector<double>& loads) {
-  constexpr double kEqual = 1e-9;
+  constexpr double kEqual = 1e-9;  // relative difference up to which loads are equal
   const ColumnLine back = reversed(line);
   std::vector<ColumnMode> out;
   for (std::size_t i = 0; i < loads.size();) {

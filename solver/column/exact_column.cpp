@@ -38,7 +38,7 @@ class LoadSearch {
 
 /// Finds a load factor with enough loads below it; false when that needs too many pieces.
 bool LoadSearch::enclose(LoadBracket& bracket) {
-  constexpr double kMostPieces = 5e4;
+  constexpr double kMostPieces = 5e4;  // work limit; beyond, the exact solution is not attempted
   constexpr int kDoublings = 100;
   double hi = std::numeric_limits<double>::infinity();
   double length = 0.0;
@@ -62,7 +62,7 @@ bool LoadSearch::enclose(LoadBracket& bracket) {
 
 /// Accepts a bracket of one load or of equal loads; false: it must be divided further.
 bool LoadSearch::take(const LoadBracket& bracket) {
-  constexpr double kEqual = 1e-14;
+  constexpr double kEqual = 1e-14;  // relative difference up to which loads are equal
   // loads below Euler's by this factor are those of a mechanism
   constexpr double kNone = 1e-25;
   lost_ = lost_ || bracket.hi <= kNone * scale_;
@@ -84,7 +84,7 @@ double ratio(const WideNumber& a, const WideNumber& b) {
 
 /// The single load in a bracket.
 double LoadSearch::root(const LoadBracket& bracket) {
-  constexpr double kDigits = 1e-15;
+  constexpr double kDigits = 1e-15;  // relative width of the final bracket
   constexpr int kMost = 200;
   const ColumnCount at_hi = count(bracket.hi);
   // magnitude from the determinant, sign from the count
@@ -108,8 +108,8 @@ double LoadSearch::root(const LoadBracket& bracket) {
 
 /// Confirms a load by counts on both sides, with differently cut pieces, and records the distance as error.
 bool LoadSearch::confirm(double load, int below) {
-  constexpr double kLeast = 1e-13;
-  constexpr double kMost = 1e-6;
+  constexpr double kLeast = 1e-13;  // smallest tested relative error
+  constexpr double kMost = 1e-6;    // largest accepted relative error
   for (double beside = kLeast; beside <= kMost; beside *= 8.0) {
     out_.counts += 2;
     if (count_below(line_, load * (1.0 - beside), true).negative <= below &&

@@ -41,7 +41,7 @@ class ColumnMode {
 
  private:
   friend class ModeSearch;
-  static constexpr int kCoefficients = 28;
+  static constexpr int kCoefficients = 28;  // terms of the power series
   /// Power series of the displacement about one end of a piece.
   struct Piece {
     double from = 0.0;

@@ -64,9 +64,9 @@ double firmness(const Model& model, double length) {
 }  // namespace
 
 bool is_plainly_held(const Model& model) {
-  constexpr std::size_t kFew = 10;
-  constexpr double kComparable = 1e-3;
-  constexpr double kFirm = 1e-3;
+  constexpr std::size_t kFew = 10;      // members
+  constexpr double kComparable = 1e-3;  // ratio of stiffnesses
+  constexpr double kFirm = 1e-3;        // least restraint, see firmness()
   if (model.members.size() > kFew || model.supports.empty()) return false;
   double length = 0.0;
   double least_EI = std::numeric_limits<double>::infinity();

@@ -161,7 +161,7 @@ std::size_t RigidMechanism::node_of(const Eigen::VectorXd& motion) const {
 }
 
 std::optional<Eigen::VectorXd> RigidMechanism::driven_by(Pattern pattern) const {
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = 1e-9;  // work over forces times largest displacement that counts as zero
   const RigidLoads loading(parts_, pattern);
   Eigen::VectorXd driven = Eigen::VectorXd::Zero(parts_.unknowns());
   for (const Eigen::VectorXd& motion : motions_) driven += loading.forces().dot(motion) * motion;

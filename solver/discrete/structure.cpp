@@ -430,6 +430,7 @@ bool Builder::is_moved_by_constant_actions() const {
     free.segment<2>(3 * node) = along;
     if (support.fixed[2]) free[3 * node + 2] = 0.0;
   }
+  // force over the largest constant action that counts as zero
   constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
   return free.lpNorm<Eigen::Infinity>() > kRounding * out_.constant_load.lpNorm<Eigen::Infinity>();
 }

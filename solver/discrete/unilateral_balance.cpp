@@ -238,7 +238,7 @@ bool UnilateralBalance::add_entered(const Group& group, const VectorXd& motion, 
                                     MatrixXd& rows) const {
   // sampling of the axis per half turn, within which the displacement into a support has one or two maxima
   constexpr double kPlacesByHalfTurn = 16.0;
-  constexpr std::size_t kPlacesByKnot = 4;
+  constexpr std::size_t kPlacesByKnot = 4;  // sampling per spline knot
   const Index before = rows.cols();
   for (const CurvedSupport& support : group.curved) {
     const AxisCurve& axis = *motions_.parts().axes()[static_cast<std::size_t>(support.member)];

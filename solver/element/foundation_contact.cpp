@@ -45,7 +45,7 @@ FoundationContact::FoundationContact(int order, const Direction& direction, Plac
 
 /// Whether the samples resolve products of the direction and displacements of the element's degree.
 bool FoundationContact::resolved() const {
-  constexpr double kRounding = 1e-14;
+  constexpr double kRounding = 1e-14;  // error of interpolated direction components that counts as rounding
   constexpr std::array<double, 5> kBetween{0.02, 0.19, 0.41, 0.68, 0.93};
   const double degree = rule_->order();
   for (int c = 0; c < 2; ++c) {
@@ -219,7 +219,7 @@ std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, dou
 /// is ignored: a sign change before the node is searched for.
 template <class Gap>
 double change_between(const Gap& gap, const Sample& left, const Sample& right) {
-  constexpr double kRounding = 1e-10;
+  constexpr double kRounding = 1e-10;  // ratio of |g| at both ends below which the smaller one is zero
   const bool to_zero = std::abs(right.g) < kRounding * std::abs(left.g);
   const bool from_zero = std::abs(left.g) < kRounding * std::abs(right.g);
   if (!to_zero && !from_zero) return root_between(gap, left, right);
@@ -253,7 +253,7 @@ bool may_cross(double left, double right, double change) {
 template <class Gap, class Cross>
 void search_cell(const Gap& gap, const Sample& left, const Sample& right, double before, double after,
                  const Cross& cross) {
-  constexpr int kParts = 4;
+  constexpr int kParts = 4;  // parts of the cell
   const double width = right.z - left.z;
   const Eigen::Array4d z =
       left.z + width * Eigen::Array4d(1.0 / kParts, 2.0 / kParts, 3.0 / kParts, 4.0 / kParts);

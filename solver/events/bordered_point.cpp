@@ -59,7 +59,7 @@ bool BorderedPoint::factorise() {
 /// Solves with the factors beside the critical point and refines with the residual of the tangent at it.
 VectorXd BorderedPoint::response(const Held& to) const {
   constexpr int kMostCorrections = 6;
-  constexpr double kSmall = 1e-15;
+  constexpr double kSmall = 1e-15;  // relative size of the last correction
   const MatrixXd border = problem_.metric().asDiagonal() * at_.null;
   VectorXd out = VectorXd::Zero(to.forces.size());
   VectorXd left = to.forces;

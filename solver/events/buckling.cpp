@@ -103,7 +103,7 @@ void Pencil::drop_rounding(double least, VectorXd& response) const {
 
 bool Pencil::holds_are_idle(double lambda) {
   if (!holds_) return true;
-  constexpr double kIdle = 1e-6;
+  constexpr double kIdle = 1e-6;  // scaled stiffness or displacement that counts as zero
   ++factorizations_;
   const double bound = kIdle * std::max(1.0, std::abs(lambda));
   const MotionStiffness held = motion_stiffness(problem_, holds_, stress(lambda), sense_ * lambda, regime());
@@ -177,7 +177,7 @@ constexpr double kShort = 1e-2;
 
 /// Short brackets of single eigenvalues and narrow brackets of clusters, ascending.
 std::vector<LoadBracket> isolated(Pencil& pencil, const LoadBracket& all, int wanted) {
-  constexpr double kNarrow = 1e-4;
+  constexpr double kNarrow = 1e-4;  // relative width of the bracket of a cluster
   std::vector<LoadBracket> out;
   const auto take = [&](const LoadBracket& bracket) {
     const bool single = bracket.is_single();
@@ -320,7 +320,7 @@ std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, int wanted, 
 /// the whole cluster was iterated and the Rayleigh quotient of its mode confirms it (counts lose digits next
 /// to a double load); otherwise the load is located by bisection of the counts.
 void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>& pairs) {
-  constexpr double kBeside = 1e-9;
+  constexpr double kBeside = 1e-9;  // relative distance of the counts from the load
   const bool whole = static_cast<int>(pairs.size()) == bracket.below_hi - bracket.below_lo;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const int below = bracket.below_lo + static_cast<int>(i);

@@ -45,7 +45,7 @@ bool changes_at_start(const Continuation& continuation, const Chord& chord, cons
 /// Fraction slightly past the prediction, counted from the nearer end, so that the bracket shrinks from both
 /// sides.
 double next_share(double share) {
-  constexpr double kBeyond = 1.5;
+  constexpr double kBeyond = 1.5;  // factor on the distance from the nearer end
   share = share < 0.5 ? kBeyond * share : 1.0 - kBeyond * (1.0 - share);
   return std::clamp(share, 1e-6, 1.0 - 1e-6);
 }

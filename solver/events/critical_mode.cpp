@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 VectorXd null_vector(EquilibriumProblem& problem, const PathPoint& point, VectorXd start) {
   constexpr int kLeastIterations = 4;
   constexpr int kMostIterations = 60;  // the lowest mode of a stiff structure converges more slowly
-  constexpr double kSettled = 1e-12;
+  constexpr double kSettled = 1e-12;   // change of the normalised vector per iteration
   const VectorXd& weights = problem.metric();
   const auto norm = [&weights](const VectorXd& x) {
     return std::sqrt((x.array().square() * weights.array()).sum());

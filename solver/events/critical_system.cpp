@@ -75,7 +75,7 @@ std::vector<CriticalDirection> CriticalSolution::tangents(const PathMetric& metr
     return {direction(*this, C, big, metric), direction(*this, VectorXd::Constant(1, big), a, metric)};
   }
   VectorXd a = VectorXd::Zero(k);
-  constexpr int kIterations = 5;
+  constexpr int kIterations = 5;  // Newton iterations on the amplitudes
   for (int it = 0; it < kIterations; ++it) {
     MatrixXd change = B;
     for (Index j = 0; j < k; ++j) change.col(j) += A[static_cast<std::size_t>(j)] * a;
@@ -152,7 +152,7 @@ void CriticalNewton::solve(MatrixXd& x) {
 /// One step of iterative refinement. Elimination loses digits where the tangent is singular, or where a part
 /// of a member is at a buckling load of its own (for example each half of a column in its second mode).
 void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
-  constexpr double kLargest = 0.1;
+  constexpr double kLargest = 0.1;  // largest refinement relative to the null motions
   const Index k = v_.cols();
   MatrixXd all(rows.rows(), k + 2);
   all << v_, p_, q_;

@@ -11,7 +11,7 @@ namespace {
 /// n.F'''[n, n, n] from second differences of tangent products, extrapolated; empty when not converged.
 std::optional<double> third_derivative(const BorderedPoint& point) {
   constexpr double kLongest = 2e-2;  // largest step (displacement gradient) for accurate second differences
-  constexpr double kShorter = 0.25;
+  constexpr double kShorter = 0.25;  // ratio of successive steps
   constexpr int kMostSteps = 4;
   // relative change between steps; the error after extrapolation is about its square
   constexpr double kSettled = 1e-3;

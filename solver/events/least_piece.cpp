@@ -18,7 +18,7 @@ constexpr double kNoDisplacement = 1e-7;
 /// Relative difference of two loads of one piece that counts as rounding.
 constexpr double kSameLoad = 1e-9;
 constexpr int kMostPieces = 400;  ///< limit on visited pieces in over_springs()
-constexpr int kMostSprings = 30;
+constexpr int kMostSprings = 30;  // limit for the search over springs, one bit each
 
 class Search {
  public:
@@ -122,7 +122,7 @@ double Search::quotient(const VectorXd& motion) {
 
 void Search::descend(VectorXd motion) {
   constexpr int kMostSteps = 40;
-  constexpr int kHalvings = 8;
+  constexpr int kHalvings = 8;  // step reductions per descent step
   double load = quotient(motion);
   for (int step = 0; step < kMostSteps; ++step) {
     set_cone_of(motion);

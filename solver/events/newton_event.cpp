@@ -128,6 +128,7 @@ std::vector<CriticalEvent> bifurcations_near(Continuation& continuation, const C
                                              const PathDirection& way, int before,
                                              const CriticalOptions& options) {
   constexpr double kExact = 1e-5;  // relative distance in the load factor whose square is negligible
+  // relative distance in the load factor up to which bifurcations are neighbours
   constexpr double kClose = 1e-2;
   constexpr double kBeside = 1e-2;  // step of the inertia counts over the reach
   const auto solved = solve_on_path(continuation, guess, way, options);
@@ -206,7 +207,7 @@ Index crossing_mode(const SoftModes& modes, double sign, double sense) {
 /// if both ends have the same motion, else linearly from the nearer end.
 double predicted_share(const PathMetric& metric, const SoftModes& a, Index i, const SoftModes& b, Index j,
                        double length) {
-  constexpr double kSame = 0.9;
+  constexpr double kSame = 0.9;  // least cosine between the motions of both ends
   const double from_a = a.distance_to_zero(i, 1.0) / length;
   const double from_b = b.distance_to_zero(j, -1.0) / length;
   if (std::abs(metric.inner(a.motions.col(i), 0.0, b.motions.col(j), 0.0)) < kSame)

@@ -28,7 +28,7 @@ double amount(const TouchingSupports& touching) {
 /// Whether all touching supports still touch at the equilibrium under a load, from the unloaded or preloaded
 /// state `from`.
 bool still_touch(const Structure& structure, const VectorXd& from, double lambda) {
-  constexpr double kAll = 1e-6;
+  constexpr double kAll = 1e-6;  // relative loss of touching supports that is ignored
   StructuralProblem problem(structure);
   const PathMetric metric{&structure.metric, 0.0};
   VectorXd displacement;

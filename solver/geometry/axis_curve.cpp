@@ -13,7 +13,7 @@
 namespace snapthrough {
 namespace {
 
-constexpr int kTableIntervals = 64;
+constexpr int kTableIntervals = 64;  // intervals of the arc length table
 
 /// Chord frame: point(xi, eta) = start + xi * chord + eta * left normal of the chord.
 struct Chord {

@@ -23,7 +23,7 @@ struct SignedRoot {
 
 /// Signed root of F; empty when F is not semidefinite and the sign of a pivot is uncertain.
 std::optional<SignedRoot> signed_root(const Matrix3d& F) {
-  constexpr double kCancelled = 1e-3;
+  constexpr double kCancelled = 1e-3;  // pivot over its terms below which its sign is uncertain
   SignedRoot out;
   Matrix3d& L = out.L;
   const double floor = 1e-13 * std::max({std::abs(F(0, 0)), std::abs(F(1, 1)), std::abs(F(2, 2))});
@@ -55,7 +55,7 @@ std::optional<SignedRoot> signed_root(const Matrix3d& F) {
 /// Scales the largest entry of each row to about one by a diagonal congruence transformation.
 template <int N>
 void balance(Eigen::Matrix<double, N, N>& A) {
-  constexpr int kPasses = 4;
+  constexpr int kPasses = 4;  // iterations of the scaling
   for (int pass = 0; pass < kPasses; ++pass) {
     std::array<double, N> d;
     for (int i = 0; i < N; ++i)
@@ -207,10 +207,10 @@ void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
 /// Joins the next element, or several next elements at once if their pivot is much better: first by error
 /// amplification, then by certainty of sign.
 void Chain::join_next(Run& all, std::span<const CondensedElement> elements) {
-  constexpr double kLargeGain = 1e3;
-  constexpr double kPoorQuality = 1e-3;
-  constexpr double kMuchBetter = 10.0;
-  constexpr int kMostAhead = 4;
+  constexpr double kLargeGain = 1e3;     // error amplification above which alternatives are tried
+  constexpr double kPoorQuality = 1e-3;  // reciprocal condition below which alternatives are tried
+  constexpr double kMuchBetter = 10.0;   // factor by which an alternative pivot must improve
+  constexpr int kMostAhead = 4;          // elements joined to each other first
   const auto run_of = [&elements](int i) { return Run{elements[i].K, elements[i].X, elements[i].F, i, i}; };
   const int next = all.last + 1;
   const Pivot pivot = pivot_of(all, run_of(next));

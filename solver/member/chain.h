@@ -54,8 +54,8 @@ class Chain {
   /// Join of two runs at the start of element `second_first`.
   struct Join {
     int first_first = 0, second_first = 0, second_last = 0;
-    Eigen::Matrix3d X, F;    ///< of the first run
-    Eigen::Matrix3d K2, X2;  ///< of the second run
+    Eigen::Matrix3d X, F;    ///< matrices of the first run
+    Eigen::Matrix3d K2, X2;  ///< matrices of the second run
     SmallFactor pivot;
   };
   /// Pivot I + K' F of a join.

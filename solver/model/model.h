@@ -33,7 +33,7 @@ inline constexpr double kOnePlace = 1e-9;
 struct Location {
   std::string node;
   std::string member;
-  double fraction = 0.0;  ///< of the undeformed length, in [0, 1]; used with `member`
+  double fraction = 0.0;  ///< fraction of the undeformed length, in [0, 1]; used with `member`
 };
 
 struct Node {

@@ -49,8 +49,8 @@ bool settle(Attempt& attempt, const Regime& regime, ContactState& state) {
   options.regime = regime;
   options.regime.small_displacements = attempt.small_displacements;
   double lambda = attempt.lambda;
-  constexpr double kSmaller = 0.1;
-  constexpr double kLeastScale = 1e-14;
+  constexpr double kSmaller = 0.1;       // decrease of the displacement norm that requires a restart
+  constexpr double kLeastScale = 1e-14;  // smallest displacement norm as scale
   // restarts with a smaller scale when the guess was far too large: the tolerance is relative to the scale
   for (double scale = std::max(attempt.metric.norm(state.y, 0.0), kLeastScale);;) {
     const auto outcome =
@@ -78,9 +78,9 @@ bool settle_with(Attempt& attempt, double grip, ContactState& state) {
 /// Solves with supports so soft that contact is lost or kept as a whole, then stiffens them step by step. On
 /// stiff supports Newton's method moves the ends of contact by only a few decay lengths per iteration.
 bool harden(Attempt& attempt, ContactState& state) {
-  constexpr double kSoftest = 1e-12;
-  constexpr double kSofter = 1e-3;
-  constexpr double kSlowest = 1.3;
+  constexpr double kSoftest = 1e-12;  // factor on the stiffness of one-sided supports
+  constexpr double kSofter = 1e-3;    // softening per attempt
+  constexpr double kSlowest = 1.3;    // smallest stiffening factor per step
   double softness = kSofter;
   const auto settle_at = [&](double share, bool from_guess) {
     Regime regime;

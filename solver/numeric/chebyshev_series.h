@@ -42,7 +42,7 @@ class ChebyshevSeries {
 
   int size_;
   Coefficients coefficients_{};
-  Coefficients slopes_{};  ///< of the derivative d / d xi
+  Coefficients slopes_{};  ///< coefficients of d / d xi
 };
 
 }  // namespace snapthrough

@@ -11,8 +11,8 @@
 
 namespace snapthrough {
 
-/// @brief Held motions as displacements of nodes, in a basis from elimination: each nodal pivot component
-/// occurs in one motion only, so that a translation is reported as such.
+/// @brief Held motions as displacements of nodes in a reduced basis: each pivot component (of a node) is
+/// nonzero in one motion only, so that a translation is reported as such.
 /// @param holds null: no motions
 /// @return motions without branch and load factors
 [[nodiscard]] std::vector<NeutralMotion> neutral_motions(const Structure& structure, const Model& model,

@@ -23,8 +23,8 @@ Index nearest_target(const CriticalSolution& solution, double lambda) {
 
 std::optional<ExactPoint> exact_point(EquilibriumProblem& problem, const PathMetric& metric,
                                       const LocatedPoint& at, int& factorisations) {
-  constexpr double kPlace = 1e-9;
-  constexpr int kTimes = 2;  // the second solution updates the derivatives, which lag by one iteration
+  constexpr double kPlace = 1e-9;  // displacement tolerance over the reach
+  constexpr int kTimes = 2;        // the second solution updates the derivatives, which lag by one iteration
   const CriticalEvent& event = at.event;
   const bool limit = is_limit(event.type);
   CriticalOptions options;

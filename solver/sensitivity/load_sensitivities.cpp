@@ -99,14 +99,15 @@ Rate VariationRate::difference(const Sides& at) const {
 }
 
 std::optional<Rate> VariationRate::best_difference(double lambda) {
-  constexpr double kFirst = 2.5e-4;  // first step over the variation's size
-  constexpr double kShorter = 0.125;
+  constexpr double kFirst = 2.5e-4;   // first step over the variation's size
+  constexpr double kShorter = 0.125;  // ratio of successive steps
   constexpr int kMostSteps = 6;
   constexpr double kAgree = 1e-6;  // relative agreement; the error after extrapolation is about its square
   // change of the load, per change by the variation's size, that counts as zero
   constexpr double kNothing = 1e-8;
   constexpr double kRounding = 1e-13;  // rounding of a difference over the load
-  constexpr double kDiffer = 1e-3;
+  constexpr double kDiffer = 1e-3;     // largest accepted error over the rate
+  // largest accepted error over the load, per change by the variation's size
   constexpr double kCounts = 1e-6;
   const double size = variation_.size;
   std::optional<Rate> best;
@@ -140,8 +141,9 @@ double VariationRate::mismatch(const Sides& at) const {
 /// Whether the one-sided rates differ and do not approach each other when the step is halved: contact
 /// changes.
 bool VariationRate::has_kink(double lambda) const {
+  // decrease of the difference of rates, when the step is halved, without a kink
   constexpr double kFalls = 0.75;
-  constexpr double kCounts = 1e-5;
+  constexpr double kCounts = 1e-5;  // relative change of the load by the kink that is ignored
   if (!structure_.one_sided || way_ != 0.0) return false;
   const double near = std::abs(mismatch(fine_));
   return near * variation_.size > kCounts * std::abs(lambda) && near > kFalls * std::abs(mismatch(coarse_));

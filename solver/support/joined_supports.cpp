@@ -29,7 +29,7 @@ double agreement(const Direction& a, const Direction& b) {
   return a.fixed[0] * b.fixed[0] + a.fixed[1] * b.fixed[1] > 0.0 ? 1.0 : -1.0;
 }
 
-/// Direction of action of a spring; a rotational spring counts as one that turns with its place.
+/// Direction of action of a spring; for a rotational spring a turning direction with the spring's sign.
 Direction action_of(const Spring& spring) {
   const double sense = sense_of(spring.reaction);
   return spring.direction ? fixed_direction(*spring.direction, sense) : Direction{true, {}, sense};

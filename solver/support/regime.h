@@ -40,7 +40,7 @@ struct TouchingMarks {
 
 /// Distances at which a support counts as touching without pressure; smaller for stiff supports.
 struct TouchingDistance {
-  double any = 0.0;       ///< for the softest supports
+  double any = 0.0;       ///< force of a support that counts as unloaded
   double force = 0.0;     ///< largest force of a support
   double rounding = 0.0;  ///< rounding of displacements, lower limit of the distance
 

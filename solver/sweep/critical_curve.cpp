@@ -25,8 +25,8 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kReach = 0.01;  // distance from the critical point to both equilibria, over the path length
-constexpr double kInterpolation = 1e-8;
-constexpr double kSameLoad = 1e-6;
+constexpr double kInterpolation = 1e-8;  // relative error of an interpolated load
+constexpr double kSameLoad = 1e-6;       // relative difference up to which loads agree
 constexpr int kMostHalvings = 7;
 constexpr std::size_t kHistory = 4;  // number of nodes: extrapolation is cubic
 
