@@ -10,8 +10,7 @@
 
 namespace snapthrough {
 
-/// Type of a critical point. broken_bifurcation: bifurcation beside the path, missed because of an
-/// imperfection.
+/// Type of a critical point. broken_bifurcation: missed by the path because of an imperfection.
 enum class CriticalType { bifurcation, limit_max, limit_min, broken_bifurcation };
 
 [[nodiscard]] constexpr bool is_limit(CriticalType type) {
@@ -139,8 +138,7 @@ struct Branch {
   std::string termination = {};               ///< code as in Summary
 };
 
-/// Force, and moment about the origin of the model's axes, at the deformed positions (linear geometry:
-/// undeformed).
+/// Force, and moment about the axes' origin, at the deformed positions (linear geometry: undeformed).
 struct Resultant {
   double fx = 0.0;
   double fy = 0.0;
@@ -264,8 +262,7 @@ struct MeshReport {
   /// Number of paths followed, the last one reported. Each repeats the previous one on a mesh at least four
   /// times as fine, because finer meshes did not confirm the result.
   int paths = 1;
-  /// Element ends along each member of the reported path's mesh, as fractions; empty for analyses without a
-  /// path.
+  /// Element ends along each member of the reported path's mesh, as fractions; empty without a path.
   std::vector<std::vector<double>> ends;
 };
 

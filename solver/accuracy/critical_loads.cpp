@@ -54,8 +54,7 @@ FineMesh* CriticalLoads::level(int number) {
   return levels_[number - 1].get();
 }
 
-/// Error estimate from the same point of the path on the coarser mesh; empty when that path has no such
-/// point.
+/// Error estimate from this point of the path on the coarser mesh; empty when that path has no such point.
 std::optional<double> CriticalLoads::error_to_earlier(const Target& target) const {
   const CriticalPoint& point = result_.critical_points[target.index];
   std::optional<double> least;

@@ -55,8 +55,7 @@ class CriticalLoads {
   /// same number of losses of stability.
   [[nodiscard]] bool confirm_end(const PathPoint& end);
 
-  /// @brief Imperfection of a bifurcation on the finer mesh; empty when that mesh does not have the
-  /// bifurcation.
+  /// @brief Imperfection of a bifurcation on the finer mesh; empty when that mesh does not have it.
   [[nodiscard]] std::optional<double> finer_imperfection(const CriticalEvent& bifurcation);
 
  private:

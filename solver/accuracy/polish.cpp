@@ -59,8 +59,7 @@ PathPoint FineMesh::transferred(const Structure& from, const PathPoint& point) c
   return out;
 }
 
-/// Path point in the plane normal to the tangent of `guess`, at the distance along * reach (along from -1 to
-/// 1).
+/// Path point in the plane normal to the tangent of `guess`, at the distance along * reach, |along| <= 1.
 std::optional<PathPoint> FineMesh::corrected(const PathPoint& guess, double along, double reach) {
   const Chord chord{guess.tangent, guess.tangent_lambda, false};
   PathPoint lo = guess;

@@ -12,8 +12,7 @@
 namespace snapthrough {
 
 /// @brief Compares the motion of a monitor since the start with the displacements of the structure. A monitor
-/// fixed by symmetry, a support or a hinge moves by rounding only; a stop rule on its range is then
-/// ineffective.
+/// fixed by symmetry, a support or a hinge moves by rounding only; a stop rule on its range has no effect.
 class MonitorWatch {
  public:
   /// @param structure kept by reference

@@ -120,8 +120,7 @@ void warn_of_changed_contact(const Structure& structure, const Model& laws, Stru
                               changes + "; a path or a search for the critical load follows it"});
 }
 
-/// Reports the largest error of the buckling loads; fails when finer meshes do not confirm all loads within
-/// the accuracy.
+/// Reports the largest error of the buckling loads; fails when a load is not confirmed within the accuracy.
 void report_errors(const Analysis& analysis, Result& result) {
   const BucklingResult& buckling = *result.buckling;
   if (analysis.discretization.fixed_mesh || buckling.load_factors.empty()) return;

@@ -319,8 +319,7 @@ std::string BranchFollower::run() {
 
 namespace {
 
-/// Function that adds requested sensitivities and Koiter coefficients to a critical point; empty: none
-/// requested.
+/// Function that adds requested sensitivities and Koiter coefficients to a critical point; may be empty.
 Complete completer(const Model& model, const Analysis& analysis, const Continuation& continuation,
                    const Hooks& hooks, Result& result) {
   if (analysis.sensitivities.empty() && !analysis.koiter) return {};

@@ -212,8 +212,7 @@ void fail_at_end(const Model& model, const Analysis& analysis, const Structure& 
   }
 }
 
-/// Follows the path through all load factors of one sign and stores their states; false when the path ends
-/// earlier.
+/// Follows the path through all load factors of one sign, stores their states; false when it ends earlier.
 bool follow(const Model& model, const Analysis& analysis, const Structure& structure, double direction,
             const Hooks& hooks, StaticRows& states, Result& result) {
   double last = 0.0;

@@ -30,7 +30,7 @@ class SoftestPoint {
 
   /// Sets the reference stiffness at the first call. @param unloaded unloaded state with its modes
   void set_unloaded(const PathPoint& unloaded);
-  /// @brief Stiffness ratio at a point; empty when the eigenvalues at the point or of the unloaded state are
+  /// @brief Stiffness ratio at a point; empty when its eigenvalues or those of the unloaded state are
   /// unknown.
   [[nodiscard]] std::optional<double> ratio(const PathPoint& point) const;
   /// @brief Searches a step of the primary path for a minimum.

@@ -16,8 +16,7 @@
 
 namespace snapthrough::checks {
 
-/// @brief Place in the request document for findings: `model / "members" / 3 / "section"`. Keys are kept by
-/// reference.
+/// @brief Place in the request for findings: `model / "members" / 3 / "section"`. Keys are kept by reference.
 class Place {
  public:
   Place(PointerPath path, std::vector<Finding>& findings) : path_(std::move(path)), findings_(&findings) {}

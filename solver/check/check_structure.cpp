@@ -21,8 +21,7 @@ double distance(const Point& a, const Point& b) { return std::hypot(b[0] - a[0],
 bool is_bounded(const Point& p) { return std::abs(p[0]) <= kMaxMagnitude && std::abs(p[1]) <= kMaxMagnitude; }
 bool is_bounded(const Node& node) { return is_bounded(position(node)); }
 
-/// Distance that counts as zero: a fraction of the extent of nodes and spline points, at least the rounding
-/// of coordinates.
+/// Distance that counts as zero: fraction of the extent of nodes and spline points, at least their rounding.
 double zero_distance(const Model& model) {
   Point lo{kMaxMagnitude, kMaxMagnitude};
   Point hi{-kMaxMagnitude, -kMaxMagnitude};

@@ -1,5 +1,4 @@
-/// Features of the contract that this version does not implement, one entry each; delete an entry to enable
-/// its feature.
+/// Features of the contract that this version does not implement; delete an entry to enable its feature.
 
 #include "solver/check/check_parts.h"
 

@@ -11,8 +11,7 @@ namespace snapthrough {
 namespace {
 
 constexpr int kTerms = 13;  // terms of the power series
-/// Largest product of piece length and characteristic exponent: the series are then exact to one digit less
-/// than rounding.
+/// Largest product of piece length and characteristic exponent: the series then lose one digit at most.
 constexpr double kLongest = 2.2;
 
 /// 1 / (2 k + i)! in row i, column k.
@@ -148,8 +147,7 @@ class Walk {
   Matrix2 joint_map_{{{1.0, 0.0}, {0.0, 1.0}}};
 };
 
-/// Adds a spring after rotating one column to zero displacement in `row`, which preserves digits for stiff
-/// springs.
+/// Adds a spring after rotating one column to zero displacement in `row`: preserves digits for stiff springs.
 void Walk::add_spring(int row, double stiffness) {
   if (stiffness == 0.0) return;
   const double size = std::hypot(f_.rows[row][0], f_.rows[row][1]);
@@ -172,8 +170,7 @@ void Walk::replace(int zero, int unit) {
   if (size > 0.0) {
     a /= size;
     b /= size;
-    // both columns have a zero there; the unit vector lies in their span, so any other combination completes
-    // it
+    // both columns have a zero there and span the unit vector, so that any other combination completes it
   } else {
     (std::abs(f_.rows[unit][0]) <= std::abs(f_.rows[unit][1]) ? a : b) = 1.0;
   }

@@ -10,8 +10,7 @@
 
 namespace snapthrough {
 
-/// @brief Functional row . (x, y, rotation) of the displacement at a place of an element, with zero
-/// stiffness.
+/// @brief Functional row . (x, y, rotation) of the displacement at a place of an element, without stiffness.
 /// @param xi in [0, 1] of the element
 [[nodiscard]] SupportSpring support_at(const Structure& structure, int element, double xi,
                                        std::array<double, 3> row);

@@ -68,8 +68,7 @@ void RigidParts::find_bodies() {
   }
 }
 
-/// Sets the middle of each body to the mean of its members' end nodes, and its radius to the largest distance
-/// from it.
+/// Sets the middle of each body to the mean of its members' end nodes, its radius to the largest distance.
 void RigidParts::place_bodies() {
   std::vector<double> count(bodies_.size(), 0.0);
   for (std::size_t m = 0; m < ends_.size(); ++m) {

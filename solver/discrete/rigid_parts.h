@@ -53,8 +53,7 @@ class RigidParts {
   [[nodiscard]] double radius(int member) const;
   [[nodiscard]] double node_radius(int node) const;
 
-  /// Rows that vanish in a strain-free motion: bars keep their length, bodies that meet at a node move it
-  /// alike.
+  /// Rows that vanish in a strain-free motion: bars keep their length, bodies meet at their common nodes.
   [[nodiscard]] std::vector<Row> joints() const;
   /// Rotations of all bodies times the unit of length, and relative displacements of the ends of all bars.
   [[nodiscard]] std::vector<Row> turns() const;

@@ -64,8 +64,7 @@ class Builder {
   void find_follower_ends(double load_scale);
   [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
 
-  /// Scaled follower pressure of an element, proportional and constant part; set once the load scale is
-  /// known.
+  /// Scaled follower pressure of an element, proportional and constant part; needs the load scale.
   struct ElementPressure {
     int element;
     double proportional;

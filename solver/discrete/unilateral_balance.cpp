@@ -30,8 +30,7 @@ constexpr double kBalanced = 1e-12;
 constexpr double kNothing = 1e-9;
 /// Cosine of the angle between two supports' rows below which the supports are uncoupled.
 constexpr double kUncoupled = 1e-9;
-/// Factor on the proportional actions, relative to the constant ones, that stands for an arbitrarily small
-/// load.
+/// Factor on the proportional actions, relative to the constant ones, that stands for a very small load.
 constexpr double kFirstLoad = 1e-6;
 
 void append(const VectorXd& column, MatrixXd& matrix) {

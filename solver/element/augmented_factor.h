@@ -1,7 +1,6 @@
 #pragma once
 /// @file
-/// L D L^T factorisation of a small symmetric matrix with six border columns, of fixed size, without heap
-/// memory.
+/// L D L^T factorisation of a small symmetric matrix with six border columns; fixed size, no heap memory.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -36,8 +35,7 @@ template <int Width>
   return sum.sum();
 }
 
-/// @brief Upper triangle of a symmetric matrix with N rows and six border rows, stored by rows of whole
-/// blocks.
+/// @brief Upper triangle of a symmetric matrix with N rows and six border rows, stored in whole blocks.
 ///
 /// Entries left of the diagonal within its block are arbitrary; entries beyond the last column are zero.
 template <int N>

@@ -154,8 +154,7 @@ class ElementSet {
 
   /// @brief Sets contacts and springs of `out` to act where the penetration at y exceeds -`tolerance`.
   virtual void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const = 0;
-  /// @brief Contact zones of one-sided foundations at y, with the rates of their ends when y changes at
-  /// `rate`.
+  /// @brief Contact zones of one-sided foundations at y; their ends move as y changes at `rate`.
   [[nodiscard]] virtual MovingZones moving_zones(const Eigen::VectorXd& y,
                                                  const Eigen::VectorXd& rate) const = 0;
   /// @brief Sets contacts of `out` to act on the given zones, and springs where they act at y.
@@ -168,8 +167,7 @@ class ElementSet {
   /// distance `near` for their stiffness.
   virtual void mark_touching(const Eigen::VectorXd& y, const TouchingDistance& near,
                              TouchingMarks& out) const = 0;
-  /// Marked springs, in the order of touching_displacements() and set_touching(). @param frozen null: no
-  /// spring acts
+  /// Marked springs, ordered as in touching_displacements() and set_touching(). @param frozen null: none acts
   [[nodiscard]] virtual std::vector<TouchingSpring> touching_springs(const TouchingMarks& marks,
                                                                      const FrozenContact* frozen) const = 0;
   /// Appends the displacement into the medium of each marked spring.

@@ -77,8 +77,7 @@ class ElementWorkOf final : public ElementWork {
     ZetaVector row;
     double stiffness = 0.0;
   };
-  /// Factored interior of an element with N active strains in the order e, (g,) k, and the columns of (u_a,
-  /// m).
+  /// Factored interior of an element: N active strains in the order e, (g,) k, with columns of (u_a, m).
   template <int N>
   struct Interior {
     AugmentedFactor<N> factor;  ///< factors of S
@@ -240,8 +239,7 @@ void ElementWorkOf<P>::add_strain_residual(const Shape& shape, const ElementDofs
     fv[q] += hb * (N * kin.c[q] - Q * kin.s[q] - m[0]);
     fv[P + q] += hb * (N * kin.s[q] + Q * kin.c[q] - m[1]);
     fv[2 * P + q] += hb * (s[2 * P + q] - m[2]);
-    // N G - Q E: moment of the section force about the axis tangent; linear geometry keeps the initial
-    // tangent
+    // N G - Q E: moment of the section force about the axis tangent (the initial one in linear geometry)
     const double turn = linear_ ? N * shape.g0[q] - Q * shape.e0[q] : N * kin.G[q] - Q * kin.E[q];
     moment_a += hb * turn;
     for (int r = 0; r < P; ++r) fv[2 * P + r] += hb * turn * shape.h * a_[q][r];
@@ -461,8 +459,7 @@ void ElementWorkOf<P>::linearise(const Eigen::VectorXd& y, const LoadFactors& fa
   }
 }
 
-/// Subtracts the effect of given strains d from the right-hand sides: tau - H d for the strains, rm + U d for
-/// m.
+/// Subtracts the effect of given strains d from right-hand sides: tau - H d (strains) and rm + U d (m).
 template <int P>
 void ElementWorkOf<P>::subtract_strains(const Shape& shape, const Tangent& t, const ZetaVector& d,
                                         ZetaVector& tau, Eigen::Vector3d& rm) const {

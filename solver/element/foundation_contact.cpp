@@ -186,8 +186,7 @@ double root_between(const Gap& gap, Sample lo, Sample hi) {
   return std::clamp(hi.z - hi.g * (hi.z - lo.z) / (hi.g - lo.g), lo.z, hi.z);
 }
 
-/// Position at which g has the opposite of `sign`, between two positions where g has `sign`; empty if g has
-/// no such extremum.
+/// Position at which g has the opposite of `sign` between two positions with `sign`; empty if none exists.
 template <class Gap>
 std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, double sign) {
   constexpr int kMostTrials = 20;

@@ -34,8 +34,7 @@ class FoundationContact {
   using Interval = ElementPart;
 
   /// @param range part of the element, in [0, 1]
-  /// @param law stiffness is K times the element's length, so that quadrature weights on [0, 1] integrate K
-  /// ds
+  /// @param law stiffness is K times the element's length, so that weights on [0, 1] integrate K ds
   /// @pre place.axis is set when the direction turns
   FoundationContact(int order, const Direction& direction, Place place, std::array<double, 2> range,
                     const Law& law, int foundation);

@@ -44,8 +44,7 @@ VectorXd BorderedPoint::works(const VectorXd& forces) const {
   return out;
 }
 
-/// Factorises the tangent beside the critical point, where it is regular; false when it is singular there,
-/// too.
+/// Factorises the tangent beside the critical point, where it is usually regular; false: singular there, too.
 bool BorderedPoint::factorise() {
   constexpr double kBeside = 1e-6;  // distance from the critical point over its load factor
   const double step = kBeside * at_.lambda;

@@ -28,8 +28,7 @@ class BorderedPoint {
 
   /// False when the factors for the solves were not found.
   [[nodiscard]] bool is_ready() const { return ready_; }
-  /// The critical point; its response and second derivatives are evaluated here when the solves were asked
-  /// for.
+  /// The critical point; its response and second derivatives are evaluated here when solves are asked for.
   [[nodiscard]] const CriticalSolution& at() const { return at_; }
   [[nodiscard]] EquilibriumProblem& problem() const { return problem_; }
   [[nodiscard]] const PathMetric& metric() const { return metric_; }

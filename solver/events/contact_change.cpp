@@ -42,8 +42,7 @@ bool changes_at_start(const Continuation& continuation, const Chord& chord, cons
   return beyond != old;
 }
 
-/// Fraction slightly past the prediction, counted from the nearer end, so that the bracket shrinks from both
-/// sides.
+/// Fraction slightly past the prediction, seen from the nearer end: the bracket shrinks from both sides.
 double next_share(double share) {
   constexpr double kBeyond = 1.5;  // factor on the distance from the nearer end
   share = share < 0.5 ? kBeyond * share : 1.0 - kBeyond * (1.0 - share);

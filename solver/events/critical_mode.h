@@ -17,7 +17,7 @@ namespace snapthrough {
 [[nodiscard]] Eigen::VectorXd null_vector(EquilibriumProblem& problem, const PathPoint& point,
                                           Eigen::VectorXd start);
 
-/// @brief Mode of a critical point: the null vector of its tangent stiffness; at a limit point the path's
+/// @brief Mode of a critical point: null vector of its tangent stiffness; at a limit point the path's
 /// direction.
 ///
 /// Where contact changes the stiffness abruptly, no eigenvalue is zero; the mode is then the path's tangent

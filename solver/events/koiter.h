@@ -16,8 +16,7 @@ namespace snapthrough {
 /// v = -F''[n, n] / 2 off n gives curvature = -c / B' with c = n.F''[n, v] + n.F'''[n, n, n] / 6.
 struct KoiterExpansion {
   double slope = 0.0;
-  /// Empty when the slope is not zero, or when the third derivative does not converge (contact change at
-  /// s = 0).
+  /// Empty when the slope is not zero, or the third derivative does not converge (contact change at s = 0).
   std::optional<double> curvature;
   double stiffening = 0.0;  ///< c: positive where the state at the bifurcation is stable
 };

@@ -10,8 +10,7 @@
 
 namespace snapthrough {
 
-/// Lowest buckling load of a piece: the linear problem in which some touching supports act and others are
-/// absent.
+/// Lowest buckling load of a piece: linear problem in which a set of touching supports acts, the others not.
 struct Piece {
   double load = 0.0;     ///< smallest buckling load above zero
   Eigen::VectorXd mode;  ///< largest displacement one
@@ -19,8 +18,7 @@ struct Piece {
 
 /// Buckling functions of the piece that is currently set.
 struct PieceSolver {
-  /// Lowest buckling load; empty when there is none or the piece is unstable under the constant actions
-  /// alone.
+  /// Lowest buckling load; empty: none exists, or the piece is unstable under the constant actions alone.
   std::function<std::optional<Piece>()> lowest;
   /// Rayleigh quotient of a motion.
   std::function<double(const Eigen::VectorXd&)> quotient;

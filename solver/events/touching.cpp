@@ -25,8 +25,7 @@ double amount(const TouchingSupports& touching) {
   return sum;
 }
 
-/// Whether all touching supports still touch at the equilibrium under a load, from the unloaded or preloaded
-/// state `from`.
+/// Whether all touching supports still touch in equilibrium under a load, starting from the state `from`.
 bool still_touch(const Structure& structure, const VectorXd& from, double lambda) {
   constexpr double kAll = 1e-6;  // relative loss of touching supports that is ignored
   StructuralProblem problem(structure);

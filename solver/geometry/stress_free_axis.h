@@ -24,8 +24,7 @@ using ModeOffsets = std::vector<std::vector<CubicSpline>>;
 
 /// @brief Perfect axis plus offsets w(s) along its left normal: c = X + w n, c' = t (1 - kappa w) + n w'.
 ///
-/// Sine imperfections are exact. Imperfections by points are C2 splines; an end without a point gets zero
-/// offset.
+/// Sine imperfections are exact. Imperfections by points are C2 splines, zero at an end without a point.
 class StressFreeAxis {
  public:
   /// @param modes offsets from buckling modes; may be empty

@@ -69,7 +69,7 @@ enum class MeshUse {
 /// @brief Transfers a mesh to a changed model: element ends stay at places of action, which may have moved,
 /// and keep their proportions in between.
 /// @param axes, moved_axes axes of both models, which have the same members
-/// @return fractions remain on members whose places of action have changed in number, or are not element ends
+/// @return the mesh; fractions are unchanged where places of action differ in number or are no element ends
 [[nodiscard]] Mesh moved_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const Model& moved,
                               const Axes& moved_axes);
 

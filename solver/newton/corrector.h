@@ -10,8 +10,7 @@
 
 namespace snapthrough {
 
-/// Norm of the response to a unit load (displacement gradient per Euler load) above which the structure is a
-/// mechanism.
+/// Norm of the response to a unit load (displacement gradient per Euler load) that indicates a mechanism.
 inline constexpr double kSingularResponse = 1e13;
 /// Relative residual of a state that is exact to rounding; the corrector stops below it.
 inline constexpr double kRoundingResidual = 1e-14;

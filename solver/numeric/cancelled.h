@@ -10,8 +10,7 @@ namespace snapthrough {
 /// which report what was reached.
 struct Cancelled {};
 
-/// @brief Checks and resets the token, so that a stop request throws only once and results can still be
-/// evaluated.
+/// @brief Checks and resets the token: a stop request throws once, and results can still be evaluated.
 /// @throws Cancelled
 inline void end_if_asked(std::stop_token& stop) {
   if (!stop.stop_requested()) return;

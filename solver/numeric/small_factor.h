@@ -11,8 +11,7 @@
 
 namespace snapthrough {
 
-/// @brief P A = L U with row pivoting. Solutions are backward stable, unlike products with an explicit
-/// inverse.
+/// @brief P A = L U with row pivoting. Solutions are backward stable, unlike those by an explicit inverse.
 class SmallFactor {
  public:
   SmallFactor() = default;

@@ -50,8 +50,7 @@ class EquilibriumProblem {
   virtual void solve(Eigen::VectorXd& x) = 0;
   /// Whether any support is one-sided; the response then need not be differentiable at zero load.
   [[nodiscard]] virtual bool one_sided() const { return false; }
-  /// @brief Contact zones of one-sided foundations at y, with the rates of their ends when y changes at
-  /// `rate`.
+  /// @brief Contact zones of one-sided foundations at y; their ends move as y changes at `rate`.
   [[nodiscard]] virtual MovingZones moving_zones(const Eigen::VectorXd&, const Eigen::VectorXd&) const {
     return {};
   }
@@ -81,8 +80,7 @@ class EquilibriumProblem {
                                                 const Eigen::VectorXd& motion, const Regime& regime = {}) {
     return tangent_products(y, lambda, motion, regime);
   }
-  /// @brief Right-hand side of solve() for the forces W x (W: metric), zero in constrained rows
-  /// (overwritten).
+  /// @brief Right-hand side of solve() for the forces W x (W: metric), zero in constrained rows; overwritten.
   virtual void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
     out = metric().cwiseProduct(x);
   }
@@ -94,17 +92,15 @@ class EquilibriumProblem {
   [[nodiscard]] virtual double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const {
     return forces.dot(motion);
   }
-  /// @brief Estimated first critical load factor from the response to a unit load; infinity when the response
-  /// has no axial force.
+  /// @brief Estimated first critical load factor from the response to a unit load; infinity without axial
+  /// force.
   [[nodiscard]] virtual double critical_load_scale(const Eigen::VectorXd& unit_response) const;
   /// @brief Estimated load factor at which the last member buckles; 0 when the response has no axial force.
   [[nodiscard]] virtual double largest_critical_load_scale(const Eigen::VectorXd&) const { return 0.0; }
-  /// @brief Norm of the residual f over the forces and displacements that f balances; about 1e-15 at
-  /// rounding.
+  /// @brief Norm of the residual f over the forces and displacements that it balances; rounding gives 1e-15.
   [[nodiscard]] virtual double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd& y,
                                                  double lambda) = 0;
-  /// @brief Relative residual caused at y by rounding in the forces of stiff supports; 0 without such
-  /// supports.
+  /// @brief Relative residual at y by rounding in the forces of stiff supports; 0 without such supports.
   /// @pre residual() or linearise() was last called at y
   [[nodiscard]] virtual double residual_rounding(const Eigen::VectorXd&, double) const { return 0.0; }
 

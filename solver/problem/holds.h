@@ -9,7 +9,7 @@
 
 namespace snapthrough {
 
-/// @brief Artificial linear springs on motions without stiffness: forces k H (H^T u - at), u the leading
+/// @brief Artificial linear springs on motions without stiffness: forces k H (H^T u - at), u leading
 /// unknowns.
 ///
 /// Where nothing resists the motions H, all states u + H a are in equilibrium. The springs select the state

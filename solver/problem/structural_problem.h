@@ -61,8 +61,8 @@ class StructuralProblem final : public EquilibriumProblem {
   /// rounding. Zero where no action imposes strains or displacements.
   [[nodiscard]] double least_force() const;
 
-  /// Actions that the load factor multiplies: the proportional ones, with the constant ones in full; or the
-  /// constant ones alone.
+  /// Actions that the load factor multiplies: proportional ones, with the constant ones in full; or constant
+  /// ones.
   enum class Stage { proportional, constant };
   void set_stage(Stage stage) { stage_ = stage; }
   void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const override;
@@ -76,8 +76,7 @@ class StructuralProblem final : public EquilibriumProblem {
   /// @brief Displacement of `mode` into the medium at each marked spring; `out` is overwritten.
   void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
                               std::vector<double>& out) const;
-  /// @brief Sets which marked supports act in `out`: springs as given, foundations where `mode` moves into
-  /// the medium.
+  /// @brief Sets which marked supports act: springs as given, foundations where `mode` moves into the medium.
   /// @param mode empty: marked foundations act everywhere
   /// @param springs one entry per marked spring
   void set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode, std::span<const char> springs,

@@ -21,8 +21,7 @@ namespace snapthrough {
                                                                    double depth = 0.0);
 
 /// @brief Counts contact zones: the intervals of each one-sided foundation, 0 or 1 for each one-sided spring.
-/// Penetrations within the rounding of positions do not count, because zones of rounding change at every
-/// step.
+/// Penetrations within the rounding of positions do not count, because their zones change at every step.
 class ContactZones {
  public:
   /// @param structure, model kept by reference; must outlive this object

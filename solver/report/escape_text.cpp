@@ -19,8 +19,7 @@ using Point = RigidParts::Point;
 
 /// Difference, over the structure's extent or the largest displacement, that counts as rounding.
 constexpr double kSame = 1e-6;
-/// Distance of the centre of rotation, over the structure's extent, from which a rotation is reported as a
-/// shift.
+/// Distance of the centre of rotation, over the structure's extent, above which a shift is reported.
 constexpr double kFar = 1e3;
 /// Largest number of members that a message names.
 constexpr std::size_t kMostNamed = 3;
@@ -44,8 +43,7 @@ struct BodyMotion {
 
 double distance(Point a, Point b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
-/// The members that move most in an escape; lengths over that of the longest member, relative to the first
-/// node.
+/// The members that move most in an escape; lengths over the longest member's, relative to the first node.
 class MovingPart {
  public:
   MovingPart(const Model& model, const RigidParts& parts, const VectorXd& motion);

@@ -14,8 +14,7 @@
 
 namespace snapthrough {
 
-/// @brief Displacements of a vector of unknowns at `points` equally spaced places of each member, not
-/// normalised.
+/// @brief Displacements of a vector of unknowns at `points` equally spaced places per member, not normalised.
 /// @param mode scaled unknowns; the result is in the model's units
 /// @pre points >= 2
 [[nodiscard]] Mode mode_displacements(const Structure& structure, const Model& model,

@@ -35,8 +35,7 @@ class VariationRate {
   [[nodiscard]] Sensitivity find(double lambda);
 
  private:
-  /// Equations at value -/+ step; for one-sided differences at half a step (`less`) and a whole step
-  /// (`more`).
+  /// Equations at value -/+ step; one-sided differences: at half a step (`less`) and a whole step (`more`).
   struct Sides {
     MatrixXd less;
     MatrixXd more;
@@ -138,8 +137,7 @@ double VariationRate::mismatch(const Sides& at) const {
   return point_.rate((at.more - 2.0 * here_ + at.less) / at.step).lambda;
 }
 
-/// Whether the one-sided rates differ and do not approach each other when the step is halved: contact
-/// changes.
+/// Whether the one-sided rates differ, also over half the step: contact changes at the value.
 bool VariationRate::has_kink(double lambda) const {
   // decrease of the difference of rates, when the step is halved, without a kink
   constexpr double kFalls = 0.75;

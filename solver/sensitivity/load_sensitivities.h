@@ -13,8 +13,7 @@
 
 namespace snapthrough {
 
-/// @brief d load factor / d value in the user's units for each variation, in order, or the reason why it does
-/// not exist.
+/// @brief d load factor / d value in the user's units for each variation, in order, or why it does not exist.
 ///
 /// The point is solved to rounding once; then only the linear equations of CriticalSensitivity are solved.
 /// The derivative of the equations is a difference between structures with larger and smaller value, which

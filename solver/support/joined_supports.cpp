@@ -35,8 +35,7 @@ Direction action_of(const Spring& spring) {
   return spring.direction ? fixed_direction(*spring.direction, sense) : Direction{true, {}, sense};
 }
 
-/// Direction of action of a foundation, fixed on straight axes, so that it can coincide with a given
-/// direction.
+/// Direction of action of a foundation; a fixed one on straight axes, for comparison with given directions.
 Direction action_of(const Model& model, const Member& member, const Foundation& foundation) {
   const Direction direction = direction_of(foundation);
   if (!direction.turns || !std::holds_alternative<LineCurve>(member.curve)) return direction;
