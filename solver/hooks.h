@@ -21,7 +21,7 @@ struct Progress {
 /// Point of a traced path, as in Branch.
 struct TracedPoint {
   int branch = 0;
-  int step = 0;  ///< along the branch, from 0
+  int step = 0;  ///< index of the step along the branch, from 0
   double load_factor = 0.0;
   double arc_length = 0.0;
   int negative_eigenvalues = 0;

@@ -89,7 +89,7 @@ struct CriticalPoint {
   /// Null vector of the tangent stiffness; at a limit point the path's direction. Only together with `state`.
   std::optional<Mode> mode = {};
   bool confirmed = false;               ///< a finer mesh has the point within the requested accuracy
-  std::vector<MeshAnswer> meshes = {};  ///< coarsest first
+  std::vector<MeshAnswer> meshes = {};  ///< loads on the compared meshes, coarsest first
   /// Imperfection of a bifurcation, about the root mean square slope of the imperfect shape; empty: unknown.
   std::optional<double> imperfection = {};
   std::vector<Sensitivity> sensitivities = {};  ///< in the order of the request
@@ -168,7 +168,7 @@ struct SpringState {
 struct FoundationState {
   std::string id;
   std::vector<double> s, reaction;
-  std::vector<double> displacement;            ///< into the medium
+  std::vector<double> displacement;            ///< displacement into the medium
   std::vector<std::array<double, 2>> contact;  ///< intervals [s0, s1] in contact, in the member's s
   Resultant resultant;                         ///< force of the medium on the structure, with the shear layer
 };
@@ -236,7 +236,7 @@ struct Softest {
 struct AtCritical {
   double displacement = 0.0;           ///< largest hypot(u, v)
   double relative_displacement = 0.0;  ///< over the diagonal of the structure's bounding box
-  double rotation = 0.0;               ///< largest, rad
+  double rotation = 0.0;               ///< largest rotation, rad
   double strain = 0.0;                 ///< largest of |N| / EA, |Q| / GA, |M| / EI times sqrt(EI / EA)
 };
 

@@ -19,7 +19,7 @@ class Differences {
  public:
   /// @return estimated relative error of `coarse`
   double add(double coarse, double fine) {
-    constexpr double kSafety = 2.0;  // see the class comment
+    constexpr double kSafety = 2.0;  // factor on the difference, see the class comment
     const double size = std::abs(fine);
     const double difference = size > 0.0 ? std::abs(coarse - fine) / size : 1.0;
     const bool falls = last_ < 0.0 || difference <= last_ / kFall;

@@ -20,7 +20,7 @@ int negative_at(const PathPoint& from, const std::vector<CriticalEvent>& critica
 
 std::vector<PathPoint> PathPoints::spread(Continuation& continuation, int count, const std::stop_token& stop,
                                           int& missing) const {
-  constexpr double kSamePlace = 1e-12;  // over the branch's length; a branch may end at a critical point
+  constexpr double kSamePlace = 1e-12;  // distance over the branch's length that counts as zero
   std::vector<PathPoint> out;
   missing = 0;
   if (accepted_.empty()) return out;

@@ -249,7 +249,7 @@ class BranchFollower {
         loads_(loads),
         watch_(watch),
         hooks_(hooks) {
-    constexpr int kMostBranches = 20;  // unless the request has a limit
+    constexpr int kMostBranches = 20;  // branches followed unless the request has a limit
     limit_ = analysis.branches.limit.value_or(analysis.branches.follow == Follow::first ? 2 : kMostBranches);
   }
 

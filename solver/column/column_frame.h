@@ -43,10 +43,10 @@ struct ColumnPiece {
   double q = 0.0;  ///< (P - G) / EI
   double r = 0.0;  ///< K / EI
   double EI = 1.0;
-  ColumnFrame start;       ///< right of the joint at its start
-  ColumnFrame end;         ///< left of the joint at its end
-  Matrix2 start_from_end;  ///< coordinates in `start` from those in `end`
-  Matrix2 end_from_next;   ///< coordinates in `end` from those in the `start` of the next piece
+  ColumnFrame start;       ///< frame right of the joint at the piece's start
+  ColumnFrame end;         ///< frame left of the joint at the piece's end
+  Matrix2 start_from_end;  ///< map from coordinates in `end` to those in `start`
+  Matrix2 end_from_next;   ///< map from coordinates in the next piece's `start` to those in `end`
 };
 
 /// @brief Number of pieces that all spans need at a load factor.

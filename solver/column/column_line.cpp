@@ -43,9 +43,9 @@ class LineReader {
   };
   /// Axial actions and stiffness, for both patterns (proportional, constant).
   struct Axial {
-    std::vector<Vec2> forces;                   ///< per joint
+    std::vector<Vec2> forces;                   ///< axial loads at the joints
     std::vector<Vec2> strains;                  ///< initial strains, per span
-    std::vector<double> EA;                     ///< per span
+    std::vector<double> EA;                     ///< axial stiffness of each span
     std::vector<std::pair<int, Vec2>> holders;  ///< fixed joints with their displacements
     int springs = 0;
     double size = 0.0;  ///< sum of the magnitudes of the forces

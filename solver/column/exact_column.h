@@ -12,7 +12,7 @@ namespace snapthrough {
 
 /// Buckling loads of a column, ascending, as load factors of the model.
 struct ColumnBuckling {
-  std::vector<double> loads;  ///< fewer than requested when no more exist
+  std::vector<double> loads;  ///< load factors, ascending; fewer than requested when no more exist
   /// Relative, one per load: inertia counts with different rounding errors place the load within this
   /// distance.
   std::vector<double> errors;
@@ -46,7 +46,7 @@ class ColumnMode {
   struct Piece {
     double from = 0.0;
     double length = 0.0;
-    double direction = 1.0;  ///< 1: about its start, -1: about its end
+    double direction = 1.0;  ///< 1: series about the piece's start, -1: about the piece's end
     std::array<double, kCoefficients> coefficients{};
   };
   std::vector<Piece> pieces_;

@@ -64,8 +64,8 @@ double firmness(const Model& model, double length) {
 }  // namespace
 
 bool is_plainly_held(const Model& model) {
-  constexpr std::size_t kFew = 10;      // members
-  constexpr double kComparable = 1e-3;  // ratio of stiffnesses
+  constexpr std::size_t kFew = 10;      // largest number of members of the fast test
+  constexpr double kComparable = 1e-3;  // least ratio of stiffnesses
   constexpr double kFirm = 1e-3;        // least restraint, see firmness()
   if (model.members.size() > kFew || model.supports.empty()) return false;
   double length = 0.0;

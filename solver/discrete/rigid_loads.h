@@ -14,8 +14,9 @@ namespace snapthrough {
 
 /// Work of a load as a linear functional of the rigid parts' unknowns, on the undeformed geometry.
 struct LoadWork {
-  RigidParts::Row row;  ///< in the model's unit of force; an unknown may occur several times
-  double size = 0.0;    ///< sum of the magnitudes of its forces, and of its moment over the unit of length
+  /// Work of the load, in the model's unit of force; an unknown may occur several times.
+  RigidParts::Row row;
+  double size = 0.0;  ///< sum of the magnitudes of its forces, and of its moment over the unit of length
 };
 
 /// @brief Work of one load at its full size. Initial strains do no work.

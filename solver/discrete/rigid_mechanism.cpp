@@ -150,7 +150,8 @@ Eigen::VectorXd RigidMechanism::of_nodes(const Eigen::VectorXd& motion) const {
 }
 
 std::size_t RigidMechanism::node_of(const Eigen::VectorXd& motion) const {
-  constexpr double kMore = 1.0 + 1e-9;  // prefers the first of several equal displacements, despite rounding
+  // factor that prefers the first of several equal displacements despite rounding
+  constexpr double kMore = 1.0 + 1e-9;
   const Eigen::VectorXd moved = of_nodes(motion);
   Eigen::Index node = 0;
   for (Eigen::Index j = 1; 3 * j < moved.size(); ++j)

@@ -60,7 +60,7 @@ class RigidParts {
 
  private:
   struct Body {
-    int first = 0;  ///< index of its first unknown
+    int first = 0;  ///< index of the body's first unknown
     Point middle{};
     double radius = 0.0;
   };
@@ -85,7 +85,7 @@ class RigidParts {
   std::vector<Point> nodes_;
   std::vector<std::array<int, 2>> ends_;  ///< nodes of each member
   std::vector<Body> bodies_;
-  std::vector<int> body_of_member_;  ///< -1: a bar
+  std::vector<int> body_of_member_;  ///< body of each member; -1: a bar
   std::vector<int> turns_with_;     ///< body whose rotation a node shares; -1: all members are released there
   std::vector<int> moves_with_;     ///< body whose displacement a node shares; -1: only bars reach the node
   std::vector<int> first_of_node_;  ///< index of the node's own unknowns, if it moves with no body

@@ -289,8 +289,8 @@ std::optional<VectorXd> UnilateralBalance::unbalanced(const Group& group, const 
                                                       double margin) const {
   constexpr int kMostRounds = 100;
   constexpr double kShareOfResidual = 1e-3;  // allowed displacement into a support over the residual
-  constexpr double kEntered = 1e-8;          // upper limit of that displacement
-  constexpr double kRounding = 1e-13;        // lower limit of that displacement: rounding
+  constexpr double kEntered = 1e-8;          // upper limit of the allowed displacement
+  constexpr double kRounding = 1e-13;        // lower limit of the allowed displacement: rounding
   const double size = force.norm();
   const VectorXd wanted =
       size > 0.0 ? VectorXd(force / size - margin * group.inside) : VectorXd(-group.inside.normalized());
@@ -351,7 +351,8 @@ std::optional<Escape> UnilateralBalance::escape_at_start(double direction) const
 }
 
 double UnilateralBalance::largest_held(double held, double beyond) const {
-  constexpr double kPrecision = 1e-11;  // relative; balance is not determined more exactly
+  // relative width of the final bracket; balance is not determined more exactly
+  constexpr double kPrecision = 1e-11;
   while (std::abs(beyond - held) > kPrecision * std::abs(beyond)) {
     const double middle = 0.5 * (held + beyond);
     if (middle == held || middle == beyond) break;

@@ -20,7 +20,7 @@ struct ActionFactors {
 
 /// Free motion that the supports do not prevent.
 struct Escape {
-  Eigen::VectorXd motion;  ///< over the rigid parts' unknowns, length one; enters no one-sided support
+  Eigen::VectorXd motion;  ///< unknowns of the rigid parts, length one; enters no one-sided support
   bool driven = false;  ///< true: the loads do work on it; false: no work, and its opposite enters a support
   ActionFactors actions;  ///< actions under which the motion occurs
 };

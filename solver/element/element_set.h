@@ -36,8 +36,8 @@ namespace snapthrough {
 struct ElementDofs {
   std::array<int, 3> a{};  ///< displacement (x, y, rotation) at the start
   std::array<int, 3> b{};  ///< displacement (x, y, rotation) at the end
-  int v = 0;               ///< first of 3 P: u'_x of all Gauss points, then u'_y, then b'
-  int s = 0;               ///< first of 3 P: N of all Gauss points, then Q, then M
+  int v = 0;               ///< first of 3 P unknowns: u'_x of all Gauss points, then u'_y, then b'
+  int s = 0;               ///< first of 3 P unknowns: N of all Gauss points, then Q, then M
   int m = 0;               ///< first of 3 multipliers
 };
 
@@ -47,9 +47,9 @@ struct ElementShape {
   std::vector<double> angle;  ///< angle of the stress-free section
   std::vector<std::array<double, 2>>
       t;  ///< derivative of the stress-free axis; h sum b_q t_q = chord exactly
-  std::vector<double> axial_compliance;    ///< e per N
-  std::vector<double> shear_compliance;    ///< g per Q; all zero: unshearable
-  std::vector<double> bending_compliance;  ///< k per M
+  std::vector<double> axial_compliance;    ///< axial strain e per axial force N
+  std::vector<double> shear_compliance;    ///< shear strain g per shear force Q; all zero: unshearable
+  std::vector<double> bending_compliance;  ///< curvature k per moment M
 };
 
 /// State of a one-sided support that touches without pressure, used while the support is within kTouchBand of

@@ -324,7 +324,7 @@ template <int N>
 void ElementWorkOf<P>::add_geometric(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const {
   constexpr int K = N - P;
   using Weighted = typename AugmentedMatrix<N>::Weighted;
-  std::array<Weighted, P> turn;  // db_q
+  std::array<Weighted, P> turn;  // rows of db_q, the change of rotation at Gauss point q
   for (int q = 0; q < P; ++q) {
     turn[q].x.fill(0.0);
     turn[q].weight = t.w[q];

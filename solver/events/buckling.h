@@ -18,7 +18,7 @@ enum class LoadSense { as_given, reversed };
 /// stresses of the constant actions and of the proportional actions at unit scaled load factor.
 struct LinearBuckling {
   std::vector<double> loads;           ///< scaled load factors; fewer than requested when no more exist
-  std::vector<Eigen::VectorXd> modes;  ///< unknowns of the structural problem, largest displacement one
+  std::vector<Eigen::VectorXd> modes;  ///< modes in the problem's unknowns, largest displacement one
   int negative_at_start = 0;           ///< negative eigenvalues under the constant actions alone
   SharedHolds holds;                   ///< artificial springs on motions without stiffness
   /// A free motion is driven by the actions or resisted by their stresses alone, so that no linear reference

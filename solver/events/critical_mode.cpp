@@ -12,7 +12,7 @@ using Eigen::VectorXd;
 
 VectorXd null_vector(EquilibriumProblem& problem, const PathPoint& point, VectorXd start) {
   constexpr int kLeastIterations = 4;
-  constexpr int kMostIterations = 60;  // the lowest mode of a stiff structure converges more slowly
+  constexpr int kMostIterations = 60;  // limit for stiff structures, whose lowest mode converges slowly
   constexpr double kSettled = 1e-12;   // change of the normalised vector per iteration
   const VectorXd& weights = problem.metric();
   const auto norm = [&weights](const VectorXd& x) {

@@ -123,11 +123,11 @@ class CriticalNewton {
   const CriticalOptions& options_;
   bool bifurcation_;
   CriticalSolution at_;
-  MatrixXd v_;      ///< J v = W n G, n.W v = 1
+  MatrixXd v_;      ///< null motions of this iteration: J v = W n G, n.W v = 1
   VectorXd p_, q_;  ///< response to the residual and to the load
   VectorXd pi_, rho_;
-  MatrixXd along_p_;   ///< n_i.F''[n_j, p]
-  VectorXd along_zp_;  ///< n_i.F''[z, p]
+  MatrixXd along_p_;   ///< second derivatives n_i.F''[n_j, p]
+  VectorXd along_zp_;  ///< second derivatives n_i.F''[z, p]
   VectorXd residual_;
   double dlambda_ = 0.0;
   double moved_ = 0.0;

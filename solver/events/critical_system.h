@@ -40,7 +40,7 @@ struct CriticalSolution {
   std::vector<Eigen::MatrixXd> A;
   Eigen::MatrixXd B;
   Eigen::VectorXd C;
-  Eigen::MatrixXd stiffness;  ///< n_i.J n_j
+  Eigen::MatrixXd stiffness;  ///< stiffness n_i.J n_j of the null motions
   Eigen::VectorXd unfolding;  ///< forces along W n that restore exact bifurcations; empty at limit points
   int others = 0;             ///< number of negative eigenvalues besides the null motions
 

@@ -18,7 +18,7 @@ struct KoiterExpansion {
   double slope = 0.0;
   /// Empty when the slope is not zero, or the third derivative does not converge (contact change at s = 0).
   std::optional<double> curvature;
-  double stiffening = 0.0;  ///< c: positive where the state at the bifurcation is stable
+  double stiffening = 0.0;  ///< coefficient c; positive where the state at the bifurcation is stable
 };
 
 /// @param along_path approximation of a_u, which identifies the primary path's tangent

@@ -13,7 +13,7 @@ namespace snapthrough {
 /// Lowest buckling load of a piece: linear problem in which a set of touching supports acts, the others not.
 struct Piece {
   double load = 0.0;     ///< smallest buckling load above zero
-  Eigen::VectorXd mode;  ///< largest displacement one
+  Eigen::VectorXd mode;  ///< buckling mode, largest displacement one
 };
 
 /// Buckling functions of the piece that is currently set.

@@ -32,7 +32,7 @@ CriticalOptions options_for(const Continuation& continuation, double tolerance, 
 /// Tangents of the followed path and of the crossing path at a bifurcation.
 struct Tangents {
   CriticalDirection along;
-  CriticalDirection across;  ///< y is empty when unknown
+  CriticalDirection across;  ///< direction of the crossing path; y is empty when unknown
 };
 
 std::optional<Tangents> tangents_along(const PathMetric& metric, const CriticalSolution& found,

@@ -28,14 +28,14 @@ struct Discretization {
   double accuracy = 1e-3;   ///< wanted relative error of each reported load factor, in (0, 0.5]
   bool fixed_mesh = false;  ///< true: the fields below apply
   int elements = 0;         ///< elements per member that is not in `member_elements`; 0: not given
-  std::vector<std::pair<std::string, int>> member_elements;  ///< by member id
+  std::vector<std::pair<std::string, int>> member_elements;  ///< numbers of elements by member id
   int order = 1;  ///< polynomial order of the elements, 1 to kMaxOrder
   FoundationRule foundation = FoundationRule::consistent;
 };
 
 struct Control {
   ControlType type = ControlType::arc_length;
-  std::string monitor;  ///< for displacement control
+  std::string monitor;  ///< id of the monitor, for displacement control
 };
 
 /// Step lengths as fractions of the scale of the first critical load; empty: chosen by the solver.
@@ -70,7 +70,7 @@ struct OutputOptions {
   StateOutput states = StateOutput::critical;
   int every = 1;
   std::vector<double> at_load_factors;
-  int points_per_member = 101;  ///< >= 2
+  int points_per_member = 101;  ///< sampled points per member, >= 2
   /// Least number of points on each branch, evenly spaced along its arc; empty: accepted steps only.
   std::optional<int> path_points;
   bool extremes = false;  ///< reports extreme section forces and displacements of each member

@@ -49,7 +49,7 @@ constexpr double kLargestLeft = 1e-8;
 double least_energy(EquilibriumProblem& problem, const Regime& regime, const Eigen::VectorXd& y,
                     double lambda, Workspace& work) {
   constexpr int kMostTrials = 12;
-  constexpr double kWorkLeft = 0.1;  // work at the end over that at the start
+  constexpr double kWorkLeft = 0.1;  // largest work at the end of the line search over that at the start
   // negative work over that at the start, above which the correction is shortened
   constexpr double kEnough = 0.5;
   constexpr double kLongest = 64.0;  // factor on the correction

@@ -44,7 +44,7 @@ struct SideCondition {
 struct CorrectorOptions {
   int max_iterations = 12;
   int most_stalled = 3;     ///< allowed corrections that exceed half of the smallest one so far
-  double tolerance = 1e-9;  ///< on the predicted norm of the next correction, over the step
+  double tolerance = 1e-9;  ///< for the predicted norm of the next correction over the step
   /// Replaces the step as reference of `tolerance` where smaller: the displacement part of the step.
   double displacement = std::numeric_limits<double>::infinity();
   /// Norm of the last correction over the step at which iteration may stop: the tangent then has this
@@ -78,10 +78,11 @@ enum class CorrectorStatus { converged, too_many_iterations, diverged };
 struct CorrectorOutcome {
   CorrectorStatus status = CorrectorStatus::diverged;
   int factorisations = 0;
-  double first_correction = 0.0;   ///< norm of the first correction: error of the predictor
-  double first_residual = 0.0;     ///< relative residual at the predictor
-  double relative_residual = 0.0;  ///< at the last linearisation, before the last correction
-  TangentReport tangent;           ///< at the last linearisation
+  double first_correction = 0.0;  ///< norm of the first correction: error of the predictor
+  double first_residual = 0.0;    ///< relative residual at the predictor
+  /// Relative residual at the last linearisation, before the last correction.
+  double relative_residual = 0.0;
+  TangentReport tangent;  ///< inertia at the last linearisation
 };
 
 /// @brief Scratch vectors of the corrector and the predictor.

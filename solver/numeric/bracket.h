@@ -47,9 +47,9 @@ class SignBracket {
   [[nodiscard]] double middle() const { return 0.5 * (a_ + b_); }
 
  private:
-  double a_, fa_;  ///< latest position
-  double b_, fb_;  ///< other end of the bracket
-  double c_, fc_;  ///< previous position
+  double a_, fa_;  ///< latest position with its value
+  double b_, fb_;  ///< other end of the bracket with its value
+  double c_, fc_;  ///< previous position with its value
   double share_ = 0.5;
 };
 

@@ -9,8 +9,8 @@ namespace snapthrough {
 
 /// Unknowns that are eliminated together.
 struct FrontPlan {
-  std::vector<int> pivots;    ///< eliminated here
-  std::vector<int> rest;      ///< unknowns that they are coupled with
+  std::vector<int> pivots;    ///< unknowns that are eliminated in this front
+  std::vector<int> rest;      ///< unknowns that are coupled with the pivots
   std::vector<int> blocks;    ///< blocks of the matrix that are assembled here
   std::vector<int> children;  ///< fronts whose rest is assembled here; they precede this one
 };

@@ -17,7 +17,7 @@ struct Inertia {
 struct PivotSummary {
   double floor = 0.0;  ///< size up to which a pivot counts as zero
   Inertia inertia;
-  double log_abs_det = 0.0;  ///< zero pivots enter with their tiny replacement
+  double log_abs_det = 0.0;  ///< log |det|; zero pivots enter with their tiny replacement
 
   void note(double eigenvalue);
 };

@@ -86,7 +86,7 @@ bool ActiveSet::advance() {
       residual_ = b_ - A_ * x_;
       return true;
     }
-    passive_.pop_back();  // its gradient component was rounding
+    passive_.pop_back();  // the column's gradient component was rounding
     rejected.push_back(next);
   }
   return false;
@@ -95,7 +95,7 @@ bool ActiveSet::advance() {
 }  // namespace
 
 NonnegativeSolution nonnegative_least_squares(const MatrixXd& A, const VectorXd& b) {
-  constexpr Index kMostSteps = 10;  // over rows plus columns; about twice the number of rows is usual
+  constexpr Index kMostSteps = 10;  // steps over rows plus columns; about twice the number of rows is usual
   ActiveSet set(A, b);
   for (Index step = 0; step < kMostSteps * (A.cols() + A.rows()); ++step)
     if (!set.advance()) break;

@@ -40,7 +40,7 @@ class NullSpace {
   double tolerance_;
   Factor factor_;
   bool too_dense_ = false;
-  std::vector<Eigen::VectorXd> found_;        ///< orthonormal
+  std::vector<Eigen::VectorXd> found_;        ///< orthonormal null vectors
   std::vector<Eigen::VectorXd> found_sizes_;  ///< orthonormal basis of the span of S x
 };
 

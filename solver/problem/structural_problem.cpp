@@ -412,8 +412,8 @@ void StructuralProblem::solve_symmetric(VectorXd& x) {
 
 /// Distances at which supports count as touching at y, from the largest displacement and force.
 TouchingDistance StructuralProblem::touching_distance(const VectorXd& y) const {
-  constexpr double kTouching = 1e-9;     // over the largest displacement
-  constexpr double kUnloaded = 1e-6;     // over the largest force
+  constexpr double kTouching = 1e-9;     // distance over the largest displacement
+  constexpr double kUnloaded = 1e-6;     // force over the largest force
   constexpr double kSolution = 1e-13;    // relative rounding of displacements
   constexpr double kCoordinate = 1e-14;  // rounding of coordinates over the structure's length
   const double largest = y.head(3 * structure_.nodes).lpNorm<Eigen::Infinity>();

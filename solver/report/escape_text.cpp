@@ -73,7 +73,8 @@ class MovingPart {
 
 MovingPart::MovingPart(const Model& model, const RigidParts& parts, const VectorXd& motion)
     : model_(model), parts_(parts) {
-  constexpr double kMore = 1.0 + 1e-9;  // prefers the first of several equal displacements, despite rounding
+  // factor that prefers the first of several equal displacements despite rounding
+  constexpr double kMore = 1.0 + 1e-9;
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-low[0], -low[1]};
   for (std::size_t j = 0; j < model.nodes.size(); ++j)

@@ -84,7 +84,7 @@ class SectionForces {
   std::vector<DeadLoad> dead_;
   std::vector<FoundationHere> foundations_;
   std::vector<PointAction> points_;
-  double pressure_ = 0.0;  ///< along the deformed right normal
+  double pressure_ = 0.0;  ///< pressure along the deformed right normal
 };
 
 }  // namespace snapthrough

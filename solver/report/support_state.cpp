@@ -29,7 +29,7 @@ struct Bearing {
 struct SpringForce {
   SparseRow row;              ///< displacement into the medium
   double displacement = 0.0;  ///< value of `row`
-  double force = 0.0;         ///< on the structure, against `row`
+  double force = 0.0;         ///< force on the structure, against `row`
   bool closed = false;
   double rounding = 0.0;  ///< rounding of the force
 };
@@ -159,7 +159,7 @@ double largest_force(const Structure& structure, const VectorXd& y, const Vector
 /// reactions equilibrium determines better than stiffness times penetration.
 /// @param largest largest other force; a residual above the corrector's tolerance and above rounding stays
 void balance(const Wrench& others, double largest, std::vector<Bearing>& bearings) {
-  constexpr double kResidual = 1e-8;  // CorrectorOptions::largest_residual
+  constexpr double kResidual = 1e-8;  // share of the largest force, as CorrectorOptions::largest_residual
   constexpr double kRoundings = 8.0;  // factor on the rounding, which is summed over an element
   Wrench left = others;
   double rounding = 0.0;

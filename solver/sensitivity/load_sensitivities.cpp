@@ -56,7 +56,7 @@ class VariationRate {
   const Variation& variation_;
   const std::function<ModeOffsets(const Model&)>& offsets_;
   double way_ = 0.0;     ///< 0: both senses; 1, -1: the value may only grow, or only fall
-  Sides coarse_, fine_;  ///< differences with the best step and its half
+  Sides coarse_, fine_;  ///< equations with the best step and with half of it
 };
 
 /// Equations with another value at the point's state; empty when the model may not have that value.

@@ -71,13 +71,13 @@ struct FoundationLaw {
   Direction direction;
   Law law;             ///< reaction per length
   double shear = 0.0;  ///< stiffness G of the shear layer
-  double sense = 1.0;  ///< sense_of()
+  double sense = 1.0;  ///< factor on results, see sense_of()
 };
 /// Reaction law of a spring, scaled.
 struct SpringLaw {
   std::array<double, 3> row{};  ///< weights of x, y and rotation in the displacement
   Law law;
-  double sense = 1.0;  ///< sense_of()
+  double sense = 1.0;  ///< factor on results, see sense_of()
 };
 
 [[nodiscard]] FoundationLaw law_of(const Foundation& foundation, const Scales& scales);

@@ -25,7 +25,7 @@ struct FrozenContact {
 struct MovingZone {
   double from = 0.0;  ///< arc length from the start of the first element
   double to = 0.0;
-  double from_rate = 0.0;  ///< per arc length of the path; 0 at an end of the foundation
+  double from_rate = 0.0;  ///< rate of `from` per arc length of the path; 0 at an end of the foundation
   double to_rate = 0.0;
 };
 /// Contact zones of each foundation, ascending.
@@ -40,9 +40,9 @@ struct TouchingMarks {
 
 /// Distances at which a support counts as touching without pressure; smaller for stiff supports.
 struct TouchingDistance {
-  double any = 0.0;       ///< force of a support that counts as unloaded
-  double force = 0.0;     ///< largest force of a support
-  double rounding = 0.0;  ///< rounding of displacements, lower limit of the distance
+  double any = 0.0;       ///< distance for the softest supports
+  double force = 0.0;     ///< force of a support that counts as unloaded
+  double rounding = 0.0;  ///< rounding of displacements: lower limit of the distance
 
   [[nodiscard]] double of(double stiffness) const {
     return std::min(any, std::max(force / stiffness, rounding));

@@ -38,7 +38,7 @@ struct Place {
 
 /// Critical point with the path around it, for prediction at other values.
 struct Expansion {
-  double t = 0.0;  ///< value or its logarithm
+  double t = 0.0;  ///< value of the parameter, or its logarithm
   double reach = 0.0;
   /// Power series of the path in the distance from the critical point along the path's direction.
   std::array<Place, 4> series;
@@ -157,7 +157,7 @@ class Follower {
   const CriticalCurveRequest& request_;
   CriticalCurve curve_;
   std::unique_ptr<Family> measure_;  ///< reference for norm and scales of all values
-  std::deque<Expansion> nodes_;      ///< latest last
+  std::deque<Expansion> nodes_;      ///< stored critical points, latest last
 };
 
 void Follower::remember(std::optional<Expansion> node) {
@@ -192,7 +192,7 @@ std::optional<PathPoint> equilibrium(Continuation& continuation, const Expansion
 /// Position of a critical point after the first of two equilibria, and the load difference to the
 /// interpolation of next lower order.
 struct Found {
-  double distance = -1.0;  ///< negative: none
+  double distance = -1.0;  ///< position of the critical point; negative: none
   double change = 0.0;
 };
 

@@ -30,7 +30,7 @@ struct CriticalCurvePoint {
   std::optional<double> load_factor;  ///< empty: no critical point, or a failure
   CriticalType type = CriticalType::limit_max;
   bool followed = false;  ///< extrapolated from neighbouring values; false: its path was traced
-  std::string failure;    ///< code; empty unless the path could not be traced
+  std::string failure;    ///< failure code; empty unless the path could not be traced
 };
 
 struct CriticalCurve {
