@@ -50,7 +50,7 @@ double least_energy(EquilibriumProblem& problem, const Regime& regime, const Eig
                     double lambda, Workspace& work) {
   constexpr int kMostTrials = 12;
   constexpr double kWorkLeft = 0.1;  // largest work at the end of the line search over that at the start
-  // negative work over that at the start, above which the correction is shortened
+  // opposite work at the end over that at the start, above which the correction is shortened
   constexpr double kEnough = 0.5;
   constexpr double kLongest = 64.0;  // factor on the correction
   const double at_start = work.residual.dot(work.correction);

@@ -66,7 +66,7 @@ double scale_to_largest(Mode& mode) {
 }
 
 std::string motion_text(const Mode& mode, const Model& model) {
-  // prefers the first of several equal displacements, despite rounding
+  // factor that prefers the first of several equal displacements despite rounding
   constexpr double kLarger = 1.0 + 1e-6;
   double largest = 0.0;
   std::size_t moved = 0;  // index of the member

@@ -44,15 +44,16 @@ struct CriticalCurve {
 
 /// @brief Follows the first critical point over the values instead of tracing a path for each value.
 ///
-/// A limit point is predicted at the next value by extrapolating two equilibria shortly before and after it.
-/// Both are corrected on the model of that value; the maximum of the cubic through their loads and load rates
-/// has an error of fourth order in their distance. The point is accepted when both equilibria exist, have the
-/// expected inertia and load rates of opposite sign, and the interpolation error is below 1e-8 of the load.
-/// Otherwise the increment of the value is halved, at most seven times; then the path is traced.
+/// The critical point is predicted at the next value by extrapolating two equilibria shortly before and after
+/// it. Both are corrected on the model of that value. A limit point is the maximum of the cubic through their
+/// loads and load rates, with an error of fourth order in their distance; a bifurcation is the zero of the
+/// determinant on a parabola. The point is accepted when both equilibria exist with the expected inertia and
+/// the interpolation error is below 1e-8 of the load. Otherwise the increment of the value is halved, at most
+/// seven times; then the path is traced.
 ///
 /// At every `check_every`-th value and at the last, a traced path verifies that no earlier critical point
-/// exists; if its load differs by more than 1e-6, all values since the previous check are traced. Points at
-/// which contact changes the stiffness abruptly are always traced.
+/// exists; if its load differs by more than 1e-6, all values since the previous check are traced. Always
+/// traced: multiple points, points caused by contact, paths with pinned motions or touching supports.
 /// @throws std::invalid_argument when the request violates a precondition
 [[nodiscard]] CriticalCurve follow_critical_point(const CriticalCurveRequest& request);
 
