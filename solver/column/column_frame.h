@@ -40,8 +40,8 @@ struct ColumnPiece {
   int span = 0;
   double from = 0.0;  ///< scaled position in the span
   double length = 0.0;
-  double q = 0.0;  ///< (P - G) / EI
-  double r = 0.0;  ///< K / EI
+  double q = 0.0;  ///< coefficient (P - G) / EI of w''
+  double r = 0.0;  ///< coefficient K / EI of w
   double EI = 1.0;
   ColumnFrame start;       ///< frame right of the joint at the piece's start
   ColumnFrame end;         ///< frame left of the joint at the piece's end

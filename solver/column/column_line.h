@@ -46,7 +46,7 @@ struct ColumnLine {
   double stiffness = 1.0;
   std::array<double, 2> normal{};
   std::vector<ColumnSpan> spans;
-  std::vector<ColumnJoint> joints;  ///< one more than spans
+  std::vector<ColumnJoint> joints;  ///< ends and places between spans; one more than spans
   std::stop_token stop;             ///< cancels computations on the line
 };
 

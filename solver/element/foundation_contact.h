@@ -52,7 +52,7 @@ class FoundationContact {
   /// @param ua displacement (x, y) at the element's start; dx, dy: h times u'_x, u'_y at the Gauss points
   [[nodiscard]] double penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                    std::span<const double> dy) const;
-  /// @brief d penetration / d xi.
+  /// @brief Slope d penetration / d xi.
   [[nodiscard]] double penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                          std::span<const double> dy) const;
   /// @brief Whether the distance from touching is at most `distance` on the whole range.

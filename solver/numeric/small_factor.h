@@ -41,7 +41,7 @@ class SmallFactor {
     if (product == 0.0) return std::numeric_limits<double>::min();
     return odd_ ? -product : product;
   }
-  /// A^-1 b.
+  /// Solution A^-1 b.
   [[nodiscard]] Eigen::Vector3d solve(const Eigen::Vector3d& b) const {
     const double y0 = b[row_[0]];
     const double y1 = b[row_[1]] - lu_(1, 0) * y0;
@@ -52,7 +52,7 @@ class SmallFactor {
     x[0] = (y0 - lu_(0, 1) * x[1] - lu_(0, 2) * x[2]) / lu_(0, 0);
     return x;
   }
-  /// A^-T b.
+  /// Solution A^-T b.
   [[nodiscard]] Eigen::Vector3d solve_transposed(const Eigen::Vector3d& b) const {
     const double y0 = b[0] / lu_(0, 0);
     const double y1 = (b[1] - lu_(0, 1) * y0) / lu_(1, 1);
@@ -64,7 +64,7 @@ class SmallFactor {
     x[row_[0]] = y0 - lu_(1, 0) * x1 - lu_(2, 0) * y2;
     return x;
   }
-  /// A^-1 B.
+  /// Solution A^-1 B.
   [[nodiscard]] Eigen::Matrix3d solve_columns(const Eigen::Matrix3d& b) const {
     Eigen::Matrix3d x;
     for (int j = 0; j < 3; ++j) x.col(j) = solve(Eigen::Vector3d(b.col(j)));

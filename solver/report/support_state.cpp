@@ -182,7 +182,7 @@ void add_forces_on_structure(const Structure& structure, const Model& model, con
                              State& state) {
   const RigidMotions rigid(structure, model, y);
   const std::unique_ptr<ElementWork> elements = structure.elements->make_work();
-  std::vector<Bearing> bearings;  // springs, then foundations
+  std::vector<Bearing> bearings;  // resultants of springs, then foundations
   const VectorXd springs = add_springs(structure, model, y, rigid, state, bearings);
   const VectorXd reactions =
       add_supports(structure, model, held_forces(structure, *elements, y, lambda, springs), state);
