@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a caller may watch of a running analysis, and how it is stopped.
+/// Observation and cancellation of a running analysis.
 
 #include <functional>
 #include <stop_token>
@@ -10,7 +10,7 @@
 
 namespace snapthrough {
 
-/// Where a running analysis stands.
+/// Progress of a running analysis.
 struct Progress {
   int branch = 0;
   int step = 0;
@@ -18,19 +18,19 @@ struct Progress {
   int negative_eigenvalues = 0;
 };
 
-/// A point of a path that was traced, as Branch has it.
+/// Point of a traced path, as in Branch.
 struct TracedPoint {
   int branch = 0;
-  int step = 0;  ///< along the branch, from 0
+  int step = 0;  ///< index of the step along the branch, from 0
   double load_factor = 0.0;
   double arc_length = 0.0;
   int negative_eigenvalues = 0;
   std::vector<NamedValue> monitors;
 };
 
-/// What a caller may watch or stop. The functions are called from the solving thread: `on_point` and then
-/// `on_progress` at each accepted step, `on_critical` when a critical point was located, with its load on the
-/// path's own mesh. What finer meshes make of that load, and its error estimate, come with the result.
+/// Callbacks and stop token. Functions are called from the solving thread: `on_point`, then `on_progress`, at
+/// each accepted step; `on_critical` for each located critical point with its load on the path's mesh (the
+/// result adds corrections by finer meshes, and error estimates).
 struct Hooks {
   std::stop_token stop;
   std::function<void(const Progress&)> on_progress = {};

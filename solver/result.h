@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// What an analysis gives back. Plain data, one field for each field of the result document. Counts that were
-/// not filled stay at -1, numbers that do not exist are empty optionals.
+/// Result of an analysis. Plain data, one field for each field of the result document. Unset counts are -1;
+/// numbers that do not exist are empty.
 
 #include <array>
 #include <optional>
@@ -10,17 +10,16 @@
 
 namespace snapthrough {
 
-/// broken_bifurcation: a bifurcation beside the path, which passes it by because of an imperfection.
+/// Type of a critical point. broken_bifurcation: missed by the path because of an imperfection.
 enum class CriticalType { bifurcation, limit_max, limit_min, broken_bifurcation };
 
 [[nodiscard]] constexpr bool is_limit(CriticalType type) {
   return type == CriticalType::limit_max || type == CriticalType::limit_min;
 }
-/// Why stability changes at a point: an eigenvalue passes zero, or a support that begins or ceases to act
-/// changes the stiffness at once.
+/// Cause of a change of stability: an eigenvalue crosses zero, or contact changes the stiffness abruptly.
 enum class CriticalCause { smooth, contact };
 
-/// A named series, one value for each point of a branch (or one value at a point).
+/// Named series with one value for each point of a branch or row of a table.
 struct NamedSeries {
   std::string id;
   std::vector<double> values;
@@ -30,47 +29,47 @@ struct NamedValue {
   double value = 0.0;
 };
 
-/// Why a critical load has no derivative by a number of the model.
+/// Reason why a critical load has no derivative with respect to a number of the model.
 enum class NoDerivative {
-  breaks_bifurcation,  ///< the path no longer meets it: its limit point goes by a power less than one
-  contact,             ///< a support that begins or ceases to act makes the point, not an eigenvalue
-  multiple,            ///< several eigenvalues vanish, and go apart
-  unsymmetric,         ///< follower pressure on a free end: the tangent has other left null vectors
+  breaks_bifurcation,  ///< the change breaks the bifurcation; the load then varies with a power below one
+  contact,             ///< contact, not an eigenvalue, causes the point
+  multiple,            ///< several eigenvalues vanish and would separate
+  unsymmetric,         ///< follower pressure on a free end: nonsymmetric tangent
   not_differentiable,  ///< the equations have a kink or a jump there
-  not_found            ///< the point could not be found again to rounding
+  not_found            ///< the point could not be solved to rounding
 };
 
-/// d load factor / d value of a number of the model, the load factor's and the value's units as given.
+/// Derivative d load factor / d value of a number of the model, in given units.
 struct Sensitivity {
   std::string pointer;
   std::optional<double> derivative;
-  std::optional<NoDerivative> reason;  ///< where there is none
+  std::optional<NoDerivative> reason;  ///< why the derivative does not exist
 };
 
-/// How the path that crosses at a bifurcation leaves it.
+/// Type of the path that crosses at a bifurcation.
 enum class BifurcationKind { asymmetric, stable_symmetric, unstable_symmetric };
 
-/// load_factor = critical (1 + a s + b s^2) along that path, s the amplitude of the mode, a length.
+/// load_factor = critical (1 + a s + b s^2) on the crossing path, s the amplitude of the mode, a length.
 struct KoiterCoefficients {
-  double a = 0.0;           ///< exactly 0 where the bifurcation is symmetric
-  std::optional<double> b;  ///< where it is
+  double a = 0.0;           ///< exactly 0 for symmetric bifurcations
+  std::optional<double> b;  ///< for symmetric bifurcations only
   BifurcationKind kind = BifurcationKind::asymmetric;
 };
 
-/// What one mesh said of a critical point.
+/// Load of a critical point on one mesh.
 struct MeshAnswer {
   int elements = -1;
   int order = -1;
-  std::optional<double> load_factor;  ///< empty: the point was not found there
+  std::optional<double> load_factor;  ///< empty: the mesh does not have the point
 };
 
-/// Displacements of a member in a mode, over its arc length.
+/// Displacements of a member in a mode over its arc length.
 struct MemberMode {
   std::string id;
   std::vector<double> s, u, v, rotation;
 };
-/// A buckling mode or a direction of a path: the largest displacement hypot(u, v) is 1, the first large
-/// component positive; rotations in the same scale.
+/// Buckling mode or direction of a path: largest displacement hypot(u, v) 1, first large component positive;
+/// rotations in the same scale.
 struct Mode {
   std::vector<MemberMode> members;
 };
@@ -79,48 +78,46 @@ struct CriticalPoint {
   int branch = 0;
   CriticalType type = CriticalType::bifurcation;
   double load_factor = 0.0;
-  std::optional<double> error_estimate;  ///< relative; empty: none was made
+  std::optional<double> error_estimate;  ///< relative; empty: not estimated
   double arc_length = 0.0;
   std::vector<NamedValue> monitors;
   int negative_before = -1;  ///< negative eigenvalues of the constrained tangent before the point
   int negative_after = -1;
-  int multiplicity = 1;      ///< how many eigenvalues vanish there
+  int multiplicity = 1;      ///< number of eigenvalues that vanish there
   std::optional<int> state;  ///< index into Result::states
   CriticalCause cause = CriticalCause::smooth;
-  /// Null vector of the tangent stiffness; at a limit point that is the path's direction. With the state
-  /// only.
+  /// Null vector of the tangent stiffness; at a limit point the path's direction. Only together with `state`.
   std::optional<Mode> mode = {};
-  bool confirmed = false;  ///< a second, finer mesh has the point within the accuracy that was asked for
-  std::vector<MeshAnswer> meshes = {};  ///< coarsest first
-  /// Of a bifurcation: the size of what breaks it, about the root mean square slope of the imperfection's
-  /// shape; empty: not measured.
+  bool confirmed = false;               ///< a finer mesh has the point within the requested accuracy
+  std::vector<MeshAnswer> meshes = {};  ///< loads on the compared meshes, coarsest first
+  /// Imperfection of a bifurcation, about the root mean square slope of the imperfect shape; empty: unknown.
   std::optional<double> imperfection = {};
-  std::vector<Sensitivity> sensitivities = {};  ///< in the order asked
+  std::vector<Sensitivity> sensitivities = {};  ///< in the order of the request
   std::optional<KoiterCoefficients> koiter = {};
-  /// Id of the member whose own buckling the point is: the motion lost there bends that member alone.
+  /// Id of the member that buckles by itself: the mode bends that member alone.
   std::optional<std::string> member = {};
 };
 
-/// A displacement of a node.
+/// Displacement of a node.
 struct NodeMotion {
   std::string node;
   double u = 0.0, v = 0.0, rotation = 0.0;
 };
 
-/// A motion that nothing resists, held by the least norm while it is free.
+/// Motion without stiffness, pinned in the state of least norm while it is free.
 struct NeutralMotion {
   int branch = 0;
-  double from = 0.0;              ///< load factor where it becomes free
-  std::optional<double> to;       ///< where something resists it again; empty: free to the end of the path
-  std::vector<NodeMotion> nodes;  ///< those that move; the largest displacement is 1, or the largest rotation
-                                  ///< where none is displaced
+  double from = 0.0;  ///< load factor at which the motion becomes free
+  /// Load factor at which the motion meets resistance again; empty: free to the end of the path.
+  std::optional<double> to;
+  std::vector<NodeMotion> nodes;  ///< moving nodes; largest displacement 1, or largest rotation 1
 };
 
-/// A contact zone of a foundation, or a one-sided spring, that begins or ends. Zones that divide or join
-/// count too: with `zones` before and after.
+/// Beginning or end of a contact zone of a foundation, or of contact of a one-sided spring; also division and
+/// union of zones, by `zones_before` and `zones_after`.
 struct ContactEvent {
   int branch = 0;
-  std::string id;  ///< of the foundation or spring
+  std::string id;  ///< id of the foundation or spring
   bool opened = false;
   double load_factor = 0.0;
   double arc_length = 0.0;
@@ -135,27 +132,26 @@ struct Branch {
   std::vector<double> arc_length;  ///< dimensionless, from 0, increasing
   std::vector<NamedSeries> monitors;
   std::vector<int> negative_eigenvalues;
-  /// Least stiffness over that of the unloaded structure; empty: not known at that point.
+  /// Least stiffness over that of the unloaded structure at each point; empty: unknown.
   std::vector<std::optional<double>> stiffness_ratio;
   std::vector<NamedSeries> contact_fraction;  ///< foundation id, fraction of its range in contact
   std::string termination = {};               ///< code as in Summary
 };
 
-/// Force and moment about the origin of the model's axes, at the deformed positions; at the undeformed ones
-/// when the geometry is linear, as equilibrium is stated there.
+/// Force, and moment about the axes' origin, at the deformed positions (linear geometry: undeformed).
 struct Resultant {
   double fx = 0.0;
   double fy = 0.0;
   double moment = 0.0;
 };
 
-/// Values at equally spaced places of a member: x0, y0 undeformed positions (imperfections included), x, y
-/// deformed ones, u, v displacements in global axes.
+/// Values at equally spaced positions of a member: x0, y0 undeformed (with imperfections), x, y deformed; u,
+/// v displacements in global axes.
 struct MemberState {
   std::string id;
   std::vector<double> s, x0, y0, x, y, u, v, rotation, axial_force, shear_force, bending_moment;
 };
-/// Reaction of a support on the structure, in global axes, moment about its node.
+/// Reaction of a support on the structure in global axes; moment about its node.
 struct SupportState {
   std::string node;
   double fx = 0.0;
@@ -164,32 +160,31 @@ struct SupportState {
 };
 struct SpringState {
   std::string id;
-  double force = 0.0;  ///< pressing on the structure against the spring's direction; a pull is negative
-  double displacement = 0.0;  ///< along its direction; the rotation for a rotational spring
-  bool closed = false;        ///< whether it acts
-  Resultant resultant;        ///< on the structure
+  double force = 0.0;         ///< force on the structure against the spring's direction; negative for a pull
+  double displacement = 0.0;  ///< along the direction; for a rotational spring the rotation
+  bool closed = false;        ///< the spring acts
+  Resultant resultant;        ///< force on the structure
 };
 struct FoundationState {
   std::string id;
   std::vector<double> s, reaction;
-  std::vector<double> displacement;            ///< into the medium
+  std::vector<double> displacement;            ///< displacement into the medium
   std::vector<std::array<double, 2>> contact;  ///< intervals [s0, s1] in contact, in the member's s
-  Resultant resultant;                         ///< of the medium on the structure, shear layer included
+  Resultant resultant;                         ///< force of the medium on the structure, with the shear layer
 };
-/// A state in equilibrium: reactions of supports (with their nodes' positions), resultants of springs,
-/// foundations and loads add up to nothing.
+/// Equilibrium state: reactions and the resultants of springs, foundations and loads sum to zero.
 struct State {
   int branch = 0;
   double load_factor = 0.0;
-  int refinements = 0;  ///< of the path's mesh, to the mesh that this state is in equilibrium on
+  int refinements = 0;  ///< refinements from the path's mesh to the mesh of this state
   std::vector<MemberState> members;
   std::vector<SupportState> supports;
   std::vector<SpringState> springs;
   std::vector<FoundationState> foundations;
-  Resultant loads;  ///< of all loads that act in the state
+  Resultant loads;  ///< resultant of all loads in the state
 };
 
-/// Equilibrium at load factors that were asked for, in that order; those that were reached.
+/// Equilibria at the requested load factors that were reached, in the order of the request.
 struct StaticTable {
   std::vector<double> load_factor;
   std::vector<NamedSeries> monitors;
@@ -198,7 +193,7 @@ struct StaticTable {
   std::vector<std::optional<int>> state;      ///< index into Result::states
 };
 
-/// An extreme value and where it is.
+/// Extreme value with its position.
 struct Extreme {
   double value = 0.0;
   double s = 0.0;
@@ -217,8 +212,8 @@ struct MemberExtremes {
   Extreme displacement;  ///< largest hypot(u, v)
 };
 
-/// Something that the reader of a result has to know. Codes: "large_strain", "path_points",
-/// "touching_supports", "touching_eigenvalue", "contact_changes".
+/// Warning for the reader of a result. Codes: "large_strain", "path_points", "touching_supports",
+/// "touching_eigenvalue", "contact_changes".
 struct Warning {
   std::string code;
   std::string detail;
@@ -226,22 +221,22 @@ struct Warning {
 
 struct BucklingResult {
   std::vector<double> load_factors;
-  std::vector<std::optional<double>> error_estimates;  ///< relative, one a load factor
+  std::vector<std::optional<double>> error_estimates;  ///< relative, one per load factor
   std::vector<Mode> modes;
 };
 
-/// Where the structure is softest before it loses stability.
+/// State of least stiffness before stability is lost.
 struct Softest {
   double load_factor = 0.0;
   double stiffness_ratio = 0.0;  ///< least stiffness over that of the unloaded structure
   std::optional<Mode> mode;      ///< motion with that stiffness
 };
 
-/// How far the structure has moved where it loses stability.
+/// Displacements of the structure at its loss of stability.
 struct AtCritical {
   double displacement = 0.0;           ///< largest hypot(u, v)
   double relative_displacement = 0.0;  ///< over the diagonal of the structure's bounding box
-  double rotation = 0.0;               ///< largest, rad
+  double rotation = 0.0;               ///< largest rotation, rad
   double strain = 0.0;                 ///< largest of |N| / EA, |Q| / GA, |M| / EI times sqrt(EI / EA)
 };
 
@@ -251,8 +246,8 @@ struct Summary {
   std::optional<double> error_estimate;
   std::string termination;  ///< code of the stop rule that ended the search, e.g. "limit_points", "steps"
   std::string message;      ///< a sentence with the deciding numbers
-  /// The first local minimum of the stiffness ratio below a tenth before the critical load, else the lowest;
-  /// where there is no minimum, the critical point itself; empty where neither was met.
+  /// First local minimum of the stiffness ratio below 0.1 before the critical load, else the lowest minimum,
+  /// else the critical point; empty: none.
   std::optional<Softest> softest = {};
   std::optional<AtCritical> at_critical = {};
 };
@@ -260,15 +255,14 @@ struct Summary {
 struct MeshReport {
   int elements = -1;
   int order = -1;
-  int unknowns = -1;  ///< free displacement unknowns, element interiors included
+  int unknowns = -1;  ///< free displacement unknowns, with element interiors
   int refinements = -1;
   std::optional<double> requested_accuracy;
   std::optional<double> estimated_accuracy;
-  /// Paths followed, the last of them reported; each but the first on the mesh before with every element cut
-  /// in four or more, because finer meshes did not confirm what was found.
+  /// Number of paths followed, the last one reported. Each repeats the previous one on a mesh at least four
+  /// times as fine, because finer meshes did not confirm the result.
   int paths = 1;
-  /// Where the elements of the reported path's own mesh end along each member, in fractions of it; empty for
-  /// analyses that follow no path.
+  /// Element ends along each member of the reported path's mesh, as fractions; empty without a path.
   std::vector<std::vector<double>> ends;
 };
 
@@ -278,12 +272,11 @@ struct Diagnostics {
   int iterations = -1;
   int factorizations = -1;
   double max_relative_residual = -1.0;
-  std::vector<std::string> skipped;      ///< what the model did not need, in words
-  std::array<int, 32> corrections = {};  ///< entry i: steps that took i Newton corrections, 31 for more
+  std::vector<std::string> skipped;      ///< parts of the model and work that were omitted
+  std::array<int, 32> corrections = {};  ///< entry i: steps with i Newton corrections, 31 for more
 };
 
-/// A numerical failure: what could not be done and where it stood. The rest of the result holds what was
-/// reached.
+/// Numerical failure. The rest of the result holds what was reached.
 struct Failure {
   std::string code;  ///< "no_convergence", "step_underflow", "cancelled", "no_start", "not_held", ...
   std::string detail;
@@ -297,9 +290,9 @@ struct Result {
   std::vector<Branch> branches;
   std::vector<State> states;
   std::optional<StaticTable> static_table;
-  std::vector<double> not_reached;  ///< load factors that were asked for
+  std::vector<double> not_reached;  ///< requested load factors
   std::optional<BucklingResult> buckling;
-  std::optional<std::vector<MemberExtremes>> extremes;  ///< when asked for; empty: no state was reached
+  std::optional<std::vector<MemberExtremes>> extremes;  ///< if requested; empty: no state was reached
   std::vector<Warning> warnings;
   MeshReport discretization;
   Diagnostics diagnostics;

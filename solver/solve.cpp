@@ -17,7 +17,7 @@
 namespace snapthrough {
 namespace {
 
-/// Reports the mesh where the analysis did not.
+/// Reports the mesh if the analysis has not done so.
 void report_unchecked_mesh(const Analysis& analysis, const Structure& structure, Result& result) {
   const bool chosen = !analysis.discretization.fixed_mesh;
   if (chosen) result.discretization.requested_accuracy = analysis.discretization.accuracy;
@@ -29,26 +29,26 @@ void report_unchecked_mesh(const Analysis& analysis, const Structure& structure,
 MeshUse mesh_use(const Analysis& analysis) {
   if (analysis.type == AnalysisType::critical) return MeshUse::first;
   if (analysis.type == AnalysisType::path) return MeshUse::path;
-  // several buckling modes want elements anyway
+  // several buckling modes need many elements anyway
   const bool one_mode = analysis.type == AnalysisType::buckling && analysis.modes == 1;
   return one_mode ? MeshUse::first : MeshUse::final;
 }
 
-/// An analysis that was asked to stop while finer meshes were to check its loads has not ended.
+/// Reports a stop request that interrupted the check of loads on finer meshes.
 void report_stop(const Hooks& hooks, Result& result) {
   const bool unchecked = !result.failure || result.failure->code == "not_confirmed";
   if (hooks.stop.stop_requested() && unchecked)
     result.failure = Failure{"cancelled", "cancelled before the critical loads were checked on finer meshes"};
 }
 
-/// Load factors at which states or rows were asked for.
+/// Load factors with requested states or rows.
 std::vector<double> asked_load_factors(const Analysis& analysis) {
   if (analysis.type == AnalysisType::static_) return analysis.load_factors;
   if (analysis.type == AnalysisType::buckling) return {};
   return analysis.output.at_load_factors;
 }
 
-/// Static load factors that are not held beside those that are computed.
+/// Reports static load factors that the supports do not hold, in addition to computed ones.
 void report_refused(const HeldLoads& held, Result& result) {
   if (!held.refusal) return;
   if (!result.failure) return fail(result, "not_held", *held.refusal);
@@ -56,9 +56,9 @@ void report_refused(const HeldLoads& held, Result& result) {
   result.summary.message += "; " + *held.refusal;
 }
 
-/// @throws Cancelled when nothing of it is worth keeping
+/// @throws Cancelled when no result was reached
 void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, Result& result) {
-  // what supports of both sides hold needs no look at its loads
+  // only one-sided supports need the equilibrium test of their loads
   std::optional<FreeMotions> motions;
   std::optional<UnilateralBalance> balance;
   HeldLoads held{{}, true, std::vector<char>(analysis.load_factors.size(), 1)};
@@ -84,7 +84,7 @@ void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, R
     result.diagnostics.skipped.insert(result.diagnostics.skipped.begin(), absent.begin(), absent.end());
     return;
   }
-  // derivatives by a stiffness are those of the stiffness itself
+  // derivatives with respect to a stiffness need the stiffness as given
   const Discretization& asked = analysis.discretization;
   Structure structure =
       make_structure(model, analysis.sensitivities.empty() ? asked : as_stiff_as_given(asked),

@@ -10,13 +10,13 @@
 namespace snapthrough {
 namespace {
 
-/// A structure on the finer mesh and its loads.
+/// Structure on one mesh with its buckling loads.
 struct Level {
   std::shared_ptr<const Structure> structure;
   LinearBuckling buckling;
 };
 
-/// @param coarser the mesh before; null: this is the first one
+/// @param coarser solution on the previous mesh; null: first mesh
 Level solve_on(std::shared_ptr<const Structure> structure, int count, LoadSense sense, const Level* coarser) {
   StructuralProblem problem(*structure);
   Eigen::VectorXd near;

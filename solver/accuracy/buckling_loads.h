@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Linearised buckling loads with estimated errors.
+/// Linearised buckling loads with error estimates.
 
 #include <memory>
 #include <optional>
@@ -12,20 +12,20 @@
 
 namespace snapthrough {
 
-/// Buckling loads on the coarsest mesh that is fine enough for all of them.
+/// Buckling loads on the coarsest mesh that meets the accuracy for all of them.
 struct BucklingLoads {
   std::shared_ptr<const Structure> structure;
   LinearBuckling buckling;
   std::vector<std::optional<double>>
-      errors;              ///< relative, one a load; empty: the next mesh has another count
-  int level = 0;           ///< how often the mesh was refined
+      errors;              ///< relative, one per load; empty: another number of loads on the next mesh
+  int level = 0;           ///< number of mesh refinements
   int factorizations = 0;  ///< on all meshes
 };
 
-/// @brief The lowest buckling loads, compared by their place in the order with those of the next finer mesh,
-/// until all estimates are within the accuracy. On a fixed mesh the estimate is made, but nothing refined.
-/// @param structure on the first mesh
-/// @param sense `reversed`: of the opposite actions, see linear_buckling()
+/// @brief Lowest buckling loads, each compared with that of the same rank on the next finer mesh, until all
+/// estimates are within the accuracy. A fixed mesh is estimated but not refined.
+/// @param structure structure on the first mesh
+/// @param sense `reversed`: loads of the opposite actions, see linear_buckling()
 [[nodiscard]] BucklingLoads buckling_loads(const Model& model, const Analysis& analysis,
                                            const Structure& structure, LoadSense sense = LoadSense::as_given);
 

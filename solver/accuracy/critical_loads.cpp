@@ -31,7 +31,7 @@ const Structure& CriticalLoads::structure_of(int number) const {
   return number == 0 ? structure_ : levels_[number - 1]->structure();
 }
 
-/// The finer mesh of a number from 1 on, built when first asked for; null when there is none.
+/// The n-th finer mesh, n >= 1, built on first use; null when it does not exist.
 FineMesh* CriticalLoads::level(int number) {
   while (static_cast<int>(levels_.size()) < number) {
     const Structure& coarse = structure_of(static_cast<int>(levels_.size()));
@@ -45,7 +45,7 @@ FineMesh* CriticalLoads::level(int number) {
   return levels_[number - 1].get();
 }
 
-/// The error by the path on the coarser mesh, which has the point, too.
+/// Error estimate from this point of the path on the coarser mesh; empty when that path has no such point.
 std::optional<double> CriticalLoads::error_to_earlier(const Target& target) const {
   const CriticalPoint& point = result_.critical_points[target.index];
   std::optional<double> least;
@@ -73,7 +73,7 @@ CriticalLoads::Answer CriticalLoads::answer_for(const Target& target) {
     const auto next = mesh->find(structure_of(number - 1), at.event, structure_, target.before);
     meshes.push_back(said_by(mesh->structure(), next ? &*next : nullptr));
     if (!next) {
-      answer.error.reset();  // that meshes before agree was chance
+      answer.error.reset();  // agreement of earlier meshes was accidental
       break;
     }
     const double error = differences.add(at.event.point.lambda, next->event.point.lambda);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Errors of critical loads: estimated on finer meshes, and brought down to what was asked for.
+/// Error estimates of critical loads on finer meshes, and refinement to the requested accuracy.
 
 #include <functional>
 #include <memory>
@@ -15,22 +15,21 @@
 
 namespace snapthrough {
 
-/// Adds to a critical point what was asked for beside its load. @param event the point on that structure
+/// Adds requested properties other than the load to a critical point. @param event the point on `structure`
 using Complete =
     std::function<void(const Structure& structure, const CriticalEvent& event, CriticalPoint& point)>;
 
-/// @brief Finds the critical points of a path again on ever finer meshes until their loads agree: only then
-/// they are confirmed.
+/// @brief Locates the critical points of a path on finer and finer meshes until their loads agree, which
+/// confirms them.
 ///
-/// A load's error on one mesh is estimated by its difference to the next finer mesh's, which is nearer to the
-/// truth by a factor: one order more on the same elements where the solution is smooth, elements halved where
-/// contact ends inside them (Carstensen's saturation assumption; checked wherever three meshes were used:
-/// differences must fall). The value reported is that of the coarser of the two: the finer one's error is
-/// not known. With a fixed mesh the values stay and only the estimate is made.
+/// The error on one mesh is estimated by the difference from the next finer mesh, with one order more on the
+/// same elements where the solution is smooth, or halved elements where contact ends inside them. This relies
+/// on Carstensen's saturation assumption, which is checked if three meshes are used: differences must
+/// decrease. The reported value is that of the coarser mesh, because the error of the finer one is unknown.
+/// On a fixed mesh only the estimate is made.
 ///
-/// A point that finer meshes do not have belongs to a mesh that is too coarse for the path as a whole: then
-/// the path is to be followed again on a finer one. What both paths have within the accuracy is confirmed,
-/// too.
+/// A point that finer meshes do not have shows that the mesh is too coarse for the path, which must then be
+/// followed on a finer mesh. Points that agree between both paths within the accuracy are confirmed, too.
 class CriticalLoads final : public PathObserver {
  public:
   /// @param earlier critical points of the path on a coarser mesh; kept by reference
@@ -47,30 +46,30 @@ class CriticalLoads final : public PathObserver {
   void on_point(const PathPoint& point) override { last_ = point; }
   /// Remembers a critical point. @pre an observer before this one has added the point to the result
   void on_critical(const CriticalEvent& event) override;
-  /// @brief Sets the error estimates of all critical points seen, refines where they exceed the accuracy, and
+  /// @brief Sets the error estimates of all recorded points, refines where they exceed the accuracy, and
   /// reports the meshes.
-  /// @param text what is to be said of it is added
+  /// @param text the message of the mesh report is appended
+  /// @param complete called for each point on the mesh of its load; may be empty
   /// @return whether every point is confirmed
-  /// @param complete called for each point, on the mesh that its load is from; may be empty
   [[nodiscard]] bool confirm(const std::stop_token& stop, std::string& text, const Complete& complete = {});
-  /// @brief Whether the finer mesh is in equilibrium near the end of a path, with the same inertia there: so
-  /// it has lost stability as often as the path has.
+  /// @brief Whether the finer mesh has an equilibrium near the end of a path with the same inertia, hence the
+  /// same number of losses of stability.
   [[nodiscard]] bool confirm_end(const PathPoint& end);
 
-  /// @brief The imperfection of the same bifurcation on the finer mesh; empty where that does not have it.
+  /// @brief Imperfection of a bifurcation on the finer mesh; empty when that mesh does not have it.
   [[nodiscard]] std::optional<double> finer_imperfection(const CriticalEvent& bifurcation);
 
  private:
-  /// A critical point of the coarse path.
+  /// Critical point of the path on its own mesh.
   struct Target {
     CriticalEvent event;
     PathPoint before;
-    std::size_t index = 0;  ///< in Result::critical_points
+    std::size_t index = 0;  ///< index in Result::critical_points
   };
-  /// What is known of a load after some meshes.
+  /// Load of a critical point after comparing meshes.
   struct Answer {
     FoundPoint found;
-    int level = 0;  ///< 0: the path's own mesh
+    int level = 0;  ///< refinements; 0: the path's own mesh
     std::optional<double> error;
     std::vector<MeshAnswer> meshes;
   };

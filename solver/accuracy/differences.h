@@ -1,25 +1,25 @@
 #pragma once
 /// @file
-/// From the values of one load on ever finer meshes to its error.
+/// Error estimate of a load from its values on finer and finer meshes.
 
 #include <algorithm>
 #include <cmath>
 
 namespace snapthrough {
 
-/// Finer meshes tried after the first.
+/// Largest number of meshes beyond the first.
 inline constexpr int kMostLevels = 6;
 
-/// @brief Estimates the relative error of a load on each mesh by its difference to the next one.
+/// @brief Estimates the relative error of a load on each mesh from the difference to the next mesh.
 ///
-/// Twice the difference, because the finer mesh's error may be half of the coarser one's where both are so
-/// coarse that errors change their sign from mesh to mesh. Successive differences must fall by four;
-/// otherwise the larger one counts. One difference alone may be small by chance, where both meshes err alike.
+/// The estimate is twice the difference: on coarse meshes with errors of alternating sign, the finer mesh's
+/// error may be half of the coarser one's. Successive differences must fall by a factor of four; otherwise
+/// the larger one is used. A single difference may be small by chance if both meshes have similar errors.
 class Differences {
  public:
-  /// @return estimated error of `coarse`
+  /// @return estimated relative error of `coarse`
   double add(double coarse, double fine) {
-    constexpr double kSafety = 2.0;
+    constexpr double kSafety = 2.0;  // factor on the difference, see the class comment
     const double size = std::abs(fine);
     const double difference = size > 0.0 ? std::abs(coarse - fine) / size : 1.0;
     const bool falls = last_ < 0.0 || difference <= last_ / kFall;
@@ -28,11 +28,11 @@ class Differences {
     last_ = difference;
     return error_;
   }
-  /// @brief Whether the last estimate is enough: of a first difference, if one four times as large were.
+  /// @brief Whether the last estimate is within the accuracy; a first estimate must be four times smaller.
   [[nodiscard]] bool confirm(double accuracy) const { return (first_ ? kFall : 1.0) * error_ <= accuracy; }
 
  private:
-  static constexpr double kFall = 4.0;
+  static constexpr double kFall = 4.0;  // least ratio of successive differences
   double last_ = -1.0;
   double error_ = 1.0;
   bool first_ = true;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// How near to where something acts on a member its bending changes.
+/// Lengths of boundary layers of bending.
 
 #include <Eigen/Core>
 #include <vector>
@@ -10,11 +10,12 @@
 
 namespace snapthrough {
 
-/// @brief The shortest length over which a state's bending decays from the places where something acts on a
-/// member, in the model's units; infinite where nothing shortens it.
+/// @brief Shortest decay length of bending from the points of action on each member, in the model's units;
+/// infinite for members without a boundary layer.
 ///
-/// Under tension N bending decays as exp(-s sqrt(N / EI)), on a base of modulus K that shear reaches first as
-/// exp(-s sqrt(K / GA)). In thin members that is far less than any length that is known before the path.
+/// Bending decays as exp(-s sqrt(N / EI)) under tension N, and as exp(-s sqrt(K / GA)) on a foundation of
+/// modulus K in shearable members. In thin members these lengths are much shorter than all lengths known
+/// before the analysis.
 [[nodiscard]] std::vector<double> bending_decays(const Structure& structure, const Model& model,
                                                  const Eigen::VectorXd& y);
 

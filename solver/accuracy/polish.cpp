@@ -13,12 +13,12 @@
 namespace snapthrough {
 namespace {
 
-/// What is near a point: a share of the path so far.
+/// Search range on either side of a point, over the length of the path so far.
 constexpr double kReach = 0.02;
-/// The same where there is nothing nearer.
+/// Factor on kReach for the second search.
 constexpr double kWidening = 6.0;
 
-/// Corrections at most: a base that the finer mesh takes as stiffer presses another way, and settles slowly.
+/// Newton iteration limit. Slow convergence occurs when a foundation is stiffer on the finer mesh.
 constexpr int kMostCorrections = 40;
 
 PathOptions patient(PathOptions options) {
@@ -27,7 +27,7 @@ PathOptions patient(PathOptions options) {
   return options;
 }
 
-/// The one of the found points that is the known one; nearest by load where several are alike.
+/// The found point that matches the known type and inertia; the nearest by load if several match.
 std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<CriticalEvent>& found) {
   const CriticalEvent* best = nullptr;
   for (const CriticalEvent& event : found) {
@@ -61,7 +61,7 @@ PathPoint FineMesh::transferred(const Structure& from, const PathPoint& point) c
   return out;
 }
 
-/// The path's point in the plane normal to the guess' tangent, `along` (from -1 to 1) reaches from the guess.
+/// Path point in the plane normal to the tangent of `guess`, at the distance along * reach, |along| <= 1.
 std::optional<PathPoint> FineMesh::corrected(const PathPoint& guess, double along, double reach) {
   PathPoint lo = guess;
   PathPoint hi = guess;
@@ -111,7 +111,7 @@ std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const Pat
 bool FineMesh::has(const Structure& from, const PathPoint& point) {
   const PathPoint at = transferred(from, point);
   const double reach = kReach * follower_.norm().metric().norm(at.y, 0.0);
-  if (!(reach > 0.0)) return true;  // nothing has moved
+  if (!(reach > 0.0)) return true;  // no displacement yet
   const auto found = corrected(at, 0.0, reach);
   return found && found->negative == point.negative && follower_.norm().distance(*found, at) <= reach;
 }

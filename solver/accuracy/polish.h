@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A critical point that is known on one mesh, found on a finer one.
+/// Critical points of a coarser mesh, located on a finer one.
 
 #include <optional>
 
@@ -11,37 +11,38 @@
 
 namespace snapthrough {
 
-/// A critical point of a mesh.
+/// Critical point on a mesh.
 struct FoundPoint {
   CriticalEvent event;
-  PathPoint equilibrium;  ///< the point itself, or one so near that it stands for it, in equilibrium
+  PathPoint equilibrium;  ///< the point in equilibrium, or a neighbouring equilibrium in its place
 };
 
-/// A finer mesh of a model and the path follower on it.
+/// Finer mesh of a model, with the path follower on it.
 class FineMesh {
  public:
-  /// @param measure a follower that has started on a coarser mesh: its norm and load scale are used here
-  /// @param tolerance of located points, relative in the load factor
+  /// @param measure follower that has started on a coarser mesh; its norm and load scale are used here
+  /// @param tolerance relative load factor tolerance of located points
   FineMesh(Structure structure, const PathFollower& measure, double tolerance);
 
   [[nodiscard]] const Structure& structure() const { return structure_; }
   [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
   [[nodiscard]] const PathStatistics& statistics() const { return follower_.statistics(); }
 
-  /// @brief The critical point of this mesh that belongs to one of a coarser mesh: of the same type, with the
-  /// same inertia on both sides, the nearest by load.
+  /// @brief Locates the critical point that corresponds to one of a coarser mesh: same type, same inertia on
+  /// both sides, nearest load.
   ///
-  /// The path is corrected on both sides of the known point and searched between; if nothing was found,
-  /// wider; at last it is followed from the path's point before the critical one, as the coarse path was.
-  /// @param before a point of the coarse path before the critical one, from which nothing else is in between
-  /// @param base where `before` is from; `from` where `known` is from
-  /// @return empty when there is no such point nearby
+  /// The path is corrected on both sides of the known point and searched in between; if that fails, in a
+  /// wider range; at last the path is followed from the preceding path point, as on the coarse mesh.
+  /// @param from structure of `known`
+  /// @param before point of the coarse path before `known`, without critical points in between
+  /// @param base structure of `before`
+  /// @return empty when no such point is near
   [[nodiscard]] std::optional<FoundPoint> find(const Structure& from, const CriticalEvent& known,
                                                const Structure& base, const PathPoint& before);
   /// @brief The bifurcation of this mesh that belongs to one of a coarser mesh, by Newton's method alone.
-  /// @pre known.null
+  /// @pre known.null is set
   [[nodiscard]] std::optional<CriticalEvent> bifurcation(const Structure& from, const CriticalEvent& known);
-  /// @brief Whether this mesh has an equilibrium near a point of a coarser one, with the same inertia.
+  /// @brief Whether this mesh has an equilibrium with the same inertia near a point of a coarser mesh.
   [[nodiscard]] bool has(const Structure& from, const PathPoint& point);
 
  private:

@@ -18,59 +18,59 @@
 
 namespace snapthrough {
 
-/// `path` and `critical`: follows the equilibrium path.
+/// Runs the analyses `path` and `critical`: follows the equilibrium path.
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result);
-/// `static`: equilibrium at given load factors, small displacements or not.
-/// @param held for each of them, whether it is computed; the others are listed as not reached
+/// Runs the analysis `static`: equilibrium at given load factors, with large or small displacements.
+/// @param held one entry per load factor: whether it is computed; the others are reported as not reached
 void run_static(const Model& model, const Analysis& analysis, const Structure& structure,
                 const std::vector<char>& held, const Hooks& hooks, Result& result);
-/// `buckling`: linearised eigenvalues about the reference load.
+/// Runs the analysis `buckling`: linearised buckling loads about the reference load.
 void run_buckling(const Model& model, const Analysis& analysis, const Structure& structure, Result& result);
 
-/// @brief `buckling` of a straight column by its differential equation.
-/// @return false, with nothing in `result`, when the model is no such column or asks for a mesh
+/// @brief Runs `buckling` for a straight column by its differential equation.
+/// @return false, with `result` unchanged, when the model is no such column or the request fixes a mesh
 [[nodiscard]] bool run_exact_column(const Model& model, const Analysis& analysis, const Hooks& hooks,
                                     Result& result);
 
-/// @brief How critical points are located: a fixed mesh is read to the last digit, a chosen one to a small
-/// part of the accuracy; imperfections that only rounding or the mesh makes do not break a bifurcation.
+/// @brief Tolerances for locating critical points: near rounding on a fixed mesh, a small part of the
+/// accuracy otherwise. Imperfections caused by rounding or by the mesh do not break a bifurcation.
 [[nodiscard]] LocateOptions locate_options(const Model& model, const Analysis& analysis);
 
-/// Buckling loads of one sense of the proportional actions: as they are, or reversed.
+/// Buckling loads for one sense of the proportional actions.
 struct FoundLoads {
-  std::vector<double> loads;  ///< multiples of the actions in that sense, ascending
+  std::vector<double> loads;  ///< multiples of the actions in this sense, ascending
   std::vector<Mode> modes;
-  std::vector<std::optional<double>> errors;  ///< relative, one a load
+  std::vector<std::optional<double>> errors;  ///< relative error estimate per load
   int negative_at_start = 0;
 };
-/// @brief Fills the summary and the list of modes: none where the constant actions exceed buckling loads.
-/// @param reversed loads of the opposite actions; empty where they were not asked for
+/// @brief Fills summary, loads and modes; no loads when the constant actions alone exceed a buckling load.
+/// @param reversed loads of the opposite actions; empty when not requested
 void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reversed, Result& result);
 
-/// @brief Offsets of the model's mode imperfections, from the linearised buckling of the same model without
-/// imperfections; empty when it has none.
-/// @throws std::runtime_error when the structure has fewer modes than an imperfection names
+/// @brief Offsets of the model's mode imperfections, from linearised buckling of the model without
+/// imperfections; empty when the model has none.
+/// @throws std::runtime_error when the structure has fewer modes than an imperfection asks for
 [[nodiscard]] ModeOffsets mode_offsets(const Model& model, const Analysis& analysis,
                                        const std::stop_token& stop = {});
 
-/// Sense in which the load factor begins to change along the primary path: 1 growing, -1 falling.
+/// Initial sense of the load factor along the primary path: 1 growing, -1 falling.
 [[nodiscard]] double path_direction(const Analysis& analysis);
-/// @brief Whether a critical point leads the primary path from a stable state to an unstable one, with loads
-/// of the sense that the path begins with.
+/// @brief Whether stability is first lost at a critical point of the primary path, at a load factor of the
+/// path's initial sense.
 [[nodiscard]] bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point);
 
-/// @brief The start of the path: the unloaded state, or the equilibrium under the constant actions.
+/// @brief Start of the path: the unloaded state, or the equilibrium under the constant actions.
 ///
-/// Constant actions are put on by a path of their own, from nothing to their full size.
-/// @param on_unloaded receives that path's first point, the unloaded structure, with its modes; may be empty
+/// Constant actions are applied along a separate path from zero to their full size.
+/// @param on_unloaded receives the unloaded state with its modes; may be empty
 /// @return without a point, with the failure in `result`, when there is no such state or it is not stable
 [[nodiscard]] PathStart start_of_path(const Model& model, const Structure& structure,
                                       StructuralProblem& problem, PointSolver& solver, double direction,
                                       const Hooks& hooks, Result& result,
                                       const std::function<void(const PathPoint&)>& on_unloaded = {});
 
-/// @brief The start of a path at Analysis::start, corrected on the structure's mesh.
+/// @brief Start of the path at Analysis::start, corrected on the structure's mesh.
 /// @return without a point, with the failure `no_start` in `result`, when no equilibrium is within a fiftieth
 /// of the given displacement gradients
 /// @pre analysis.start

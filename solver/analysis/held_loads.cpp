@@ -15,7 +15,7 @@ std::string sentence(const std::string& loads, const Model& model, const Unilate
   return "one-sided supports can't hold " + loads + ": " + escape_text(model, balance.motions(), escape);
 }
 
-/// The loads that a path begins with, in words.
+/// Description of the loads at the start of a path.
 std::string first_loads(const Escape& escape) {
   return escape.actions.constant != 0.0
              ? "the constant actions and a little of the proportional ones, with which the path begins"
@@ -73,7 +73,7 @@ void withdraw_load_not_held(const Model& model, const UnilateralBalance& balance
   if (!load || balance.is_proportional()) return;
   const std::optional<Escape> escape = balance.escape(*load);
   if (!escape) return;
-  constexpr int kDigits = 9;  // of the limit, which is known to ten
+  constexpr int kDigits = 9;  // significant digits of the reported limit, which is exact to 1e-11
   const double most = balance.largest_held(std::min(1.0, *load), *load);
   withdraw_critical_load(result);
   std::erase_if(result.warnings, [](const Warning& warning) { return warning.code == "contact_changes"; });

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Which loads of an analysis one-sided supports can hold, before anything is computed.
+/// Test, before any analysis, whether one-sided supports can hold the loads.
 
 #include <optional>
 #include <string>
@@ -13,26 +13,25 @@
 
 namespace snapthrough {
 
-/// What of an analysis' loads is held (UnilateralBalance).
+/// Loads of an analysis that the supports hold, by UnilateralBalance.
 struct HeldLoads {
-  std::optional<std::string> refusal;  ///< a sentence where some are not; empty: all are
-  bool any = true;                     ///< some load is held that the analysis asks for
-  std::vector<char> factors;           ///< `static`: for each of the load factors whether it is held
+  std::optional<std::string> refusal;  ///< sentence on the loads that are not held; empty: all loads are held
+  bool any = true;                     ///< some requested load is held
+  std::vector<char> factors;           ///< `static`: whether each load factor is held
 };
 
-/// @brief Looks at the loads that an analysis begins with: for paths the constant actions with a little of
-/// the proportional ones; for `buckling` also those of the reference load, whose contact it takes; for
-/// `static` those of each load factor, and where a path leads to them also those that it begins with. For a
-/// path that begins with a given state (Analysis::start) nothing is looked at: its loads count as held, and
-/// the path ends with `no_start` where that state has no equilibrium.
+/// @brief Tests the loads that an analysis needs. Paths: the constant actions with a small proportional load.
+/// `buckling`: also the reference load, which determines contact. `static`: each load factor, and the start
+/// of the path that leads there. A path from a given state (Analysis::start) is not tested; it ends with
+/// `no_start` when the state has no equilibrium.
 [[nodiscard]] HeldLoads held_loads(const Model& model, const Analysis& analysis,
                                    const UnilateralBalance& balance);
 
-/// @brief Why the path of growing load from the unloaded structure can't begin; empty: its loads are held.
+/// @brief Why the path of growing load from the unloaded structure cannot start; empty: its loads are held.
 [[nodiscard]] std::optional<std::string> start_refusal(const Model& model, const UnilateralBalance& balance);
 
-/// @brief Withdraws a linearised critical load beyond the load factor up to which its loads are held: fails
-/// with the code "not_held" and that factor.
+/// @brief Withdraws a linearised critical load above the largest load factor that is held: sets the failure
+/// "not_held" with that factor.
 void withdraw_load_not_held(const Model& model, const UnilateralBalance& balance, Result& result);
 
 }  // namespace snapthrough

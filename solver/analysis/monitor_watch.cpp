@@ -5,7 +5,7 @@
 
 namespace snapthrough {
 
-/// Largest displacement over the length scale, or rotation in rad, of an element's end since the start.
+/// Largest displacement (over the length scale) or rotation (rad) of an element end since the start.
 double MonitorWatch::largest_motion(const Eigen::VectorXd& y) const {
   double largest = 0.0;
   for (const ElementDofs& dofs : structure_.dofs)
@@ -15,8 +15,8 @@ double MonitorWatch::largest_motion(const Eigen::VectorXd& y) const {
 }
 
 bool MonitorWatch::has_moved(const Eigen::VectorXd& y) const {
-  constexpr double kOfMotion = 1e-9;  // what rounding leaves, of the largest motion
-  constexpr double kOfSize = 1e-12;   // what rounding of positions leaves, of the length scale or of 1 rad
+  constexpr double kOfMotion = 1e-9;  // rounding, over the largest displacement
+  constexpr double kOfSize = 1e-12;   // rounding of positions, over the length scale or 1 rad
   if (row_ == nullptr) return false;
   double unit = 0.0;
   for (const auto& [index, weight] : row_->entries) unit = std::max(unit, std::abs(weight));

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Whether the monitor of a stop rule moves along the paths of an analysis.
+/// Detects whether the monitor of a stop rule moves along the paths of an analysis.
 
 #include <Eigen/Core>
 #include <utility>
@@ -10,21 +10,20 @@
 
 namespace snapthrough {
 
-/// @brief Compares what a monitor has moved by since the start of the first path with the displacements of
-/// the whole structure. A monitor that symmetry, a support or a hinge keeps in place moves by rounding only:
-/// a stop rule for its range cannot act.
+/// @brief Compares the motion of a monitor since the start with the displacements of the structure. A monitor
+/// fixed by symmetry, a support or a hinge moves by rounding only; a stop rule on its range has no effect.
 class MonitorWatch final : public PathObserver {
  public:
   /// @param structure kept by reference
-  /// @param row of the monitor, kept by reference; null: there is no such rule
-  /// @param start unknowns that motions are counted from
+  /// @param row row of the monitor, kept by reference; null: the analysis has no such rule
+  /// @param start unknowns of the reference state
   MonitorWatch(const Structure& structure, const SparseRow* row, Eigen::VectorXd start)
       : structure_(structure), row_(row), start_(std::move(start)) {}
 
   /// Whether the monitor has moved by more than rounding at scaled unknowns y.
   [[nodiscard]] bool has_moved(const Eigen::VectorXd& y) const;
   void on_point(const PathPoint& point) override;
-  /// Whether the structure moved and the monitor did not at any point that was looked at.
+  /// Whether the structure moved, but the monitor did not, at all examined points.
   [[nodiscard]] bool is_still() const { return row_ != nullptr && structure_moved_ && !monitor_moved_; }
 
  private:

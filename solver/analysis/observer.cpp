@@ -11,7 +11,7 @@
 namespace snapthrough {
 namespace {
 
-/// Beyond it strain measures differ by some hundredths, and few materials are still linear.
+/// Strain above which strain measures differ by some per cent and few materials are linear.
 constexpr double kSmallStrain = 0.05;
 
 }  // namespace

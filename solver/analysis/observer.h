@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What is gathered over everything that an analysis reaches: extremes and warnings.
+/// Extremes and warnings over all states that an analysis reaches.
 
 #include <Eigen/Core>
 
@@ -12,18 +12,18 @@
 
 namespace snapthrough {
 
-/// Looks at states as they are reached, whether they are returned or not.
+/// Examines each state of an analysis, including states that the result does not list.
 class Observer {
  public:
-  /// All kept by reference, must outlive this.
+  /// @param model, analysis, structure kept by reference; must outlive this object
   Observer(const Model& model, const Analysis& analysis, const Structure& structure)
       : model_(model), analysis_(analysis), structure_(structure), gauge_(structure, model) {}
 
-  /// Notes how large the strains are at scaled unknowns y and load factor.
+  /// Records the largest strain at scaled unknowns y and scaled load factor lambda.
   void note_strain(const Eigen::VectorXd& y, double lambda, int branch);
-  /// Adds a state to the extremes, if they were asked for.
+  /// Adds a state to the extremes, if requested.
   void add_to_extremes(const Eigen::VectorXd& y, double lambda, int branch);
-  /// Adds the states that the result returns to the extremes; puts extremes and warnings into it.
+  /// Adds the reported states to the extremes, and writes extremes and warnings into the result.
   void finish(Result& result);
 
  private:

@@ -10,7 +10,7 @@
 namespace snapthrough {
 namespace {
 
-/// The stability count at an arc length beyond an accepted point.
+/// Number of negative eigenvalues at an arc length after an accepted point.
 int negative_at(const PathPoint& from, const std::vector<CriticalEvent>& critical, double arc) {
   int negative = from.negative;
   for (const CriticalEvent& event : critical)
@@ -22,7 +22,7 @@ int negative_at(const PathPoint& from, const std::vector<CriticalEvent>& critica
 
 std::vector<PathPoint> PathPoints::spread(PointSolver& solver, int count, const std::stop_token& stop,
                                           int& missing) const {
-  constexpr double kSamePlace = 1e-12;  // of the branch's length: a branch may end at a critical point
+  constexpr double kSamePlace = 1e-12;  // distance over the branch's length that counts as zero
   std::vector<PathPoint> out;
   missing = 0;
   if (accepted_.empty()) return out;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Points evenly along a branch of a path.
+/// Equally spaced points along a branch of a path.
 
 #include <stop_token>
 #include <vector>
@@ -10,24 +10,24 @@
 
 namespace snapthrough {
 
-/// @brief The accepted points of a branch and its critical ones, until its length is known.
+/// @brief Stores the accepted and the critical points of a branch until its length is known.
 class PathPoints {
  public:
-  /// An accepted point; the critical points since the last one are between the two.
+  /// Adds an accepted point; critical points added since the previous one lie between both.
   void add(const PathPoint& point) { accepted_.push_back({point, {}}); }
-  /// A critical point between the last accepted point and the next one.
+  /// Adds a critical point between the last accepted point and the next one.
   void add_critical(const CriticalEvent& event) { accepted_.back().then.push_back(event); }
 
-  /// @brief The branch's points in order: those added, and between accepted ones others, equally spaced and
-  /// corrected to equilibrium, so that no distance is longer than the branch's length over count - 1.
-  /// @param missing overwritten: points that could not be corrected, or were not for the stop
+  /// @brief All added points in path order, with corrected points inserted between accepted ones so that no
+  /// arc length between neighbours exceeds the branch's length over count - 1.
+  /// @param missing overwritten by the number of points that were not corrected (divergence or stop request)
   [[nodiscard]] std::vector<PathPoint> spread(PointSolver& solver, int count, const std::stop_token& stop,
                                               int& missing) const;
 
  private:
   struct Accepted {
     PathPoint point;
-    std::vector<CriticalEvent> then;  ///< critical points between it and the next
+    std::vector<CriticalEvent> then;  ///< critical points before the next accepted point
   };
   std::vector<Accepted> accepted_;
 };

@@ -78,7 +78,7 @@ void Recorder::add_row(const PathPoint& point) {
   for (std::size_t i = 0; i < contact.size(); ++i) branch.contact_fraction[i].values.push_back(contact[i]);
 }
 
-/// Rows of the points that were kept and of those between them.
+/// Adds the rows of the stored points and of the points between them.
 void Recorder::spread_points() {
   const int asked = *analysis_.output.path_points;
   int missing = 0;
@@ -106,7 +106,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
   point.negative_after = event.negative_after;
   point.multiplicity = event.multiplicity;
   if (event.null.size() > 0 && !is_limit(event.type)) point.imperfection = event.imperfection;
-  // what the path passes by is no equilibrium of the structure as it is
+  // the bifurcation beside the path is no equilibrium of the imperfect structure
   const bool passed_by = event.type == CriticalType::broken_bifurcation;
   if (passed_by) point.negative_after = point.negative_before;
   if (!passed_by && analysis_.output.states != StateOutput::none &&
@@ -173,7 +173,7 @@ void Recorder::add_states_at_loads(const PathPoint& from, const PathPoint& to) {
     const double rounding = kSameLoadFactor * std::abs(target);
     if (std::abs(va) <= rounding || std::abs(vb) <= rounding) {
       reached_[i] = 1;
-      // the end of a step is the start of the next, where it counts no more
+      // the end of a step is the start of the next one and is recorded only once
       if (std::abs(vb) <= rounding) add_state(to);
       if (std::abs(va) <= rounding && at_branch_start_) add_state(from);
       continue;

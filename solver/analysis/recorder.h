@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Turns what a path follower reports into the result document's branches, critical points and states.
+/// Writes points and events of traced paths into the result: branches, critical points and states.
 
 #include <optional>
 #include <vector>
@@ -17,7 +17,7 @@ namespace snapthrough {
 
 struct Structure;
 
-/// Collects the path, the critical points and the states that were asked for.
+/// Records the path, its critical points and the requested states.
 class Recorder final : public PathObserver {
  public:
   Recorder(const Model& model, const Analysis& analysis, const Structure& structure, PointSolver& solver,
@@ -46,11 +46,11 @@ class Recorder final : public PathObserver {
 
   /// Counts what on_contact() reports; empty when no support is one-sided.
   [[nodiscard]] ZoneCounter zone_counter() const;
-  /// Completes the branch that was recorded last and sets how it ended.
+  /// Completes the last branch and sets its termination code.
   void end_branch(const char* code);
-  /// Records a point that the path follower does not report itself.
+  /// Records a point that trace() does not report.
   void add_point(const PathPoint& point);
-  /// Reports what was gathered over all branches, once their states are final.
+  /// Writes extremes and warnings of all branches, after their states are final.
   void finish();
 
  private:
@@ -72,14 +72,14 @@ class Recorder final : public PathObserver {
   ContactZones zones_;
   NeutralMotionLog neutral_;
   Observer observer_;
-  std::vector<char> reached_;  ///< of the load factors whose states were asked for
-  PathPoints kept_;            ///< of the current branch, where points are asked for between them
+  std::vector<char> reached_;  ///< requested load factors whose states were recorded
+  PathPoints kept_;            ///< current branch, when `output.path_points` is requested
   int points_ = 0;
   int branch_ = 0;
   int branch_points_ = 0;  ///< reported on the current branch
-  /// Arc length of the point where stability was lost: there the stiffness is zero without being computed.
+  /// Arc length at which stability was lost; the stiffness ratio is zero there by definition.
   std::optional<double> lost_;
-  bool at_branch_start_ = true;  ///< no step of the current branch was taken
+  bool at_branch_start_ = true;  ///< no step of the current branch has been accepted
 };
 
 }  // namespace snapthrough

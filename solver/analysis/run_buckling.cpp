@@ -27,7 +27,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Of a foundation's range: what is glued of it, and all of it, scaled lengths.
+/// Bilateral part and total of a foundation's range, scaled lengths.
 struct GluedLength {
   double glued = 0.0;
   double all = 0.0;
@@ -35,13 +35,13 @@ struct GluedLength {
   [[nodiscard]] double share() const { return glued / all; }
 };
 
-/// Where one-sided supports act, by their ids: foundations that were cut into parts are one again.
+/// Contact of one-sided supports by id; the parts of a divided foundation are summed.
 struct ContactShares {
   std::map<std::string, GluedLength> foundations;
   std::map<std::string, bool> springs;
 };
 
-/// @param laws the model, its opposite supports joined
+/// @param laws the model with opposite supports joined
 ContactShares shares_of(const Structure& structure, const Model& laws, const StructuralProblem& problem,
                         const FrozenContact& contact) {
   ContactShares out;
@@ -66,13 +66,13 @@ ContactShares shares_of(const Structure& structure, const Model& laws, const Str
   return out;
 }
 
-/// A share in per cent; less than a millionth is the tolerance of touching.
+/// Share in per cent; shares below 1e-6 are within the tolerance of touching and print as zero.
 std::string percent(double share) {
-  constexpr double kNothing = 1e-6;
+  constexpr double kNothing = 1e-6;  // share of a range that is within the tolerance of touching
   return rounded(share > kNothing ? 100.0 * share : 0.0) + " %";
 }
 
-/// Which one-sided foundations count as glued, in words.
+/// Message on the one-sided foundations that count as bilateral.
 std::string contact_text(const ContactShares& shares, bool joined) {
   std::string text = joined ? "; one-sided supports that oppose one another act as bilateral ones" : "";
   for (const auto& [id, length] : shares.foundations)
@@ -81,19 +81,19 @@ std::string contact_text(const ContactShares& shares, bool joined) {
   return text;
 }
 
-/// Whether contact can differ between load factors: a linear response to one set of actions without gaps is
-/// proportional to them, imposed strains and displacements among them, and so is where it touches.
+/// Whether contact can depend on the load factor. The linear response to a single set of actions without gaps
+/// is proportional to the load factor, and its contact constant.
 bool contact_depends_on_load(const Structure& structure, const Model& laws) {
   const auto has_gap = [](const auto& support) { return is_one_sided(support) && support.gap > 0.0; };
   return structure.has_constant || std::any_of(laws.springs.begin(), laws.springs.end(), has_gap) ||
          std::any_of(laws.foundations.begin(), laws.foundations.end(), has_gap);
 }
 
-/// Warns where one-sided supports touch elsewhere under the critical load than under the reference load,
-/// whose contact the linearised analysis keeps.
+/// Warns when contact under the critical load differs from that under the reference load, on which the
+/// linearised analysis is based.
 void warn_of_changed_contact(const Structure& structure, const Model& laws, StructuralProblem& problem,
                              const LinearBuckling& buckling, Result& result) {
-  constexpr double kSameShare = 0.01;  // of a foundation's range
+  constexpr double kSameShare = 0.01;  // difference of a foundation's contact shares that is ignored
   if (!structure.one_sided || !result.summary.critical_load_factor ||
       !contact_depends_on_load(structure, laws))
     return;
@@ -120,8 +120,7 @@ void warn_of_changed_contact(const Structure& structure, const Model& laws, Stru
                               changes + "; a path or a search for the critical load follows it"});
 }
 
-/// Reports the largest error of the buckling loads; loads that finer meshes do not confirm within the
-/// accuracy are a failure.
+/// Reports the largest error of the buckling loads; fails when a load is not confirmed within the accuracy.
 void report_errors(const Analysis& analysis, Result& result) {
   const BucklingResult& buckling = *result.buckling;
   if (analysis.discretization.fixed_mesh || buckling.load_factors.empty()) return;
@@ -144,7 +143,7 @@ void report_errors(const Analysis& analysis, Result& result) {
   if (!is_critical_confirmed) withdraw_critical_load(result);
 }
 
-/// The loads of one sense of the proportional actions as results report them.
+/// Converts the loads of one sense of the proportional actions to the model's units.
 FoundLoads found_loads(const Model& model, const Analysis& analysis, const BucklingLoads& loads) {
   const LinearBuckling& buckling = loads.buckling;
   FoundLoads found{{}, {}, loads.errors, buckling.negative_at_start};
@@ -157,7 +156,7 @@ FoundLoads found_loads(const Model& model, const Analysis& analysis, const Buckl
   return found;
 }
 
-/// Loads of both senses by their size, those of the opposite actions with a minus.
+/// Merges the loads of both senses by magnitude; loads of the opposite actions become negative.
 BucklingResult in_order(FoundLoads found, FoundLoads reversed) {
   BucklingResult out;
   std::size_t i = 0;
@@ -174,14 +173,14 @@ BucklingResult in_order(FoundLoads found, FoundLoads reversed) {
   return out;
 }
 
-/// What is to be said of the opposite actions.
+/// Message on the buckling load of the opposite actions.
 std::string reversed_text(const FoundLoads& reversed) {
   return reversed.loads.empty()
              ? "; no negative load factor makes the structure buckle"
              : "; the opposite actions make it buckle at load factor " + number(-reversed.loads.front());
 }
 
-/// The loads of one sense are all that were asked for, or there are none.
+/// Sets a failure when some, but fewer than the requested modes exist.
 void require_modes(const Analysis& analysis, const FoundLoads& found, Result& result) {
   if (static_cast<int>(found.loads.size()) >= analysis.modes || found.loads.empty()) return;
   fail(result, "fewer_modes",
@@ -194,7 +193,7 @@ void require_modes(const Analysis& analysis, const FoundLoads& found, Result& re
 void report_buckling(const Analysis& analysis, FoundLoads found, FoundLoads reversed, Result& result) {
   Summary& summary = result.summary;
   if (found.negative_at_start > 0) {
-    // the loads beyond are those of higher modes: nothing to be read as critical
+    // loads above a lost stability belong to higher modes and are not critical
     summary.termination = "unstable_at_start";
     summary.message =
         "the constant actions alone exceed " + std::to_string(found.negative_at_start) + " buckling loads";

@@ -13,7 +13,7 @@
 namespace snapthrough {
 namespace {
 
-/// Displacements of a mode at equally spaced places of each member.
+/// Samples a mode at equally spaced places of each member.
 Mode sample(const ColumnLine& line, const ColumnMode& mode, const Model& model,
             const std::vector<double>& lengths, int points) {
   Mode out;
@@ -29,7 +29,7 @@ Mode sample(const ColumnLine& line, const ColumnMode& mode, const Model& model,
     MemberMode& member = out.members[span.member];
     const double lo = std::min(span.fractions[0], span.fractions[1]);
     const double hi = std::max(span.fractions[0], span.fractions[1]);
-    // a place between two spans belongs to the one that is written last: they agree there
+    // a place between two spans gets the values of the later span, which agree with those of the earlier one
     for (int k = std::max(0, static_cast<int>(lo * (points - 1))); k < points; ++k) {
       const double fraction = static_cast<double>(k) / (points - 1);
       if (fraction < lo) continue;
@@ -45,14 +45,14 @@ Mode sample(const ColumnLine& line, const ColumnMode& mode, const Model& model,
   return out;
 }
 
-/// A column's loads with their modes.
+/// Buckling loads of a column with their modes.
 struct Solution {
   ColumnBuckling buckling;
   FoundLoads found;
 };
 
-/// @param lengths of each member
-/// @return empty when the column's equation can't be solved to rounding
+/// @param lengths one per member
+/// @return empty when the column's equation cannot be solved to rounding
 std::optional<Solution> solve_column(const ColumnLine& line, const Model& model, const Analysis& analysis,
                                      const std::vector<double>& lengths) {
   auto buckling = column_buckling(line, analysis.modes);
@@ -68,7 +68,7 @@ std::optional<Solution> solve_column(const ColumnLine& line, const Model& model,
   return Solution{*std::move(buckling), std::move(found)};
 }
 
-/// The column under the opposite of its proportional actions.
+/// Column with the opposite proportional actions.
 ColumnLine with_opposite_load(ColumnLine line) {
   for (ColumnSpan& span : line.spans) span.proportional = -span.proportional;
   return line;

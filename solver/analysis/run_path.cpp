@@ -27,12 +27,12 @@
 namespace snapthrough {
 namespace {
 
-/// A search for the loss of stability has no bounds that its user can choose: only a path that gets nowhere
-/// meets this one, or leaves what the theory is for.
+/// Step limit of a search for the loss of stability, which has no bounds in the request. Reached only by
+/// paths that do not progress or leave the range of the theory.
 constexpr int kMostStepsOfSearch = 20000;
 
-/// Most negative eigenvalues that a path gains where no rule of the request is sure to end it: a straight
-/// column under axial load meets one bifurcation after the other, a hundred before the bound on the load.
+/// Negative eigenvalues that a path may gain when no rule of the request is certain to end it. A straight
+/// column under axial load meets a hundred bifurcations before the bound on its load.
 constexpr int kMostLosses = 10;
 
 const SparseRow* row_of(const Structure& structure, const std::string& monitor) {
@@ -71,16 +71,16 @@ TraceRules rules_of(const Model& model, const Analysis& analysis, const Structur
   return rules;
 }
 
-/// The row of the monitor of a stop rule; null: there is no such rule.
+/// Row of the monitor of the stop rule; null: the request has no such rule.
 const SparseRow* row_of_stop(const Structure& structure, const Analysis& analysis) {
   if (analysis.type != AnalysisType::path || !analysis.stop.monitor) return nullptr;
   return row_of(structure, analysis.stop.monitor->id);
 }
 
-/// @brief Bounds the negative eigenvalues of a path: by the request's bound; else, where neither a range of
-/// load factors nor a number of steps is asked for, by kMostLosses more than at its start and one more for
-/// each limit point that is asked for. That bound does not hold while the monitor of a stop rule moves.
-/// @param watch must outlive the rules
+/// @brief Limits the negative eigenvalues of a path: to the request's bound; else, without a bound on load
+/// factor or steps, to kMostLosses more than at the start plus one per requested limit point. The latter
+/// limit is suspended while the monitor of a stop rule moves.
+/// @param watch must outlive `rules`
 void bound_negative(const Analysis& analysis, int at_start, const MonitorWatch& watch, TraceRules& rules) {
   const StopRules& stop = analysis.stop;
   if (analysis.type != AnalysisType::path) return;
@@ -90,8 +90,8 @@ void bound_negative(const Analysis& analysis, int at_start, const MonitorWatch& 
   rules.most_negative_waits = [&watch](const PathPoint& at) { return watch.has_moved(at.y); };
 }
 
-/// Where the path's points are not returned as states they need not be equilibria to rounding: those of a
-/// chosen mesh are the path's to a small part of the accuracy asked for.
+/// Step control options. On a mesh chosen for an accuracy, points without reported states are corrected only
+/// to a small part of that accuracy.
 PathOptions options_of(const Analysis& analysis) {
   PathOptions options;
   if (points_are_not_polished(analysis))
@@ -113,7 +113,7 @@ const char* name_of(CriticalType type) {
   return "";
 }
 
-/// Code of the result's `termination` and what it means.
+/// Termination code of a trace with its message.
 struct EndText {
   TraceEnd end;
   const char* code;
@@ -144,8 +144,8 @@ const EndText& text_of(TraceEnd end) {
   return *std::find_if(std::begin(kEnds), std::end(kEnds), [end](const EndText& e) { return e.end == end; });
 }
 
-/// How many negative eigenvalues there are where a path ends. On a critical point they are counted on both
-/// sides of it: on the point itself rounding decides about those that vanish.
+/// Message on the negative eigenvalues at the path's end. At a critical point the counts on both sides are
+/// given, because rounding decides the signs of vanishing eigenvalues at the point itself.
 std::string count_at_end(const TraceOutcome& outcome) {
   if (!outcome.on_critical)
     return ", " + std::to_string(outcome.last.negative) + " negative eigenvalues there";
@@ -154,7 +154,7 @@ std::string count_at_end(const TraceOutcome& outcome) {
          std::to_string(event.negative_after) + " after";
 }
 
-/// @param at load factor of the path's end
+/// @param at load factor at the path's end
 void describe_end(const Analysis& analysis, const TraceOutcome& outcome, double at, Result& result) {
   const EndText* end = &text_of(outcome.end);
   std::string message = end->text;
@@ -169,9 +169,9 @@ void describe_end(const Analysis& analysis, const TraceOutcome& outcome, double 
   if (end->failure) fail(result, end->code, message);
 }
 
-/// What the meshes said of the points that they do not agree on, at most a few.
+/// Message on the critical points that meshes do not agree on; at most kMost points.
 std::string disagreements(const Result& result) {
-  constexpr int kMost = 3;
+  constexpr int kMost = 3;  // points that the message lists
   std::string text;
   int left = 0;
   for (const CriticalPoint& point : result.critical_points) {
@@ -187,7 +187,7 @@ std::string disagreements(const Result& result) {
   return text;
 }
 
-/// The first point of the primary path that leads from a stable state, as the summary tells it.
+/// First critical point of the primary path at which stability is lost; null: none.
 const CriticalPoint* first_loss(const Analysis& analysis, const std::vector<CriticalPoint>& points) {
   const auto found = std::find_if(points.begin(), points.end(), [&analysis](const CriticalPoint& point) {
     return is_loss_of_stability(analysis, point);
@@ -195,7 +195,7 @@ const CriticalPoint* first_loss(const Analysis& analysis, const std::vector<Crit
   return found == points.end() ? nullptr : &*found;
 }
 
-/// Where a path of type `path` first lost stability, as the beginning of its message; empty: nowhere.
+/// Start of the message of a `path` analysis: the first loss of stability; empty: none.
 std::string loss_on_the_way(const Analysis& analysis, const Result& result) {
   const CriticalPoint* loss = first_loss(analysis, result.critical_points);
   if (analysis.type != AnalysisType::path || loss == nullptr) return "";
@@ -203,7 +203,7 @@ std::string loss_on_the_way(const Analysis& analysis, const Result& result) {
          number(loss->load_factor) + "; ";
 }
 
-/// Warns of a stop rule that could not act.
+/// Warns of a stop rule that is ineffective because its monitor does not move.
 void warn_of_still_monitor(const Analysis& analysis, const MonitorWatch& watch, Result& result) {
   if (!watch.is_still()) return;
   result.warnings.push_back(
@@ -211,7 +211,7 @@ void warn_of_still_monitor(const Analysis& analysis, const MonitorWatch& watch, 
                             "\" does not move on any path that was followed: its stop rule could not act"});
 }
 
-/// The result of an analysis whose last path finer meshes do not confirm.
+/// Sets the failure of a path that finer meshes do not confirm.
 void fail_unconfirmed(const Analysis& analysis, Result& result) {
   const bool some = std::any_of(result.critical_points.begin(), result.critical_points.end(),
                                 [](const CriticalPoint& point) { return !point.confirmed; });
@@ -227,14 +227,14 @@ void fail_unconfirmed(const Analysis& analysis, Result& result) {
     withdraw_critical_load(result);
 }
 
-/// A bifurcation and a way through it that is still to be followed.
+/// Bifurcation with one direction along its branch that remains to be followed.
 struct Pending {
   CriticalEvent at;
   int parent = 0;
   double sign = 1.0;
 };
 
-/// Follows the branches that cross the primary path, and those that cross them, as far as was asked.
+/// Follows branches of the primary path, and branches of those, within the request's limits.
 class BranchFollower {
  public:
   BranchFollower(const Model& model, const Analysis& analysis, const Structure& structure,
@@ -247,12 +247,12 @@ class BranchFollower {
         loads_(loads),
         watch_(watch),
         hooks_(hooks) {
-    constexpr int kMostBranches = 20;
+    constexpr int kMostBranches = 20;  // branches followed unless the request has a limit
     limit_ = analysis.branches.limit.value_or(analysis.branches.follow == Follow::first ? 2 : kMostBranches);
   }
 
   void add(const TraceOutcome& outcome, int branch);
-  /// @return a sentence on what was followed and what was left out
+  /// @return sentence on the branches that were followed and omitted
   [[nodiscard]] std::string run();
 
  private:
@@ -318,12 +318,12 @@ std::string BranchFollower::run() {
 
 namespace {
 
-/// What adds to critical points what was asked for beside their loads; empty: nothing was.
+/// Function that adds requested sensitivities and Koiter coefficients to a critical point; may be empty.
 Complete completer(const Model& model, const Analysis& analysis, const PathNorm& norm, const Hooks& hooks,
                    Result& result) {
   if (analysis.sensitivities.empty() && !analysis.koiter) return {};
   return [&](const Structure& structure, const CriticalEvent& event, CriticalPoint& point) {
-    constexpr double kReach = 0.02;  // of the path so far
+    constexpr double kReach = 0.02;  // reach over the path length
     const LocatedPoint at{event, norm.metric().load_weight, kReach * norm.search_scale(event.point),
                           norm.least_load()};
     int& factorisations = result.diagnostics.factorizations;
@@ -339,8 +339,8 @@ Complete completer(const Model& model, const Analysis& analysis, const PathNorm&
 
 /// Follows the path on one mesh.
 /// @param earlier critical points of the path on a coarser mesh
-/// @param decays of bending at the path's end
-/// @return whether finer meshes confirm what was found, or nothing is left to confirm
+/// @param decays bending decay lengths at the path's end, for the next mesh
+/// @return whether finer meshes confirm the result, or nothing needs confirmation
 bool follow_on(const Model& model, const Analysis& analysis, const Structure& structure,
                const std::vector<CriticalPoint>& earlier, const Hooks& hooks, Result& result,
                std::vector<double>& decays) {
@@ -399,9 +399,9 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   return confirmed || result.failure;
 }
 
-/// Every element cut in four: a mesh whose points finer ones do not share is too coarse by far, and a path on
-/// few elements is cheap beside the last; fewer, where those resolve every foundation. What the path's end
-/// needs beside places where something acts is far finer where thin members are pulled.
+/// Mesh after an unconfirmed path: every element divided into four, or the mesh that resolves every
+/// foundation if that has fewer elements; refined at boundary layers of the path's end state. Empty when no
+/// still finer mesh could confirm it.
 std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
                                const std::vector<double>& decays) {
   const auto halved = finer_mesh(structure.mesh);
@@ -411,16 +411,16 @@ std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
   const bool is_enough = resolved.elements.size() > structure.mesh.elements.size() &&
                          resolved.elements.size() < quartered->elements.size();
   Mesh next = layered_mesh(is_enough ? resolved : *quartered, model, structure.axes, decays);
-  // what no finer mesh can confirm is not followed
+  // a path that no finer mesh can confirm is not followed
   return finer_mesh(next) ? std::optional(std::move(next)) : std::nullopt;
 }
 
 }  // namespace
 
 LocateOptions locate_options(const Model& model, const Analysis& analysis) {
-  constexpr double kRounding = 1e-13;  // imperfection that rounding of the nodes' coordinates makes at most
+  constexpr double kRounding = 1e-13;  // largest imperfection caused by rounding of nodal coordinates
   LocateOptions options;
-  // an imperfection of the request breaks bifurcations, however small it is
+  // an imperfection of the request breaks bifurcations, however small
   if (!model.imperfections.empty()) options.perfect = kRounding;
   if (analysis.discretization.fixed_mesh) return options;
   options.tolerance = std::min(1e-7, 1e-3 * analysis.discretization.accuracy);
@@ -441,8 +441,9 @@ bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) 
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
-  constexpr int kMostPaths = 4;
-  constexpr double kMostWork = 1e7;  // elements factorised on the next path: some ten seconds
+  constexpr int kMostPaths = 4;  // paths on successively finer meshes
+  // limit on elements times factorisations of the next path, about ten seconds
+  constexpr double kMostWork = 1e7;
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
   std::vector<CriticalPoint> earlier;

@@ -28,10 +28,10 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Keeps what was asked for at each load factor, in the order they were asked for.
+/// Stores the requested output of each load factor in request order.
 class StaticRows {
  public:
-  /// @param asked for each load factor, whether a row is wanted
+  /// @param asked whether a row is requested, one entry per load factor
   StaticRows(const Model& model, const Analysis& analysis, const Structure& structure,
              const std::vector<char>& asked)
       : model_(model),
@@ -42,19 +42,19 @@ class StaticRows {
         state_loads_(analysis.output.at_load_factors.begin(), analysis.output.at_load_factors.end()),
         rows_(analysis.load_factors.size()) {}
 
-  /// @param negative eigenvalues of the tangent there
+  /// @param negative number of negative eigenvalues of the tangent at y
   void set(std::size_t index, const VectorXd& y, int negative);
   [[nodiscard]] bool has(std::size_t index) const { return rows_[index].has_value(); }
-  /// Whether a row is wanted that is not there yet.
+  /// Whether a requested row is still missing.
   [[nodiscard]] bool lacks(std::size_t index) const { return asked_[index] != 0 && !has(index); }
-  /// Whether a load factor that meets a condition is asked for.
+  /// Whether a requested load factor meets a condition.
   template <class Condition>
   [[nodiscard]] bool asks_for(const Condition& condition) const {
     for (std::size_t i = 0; i < asked_.size(); ++i)
       if (asked_[i] != 0 && condition(analysis_.load_factors[i])) return true;
     return false;
   }
-  /// Fills the table, the states and the list of load factors that have none.
+  /// Fills the table, the states and the list of load factors that were not reached.
   void move_to(Result& result);
 
  private:
@@ -71,7 +71,7 @@ class StaticRows {
   const Structure& structure_;
   const std::vector<char>& asked_;
   Observer observer_;
-  std::set<double> state_loads_;  ///< where states are asked for by load factor
+  std::set<double> state_loads_;  ///< load factors with requested states
   std::vector<std::optional<Row>> rows_;
 };
 
@@ -124,8 +124,8 @@ void StaticRows::move_to(Result& result) {
   observer_.finish(result);
 }
 
-/// Equilibrium at one load factor from the unloaded state: small displacements, contact unilateral.
-/// @param holds of motions that nothing resists there; set
+/// Equilibrium at one load factor with small displacements and unilateral contact.
+/// @param holds set to the springs on motions without stiffness
 std::optional<ContactState> solve_linear(const Structure& structure, StructuralProblem& problem,
                                          double factor, SharedHolds& holds, Result& result) {
   const PathMetric metric{&structure.metric, 0.0};
@@ -146,7 +146,7 @@ std::optional<ContactState> solve_linear(const Structure& structure, StructuralP
   return state;
 }
 
-/// @brief A critical point that a static path met, as the result lists it: finer meshes were not asked.
+/// @brief Makes the result's entry for a critical point of a static path, without mesh confirmation.
 CriticalPoint critical_point(const Structure& structure, const Model& model, const CriticalEvent& event,
                              const VectorXd& motion) {
   CriticalPoint point;
@@ -165,7 +165,7 @@ CriticalPoint critical_point(const Structure& structure, const Model& model, con
   return point;
 }
 
-/// Lists the critical point at which a static path ends, and says what moves there.
+/// Reports the critical point that ends a static path, as failure with its mode.
 void fail_at(const Model& model, const Analysis& analysis, const Structure& structure,
              StructuralProblem& problem, const CriticalEvent& event, Result& result) {
   const VectorXd motion = mode_of(problem, event);
@@ -182,7 +182,7 @@ void fail_at(const Model& model, const Analysis& analysis, const Structure& stru
            ", before the asked ones; the motion that loses its stiffness there " + motion_text(mode, model));
 }
 
-/// What a static path does with the critical points that it meets.
+/// Trace rules of a static path up to a load factor bound.
 TraceRules static_rules(const Model& model, const Analysis& analysis, double bound) {
   TraceRules rules;
   rules.load = {{-bound, bound}};
@@ -253,8 +253,7 @@ class StaticObserver final : public PathObserver {
   NeutralMotionLog neutral_;
 };
 
-/// Follows the path towards the factors of one sign and keeps the states it passes; false when it ends before
-/// the last.
+/// Follows the path through all load factors of one sign, stores their states; false when it ends earlier.
 bool follow(const Model& model, const Analysis& analysis, const Structure& structure, double direction,
             const Hooks& hooks, StaticRows& states, Result& result) {
   double last = 0.0;
@@ -286,7 +285,7 @@ bool follow(const Model& model, const Analysis& analysis, const Structure& struc
   return false;
 }
 
-/// States at all load factors, as far as they are reached.
+/// Computes the states at all requested load factors.
 void compute(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
              StaticRows& states, Result& result) {
   if (analysis.geometry == Geometry::linear) {
@@ -311,7 +310,7 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
   }
 }
 
-/// Says whether the rows are stable equilibria: in the message, or in a warning.
+/// Reports the stability of the rows, in the message or in a warning.
 void report_stability(const Analysis& analysis, Result& result) {
   const StaticTable& table = *result.static_table;
   std::size_t unstable = 0;

@@ -18,11 +18,11 @@
 namespace snapthrough {
 namespace {
 
-/// Stiffness ratio below which a structure counts as nearly unstable: a small force along its softest motion
-/// then moves it ten times as far as it would the unloaded structure along that structure's softest motion.
+/// Stiffness ratio below which a structure counts as nearly unstable: a small force along the softest motion
+/// then displaces the structure ten times as far as in the unloaded state.
 constexpr double kNearlyUnstable = 0.1;
 
-/// The column of the softest motion of a point; empty where modes are not known or some are beyond them.
+/// Index of the softest mode of a point; empty when modes are unknown or fewer than the negative eigenvalues.
 std::optional<Eigen::Index> least_mode(const PathPoint& point) {
   if (!point.modes || point.modes->count() <= point.negative) return std::nullopt;
   Eigen::Index mode = 0;
@@ -30,7 +30,7 @@ std::optional<Eigen::Index> least_mode(const PathPoint& point) {
   return mode;
 }
 
-/// Least stiffness of a point and its derivative by arc length.
+/// Least stiffness at a point, and its derivative with respect to arc length.
 struct Stiffness {
   double value = 0.0;
   double rate = 0.0;
@@ -42,17 +42,17 @@ std::optional<Stiffness> stiffness_of(const PathPoint& point) {
   return Stiffness{point.modes->stiffness[*mode], point.modes->rate[*mode]};
 }
 
-/// Where the line through an end's stiffness and rate meets that of the other end: no minimum of a function
-/// that bends one way is below.
+/// Intersection of the tangents at both ends: lower bound of a convex function on the interval.
 double lower_bound(const Stiffness& a, const Stiffness& b, double length) {
   if (!(a.rate < 0.0 && b.rate > 0.0)) return -std::numeric_limits<double>::infinity();
   const double place = (b.value - a.value - b.rate * length) / (a.rate - b.rate);
   return a.value + a.rate * place;
 }
 
-/// Share of the way from a to b at which the cubic through both ends is least.
+/// Position in [0, 1] of the minimum of the cubic Hermite interpolant between a and b.
 double place_of_minimum(const Stiffness& a, const Stiffness& b, double length) {
-  constexpr double kLeastShare = 0.1;  // of the bracket, from either end: it shrinks from both
+  // least distance from either end, so that the bracket shrinks from both sides
+  constexpr double kLeastShare = 0.1;
   const Cubic cubic{a.value, length * a.rate, b.value, length * b.rate};
   return std::clamp(cubic.minimum().value_or(0.5), kLeastShare, 1.0 - kLeastShare);
 }
@@ -120,9 +120,8 @@ void SoftestPoint::search_before_fall(const PathPoint& from, const PathPoint& to
 }
 
 void SoftestPoint::search_before_critical(PathPoint from) {
-  constexpr int kMostLooks = 4;
-  constexpr double kStraight =
-      0.7;  // of the way: a stiffness that its tangent takes to zero before has a bend
+  constexpr int kMostLooks = 4;      // corrected points per search
+  constexpr double kStraight = 0.7;  // tangent's zero before this fraction of the interval: inflection
   for (int i = 0; i < kMostLooks; ++i) {
     const auto a = stiffness_of(from);
     if (!a || from.negative > 0 || !(a->rate < 0.0)) return;
@@ -142,9 +141,9 @@ void SoftestPoint::search_before_critical(PathPoint from) {
 }
 
 void SoftestPoint::search(PathPoint low, PathPoint high) {
-  constexpr int kMostLooks = 8;
-  constexpr double kSameLoad = 1e-3;       // of the load factor: where the minimum is
-  constexpr double kSameStiffness = 1e-2;  // of the minimum's value
+  constexpr int kMostLooks = 8;            // corrected points per search
+  constexpr double kSameLoad = 1e-3;       // relative load factor difference at the minimum
+  constexpr double kSameStiffness = 1e-2;  // relative stiffness difference at the minimum
   for (int i = 0; i < kMostLooks; ++i) {
     const auto a = stiffness_of(low);
     const auto b = stiffness_of(high);

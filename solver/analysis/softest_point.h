@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The least stiffness along a path, relative to that of the unloaded structure, and where it is lowest.
+/// Least stiffness along a path relative to that of the unloaded structure, and its minimum.
 
 #include <optional>
 
@@ -12,53 +12,52 @@
 
 namespace snapthrough {
 
-/// @brief Finds the first local minimum of the stiffness ratio below a tenth before a path loses stability,
-/// or the lowest where none is below.
+/// @brief Finds the first local minimum of the stiffness ratio below 0.1 before stability is lost, or else
+/// the lowest minimum.
 ///
-/// The stiffness of a motion n is n.J n / n.W n, with J the tangent stiffness and W the metric of
-/// displacement gradients; the least over all motions is the smallest eigenvalue of J n = k W n. The
-/// stiffness ratio is that eigenvalue over the one of the unloaded structure. (Bergan's current stiffness
-/// parameter compares the stiffnesses along the path's direction alone, which a motion across the path does
-/// not lower.)
+/// The stiffness of a motion n is n.J n / n.W n (J: tangent stiffness, W: metric of displacement gradients).
+/// Its least value over all motions is the smallest eigenvalue k of J n = k W n; the stiffness ratio is this
+/// eigenvalue over that of the unloaded structure. (Bergan's current stiffness parameter compares stiffnesses
+/// along the path only, and does not detect a soft motion across the path.)
 ///
-/// A structure whose perfect form has a bifurcation passes near it when it is imperfect: the ratio falls to
-/// nearly zero and rises again, displacements are large from there on, and the limit point beyond is out of
-/// reach of a design.
+/// An imperfect structure passes near the bifurcation of its perfect form: the ratio falls to nearly zero and
+/// rises again, displacements are large from there on, and the limit point beyond is no design load.
 class SoftestPoint {
  public:
   /// @param solver of the path's points; kept by reference
   explicit SoftestPoint(PointSolver& solver) : solver_(solver) {}
 
-  /// Sets the stiffness that ratios are relative to, once. @param unloaded with its modes
+  /// Sets the reference stiffness at the first call. @param unloaded unloaded state with its modes
   void set_unloaded(const PathPoint& unloaded);
-  /// @return empty where the eigenvalues are not known at the point, or not for the unloaded structure
+  /// @brief Stiffness ratio at a point; empty when its eigenvalues or those of the unloaded state are
+  /// unknown.
   [[nodiscard]] std::optional<double> ratio(const PathPoint& point) const;
-  /// @brief Looks for a minimum on a step of the primary path.
-  /// @param from, to ends of the step, on one path; with their modes
+  /// @brief Searches a step of the primary path for a minimum.
+  /// @param from, to ends of the step with their modes
   void add_step(const PathPoint& from, const PathPoint& to);
-  /// Says that the path loses stability at a point of the step that add_step() gets next; it is the last one.
+  /// Sets the critical point on the step that the next add_step() passes; no later steps are searched.
   void lose(const PathPoint& critical) { critical_ = critical; }
 
-  /// @brief Puts summary.softest into a result, and the warning and the sentence that begins its message
-  /// where the ratio falls below a tenth.
+  /// @brief Sets summary.softest, and, if the ratio falls below 0.1, a warning and the start of the message.
   ///
-  /// Where the ratio has no minimum before the critical point, the softest point is that one.
+  /// Without a minimum before the critical point, that point is the softest.
   /// @pre result.summary has its final critical load and message
   void report(const Structure& structure, const Model& model, const Analysis& analysis, Result& result) const;
 
  private:
-  /// A local minimum of the stiffness between two points of the path.
+  /// Finds a local minimum of the stiffness between two path points.
   void search(PathPoint low, PathPoint high);
-  /// A local minimum before a maximum, where the stiffness falls at both points.
+  /// Finds a local minimum on a step at whose ends the stiffness falls.
   void search_before_fall(const PathPoint& from, const PathPoint& to);
-  /// A local minimum between a point and the critical point, where the stiffness is zero.
+  /// Finds a local minimum between a point and the critical point, where the stiffness is zero.
   void search_before_critical(PathPoint from);
 
   PointSolver& solver_;
-  double unloaded_ = 0.0;  ///< least stiffness of the unloaded structure; 0: not known
+  double unloaded_ = 0.0;  ///< least stiffness of the unloaded structure; 0: unknown
   std::optional<PathPoint> critical_;
   bool ended_ = false;
-  std::optional<PathPoint> lowest_;  ///< with its modes; the first one below a tenth
+  /// Lowest minimum so far, with its modes; final once the ratio is below 0.1.
+  std::optional<PathPoint> lowest_;
 };
 
 /// @brief Largest displacement, rotation and strain of a state, for Summary::at_critical.

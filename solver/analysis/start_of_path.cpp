@@ -15,7 +15,7 @@ namespace snapthrough {
 
 namespace {
 
-/// Why there is no equilibrium under the first small load.
+/// Explains why no equilibrium was found under the first small load.
 std::string nothing_found(const Model& model, const Structure& structure, const PathStart& start) {
   const Eigen::VectorXd& motion = start.free_motion;
   if (const auto& far = start.far_state) {
@@ -57,8 +57,8 @@ class UnloadedPoint final : public PathObserver {
   const std::function<void(const PathPoint&)>& receive_;
 };
 
-/// The end of the constant actions' path as the start of the next, where they act in full: its load factor is
-/// one to a share of its last step, which may be far longer.
+/// Converts the end of the constant actions' path to the start of the next path, with constant actions in
+/// full: corrects the load factor error of the last step.
 PathPoint fully_loaded(PointSolver& solver, const PathPoint& end) {
   PathPoint full = end;
   full.lambda = 0.0;
@@ -70,7 +70,8 @@ PathPoint fully_loaded(PointSolver& solver, const PathPoint& end) {
 
 PathStart start_at_state(const Model& model, const Structure& structure, PointSolver& solver,
                          const Analysis& analysis, Result& result) {
-  constexpr double kNear = 0.02;  // of the given displacements, by which the equilibrium may differ from them
+  // allowed distance of the equilibrium over the norm of the given displacements
+  constexpr double kNear = 0.02;
   const StartState& state = *analysis.start;
   Eigen::VectorXd given;
   try {

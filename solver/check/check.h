@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Finds every user mistake in a model and analysis before any numerics.
+/// Validation of models and analyses.
 
 #include <vector>
 
@@ -10,11 +10,10 @@
 
 namespace snapthrough {
 
-/// @brief All mistakes of a request, in document order; empty when it can be solved.
+/// @brief Finds all mistakes of a request, in document order; empty when the request can be solved.
 ///
-/// Checks ids and references, ranges of values, geometry, and (when nothing else is wrong) that the
-/// structure, with one-sided supports counted as acting, is not a mechanism. Never throws for a wrong model.
-/// Reentrant.
+/// Checks ids, references, value ranges and geometry, and, if these are correct, that the structure with all
+/// one-sided supports acting is no mechanism. Never throws for an invalid model. Reentrant.
 [[nodiscard]] std::vector<Finding> check(const Model& model, const Analysis& analysis);
 
 }  // namespace snapthrough

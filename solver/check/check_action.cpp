@@ -1,4 +1,4 @@
-/// What acts on the structure and what is watched: loads, imperfections, monitors.
+/// Checks of loads, imperfections and monitors.
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ void check_load(const Place& place, const InitialStrain& load, const Names& name
   require_finite(place / "curvature", load.curvature);
 }
 
-// NaN counts as an amount: what it is, is another finding.
+// NaN counts as an amount, because another finding reports it.
 bool is_amount(double value) { return !(value == 0.0); }
 bool is_amount(const std::array<double, 2>& v) { return is_amount(v[0]) || is_amount(v[1]); }
 
@@ -90,7 +90,7 @@ void check_imperfection(const Place& place, const PointsImperfection& imperfecti
   }
 }
 
-/// Nodes of members whose rotation nothing resists.
+/// Nodes whose rotation no member, support or spring resists.
 std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
   std::unordered_set<std::string> nodes;
   for (const Member& member : model.members) nodes.insert({member.start, member.end});
@@ -105,9 +105,9 @@ std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
   return nodes;
 }
 
-/// The members that meet at a node, with the verb: 'member "a" is', 'members "a", "b" and 7 more are'.
+/// Members at a node, with the verb: 'member "a" is', 'members "a", "b" and 7 more are'.
 std::string members_at(const Model& model, const std::string& node) {
-  constexpr int kMostNames = 5;
+  constexpr int kMostNames = 5;  // ids that a message lists
   std::string text;
   int count = 0;
   for (const Member& member : model.members) {
@@ -118,7 +118,7 @@ std::string members_at(const Model& model, const std::string& node) {
   return count == 1 ? "member " + text + " is" : "members " + text + " are";
 }
 
-/// A node whose members are all released there has no rotation of its own: a monitor of it would be 0.
+/// Reports monitors of the rotation of a node at which all members are released: the node has none.
 void check_rotations(const Place& monitors, const Model& data) {
   const auto free = nodes_free_to_turn(data);
   for (std::size_t i = 0; i < data.monitors.size(); ++i) {
@@ -132,7 +132,7 @@ void check_rotations(const Place& monitors, const Model& data) {
   }
 }
 
-/// A moment on a node whose members are all released there would turn the node and nothing else.
+/// Reports moments on nodes whose rotation nothing resists.
 void check_moments(const Place& loads, const Model& data) {
   const auto free = nodes_free_to_turn(data);
   for (std::size_t i = 0; i < data.loads.size(); ++i) {

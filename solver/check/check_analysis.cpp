@@ -1,4 +1,4 @@
-/// The analysis: what is to be computed, on which mesh, how far.
+/// Checks of the analysis: type, mesh, output.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace snapthrough::checks {
 
 namespace {
 
-/// Elements of the whole mesh, and that every member has some; 0 when that is not known.
+/// Total number of elements; 0 when unknown. Reports members without elements.
 long long check_member_elements(const Place& elements, const Model& model, const Discretization& mesh,
                                 const Names& names) {
   Ids given("number of elements for member");
@@ -87,7 +87,7 @@ void check_step(const Place& place, const StepOptions& step) {
   }
 }
 
-/// Reports what a given start lacks: a shape for each member, places that grow, a value for each place.
+/// Reports mistakes of a given start: a shape per member, increasing positions, one value per position.
 void check_start(const Place& place, const Model& model, const StartState& start, const Names& names) {
   require_finite(place / "load_factor", start.load_factor);
   const Place members = place / "members";
@@ -140,7 +140,7 @@ void check_stop(const Place& place, const StopRules& stop, const Names& names) {
   }
 }
 
-/// Contact is taken as it is under the reference load: the opposite load presses other supports.
+/// Reports reversed buckling with one-sided supports: the opposite load has another contact.
 void check_reversed(const Place& place, const Model& model, const Analysis& analysis) {
   if (!analysis.reversed || analysis.type != AnalysisType::buckling) {
     return;
@@ -164,7 +164,7 @@ void check_load_factors(const Place& place, const std::vector<double>& factors) 
   }
 }
 
-/// A static analysis has states at its own load factors only.
+/// A static analysis has states at its load factors only.
 void check_static_states(const Place& place, const Analysis& analysis) {
   const std::vector<double>& asked = analysis.output.at_load_factors;
   const std::set<double> known(analysis.load_factors.begin(), analysis.load_factors.end());

@@ -12,7 +12,7 @@ namespace {
 
 bool is_bounded(double value) { return std::abs(value) <= kMaxMagnitude; }
 
-/// @param rule makes the text of the rule
+/// @param rule returns the text of the rule
 template <class Rule>
 bool report_unless(bool holds, const Place& place, double value, const Rule& rule) {
   if (!holds) {
@@ -39,10 +39,10 @@ std::string text(double value) {
 }
 
 std::string in_quotes(std::string_view id) {
-  constexpr std::size_t kShown = 60;
+  constexpr std::size_t kShown = 60;  // bytes of an id that a message shows
   std::size_t length = std::min(id.size(), kShown);
   while (length < id.size() && length > 0 && (static_cast<unsigned char>(id[length]) & 0xC0U) == 0x80U) {
-    --length;  // never cut inside a UTF-8 sequence
+    --length;  // do not cut inside a UTF-8 sequence
   }
   return "\"" + std::string(id.substr(0, length)) + (length < id.size() ? "...\"" : "\"");
 }
@@ -112,7 +112,7 @@ bool require_count(const Place& place, std::size_t count, std::size_t max) {
   return count <= max;
 }
 
-/// Code points of a UTF-8 text.
+/// Number of code points of a UTF-8 text.
 static std::size_t characters(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));

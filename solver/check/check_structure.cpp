@@ -1,4 +1,4 @@
-/// Nodes, sections and members: ids, references, values and geometry.
+/// Checks of nodes, sections and members: ids, references, values and geometry.
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +17,11 @@ Point position(const Node& node) { return {node.x, node.y}; }
 
 double distance(const Point& a, const Point& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
 
-/// Whether geometry can be computed with it; when not, that is another finding.
+/// Whether coordinates are usable for geometry; others are reported elsewhere.
 bool is_bounded(const Point& p) { return std::abs(p[0]) <= kMaxMagnitude && std::abs(p[1]) <= kMaxMagnitude; }
 bool is_bounded(const Node& node) { return is_bounded(position(node)); }
 
-/// Distances up to this are zero for this model: a part of its extent (of nodes and of points of splines),
-/// and no less than the roundoff of coordinates.
+/// Distance that counts as zero: fraction of the extent of nodes and spline points, at least their rounding.
 double zero_distance(const Model& model) {
   Point lo{kMaxMagnitude, kMaxMagnitude};
   Point hi{-kMaxMagnitude, -kMaxMagnitude};
@@ -76,7 +75,7 @@ void check_curve(const Place& place, const PointsCurve& curve) {
   }
 }
 
-/// Consecutive points of a spline, its ends included, must differ.
+/// Requires consecutive points of a spline, with its ends, to differ.
 void check_spline_points(const Place& place, const PointsCurve& curve, const Point& start, const Point& end,
                          double zero) {
   Point previous = start;
@@ -174,7 +173,7 @@ void check_members(const Place& model, const Model& data, Names& names) {
     }
     all_known = all_known && start_known && end_known;
   }
-  if (all_known && !data.members.empty()) {  // otherwise a misspelt id would be reported twice
+  if (all_known && !data.members.empty()) {  // avoids reporting a misspelt id twice
     check_nodes_are_reached(model / "nodes", data, names);
   }
 }

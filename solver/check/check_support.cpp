@@ -1,4 +1,4 @@
-/// What holds the structure: supports, springs, foundations.
+/// Checks of supports, springs and foundations.
 
 #include <cmath>
 

@@ -1,5 +1,4 @@
-/// What the contract allows and this version does not do yet, one entry each. To implement one, delete its
-/// entry.
+/// Features of the contract that this version does not implement; delete an entry to enable its feature.
 
 #include "solver/check/check_parts.h"
 
@@ -7,7 +6,7 @@ namespace snapthrough::checks {
 
 namespace {
 
-/// Reports every use of one feature of the contract.
+/// Feature of the contract, with a function that reports all its uses.
 struct Feature {
   const char* what;  ///< completes the sentence "... is not supported yet"
   void (*find)(const Place& root, const Model& model, const Analysis& analysis, const char* what);
@@ -17,8 +16,7 @@ void report(const Place& place, const char* what) {
   place.report("unsupported", std::string(what) + " is not supported by this version yet");
 }
 
-/// Reports at `/model/<list>/<index>/<field>` for each item that has the feature (at the item when field is
-/// empty).
+/// Reports `/model/<list>/<index>/<field>` for each item with the feature (the item if `field` is empty).
 template <class Items, class Has>
 void report_items(const Place& root, std::string_view list, const Items& items, std::string_view field,
                   const char* what, Has has) {
@@ -30,7 +28,7 @@ void report_items(const Place& root, std::string_view list, const Items& items, 
   }
 }
 
-/// Small displacements lose no stability: only equilibrium states can be asked for.
+/// Only static analyses are possible with linear geometry, because small displacements lose no stability.
 void find_linear_path(const Place& root, const Model&, const Analysis& analysis, const char* what) {
   if (analysis.geometry == Geometry::linear && analysis.type != AnalysisType::static_) {
     report(root / "analysis" / "geometry", what);

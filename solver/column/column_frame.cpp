@@ -10,11 +10,11 @@
 namespace snapthrough {
 namespace {
 
-constexpr int kTerms = 13;
-/// Longest piece times its largest exponent: the series below are exact to rounding and lose one digit.
+constexpr int kTerms = 13;  // terms of the power series
+/// Largest product of piece length and characteristic exponent: the series then lose one digit at most.
 constexpr double kLongest = 2.2;
 
-/// 1 / (2 k + i)!, i the row.
+/// 1 / (2 k + i)! in row i, column k.
 constexpr auto inverse_factorials() {
   std::array<std::array<double, kTerms>, 4> out{};
   double factorial = 1.0;
@@ -27,12 +27,12 @@ constexpr auto inverse_factorials() {
 }
 constexpr auto kInverseFactorials = inverse_factorials();
 
-/// The solution of w'''' + q w'' + r w = 0 with w = w' = w'' = 0, w''' = 1 at the start, and derivatives.
+/// Solution of w'''' + q w'' + r w = 0 with w = w' = w'' = 0, w''' = 1 at the start, and its derivatives.
 struct Fundamental {
   double w, d1, d2, d3;
 };
 
-/// Power series: as good where the characteristic roots meet or vanish as elsewhere.
+/// Evaluates the fundamental solution by power series, which stay accurate for equal or zero exponents.
 Fundamental fundamental(double q, double r, double h) {
   const double Q = q * h * h;
   const double R = r * h * h * h * h;
@@ -48,7 +48,7 @@ Fundamental fundamental(double q, double r, double h) {
   return {h * h * h * sum[3], h * h * sum[2], h * sum[1], sum[0]};
 }
 
-/// Transfer of states over a length; and what counts eigenvalues on the way.
+/// Transfer matrix of a piece, with the quantities for counting eigenvalues.
 struct Transfer {
   std::array<std::array<double, 4>, 4> t;
   double s1, s2, s3;
@@ -90,13 +90,13 @@ Matrix2 product(const Matrix2& a, const Matrix2& b) {
   return out;
 }
 
-/// A frame on its way along the column.
+/// Transfers a frame along the column and counts eigenvalues.
 ///
-/// Joints are eliminated from left to right. The pivot of one, A = S + K_11 with K the stiffness of the piece
-/// on its right, has as many negative eigenvalues as U^T B^-1 U+, where U, U+ are the displacement rows at
-/// the joint and at the next one and B = -K_12^-1. Whether that is one follows from the signs of det U and
-/// det U+ alone, each computed once, so a determinant that is lost in rounding moves an eigenvalue from one
-/// joint to the next but not out of the sum.
+/// Joints are eliminated from left to right. The pivot A = S + K_11 of a joint (K: stiffness of the piece on
+/// its right) has as many negative eigenvalues as U^T B^-1 U+, with U, U+ the displacement rows at the joint
+/// and at the next one and B = -K_12^-1. Whether their number is one follows from the signs of det U and det
+/// U+, each computed once; a sign lost to rounding shifts an eigenvalue to the next joint but does not change
+/// the sum.
 class Walk {
  public:
   Walk() { f_.rows = {{{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {0.0, 0.0}}}; }
@@ -112,15 +112,15 @@ class Walk {
     put_lateral(joint);
   }
   void advance(const Transfer& transfer);
-  /// Coordinates before making orthonormal from those after.
+  /// Orthonormalises the frame; returns the map from new to old coordinates.
   Matrix2 orthonormalise();
   void finish(const ColumnJoint& joint);
 
   [[nodiscard]] const ColumnFrame& frame() const { return f_; }
   [[nodiscard]] const ColumnCount& count() const { return count_; }
-  /// Coordinates left of the last joint from those right of it.
+  /// Map from coordinates right of the last joint to those left of it.
   [[nodiscard]] const Matrix2& joint_map() const { return joint_map_; }
-  /// Makes orthonormal what a joint has left.
+  /// Orthonormalises the frame after a joint.
   void settle_joint() { joint_map_ = product(joint_map_, orthonormalise()); }
   void forget_joint() { joint_map_ = {{{1.0, 0.0}, {0.0, 1.0}}}; }
 
@@ -142,12 +142,12 @@ class Walk {
   void multiply(double factor);
 
   ColumnFrame f_;
-  double sign_ = 1.0;  ///< of det U
+  double sign_ = 1.0;  ///< sign of det U
   ColumnCount count_;
   Matrix2 joint_map_{{{1.0, 0.0}, {0.0, 1.0}}};
 };
 
-/// One column is made free of the displacement first, so that a stiff spring leaves its digits alone.
+/// Adds a spring after rotating one column to zero displacement in `row`: preserves digits for stiff springs.
 void Walk::add_spring(int row, double stiffness) {
   if (stiffness == 0.0) return;
   const double size = std::hypot(f_.rows[row][0], f_.rows[row][1]);
@@ -161,7 +161,7 @@ void Walk::add_spring(int row, double stiffness) {
   settle_joint();
 }
 
-/// The combination whose row `zero` vanishes, and beside it the unit vector of row `unit`.
+/// Replaces the frame by the combination with zero in row `zero`, and the unit vector of row `unit`.
 void Walk::replace(int zero, int unit) {
   double a = f_.rows[zero][1];
   double b = -f_.rows[zero][0];
@@ -170,7 +170,8 @@ void Walk::replace(int zero, int unit) {
   if (size > 0.0) {
     a /= size;
     b /= size;
-  } else {  // both have it zero: the unit vector is among their combinations, any other one will do
+    // both columns have a zero there and span the unit vector, so that any other combination completes it
+  } else {
     (std::abs(f_.rows[unit][0]) <= std::abs(f_.rows[unit][1]) ? a : b) = 1.0;
   }
   for (auto& row : f_.rows) row = {a * row[0] + b * row[1], 0.0};
@@ -180,7 +181,7 @@ void Walk::replace(int zero, int unit) {
                  {joint_map_[1][0] * a + joint_map_[1][1] * b, 0.0}}};
 }
 
-/// The rotation on the left is eliminated, one on the right begins.
+/// Eliminates the rotation left of a hinge and starts the rotation right of it.
 void Walk::release() {
   replace(3, 1);
   const double sign = sign_of(f_.rows[0][0]);
@@ -235,7 +236,7 @@ Matrix2 Walk::orthonormalise() {
   return {{{1.0 / first, -along / (first * second)}, {0.0, 1.0 / second}}};
 }
 
-/// The last joint's pivot, of what is free of it.
+/// Counts the negative eigenvalues of the last joint's pivot in its free components.
 void Walk::finish(const ColumnJoint& joint) {
   add_spring(1, joint.left.spring);
   add_spring(0, joint.spring);

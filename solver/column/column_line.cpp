@@ -17,16 +17,15 @@ namespace {
 
 using Vec2 = std::array<double, 2>;
 
-/// Directions as far as this from along or across the line change nothing that can be seen: their effect is
-/// of its square.
+/// Sine of an angle to the line, or to its normal, that counts as zero; its effect is of second order.
 constexpr double kAligned = 1e-12;
-constexpr double kOnePlace = 1e-13;  ///< fractions closer than this are one place
+constexpr double kOnePlace = 1e-13;  ///< distance of fractions that counts as zero
 
 double dot(const Vec2& a, const Vec2& b) { return a[0] * b[0] + a[1] * b[1]; }
 
 enum class Way { along, across, neither };
 
-/// Reads one model; ok() is false as soon as it isn't a column.
+/// Reads a model as a column; each step returns false if the model is none.
 class LineReader {
  public:
   explicit LineReader(const Model& model) : model_(model) {}
@@ -34,7 +33,7 @@ class LineReader {
   [[nodiscard]] ColumnLine take() { return std::move(line_); }
 
  private:
-  /// A member in the order of the line. `cuts` ascend from its first end in the line, 0 and 1 included.
+  /// Member in the order of the line. `cuts` ascend from its first end in the line, 0 and 1 included.
   struct Link {
     int member = 0;
     bool backwards = false;
@@ -42,14 +41,14 @@ class LineReader {
     int first_joint = 0;
     std::vector<double> cuts;
   };
-  /// What acts along the line; of the two patterns, proportional and constant.
+  /// Axial actions and stiffness, for both patterns (proportional, constant).
   struct Axial {
-    std::vector<Vec2> forces;                   ///< at each joint
-    std::vector<Vec2> strains;                  ///< initial, of each span
-    std::vector<double> EA;                     ///< of each span
-    std::vector<std::pair<int, Vec2>> holders;  ///< joint and its displacement
+    std::vector<Vec2> forces;                   ///< axial loads at the joints
+    std::vector<Vec2> strains;                  ///< initial strains, per span
+    std::vector<double> EA;                     ///< axial stiffness of each span
+    std::vector<std::pair<int, Vec2>> holders;  ///< fixed joints with their displacements
     int springs = 0;
-    double size = 0.0;  ///< of the forces that were added up
+    double size = 0.0;  ///< sum of the magnitudes of the forces
   };
 
   [[nodiscard]] bool is_simple() const;
@@ -71,7 +70,7 @@ class LineReader {
   [[nodiscard]] const Link& link_of(const std::string& member) const;
   [[nodiscard]] int joint_at(const Link& link, double fraction) const;
   [[nodiscard]] int joint_at(const Location& at) const;
-  /// What holds the rotation of a node; null where nothing feels it.
+  /// Rotational restraint of a node; null when no member feels it.
   [[nodiscard]] ColumnSide* side_of_node(int joint);
   [[nodiscard]] ColumnSide& side_at(const Location& at, int joint);
 
@@ -81,7 +80,7 @@ class LineReader {
   std::vector<Link> links_;
   std::vector<int> link_of_member_;
   std::vector<int> joint_of_node_;
-  std::vector<char> node_rotation_lost_;  ///< of each joint: all members that meet there are released
+  std::vector<char> node_rotation_lost_;  ///< joints at which all members are released
   Axial axial_;
 };
 
@@ -286,7 +285,7 @@ bool LineReader::add_supports() {
 }
 
 bool LineReader::add_springs() {
-  const double unit = line_.stiffness / line_.length;  // of a rotational spring
+  const double unit = line_.stiffness / line_.length;  // unit of a rotational spring
   for (const Spring& spring : model_.springs) {
     if (spring.stiffness == 0.0) continue;
     const int joint = joint_at(spring.at);
@@ -351,7 +350,7 @@ bool LineReader::add_loads() {
   return true;
 }
 
-/// Between two joints that are held the force follows from the lengths of the spans.
+/// Axial forces between two fixed joints, from the compatibility of the spans' lengths.
 void LineReader::add_forces_between(std::size_t first, std::size_t second, int pattern) {
   const auto begin = static_cast<std::size_t>(axial_.holders[first].first);
   const auto end = static_cast<std::size_t>(axial_.holders[second].first);
@@ -390,7 +389,7 @@ bool LineReader::add_prestress() {
     for (int i = n - 1; i >= holders.back().first; --i) compression(i) = sum -= axial_.forces[i + 1][pattern];
     for (std::size_t h = 0; h + 1 < holders.size(); ++h) add_forces_between(h, h + 1, pattern);
     for (const Vec2& force : axial_.forces) axial_.size += std::abs(force[pattern]);
-    constexpr double kRounding = 1e-14;  // what remains where actions cancel
+    constexpr double kRounding = 1e-14;  // remainder of cancelling actions over the sum of their magnitudes
     for (int i = 0; i < n; ++i)
       if (std::abs(compression(i)) <= kRounding * axial_.size) compression(i) = 0.0;
   }

@@ -22,18 +22,18 @@ ColumnState product(const ColumnFrame& f, const Pair& x) {
   return z;
 }
 
-/// The same state seen from the other end of the column.
+/// Transforms a state to the view from the other end of the column.
 ColumnState turned(const ColumnState& z) { return {z[0], -z[1], -z[2], z[3]}; }
 
-/// A place where a mode may be matched: coordinates in the frame from the left, and how badly it fits.
+/// Place where solutions from both sides may be matched: coordinates in the left frame, and misfit.
 struct Match {
   std::size_t piece = 0;
   Pair coordinates{};
   double misfit = 0.0;
 };
 
-/// Where the planes from the left and from the right come nearest to one another at the start of a piece:
-/// the two singular vectors of their symplectic products, which vanish on what they share.
+/// Best matches of the planes from the left and from the right at the start of a piece: singular vectors of
+/// their matrix of symplectic products, which vanish for common states.
 std::array<Match, 2> matches_at(const ColumnFrame& left, const ColumnFrame& right, std::size_t piece) {
   Matrix2 w{};
   for (int i = 0; i < 2; ++i) {
@@ -58,13 +58,13 @@ std::array<Match, 2> matches_at(const ColumnFrame& left, const ColumnFrame& righ
 
 }  // namespace
 
-/// Modes of one load, which may be multiple.
+/// Searches the modes of one load, which may be multiple.
 class ModeSearch {
  public:
   ModeSearch(const ColumnLine& line, const ColumnLine& back, double load)
       : line_(line), left_(pieces_at(line, load)), right_(pieces_at(back, load)) {}
 
-  /// Appends `count` independent modes, or as many as there are.
+  /// Appends `count` independent modes, or as many as exist.
   void find(std::size_t count, std::vector<ColumnMode>& out) const;
 
  private:
@@ -72,13 +72,13 @@ class ModeSearch {
   [[nodiscard]] ColumnMode mode_of(const Match& match) const;
   [[nodiscard]] static ColumnMode::Piece series(const ColumnPiece& piece, const ColumnState& state);
   [[nodiscard]] static double scalar_product(const ColumnMode& a, const ColumnMode& b);
-  /// Share of a mode that the others don't have.
+  /// Part of a mode that is independent of the others, in [0, 1].
   [[nodiscard]] static double independence(const ColumnMode& mode, const std::vector<ColumnMode>& others,
                                            std::size_t first);
 
   const ColumnLine& line_;
   std::vector<ColumnPiece> left_;
-  std::vector<ColumnPiece> right_;  ///< of the column seen from its other end
+  std::vector<ColumnPiece> right_;  ///< pieces of the column seen from its other end
 };
 
 std::vector<Match> ModeSearch::best_matches(std::size_t count) const {
@@ -153,7 +153,7 @@ double ModeSearch::scalar_product(const ColumnMode& a, const ColumnMode& b) {
 
 double ModeSearch::independence(const ColumnMode& mode, const std::vector<ColumnMode>& others,
                                 std::size_t first) {
-  // Gram's determinants, with and without it, by elimination
+  // ratio of Gram determinants with and without the mode, by elimination
   std::vector<const ColumnMode*> all;
   for (std::size_t i = first; i < others.size(); ++i) all.push_back(&others[i]);
   all.push_back(&mode);
@@ -169,7 +169,7 @@ double ModeSearch::independence(const ColumnMode& mode, const std::vector<Column
 }
 
 void ModeSearch::find(std::size_t count, std::vector<ColumnMode>& out) const {
-  constexpr double kIndependent = 0.05;
+  constexpr double kIndependent = 0.05;  // least independent part of a mode among those of equal loads
   const std::size_t first = out.size();
   for (const Match& match : best_matches(count)) {
     if (out.size() == first + count) break;
@@ -194,7 +194,7 @@ ColumnMode::Value ColumnMode::at(int span, double x) const {
 }
 
 std::vector<ColumnMode> column_modes(const ColumnLine& line, const std::vector<double>& loads) {
-  constexpr double kEqual = 1e-9;
+  constexpr double kEqual = 1e-9;  // relative difference up to which loads are equal
   const ColumnLine back = reversed(line);
   std::vector<ColumnMode> out;
   for (std::size_t i = 0; i < loads.size();) {

@@ -12,7 +12,7 @@
 namespace snapthrough {
 namespace {
 
-/// The search for the loads of one column.
+/// Searches the buckling loads of one column.
 class LoadSearch {
  public:
   LoadSearch(const ColumnLine& line, int count) : line_(line), wanted_(count) {}
@@ -31,14 +31,14 @@ class LoadSearch {
   const ColumnLine& line_;
   int wanted_;
   ColumnBuckling out_;
-  std::vector<int> below_;  ///< counts below each of the loads
+  std::vector<int> below_;  ///< number of loads below each load
   double scale_ = 0.0;
   bool lost_ = false;
 };
 
-/// A load factor with as many loads below it as are wanted.
+/// Finds a load factor with enough loads below it; false when that needs too many pieces.
 bool LoadSearch::enclose(LoadBracket& bracket) {
-  constexpr double kMostPieces = 5e4;
+  constexpr double kMostPieces = 5e4;  // work limit; beyond, the exact solution is not attempted
   constexpr int kDoublings = 100;
   double hi = std::numeric_limits<double>::infinity();
   double length = 0.0;
@@ -49,7 +49,7 @@ bool LoadSearch::enclose(LoadBracket& bracket) {
           std::min(hi, std::numbers::pi * std::numbers::pi * span.EI / (length * length * span.proportional));
   out_.negative_at_start = count(0.0).negative;
   bracket = {0.0, 0.0, out_.negative_at_start, out_.negative_at_start};
-  if (!std::isfinite(hi)) return true;  // nothing is compressed: no load is too much
+  if (!std::isfinite(hi)) return true;  // nothing is compressed: no buckling load exists
   hi *= kOffMultiples;
   scale_ = hi;
   for (int i = 0; i < kDoublings && bracket.below_hi - bracket.below_lo < wanted_; ++i, hi *= 2.0) {
@@ -60,10 +60,10 @@ bool LoadSearch::enclose(LoadBracket& bracket) {
   return bracket.below_hi - bracket.below_lo >= wanted_;
 }
 
-/// Takes a bracket that holds one load, or equal ones.
+/// Accepts a bracket of one load or of equal loads; false: it must be divided further.
 bool LoadSearch::take(const LoadBracket& bracket) {
-  constexpr double kEqual = 1e-14;
-  // loads that many times below Euler's are those of a mechanism
+  constexpr double kEqual = 1e-14;  // relative difference up to which loads are equal
+  // loads below Euler's by this factor are those of a mechanism
   constexpr double kNone = 1e-25;
   lost_ = lost_ || bracket.hi <= kNone * scale_;
   if (lost_) return true;
@@ -77,17 +77,17 @@ bool LoadSearch::take(const LoadBracket& bracket) {
   return true;
 }
 
-/// a over b.
+/// Quotient a / b.
 double ratio(const WideNumber& a, const WideNumber& b) {
   return std::ldexp(a.mantissa / b.mantissa, std::clamp(a.exponent - b.exponent, -2000, 2000));
 }
 
-/// The one load of a bracket.
+/// The single load in a bracket.
 double LoadSearch::root(const LoadBracket& bracket) {
-  constexpr double kDigits = 1e-15;
+  constexpr double kDigits = 1e-15;  // relative width of the final bracket
   constexpr int kMost = 200;
   const ColumnCount at_hi = count(bracket.hi);
-  // sizes from the determinant, signs from the count
+  // magnitude from the determinant, sign from the count
   const auto value = [&](double lambda, bool& above) {
     const ColumnCount now = count(lambda);
     above = now.negative > bracket.below_lo;
@@ -106,10 +106,10 @@ double LoadSearch::root(const LoadBracket& bracket) {
   return at.middle();
 }
 
-/// Counts on both sides, of pieces cut otherwise.
+/// Confirms a load by counts on both sides, with differently cut pieces, and records the distance as error.
 bool LoadSearch::confirm(double load, int below) {
-  constexpr double kLeast = 1e-13;
-  constexpr double kMost = 1e-6;
+  constexpr double kLeast = 1e-13;  // smallest tested relative error
+  constexpr double kMost = 1e-6;    // largest accepted relative error
   for (double beside = kLeast; beside <= kMost; beside *= 8.0) {
     out_.counts += 2;
     if (count_below(line_, load * (1.0 - beside), true).negative <= below &&

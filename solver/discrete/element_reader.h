@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Displacements anywhere in one element.
+/// Displacements and their derivatives inside one element.
 
 #include <Eigen/Core>
 #include <array>
@@ -11,16 +11,16 @@
 
 namespace snapthrough {
 
-/// @brief Reads the displacements of one element from the unknowns of its structure, scaled.
+/// @brief Evaluates the displacements of one element from the scaled unknowns of its structure.
 class ElementReader {
  public:
   ElementReader(const Structure& structure, const Eigen::VectorXd& y, int element);
 
-  /// (x, y, rotation) at xi in [0, 1].
+  /// Displacement (x, y, rotation) at xi in [0, 1].
   [[nodiscard]] std::array<double, 3> displacement(double xi) const;
-  /// Derivatives of (x, y, rotation) by scaled arc length.
+  /// Derivatives of (x, y, rotation) with respect to scaled arc length.
   [[nodiscard]] std::array<double, 3> derivative(double xi) const;
-  /// Length times the derivatives at the Gauss points, component c.
+  /// Element length times the derivatives of component c at the Gauss points.
   [[nodiscard]] std::span<const double> gradient(int c) const { return std::span(dv_[c]).first(p_); }
   [[nodiscard]] const std::array<double, 3>& start() const { return ua_; }
   [[nodiscard]] double length() const { return h_; }

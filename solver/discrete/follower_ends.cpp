@@ -7,7 +7,7 @@ namespace snapthrough {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// A E^T x.
+/// Product A E^T x.
 VectorXd FollowerEnds::weighted(const VectorXd& x) const {
   VectorXd out(2 * static_cast<Index>(ends_.size()));
   for (std::size_t i = 0; i < ends_.size(); ++i) {

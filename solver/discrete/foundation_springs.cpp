@@ -8,14 +8,14 @@
 namespace snapthrough {
 namespace {
 
-/// A spring that reads the penetration at a place of an element.
+/// Functional of the displacement into the medium at a place of an element.
 SupportSpring penetration_spring(const Structure& structure, const FoundationLaw& foundation, int element,
                                  double xi) {
   const auto d = foundation.direction.at(axis_point(structure, element, xi).angle);
   return support_at(structure, element, xi, {d[0], d[1], 0.0});
 }
 
-/// Those at the points of a rule on part of an element, glued.
+/// Bilateral springs at the points of a quadrature rule on part of an element.
 std::vector<SupportSpring> penetration_springs(const Structure& structure, const FoundationLaw& foundation,
                                                int element, std::array<double, 2> range,
                                                const Quadrature& rule) {
@@ -30,7 +30,7 @@ std::vector<SupportSpring> penetration_springs(const Structure& structure, const
   return out;
 }
 
-/// Lobatto's points of the whole element, those in the range.
+/// Springs at the Lobatto points of the whole element that lie in the range.
 std::vector<SupportSpring> lumped_springs(const Structure& structure, const FoundationLaw& foundation,
                                           int element, std::array<double, 2> range) {
   const Quadrature lobatto = gauss_lobatto(structure.mesh.order + 1);

@@ -29,7 +29,7 @@ MatrixXd FreeMotions::of_nodes() const {
   for (Index i = 0; i < motions_.cols(); ++i) nodes.col(i) = mechanism_->of_nodes(motions_.col(i));
   const Eigen::HouseholderQR<MatrixXd> orthonormal(nodes);
   const MatrixXd motions = orthonormal.householderQ() * MatrixXd::Identity(nodes.rows(), motions_.cols());
-  // what rounding left where nothing moves would couple parts that have nothing to do with one another
+  // remove rounding in rows of fixed nodes, which would couple independent parts
   constexpr double kRounding = 1e-14;
   return (motions.array().abs() > kRounding).select(motions, 0.0);
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Motions that nothing but one-sided supports can resist.
+/// Rigid-body motions that only one-sided supports can resist.
 
 #include <Eigen/Core>
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace snapthrough {
 
-/// @brief Motions without strain of a structure without its one-sided supports. Opposite ones that touch act
-/// as one support of both sides (with_joined_supports()) and stay.
+/// @brief Strain-free motions of a structure without its one-sided supports. Opposite supports that touch act
+/// as one bilateral support (with_joined_supports()) and remain.
 class FreeMotions {
  public:
   /// @param model kept by reference
@@ -19,19 +19,19 @@ class FreeMotions {
   explicit FreeMotions(const Model& model);
 
   [[nodiscard]] bool empty() const { return motions_.cols() == 0; }
-  /// Unknowns of parts() by motion, orthonormal columns. At most kMostMotions.
+  /// Orthonormal columns over the unknowns of parts(); at most kMostMotions.
   [[nodiscard]] const Eigen::MatrixXd& motions() const { return motions_; }
   /// @pre not empty
   [[nodiscard]] const RigidParts& parts() const { return mechanism_->parts(); }
-  /// The model with its opposite supports joined: nodes, members and loads are the model's own.
+  /// The model with opposite supports joined; its nodes, members and loads are those of the model.
   /// @pre not empty
   [[nodiscard]] const Model& joined_model() const { return parts().model(); }
-  /// @brief Displacements of the nodes (x, y over the longest member's length, rotation): orthonormal columns
-  /// that span those of the motions; without columns when there are none.
+  /// @brief Node displacements (x, y over the longest member's length, rotation) of the motions: orthonormal
+  /// columns with the same span; no columns when there are none.
   [[nodiscard]] Eigen::MatrixXd of_nodes() const;
 
  private:
-  std::unique_ptr<const Model> joined_;  ///< null: nothing is opposite
+  std::unique_ptr<const Model> joined_;  ///< null: no supports are opposite
   std::unique_ptr<const RigidMechanism> mechanism_;
   Eigen::MatrixXd motions_;
 };

@@ -10,7 +10,7 @@
 namespace snapthrough {
 namespace {
 
-/// Splines through the values of one member, scaled, over the scaled arc length.
+/// Splines through the scaled values of one member over the scaled arc length.
 struct MemberSplines {
   double length = 0.0;
   std::array<CubicSpline, 3> displacement;

@@ -1,7 +1,6 @@
 #pragma once
 /// @file
-/// The unknowns of a structure from displacements and section forces that are given at places along its
-/// members.
+/// Unknowns of a structure from displacements and section forces given along its members.
 
 #include <Eigen/Core>
 
@@ -12,9 +11,9 @@
 namespace snapthrough {
 
 /// @brief Interpolates a given state by cubic splines onto the mesh of a structure.
-/// @param state one shape for each member of the model; in the user's units
-/// @return scaled unknowns: near an equilibrium where the state is one of the same model
-/// @throws std::invalid_argument where two places of a member can't be told apart
+/// @param state one shape for each member of the model, in the user's units
+/// @return scaled unknowns, near an equilibrium if the state is one of the same model
+/// @throws std::invalid_argument when two places of a member coincide
 [[nodiscard]] Eigen::VectorXd unknowns_of(const Structure& structure, const Model& model,
                                           const StartState& state);
 

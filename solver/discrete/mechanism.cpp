@@ -17,7 +17,7 @@
 namespace snapthrough {
 namespace {
 
-/// Length of a straight member or an arc; nothing for other curves.
+/// Length of a straight member or an arc; empty for other curves.
 std::optional<double> length_of(const Model& model, const Member& member) {
   const Node& a = model.nodes[index_of(model.nodes, member.start)];
   const Node& b = model.nodes[index_of(model.nodes, member.end)];
@@ -40,8 +40,8 @@ bool is_connected(const Model& model) {
   return std::all_of(group.begin(), group.end(), [&](std::size_t g) { return g == group.front(); });
 }
 
-/// How firmly the supports hold a rigid body: the determinant of the sum of r r^T over the directions r
-/// (force, force, moment by unit length) that they hold, over that of equal eigenvalues.
+/// Restraint of a rigid body by the supports: det of the sum of r r^T over the constrained directions r
+/// (force, force, moment over unit length), divided by that for equal eigenvalues.
 double firmness(const Model& model, double length) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   const Node& origin = model.nodes.front();
@@ -64,9 +64,9 @@ double firmness(const Model& model, double length) {
 }  // namespace
 
 bool is_plainly_held(const Model& model) {
-  constexpr std::size_t kFew = 10;
-  constexpr double kComparable = 1e-3;
-  constexpr double kFirm = 1e-3;
+  constexpr std::size_t kFew = 10;      // largest number of members of the fast test
+  constexpr double kComparable = 1e-3;  // least ratio of stiffnesses
+  constexpr double kFirm = 1e-3;        // least restraint, see firmness()
   if (model.members.size() > kFew || model.supports.empty()) return false;
   double length = 0.0;
   double least_EI = std::numeric_limits<double>::infinity();

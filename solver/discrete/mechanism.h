@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Detection of structures that can move without strain.
+/// Detection of mechanisms: structures that can move without strain.
 
 #include <vector>
 
@@ -9,21 +9,22 @@
 
 namespace snapthrough {
 
-/// @brief A finding with code "mechanism" when the loads do work on a motion of the unloaded structure
-/// without strain, with one-sided supports counted as glued; empty otherwise. A motion that no load drives is
-/// none: the analysis holds it and tells of it (Result::neutral_motion). With code "too_connected" when that
-/// would take too long.
+/// @brief Finds strain-free motions of the unloaded structure on which the loads do work, with one-sided
+/// supports as bilateral.
+///
+/// Motions without work are allowed: the analysis pins them and reports them (Result::neutral_motion).
+/// @return one finding with code "mechanism", or "too_connected" if the test would take too long; else empty
 /// @pre the model passed all other checks
 [[nodiscard]] std::vector<Finding> find_mechanism(const Model& model);
 
-/// @brief Whether the unloaded structure, with one-sided supports counted as glued, can move without strain.
+/// @brief Whether the unloaded structure, with one-sided supports as bilateral, can move without strain.
 /// @pre the model passed all other checks
 [[nodiscard]] bool can_move(const Model& model);
 
-/// @brief Whether a look at the supports is enough to see that find_mechanism() would find nothing: few
-/// straight members and arcs of comparable stiffnesses, all connected and without releases, whose rigid
-/// supports alone keep the whole from moving, none of it by a short lever.
-/// @return false when this is not so plain
+/// @brief Fast sufficient test that find_mechanism() finds nothing: at most ten connected straight members
+/// and arcs of comparable stiffness, without releases, whose rigid supports fix a rigid body with good
+/// leverage.
+/// @return false when the test is inconclusive
 /// @pre the model passed all other checks
 [[nodiscard]] bool is_plainly_held(const Model& model);
 

@@ -9,7 +9,7 @@
 namespace snapthrough {
 namespace {
 
-/// Sums up the work of one load.
+/// Sums the work of one load.
 class Summing {
  public:
   explicit Summing(const RigidParts& parts) : parts_(parts) {}
@@ -65,8 +65,8 @@ void Summing::add(const DistributedLoad& load) {
   }
 }
 
-/// With the right normal n = (t_y, -t_x), int n ds is the chord turned by -90 degrees, and the moment about
-/// the start int (x - x_a) x n ds = -|x_b - x_a|^2 / 2: pressure acts as if on the chord.
+/// Replaces pressure by pressure on the chord: with the right normal n = (t_y, -t_x), int n ds is the chord
+/// turned by -90 degrees, and the moment about the start is int (x - x_a) x n ds = -|x_b - x_a|^2 / 2.
 void Summing::add(const PressureLoad& load) {
   const int member = parts_.member(load.member);
   const AxisPoint a = parts_.place(member, 0.0);

@@ -9,27 +9,28 @@
 
 namespace snapthrough {
 
-/// The pattern that a load follows.
+/// Pattern of a load.
 [[nodiscard]] Pattern pattern_of(const Load& load);
 
-/// Work of a load as a functional of the rigid parts' unknowns, on the undeformed geometry.
+/// Work of a load as a linear functional of the rigid parts' unknowns, on the undeformed geometry.
 struct LoadWork {
-  RigidParts::Row row;  ///< in the model's unit of force; entries are not summed up
-  double size = 0.0;    ///< sum of its forces' sizes, and of its moment over the unit of length
+  /// Work of the load, in the model's unit of force; an unknown may occur several times.
+  RigidParts::Row row;
+  double size = 0.0;  ///< sum of the magnitudes of its forces, and of its moment over the unit of length
 };
 
-/// @brief Work of one load at its full size. Initial strains do none.
+/// @brief Work of one load at its full size. Initial strains do no work.
 [[nodiscard]] LoadWork work_of(const RigidParts& parts, const Load& load);
 
-/// @brief Forces of all loads of one pattern on the rigid parts' unknowns. Prescribed displacements exert
-/// none: what they hold does not move.
+/// @brief Forces of all loads of one pattern on the rigid parts' unknowns. Prescribed displacements count as
+/// fixed and exert none.
 class RigidLoads {
  public:
   RigidLoads(const RigidParts& parts, Pattern pattern);
 
-  /// By unknown.
+  /// One force per unknown.
   [[nodiscard]] const Eigen::VectorXd& forces() const { return forces_; }
-  /// Sum of all forces' sizes.
+  /// Sum of the magnitudes of all forces.
   [[nodiscard]] double size() const { return size_; }
 
  private:

@@ -12,17 +12,17 @@
 namespace snapthrough {
 namespace {
 
-/// Sine of an angle below which two directions are one: three hinges this near to a line can move, and so can
-/// a body whose supports' lines of action pass this near to one point.
+/// Sine of the angle below which two directions are parallel. Three hinges this close to a line can move, and
+/// so can a body whose supports' lines of action pass this close to one point.
 constexpr double kOneDirection = 1e-6;
 
 using Row = RigidParts::Row;
 
-/// What the supports, springs and foundations of a model hold: their stiffnesses say nothing of what can move
-/// without strain.
+/// Constraints of a model's supports, springs and foundations on rigid parts; any stiffness above zero
+/// constrains.
 class Holding {
  public:
-  /// @param one_sided whether supports that act on one side only are there (they count as glued)
+  /// @param one_sided true: one-sided supports are included, as bilateral
   Holding(const RigidParts& parts, bool one_sided) : parts_(parts), one_sided_(one_sided) {
     for (const Support& support : parts.model().supports) add(support);
     for (const Spring& spring : parts.model().springs)
@@ -31,9 +31,9 @@ class Holding {
       if (is_there(foundation)) add(foundation);
   }
 
-  /// Rows that are zero in a motion that meets no support.
+  /// Rows that vanish in a motion that no support resists.
   std::vector<Row> held;
-  /// Displacements of the places that are held.
+  /// Displacements of the supported places.
   std::vector<Row> moved;
 
  private:
@@ -96,8 +96,8 @@ void Holding::add(const Spring& spring) {
     hold(parts_.rotation(member), parts_.radius(member));
 }
 
-/// A foundation holds every point of its range; on a straight axis two points tell of all. The shear layer
-/// holds the derivative of the displacement n.u along the axis: n'.u and the rotation of its direction.
+/// Adds the constraints of a foundation at points of its range; two points suffice on a straight axis. The
+/// shear layer constrains the derivative of the displacement n.u along the axis: n'.u and the rotation of n.
 void Holding::add(const Foundation& foundation) {
   const int member = parts_.member(foundation.member);
   const bool straight = parts_.axes()[static_cast<std::size_t>(member)]->straight();
@@ -150,7 +150,8 @@ Eigen::VectorXd RigidMechanism::of_nodes(const Eigen::VectorXd& motion) const {
 }
 
 std::size_t RigidMechanism::node_of(const Eigen::VectorXd& motion) const {
-  constexpr double kMore = 1.0 + 1e-9;  // of those that move alike the first, whatever rounding says
+  // factor that prefers the first of several equal displacements despite rounding
+  constexpr double kMore = 1.0 + 1e-9;
   const Eigen::VectorXd moved = of_nodes(motion);
   Eigen::Index node = 0;
   for (Eigen::Index j = 1; 3 * j < moved.size(); ++j)
@@ -161,11 +162,11 @@ std::size_t RigidMechanism::node_of(const Eigen::VectorXd& motion) const {
 }
 
 std::optional<Eigen::VectorXd> RigidMechanism::driven_by(Pattern pattern) const {
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = 1e-9;  // work over forces times largest displacement that counts as zero
   const RigidLoads loading(parts_, pattern);
   Eigen::VectorXd driven = Eigen::VectorXd::Zero(parts_.unknowns());
   for (const Eigen::VectorXd& motion : motions_) driven += loading.forces().dot(motion) * motion;
-  const double work = driven.norm();  // on the motion of length one
+  const double work = driven.norm();  // work on the motion normalised to length one
   if (work == 0.0) return std::nullopt;
   driven /= work;
   if (!(work > kRounding * loading.size() * of_nodes(driven).lpNorm<Eigen::Infinity>())) return std::nullopt;

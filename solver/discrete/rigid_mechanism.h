@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Motions of a structure of rigid members that its supports do not resist.
+/// Motions of a structure of rigid members that its supports allow.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -12,26 +12,26 @@
 
 namespace snapthrough {
 
-/// Most motions that are looked for: eight bodies that nothing holds.
+/// Largest number of motions searched for: those of eight unsupported bodies.
 inline constexpr std::size_t kMostMotions = 24;
 
-/// @brief The motions that a structure does not resist.
+/// @brief Strain-free motions that the supports of a model allow.
 class RigidMechanism {
  public:
   /// @param model kept by reference
-  /// @param one_sided whether supports that act on one side only are there (they count as glued)
+  /// @param one_sided true: one-sided supports are included, as bilateral; false: they are omitted
   RigidMechanism(const Model& model, bool one_sided);
 
   [[nodiscard]] const RigidParts& parts() const { return parts_; }
-  /// One vector of the rigid parts' unknowns a motion, orthonormal.
+  /// Orthonormal vectors over the rigid parts' unknowns.
   [[nodiscard]] const std::vector<Eigen::VectorXd>& motions() const { return motions_; }
-  /// Whether the parts are connected in too many ways to tell.
+  /// Whether the search was abandoned because the parts are connected in too many ways.
   [[nodiscard]] bool unknown() const { return unknown_; }
-  /// Displacements of the nodes (x, y, rotation each).
+  /// Displacements of the nodes, (x, y, rotation) each.
   [[nodiscard]] Eigen::VectorXd of_nodes(const Eigen::VectorXd& motion) const;
-  /// The node that moves most.
+  /// Index of the node with the largest displacement.
   [[nodiscard]] std::size_t node_of(const Eigen::VectorXd& motion) const;
-  /// The motion on which the loads of a pattern do work, if they do on any.
+  /// The motion on which the loads of a pattern do most work; empty when they do none.
   [[nodiscard]] std::optional<Eigen::VectorXd> driven_by(Pattern pattern) const;
 
  private:

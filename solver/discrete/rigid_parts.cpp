@@ -37,11 +37,11 @@ RigidParts::RigidParts(const Model& model)
   number_nodes();
 }
 
-/// Bodies are the connected parts of the graph of node rotations and members' unreleased ends.
+/// Finds the bodies: connected components of the graph of node rotations and unreleased member ends.
 void RigidParts::find_bodies() {
   std::vector<int> parent(nodes_.size());
   std::iota(parent.begin(), parent.end(), 0);
-  std::vector<char> turned(nodes_.size(), 0);  // by some member
+  std::vector<char> turned(nodes_.size(), 0);  // true: some member is not released there
   for (std::size_t m = 0; m < ends_.size(); ++m) {
     const Member& member = model_.members[m];
     if (!member.release_start_rotation) turned[ends_[m][0]] = 1;
@@ -68,7 +68,7 @@ void RigidParts::find_bodies() {
   }
 }
 
-/// The middle of a body is that of the nodes its members reach, its radius the distance of the furthest.
+/// Sets the middle of each body to the mean of its members' end nodes, its radius to the largest distance.
 void RigidParts::place_bodies() {
   std::vector<double> count(bodies_.size(), 0.0);
   for (std::size_t m = 0; m < ends_.size(); ++m) {
@@ -89,7 +89,7 @@ void RigidParts::place_bodies() {
   }
 }
 
-/// A node moves with the body that it turns with, or else with the first that is hinged there.
+/// Assigns each node to the body whose rotation it shares, or else to the first body hinged there.
 void RigidParts::number_nodes() {
   moves_with_ = turns_with_;
   for (std::size_t m = 0; m < ends_.size(); ++m)

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A structure of rigid members: what moves as one body, and what joins the bodies.
+/// Rigid bodies of a structure of rigid members, and the joints between them.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -16,15 +16,15 @@
 
 namespace snapthrough {
 
-/// @brief Small motions of a structure whose members do not deform.
+/// @brief Small motions of a structure with rigid members.
 ///
-/// Members that are joined without release are one body, with two displacements and a rotation about its
-/// middle (times its radius) as unknowns. A member released at both ends, a bar, has none of its own: its
-/// ends' displacements are its motion. Nodes that only bars reach have two unknowns. Lengths are over that of
-/// the longest member, relative to the first node. A frame of rigid joints is one body, however large it is.
+/// Members joined without release form one body, whose unknowns are two displacements and the rotation about
+/// its middle (times its radius). A member released at both ends is a bar without unknowns of its own; its
+/// end displacements define its motion. Nodes that only bars reach have two unknowns. Lengths are divided by
+/// that of the longest member, positions are relative to the first node.
 class RigidParts {
  public:
-  /// Linear functional of the unknowns; an unknown may be there several times.
+  /// Linear functional of the unknowns; an unknown may occur several times.
   using Row = std::vector<std::pair<int, double>>;
   using Point = std::array<double, 2>;
 
@@ -38,30 +38,29 @@ class RigidParts {
   [[nodiscard]] int member(const std::string& id) const { return member_index_.of(id); }
   [[nodiscard]] const Axes& axes() const { return axes_; }
   [[nodiscard]] Point place(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
-  /// At a fraction of a member.
+  /// Axis point at a fraction of a member.
   [[nodiscard]] AxisPoint place(int member, double fraction) const;
 
   /// Displacement of a node in a direction.
   [[nodiscard]] Row displacement(int node, Point direction) const;
-  /// Displacement of a point that moves with a member in a direction.
+  /// Displacement, in a direction, of a point that moves with a member.
   [[nodiscard]] Row displacement(int member, Point at, Point direction) const;
   /// Rotation of a member.
   [[nodiscard]] Row rotation(int member) const;
-  /// Rotation of a node; empty where all members are released.
+  /// Rotation of a node; empty when all members are released there.
   [[nodiscard]] Row node_rotation(int node) const;
-  /// Length by which a rotation moves what it turns: half a body's extent, or a bar's chord.
+  /// Lever of a rotation: half the extent of a body, or the chord of a bar.
   [[nodiscard]] double radius(int member) const;
   [[nodiscard]] double node_radius(int node) const;
 
-  /// Rows that are zero in a motion without strain: bars keep their length, bodies that meet in a node move
-  /// it alike.
+  /// Rows that vanish in a strain-free motion: bars keep their length, bodies meet at their common nodes.
   [[nodiscard]] std::vector<Row> joints() const;
-  /// Rotations of all bodies times the unit of length, and differences of displacement of all bars' ends.
+  /// Rotations of all bodies times the unit of length, and relative displacements of the ends of all bars.
   [[nodiscard]] std::vector<Row> turns() const;
 
  private:
   struct Body {
-    int first = 0;  ///< of its unknowns
+    int first = 0;  ///< index of the body's first unknown
     Point middle{};
     double radius = 0.0;
   };
@@ -86,13 +85,13 @@ class RigidParts {
   std::vector<Point> nodes_;
   std::vector<std::array<int, 2>> ends_;  ///< nodes of each member
   std::vector<Body> bodies_;
-  std::vector<int> body_of_member_;  ///< -1: a bar
-  std::vector<int> turns_with_;      ///< body that a node turns with, -1 when all members are released there
-  std::vector<int> moves_with_;      ///< body that a node moves with, -1 when only bars reach it
-  std::vector<int> first_of_node_;   ///< of its own unknowns, where it moves with no body
+  std::vector<int> body_of_member_;  ///< body of each member; -1: a bar
+  std::vector<int> turns_with_;     ///< body whose rotation a node shares; -1: all members are released there
+  std::vector<int> moves_with_;     ///< body whose displacement a node shares; -1: only bars reach the node
+  std::vector<int> first_of_node_;  ///< index of the node's own unknowns, if it moves with no body
 };
 
-/// @brief A matrix of rows.
+/// @brief Sparse matrix with the given rows.
 [[nodiscard]] Eigen::SparseMatrix<double> matrix_of(const std::vector<RigidParts::Row>& rows, int columns);
 
 }  // namespace snapthrough

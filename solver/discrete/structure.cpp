@@ -23,13 +23,13 @@ namespace {
 
 using Vec3 = std::array<double, 3>;
 
-/// Builds a Structure stage by stage; one object a call of make_structure.
+/// Builds a Structure stage by stage; one object per structure.
 class Builder {
  public:
-  /// @param laws the model with the supports that the equations have
+  /// @param laws model with opposite supports joined, for the equations
   Builder(const Model& model, const Model& laws, Structure& out) : model_(model), laws_(laws), out_(out) {}
 
-  /// @param known of another mesh or model; null: from the model itself
+  /// @param known scales of another mesh or model; null: from the model
   void set_scales(const Scales* known);
   void bound_stiffness();
   void add_unresolved();
@@ -37,11 +37,11 @@ class Builder {
   void number_unknowns();
   void add_elements();
   void add_supports();
-  /// @param load_scale of another mesh or model; empty: from the loads themselves
+  /// @param load_scale scale of another mesh or model; empty: from the loads
   void add_loads(std::optional<double> load_scale);
   void set_metric();
   void add_monitors();
-  /// The elements are complete.
+  /// Hands the complete elements over to the structure.
   void finish() { out_.elements = std::move(elements_); }
 
  private:
@@ -64,8 +64,7 @@ class Builder {
   void find_follower_ends(double load_scale);
   [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
 
-  /// Follower pressures of the elements, scaled, proportional and constant; set once the load's scale is
-  /// known.
+  /// Scaled follower pressure of an element, proportional and constant part; needs the load scale.
   struct ElementPressure {
     int element;
     double proportional;
@@ -77,7 +76,7 @@ class Builder {
   Structure& out_;
   std::unique_ptr<ElementSet> elements_;
   std::vector<ElementPressure> pressures_;
-  double strain_size_ = 0.0;  ///< forces that the proportional initial strains would need
+  double strain_size_ = 0.0;  ///< magnitude of the forces that the proportional initial strains correspond to
 };
 
 ElementShape shape_on(const Structure& out, const Model& model, int element, const StressFreeAxis& axis) {
@@ -100,7 +99,7 @@ ElementShape shape_on(const Structure& out, const Model& model, int element, con
     shape.shear_compliance.push_back(section.GA ? point.stretch * F / *section.GA : 0.0);
     shape.bending_compliance.push_back(point.stretch * F * L * L / section.EI);
   }
-  // close the chord exactly: then rigid motions of any structure are free of strain
+  // close the chord exactly, so that rigid motions are free of strain
   const StressFreePoint from = axis.at(length * e.from);
   const StressFreePoint to = axis.at(length * e.to);
   const std::array<double, 2> exact{(to.x - from.x) / L, (to.y - from.y) / L};
@@ -183,7 +182,7 @@ FoundationContact Builder::make_contact(int element, const FoundationLaw& founda
                            index);
 }
 
-/// A foundation of the model: where it lies, as results are read from it.
+/// Adds the part of a foundation on an element, for results.
 void Builder::add_foundation(int element, int index) {
   const Foundation& foundation = model_.foundations[index];
   const auto range = part_of(out_.mesh.elements[element], foundation.range);
@@ -193,7 +192,7 @@ void Builder::add_foundation(int element, int index) {
     out_.foundation_parts.back().contact = make_contact(element, out_.foundation_laws[index], index, range);
 }
 
-/// A foundation as it acts in the equations.
+/// Adds a foundation on an element to the equations.
 void Builder::add_foundation_law(int element, int index) {
   const Foundation& foundation = laws_.foundations[index];
   const auto range = part_of(out_.mesh.elements[element], foundation.range);
@@ -210,7 +209,7 @@ void Builder::add_foundation_law(int element, int index) {
       elements_->add_spring(support);
 }
 
-/// A one-sided foundation on an element: the parts that touch without pressure apart from the rest.
+/// Adds a one-sided foundation on an element, split into ranges with and without a known touching state.
 void Builder::add_contacts(int element, int index) {
   const Foundation& foundation = laws_.foundations[index];
   const FoundationLaw law = law_of(foundation, out_.scales);
@@ -270,7 +269,7 @@ void Builder::add_elements() {
   add_unresolved();
 }
 
-/// Says which foundations are stiffer than they act.
+/// Adds a message for each foundation whose stiffness was bounded.
 void Builder::add_unresolved() {
   std::vector<double> least;
   least.reserve(out_.foundation_laws.size());
@@ -395,7 +394,7 @@ void Builder::add_initial_strain(const InitialStrain& load) {
   }
 }
 
-/// Scales the load factor so that the actions by unit scaled factor add up to the order of one.
+/// Scales the load factor so that the magnitudes of all actions at unit scaled factor add up to one.
 void Builder::scale_loads(std::optional<double> load_scale) {
   double total = strain_size_;
   for (int j = 0; j < 3 * out_.nodes + out_.releases; ++j) total += std::abs(out_.proportional_load[j]);
@@ -416,7 +415,7 @@ void Builder::scale_loads(std::optional<double> load_scale) {
   find_follower_ends(total);
 }
 
-/// Whether constant actions do more than press on what holds them.
+/// Whether constant actions cause displacements, and not only reactions of rigid supports.
 bool Builder::is_moved_by_constant_actions() const {
   for (const ElementPressure& p : pressures_)
     if (p.constant != 0.0) return true;
@@ -430,11 +429,12 @@ bool Builder::is_moved_by_constant_actions() const {
     free.segment<2>(3 * node) = along;
     if (support.fixed[2]) free[3 * node + 2] = 0.0;
   }
+  // force over the largest constant action that counts as zero
   constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
   return free.lpNorm<Eigen::Infinity>() > kRounding * out_.constant_load.lpNorm<Eigen::Infinity>();
 }
 
-/// Nodes that are free to move where the pressures of the lines that meet don't cancel.
+/// Finds movable nodes where the pressures of the adjacent lines do not cancel.
 void Builder::find_follower_ends(double load_scale) {
   std::vector<FollowerEnd> sums(static_cast<std::size_t>(out_.nodes));
   for (const ElementPressure& p : pressures_) {
@@ -557,8 +557,8 @@ SparseRow displacement_row(const Structure& structure, const Model& model, const
 
 namespace {
 
-/// Everything that follows from the model, the axes, the geometry and the mesh, which are set.
-/// @param scales null: the model's own
+/// Fills all data that follow from the model, the axes, the geometry and the mesh, which are already set.
+/// @param scales null: computed from the model
 void fill(const Model& model, const Scales* scales, Structure& out) {
   const std::optional<Model> joined = with_joined_supports(model);
   const Model& laws = joined ? *joined : model;
@@ -591,7 +591,7 @@ void fill(const Model& model, const Scales* scales, Structure& out) {
   out.free_displacements = 3 * out.nodes + out.releases;
   for (const NodeSupport& support : out.supports)
     for (const bool fixed : support.fixed) out.free_displacements -= fixed ? 1 : 0;
-  // nodes between elements, and the P - 1 interior nodes that an element of order P has
+  // add the nodes between elements, and the P - 1 interior nodes of each element of order P
   for (std::size_t m = 0; m + 1 < out.mesh.first.size(); ++m) {
     const int n = out.mesh.first[m + 1] - out.mesh.first[m];
     out.free_displacements += 3 * (n - 1) + 3 * (p - 1) * n;

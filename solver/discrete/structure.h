@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A model on a mesh, in scaled units: the data of the equilibrium problem.
+/// A model on a mesh in scaled units: the data of the equilibrium problem.
 
 #include <Eigen/Core>
 #include <array>
@@ -23,26 +23,26 @@
 
 namespace snapthrough {
 
-/// Support of a node. Components 0, 1 are along axes turned by `angle`, 2 is the rotation.
+/// Support of a node: components 0 and 1 along axes rotated by `angle` (rad), component 2 is the rotation.
 struct NodeSupport {
   std::array<bool, 3> fixed{};
   double angle = 0.0;
-  std::array<double, 3> proportional{};  ///< prescribed displacement by unit scaled load factor
+  std::array<double, 3> proportional{};  ///< prescribed displacement per unit scaled load factor
   std::array<double, 3> constant{};
 };
 
-/// Spring at a node: reacts along `row` (x, y, rotation).
+/// Spring at a node, acting along `row` (x, y, rotation).
 struct NodeSpring {
   int node = 0;
   std::array<double, 3> row{};
   Law law;
   Touch touch = Touch::none;
-  int spring = -1;  ///< its number among the springs
+  int spring = -1;  ///< index among the springs
 };
 
-/// @brief One-sided supports that touch without pressure, and which of them the motion of least load meets.
+/// @brief One-sided supports that touch without pressure, and which of them the critical motion moves into.
 ///
-/// Numbers are those of with_joined_supports(), or of the model where nothing is joined.
+/// Indices are those of with_joined_supports(), or of the model if no supports are joined.
 struct TouchingSupports {
   struct FoundationRange {
     int foundation = 0;
@@ -53,10 +53,10 @@ struct TouchingSupports {
     int spring = 0;
     Touch touch = Touch::none;
   };
-  std::vector<FoundationRange> foundations;  ///< of each foundation ascending, none twice
+  std::vector<FoundationRange> foundations;  ///< ascending for each foundation, without overlap
   std::vector<Spring> springs;
-  Eigen::VectorXd motion;  ///< of least load: unknowns of the mesh where it was found
-  double reference = 0.0;  ///< load factor under which they touch
+  Eigen::VectorXd motion;  ///< critical motion: unknowns of the mesh on which it was found
+  double reference = 0.0;  ///< load factor at which the supports touch
 };
 
 /// Linear functional of the unknowns.
@@ -69,88 +69,86 @@ struct SparseRow {
   }
 };
 
-/// A monitor in the user's units.
+/// Row that evaluates a monitor in the user's units.
 struct MonitorRow {
   std::string id;
   SparseRow row;
 };
 
-/// Where a foundation lies on the mesh.
+/// Part of an element covered by a foundation.
 struct FoundationPart {
   int foundation = 0;
   int element = 0;
-  std::array<double, 2> range{0.0, 1.0};     ///< of the element
-  std::optional<FoundationContact> contact;  ///< of a one-sided foundation, also where the mesh lumps it
+  std::array<double, 2> range{0.0, 1.0};     ///< fraction of the element
+  std::optional<FoundationContact> contact;  ///< for one-sided foundations, also with lumping
 };
 
-/// @brief Everything that assembly needs, built once for a model and a mesh; const from then on.
+/// @brief All data for assembly, built once for a model and a mesh; constant afterwards.
 struct Structure {
   Scales scales;
   Mesh mesh;
   Geometry geometry = Geometry::nonlinear;
-  Axes axes;                       ///< relative to `origin`
-  std::array<double, 2> origin{};  ///< the first node: far from the axes' origin nothing loses digits
-  std::vector<std::shared_ptr<const StressFreeAxis>> stress_free;  ///< of each member, with its imperfections
-  Eigen::Index size = 0;                                           ///< unknowns of the mixed problem
-  int free_displacements = 0;  ///< of them, free displacement unknowns (interiors included, releases counted)
+  Axes axes;  ///< relative to `origin`
+  /// Coordinates of the first node, subtracted to preserve digits far from the axes' origin.
+  std::array<double, 2> origin{};
+  std::vector<std::shared_ptr<const StressFreeAxis>> stress_free;  ///< one per member, with imperfections
+  Eigen::Index size = 0;       ///< number of unknowns of the mixed problem
+  int free_displacements = 0;  ///< number of unconstrained displacements, with element interiors and releases
   int nodes = 0;
-  int releases = 0;  ///< scalar rotations of released member ends, after the nodes' unknowns
+  /// Number of rotations of released member ends; their unknowns follow those of the nodes.
+  int releases = 0;
   std::unique_ptr<const ElementSet> elements;
-  std::vector<ElementDofs> dofs;      ///< of each element
-  std::vector<NodeSupport> supports;  ///< of each node
+  std::vector<ElementDofs> dofs;      ///< one per element
+  std::vector<NodeSupport> supports;  ///< one per node
   std::vector<NodeSpring> node_springs;
-  std::vector<FoundationLaw>
-      foundation_laws;                 ///< of each foundation of the model, as results are read from it
-  std::vector<SpringLaw> spring_laws;  ///< of each spring of the model
-  /// Of each element: the largest stiffness of a one-sided foundation that acts on it
-  /// (`Mesh::decay_lengths`).
+  std::vector<FoundationLaw> foundation_laws;  ///< one per foundation of the model
+  std::vector<SpringLaw> spring_laws;          ///< one per spring of the model
+  /// Largest stiffness of a one-sided foundation on each element, for `Mesh::decay_lengths`.
   std::vector<double> stiffest;
-  Eigen::VectorXd proportional_load;  ///< by unit scaled load factor
+  Eigen::VectorXd proportional_load;  ///< load per unit scaled load factor
   Eigen::VectorXd constant_load;
   Eigen::VectorXd metric;
   std::vector<MonitorRow> monitors;
   std::vector<FoundationPart> foundation_parts;
   std::vector<std::string> skipped;
   std::vector<FollowerEnd> follower_ends;
-  std::vector<double> euler_loads;  ///< pi^2 EI / l^2 of each member
-  std::vector<double>
-      foundation_loads;  ///< 2 sqrt(K EI) + G of the foundations of each member: what they can add to that
-  TouchingSupports touching;  ///< empty unless they were looked for
-  bool one_sided = false;     ///< some foundation or spring is not bilateral
-  bool has_constant = false;  ///< actions of the constant pattern move it
-  std::stop_token stop;       ///< who computes with it looks at this
-  /// Motions of the nodes (x, y, rotation each, scaled) that supports of one side alone can resist, or
-  /// nothing; orthonormal columns.
+  std::vector<double> euler_loads;       ///< pi^2 EI / l^2 of each member
+  std::vector<double> foundation_loads;  ///< increase of euler_loads by foundations: 2 sqrt(K EI) + G
+  TouchingSupports touching;             ///< empty unless touching supports were searched for
+  bool one_sided = false;                ///< some foundation or spring is not bilateral
+  bool has_constant = false;             ///< constant actions cause displacements
+  std::stop_token stop;                  ///< cancels computations on the structure
+  /// Node motions (x, y, rotation each, scaled) that only one-sided supports can resist; orthonormal columns.
   Eigen::MatrixXd free_motions;
 };
 
-/// The law of a foundation as it acts on an element.
+/// Law of a foundation on an element, with its stiffness bounded by Structure::stiffest.
 [[nodiscard]] FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element);
 
-/// @brief Builds the structure.
+/// @brief Builds the structure of a model.
 /// @pre the model passed the reference and range checks of check()
 [[nodiscard]] Structure make_structure(const Model& model, const Discretization& discretization,
                                        Geometry geometry, const ModeOffsets& modes = {},
                                        MeshUse use = MeshUse::final);
-/// @brief The structure of the same model, with the same imperfections and scales, on another mesh.
+/// @brief Builds the structure of the same model, imperfections and scales on another mesh.
 [[nodiscard]] Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh);
-/// @brief The same structure, in which it is known what supports do that touch without pressure.
+/// @brief Builds the same structure with a known state of the supports that touch without pressure.
 [[nodiscard]] Structure with_touching(const Structure& structure, const Model& model,
                                       TouchingSupports touching);
 
-/// @brief The structure of a changed model with the same members: its unknowns, elements and scales are those
-/// of the structure, so that one state means the same in both.
-/// @param model of the structure
+/// @brief Builds the structure of a changed model with the same members. Unknowns, elements and scales
+/// remain, so that a state vector has the same meaning in both.
+/// @param model model of `structure`
 /// @param modes offsets of the changed model's mode imperfections
 /// @pre the changed model passed check()
 [[nodiscard]] Structure with_changed_model(const Structure& structure, const Model& model,
                                            const Model& changed, const ModeOffsets& modes);
 
-/// @brief Foundations and springs that are left out because their stiffness is zero, in words.
+/// @brief Messages on foundations and springs that are omitted because their stiffness is zero.
 [[nodiscard]] std::vector<std::string> without_stiffness(const Model& model);
 
-/// @brief Functional that reads the displacement along (dx, dy), or the rotation, at a place.
-/// @param row (x, y, rotation) weights at that place
+/// @brief Functional row . (x, y, rotation) of the displacement at a location.
+/// @param row weights of (x, y, rotation)
 [[nodiscard]] SparseRow displacement_row(const Structure& structure, const Model& model, const Location& at,
                                          std::array<double, 3> row);
 
@@ -159,7 +157,7 @@ struct Structure {
 /// @brief Length of an element, scaled.
 [[nodiscard]] double length_of_element(const Structure& structure, int element);
 
-/// Element of a member and local coordinate in [0, 1] at a fraction of its length.
+/// Element of a member, and its local coordinate in [0, 1], at a fraction of the member's length.
 struct MeshPlace {
   int element = 0;
   double xi = 0.0;

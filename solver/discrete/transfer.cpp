@@ -10,14 +10,14 @@
 namespace snapthrough {
 namespace {
 
-/// Sum of the first `order` of l times the values from y[first] on.
+/// Sum of the first `order` weights l times the values from y[first] on.
 double sum_of(const std::array<double, kMaxOrder>& l, int order, const Eigen::VectorXd& y, int first) {
   double sum = 0.0;
   for (int q = 0; q < order; ++q) sum += l[q] * y[first + q];
   return sum;
 }
 
-/// Transfers one element of `to` from the element of `from` that holds it.
+/// Transfers the state to one element of `to` from the element of `from` that contains it.
 void transfer_element(const Structure& from, const Eigen::VectorXd& y, const Structure& to, int element,
                       Eigen::VectorXd& out) {
   const MeshElement& cell = to.mesh.elements[element];
@@ -37,11 +37,11 @@ void transfer_element(const Structure& from, const Eigen::VectorXd& y, const Str
       out[dofs.s + c * p + q] = sum_of(l, source_order, y, old.s + c * source_order);
     }
   }
-  // the element that ends here or holds the end
+  // the element that ends at this place or contains it
   MeshPlace end = place_of(from.mesh, cell.member, cell.to);
   if (end.xi == 0.0 && end.element > from.mesh.first[cell.member]) end = {end.element - 1, 1.0};
   const std::array<double, 3> u = ElementReader(from, y, end.element).displacement(end.xi);
-  // the multiplier enters the equations linearly: any value does
+  // the multiplier enters the equations linearly, so that any value is a valid starting point
   for (int c = 0; c < 3; ++c) out[dofs.m + c] = y[from.dofs[end.element].m + c];
   const bool inside = dofs.b[0] >= 3 * to.nodes + to.releases;
   for (int c = 0; inside && c < 3; ++c) out[dofs.b[c]] = u[c];

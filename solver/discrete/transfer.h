@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The same state on another mesh.
+/// Transfer of a state to another mesh.
 
 #include <Eigen/Core>
 
@@ -8,11 +8,11 @@
 
 namespace snapthrough {
 
-/// @brief The unknowns of one structure read off those of another one of the same model.
+/// @brief Evaluates the state of one structure at the unknowns of another structure of the same model.
 ///
-/// Displacements at element ends, their gradients and the stresses at the Gauss points are the values of the
-/// other mesh's polynomials there, so going to a finer mesh of nested elements and no lower order changes
-/// nothing but the integrals. Linear in `y`: tangents are transferred by it, too.
+/// Displacements at element ends, their gradients and the section forces at Gauss points are evaluated from
+/// the polynomials of the first mesh. On a nested finer mesh of no lower order only the integrals change. The
+/// transfer is linear in `y` and therefore also applies to tangents.
 /// @param y unknowns of `from`, scaled
 /// @pre both structures were built from one model and have the same scales
 [[nodiscard]] Eigen::VectorXd transfer(const Structure& from, const Eigen::VectorXd& y, const Structure& to);

@@ -20,19 +20,17 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Row = RigidParts::Row;
 
-/// Share of the loads on a group of supports that each of its independent supports must be able to press
-/// with: loads nearer than that to the limit of what is held count as not held. Far above rounding, and far
-/// below what is known of any load.
+/// Least share of the loads on a group that each independent support must be able to carry; loads closer to
+/// the limit of equilibrium count as not held. Far above rounding, far below the accuracy of any load.
 constexpr double kMargin = 1e-8;
-/// Residual, over the load, below which pressures balance it: some thousand roundings, far below what the
-/// margin leaves of a load at the limit.
+/// Residual over the load below which pressures balance the load: some thousand roundings, far below kMargin.
 constexpr double kBalanced = 1e-12;
-/// Share of the sizes of forces, or of a support's row, below which their sum on free motions is rounding of
-/// coordinates.
+/// Sum of forces on free motions over the sum of their magnitudes (or of a support row's entries) that counts
+/// as zero: rounding of coordinates.
 constexpr double kNothing = 1e-9;
-/// Cosine of the angle between the rows of two supports below which they have nothing in common.
+/// Cosine of the angle between two supports' rows below which the supports are uncoupled.
 constexpr double kUncoupled = 1e-9;
-/// Share of the constant actions that the first proportional ones count for, where both act.
+/// Factor on the proportional actions, relative to the constant ones, that stands for a very small load.
 constexpr double kFirstLoad = 1e-6;
 
 void append(const VectorXd& column, MatrixXd& matrix) {
@@ -40,7 +38,7 @@ void append(const VectorXd& column, MatrixXd& matrix) {
   matrix.rightCols(1) = column;
 }
 
-/// The columns of a matrix that span it best, one by one (QR with pivoting).
+/// Independent columns that span a matrix, by pivoted QR.
 MatrixXd independent_columns(const MatrixXd& columns) {
   Eigen::ColPivHouseholderQR<MatrixXd> factors(columns);
   factors.setThreshold(kUncoupled);
@@ -55,10 +53,11 @@ MatrixXd orthonormal_span(const MatrixXd& columns) {
   return factors.householderQ() * MatrixXd::Identity(columns.rows(), factors.rank());
 }
 
-/// Place of the maximum of a smooth function that has one in an interval (golden section).
+/// Position of the maximum of a unimodal function on an interval (golden section search).
 template <class Function>
 double place_of_maximum(double lo, double hi, const Function& value) {
-  constexpr int kMostSteps = 48;  // 1e-10 of the interval: the value there is exact to rounding
+  // interval reduced to 1e-10, at which the maximum value is exact to rounding
+  constexpr int kMostSteps = 48;
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
   double left = hi - golden * (hi - lo);
   double right = lo + golden * (hi - lo);
@@ -100,7 +99,7 @@ VectorXd UnilateralBalance::on_motions(const Row& row) const {
   return out;
 }
 
-/// Empty where the free motions do not move the support.
+/// Normalised row on the free motions; empty when they do not move the support.
 std::optional<VectorXd> UnilateralBalance::unit_row(const Row& row) const {
   double size = 0.0;
   for (const auto& [unknown, weight] : row) size += std::abs(weight);
@@ -143,14 +142,14 @@ void UnilateralBalance::add(const Foundation& foundation) {
     add_support(rows, nullptr);
     return;
   }
-  // enough to span the rows of all other places
+  // enough rows to span those of all other positions
   constexpr int kFirstPlaces = 6;
   for (const double point : gauss_legendre(kFirstPlaces).points)
     rows.push_back(row_at(whole, from + point * (to - from)));
   add_support(rows, &whole);
 }
 
-/// Adds a support's rows to the group that they belong to; groups that they couple become one.
+/// Adds a support's rows to their group; merges groups that the rows couple.
 void UnilateralBalance::add_support(const std::vector<Row>& rows, const CurvedSupport* curved) {
   Group joined;
   joined.rows.resize(motions_.motions().cols(), 0);
@@ -168,7 +167,7 @@ void UnilateralBalance::add_support(const std::vector<Row>& rows, const CurvedSu
     }
     ++absorbed;
     const bool spans = (joined.rows - group->basis * common).lpNorm<Eigen::Infinity>() <= kUncoupled;
-    if (absorbed == 1 && spans) {  // as most supports of many do: nothing else is coupled then
+    if (absorbed == 1 && spans) {  // the usual case: no other group is coupled
       MatrixXd both(joined.rows.rows(), group->rows.cols() + joined.rows.cols());
       both << group->rows, joined.rows;
       group->rows = std::move(both);
@@ -199,7 +198,7 @@ void UnilateralBalance::close_groups() {
 void UnilateralBalance::add_loads() {
   const Index unknowns = motions_.motions().rows();
   for (Group& group : groups_) {
-    MatrixXd seen = motions_.motions() * group.basis;  // work of unit forces on the unknowns
+    MatrixXd seen = motions_.motions() * group.basis;  // work of unit forces per unknown
     seen = (seen.array().abs() > kNothing).select(seen, 0.0).eval();
     const VectorXd weights = seen.rowwise().norm();
     VectorXd constant = VectorXd::Zero(unknowns);
@@ -231,14 +230,14 @@ std::optional<VectorXd> UnilateralBalance::row_in(const Group& group, const Curv
   return out / out.norm();
 }
 
-/// Adds the rows of the places on curved supports that a motion enters most: of each maximum.
-/// @param tolerance cosine that is none
-/// @return false: it enters none
+/// Adds, for each curved support, the rows at the maxima of a motion's displacement into the support.
+/// @param tolerance displacement (a cosine) that counts as zero
+/// @return false when the motion enters no support
 bool UnilateralBalance::add_entered(const Group& group, const VectorXd& motion, double tolerance,
                                     MatrixXd& rows) const {
-  // places by half a turn of the axis, in which a motion into a support has one maximum or two
+  // sampling of the axis per half turn, within which the displacement into a support has one or two maxima
   constexpr double kPlacesByHalfTurn = 16.0;
-  constexpr std::size_t kPlacesByKnot = 4;
+  constexpr std::size_t kPlacesByKnot = 4;  // sampling per spline knot
   const Index before = rows.cols();
   for (const CurvedSupport& support : group.curved) {
     const AxisCurve& axis = *motions_.parts().axes()[static_cast<std::size_t>(support.member)];
@@ -268,8 +267,8 @@ bool UnilateralBalance::add_entered(const Group& group, const VectorXd& motion, 
 
 namespace {
 
-/// The direction of a residual, orthogonal to the rows with pressure to the last digit: a small one is known
-/// to a few digits only.
+/// Direction of a residual, re-orthogonalised to the rows with pressure, because a small residual has few
+/// accurate digits.
 VectorXd off_pressed(const MatrixXd& rows, const NonnegativeSolution& found) {
   std::vector<Index> pressed;
   for (Index j = 0; j < found.x.size(); ++j)
@@ -282,16 +281,16 @@ VectorXd off_pressed(const MatrixXd& rows, const NonnegativeSolution& found) {
 
 }  // namespace
 
-/// What no pressures of a group's supports balance of a force: a direction of length one that enters none of
-/// them; empty: they balance it.
-/// @param force zero: whether pressures can be in balance by themselves, each of them positive
-/// @param margin share of the force that each independent support must be able to press with
+/// Direction of the part of a force that the supports of a group cannot balance: length one, entering no
+/// support; empty when they balance the force.
+/// @param force zero: tests whether positive pressures can be in equilibrium by themselves
+/// @param margin share of the force that each independent support must be able to carry
 std::optional<VectorXd> UnilateralBalance::unbalanced(const Group& group, const VectorXd& force,
                                                       double margin) const {
   constexpr int kMostRounds = 100;
-  constexpr double kShareOfResidual = 1e-3;  // by which a motion may enter a support, over what it misses
-  constexpr double kEntered = 1e-8;          // by which it may do so at most,
-  constexpr double kRounding = 1e-13;        // and what is rounding
+  constexpr double kShareOfResidual = 1e-3;  // allowed displacement into a support over the residual
+  constexpr double kEntered = 1e-8;          // upper limit of the allowed displacement
+  constexpr double kRounding = 1e-13;        // lower limit of the allowed displacement: rounding
   const double size = force.norm();
   const VectorXd wanted =
       size > 0.0 ? VectorXd(force / size - margin * group.inside) : VectorXd(-group.inside.normalized());
@@ -352,7 +351,8 @@ std::optional<Escape> UnilateralBalance::escape_at_start(double direction) const
 }
 
 double UnilateralBalance::largest_held(double held, double beyond) const {
-  constexpr double kPrecision = 1e-11;  // relative; what counts as balanced is not more exact
+  // relative width of the final bracket; balance is not determined more exactly
+  constexpr double kPrecision = 1e-11;
   while (std::abs(beyond - held) > kPrecision * std::abs(beyond)) {
     const double middle = 0.5 * (held + beyond);
     if (middle == held || middle == beyond) break;

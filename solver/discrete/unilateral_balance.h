@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Whether one-sided supports can carry loads.
+/// Equilibrium of loads on one-sided supports.
 
 #include <Eigen/Core>
 #include <array>
@@ -12,70 +12,70 @@
 
 namespace snapthrough {
 
-/// Factors on the actions of both patterns.
+/// Factors on the constant and on the proportional actions.
 struct ActionFactors {
   double constant = 1.0;
   double proportional = 0.0;
 };
 
-/// A motion on which loads are not held.
+/// Free motion that the supports do not prevent.
 struct Escape {
-  Eigen::VectorXd motion;  ///< unknowns of the rigid parts; length one. It enters no one-sided support
-  bool driven = false;    ///< the loads do work on it; false: they do none, and its opposite enters a support
-  ActionFactors actions;  ///< under which it escapes
+  Eigen::VectorXd motion;  ///< unknowns of the rigid parts, length one; enters no one-sided support
+  bool driven = false;  ///< true: the loads do work on it; false: no work, and its opposite enters a support
+  ActionFactors actions;  ///< actions under which the motion occurs
 };
 
 /// @brief Condition for equilibrium on one-sided supports (G. Fichera, Mem. Accad. Naz. Lincei 7 (1964) 91;
 /// Handbuch der Physik VIa/2, 1972).
 ///
-/// With V the free motions, g_i the displacement into the medium at each place of a one-sided support, as
-/// functionals on V, and K the motions v in V with g_i.v <= 0 for all i (gaps do not matter: K is the cone of
-/// what can go on for ever), loads F are held if and only if F.v <= 0 on K, and F.v = 0 only where -v is in K
-/// too. Equivalently there are pressures p_i > 0 with F = sum p_i g_i: F is in the relative interior of the
-/// cone of the g_i. That is asked by non-negative least squares: its solution is the pressures, or else its
-/// residual is the motion that escapes.
+/// V: the free motions. g_i: displacement into the medium at each place of a one-sided support, as functional
+/// on V. K: the motions v in V with g_i.v <= 0 for all i (gaps are irrelevant, because K holds motions of
+/// unlimited size). Loads F are in equilibrium if and only if F.v <= 0 on K, and F.v = 0 only if -v is in K,
+/// too. Equivalently F = sum p_i g_i with p_i > 0: F is in the relative interior of the cone of the g_i.
+/// Non-negative least squares decides: the solution gives the pressures, or the residual is the escaping
+/// motion.
 ///
-/// Along a straight support g is linear in the place, so that its ends decide. Along a curved one the place
-/// that the escaping motion enters most is added until there is none.
+/// On a straight support g is linear in position, so that the ends of the support suffice. On a curved one,
+/// the position that the escaping motion enters most is added until none is entered.
 class UnilateralBalance {
  public:
-  /// @param motions kept by reference, must outlive this
+  /// @param motions kept by reference; must outlive this object
   explicit UnilateralBalance(const FreeMotions& motions);
 
   [[nodiscard]] const FreeMotions& motions() const { return motions_; }
-  /// Whether constant actions load no part that one-sided supports alone hold: then load factors of one sense
-  /// are all held or none.
+  /// Whether the constant actions do not load parts that only one-sided supports hold; then all load factors
+  /// of one sign are held, or none.
   [[nodiscard]] bool is_proportional() const;
-  /// @brief How the constant actions and `factor` times the proportional ones escape; empty: they are held.
-  /// Parts that no action loads are at rest unloaded where `factor` is zero.
+  /// @brief Motion on which the constant actions plus `factor` times the proportional ones escape; empty: the
+  /// actions are held. With `factor` zero, parts without any action are at rest.
   [[nodiscard]] std::optional<Escape> escape(double factor) const;
-  /// @brief How the constant actions and all sufficiently small loads of one sense escape; empty: they are
+  /// @brief Motion on which the constant actions plus arbitrarily small loads of one sign escape; empty:
   /// held.
   /// @param direction of the load factor: 1 or -1
   [[nodiscard]] std::optional<Escape> escape_at_start(double direction) const;
-  /// @brief The limit of what is held between a load factor that is and one that is not, to 1e-10.
+  /// @brief Limit of held load factors between one that is held and one beyond, to a relative 1e-11.
   [[nodiscard]] double largest_held(double held, double beyond) const;
 
  private:
-  /// A one-sided foundation on a curved member.
+  /// One-sided foundation on a curved member.
   struct CurvedSupport {
     int member = 0;
     std::array<double, 2> range{};  ///< fractions of the member
     Direction direction;
   };
-  /// Forces of one pattern on a group, and the sum of their sizes, which rounding is a share of.
+  /// Forces of one pattern on a group, with the sum of their magnitudes as reference for rounding.
   struct Forces {
     Eigen::VectorXd sum;
     double size = 0.0;
     [[nodiscard]] bool vanish() const;
   };
-  /// One-sided supports whose rows span one subspace of V that those of all others are orthogonal to: each
-  /// group is balanced by itself, relative to its own loads.
+  /// One-sided supports whose rows span a subspace of V that is orthogonal to all other rows. Each group is
+  /// in equilibrium by itself, relative to its own loads.
   struct Group {
     Eigen::MatrixXd basis;  ///< orthonormal columns in V that span the rows
-    Eigen::MatrixXd rows;   ///< unit columns: in V while groups are found, then by the basis
+    Eigen::MatrixXd rows;   ///< unit columns: in V while groups are formed, then in coordinates of the basis
     std::vector<CurvedSupport> curved;
-    Eigen::VectorXd inside;  ///< a force in the relative interior of the cone of the rows
+    Eigen::VectorXd inside;  ///< force in the relative interior of the cone of the rows
     Forces constant;
     Forces proportional;
   };

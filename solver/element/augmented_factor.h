@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// L D L^T of a small symmetric matrix together with six columns beside it, of fixed size and without heap.
+/// L D L^T factorisation of a small symmetric matrix with six border columns; fixed size, no heap memory.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace snapthrough {
 
-/// Doubles in one block: rows are worked on, and padded to, whole blocks.
+/// Doubles per block; rows are padded to whole blocks, and loops run over whole blocks.
 inline constexpr int kBlock = 4;
 [[nodiscard]] constexpr int padded(int n) { return (n + kBlock - 1) / kBlock * kBlock; }
 
@@ -20,14 +20,14 @@ using ConstBlock = Eigen::Map<const Lanes, Eigen::Aligned32>;
 
 inline void store(const Lanes& lanes, double* to) { Block{to} = lanes; }
 
-/// y -= f x over the blocks from the one that holds `first` on.
+/// y -= f x, from the block that contains index `first` to the end.
 /// @pre y and x aligned to 32 bytes, `Width` whole blocks
 template <int Width>
 inline void subtract_scaled(double* y, const double* x, double f, int first) {
   for (int b = first / kBlock * kBlock; b < Width; b += kBlock) Block(y + b) -= f * ConstBlock(x + b);
 }
 
-/// x.y over the blocks from the one that holds `first` on.
+/// x.y, from the block that contains index `first` to the end.
 template <int Width>
 [[nodiscard]] inline double dot_from(const double* x, const double* y, int first) {
   Lanes sum = Lanes::Zero();
@@ -35,9 +35,9 @@ template <int Width>
   return sum.sum();
 }
 
-/// @brief The upper triangle of a symmetric matrix of N rows and six more, by rows of whole blocks.
+/// @brief Upper triangle of a symmetric matrix with N rows and six border rows, stored in whole blocks.
 ///
-/// What is left of the diagonal within its block is arbitrary, what is beyond the last column zero.
+/// Entries left of the diagonal within its block are arbitrary; entries beyond the last column are zero.
 template <int N>
 struct AugmentedMatrix {
   static constexpr int kSides = 6;
@@ -51,7 +51,7 @@ struct AugmentedMatrix {
   void set_zero() {
     for (auto& row : rows) row.fill(0.0);
   }
-  /// A vector as long as a row, and what its square is multiplied by.
+  /// Vector x of row length with the weight of x x^T.
   struct Weighted {
     alignas(32) std::array<double, kWidth> x;
     double weight;
@@ -67,7 +67,7 @@ struct AugmentedMatrix {
   void add_squares_from(const Weighted* x, std::size_t count, std::integer_sequence<int, R...>) {
     (add_squares_to_block<First, R>(x, count), ...);
   }
-  /// Block row R: what is added to one row stays in registers.
+  /// Adds to block row R; the sums of one row stay in registers.
   template <int First, int R>
   void add_squares_to_block(const Weighted* x, std::size_t count) {
     constexpr int blocks = kWidth / kBlock - R;
@@ -84,19 +84,19 @@ struct AugmentedMatrix {
   }
 };
 
-/// @brief [S B] reduced to [D L^T  L^-1 B] for S = L D L^T of N rows, and B of six columns.
+/// @brief Factors [D L^T  L^-1 B] of [S B] for S = L D L^T with N rows and B with six columns.
 ///
-/// Rows have zeros up to and on the diagonal, so that every inner loop runs over whole blocks.
+/// Stored rows are zero up to and including the diagonal, so that every inner loop runs over whole blocks.
 template <int N>
 class AugmentedFactor {
  public:
   using Matrix = AugmentedMatrix<N>;
   static constexpr int kWidth = Matrix::kWidth;
 
-  /// @brief Eliminates the first N rows of `a` = [S B; B^T C]; pivots of exactly zero become tiny.
+  /// @brief Eliminates the first N rows of `a` = [S B; B^T C]; pivots that are exactly zero become 1e-300.
   ///
-  /// Row by row, each with all pivots above it, so that a row stays in registers. On return the last six rows
-  /// of `a` hold the upper triangle of C - B^T S^-1 B.
+  /// Elimination goes row by row, so that a row stays in registers. On return the last six rows of `a` hold
+  /// the upper triangle of C - B^T S^-1 B.
   /// @param pivots the diagonal of D
   void factorise(Matrix& a, std::array<double, N>& pivots) {
     factorise_blocks(a, pivots, std::make_integer_sequence<int, kWidth / kBlock>());
@@ -107,8 +107,9 @@ class AugmentedFactor {
   void forward(double* x) const {
     for (int k = 0; k < N; ++k) subtract_scaled<kWidth>(x, rows_[k].data(), inverses_[k] * x[k], k + 1);
   }
-  /// @brief y := S^-1 (r - B sides) from x = L^-1 r; y holds `sides` in the six entries after its first N.
-  /// @pre y aligned, kWidth long, zero but for the sides
+  /// @brief y := S^-1 (r - B sides) from x = L^-1 r; on entry y holds `sides` in the six entries after the
+  /// first N.
+  /// @pre y aligned, kWidth long, zero except `sides`
   void backward(const double* x, double* y) const {
     backward_rows(x, y, std::make_integer_sequence<int, N>());
   }
@@ -118,8 +119,8 @@ class AugmentedFactor {
   void backward_rows(const double* x, double* y, std::integer_sequence<int, K...>) const {
     (backward_row<N - 1 - K>(x, y, std::make_integer_sequence<int, K + Matrix::kSides>()), ...);
   }
-  /// Number by number, the one that was found last at the end: blocks of y would have to wait for the parts
-  /// that were just written.
+  /// Substitutes entry by entry, the newest entry of y last: whole blocks of y would wait for entries just
+  /// written.
   template <int K, int... J>
   void backward_row(const double* x, double* y, std::integer_sequence<int, J...>) const {
     double sum = x[K];

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The elements of one order P as they are made: nothing of a state. Included only by the files that
-/// instantiate it.
+/// Geometry, sections and supports of the elements of one order P, independent of any state. Included only by
+/// the files that instantiate ElementSetOf.
 
 #include <Eigen/Core>
 #include <array>
@@ -27,13 +27,14 @@ struct ElementData {
     bool shearable = false;
     Gauss cos0{}, sin0{}, tx{}, ty{}, e0{}, g0{}, hb{};
     std::array<double, kStrains> compliance{};
-    std::array<double, kStrains> root{};  ///< sqrt of the compliance
+    std::array<double, kStrains> root{};  ///< square root of the compliance
     int first_spring = 0, spring_count = 0;
     int first_contact = 0, contact_count = 0;
-    double pressure = 0.0, constant_pressure = 0.0;  ///< along the deformed right normal
-    int factor = 0;                                  ///< its number among the stiff or the shearable ones
+    /// Force per deformed length along the deformed right normal.
+    double pressure = 0.0, constant_pressure = 0.0;
+    int factor = 0;  ///< index among the unshearable or among the shearable elements
   };
-  /// A linear functional of an element's displacements with a support on it.
+  /// Linear functional of an element's displacements, with the law of the support that it drives.
   struct Functional {
     Law law;
     Touch touch = Touch::none;
@@ -41,7 +42,7 @@ struct ElementData {
     std::array<double, 3> a{};
     std::array<Gauss, 3> v{};
   };
-  /// Displacement at an element's start and h times u'_x, u'_y at the Gauss points, as contacts read them.
+  /// Displacement at the element start, and h u'_x, h u'_y at the Gauss points.
   struct ContactDisplacement {
     std::array<double, 2> start;
     Gauss dx, dy;
@@ -52,25 +53,26 @@ struct ElementData {
                                                     const double* y) const;
   [[nodiscard]] double value(const Functional& f, const ElementDofs& at, const double* y) const;
   [[nodiscard]] Functional functional_at(const FoundationContact& contact, double h, double xi) const;
-  /// Where a contact acts at displacements of its element; `out` is overwritten.
+  /// Parts of the element on which a contact acts at displacements u; `out` is overwritten.
   void acting_parts(std::size_t contact, const ContactDisplacement& u, std::vector<ElementPart>& out) const;
-  /// Whether a support acts at displacements y.
+  /// Whether a spring acts at the unknowns y.
   [[nodiscard]] bool acts(const Functional& f, const ElementDofs& at, const double* y) const;
 
   const CollocationRule* rule;
   Gauss b{};
-  std::array<Gauss, P> a{};  ///< A_qr
-  /// On contact intervals: exact for straight axes, and near enough for turning normals that the energy's
-  /// edge terms vanish as they must (the tangent then is the derivative of the residual).
+  std::array<Gauss, P> a{};  ///< A_qr: integral of Lagrange polynomial r from 0 to point q
+  /// Quadrature on contact intervals: exact for straight axes; on curved axes accurate enough that the
+  /// tangent is the derivative of the residual.
   Quadrature contact_quadrature;
   std::vector<Shape> shapes;
   std::vector<ElementDofs> dofs;
-  int stiff = 0;      ///< unshearable elements
-  int shearable = 0;  ///< the others
+  int stiff = 0;      ///< number of unshearable elements
+  int shearable = 0;  ///< number of shearable elements
   std::vector<Functional> springs;
   std::vector<FoundationContact> contacts;
   std::vector<Touch> contact_touch;
-  std::vector<std::vector<Functional>> whole_contacts;  ///< Gauss points of each contact's whole range
+  /// Functionals at the Gauss points of each contact's whole range.
+  std::vector<std::vector<Functional>> whole_contacts;
 };
 
 template <int P>
@@ -154,7 +156,7 @@ bool ElementData<P>::acts(const Functional& f, const ElementDofs& at, const doub
   return f.touch != Touch::none && std::abs(w) <= kTouchBand ? f.touch == Touch::acts : w > 0.0;
 }
 
-/// The penetration at a place of a contact, with neither stiffness nor gap.
+/// Functional of the penetration at xi of a contact, with zero stiffness and gap.
 template <int P>
 auto ElementData<P>::functional_at(const FoundationContact& contact, double h, double xi) const
     -> Functional {
@@ -196,7 +198,7 @@ void ElementSetOf<P>::add(const ElementShape& in, const ElementDofs& dofs) {
   data_.dofs.push_back(dofs);
 }
 
-/// Springs and contacts belong to the element added last, so that each element's are contiguous.
+/// Adds a spring to the element added last, so that the springs of an element are contiguous.
 template <int P>
 void ElementSetOf<P>::add_spring(const SupportSpring& support) {
   typename ElementData<P>::Functional f;

@@ -1,21 +1,21 @@
 #pragma once
 /// @file
-/// ElementWork for one order P. Included only by the files that instantiate it.
+/// ElementWork for one order P. Included only by the files that instantiate ElementWorkOf.
 ///
-/// The interior of an element is written in its strains. With R_q = [d1 d2] the rotation at Gauss point q, E
-/// = x'.d1, G = x'.d2 and p_q = -G d1 + E d2 (x' turned by +90 degrees),
+/// The element interior is expressed in strains. With R_q = [d1 d2] the rotation at Gauss point q, E = x'.d1,
+/// G = x'.d2 and p_q = -G d1 + E d2 (x' turned by +90 degrees),
 ///
 ///   du'_q = d1 de_q + d2 dg_q + p_q db_q,     db_q = db_a + h sum_r A_qr dk_r,
 ///
-/// so a linear functional of (u_a, v) becomes one of zeta = (e_1..e_P, g_1..g_P, k_1..k_P, u_a). The second
-/// derivative of the mixed functional is then
+/// a linear functional of (u_a, v) becomes one of zeta = (e_1..e_P, g_1..g_P, k_1..k_P, u_a). The second
+/// derivative of the mixed functional is
 ///
 ///   sum_q h b_q [ 2 db_q (N dg_q - Q de_q) + (N E + Q G) db_q^2 ]  +  sum_j k_j (dw_j)^2  =:  zeta^T H zeta
 ///
 /// plus the compliance terms. The strain rows read h b ds + H zeta - U^T m = tau with d eps = C ds + d, U the
-/// rows of u_b. Substituting ds = y / sqrt(C) gives   S y = g,  S = h b I + sqrt(C) H sqrt(C): symmetric, of
-/// size 2 P or 3 P, and the identity in the limit C = 0. The columns that couple y to (u_a, m) stand beside S
-/// while it is factorised, which gives the condensed element at once.
+/// rows of u_b. Substituting ds = y / sqrt(C) gives   S y = g,  S = h b I + sqrt(C) H sqrt(C), symmetric, of
+/// size 2 P (unshearable) or 3 P, and diagonal in the limit C = 0. Factorising S together with the columns
+/// that couple y to (u_a, m) gives the condensed element.
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -58,31 +58,31 @@ class ElementWorkOf final : public ElementWork {
   static constexpr int kStrains = Data::kStrains;
   static constexpr int kZeta = 3 * P + 3;
   using Gauss = typename Data::Gauss;
-  static constexpr int kRow = padded(kZeta);  ///< whole blocks; what is beyond kZeta is zero
+  static constexpr int kRow = padded(kZeta);  ///< padded to whole blocks; zero beyond kZeta
   using ZetaVector = Eigen::Matrix<double, kRow, 1>;
 
   /// Rotations, axis derivatives and strains at the Gauss points.
   struct Kinematics {
     Gauss c, s, xp, yp, E, G, px, py;
-    Gauss e, g;  ///< E and G less those of the stress-free axis, to a rounding of themselves
+    Gauss e, g;  ///< strains: E and G minus their stress-free values, without cancellation
   };
-  /// What solve needs of the last linearisation: H as it is made, not its entries.
+  /// Factors of the last linearisation from which H is applied; H itself is not stored.
   struct Tangent {
     Gauss c, s, px, py;
     Gauss n, t, w;                     ///< h b_q times N, Q and N E + Q G; zero for small displacements
-    int first_row = 0, row_count = 0;  ///< of supports and pressure, in rows_
+    int first_row = 0, row_count = 0;  ///< range in rows_ of supports and pressure
   };
-  /// stiffness (row.zeta)^2 / 2 is part of the energy's second variation.
+  /// Contribution stiffness (row.zeta)^2 / 2 to the second variation of the energy.
   struct StrainRow {
     ZetaVector row;
     double stiffness = 0.0;
   };
-  /// An element's interior y of N active strains, in the order e, (g,) k, with the columns of (u_a, m)
-  /// beside.
+  /// Factored interior of an element: N active strains in the order e, (g,) k, with columns of (u_a, m).
   template <int N>
   struct Interior {
-    AugmentedFactor<N> factor;                                             ///< of S
-    alignas(32) std::array<double, AugmentedFactor<N>::kWidth> reduced{};  ///< L^-1 times the last rhs
+    AugmentedFactor<N> factor;  ///< factors of S
+    /// L^-1 times the last right-hand side.
+    alignas(32) std::array<double, AugmentedFactor<N>::kWidth> reduced{};
   };
 
   [[nodiscard]] Kinematics kinematics(const Shape& shape, const ElementDofs& dofs, const double* y) const;
@@ -122,7 +122,7 @@ class ElementWorkOf final : public ElementWork {
   void recover_element(int element, const Interior<N>& interior, double* x) const;
   void subtract_strains(const Shape& shape, const Tangent& t, const ZetaVector& d, ZetaVector& tau,
                         Eigen::Vector3d& rm) const;
-  /// Active index i of S to its position in zeta.
+  /// Maps the active strain index i of S to its index in zeta.
   template <int N>
   [[nodiscard]] static constexpr int active(int i) {
     return N == kStrains || i < P ? i : i + P;
@@ -132,22 +132,22 @@ class ElementWorkOf final : public ElementWork {
   void begin(const LoadFactors& factors, const Regime& regime);
 
   const Data& data_;
-  const std::array<Gauss, P>& a_;  ///< of data_, as the following
+  const std::array<Gauss, P>& a_;  ///< a_, shapes_, dofs_, springs_ and contacts_ refer to members of data_
   const std::vector<Shape>& shapes_;
   const std::vector<ElementDofs>& dofs_;
   const std::vector<Functional>& springs_;
   const std::vector<FoundationContact>& contacts_;
-  Regime regime_;        ///< of the call that is being answered
-  bool linear_ = false;  ///< it is of small displacements
-  LoadFactors factors_;  ///< on the pressures, in that call
+  Regime regime_;        ///< regime of the current call
+  bool linear_ = false;  ///< true: small displacements in the current call
+  LoadFactors factors_;  ///< factors on the pressures in the current call
   double support_rounding_ = 0.0;
   std::vector<Tangent> tangents_;
-  std::vector<StrainRow> rows_;         ///< of all elements, from the last linearisation
-  std::vector<Interior<2 * P>> stiff_;  ///< of unshearable elements; made with the first linearisation
+  std::vector<StrainRow> rows_;         ///< rows of all elements from the last linearisation
+  std::vector<Interior<2 * P>> stiff_;  ///< unshearable elements; allocated by the first linearisation
   std::vector<Interior<3 * P>> shearable_;
   // scratch
-  std::vector<Functional> acting_;  ///< supports of the current element that act
-  std::vector<typename AugmentedMatrix<2 * P>::Weighted> stiff_rows_;  ///< of the current element, scaled
+  std::vector<Functional> acting_;  ///< functionals of the acting supports of the current element
+  std::vector<typename AugmentedMatrix<2 * P>::Weighted> stiff_rows_;  ///< scaled rows of the current element
   std::vector<typename AugmentedMatrix<3 * P>::Weighted> shearable_rows_;
   std::vector<FoundationContact::Interval> intervals_;
 };
@@ -201,7 +201,8 @@ auto ElementWorkOf<P>::kinematics(const Shape& shape, const ElementDofs& dofs, c
     sb[q] = std::sin(b[q]);
   }
   for (int q = 0; q < P; ++q) {
-    const double less = cb[q] > 0.0 ? -sb[q] * sb[q] / (1.0 + cb[q]) : cb[q] - 1.0;  // cb - 1, no digits lost
+    // cb - 1 without cancellation
+    const double less = cb[q] > 0.0 ? -sb[q] * sb[q] / (1.0 + cb[q]) : cb[q] - 1.0;
     kin.c[q] = shape.cos0[q] * cb[q] - shape.sin0[q] * sb[q];
     kin.s[q] = shape.sin0[q] * cb[q] + shape.cos0[q] * sb[q];
     kin.xp[q] = shape.tx[q] + v[q];
@@ -238,8 +239,7 @@ void ElementWorkOf<P>::add_strain_residual(const Shape& shape, const ElementDofs
     fv[q] += hb * (N * kin.c[q] - Q * kin.s[q] - m[0]);
     fv[P + q] += hb * (N * kin.s[q] + Q * kin.c[q] - m[1]);
     fv[2 * P + q] += hb * (s[2 * P + q] - m[2]);
-    // N G - Q E, the moment of the section force about the axis' tangent; linear geometry keeps the initial
-    // tangent
+    // N G - Q E: moment of the section force about the axis tangent (the initial one in linear geometry)
     const double turn = linear_ ? N * shape.g0[q] - Q * shape.e0[q] : N * kin.G[q] - Q * kin.E[q];
     moment_a += hb * turn;
     for (int r = 0; r < P; ++r) fv[2 * P + r] += hb * turn * shape.h * a_[q][r];
@@ -277,12 +277,12 @@ void ElementWorkOf<P>::to_strain_row(const Functional& f, const Shape& shape, co
   for (int i = kZeta; i < kRow; ++i) row[i] = 0.0;
 }
 
-/// The columns of m beside S and u_a: minus the rows of u_b, which are those of an end's displacement.
+/// Adds the columns of m beside S and u_a: minus the rows of u_b.
 template <int P>
 template <int N>
 void ElementWorkOf<P>::add_end_columns(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const {
-  constexpr int K = N - P;  // first curvature
-  constexpr int A = N;      // u_a
+  constexpr int K = N - P;  // index of the first curvature
+  constexpr int A = N;      // index of u_a
   constexpr int M = N + 3;
   for (int q = 0; q < P; ++q) {
     const double e = shape.hb[q] * shape.root[q];
@@ -324,7 +324,7 @@ template <int N>
 void ElementWorkOf<P>::add_geometric(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const {
   constexpr int K = N - P;
   using Weighted = typename AugmentedMatrix<N>::Weighted;
-  std::array<Weighted, P> turn;  // db_q
+  std::array<Weighted, P> turn;  // rows of db_q, the change of rotation at Gauss point q
   for (int q = 0; q < P; ++q) {
     turn[q].x.fill(0.0);
     turn[q].weight = t.w[q];
@@ -340,7 +340,7 @@ void ElementWorkOf<P>::add_geometric(const Shape& shape, const Tangent& t, Augme
   S.template add_squares<K>(turn.data(), P);
 }
 
-/// Adds the rows of supports and pressure, scaled.
+/// Adds the scaled rows of supports and pressure.
 template <int P>
 template <int N>
 void ElementWorkOf<P>::add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) {
@@ -364,7 +364,7 @@ void ElementWorkOf<P>::add_rows(const Shape& shape, const Tangent& t, AugmentedM
   S.template add_squares<0>(scaled.data(), count);
 }
 
-/// The supports and the pressure that act at y, as rows in strains, and their forces.
+/// Collects acting supports and pressure at y as rows in strains, and adds their forces to the residual.
 template <int P>
 void ElementWorkOf<P>::collect_rows(int element, const Kinematics& kin, const double* y, double* residual) {
   const Shape& shape = shapes_[element];
@@ -459,7 +459,7 @@ void ElementWorkOf<P>::linearise(const Eigen::VectorXd& y, const LoadFactors& fa
   }
 }
 
-/// What given strains d leave of the right-hand sides of the strains, tau - H d, and of m, rm + U d.
+/// Subtracts the effect of given strains d from right-hand sides: tau - H d (strains) and rm + U d (m).
 template <int P>
 void ElementWorkOf<P>::subtract_strains(const Shape& shape, const Tangent& t, const ZetaVector& d,
                                         ZetaVector& tau, Eigen::Vector3d& rm) const {
@@ -499,7 +499,7 @@ void ElementWorkOf<P>::reduce_element(int element, const double* rhs, Interior<N
     d[i] = rhs[dofs.s + i] / shape.hb[i % P];
     strained = strained || d[i] != 0.0;
   }
-  ZetaVector tau;  // interior rows in the strain basis, the start's entries included
+  ZetaVector tau;  // interior rows in terms of strains, with the entries of the element start
   to_strain_row(row, shape, tangents_[element], tau);
   for (int c = 0; c < 3; ++c) out.rm[c] = rhs[dofs.m + c];
   if (strained) subtract_strains(shape, tangents_[element], d, tau, out.rm);
@@ -549,7 +549,7 @@ void ElementWorkOf<P>::recover_element(int element, const Interior<N>& interior,
     for (int r = 0; r < P; ++r) b[q] += a_[q][r] * zeta[2 * P + r];
     b[q] = zeta[kStrains + 2] + shape.h * b[q];
   }
-  if constexpr (N < kStrains) {  // shear forces from their rows, as no strain goes with them
+  if constexpr (N < kStrains) {  // unshearable: shear forces follow from their equilibrium rows
     Gauss row;
     for (int q = 0; q < P; ++q)
       row[q] = t.c[q] * (x[dofs.v + P + q] + shape.hb[q] * x[dofs.m + 1]) -
@@ -578,7 +578,7 @@ void ElementWorkOf<P>::recover(Eigen::VectorXd& x) {
   }
 }
 
-/// The beam's part of the tangent as an operator.
+/// Adds the beam's part of the tangent times a direction.
 template <int P>
 void ElementWorkOf<P>::add_strain_product(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
                                           const double* y, const double* direction, double* out) const {
@@ -621,15 +621,15 @@ void ElementWorkOf<P>::add_strain_product(const Shape& shape, const ElementDofs&
   }
 }
 
-/// The tangent as an operator, written from the second derivative of the mixed functional itself (not from
-/// the eliminated form), so that the two can be held against one another.
+/// Adds tangent products from the second derivative of the mixed functional, without the condensed form, so
+/// that each form checks the other.
 template <int P>
 void ElementWorkOf<P>::add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors,
                                             const Regime& regime,
                                             const Eigen::Ref<const Eigen::MatrixXd>& directions,
                                             Eigen::MatrixXd& out) {
   begin(factors, regime);
-  Eigen::VectorXd unused;  // forces of supports
+  Eigen::VectorXd unused;  // support forces, not needed here
   if (!springs_.empty() || !contacts_.empty()) unused.setZero(y.size());
   for (int e = 0; e < size(); ++e) {
     const ElementDofs& dofs = dofs_[e];
@@ -647,7 +647,7 @@ void ElementWorkOf<P>::add_tangent_products(const Eigen::VectorXd& y, const Load
   }
 }
 
-/// The acting supports' part, as add_support_residual() left them.
+/// Adds the tangent products of the supports in acting_, as left by add_support_residual().
 template <int P>
 void ElementWorkOf<P>::add_acting_product(const ElementDofs& dofs, const double* direction,
                                           double* out) const {

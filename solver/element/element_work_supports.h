@@ -1,11 +1,10 @@
 #pragma once
 /// @file
-/// The members of ElementWorkOf that deal with foundations, springs and follower pressure. Included by
-/// element_work.h only.
+/// Foundations, springs and follower pressure of ElementWorkOf. Included by element_work.h only.
 
 namespace snapthrough {
 
-/// Appends the Gauss points of the intervals where a foundation touches to acting_.
+/// Appends the Gauss points of the intervals on which a foundation acts to acting_.
 template <int P>
 void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const ElementDofs& dofs,
                                        const Shape& shape) {
@@ -25,8 +24,8 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
                  regime_.grip * contact.law().stiffness, 0.0);
 }
 
-/// Appends the Gauss points of an interval on which a contact acts with a modulus and a gap. Most elements
-/// touch on all of the contact or on none of it: those points are known beforehand.
+/// Appends the Gauss points of an interval with a modulus and a gap. Functionals of the whole range, the most
+/// frequent case, are precomputed.
 template <int P>
 void ElementWorkOf<P>::add_interval(std::size_t index, const Shape& shape,
                                     const FoundationContact::Interval& interval, double modulus, double gap) {
@@ -69,7 +68,7 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
     if (springs_[support].law.one_sided) acting_.back().law.stiffness *= regime_.softness;
     if (regime_.bilateral()) acting_.back().law.gap = 0.0;
   }
-  std::array<double, kStrains> v;  // apart from y and the residual, so that loops over them need no order
+  std::array<double, kStrains> v;  // local copy of y: lets the compiler reorder the loops
   std::array<double, kStrains> forces{};
   double at_start[3] = {0.0, 0.0, 0.0};
   for (int i = 0; i < kStrains; ++i) v[i] = y[dofs.v + i];
@@ -92,15 +91,15 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
   if (!keep) acting_.clear();
 }
 
-/// Adds the force  pressure * (y', -x') ds  (right normal times the stretch) to a load vector.
+/// Adds the force  pressure * (y', -x') ds  (right normal times stretch) to a load vector.
 ///
-/// Written as the derivative of pressure times the area 1/2 int (x y' - y x') ds swept by the element's own
-/// displacements, less what that derivative has too much at its ends: forces on the nodes, which neighbours
-/// under the same pressure cancel and supports take. So the symmetric tangent is exact inside elements.
+/// The force is the derivative of pressure times the area 1/2 int (x y' - y x') ds swept by the element,
+/// minus the surplus of that derivative at the element ends: nodal forces, which cancel between neighbours
+/// with equal pressure or are carried by supports. The symmetric tangent is therefore exact inside elements.
 template <int P>
 void ElementWorkOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
                                     double pressure, const double* y, double* load) const {
-  double place[2][P];  // positions relative to the element's stress-free start
+  double place[2][P];  // position relative to the element's stress-free start
   double chord[2] = {0.0, 0.0};
   for (int q = 0; q < P; ++q) {
     chord[0] += shape.hb[q] * shape.tx[q];
@@ -124,7 +123,7 @@ void ElementWorkOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs,
       load[dofs.v + P + r] += fy * shape.h * a_[q][r];
     }
   }
-  for (const double sign : {-1.0, 1.0}) {  // start, end
+  for (const double sign : {-1.0, 1.0}) {  // element start, element end
     const auto& node = sign < 0.0 ? dofs.a : dofs.b;
     const double x = (linear_ ? 0.0 : y[node[0]]) + (sign < 0.0 ? 0.0 : chord[0]);
     const double z = (linear_ ? 0.0 : y[node[1]]) + (sign < 0.0 ? 0.0 : chord[1]);
@@ -145,10 +144,9 @@ void ElementWorkOf<P>::add_pressure_load(const Eigen::VectorXd& y, const LoadFac
                    out.data());
 }
 
-/// The symmetric part of the follower force's derivative: minus pressure times the second derivative of the
-/// area 1/2 int (x y' - y x') ds, appended to acting_ as squares, since 4 a b = (a + b)^2 - (a - b)^2. What
-/// is left out belongs to the element's ends, cancels between neighbours under the same pressure, and
-/// vanishes at fixed ends.
+/// Appends the symmetric part of the follower tangent, minus pressure times the second derivative of the area
+/// 1/2 int (x y' - y x') ds, to acting_ as squares: 4 a b = (a + b)^2 - (a - b)^2. The remaining part belongs
+/// to the element ends, cancels between neighbours with equal pressure, and vanishes at fixed ends.
 template <int P>
 void ElementWorkOf<P>::collect_pressure(const Shape& shape, double pressure) {
   for (int q = 0; q < P; ++q) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The members of ElementSetOf that deal with zones of contact. Included by element_data.h only.
+/// Contact zones of ElementSetOf. Included by element_data.h only.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace snapthrough {
 
 namespace zones {
 
-/// Appends a zone, or lengthens the last where the next element goes on with it.
+/// Appends a zone, or extends the last one if both meet at an element boundary.
 inline void append(const MovingZone& zone, double rounding, std::vector<MovingZone>& list) {
   if (list.empty() || zone.from - list.back().to > rounding) {
     list.push_back(zone);
@@ -19,14 +19,14 @@ inline void append(const MovingZone& zone, double rounding, std::vector<MovingZo
   list.back().to_rate = zone.to_rate;
 }
 
-/// Calls take(part) for each part that is in one of two lists but not in both.
+/// Calls take(part) for each part that is in exactly one of two lists.
 template <class Take>
 void for_each_difference(const std::vector<ElementPart>& a, const std::vector<ElementPart>& b,
                          const Take& take) {
   const auto same = [](const ElementPart& p, const ElementPart& q) {
     return p.from == q.from && p.to == q.to;
   };
-  if (std::equal(a.begin(), a.end(), b.begin(), b.end(), same)) return;  // most elements
+  if (std::equal(a.begin(), a.end(), b.begin(), b.end(), same)) return;  // the usual case
   std::vector<double> ends;
   for (const auto* list : {&a, &b})
     for (const ElementPart& part : *list) ends.insert(ends.end(), {part.from, part.to});
@@ -45,7 +45,7 @@ void for_each_difference(const std::vector<ElementPart>& a, const std::vector<El
 
 template <int P>
 double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen::VectorXd& y) const {
-  // in a boundary layer the gap's sign changes as it decays, and far from its start is rounding's
+  // pressure over the largest; below it, gaps of decaying boundary layers alternate in sign by rounding
   constexpr double kCounts = 1e-6;
   struct Missed {
     double length, pressure;
@@ -77,7 +77,7 @@ double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen:
 
 template <int P>
 MovingZones ElementSetOf<P>::moving_zones(const Eigen::VectorXd& y, const Eigen::VectorXd& rate) const {
-  constexpr double kRounding = 1e-9;  // of an element
+  constexpr double kRounding = 1e-9;  // distance between zones that counts as zero, in element lengths
   MovingZones out;
   std::vector<ElementPart> parts;
   double start = 0.0;

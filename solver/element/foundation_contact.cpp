@@ -14,7 +14,7 @@
 namespace snapthrough {
 namespace {
 
-/// With fewer the turning of a curved axis on one element would be seen.
+/// Least number of samples on a curved axis; resolves the rotation of the direction within one element.
 constexpr int kLeastSamples = 13;
 
 }  // namespace
@@ -43,9 +43,9 @@ FoundationContact::FoundationContact(int order, const Direction& direction, Plac
   exact_ = !direction_.turns || resolved();
 }
 
-/// Whether the samples resolve the direction times what displacements of the element's degree add.
+/// Whether the samples resolve products of the direction and displacements of the element's degree.
 bool FoundationContact::resolved() const {
-  constexpr double kRounding = 1e-14;
+  constexpr double kRounding = 1e-14;  // error of interpolated direction components that counts as rounding
   constexpr std::array<double, 5> kBetween{0.02, 0.19, 0.41, 0.68, 0.93};
   const double degree = rule_->order();
   for (int c = 0; c < 2; ++c) {
@@ -113,7 +113,7 @@ double FoundationContact::penetration_slope(double xi, std::array<double, 2> ua,
 
 namespace {
 
-/// The penetration between its samples, set up when it is first asked for: most searches end without.
+/// Interpolant of the penetration samples, set up on first use because most searches need none.
 class SampledGap {
  public:
   explicit SampledGap(std::span<const double> samples) : samples_(samples) {}
@@ -132,7 +132,7 @@ class SampledGap {
   mutable std::optional<ChebyshevSeries> series_;
 };
 
-/// Penetration less a depth on the range, from 0 to 1, where samples do not resolve it.
+/// Penetration minus a depth, evaluated exactly, on the range scaled to [0, 1].
 class ExactGap {
  public:
   ExactGap(const FoundationContact& contact, std::array<double, 2> ua, std::span<const double> dx,
@@ -158,7 +158,7 @@ class ExactGap {
   double depth_;
 };
 
-/// A place of the range, from 0 to 1, with the penetration there.
+/// Position on the range, scaled to [0, 1], with the penetration there.
 struct Sample {
   double z = 0.0;
   double g = 0.0;
@@ -166,7 +166,7 @@ struct Sample {
 
 template <class Gap>
 double root_between(const Gap& gap, Sample lo, Sample hi) {
-  // Illinois' variant of false position: keeps the bracket, converges faster than linearly
+  // Illinois variant of regula falsi: keeps the bracket, converges superlinearly
   int last = 0;
   for (int it = 0; it < 60; ++it) {
     const double z = hi.z - hi.g * (hi.z - lo.z) / (hi.g - lo.g);
@@ -186,20 +186,20 @@ double root_between(const Gap& gap, Sample lo, Sample hi) {
   return std::clamp(hi.z - hi.g * (hi.z - lo.z) / (hi.g - lo.g), lo.z, hi.z);
 }
 
-/// A place between two where g has not the given sign, as it has at both, if it turns back there.
+/// Position at which g has the opposite of `sign` between two positions with `sign`; empty if none exists.
 template <class Gap>
 std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, double sign) {
   constexpr int kMostTrials = 20;
   double fall = sign * gap.slope(left.z);
   double rise = sign * gap.slope(right.z);
   const double whole = right.z - left.z;
-  // beside a clamped end, where g and its slope are zero, it is not convex
+  // beside a clamped end, where g and its slope are zero, g is not convex
   if (const auto t = Cubic{sign * left.g, fall * whole, sign * right.g, rise * whole}.minimum()) {
     const double z = left.z + *t * whole;
     if (const Sample least{z, gap.value(z)}; sign * least.g < 0.0) return least;
   }
   for (int n = 0; n < kMostTrials && fall < 0.0 && rise > 0.0; ++n) {
-    // what is convex stays above both tangents
+    // a convex function stays above both end tangents
     const double width = right.z - left.z;
     const double meet = (sign * (right.g - left.g) - rise * width) / (fall - rise);
     if (sign * left.g + fall * meet > 0.0) break;
@@ -214,11 +214,11 @@ std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, dou
   return std::nullopt;
 }
 
-/// The change of sign between two places. Beside a held node g is zero but for rounding, whose sign says
-/// nothing of what happens on the way there.
+/// Position of the sign change between two samples. Beside a fixed node g is zero up to rounding, whose sign
+/// is ignored: a sign change before the node is searched for.
 template <class Gap>
 double change_between(const Gap& gap, const Sample& left, const Sample& right) {
-  constexpr double kRounding = 1e-10;
+  constexpr double kRounding = 1e-10;  // ratio of |g| at both ends below which the smaller one is zero
   const bool to_zero = std::abs(right.g) < kRounding * std::abs(left.g);
   const bool from_zero = std::abs(left.g) < kRounding * std::abs(right.g);
   if (!to_zero && !from_zero) return root_between(gap, left, right);
@@ -228,7 +228,7 @@ double change_between(const Gap& gap, const Sample& left, const Sample& right) {
   return to_zero ? root_between(gap, left, *dip) : root_between(gap, *dip, right);
 }
 
-/// Tells `cross(place, whether contact begins there)` of the changes of sign between two places.
+/// Calls cross(position, true if contact begins there) for each sign change between two samples.
 template <class Gap, class Cross>
 void search_part(const Gap& gap, const Sample& left, const Sample& right, const Cross& cross) {
   const bool inside = left.g > 0.0;
@@ -242,18 +242,17 @@ void search_part(const Gap& gap, const Sample& left, const Sample& right, const 
   cross(root_between(gap, *dip, right), inside);
 }
 
-/// Whether g may change its sign between two places, because it is no further from zero than it moves there
-/// or next to there.
+/// Whether g may change sign between two values: the signs differ, or the smaller |g| is at most `change`.
 bool may_cross(double left, double right, double change) {
   return (left > 0.0) != (right > 0.0) || std::min(std::abs(left), std::abs(right)) <= change;
 }
 
-/// As search_part, between two samples, where zones smaller than the sampling may begin and end.
-/// @param before, after how far g moves on the parts next to these ends
+/// Searches a cell between two samples in four parts, to find zones smaller than the sampling.
+/// @param before, after changes of g on the parts next to the cell
 template <class Gap, class Cross>
 void search_cell(const Gap& gap, const Sample& left, const Sample& right, double before, double after,
                  const Cross& cross) {
-  constexpr int kParts = 4;
+  constexpr int kParts = 4;  // parts of the cell
   const double width = right.z - left.z;
   const Eigen::Array4d z =
       left.z + width * Eigen::Array4d(1.0 / kParts, 2.0 / kParts, 3.0 / kParts, 4.0 / kParts);
@@ -270,7 +269,7 @@ void search_cell(const Gap& gap, const Sample& left, const Sample& right, double
 
 }  // namespace
 
-/// g at the samples, over another gap.
+/// Penetrations at all samples for a given gap.
 void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const double> dx,
                                      std::span<const double> dy, double gap, Values& g) const {
   const std::size_t p = dx.size();
@@ -294,10 +293,10 @@ bool FoundationContact::is_near(std::array<double, 2> ua, std::span<const double
   return std::all_of(g.begin(), g.begin() + count_, [distance](double w) { return std::abs(w) <= distance; });
 }
 
-/// The intervals in contact from the penetration, less a depth, and its values g at the samples.
+/// Finds the contact intervals from the penetration minus a depth, given its values g at the samples.
 template <class Gap>
 void FoundationContact::search(const Gap& gap, const Values& g, std::vector<Interval>& out) const {
-  constexpr double kParts = 4.0;  // of a cell, in search_cell
+  constexpr double kParts = 4.0;  // parts of a cell in search_cell()
   const int n = count_;
   const double length = range_[1] - range_[0];
   double from = range_[0];
@@ -306,7 +305,7 @@ void FoundationContact::search(const Gap& gap, const Values& g, std::vector<Inte
     if (entering) from = at;
     if (!entering && at > from) out.push_back({from, at});
   };
-  Values rate;  // of the cell before sample i
+  Values rate;  // slope of g in the cell before sample i
   rate[0] = 0.0;
   for (int i = 1; i < n; ++i) rate[i] = std::abs(g[i] - g[i - 1]) / (z_[i] - z_[i - 1]);
   rate[n] = 0.0;

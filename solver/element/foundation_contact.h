@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The part of a one-sided foundation that lies on one element.
+/// One-sided foundation on one element.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -19,29 +19,29 @@
 namespace snapthrough {
 
 /// @brief One-sided Winkler foundation on part of an element: reaction K max(g, 0) per undeformed length
-/// along -d, with penetration g = u.d - gap and d the direction into the medium.
+/// along -d, with penetration g = u.d - gap and unit direction d into the medium.
 ///
-/// Its integrals are split where g changes sign inside the element, so they are C1 in the displacements: a
-/// moving contact edge needs no event and gives no false limit points. Immutable, thread safe.
+/// Integrals are split where g changes sign inside the element, so that they are C1 in the displacements: a
+/// moving contact end is no event and gives no spurious limit point. Immutable, thread safe.
 class FoundationContact {
  public:
-  /// Where the element lies on its member's initial axis.
+  /// Position of the element on its member's initial axis.
   struct Place {
-    std::shared_ptr<const AxisCurve> axis;  ///< empty where the direction does not turn with it
-    double s0 = 0.0;                        ///< arc length of the element's start, in the axis' own units
-    double ds = 0.0;                        ///< arc length over the element, same units
+    std::shared_ptr<const AxisCurve> axis;  ///< empty when the direction is constant
+    double s0 = 0.0;                        ///< arc length of the element's start, in the axis' units
+    double ds = 0.0;                        ///< arc length of the element, in the axis' units
   };
   using Interval = ElementPart;
 
   /// @param range part of the element, in [0, 1]
-  /// @param law its stiffness K times the element's length (a sum of weights times it integrates K ds)
-  /// @pre place.axis where the direction turns
+  /// @param law stiffness is K times the element's length, so that weights on [0, 1] integrate K ds
+  /// @pre place.axis is set when the direction turns
   FoundationContact(int order, const Direction& direction, Place place, std::array<double, 2> range,
                     const Law& law, int foundation);
 
-  /// Rule for integrals over a contact interval.
+  /// Quadrature on a contact interval, for elements of an order.
   [[nodiscard]] static Quadrature quadrature(int order) { return gauss_legendre(std::max(order + 2, 5)); }
-  /// The same contact with another gap.
+  /// Copy with another gap.
   [[nodiscard]] FoundationContact with_gap(double gap) const;
   [[nodiscard]] const Law& law() const { return law_; }
   [[nodiscard]] int foundation() const { return foundation_; }
@@ -52,18 +52,18 @@ class FoundationContact {
   /// @param ua displacement (x, y) at the element's start; dx, dy: h times u'_x, u'_y at the Gauss points
   [[nodiscard]] double penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                    std::span<const double> dy) const;
-  /// @brief d penetration / d xi.
+  /// @brief Slope d penetration / d xi.
   [[nodiscard]] double penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                          std::span<const double> dy) const;
-  /// @brief Whether it is nowhere on the range further from touching than `distance`.
+  /// @brief Whether the distance from touching is at most `distance` on the whole range.
   [[nodiscard]] bool is_near(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                              double distance) const;
-  /// @brief Intervals of [0, 1] in contact (g > depth), ascending; `out` is overwritten.
+  /// @brief Intervals of the range in contact (g > depth), ascending; `out` is overwritten.
   void contact_intervals(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                          std::vector<Interval>& out, double depth = 0.0) const;
 
  private:
-  /// Something at four of the samples; lanes beyond the last sample are zero.
+  /// Values at four samples; lanes beyond the last sample are zero.
   using Lanes = Eigen::Array4d;
   static constexpr int kLanes = 4;
   static constexpr int kMostBlocks = (ChebyshevSeries::kMostPoints + kLanes - 1) / kLanes;
@@ -76,16 +76,16 @@ class FoundationContact {
   void search(const Gap& gap, const Values& g, std::vector<Interval>& out) const;
 
   const CollocationRule* rule_;
-  Direction direction_;  ///< into the medium
+  Direction direction_;  ///< unit vector into the medium
   Place place_;
   std::array<double, 2> range_;
   Law law_;
   int foundation_;
-  int count_ = 0;               ///< samples: Chebyshev's points of the range
-  int blocks_ = 0;              ///< of them
-  bool exact_ = true;           ///< the samples give the penetration between them to rounding
-  Values z_{};                  ///< in the range, from 0 to 1
-  std::vector<Lanes> samples_;  ///< a block after the other: direction x and y, then A_r for every r
+  int count_ = 0;               ///< number of samples (Chebyshev points of the range)
+  int blocks_ = 0;              ///< blocks of four samples
+  bool exact_ = true;           ///< interpolating the samples is exact to rounding
+  Values z_{};                  ///< sample positions on the range, scaled to [0, 1]
+  std::vector<Lanes> samples_;  ///< blocks of samples: direction x and y, then A_r for every r
 };
 
 }  // namespace snapthrough

@@ -44,9 +44,9 @@ VectorXd BorderedPoint::works(const VectorXd& forces) const {
   return out;
 }
 
-/// Factors of the tangent beside the point, where it is regular.
+/// Factorises the tangent beside the critical point, where it is usually regular; false: singular there, too.
 bool BorderedPoint::factorise() {
-  constexpr double kBeside = 1e-6;  // of the load
+  constexpr double kBeside = 1e-6;  // distance from the critical point over its load factor
   const double step = kBeside * at_.lambda;
   VectorXd residual;
   problem_.linearise(at_.y + step * at_.response, at_.lambda + step, residual);
@@ -55,10 +55,10 @@ bool BorderedPoint::factorise() {
   return probe.allFinite();
 }
 
-/// By the factors beside the point, corrected by what they leave.
+/// Solves with the factors beside the critical point and refines with the residual of the tangent at it.
 VectorXd BorderedPoint::response(const Held& to) const {
   constexpr int kMostCorrections = 6;
-  constexpr double kSmall = 1e-15;
+  constexpr double kSmall = 1e-15;  // relative size of the last correction
   const MatrixXd border = problem_.metric().asDiagonal() * at_.null;
   VectorXd out = VectorXd::Zero(to.forces.size());
   VectorXd left = to.forces;
@@ -68,7 +68,7 @@ VectorXd BorderedPoint::response(const Held& to) const {
     problem_.solve(left);
     left -= at_.null * (border.transpose() * left);
     const double size = size_of(left);
-    if (!(size < before)) break;  // what is left is rounding's
+    if (!(size < before)) break;  // the residual is rounding
     before = size;
     out += left;
     if (size <= kSmall * size_of(out)) break;
@@ -89,7 +89,7 @@ MatrixXd BorderedPoint::tangent_change_along(const VectorXd& motion,
   return tangent_change(problem_, at_.y, at_.lambda, {motion, 0.0, norm}, b);
 }
 
-/// Second derivatives with the response to the load as it is here.
+/// Evaluates the second derivatives A, B and C of CriticalSolution with the response at this point.
 void BorderedPoint::differentiate() {
   const Index k = at_.null.cols();
   for (Index j = 0; j < k; ++j) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Solves and second derivatives at a critical point itself, where the tangent is singular.
+/// Linear solves and second derivatives at a critical point, where the tangent is singular.
 
 #include <Eigen/Core>
 
@@ -10,39 +10,40 @@
 
 namespace snapthrough {
 
-/// @brief A critical point to rounding, with what bordering its tangent by the null motions allows.
+/// @brief A critical point exact to rounding, with its tangent bordered by the null motions n.
 class BorderedPoint {
  public:
-  /// Forces with those that hold what is fixed where their rows say, and that motion.
+  /// Right-hand side with prescribed displacements moved to `motion` and their reactions added to `forces`.
   struct Held {
     Eigen::VectorXd forces;
     Eigen::VectorXd motion;
     bool moves = false;
   };
 
-  /// @param solution to rounding, of that problem, which is kept by reference and factorised once if
-  /// @param solves response() and the second derivatives are wanted
+  /// @param problem kept by reference
+  /// @param solution critical point of `problem`, exact to rounding
+  /// @param solves whether response() and the second derivatives are needed; costs one factorisation
   BorderedPoint(EquilibriumProblem& problem, const PathMetric& metric, const CriticalSolution& solution,
                 bool solves);
 
-  /// Whether the factors that solves need were found.
+  /// False when the factors for the solves were not found.
   [[nodiscard]] bool is_ready() const { return ready_; }
-  /// The solution; response and second derivatives are those of this place, if asked for.
+  /// The critical point; its response and second derivatives are evaluated here when solves are asked for.
   [[nodiscard]] const CriticalSolution& at() const { return at_; }
   [[nodiscard]] EquilibriumProblem& problem() const { return problem_; }
   [[nodiscard]] const PathMetric& metric() const { return metric_; }
-  /// n.load
+  /// Work of the reference load on the null motions, n.load.
   [[nodiscard]] const Eigen::VectorXd& load_along() const { return load_along_; }
 
   [[nodiscard]] Held held(const Eigen::VectorXd& rows) const;
-  /// Work of forces on the null motions.
+  /// Work of forces on each null motion.
   [[nodiscard]] Eigen::VectorXd works(const Eigen::VectorXd& forces) const;
-  /// The motion without a part along n that balances forces but for a part along W n.
+  /// Solves J x = forces up to a multiple of W n, with x orthogonal to n; adds the prescribed motion.
   [[nodiscard]] Eigen::VectorXd response(const Held& to) const;
-  /// Size of a motion that differences are taken by: in the metric, or beside the forces of the state where
-  /// it is one of forces alone.
+  /// Norm of a motion that sets the step of differences: the larger of its metric norm and its largest entry
+  /// over that of the state (for motions of forces alone).
   [[nodiscard]] double size_of(const Eigen::VectorXd& motion) const;
-  /// d/de J(y + e motion) b
+  /// Directional derivative d/de J(y + e motion) b at e = 0, by differences.
   [[nodiscard]] Eigen::MatrixXd tangent_change_along(const Eigen::VectorXd& motion,
                                                      const Eigen::Ref<const Eigen::MatrixXd>& b) const;
 

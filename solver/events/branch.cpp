@@ -11,22 +11,23 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kFirstStep = 0.01;  ///< displacement gradient
+/// Initial step onto a branch, in the path's norm (displacement gradient).
+constexpr double kFirstStep = 0.01;
 
-/// The sense in which the largest displacement of a motion is positive.
+/// Sign of the largest displacement of a motion.
 double sense_of(const PathNorm& norm, const VectorXd& motion) {
   Index largest = 0;
   norm.metric().weights->cwiseSqrt().cwiseProduct(motion).cwiseAbs().maxCoeff(&largest);
   return motion[largest] < 0.0 ? -1.0 : 1.0;
 }
 
-/// A direction in (y, lambda).
+/// Direction in (y, lambda), of norm one.
 struct Direction {
   VectorXd y;
   double lambda = 0.0;
 };
 
-/// Response to the load without its part along the null vector.
+/// Response to the load, orthogonal to the null vector, of norm one.
 Direction load_direction(PointSolver& solver, const PathPoint& point, const VectorXd& null) {
   const PathMetric& metric = solver.norm().metric();
   Direction out{VectorXd(), 1.0};
@@ -39,8 +40,8 @@ Direction load_direction(PointSolver& solver, const PathPoint& point, const Vect
   return out;
 }
 
-/// The direction across the known path in the plane of the null vector and the response to the load, in which
-/// both paths' tangents lie; along the null vector, its largest displacement positive.
+/// Direction orthogonal to the known path in the plane of null vector and load response, which contains both
+/// paths' tangents. Oriented along the null vector with its largest displacement positive.
 Direction direction_across(PointSolver& solver, const PathPoint& point) {
   EquilibriumProblem& problem = solver.problem();
   VectorXd null = null_vector(problem, point, pseudo_random(problem.size(), 1U));

@@ -19,14 +19,15 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// The pencil J(lambda) = J_0 + lambda G in the mixed unknowns: displacements zero, stresses s_c + lambda
-/// s_p. Where the load is reversed, lambda counts against the proportional actions.
+/// The pencil J(lambda) = J_0 + lambda G in the mixed unknowns at zero displacements and stresses s_c +
+/// lambda s_p (constant and proportional actions). For LoadSense::reversed, lambda multiplies the opposite of
+/// the proportional actions.
 class Pencil {
  public:
   Pencil(const Structure& structure, StructuralProblem& problem, LoadSense sense)
       : structure_(structure), problem_(problem), sense_(sense == LoadSense::reversed ? -1.0 : 1.0) {}
 
-  /// Linear stresses of both kinds of actions, with the contact that the reference load brings about.
+  /// Computes the linear stresses of both kinds of actions, with the contact under the reference load.
   void set_prestress(double reference);
   [[nodiscard]] int count(double lambda);
   void solve(VectorXd& x) { problem_.solve(x); }
@@ -34,15 +35,15 @@ class Pencil {
   [[nodiscard]] VectorXd product(double lambda, const VectorXd& x) {
     return problem_.tangent_product(stress(lambda), sense_ * lambda, x, regime());
   }
-  /// Rayleigh's quotient of a motion, from the tangent itself and not its factors.
+  /// Rayleigh quotient of a motion, evaluated with the tangent and not with its factors.
   [[nodiscard]] double quotient(const VectorXd& x) { return -x.dot(product(0.0, x)) / x.dot(geometric(x)); }
   [[nodiscard]] double scale() const { return problem_.critical_load_scale(proportional_); }
   [[nodiscard]] int factorizations() const { return factorizations_; }
-  /// Whether what is held carries nothing at a load factor.
+  /// Whether the held motions have neither stiffness nor displacement at a load factor.
   [[nodiscard]] bool holds_are_idle(double lambda);
   [[nodiscard]] const SharedHolds& holds() const { return holds_; }
   [[nodiscard]] const TouchingMarks& marks() const { return marks_; }
-  /// Where one-sided supports act; what is changed here counts from then on.
+  /// Contact in which the pencil is evaluated; changes apply to later calls.
   [[nodiscard]] FrozenContact& contact() { return contact_; }
 
  private:
@@ -54,16 +55,16 @@ class Pencil {
 
   const Structure& structure_;
   StructuralProblem& problem_;
-  double sense_;  ///< load factor of the problem by lambda
+  double sense_;  ///< sign of the problem's load factor for positive lambda
   VectorXd constant_;
   VectorXd proportional_;
-  SharedHolds holds_;  ///< motions that nothing resists
+  SharedHolds holds_;  ///< motions without stiffness, held by artificial springs
   TouchingMarks marks_;
   FrozenContact contact_;
   int factorizations_ = 0;
 };
 
-/// The contact of the reference load, once it is known.
+/// Frozen contact of the reference load; the default regime for structures without one-sided supports.
 Regime Pencil::regime() const {
   Regime regime;
   if (!structure_.one_sided) return regime;
@@ -72,7 +73,7 @@ Regime Pencil::regime() const {
   return regime;
 }
 
-/// Small displacements under the actions of a stage, from the unloaded state.
+/// Linear response to the actions of a stage, from the unloaded state.
 VectorXd Pencil::linear_response(StructuralProblem::Stage stage, double lambda, Regime regime) {
   regime.small_displacements = true;
   problem_.set_stage(stage);
@@ -89,8 +90,8 @@ VectorXd Pencil::linear_response(StructuralProblem::Stage stage, double lambda, 
   return response;
 }
 
-/// Sets all section forces to zero where none reaches `least`: a structure that is strained without
-/// resistance has rounding for forces, and these would have buckling loads.
+/// Sets all section forces to zero if none exceeds `least`. Actions that meet no resistance leave section
+/// forces of rounding size, which would give spurious buckling loads.
 void Pencil::drop_rounding(double least, VectorXd& response) const {
   const int p = structure_.mesh.order;
   double largest = 0.0;
@@ -102,7 +103,7 @@ void Pencil::drop_rounding(double least, VectorXd& response) const {
 
 bool Pencil::holds_are_idle(double lambda) {
   if (!holds_) return true;
-  constexpr double kIdle = 1e-6;
+  constexpr double kIdle = 1e-6;  // scaled stiffness or displacement that counts as zero
   ++factorizations_;
   const double bound = kIdle * std::max(1.0, std::abs(lambda));
   const MotionStiffness held = motion_stiffness(problem_, holds_, stress(lambda), sense_ * lambda, regime());
@@ -111,7 +112,8 @@ bool Pencil::holds_are_idle(double lambda) {
   return held.stiffness.lpNorm<Eigen::Infinity>() <= bound && moved.lpNorm<Eigen::Infinity>() <= bound;
 }
 
-/// Equilibrium under both kinds of actions with unilateral contact, from the glued one.
+/// Solves for the equilibrium under both kinds of actions with unilateral contact, from the bilateral
+/// response, and stores its contact.
 void Pencil::freeze_contact(double reference) {
   Regime glued;
   glued.contact = Regime::Contact::bilateral;
@@ -170,20 +172,19 @@ int Pencil::count(double lambda) {
 
 VectorXd Pencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }
 
-/// Width of a bracket of one eigenvalue over its end, below which inverse iteration gains two digits by
-/// iteration or more.
+/// Largest bracket width over its upper end at which inverse iteration gains two digits per iteration.
 constexpr double kShort = 1e-2;
 
-/// Brackets of one eigenvalue each that are short, or of a cluster that is narrow, ascending.
+/// Short brackets of single eigenvalues and narrow brackets of clusters, ascending.
 std::vector<LoadBracket> isolated(Pencil& pencil, const LoadBracket& all, int wanted) {
-  constexpr double kNarrow = 1e-4;
+  constexpr double kNarrow = 1e-4;  // relative width of the bracket of a cluster
   std::vector<LoadBracket> out;
   const auto take = [&](const LoadBracket& bracket) {
     const bool single = bracket.is_single();
-    // the only load that is wanted may have a wide bracket: there is no other beside it to be mixed up with
+    // a single wanted load may have a wide bracket, because no other load in it can be confused with it
     const bool only = single && out.empty() && bracket.below_hi == wanted;
     if (!only && bracket.hi - bracket.lo > (single ? kShort : kNarrow) * bracket.hi) return false;
-    // eigenvalues on both sides of a common end are one cluster
+    // eigenvalues in adjacent brackets form one cluster
     if (!out.empty() && out.back().hi == bracket.lo) {
       out.back().hi = bracket.hi;
       out.back().below_hi = bracket.below_hi;
@@ -228,7 +229,7 @@ std::vector<EigenPair> ritz(Pencil& pencil, double shift, const std::vector<Vect
   return pairs;
 }
 
-/// One step of inverse iteration with what the pencil was factorised at. @return largest relative change
+/// One step of block inverse iteration with the current factors. @return largest relative change of a load
 double iterate(Pencil& pencil, double shift, std::vector<EigenPair>& pairs) {
   std::vector<VectorXd> b;
   std::vector<VectorXd> y;
@@ -245,17 +246,17 @@ double iterate(Pencil& pencil, double shift, std::vector<EigenPair>& pairs) {
   return change;
 }
 
-/// Draws the lower end of a wide bracket of one load up to just below it: a few iterations from the lower end
-/// say where it is, and a count says whether they are right. Factorised there when it is true.
+/// Raises the lower end of a wide bracket of one load to 0.2 % below an estimate by inverse iteration, and
+/// confirms the new end by an inertia count. True: confirmed, and the pencil is factorised there.
 bool draw_up(Pencil& pencil, LoadBracket& bracket, std::vector<EigenPair>& pairs) {
   constexpr int kTries = 3;
   constexpr int kIterations = 3;
-  constexpr double kBelow = 2e-3;  // as for the shift of refine()
+  constexpr double kBelow = 2e-3;  // relative distance of the shift below the estimate, see refine()
   for (int i = 0; i < kTries; ++i) {
     if (pencil.count(bracket.lo) != bracket.below_lo) return false;
     for (int k = 0; k < kIterations; ++k) iterate(pencil, bracket.lo, pairs);
     const double load = pairs[0].load;
-    if (!(load > bracket.lo && load < bracket.hi)) return false;  // some other load is nearer
+    if (!(load > bracket.lo && load < bracket.hi)) return false;  // another load is nearer to the shift
     const double shift = load * (1.0 - kBelow);
     if (shift <= bracket.lo) return pencil.count(bracket.lo) == bracket.below_lo;
     if (pencil.count(shift) == bracket.below_lo) {
@@ -267,7 +268,7 @@ bool draw_up(Pencil& pencil, LoadBracket& bracket, std::vector<EigenPair>& pairs
   return false;
 }
 
-/// Halves a bracket of one load until inverse iteration gains two digits by iteration or more.
+/// Bisects a bracket of one load until it is shorter than kShort.
 void narrow(Pencil& pencil, LoadBracket& bracket) {
   while (bracket.hi - bracket.lo > kShort * bracket.hi) {
     const double middle = 0.5 * (bracket.lo + bracket.hi);
@@ -275,19 +276,19 @@ void narrow(Pencil& pencil, LoadBracket& bracket) {
   }
 }
 
-/// Relative change of a load that is rounding's.
+/// Relative change of a load at which inverse iteration has converged to rounding.
 constexpr double kTolerance = 1e-13;
 
-/// Vectors of a block that iterates towards the lowest `wanted` eigenvalues of a cluster: all of it where
-/// that is few, else as many more as subspace iteration is commonly given (Bathe, Finite Element
-/// Procedures, 11.6). Hundreds of modes lose their stiffness at one load where shear does: each element has
-/// its own.
+/// Number of vectors for the lowest `wanted` eigenvalues of a cluster: the whole cluster if small, else min(2
+/// wanted, wanted + 8) as usual for subspace iteration (Bathe, Finite Element Procedures, 11.6). Shear
+/// buckling gives clusters of one mode per element.
 int block_size(const LoadBracket& bracket, int wanted) {
   return std::min(bracket.below_hi - bracket.below_lo, std::min(2 * wanted, wanted + 8));
 }
 
-/// Inverse iteration with a block on one bracket: its lowest eigenvalues ascending, with their vectors.
-/// @param wanted how many of them are asked for
+/// Block inverse iteration on one bracket.
+/// @param wanted number of eigenvalues asked for
+/// @return the lowest eigenvalues of the bracket, ascending, with their vectors
 std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, int wanted, Index size) {
   constexpr int kMaxIterations = 60;
   const int m = block_size(bracket, wanted);
@@ -302,26 +303,24 @@ std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, int wanted, 
     narrow(pencil, bracket);
     pairs[0] = {bracket.hi, pseudo_random(size, 1U)};
   }
-  // Well off the eigenvalues, where elimination is accurate even if parts of the structure buckle at the same
-  // load, as long as no other eigenvalue is met on the way; else inside the bracket, off the places of the
-  // bisection.
+  // Shift below the bracket, where elimination is accurate even if parts of the structure buckle at the
+  // bracket's load, if no other eigenvalue lies between; else a shift inside the bracket that bisection did
+  // not use.
   double shift = bracket.lo - 2e-3 * bracket.hi;
   if (pencil.count(shift) != bracket.below_lo) {
     shift = bracket.lo + 0.381966 * (bracket.hi - bracket.lo);
-    static_cast<void>(pencil.count(shift));  // factorises there
+    static_cast<void>(pencil.count(shift));  // factorises at the shift
   }
   for (int it = 0; it < kMaxIterations; ++it)
     if (iterate(pencil, shift, pairs) <= kTolerance && it > 0) break;
   return pairs;
 }
 
-/// Holds each value of a bracket against the counts just beside it. Where they disagree, the counts have lost
-/// their digits next to a double load, if the value is in the bracket and the mode's quotient is the same; or
-/// elimination was poor at the shift (a single element held at one end buckles near it), and the value is
-/// taken from the counts, which need signs only. So are those of a part of a cluster: its block need not have
-/// come to the lowest.
+/// Checks each load of a bracket by inertia counts on both sides. If they disagree, the load is kept where
+/// the whole cluster was iterated and the Rayleigh quotient of its mode confirms it (counts lose digits next
+/// to a double load); otherwise the load is located by bisection of the counts.
 void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>& pairs) {
-  constexpr double kBeside = 1e-9;
+  constexpr double kBeside = 1e-9;  // relative distance of the counts from the load
   const bool whole = static_cast<int>(pairs.size()) == bracket.below_hi - bracket.below_lo;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const int below = bracket.below_lo + static_cast<int>(i);
@@ -338,9 +337,9 @@ void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>&
   }
 }
 
-/// A load factor with at least `count` eigenvalues below it; empty bracket when there is none.
+/// Bracket from zero to a load factor with at least `count` eigenvalues below it; empty when there is none.
 LoadBracket enclose(Pencil& pencil, int count, int at_start) {
-  // beyond 1e13 of the first scale the elastic stiffness is lost in the geometric one's rounding
+  // beyond 1e13 times the first scale the elastic stiffness is lost to rounding of the geometric stiffness
   constexpr int kDoublings = 43;
   LoadBracket bracket{0.0, 0.0, at_start, at_start};
   double hi = pencil.scale();
@@ -354,7 +353,7 @@ LoadBracket enclose(Pencil& pencil, int count, int at_start) {
   return bracket;
 }
 
-/// The lowest loads of the pencil as its contact is.
+/// The lowest `count` loads of the pencil with its present contact.
 void find_loads(Pencil& pencil, Index size, int count, LinearBuckling& out) {
   out.loads.clear();
   out.modes.clear();
@@ -366,7 +365,7 @@ void find_loads(Pencil& pencil, Index size, int count, LinearBuckling& out) {
     confirm(pencil, bracket, pairs);
     for (EigenPair& pair : pairs) {
       if (static_cast<int>(out.loads.size()) == count) break;
-      if (!pair.mode.allFinite()) continue;  // a count that was rounding's, of a mesh that has no such mode
+      if (!pair.mode.allFinite()) continue;  // spurious count by rounding: the mesh has no such mode
       out.loads.push_back(pair.load);
       out.modes.push_back(std::move(pair.mode));
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Linearised buckling: the eigenvalues of the tangent about a linear prestress.
+/// Linearised buckling: eigenvalues of the tangent about a linear prestress.
 
 #include <Eigen/Core>
 #include <optional>
@@ -11,49 +11,49 @@
 
 namespace snapthrough {
 
-/// Whether buckling is looked for under the proportional actions as they are or under the opposite ones.
+/// Sense of the proportional actions for which buckling loads are computed.
 enum class LoadSense { as_given, reversed };
 
-/// Eigenvalues lambda > 0 of (K_E + K_G(s_c) + lambda K_G(s_p)) x = 0, ascending, s_c and s_p the linear
-/// stresses of the constant and of the proportional actions by unit (scaled) load factor.
+/// Eigenvalues lambda > 0 of (K_E + K_G(s_c) + lambda K_G(s_p)) x = 0, ascending; s_c and s_p are the linear
+/// stresses of the constant actions and of the proportional actions at unit scaled load factor.
 struct LinearBuckling {
-  std::vector<double> loads;           ///< scaled load factors; fewer than asked when there are no more
-  std::vector<Eigen::VectorXd> modes;  ///< unknowns of the structural problem, largest displacement one
+  std::vector<double> loads;           ///< scaled load factors; fewer than requested when no more exist
+  std::vector<Eigen::VectorXd> modes;  ///< modes in the problem's unknowns, largest displacement one
   int negative_at_start = 0;           ///< negative eigenvalues under the constant actions alone
-  SharedHolds holds;                   ///< of motions that nothing resists
-  /// A motion that no support resists is driven by the actions, or resisted by their stresses alone: there is
-  /// no reference state to linearise about. No loads then.
+  SharedHolds holds;                   ///< artificial springs on motions without stiffness
+  /// A free motion is driven by the actions or resisted by their stresses alone, so that no linear reference
+  /// state exists; `loads` is then empty.
   bool is_mechanism = false;
   int factorizations = 0;
   bool touches = false;   ///< some one-sided supports touch without pressure under the reference load
-  LeastPiece piece;       ///< what was found for them
-  TouchingMarks marks;    ///< of them
-  FrozenContact contact;  ///< that the loads are of
+  LeastPiece piece;       ///< stability result of the touching supports
+  TouchingMarks marks;    ///< supports that touch
+  FrozenContact contact;  ///< contact for which the loads hold
   FrozenContact pressed;  ///< where one-sided supports are pressed or touch under the reference load
 };
 
 /// @brief The lowest `count` buckling loads of a structure.
 ///
-/// Inertia counts isolate each eigenvalue or cluster (nothing is missed, repeated ones are counted), inverse
-/// iteration on a block of the cluster's size with Rayleigh-Ritz gives its values and modes. One-sided
-/// supports are glued where they are pressed at the linear equilibrium under the load factor `reference` and
-/// absent where they are left. Those that touch without pressure act in the piece that becomes unstable first
-/// (set_least_piece()): the first load is the critical one, the others are those of the same piece. Where
-/// nothing else holds the structure they are glued.
-/// @param structure not linear in its geometry
+/// Inertia counts isolate each eigenvalue or cluster, so that none is missed; block inverse iteration with
+/// Rayleigh-Ritz gives loads and modes. One-sided supports are bilateral where they are pressed at the linear
+/// equilibrium under `reference`, and absent elsewhere. Supports that touch without pressure act in the
+/// combination that becomes unstable first (set_least_piece()): the first load is the critical one, the
+/// others belong to that combination. If nothing else restrains the structure, touching supports are
+/// bilateral.
+/// @param structure with nonlinear geometry
 /// @param reference scaled load factor of the reference load
-/// @param near the first mode on a coarser mesh, where supports touch without pressure; empty: not known
-/// @param sense `reversed`: loads are positive multiples of the opposite of the proportional actions
-/// @pre no support is one-sided where `sense` is `reversed`: contact is that of the reference load
+/// @param near first mode on a coarser mesh, for supports that touch without pressure; empty: unknown
+/// @param sense `reversed`: loads multiply the opposite of the proportional actions
+/// @pre no support is one-sided where `sense` is `reversed` (contact is that of the reference load)
 [[nodiscard]] LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& problem,
                                              int count, double reference, const Eigen::VectorXd& near = {},
                                              LoadSense sense = LoadSense::as_given);
 
-/// @brief Where one-sided supports are pressed or touch at the equilibrium of small displacements under a
+/// @brief Contact of one-sided supports (pressed or touching) at the small-displacement equilibrium under a
 /// load factor.
-/// @param problem its holds are set anew
+/// @param problem its holds are overwritten
 /// @param lambda scaled load factor
-/// @param factorizations counts are added to it
+/// @param factorizations incremented by the number of factorisations
 /// @return empty when no such equilibrium was found
 [[nodiscard]] std::optional<FrozenContact> linear_contact(StructuralProblem& problem, double lambda,
                                                           int& factorizations);

@@ -10,9 +10,9 @@ namespace snapthrough {
 namespace {
 
 constexpr int kMostCorrections = 25;
-constexpr int kMostChanges = 200;  ///< on one step
+constexpr int kMostChanges = 200;  ///< largest number of contact changes located per step
 
-/// A bracket of a change: the counts at `before` are the old ones, those at `after` are not.
+/// Two path points around a contact change: zone counts are unchanged at `before` and changed at `after`.
 struct Bracket {
   PathPoint before;
   PathPoint after;
@@ -33,16 +33,17 @@ double predicted_fraction(const Segment& bracket, const ZoneCounter& count, cons
 /// where the load begins, everything that touches touches from nothing. Sets the counts beyond.
 bool changes_at_start(const Segment& segment, const ZoneCounter& count, const std::vector<int>& old,
                       std::vector<int>& beyond) {
-  constexpr double kAtOnce = 1e-6;  // enough for zones to be deeper than rounding where all grow from nothing
+  // fraction of the bracket at which new contact zones are deeper than rounding
+  constexpr double kAtOnce = 1e-6;
   PathPoint point;
   segment.interpolate(kAtOnce, point);
   count(point.y, beyond);
   return beyond != old;
 }
 
-/// Just beyond the prediction, seen from the nearer end, so that the bracket closes from both sides.
+/// Fraction slightly past the prediction, seen from the nearer end: the bracket shrinks from both sides.
 double next_fraction(double predicted) {
-  constexpr double kBeyond = 1.5;
+  constexpr double kBeyond = 1.5;  // factor on the distance from the nearer end
   constexpr double kLeast = 1e-6;  // distance from the bracket's ends, a fraction
   const double beyond = predicted < 0.5 ? kBeyond * predicted : 1.0 - kBeyond * (1.0 - predicted);
   return std::clamp(beyond, kLeast, 1.0 - kLeast);
@@ -56,7 +57,7 @@ bool is_closed(const PathNorm& norm, const Bracket& bracket, double tolerance) {
          norm.distance(bracket.before, bracket.after) <= kNear;
 }
 
-/// Closes the bracket round its first change; false when it stays as wide as it is.
+/// Shrinks the bracket around its first change to the tolerance; false when no corrected point was found.
 bool close(const Segment& step, const ZoneCounter& count, const std::vector<int>& old, double tolerance,
            Bracket& bracket) {
   std::vector<int> zones;
@@ -95,7 +96,7 @@ std::vector<ContactChange> locate_contact_changes(PointSolver& solver, const Pat
     change.before = old;
     count(bracket.after.y, old);
     change.after = old;
-    // a path turns where its contact changes, which is next to the start
+    // at a kink the contact change is next to the start of the step
     change.point = at_kink && !closed ? bracket.before : bracket.after;
     out.push_back(std::move(change));
     from = std::move(bracket.after);

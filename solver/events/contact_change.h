@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Where contact begins and ends along a path.
+/// Load factors at which contact zones begin and end along a path.
 
 #include <functional>
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace snapthrough {
 
-/// Counts of contact zones, one a support, at a state.
+/// Writes the number of contact zones of each support at state y into `zones`.
 using ZoneCounter = std::function<void(const Eigen::VectorXd& y, std::vector<int>& zones)>;
 
-/// A place of the path where contact zones begin, end, divide or join.
+/// Path point at which contact zones begin, end, divide or join, with the zone counts on both sides.
 struct ContactChange {
   PathPoint point;
   std::vector<int> before;
   std::vector<int> after;
 };
 
-/// @brief Changes of the counts between two neighbouring points of a path, in the order they are met.
+/// @brief Locates all changes of the zone counts between two neighbouring path points, in path order.
 ///
-/// The curve through both ends says where to look; the path is corrected there, and the bracket closes from
-/// both sides, in a few corrections a change. Zones that begin and end within one step are not seen.
-/// @param at_kink whether the step led round a kink, so that places are told by the displacement alone
+/// The path is interpolated between both ends to predict a change and corrected there; a bracket shrinks from
+/// both sides. A zone that begins and ends within the step is missed.
+/// @param at_kink whether the step passes a kink; positions are then measured by the displacement alone
 /// @param tolerance on the load factor, relative
 [[nodiscard]] std::vector<ContactChange> locate_contact_changes(PointSolver& solver, const PathPoint& a,
                                                                 const PathPoint& b, bool at_kink,

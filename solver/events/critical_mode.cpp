@@ -12,8 +12,8 @@ using Eigen::VectorXd;
 
 VectorXd null_vector(EquilibriumProblem& problem, const PathPoint& point, VectorXd start) {
   constexpr int kLeastIterations = 4;
-  constexpr int kMostIterations = 60;  // the softest motion of a stiff structure is found more slowly
-  constexpr double kSettled = 1e-12;
+  constexpr int kMostIterations = 60;  // limit for stiff structures, whose lowest mode converges slowly
+  constexpr double kSettled = 1e-12;   // change of the normalised vector per iteration
   const VectorXd& weights = problem.metric();
   const auto norm = [&weights](const VectorXd& x) {
     return std::sqrt((x.array().square() * weights.array()).sum());

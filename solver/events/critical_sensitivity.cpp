@@ -29,7 +29,7 @@ MatrixXd CriticalSensitivity::equations(EquilibriumProblem& problem) const {
   return out;
 }
 
-/// S: the load of the target changes by -trace(S d stiffness) / trace(S B).
+/// Matrix S such that the target's critical load changes by -trace(S d stiffness) / trace(S B).
 MatrixXd CriticalSensitivity::share_of_target() const {
   const CriticalSolution& at = point_.at();
   const auto spectrum = at.spectrum();

@@ -26,7 +26,7 @@ VectorXd eigenvalues(const MatrixXd& m) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric(m)).eigenvalues();
 }
 
-/// A direction along z and the null motions, of norm one.
+/// Direction n a + z b in (y, lambda), normalised, with the rate of the first null motion's stiffness.
 CriticalDirection direction(const CriticalSolution& at, const VectorXd& along_null, double along_load,
                             const PathMetric& metric) {
   CriticalDirection out{at.null * along_null + along_load * at.response, along_load, 0.0};
@@ -48,7 +48,7 @@ double CriticalSolution::imperfection() const {
 }
 
 std::optional<CriticalSolution::Spectrum> CriticalSolution::spectrum() const {
-  // (stiffness + d B) w = 0
+  // eigenproblem (stiffness + d B) w = 0
   const double sign = B(0, 0) < 0.0 ? -1.0 : 1.0;
   const MatrixXd definite = symmetric(-sign * B);
   if ((eigenvalues(definite).array() >= 0.0).any()) return std::nullopt;
@@ -64,7 +64,7 @@ std::optional<CriticalSolution::Spectrum> CriticalSolution::spectrum() const {
 }
 
 std::vector<CriticalDirection> CriticalSolution::tangents(const PathMetric& metric) const {
-  // n_i.F''[t, t] = 0 for t = z b + n a
+  // solves n_i.F''[t, t] = 0 for t = z b + n a
   const Index k = C.size();
   if (k == 1) {
     const double a = A[0](0, 0);
@@ -75,7 +75,7 @@ std::vector<CriticalDirection> CriticalSolution::tangents(const PathMetric& metr
     return {direction(*this, C, big, metric), direction(*this, VectorXd::Constant(1, big), a, metric)};
   }
   VectorXd a = VectorXd::Zero(k);
-  constexpr int kIterations = 5;
+  constexpr int kIterations = 5;  // Newton iterations on the amplitudes
   for (int it = 0; it < kIterations; ++it) {
     MatrixXd change = B;
     for (Index j = 0; j < k; ++j) change.col(j) += A[static_cast<std::size_t>(j)] * a;
@@ -88,7 +88,7 @@ std::vector<CriticalDirection> CriticalSolution::tangents(const PathMetric& metr
 
 namespace {
 
-/// Newton's method on one of the two systems, with the bordered matrix [J, W n; n W, 0].
+/// Newton's method for a bifurcation or a limit point, with the bordered matrix [J, W n; n W, 0].
 class CriticalNewton {
  public:
   CriticalNewton(EquilibriumProblem& problem, const PathMetric& metric, const CriticalGuess& guess,
@@ -123,19 +123,19 @@ class CriticalNewton {
   const CriticalOptions& options_;
   bool bifurcation_;
   CriticalSolution at_;
-  MatrixXd v_;      ///< J v = W n G, n.W v = 1
-  VectorXd p_, q_;  ///< of the residual and of the load
+  MatrixXd v_;      ///< null motions of this iteration: J v = W n G, n.W v = 1
+  VectorXd p_, q_;  ///< response to the residual and to the load
   VectorXd pi_, rho_;
-  MatrixXd along_p_;   ///< n_i.F''[n_j, p]
-  VectorXd along_zp_;  ///< n_i.F''[z, p]
+  MatrixXd along_p_;   ///< second derivatives n_i.F''[n_j, p]
+  VectorXd along_zp_;  ///< second derivatives n_i.F''[z, p]
   VectorXd residual_;
   double dlambda_ = 0.0;
   double moved_ = 0.0;
-  double previous_ = 0.0;                                  ///< size of the last correction
+  double previous_ = 0.0;                                  ///< norm of the last correction
   double left_ = std::numeric_limits<double>::infinity();  ///< relative residual of settled_
-  std::optional<CriticalSolution> settled_;                ///< a solution whose residual may still fall
-  bool stalled_ = false;                                   ///< corrections have ceased to fall
-  /// Relative difference of the stiffnesses by the factors and by quotients, when they agreed best.
+  std::optional<CriticalSolution> settled_;  ///< a converged solution whose residual may still decrease
+  bool stalled_ = false;                     ///< corrections no longer decrease
+  /// Smallest relative difference so far between stiffnesses from the factors and from Rayleigh quotients.
   double least_doubt_ = std::numeric_limits<double>::infinity();
 };
 
@@ -149,11 +149,10 @@ void CriticalNewton::solve(MatrixXd& x) {
   }
 }
 
-/// Corrects the solutions once by what they leave: parts of a member may be at a buckling load of their own,
-/// as the halves of a column at its, where elimination loses digits; and so it does where the tangent is
-/// singular.
+/// One step of iterative refinement. Elimination loses digits where the tangent is singular, or where a part
+/// of a member is at a buckling load of its own (for example each half of a column in its second mode).
 void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
-  constexpr double kLargest = 0.1;
+  constexpr double kLargest = 0.1;  // largest refinement relative to the null motions
   const Index k = v_.cols();
   MatrixXd all(rows.rows(), k + 2);
   all << v_, p_, q_;
@@ -163,17 +162,19 @@ void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
   left.rightCols(2) += rows.rightCols(2);
   solve(left);
   left -= v_ * (border.transpose() * left);
-  // a pivot of zero corrects nothing
+  // without refinement after a zero pivot
   if (!(left.leftCols(k).norm() < kLargest * v_.norm())) return;
   v_ += left.leftCols(k);
   p_ += left.col(k);
   q_ += left.col(k + 1);
 }
 
-/// The solves with one factorisation; false when the tangent has no factors.
+/// Factorises the tangent and computes v, p and q; false when the factorisation is singular.
 bool CriticalNewton::factorise() {
+  // relative difference of the stiffnesses by factors and by quotients above which solutions are refined
   constexpr double kSure = 0.1;
-  constexpr double kLargest = 1e6;  // square of what null motions of norm one may become
+  // largest sum of squared norms of the null motions, which start with norm one
+  constexpr double kLargest = 1e6;
   const TangentReport report = problem_.linearise(at_.y, at_.lambda, residual_);
   const Index k = at_.null.cols();
   MatrixXd rows(at_.y.size(), k + 2);
@@ -187,14 +188,14 @@ bool CriticalNewton::factorise() {
   problem_.load(at_.y, at_.lambda, column);
   rows.col(k + 1) = column;
   const MatrixXd border = problem_.metric().asDiagonal() * at_.null;
-  // forces that do no work on the motions hardly move along them, where factors lose their digits
+  // remove load components along W n, for which the factors are inaccurate near the singular tangent
   const MatrixXd shares = works(rows.rightCols(2), at_.null);
   MatrixXd x = rows;
   x.rightCols(2) -= rows.leftCols(k) * shares;
   solve(x);
   at_.stiffness = (border.transpose() * x.leftCols(k)).inverse();
   v_ = x.leftCols(k) * at_.stiffness;
-  // [J, W n; n W, 0] [x; s] = [rows; 0] for the residual and the load
+  // solution of [J, W n; n W, 0] [x; s] = [rows; 0] for the residual and the load
   const MatrixXd along = border.transpose() * x.rightCols(2);
   p_ = x.col(k) - v_ * along.col(0);
   q_ = x.col(k + 1) - v_ * along.col(1);
@@ -206,7 +207,7 @@ bool CriticalNewton::factorise() {
   const VectorXd exact = eigenvalues(at_.stiffness);
   const double doubt = (factored - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().minCoeff();
   if (!(doubt > least_doubt_)) {
-    // signs of pivots and of these eigenvalues come from the same factors
+    // pivots and these eigenvalues come from one factorisation, so that their signs are consistent
     least_doubt_ = doubt;
     at_.others = report.negative - static_cast<int>((factored.array() < 0.0).count());
   }
@@ -219,8 +220,7 @@ bool CriticalNewton::factorise() {
          q_.allFinite();
 }
 
-/// Keeps the motions and the response to the load of the iteration before where those of the factors at hand
-/// satisfy their equations less.
+/// Keeps the null motions and the load response of the previous iteration where they have smaller residuals.
 void CriticalNewton::keep_better(const MatrixXd& rows, const MatrixXd& border) {
   const Index k = v_.cols();
   const auto products = [&](const Eigen::Ref<const MatrixXd>& x) {
@@ -244,8 +244,7 @@ void CriticalNewton::keep_better(const MatrixXd& rows, const MatrixXd& border) {
   if (left_of_load(q_) > left_of_load(before)) q_ = before;
 }
 
-/// Stiffness and multipliers as Rayleigh's quotients of the solutions: their errors are products of the
-/// solutions' own.
+/// Replaces stiffness and multipliers by Rayleigh quotients, whose errors are of second order.
 void CriticalNewton::take_quotients(const MatrixXd& right) {
   const Index k = v_.cols();
   MatrixXd all(v_.rows(), k + 2);
@@ -253,13 +252,13 @@ void CriticalNewton::take_quotients(const MatrixXd& right) {
   MatrixXd forces = problem_.tangent_products(at_.y, at_.lambda, all);
   forces.rightCols(2) = right - forces.rightCols(2);
   at_.stiffness = symmetric(works(forces.leftCols(k), v_));
-  // only v keeps in place what the load moves
+  // v alone leaves the prescribed displacements of the load in place
   const MatrixXd multipliers = works(forces.rightCols(2), v_);
   pi_ = multipliers.col(0);
   rho_ = multipliers.col(1);
 }
 
-/// Work of forces, by column, on motions, by row.
+/// Work of each column of forces on each motion: one row per motion.
 MatrixXd CriticalNewton::works(const Eigen::Ref<const MatrixXd>& forces,
                                const Eigen::Ref<const MatrixXd>& motions) const {
   MatrixXd out(motions.cols(), forces.cols());
@@ -296,15 +295,15 @@ void CriticalNewton::differentiate() {
   }
 }
 
-/// S: the distance in the load of the target is -trace(S stiffness) / trace(S B).
+/// Matrix S such that the target's distance in the load factor is -trace(S stiffness) / trace(S B).
 MatrixXd CriticalNewton::share_of_target() const {
   const auto spectrum = at_.spectrum();
-  if (!spectrum) return at_.B.inverse();  // the mean of their distances
+  if (!spectrum) return at_.B.inverse();  // gives the mean distance of all null motions
   const VectorXd w = spectrum->shares.col(guess_.target);
   return w * w.transpose() / w.dot(at_.B * w);
 }
 
-/// Changes of the load factor and of the amplitudes along the null motions.
+/// Newton corrections of the load factor and of the amplitudes along the null motions.
 VectorXd CriticalNewton::small_step() const {
   const Index k = v_.cols();
   MatrixXd equations(k + 1, k + 1);
@@ -338,17 +337,18 @@ bool CriticalNewton::step() {
   at_.stiffness += dlambda_ * at_.B + along_p_;
   for (Index j = 0; j < v_.cols(); ++j) at_.stiffness += amplitudes[j] * at_.A[static_cast<std::size_t>(j)];
   at_.response = q_;
-  // orthonormal motions of the same space
+  // orthonormalisation in the metric, span unchanged
   const MatrixXd gram = v_.transpose() * problem_.metric().asDiagonal() * v_;
   const MatrixXd root = gram.llt().matrixU();
   at_.null = root.transpose().triangularView<Eigen::Lower>().solve(v_.transpose()).transpose();
   return metric_.norm(at_.y - guess_.y, at_.lambda - guess_.lambda) <= options_.reach;
 }
 
-/// Whether the next correction would be too small to count, as quadratic convergence lets expect; or no
-/// smaller than this one although the solves are exact: then both are rounding's.
+/// Whether the next correction, predicted by quadratic convergence, is below the tolerances, or whether
+/// stagnating corrections are at rounding level.
 bool CriticalNewton::converged() {
-  constexpr double kRounding = 1e-6;  // of the reach, and of the load factor
+  // stagnating corrections count as rounding below this fraction of the reach and of the load factor
+  constexpr double kRounding = 1e-6;
   const bool falls = previous_ == 0.0 || moved_ < 0.5 * previous_;
   const double ratio = falls && previous_ > 0.0 ? moved_ / previous_ : 1.0;
   const double size = std::max(std::abs(at_.lambda), options_.least_load);
@@ -360,8 +360,8 @@ bool CriticalNewton::converged() {
                       std::abs(dlambda_) * ratio <= options_.tolerance * size);
 }
 
-/// Whether the forces balance at the solution: where its state is returned, to rounding or as far as they
-/// go. Where supports act on one side only the last correction, however small, may have changed what touches.
+/// Whether the solution satisfies equilibrium. Tested when the state is reported (to rounding), or when
+/// one-sided supports exist, because even a small last correction may change the contact.
 bool CriticalNewton::balances() {
   if (!problem_.one_sided() && !options_.to_rounding) return true;
   problem_.residual(at_.y, at_.lambda, residual_);
@@ -382,12 +382,13 @@ bool CriticalNewton::balances() {
 
 std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
   constexpr int kMostIterations = 8;
-  constexpr double kAside = 1e-8;  // of the reach
-  constexpr int kSettling = 3;     // iterations before the unfolding force says how large it will be
+  constexpr double kAside = 1e-8;  // displacement off a singular tangent, over the reach
+  // iterations before the unfolding force is a reliable measure of the imperfection
+  constexpr int kSettling = 3;
   for (int it = 1; it <= kMostIterations; ++it) {
     ++factorisations;
     if (!factorise()) {
-      // a tangent that is singular to the last bit has factors next to here
+      // a tangent that is exactly singular can be factorised at a neighbouring state
       at_.y += kAside * options_.reach * at_.null.col(0);
       ++factorisations;
       if (!factorise()) break;
@@ -401,10 +402,11 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
   return std::move(settled_);
 }
 
-/// A motion that loses its stiffness at a bifurcation, too, and is none of those that it was solved for;
-/// empty when there is none. By inverse iteration with the last factors.
+/// Finds a further motion that loses its stiffness at the bifurcation, by inverse iteration with the last
+/// factors; empty when there is none.
 VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
-  constexpr double kBeside = 1e-3;  // of the load
+  // largest relative distance in the load factor at which a motion's stiffness counts as vanishing
+  constexpr double kBeside = 1e-3;
   constexpr int kIterations = 2;
   const Index k = at.null.cols();
   if (k == (problem_.metric().array() > 0.0).count()) return {};
@@ -422,7 +424,7 @@ VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
   const PathDirection along_z{at.response, 1.0, metric_.norm(at.response, 1.0)};
   const double rate = works(tangent_change(problem_, at.y, at.lambda, along_z, x), x)(0, 0);
   const double stiffness = works(problem_.tangent_products(at.y, at.lambda, x), x)(0, 0);
-  // a motion that the load drives, as an imperfection would, is that of a limit point
+  // a motion that the load drives belongs to a limit point
   problem_.load(at.y, at.lambda, force);
   const bool driven = std::abs(problem_.work(force, x)) > options_.largest_imperfection * std::abs(rate);
   return !driven && std::abs(stiffness) <= kBeside * std::abs(at.lambda * rate) ? x : VectorXd();
@@ -441,7 +443,7 @@ std::optional<CriticalSolution> solve_bifurcation(EquilibriumProblem& problem, c
     if (!found) return best;
     const VectorXd another = newton.another_null_motion(*found);
     if (another.size() == 0) return found;
-    // anew from the guess: at a multiple bifurcation itself factors have no digits left
+    // restart from the guess: at a multiple bifurcation the factors have no accurate digits
     const Index k = found->null.cols();
     wider.null.resize(Eigen::NoChange, k + 1);
     wider.null << found->null, another;

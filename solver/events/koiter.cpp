@@ -8,12 +8,13 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// n.F'''[n, n, n] by second differences of tangent products, extrapolated; empty when it does not settle.
+/// n.F'''[n, n, n] from second differences of tangent products, extrapolated; empty when not converged.
 std::optional<double> third_derivative(const BorderedPoint& point) {
-  constexpr double kLongest = 2e-2;  // displacement gradient: differences of second order keep their digits
-  constexpr double kShorter = 0.25;
+  constexpr double kLongest = 2e-2;  // largest step (displacement gradient) for accurate second differences
+  constexpr double kShorter = 0.25;  // ratio of successive steps
   constexpr int kMostSteps = 4;
-  constexpr double kSettled = 1e-3;  // what extrapolation leaves is about its square
+  // relative change between steps; the error after extrapolation is about its square
+  constexpr double kSettled = 1e-3;
   const CriticalSolution& at = point.at();
   const VectorXd n = at.null.col(0);
   const auto product = [&](double e) {
@@ -34,14 +35,15 @@ std::optional<double> third_derivative(const BorderedPoint& point) {
 }  // namespace
 
 std::optional<KoiterExpansion> koiter_expansion(const BorderedPoint& point, double along_path) {
-  constexpr double kSymmetric = 1e-5;  // of the load, by a slope of one: what differences and meshes leave
+  // slope per load factor that counts as zero: error of differences and of the mesh
+  constexpr double kSymmetric = 1e-5;
   const CriticalSolution& at = point.at();
   const double A = at.A[0](0, 0);
   const double B = at.B(0, 0);
   const double C = at.C[0];
   const double root = B * B - A * C;
   if (!(root > 0.0)) return std::nullopt;
-  // the tangents (1, a) of both paths: A a^2 + 2 B a + C = 0
+  // tangents (1, a) of both paths solve A a^2 + 2 B a + C = 0
   const double big = B + std::copysign(std::sqrt(root), B);
   double along = -C / big;
   if (A != 0.0 && std::abs(-big / A - along_path) < std::abs(along - along_path)) along = -big / A;

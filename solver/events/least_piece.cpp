@@ -13,12 +13,12 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Displacement into a support, over the mode's largest, that is none.
+/// Displacement into a support, over the mode's largest displacement, that counts as zero.
 constexpr double kNoDisplacement = 1e-7;
-/// Relative difference of two loads of one piece that is the rounding of its eigenvalue.
+/// Relative difference of two loads of one piece that counts as rounding.
 constexpr double kSameLoad = 1e-9;
-constexpr int kMostPieces = 400;  ///< of springs, before the search is given up
-constexpr int kMostSprings = 30;
+constexpr int kMostPieces = 400;  ///< limit on visited pieces in over_springs()
+constexpr int kMostSprings = 30;  // limit for the search over springs, one bit each
 
 class Search {
  public:
@@ -30,14 +30,15 @@ class Search {
   [[nodiscard]] LeastPiece by_descent(const VectorXd& near);
 
  private:
-  /// Springs that act, a bit each, in a piece whose load is a lower bound of those that add springs from
-  /// `next` on.
+  /// Piece in the search tree: bit i of `springs` is set when spring i acts. `load` is a lower bound for all
+  /// pieces that add springs with index `next` or higher.
   struct Node {
     double load = 0.0;
     unsigned springs = 0;
     std::size_t next = 0;
     bool fits = false;
-    bool operator<(const Node& other) const { return load > other.load; }  // the least is on top
+    // the smallest load is on top of the priority queue
+    bool operator<(const Node& other) const { return load > other.load; }
   };
 
   [[nodiscard]] Node visit(unsigned springs, std::size_t next);
@@ -46,7 +47,7 @@ class Search {
   void set_cone_of(const VectorXd& motion);
   [[nodiscard]] bool fits(const VectorXd& mode, unsigned springs);
   [[nodiscard]] double quotient(const VectorXd& motion);
-  /// Follows the quotient down from a motion; sets `least_` when it ends lower.
+  /// Minimises the Rayleigh quotient from a motion; updates `least_` when the result is lower.
   void descend(VectorXd motion);
 
   const StructuralProblem& problem_;
@@ -76,7 +77,7 @@ void Search::set_cone_of(const VectorXd& motion) {
   problem_.set_touching(marks_, motion, acting_, contact_);
 }
 
-/// Whether the mode, one way or the other, moves into the springs that act and into no other.
+/// Whether the mode or its opposite moves into all springs that act and away from all others.
 bool Search::fits(const VectorXd& mode, unsigned springs) {
   problem_.touching_displacements(marks_, mode, displacements_);
   bool one_way = true;
@@ -121,7 +122,7 @@ double Search::quotient(const VectorXd& motion) {
 
 void Search::descend(VectorXd motion) {
   constexpr int kMostSteps = 40;
-  constexpr int kHalvings = 8;
+  constexpr int kHalvings = 8;  // step reductions per descent step
   double load = quotient(motion);
   for (int step = 0; step < kMostSteps; ++step) {
     set_cone_of(motion);
@@ -157,7 +158,7 @@ LeastPiece Search::by_descent(const VectorXd& near) {
   if (near.size() > 0) starts = {near};
   for (const VectorXd& start : starts) {
     descend(start);
-    if (least_.load <= above * (1.0 + kSameLoad)) break;  // nothing can be lower
+    if (least_.load <= above * (1.0 + kSameLoad)) break;  // no lower load exists
   }
   if (least_.mode.size() == 0) {
     set_all(true);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Stability where one-sided supports touch without pressure: the least load over the pieces of the tangent.
+/// Stability of a structure with one-sided supports that touch without pressure.
 
 #include <Eigen/Core>
 #include <functional>
@@ -10,26 +10,25 @@
 
 namespace snapthrough {
 
-/// A piece is the linear problem in which some of the touching supports act and the others are absent.
+/// Lowest buckling load of a piece: linear problem in which a set of touching supports acts, the others not.
 struct Piece {
-  double load = 0.0;     ///< the lowest above zero
-  Eigen::VectorXd mode;  ///< largest displacement one
+  double load = 0.0;     ///< smallest buckling load above zero
+  Eigen::VectorXd mode;  ///< buckling mode, largest displacement one
 };
 
-/// What the search asks of the piece that is set.
+/// Buckling functions of the piece that is currently set.
 struct PieceSolver {
-  /// Its lowest buckling load; empty: there is none, or it is unstable under the constant actions alone.
+  /// Lowest buckling load; empty: none exists, or the piece is unstable under the constant actions alone.
   std::function<std::optional<Piece>()> lowest;
-  /// Rayleigh's quotient of a motion.
+  /// Rayleigh quotient of a motion.
   std::function<double(const Eigen::VectorXd&)> quotient;
 };
 
 struct LeastPiece {
   bool found = false;
-  bool certain = false;  ///< no piece has a lower load that its mode does not contradict
-  double above = 0.0;    ///< a load that the least one is not below
-  /// The critical motion of foundations, in the sense in which it meets them; empty where springs alone
-  /// touch.
+  bool certain = false;  ///< the load is proven to be the least over all admissible pieces
+  double above = 0.0;    ///< lower bound of the critical load
+  /// Critical motion, oriented into the foundations that it meets; empty when only springs touch.
   Eigen::VectorXd motion = {};
 };
 
@@ -40,18 +39,18 @@ struct LeastPiece {
 ///   Q(v) = v.K(lambda) v + sum_i k_i max(d_i.v, 0)^2,
 ///
 /// is quadratic in each cone of motions that meet the same supports. The structure is stable while Q > 0 for
-/// all v. Where that ends first, the motion is the lowest mode of the piece of its own cone: Q is
-/// continuously differentiable, so it is stationary there, and above any lower mode of that piece Q would be
-/// negative beside it. So the critical load is the least lowest load of a piece whose mode is in the piece's
-/// own cone, and each piece's load is a lower bound of all that have more supports.
+/// all v. At the critical load the critical motion is the lowest mode of the piece of its own cone: Q is C1,
+/// hence stationary there, and a lower mode of that piece would make Q negative nearby. The critical load is
+/// therefore the least lowest load among the pieces whose mode lies in their own cone. The load of a piece is
+/// a lower bound for all pieces with additional supports.
 ///
-/// Springs only: pieces are taken in the order of their loads, from none that acts on, until one's mode is in
-/// its cone. That one is the least, with certainty. Foundations: Rayleigh's quotient of Q falls from the
-/// modes of the free and of the glued structure, both ways, each step towards the lowest mode of the piece at
-/// hand.
-/// @param near the critical motion of a coarser mesh, from which alone it falls then; empty: not known
-/// @param contact of the prestress that `solver` uses; the solver computes with what is set here
-/// @param marks of the same prestress
+/// Springs only: pieces are visited in ascending order of load, starting without springs, until a mode lies
+/// in its own cone; the result is proven. Foundations: the Rayleigh quotient of Q is minimised from the modes
+/// of the structure without and with all touching supports, in both senses, each step towards the lowest mode
+/// of the current piece.
+/// @param marks touching supports of the prestress
+/// @param near critical motion on a coarser mesh, then the only starting point; empty: unknown
+/// @param contact frozen contact of the prestress that `solver` uses; set to the resulting piece
 [[nodiscard]] LeastPiece set_least_piece(const StructuralProblem& problem, const PieceSolver& solver,
                                          const TouchingMarks& marks, const Eigen::VectorXd& near,
                                          FrozenContact& contact);

@@ -16,7 +16,8 @@ using Eigen::VectorXd;
 namespace {
 
 CriticalOptions options_for(const PointSolver& solver, double tolerance, double reach) {
-  constexpr double kPlaceOfNoState = 1e-3;  // where only the load is reported, which errs by the square
+  // displacement tolerance over the reach where only the load (error of second order) is reported
+  constexpr double kPlaceOfNoState = 1e-3;
   CriticalOptions options;
   if (solver.options().tangent_tolerance > 0.0) {
     options.place = kPlaceOfNoState;
@@ -28,15 +29,16 @@ CriticalOptions options_for(const PointSolver& solver, double tolerance, double 
   return options;
 }
 
-/// The tangent of the path that leaves in a direction, and of that which crosses it.
+/// Tangents of the followed path and of the crossing path at a bifurcation.
 struct Tangents {
   CriticalDirection along;
-  CriticalDirection across;  ///< without y: not known
+  CriticalDirection across;  ///< direction of the crossing path; y is empty when unknown
 };
 
 std::optional<Tangents> tangents_along(const PathMetric& metric, const CriticalSolution& found,
                                        const PathDirection& way) {
-  constexpr double kSameWay = 0.5;  // cosine between the path's direction and its tangent at the bifurcation
+  // least cosine between the path's direction and its tangent at the bifurcation
+  constexpr double kSameWay = 0.5;
   const auto inner = [&](const CriticalDirection& d) {
     return metric.inner(d.y, d.lambda, way.y, way.lambda);
   };
@@ -50,8 +52,9 @@ std::optional<Tangents> tangents_along(const PathMetric& metric, const CriticalS
   return out;
 }
 
-/// One bifurcation of those that a solution stands for.
-/// @param distance to it in the load
+/// Makes the event of one of the bifurcations that a solution represents.
+/// @param distance from the solution to the bifurcation in the load factor
+/// @param shares combination of the null motions whose stiffness vanishes at the bifurcation
 CriticalEvent bifurcation_event(const CriticalSolution& found, const Tangents& tangents, double distance,
                                 const VectorXd& shares) {
   CriticalEvent event;
@@ -71,7 +74,7 @@ CriticalEvent bifurcation_event(const CriticalSolution& found, const Tangents& t
   return event;
 }
 
-/// A solution of Moore's system with what a path needs of it.
+/// Solution of Moore's system with tangents and spectrum.
 struct Solved {
   CriticalSolution at;
   Tangents tangents;
@@ -90,8 +93,8 @@ std::optional<Solved> solve_on_path(PointSolver& solver, const CriticalGuess& gu
   return Solved{*std::move(found), *std::move(tangents), *std::move(spectrum)};
 }
 
-/// The same bifurcation, found for itself: seen from another of several its place is right to the square of
-/// the distance only.
+/// Solves for the target bifurcation itself: predicted from a neighbouring bifurcation, its position has an
+/// error of second order in the distance.
 CriticalEvent settled(PointSolver& solver, const CriticalEvent& event, Index target, const PathDirection& way,
                       const CriticalOptions& options) {
   const CriticalGuess guess{event.point.y, event.point.lambda, event.null, target};
@@ -100,8 +103,8 @@ CriticalEvent settled(PointSolver& solver, const CriticalEvent& event, Index tar
   return bifurcation_event(found->at, found->tangents, 0.0, found->spectrum.shares.col(target));
 }
 
-/// Whether the inertia changes as bifurcations say, just before the first and beyond the last. Where supports
-/// act on one side only the tangent's derivatives may be those of a contact that ends there.
+/// Whether inertia counts just before the first and after the last bifurcation agree with the events. With
+/// one-sided supports the derivatives of the tangent may belong to a contact state that ends there.
 bool inertia_confirms(PointSolver& solver, const std::vector<CriticalEvent>& events, double apart) {
   EquilibriumProblem& problem = solver.problem();
   if (!problem.one_sided() || events.empty()) return true;
@@ -117,15 +120,16 @@ bool inertia_confirms(PointSolver& solver, const std::vector<CriticalEvent>& eve
          negative(events.back(), apart) == events.back().negative_after;
 }
 
-/// The bifurcations next to a guess as a path meets them that goes some way: the first that is asked for, and
-/// those close to it; those within the tolerance are one of higher multiplicity.
-/// @param before negative eigenvalues on the near side; -1: as many as there are
+/// Bifurcations next to a guess in the order in which a path in direction `way` meets them: the target and
+/// those close to it. Bifurcations within the tolerance count as one of higher multiplicity.
+/// @param before negative eigenvalues before the first; -1: any
 std::vector<CriticalEvent> bifurcations_near(PointSolver& solver, const CriticalGuess& guess,
                                              const PathDirection& way, int before,
                                              const CriticalOptions& options) {
-  constexpr double kExact = 1e-5;  // of the load: distances whose square does not count
+  constexpr double kExact = 1e-5;  // relative distance in the load factor whose square is negligible
+  // relative distance in the load factor up to which bifurcations are neighbours
   constexpr double kClose = 1e-2;
-  constexpr double kBeside = 1e-2;  // of the reach
+  constexpr double kBeside = 1e-2;  // step of the inertia counts over the reach
   const auto solved = solve_on_path(solver, guess, way, options);
   if (!solved) return {};
   const auto& [found, tangents, spectrum] = *solved;
@@ -187,7 +191,7 @@ std::vector<CriticalEvent> bifurcations_beyond(PointSolver& solver, const PathPo
 
 namespace {
 
-/// The mode of a step's end whose stiffness changes its sign on the step: it has `sign` there. -1: none.
+/// Index of the nearest motion with stiffness of the given sign that changes sign within the step; -1: none.
 Index crossing_mode(const SoftModes& modes, double sign, double sense) {
   Index best = -1;
   for (Index i = 0; i < modes.count(); ++i) {
@@ -197,11 +201,11 @@ Index crossing_mode(const SoftModes& modes, double sign, double sense) {
   return best;
 }
 
-/// Where the stiffness passes zero, as a share of the step from a to b: on the cubic through values and rates
-/// where both ends' motions are one, else on the line from the nearer end.
+/// Fraction of the step from a to b at which the stiffness is zero: from the cubic through values and rates
+/// if both ends have the same motion, else linearly from the nearer end.
 double predicted_share(const PathMetric& metric, const SoftModes& a, Index i, const SoftModes& b, Index j,
                        double length) {
-  constexpr double kSame = 0.9;
+  constexpr double kSame = 0.9;  // least cosine between the motions of both ends
   const double from_a = a.distance_to_zero(i, 1.0) / length;
   const double from_b = b.distance_to_zero(j, -1.0) / length;
   if (std::abs(metric.inner(a.motions.col(i), 0.0, b.motions.col(j), 0.0)) < kSame)
@@ -224,14 +228,14 @@ CriticalEvent limit_event(const PointSolver& solver, const CriticalSolution& fou
   return event;
 }
 
-/// The simple critical point of a kind next to a guess, by Newton's method.
-/// @param kind its type and the inertia on both sides
-/// @param way direction of the path there
+/// Solves for the simple critical point of a kind next to a guess, by Newton's method.
+/// @param kind type, and negative eigenvalues on both sides
+/// @param way direction of the path at the guess
 std::optional<CriticalEvent> solve_event(PointSolver& solver, const CriticalGuess& guess,
                                          const CriticalEvent& kind, const PathDirection& way,
                                          const CriticalOptions& options) {
   if (!is_limit(kind.type)) {
-    // of several close together, the one with the same inertia on both sides
+    // among neighbouring bifurcations, the one with the given inertia on both sides
     for (CriticalEvent& event : bifurcations_near(solver, guess, way, -1, options))
       if (event.negative_before == kind.negative_before && event.negative_after == kind.negative_after) {
         event.type = kind.type;

@@ -14,9 +14,10 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kOnTheWay = 0.5;  ///< share of a load on the way to which supports must go on touching
+/// Fraction of the critical load up to which supports must touch without pressure.
+constexpr double kOnTheWay = 0.5;
 
-/// Lengths of foundations (in fractions) and number of springs.
+/// Number of springs plus the summed lengths of foundations (fractions of their members).
 double amount(const TouchingSupports& touching) {
   auto sum = static_cast<double>(touching.springs.size());
   for (const TouchingSupports::FoundationRange& part : touching.foundations)
@@ -24,10 +25,9 @@ double amount(const TouchingSupports& touching) {
   return sum;
 }
 
-/// Whether the equilibrium at a load, on the path from an unloaded or a preloaded state, leaves all of them
-/// where they are.
+/// Whether all touching supports still touch in equilibrium under a load, starting from the state `from`.
 bool still_touch(const Structure& structure, const VectorXd& from, double lambda) {
-  constexpr double kAll = 1e-6;
+  constexpr double kAll = 1e-6;  // relative loss of touching supports that is ignored
   StructuralProblem problem(structure);
   const PathMetric metric{&structure.metric, 0.0};
   VectorXd displacement;
@@ -48,7 +48,7 @@ bool is_known(const TouchingSupports& touching) {
   return !touching.springs.empty() || !touching.foundations.empty();
 }
 
-/// What the supports do that touch under a reference load; empty: nothing is known.
+/// Finds which of the supports that touch under a reference load act; empty: no buckling load was found.
 TouchingSupports least_piece(const Model& model, const Structure& structure, double reference,
                              const VectorXd& near, LinearBuckling& buckling) {
   const Structure unknown = with_touching(structure, model, {});
@@ -61,10 +61,11 @@ TouchingSupports least_piece(const Model& model, const Structure& structure, dou
   return out;
 }
 
-/// Response beside that of the glued structure beyond which supports are left, or pressed by rounding alone.
+/// Ratio of the start's response to that with all supports bilateral, above which contact is held by rounding
+/// only.
 constexpr double kLoose = 1e3;
 
-/// Whether supports touch without pressure where the structure glued to them responds to its load.
+/// Whether supports touch without pressure in the response of the structure with bilateral supports.
 bool glued_touches(const Structure& structure, StructuralProblem& problem) {
   if (structure.has_constant) return false;
   const VectorXd zero = VectorXd::Zero(structure.size);
@@ -108,7 +109,7 @@ Structure with_finer_piece(const Model& model, const Structure& coarse, Mesh mes
   Structure fine = on_mesh(coarse, model, std::move(mesh));
   const auto& parts = fine.touching.foundations;
   const auto acts = [](const TouchingSupports::FoundationRange& part) { return part.touch == Touch::acts; };
-  // without ends of contact the mesh does not matter
+  // without contact ends the result does not depend on the mesh
   if (std::none_of(parts.begin(), parts.end(), acts) || std::all_of(parts.begin(), parts.end(), acts))
     return fine;
   LinearBuckling buckling;

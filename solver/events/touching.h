@@ -12,27 +12,27 @@
 
 namespace snapthrough {
 
-/// @brief Looks for one-sided supports that touch without pressure from the start of a path on, and for the
-/// piece of the tangent that becomes unstable first (set_least_piece()).
+/// @brief Finds one-sided supports that touch without pressure from the start of a path, and the combination
+/// of them that becomes unstable first (set_least_piece()).
 ///
-/// They count as touching when the start's tangent, a linear solution, and the equilibrium at half the least
-/// load leave them where they are to 1e-9 of the largest displacement. The start's tangent, which is there
-/// anyway, tells whether there are any. Where supports are so stiff that rounding presses them there may be
-/// no start without knowing.
+/// A support touches when the tangent at the start and the equilibrium at half the least buckling load both
+/// leave it in place to 1e-9 of the largest displacement. If supports are so stiff that only rounding presses
+/// them, the path may have no start before this is known.
+/// @param problem problem of `structure`
 /// @param problem of `structure`
 /// @param norm with the scales of the start
 /// @param start without a point: none was found
-/// @return the structure that knows which of them act, to start the path anew; empty: there are none, or no
-/// buckling load was found
+/// @return structure with the state of the touching supports, to start the path anew; empty when no support
+/// touches, or no buckling load was found
 [[nodiscard]] std::optional<Structure> with_least_piece(const Model& model, const Structure& structure,
                                                         StructuralProblem& problem, const PathNorm& norm,
                                                         const PathStart& start, Result& result);
 
-/// @brief The structure of a finer mesh with the ends of contact of the critical motion that are its own.
-/// @param coarse with_least_piece(), or this one
+/// @brief Structure on a finer mesh, with the contact ends of the critical motion computed on that mesh.
+/// @param coarse structure of with_least_piece(), or of this function
 [[nodiscard]] Structure with_finer_piece(const Model& model, const Structure& coarse, Mesh mesh);
 
-/// @brief Warns that the least load over the pieces is not certain.
+/// @brief Adds a warning to the result when the least load over the pieces is not proven.
 void warn_of_touching(const Structure& structure, const LeastPiece& piece, Result& result);
 
 }  // namespace snapthrough

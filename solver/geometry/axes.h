@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The initial axes of a model's members.
+/// Initial axes of a model's members.
 
 #include <memory>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace snapthrough {
 
-/// Axes of all members, in the model's units, relative to the first node.
+/// Axes of all members in the model's units, relative to the first node.
 using Axes = std::vector<std::shared_ptr<const AxisCurve>>;
 [[nodiscard]] Axes make_axes(const Model& model);
 

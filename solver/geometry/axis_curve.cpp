@@ -13,7 +13,7 @@
 namespace snapthrough {
 namespace {
 
-constexpr int kTableIntervals = 64;
+constexpr int kTableIntervals = 64;  // intervals of the arc length table
 
 /// Chord frame: point(xi, eta) = start + xi * chord + eta * left normal of the chord.
 struct Chord {
@@ -29,7 +29,7 @@ Chord chord_of(std::array<double, 2> a, std::array<double, 2> b) {
   return {a, {dx, dy}, {-dy / length, dx / length}};
 }
 
-/// Splines of x and y over cumulated chord length, through start, interior points and end.
+/// Splines of x and y over cumulative chord length, through start, interior points and end.
 struct PlaneSpline {
   CubicSpline x;
   CubicSpline y;
@@ -52,14 +52,14 @@ PlaneSpline spline_through(const PointsCurve& curve, std::array<double, 2> start
   return {CubicSpline(t, x), CubicSpline(t, y), t};
 }
 
-/// Hermite's cubic on [0, 1] from 0 to `rise` with the slopes at its ends.
+/// Cubic Hermite interpolant on [0, 1] from 0 to `rise` with given end slopes.
 double cubic(double u, double rise, double slope0, double slope1) {
   return u * (slope0 + u * (3.0 * rise - 2.0 * slope0 - slope1 + u * (slope0 + slope1 - 2.0 * rise)));
 }
 
 }  // namespace
 
-/// |d(x, y) / dt|; lengths of models are far from the ends of the number range.
+/// |d(x, y) / dt|; model dimensions are far from overflow, so that hypot() is not needed.
 double AxisCurve::speed_of(const Jet& j) { return std::sqrt(j.dx * j.dx + j.dy * j.dy); }
 
 AxisCurve::AxisCurve(const Curve& curve, std::array<double, 2> start, std::array<double, 2> end) {
@@ -125,7 +125,7 @@ void AxisCurve::set_spline(const PointsCurve& curve, std::array<double, 2> start
   for (std::size_t i = 2; i + 2 < spline->t.size(); ++i) knots_.push_back(length_to(spline->t[i]));
 }
 
-/// Arc length from the start to a parameter: the table, and the rest by quadrature.
+/// Arc length from the start to a parameter: table value plus quadrature of the remainder.
 double AxisCurve::length_to(double t) const {
   static const Quadrature gauss = gauss_legendre(12);
   const auto intervals = static_cast<double>(table_s_.size() - 1);
@@ -164,7 +164,7 @@ void AxisCurve::set_parametric(std::function<Jet(double)> jet, int intervals) {
 
 double AxisCurve::parameter_at(double s) const {
   static const Quadrature gauss = gauss_legendre(12);
-  // with the start by Hermite's cubic below, one Newton step leaves its square
+  // Newton step at which the remaining error, about the square of the step, is below rounding
   constexpr double kOneStepMore = 1e-9;
   const auto upper = std::upper_bound(table_s_.begin() + 1, table_s_.end() - 1, s);
   const auto i = static_cast<std::size_t>(upper - table_s_.begin()) - 1;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The initial axis of a member as a function of its arc length.
+/// Initial axis of a member as a function of arc length.
 
 #include <array>
 #include <functional>
@@ -10,37 +10,36 @@
 
 namespace snapthrough {
 
-/// A point of an initial axis.
+/// Point of an initial axis.
 struct AxisPoint {
   double x = 0.0;
   double y = 0.0;
-  double angle = 0.0;      ///< of the tangent, continuous along the member
+  double angle = 0.0;      ///< angle of the tangent, rad, continuous along the member
   double curvature = 0.0;  ///< d angle / ds
 };
 
-/// @brief Planar curve with arc length as parameter. Immutable, thread safe.
+/// @brief Planar curve parametrised by arc length. Immutable, thread safe.
 ///
-/// Lines and arcs are closed forms; the other curves invert their arc length numerically to rounding.
+/// Lines and arcs have closed forms; for other curves arc length is inverted numerically to rounding.
 class AxisCurve {
  public:
   /// @brief Axis of a member between two points.
-  /// @pre the points differ; an arc's sweep is in (0, 360) degrees in absolute value
+  /// @pre the points differ; |sweep| of an arc is in (0, 360) degrees
   AxisCurve(const Curve& curve, std::array<double, 2> start, std::array<double, 2> end);
 
   [[nodiscard]] double length() const { return length_; }
   /// @pre 0 <= s <= length()
   [[nodiscard]] AxisPoint at(double s) const;
-  /// @brief By how much the tangent turns between two arc lengths, all turns counted positive.
+  /// @brief Total rotation of the tangent between two arc lengths, without sign, rad.
   /// @pre 0 <= from <= to <= length()
   [[nodiscard]] double turning(double from, double to) const;
   /// Whether the curvature is zero everywhere.
   [[nodiscard]] bool straight() const { return straight_; }
-  /// Places in (0, length()) where the curvature jumps in its derivative (spline knots); empty for the
-  /// others.
+  /// Positions in (0, length()) with a jump of the curvature's derivative (spline knots).
   [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
 
  private:
-  /// Value and first two derivatives by a parameter t in [0, 1].
+  /// Position with its first two derivatives with respect to a parameter t in [0, 1].
   struct Jet {
     double x, y, dx, dy, ddx, ddy;
   };
@@ -56,11 +55,11 @@ class AxisCurve {
   std::array<double, 2> start_{};
   double start_angle_ = 0.0;
   double curvature_ = 0.0;
-  // others: jet of a parameter, with tables of arc length and angle at equal parameter intervals
+  // other curves: parametric jet, with tables of arc length and angle at equal parameter intervals
   std::function<Jet(double)> jet_;
   std::vector<double> table_s_;
   std::vector<double> table_angle_;
-  std::vector<double> table_speed_;  ///< ds/dt at the same parameters
+  std::vector<double> table_speed_;  ///< ds/dt at the parameters of the table
   std::vector<double> knots_;
 };
 

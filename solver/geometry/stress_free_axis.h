@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Stress-free axis of a member: the perfect axis with its imperfections.
+/// Stress-free axis of a member: perfect axis plus imperfections.
 
 #include <memory>
 #include <vector>
@@ -12,28 +12,26 @@
 
 namespace snapthrough {
 
-/// A point of the stress-free axis and its derivative by the perfect axis' arc length.
+/// Point of the stress-free axis, with its derivative with respect to the perfect axis' arc length.
 struct StressFreePoint {
   double x = 0.0, y = 0.0;
-  double angle = 0.0;    ///< of the tangent, continuous
+  double angle = 0.0;    ///< angle of the tangent, rad, continuous
   double stretch = 1.0;  ///< length of the derivative
 };
 
-/// Offsets from buckling modes: for each member, splines over the arc length in the model's units.
+/// Offsets from buckling modes: splines over arc length (model's units) for each member.
 using ModeOffsets = std::vector<std::vector<CubicSpline>>;
 
-/// @brief The perfect axis plus the offsets w(s) along its left normal: c = X + w n, c' = t (1 - kappa w) + n
-/// w'.
+/// @brief Perfect axis plus offsets w(s) along its left normal: c = X + w n, c' = t (1 - kappa w) + n w'.
 ///
-/// Sine imperfections are exact; those given by points are C2 splines, with zero offset added at an end that
-/// is not given.
+/// Sine imperfections are exact. Imperfections by points are C2 splines, zero at an end without a point.
 class StressFreeAxis {
  public:
-  /// @param modes offsets from buckling modes, may be empty
+  /// @param modes offsets from buckling modes; may be empty
   StressFreeAxis(const Model& model, int member, std::shared_ptr<const AxisCurve> axis,
                  const std::vector<CubicSpline>& modes);
   [[nodiscard]] StressFreePoint at(double s) const { return at(s, axis_->at(s)); }
-  /// @param perfect the perfect axis at s
+  /// @param perfect perfect axis at s
   [[nodiscard]] StressFreePoint at(double s, const AxisPoint& perfect) const;
   [[nodiscard]] const AxisCurve& perfect() const { return *axis_; }
 

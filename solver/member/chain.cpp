@@ -14,16 +14,16 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// F = L J L^T with J = diag(+-1); columns of L are zero in rigid directions.
+/// F = L J L^T with J = diag(+-1); L has zero columns for rigid directions.
 struct SignedRoot {
   Matrix3d L = Matrix3d::Zero();
   Vector3d J = Vector3d::Ones();
-  int minus = 0;  ///< -1 in J
+  int minus = 0;  ///< number of -1 in J
 };
 
-/// Empty when F is not semidefinite and the signs of its pivots are not beyond doubt.
+/// Signed root of F; empty when F is not semidefinite and the sign of a pivot is uncertain.
 std::optional<SignedRoot> signed_root(const Matrix3d& F) {
-  constexpr double kCancelled = 1e-3;
+  constexpr double kCancelled = 1e-3;  // pivot over its terms below which its sign is uncertain
   SignedRoot out;
   Matrix3d& L = out.L;
   const double floor = 1e-13 * std::max({std::abs(F(0, 0)), std::abs(F(1, 1)), std::abs(F(2, 2))});
@@ -52,10 +52,10 @@ std::optional<SignedRoot> signed_root(const Matrix3d& F) {
   return out;
 }
 
-/// Brings the largest entry of each row to about one by a diagonal congruence.
+/// Scales the largest entry of each row to about one by a diagonal congruence transformation.
 template <int N>
 void balance(Eigen::Matrix<double, N, N>& A) {
-  constexpr int kPasses = 4;
+  constexpr int kPasses = 4;  // iterations of the scaling
   for (int pass = 0; pass < kPasses; ++pass) {
     std::array<double, N> d;
     for (int i = 0; i < N; ++i)
@@ -72,10 +72,10 @@ void exchange(Eigen::Matrix<double, N, N>& A, int i, int j) {
   A.col(i).swap(A.col(j));
 }
 
-/// Negative eigenvalues of a symmetric matrix whose rows may differ by many orders of magnitude: the negative
-/// pivots of the balanced matrix, since a pivot is known to within rounding of the largest entry. Complete
-/// pivoting (Bunch and Parlett, SIAM J. Numer. Anal. 8, 1971) keeps the entries from growing; a block pivot
-/// has one eigenvalue of either sign.
+/// Number of negative eigenvalues of a symmetric matrix with rows of very different magnitude: negative
+/// pivots after balancing, because the error of a pivot is relative to the largest entry. Complete pivoting
+/// (Bunch and Parlett, SIAM J. Numer. Anal. 8, 1971) bounds growth; a 2 x 2 pivot has one eigenvalue of each
+/// sign.
 template <int N>
 int count_negative(Eigen::Matrix<double, N, N> A) {
   const double alpha = (1.0 + std::sqrt(17.0)) / 8.0;
@@ -116,11 +116,11 @@ int count_negative(Eigen::Matrix<double, N, N> A) {
   return negative;
 }
 
-/// Negative pivots of C = L D L^T, when all of them are well away from zero and nothing of what they are the
-/// difference of was much larger: then their signs are sure without balance and pivoting.
+/// Number of negative pivots of C = L D L^T; empty if a pivot is near zero or results from cancellation, so
+/// that its sign is uncertain without balancing and pivoting.
 std::optional<int> clearly_negative(const Matrix3d& C) {
-  constexpr double kSmallest = 1e-2;   // C is I plus what is compared with it
-  constexpr double kCancelled = 1e-3;  // of what a pivot is the difference of
+  constexpr double kSmallest = 1e-2;   // least pivot; C is the identity plus the tested matrix
+  constexpr double kCancelled = 1e-3;  // pivot over the terms that it is the difference of
   int negative = 0;
   const auto clear = [&](double d, double size) {
     negative += d < 0.0 ? 1 : 0;
@@ -140,7 +140,7 @@ std::optional<int> clearly_negative(const Matrix3d& C) {
   return negative;
 }
 
-/// A B, written out in place: Eigen calls a function for it.
+/// Matrix product, inlined for speed.
 template <class Left, class Right>
 [[gnu::always_inline]] inline Matrix3d product(const Left& A, const Right& B) {
   Matrix3d out;
@@ -149,7 +149,7 @@ template <class Left, class Right>
   return out;
 }
 
-/// The symmetric part: what is left of it is rounding.
+/// Symmetric part; the rest is rounding.
 Matrix3d symmetric(const Matrix3d& A) {
   Matrix3d out;
   for (int j = 0; j < 3; ++j)
@@ -159,8 +159,8 @@ Matrix3d symmetric(const Matrix3d& A) {
 
 }  // namespace
 
-/// With F = L J L^T the matrix is congruent to [[-J, I], [I, L^T K L]], and so has as many negative
-/// eigenvalues as -J and C = J + L^T K L together.
+/// With F = L J L^T the matrix is congruent to [[-J, I], [I, L^T K L]]; its negative eigenvalues number those
+/// of -J plus those of C = J + L^T K L.
 int extra_negative(const Matrix3d& F, const Matrix3d& K) {
   if (const auto root = signed_root(F)) {
     Matrix3d C = product(root->L.transpose(), product(K, root->L));
@@ -198,19 +198,19 @@ void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
   const Matrix3d MKX = join.pivot.solve_columns(product(second.K, join.X));
   first.K = symmetric(first.K + product(join.X.transpose(), MKX));
   first.X = -product(second.X, Matrix3d(join.X - product(join.F, MKX)));
-  // F M is symmetric, as F is
+  // F M is symmetric, because F is
   first.F = symmetric(second.F + product(second.X, product(join.pivot.solve_columns_transposed(join.F),
                                                            second.X.transpose())));
   first.last = second.last;
 }
 
-/// Joins the next element, or the next few at once where that pivot is much better: above all one that does
-/// not make errors grow, then one whose sign is sure.
+/// Joins the next element, or several next elements at once if their pivot is much better: first by error
+/// amplification, then by certainty of sign.
 void Chain::join_next(Run& all, std::span<const CondensedElement> elements) {
-  constexpr double kLargeGain = 1e3;
-  constexpr double kPoorQuality = 1e-3;
-  constexpr double kMuchBetter = 10.0;
-  constexpr int kMostAhead = 4;
+  constexpr double kLargeGain = 1e3;     // error amplification above which alternatives are tried
+  constexpr double kPoorQuality = 1e-3;  // reciprocal condition below which alternatives are tried
+  constexpr double kMuchBetter = 10.0;   // factor by which an alternative pivot must improve
+  constexpr int kMostAhead = 4;          // elements joined to each other first
   const auto run_of = [&elements](int i) { return Run{elements[i].K, elements[i].X, elements[i].F, i, i}; };
   const int next = all.last + 1;
   const Pivot pivot = pivot_of(all, run_of(next));
@@ -255,7 +255,7 @@ void Chain::factorise(std::span<const CondensedElement> elements) {
 void Chain::reduce(std::span<CondensedElement> elements, std::span<const ElementDofs> dofs,
                    const Eigen::VectorXd& rhs) {
   for (const Join& join : joins_) {
-    CondensedElement& first = elements[join.first_first];  // holds what its run has become so far
+    CondensedElement& first = elements[join.first_first];  // holds the data of its run so far
     CondensedElement& second = elements[join.second_first];
     const Vector3d c1 = first.rm;
     Vector3d c2 = second.ra;
@@ -263,7 +263,7 @@ void Chain::reduce(std::span<CondensedElement> elements, std::span<const Element
     const Vector3d m = join.pivot.solve(c2 - join.K2 * c1);
     first.ra -= join.X.transpose() * m;
     first.rm = second.rm - join.X2 * (c1 + join.F * m);
-    // the second run is not met again
+    // the second run is not used again
     second.rm = c1;
     second.ra = c2;
   }

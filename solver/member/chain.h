@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Elimination of the nodes inside a member, in mixed form.
+/// Condensation of the elements of a member to its ends, in mixed form.
 
 #include <Eigen/Core>
 #include <span>
@@ -11,37 +11,35 @@
 
 namespace snapthrough {
 
-/// @brief Number of negative eigenvalues of [[-F, I], [I, K]] beyond the three that F = K = 0 has.
+/// @brief Number of negative eigenvalues of [[-F, I], [I, K]] minus three, the number for F = K = 0.
 [[nodiscard]] int extra_negative(const Eigen::Matrix3d& F, const Eigen::Matrix3d& K);
 
 /// @brief Condenses the elements of one member to its two ends.
 ///
-/// A run of elements from node s to node e acts on (u_s, m_e), u_s the displacement of its start and m_e the
-/// force through its end, as   K u_s + X^T m_e = r_s,   X u_s - F m_e + u_e = r_m.   Two runs are joined by
-/// eliminating (m_e, u_e) at the node between them, whose pivot is [[-F, I], [I, K']] (primes: the second
-/// run). With M = (I + K' F)^-1
+/// A run of elements from node s to node e acts on its start displacement u_s and its end force m_e as   K
+/// u_s + X^T m_e = r_s,   X u_s - F m_e + u_e = r_m.   Two runs are joined by eliminating (m_e, u_e) at their
+/// common node, with the pivot [[-F, I], [I, K']] (primes: second run). With M = (I + K' F)^-1
 ///
 ///   m_e = M (c2 - X'^T m' - K' (c1 - X u_s)),    u_e = c1 - X u_s + F m_e,
 ///
-/// c1, c2 the right-hand sides of the two rows. Flexibilities are never inverted: F = 0 is an inextensible,
-/// rigid part. Nor is M formed: where a support is stiff K' is large and M small across its direction, and
-/// what an inverse has lost there would be multiplied by K'.
+/// with c1, c2 the right-hand sides of the two rows. Flexibilities are not inverted, so that F = 0 represents
+/// a rigid part. M is not formed: at stiff supports K' is large and M small, and K' would multiply the
+/// rounding of M.
 ///
-/// Runs are joined from the start of the member on. A pivot is singular when the two runs together, held at
-/// their start and free at their end, are at a buckling load of their own; that may be the very load that is
-/// looked for (half of a pinned column is a cantilever). Where a pivot is poor, the next elements, four at
-/// most, are joined to one another first.
+/// Runs are joined from the member's start. The pivot is singular when both runs together, clamped at the
+/// start and free at the end, are at a buckling load, which may coincide with the load of interest (half of a
+/// pinned column is a cantilever). At a poor pivot, up to four next elements are joined to each other first.
 class Chain {
  public:
-  /// @brief Eliminates all inner nodes of `elements` (one member, in order, not empty).
+  /// @brief Eliminates all inner nodes of `elements` (those of one member, in order, not empty).
   void factorise(std::span<const CondensedElement> elements);
-  /// @brief Right-hand side at the ends (ends().ra, ends().rm), from the elements' ra, rm and the node rows
-  /// of `rhs`. The elements' ra, rm become what recover() needs: no vectors are kept for it.
+  /// @brief Computes the right-hand side at the ends, ends().ra and ends().rm, from the elements' ra, rm and
+  /// the node rows of `rhs`. Overwrites the elements' ra, rm with the data of recover().
   void reduce(std::span<CondensedElement> elements, std::span<const ElementDofs> dofs,
               const Eigen::VectorXd& rhs);
-  /// @brief Writes the solution at the inner nodes and the multipliers into `x`, which holds it already at
-  /// the start (first element's a) and in the last element's multiplier.
-  /// @param elements as reduce() left them
+  /// @brief Writes the solution at the inner nodes and the multipliers into `x`, given the solution at the
+  /// start (first element's a) and the last element's multiplier.
+  /// @param elements as left by reduce()
   void recover(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
                Eigen::VectorXd& x) const;
 
@@ -53,18 +51,18 @@ class Chain {
     Eigen::Matrix3d K, X, F;
     int first = 0, last = 0;
   };
-  /// The join of two runs at the start of element `second_first`.
+  /// Join of two runs at the start of element `second_first`.
   struct Join {
     int first_first = 0, second_first = 0, second_last = 0;
-    Eigen::Matrix3d X, F;    ///< of the first run
-    Eigen::Matrix3d K2, X2;  ///< of the second run
+    Eigen::Matrix3d X, F;    ///< matrices of the first run
+    Eigen::Matrix3d K2, X2;  ///< matrices of the second run
     SmallFactor pivot;
   };
   /// Pivot I + K' F of a join.
   struct Pivot {
     SmallFactor factor;
-    double gain = 0.0;     ///< largest entry of the inverse: what errors of the runs are multiplied by
-    double quality = 0.0;  ///< reciprocal condition: 1 is perfect, 0 singular
+    double gain = 0.0;     ///< largest entry of the inverse: amplification of errors
+    double quality = 0.0;  ///< reciprocal condition number: 1 is best, 0 is singular
   };
   [[nodiscard]] static Pivot pivot_of(const Run& first, const Run& second);
   void join(Run& first, const Run& second, const Pivot& pivot);

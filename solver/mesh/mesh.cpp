@@ -14,7 +14,7 @@
 namespace snapthrough {
 namespace {
 
-/// Fractions where elements must end, 0 and 1 included, ascending.
+/// Fractions at which elements must end, ascending, with 0 and 1.
 std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& axis) {
   const std::string& id = model.members[member].id;
   std::vector<double> at{0.0, 1.0};
@@ -39,7 +39,7 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
   return unique;
 }
 
-/// n elements shared out between the pieces by largest remainder, at least one each.
+/// Distributes n elements over the pieces by largest element length, at least one each.
 std::vector<int> share(int n, const std::vector<double>& breaks) {
   const std::size_t pieces = breaks.size() - 1;
   std::vector<int> counts(pieces, 1);
@@ -66,29 +66,28 @@ int fixed_count(const Discretization& d, const std::string& member) {
   return std::max(1, d.elements);
 }
 
-/// Constants of the rule of make_mesh.
+/// Constants of the rule of make_mesh().
 struct ChosenMesh {
   int order;
-  double turn;           ///< of the axis, an element, degrees
-  double decay_lengths;  ///< an element
-  double least;          ///< elements a member
-  bool odd;              ///< odd numbers of elements a piece
+  double turn;           ///< rotation of the axis per element, degrees
+  double decay_lengths;  ///< per element
+  double least;          ///< least number of elements per member
+  bool odd;              ///< odd numbers of elements per piece
 };
 
-/// High orders on few elements are the cheapest by digits, also where contact ends inside an element. All
-/// elements of a piece are equal, so that a ring keeps its symmetry, without which its bifurcations break.
-/// Their number is odd: an element half as long as a half wave buckles by itself, held at one end, when the
-/// member does, and its elimination loses most digits there; a member of 2 n equal elements meets that at its
-/// n-th mode.
+/// High orders on few elements need the least work per digit, also with contact ends inside elements.
+/// Elements of a piece are equal, so that a ring keeps its symmetry and its bifurcations. Their number is
+/// odd: an element of half a half-wave length buckles as a cantilever at the member's load, which costs most
+/// digits in its elimination; 2 n equal elements per member have this defect in the n-th mode.
 constexpr ChosenMesh kFirst{5, 60.0, 3.0, 3.0, true};
 constexpr ChosenMesh kPath{5, 60.0, 3.0, 5.0, true};
 constexpr ChosenMesh kFinal{4, 25.0, 1.0, 8.0, false};
 
-/// Elements of a mesh that is chosen: a piece gets no more, whatever it asks for, and no finer mesh has more.
+/// Largest number of elements of a chosen mesh, for each piece and for all refinements.
 constexpr double kMostElements = 4000;
 
-/// Elements for a piece of a member, by the rule of make_mesh.
-/// @param finest that a one-sided foundation asks for, as a multiple of what the axis does
+/// Number of elements of a piece of a member, by the rule of make_mesh().
+/// @param finest bound for one-sided foundations, as a multiple of the number for the axis
 int default_count(const ChosenMesh& rule, const Model& model, int member, const AxisCurve& axis, double from,
                   double to, double finest) {
   const Member& m = model.members[member];
@@ -125,7 +124,7 @@ void add_elements(Mesh& mesh, int member, const std::vector<double>& breaks, con
   }
 }
 
-/// Halves an element towards its ends that are places, down to a width there.
+/// Halves an element towards its ends at places of action, down to a width.
 void add_layered(std::vector<MeshElement>& out, const MeshElement& element, bool at_start, bool at_end,
                  double width) {
   const double middle = 0.5 * (element.from + element.to);
@@ -176,7 +175,7 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
 }
 
 std::optional<Mesh> finer_mesh(const Mesh& mesh) {
-  constexpr double kMostPerMember = 16.0;  // of many members
+  constexpr double kMostPerMember = 16.0;  // elements per member, for models with many members
   const double most = std::max(kMostElements, kMostPerMember * static_cast<double>(mesh.first.size() - 1));
   if (2.0 * static_cast<double>(mesh.elements.size()) > most) return std::nullopt;
   Mesh out = mesh;
@@ -221,7 +220,7 @@ Mesh moved_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const Mo
 }
 
 Mesh layered_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const std::vector<double>& decays) {
-  constexpr double kLeastWidth = 1e-6;  // of a member: its ends keep ten digits
+  constexpr double kLeastWidth = 1e-6;  // fraction of a member; element ends then keep ten digits
   Mesh out = mesh;
   out.elements.clear();
   for (std::size_t m = 0; m < axes.size(); ++m) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What is to be computed for a model. Plain data, one field for each field of the request's `analysis`.
+/// Request for an analysis. Plain data, one field for each field of the request's `analysis`.
 
 #include <array>
 #include <functional>
@@ -19,31 +19,31 @@ enum class Geometry { nonlinear, linear };
 enum class FoundationRule { consistent, lumped };
 enum class ControlType { arc_length, load, displacement };
 enum class Follow { primary, first, all };
-/// What a static analysis does where its path loses stability before a load factor that was asked for.
+/// Action of a static analysis whose path loses stability before a requested load factor.
 enum class Unstable { refuse, follow };
 enum class StateOutput { none, critical, all, every, at_load_factors };
 
-/// Either an accuracy (the mesh is the solver's business) or a fixed mesh.
+/// Mesh control: by accuracy (the solver chooses the mesh) or by a fixed mesh.
 struct Discretization {
-  double accuracy = 1e-3;   ///< relative error wanted in each reported load factor, in (0, 0.5]
-  bool fixed_mesh = false;  ///< true: the fields below hold
-  int elements = 0;         ///< elements on each member not named in `member_elements`; 0: none given
-  std::vector<std::pair<std::string, int>> member_elements;  ///< by member id
+  double accuracy = 1e-3;   ///< wanted relative error of each reported load factor, in (0, 0.5]
+  bool fixed_mesh = false;  ///< true: the fields below apply
+  int elements = 0;         ///< elements per member that is not in `member_elements`; 0: not given
+  std::vector<std::pair<std::string, int>> member_elements;  ///< numbers of elements by member id
   int order = 1;  ///< polynomial order of the elements, 1 to kMaxOrder
   FoundationRule foundation = FoundationRule::consistent;
 };
 
 struct Control {
   ControlType type = ControlType::arc_length;
-  std::string monitor;  ///< with displacement control
+  std::string monitor;  ///< id of the monitor, for displacement control
 };
 
-/// Step lengths as fractions of the scale of the first critical load; empty: the solver's own.
+/// Step lengths as fractions of the scale of the first critical load; empty: chosen by the solver.
 struct StepOptions {
   std::optional<double> initial;
   std::optional<double> min;
   std::optional<double> max;
-  double direction = 1.0;  ///< of the load factor where the path begins: 1 growing, -1 falling
+  double direction = 1.0;  ///< initial sense of the load factor: 1 growing, -1 falling
 };
 
 struct MonitorRange {
@@ -51,13 +51,13 @@ struct MonitorRange {
   std::array<double, 2> range{0.0, 0.0};
 };
 
-/// Stop rules of a path: the first to be met ends it. Empty rules do not stop.
+/// Stop rules of a path; the first that is met ends it. Empty rules are inactive.
 struct StopRules {
   std::optional<int> limit_points;
   std::optional<std::array<double, 2>> load_factor;
   std::optional<MonitorRange> monitor;
   std::optional<int> steps;
-  /// A point with more negative eigenvalues ends the path; empty: the solver's own bound.
+  /// Number of negative eigenvalues above which the path ends; empty: limit of the solver.
   std::optional<int> negative_eigenvalues;
 };
 
@@ -70,24 +70,24 @@ struct OutputOptions {
   StateOutput states = StateOutput::critical;
   int every = 1;
   std::vector<double> at_load_factors;
-  int points_per_member = 101;  ///< >= 2
-  /// At least so many points on each branch of a path, evenly along its arc; empty: its own steps'.
+  int points_per_member = 101;  ///< sampled points per member, >= 2
+  /// Least number of points on each branch, evenly spaced along its arc; empty: accepted steps only.
   std::optional<int> path_points;
-  bool extremes = false;  ///< extreme section forces and displacements of each member
-  bool modes = true;      ///< modes with the states of critical points
+  bool extremes = false;  ///< reports extreme section forces and displacements of each member
+  bool modes = true;      ///< reports modes with the states of critical points
 };
 
-/// A number of the model that critical loads are differentiated by.
+/// Number of the model with respect to which critical loads are differentiated.
 struct Variation {
-  std::string pointer;  ///< what it is called in the result
-  double value = 0.0;   ///< of the model at hand
-  double size = 1.0;    ///< a change of this size is a large one; > 0, in the unit of the value
-  /// The model with another value; empty where it may not have that value. Called from the solving thread,
-  /// with values within `size` of the model's.
+  std::string pointer;  ///< name in the result
+  double value = 0.0;   ///< value in the given model
+  double size = 1.0;    ///< magnitude of a large change, > 0, in the unit of the value
+  /// Model with another value; empty when that value is not allowed. Called from the solving thread with
+  /// values within `size` of `value`.
   std::function<std::optional<Model>(double)> model_at;
 };
 
-/// Displacements and section forces at places along a member, as a state of a result lists them.
+/// Displacements and section forces at positions along a member, as in reported states.
 struct MemberShape {
   std::string id;
   std::vector<double> s;                   ///< arc length of the perfect axis, from 0 to its length
@@ -95,7 +95,7 @@ struct MemberShape {
   std::vector<double> axial, shear, bend;  ///< section forces N, Q, M
 };
 
-/// The state that a path begins with; it is corrected to an equilibrium at its load factor.
+/// Initial state of a path; corrected to an equilibrium at its load factor.
 struct StartState {
   double load_factor = 0.0;
   std::vector<MemberShape> members;
@@ -104,19 +104,19 @@ struct StartState {
 struct Analysis {
   AnalysisType type = AnalysisType::critical;
   int modes = 1;
-  bool reversed = false;  ///< `buckling`: loads of the opposite sense count, too, as negative load factors
+  bool reversed = false;  ///< `buckling`: also loads of the opposite sense, as negative load factors
   std::vector<double> load_factors{1.0};
   Unstable unstable = Unstable::refuse;
   Geometry geometry = Geometry::nonlinear;
   Discretization discretization;
   Control control;
   StepOptions step;
-  std::optional<StartState> start;  ///< `path`; empty: the unloaded state, or that of the constant actions
+  std::optional<StartState> start;  ///< `path`; empty: the unloaded state, or that under the constant actions
   StopRules stop;
   BranchOptions branches;
   OutputOptions output;
-  std::vector<Variation> sensitivities;  ///< of the critical points of a path
-  bool koiter = false;                   ///< Koiter's coefficients of the bifurcations of a path
+  std::vector<Variation> sensitivities;  ///< for the critical points of a path
+  bool koiter = false;                   ///< Koiter coefficients of the bifurcations of a path
 };
 
 }  // namespace snapthrough

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Positions of things by their ids.
+/// Look-up of objects by id.
 
 #include <cstddef>
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace snapthrough {
 
-/// @brief Finds things by id without a search of the list each time: loops over a model stay linear in it.
+/// @brief Hash index of ids, with which loops over a model take linear time.
 ///
-/// Refers to the ids, which must outlive it.
+/// @pre the ids outlive this object
 class IdIndex {
  public:
   template <class T>
@@ -20,7 +20,7 @@ class IdIndex {
     positions_.reserve(things.size());
     for (std::size_t i = 0; i < things.size(); ++i) positions_.emplace(things[i].id, static_cast<int>(i));
   }
-  /// -1 when there is none.
+  /// Position of the object with this id; -1: none.
   [[nodiscard]] int of(std::string_view id) const {
     const auto found = positions_.find(id);
     return found == positions_.end() ? -1 : found->second;
@@ -30,7 +30,7 @@ class IdIndex {
   std::unordered_map<std::string_view, int> positions_;
 };
 
-/// @brief Index of the thing with this id; -1 when there is none.
+/// @brief Position of the object with this id, by linear search; -1: none.
 template <typename T>
 [[nodiscard]] int index_of(const std::vector<T>& things, const std::string& id) {
   for (std::size_t i = 0; i < things.size(); ++i)

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The largest model and analysis that check() lets pass. They bound memory and time before any work is done.
+/// Largest model and analysis that check() accepts, which bounds memory and time.
 
 #include <cstddef>
 
@@ -22,18 +22,17 @@ inline constexpr std::size_t kMaxLoadFactors =
 inline constexpr std::size_t kMaxSensitivities = 10'000;
 inline constexpr std::size_t kMaxIdLength = 200;  ///< characters (code points) of an id
 inline constexpr int kMaxHalfWaves = 1'000;
-inline constexpr int kMaxModes = 1'000;  ///< buckling modes, and the number of a mode imperfection
+inline constexpr int kMaxModes = 1'000;  ///< number of buckling modes, and of a mode imperfection
 inline constexpr int kMaxElementsPerMember = 100'000;
-inline constexpr long long kMaxElements = 1'000'000;  ///< of a fixed mesh, all members together
+inline constexpr long long kMaxElements = 1'000'000;  ///< elements of a fixed mesh, all members together
 inline constexpr int kMaxPointsPerMember = 100'001;
 inline constexpr long long kMaxStatePoints = 2'000'000;  ///< members times points_per_member
 inline constexpr int kMaxPathPoints = 100'000;
 inline constexpr int kMaxSteps =
     10'000'000;  ///< largest count that a stop rule, branch limit or `every` takes
 inline constexpr double kMaxAccuracy = 0.5;
-inline constexpr double kMaxMagnitude = 1e150;  ///< of any quantity, so that its square is finite
-/// Chords shorter than this fraction of the model's extent, and steps of fractions along a member that are
-/// shorter than this, are taken as zero.
+inline constexpr double kMaxMagnitude = 1e150;  ///< bound on all quantities; their squares are finite
+/// Chord over the model's extent, or difference of fractions of a member, below which it counts as zero.
 inline constexpr double kMinRelativeChord = 1e-9;
 
 }  // namespace snapthrough

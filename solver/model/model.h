@@ -1,10 +1,10 @@
 #pragma once
 /// @file
-/// The structure as its user describes it. Plain data, in the user's own consistent units, one field for each
-/// field of the request document. Nothing here is checked: see solver/check/check.h.
+/// The structure as its user describes it. Plain data in consistent units of the user's choice, one field for
+/// each field of the request document. Values are not checked here: see solver/check/check.h.
 ///
-/// Axes: x to the right, y up, rotation counter-clockwise. A member runs from `start` to `end`; its tangent
-/// is t and its left normal n is t turned by +90 degrees. Fractions are of the member's undeformed length.
+/// Axes: x to the right, y up, rotation counter-clockwise. A member runs from `start` to `end` with tangent
+/// t; its left normal n is t turned by +90 degrees. Fractions refer to the member's undeformed length.
 
 #include <array>
 #include <optional>
@@ -15,25 +15,25 @@
 
 namespace snapthrough {
 
-/// Which multiplier a load or a prescribed displacement follows.
+/// Multiplier of a load or prescribed displacement.
 enum class Pattern { proportional, constant };
-/// What an elastic support can do: glued, push only, pull only.
+/// Reaction type of an elastic support: both ways, push only, pull only.
 enum class Reaction { bilateral, compression_only, tension_only };
-/// A side of a member, looking from its start to its end.
+/// Side of a member, viewed from its start to its end.
 enum class Side { left, right };
-/// Length measure of a distributed load.
+/// Length to which a distributed load refers.
 enum class LoadMeasure { length, horizontal, vertical };
-/// A displacement component; `normal` is along the initial left normal and needs a location on a member.
+/// Displacement component; `normal` is along the initial left normal and needs a location on a member.
 enum class Component { x, y, rotation, normal };
 
-/// Fractions of a member's length that are no further apart are one place.
+/// Distance of fractions of a member's length that counts as zero.
 inline constexpr double kOnePlace = 1e-9;
 
-/// A place on the structure: a node, or a point of a member. Exactly one of `node`, `member` is not empty.
+/// Location on the structure: a node, or a point of a member. Exactly one of `node`, `member` is not empty.
 struct Location {
   std::string node;
   std::string member;
-  double fraction = 0.0;  ///< in [0, 1] of the undeformed length, used with `member`
+  double fraction = 0.0;  ///< fraction of the undeformed length, in [0, 1]; used with `member`
 };
 
 struct Node {
@@ -51,7 +51,7 @@ struct Section {
 };
 
 struct LineCurve {};
-/// Circular arc turning by `sweep_degrees` from start to end, positive to the left; 0 < |sweep| < 360.
+/// Circular arc that turns by `sweep_degrees` from start to end, positive to the left; 0 < |sweep| < 360.
 struct ArcCurve {
   double sweep_degrees = 0.0;
 };
@@ -59,12 +59,12 @@ struct ArcCurve {
 struct ParabolaCurve {
   double rise = 0.0;
 };
-/// rise * sin(half_waves * pi * xi) along the chord's left normal, xi in [0, 1] along the chord.
+/// Offset rise * sin(half_waves * pi * xi) along the chord's left normal, xi in [0, 1] along the chord.
 struct SineCurve {
   double rise = 0.0;
   int half_waves = 1;
 };
-/// C2 cubic spline from start through interior points to end.
+/// C2 cubic spline from the start through interior points to the end.
 struct PointsCurve {
   std::vector<std::array<double, 2>> points;
 };
@@ -96,14 +96,14 @@ struct Support {
   std::optional<PrescribedDisplacement> displacement;
 };
 
-/// Discrete spring to ground. `direction` points into the medium; empty means rotational.
+/// Discrete spring to ground. `direction` points into the medium; empty: rotational spring.
 struct Spring {
   std::string id;
   Location at;
   std::optional<std::array<double, 2>> direction;
   double stiffness = 0.0;  ///< force per length, or moment per radian; >= 0
   Reaction reaction = Reaction::bilateral;
-  double gap = 0.0;  ///< free travel before a one-sided spring reacts, >= 0
+  double gap = 0.0;  ///< displacement at which a one-sided spring begins to react, >= 0
 };
 
 /// Continuous foundation r = K w - G w'' per undeformed length, w the displacement along the initial normal
@@ -126,7 +126,7 @@ struct PointLoad {
   double moment = 0.0;
   Pattern pattern = Pattern::proportional;
 };
-/// Dead load per undeformed or per projected length.
+/// Dead load per undeformed or projected length.
 struct DistributedLoad {
   std::string member;
   std::array<double, 2> force{0.0, 0.0};
@@ -155,12 +155,12 @@ struct SineImperfection {
   int half_waves = 1;
   double amplitude = 0.0;
 };
-/// A linearised buckling mode (1 is the lowest) scaled to this largest offset.
+/// Linearised buckling mode (1 is the lowest) scaled to the largest offset `amplitude`.
 struct ModeImperfection {
   int number = 1;
   double amplitude = 0.0;
 };
-/// Offsets at fractions of the length, joined by a C2 spline.
+/// Stress-free offsets at fractions of the length, interpolated by a C2 spline.
 struct PointsImperfection {
   std::string member;
   std::vector<std::array<double, 2>> offsets;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// JSON Pointers (RFC 6901), as text: how a finding says where it stands.
+/// JSON Pointers (RFC 6901), the places of findings.
 
 #include <array>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace snapthrough {
 
-/// One token of a pointer with `~` and `/` escaped as `~0` and `~1`.
+/// Token of a pointer with `~` and `/` escaped as `~0` and `~1`.
 [[nodiscard]] inline std::string escape_pointer_token(std::string_view token) {
   std::string escaped;
   escaped.reserve(token.size());
@@ -26,8 +26,8 @@ namespace snapthrough {
   return escaped;
 }
 
-/// @brief A pointer that grows by tokens and becomes a text only when it is asked for: nearly all places of a
-/// document are never reported. Keys are referred to, and must outlive it.
+/// @brief Pointer that grows by tokens and is converted to text on demand, because few places are reported.
+/// Keys are kept by reference.
 class PointerPath {
  public:
   explicit PointerPath(std::string prefix = {}) : prefix_(std::move(prefix)) {}
@@ -55,7 +55,7 @@ class PointerPath {
     return longer;
   }
 
-  std::string prefix_;  ///< what does not fit into the tokens, or was given
+  std::string prefix_;  ///< given prefix, and tokens beyond the fixed number
   std::array<Token, 8> tokens_{};
   std::size_t size_ = 0;
 };

@@ -1,12 +1,12 @@
 #pragma once
 /// @file
-/// The units that the solver computes in.
+/// Scaled units of the solver.
 
 namespace snapthrough {
 
-/// @brief Lengths over `length`, forces over `force` = EI / length^2, and the load factor times `load`, so
-/// that every quantity is of order one whatever the units of the model. Here is how each kind of quantity of
-/// a model is scaled; what is scaled is multiplied again where a result is written.
+/// @brief Units that make all quantities of order one: lengths over `length`, forces over
+/// `force` = EI / length^2, load factors times `load`. The functions scale each kind of quantity; results are
+/// scaled back when written.
 struct Scales {
   double length = 1.0;
   double force = 1.0;
@@ -17,13 +17,13 @@ struct Scales {
   [[nodiscard]] double scaled_length(double l) const { return l / length; }
   [[nodiscard]] double scaled_force(double f) const { return f / force; }
   [[nodiscard]] double scaled_moment(double m) const { return m / (force * length); }
-  /// Force per length: loads along members, pressures.
+  /// Scaled force per length: loads along members, pressures.
   [[nodiscard]] double scaled_line_load(double q) const { return q * length / force; }
-  /// Force per length of displacement: a spring.
+  /// Scaled force per displacement: springs.
   [[nodiscard]] double scaled_stiffness(double k) const { return k * length / force; }
-  /// Moment per radian: a rotational spring.
+  /// Scaled moment per radian: rotational springs.
   [[nodiscard]] double scaled_rotational(double k) const { return k / (force * length); }
-  /// Force per length squared: a foundation's modulus.
+  /// Scaled force per length squared: foundation moduli.
   [[nodiscard]] double scaled_modulus(double k) const { return k * length * length / force; }
   [[nodiscard]] double scaled_curvature(double kappa) const { return kappa * length; }
 };

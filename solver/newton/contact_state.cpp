@@ -10,14 +10,14 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Smallest share of their stiffness that the supports' grip is released to before it is let go.
+/// Smallest grip (share of the supports' stiffness) that is tried before release_grip() gives up.
 constexpr double kLeastGrip = 1e-20;
-/// Factor from one share to the next: the least, and one that is as good as no progress.
+/// Smallest factor between successive grips, and the largest one before release_grip() gives up.
 constexpr double kFastestRelease = 0.1;
 constexpr double kSlowestRelease = 0.97;
-/// Share below which it is tried to do without.
+/// Grip below which equilibrium without grip is tried.
 constexpr double kTryFree = 1e-3;
-/// What the attempts share.
+/// Arguments common to all attempts at one load.
 struct Attempt {
   EquilibriumProblem& problem;
   const PathMetric& metric;
@@ -28,7 +28,7 @@ struct Attempt {
   bool small_displacements;
 };
 
-/// First correction from the unloaded state; false when the structure is singular.
+/// Linear response from the unloaded state; false when the structure is singular.
 bool first_guess(Attempt& attempt, bool bilateral, double softness, ContactState& state) {
   state.y = VectorXd::Zero(attempt.problem.size());
   Regime regime;
@@ -49,10 +49,9 @@ bool settle(Attempt& attempt, const Regime& regime, ContactState& state) {
   options.regime = regime;
   options.regime.small_displacements = attempt.small_displacements;
   double lambda = attempt.lambda;
-  constexpr double kSmaller = 0.1;
-  constexpr double kLeastScale = 1e-14;
-  // from a guess that is far too large again: corrections that were small beside it need not be so beside
-  // this
+  constexpr double kSmaller = 0.1;       // decrease of the displacement norm that requires a restart
+  constexpr double kLeastScale = 1e-14;  // smallest displacement norm as scale
+  // restarts with a smaller scale when the guess was far too large: the tolerance is relative to the scale
   for (double scale = std::max(attempt.metric.norm(state.y, 0.0), kLeastScale);;) {
     const auto outcome =
         correct(attempt.problem, attempt.metric, load_control, scale, options, state.y, lambda, attempt.work);
@@ -66,7 +65,7 @@ bool settle(Attempt& attempt, const Regime& regime, ContactState& state) {
   }
 }
 
-/// Newton's method with a grip; `state` changes only when it settles.
+/// Newton's method with a given grip; `state` changes only on success.
 bool settle_with(Attempt& attempt, double grip, ContactState& state) {
   ContactState trial = state;
   Regime regime;
@@ -76,12 +75,12 @@ bool settle_with(Attempt& attempt, double grip, ContactState& state) {
   return settled;
 }
 
-/// With supports so soft that the structure leaves them or leans on them as a whole, which are then hardened
-/// by and by: on stiff ones Newton's method moves the ends of contact by some decay lengths an iteration.
+/// Solves with supports so soft that contact is lost or kept as a whole, then stiffens them step by step. On
+/// stiff supports Newton's method moves the ends of contact by only a few decay lengths per iteration.
 bool harden(Attempt& attempt, ContactState& state) {
-  constexpr double kSoftest = 1e-12;
-  constexpr double kSofter = 1e-3;
-  constexpr double kSlowest = 1.3;
+  constexpr double kSoftest = 1e-12;  // factor on the stiffness of one-sided supports
+  constexpr double kSofter = 1e-3;    // softening per attempt
+  constexpr double kSlowest = 1.3;    // smallest stiffening factor per step
   double softness = kSofter;
   const auto settle_at = [&](double share, bool from_guess) {
     Regime regime;
@@ -109,7 +108,7 @@ bool harden(Attempt& attempt, ContactState& state) {
   return softness == 1.0;
 }
 
-/// From the glued guess, with a grip that is let go by and by.
+/// Solves with the full grip from the bilateral response, then reduces the grip step by step.
 bool release_grip(Attempt& attempt, ContactState& state) {
   double grip = 1.0;
   double release = kFastestRelease;
@@ -132,8 +131,7 @@ std::optional<ContactState> find_contact_state(EquilibriumProblem& problem, cons
                                                double lambda, Workspace& work, int& factorisations,
                                                const VectorXd* guess, bool small_displacements) {
   CorrectorOptions options = downhill({}, 25);
-  // only the direction is taken from it, and the last correction squares this; forces of a very small load
-  // are not known better where supports are stiff
+  // only the path's direction depends on the state, whose error is about the square of this tolerance
   options.tangent_tolerance = 1e-5;
   options.largest_residual = options.tangent_tolerance;
   Attempt attempt{problem, metric, lambda, options, work, factorisations, small_displacements};

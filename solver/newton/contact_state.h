@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Equilibrium at a given load when nothing is known of which one-sided supports act.
+/// Equilibrium at a given load when the contact of one-sided supports is unknown.
 
 #include <Eigen/Core>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace snapthrough {
 
-/// An equilibrium and what its factorisation said.
+/// Equilibrium state with the tangent report of its last factorisation.
 struct ContactState {
   Eigen::VectorXd y;
   TangentReport tangent;
@@ -18,17 +18,15 @@ struct ContactState {
 
 /// @brief Solves F(y, lambda) = 0 at fixed lambda from the unloaded state.
 ///
-/// Newton's method from the response of the structure glued to its supports, and from that without them, ends
-/// in most cases with the right contact. On supports so stiff that contact ends move slowly, they are made
-/// soft and hardened by steps. Where nothing holds the structure until a gap closes, the supports get a grip:
-/// they also react, in both directions and without gap, with a share of their stiffness. The share falls from
-/// one to nothing by steps that shrink when Newton's method fails; each problem on the way is strictly
-/// monotone and starts next to the last one's solution.
+/// Newton's method starts from `guess`, then from the response with all supports bilateral, then from that
+/// without one-sided supports. If these fail, one-sided supports are first softened and then stiffened step
+/// by step (contact ends move slowly on stiff supports). Last, all one-sided supports also react bilaterally
+/// without gap, with a share of their stiffness ("grip") that falls from one to zero in adaptive steps; each
+/// of these problems is strictly monotone and starts from the previous solution.
 ///
-/// @param guess tried first, if given
-/// @param small_displacements strains are linearised about the stress-free axis
-/// @param options its limits on iterations and corrections are the caller's to widen
-/// @param factorisations counts are added to it
+/// @param guess first starting point; may be null
+/// @param small_displacements linearises strains about the stress-free axis
+/// @param factorisations incremented by the number of factorisations
 /// @return empty when no equilibrium was found
 [[nodiscard]] std::optional<ContactState> find_contact_state(EquilibriumProblem& problem,
                                                              const PathMetric& metric, double lambda,

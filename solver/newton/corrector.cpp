@@ -8,7 +8,7 @@ namespace snapthrough {
 
 namespace {
 
-/// One bordered Newton correction with the factors at hand, in work.correction; returns its part in lambda.
+/// Computes one bordered Newton correction with the current factors into work.correction; returns dlambda.
 double find_correction(EquilibriumProblem& problem, const SideCondition& side, const Eigen::VectorXd& y,
                        double lambda, Workspace& work) {
   work.correction = -work.residual;
@@ -26,33 +26,33 @@ double find_correction(EquilibriumProblem& problem, const SideCondition& side, c
   return dlambda;
 }
 
-/// Relative residual, over the tangent's tolerance, that the last correction may start from.
+/// Largest residual, over the tangent tolerance, from which the last correction may start.
 constexpr double kNearResidual = 10.0;
 
-/// With contact that changes corrections may cycle: one that is the last for the tangent's sake is at most
-/// this share of the one before.
+/// Largest ratio of the last correction to the one before it, for convergence to the tangent tolerance;
+/// excludes cycles between contact states.
 constexpr double kClosingShare = 0.1;
 
-/// Corrections before a residual that no longer falls counts as rounding's, and what is left of one that
-/// does not.
+/// Corrections before stagnation is tested, and the ratio of successive residuals above which they stagnate.
 constexpr int kStagnantIterations = 4;
 constexpr double kStagnantShare = 0.5;
-/// Corrections (displacement gradients; share of the step) beyond which a residual is not rounding's, however
-/// small it is beside large forces, but that of contact which cycles.
+/// Largest correction (displacement gradient; share of the step) at which a residual counts as rounding.
+/// Larger corrections with a small residual come from cycles between contact states.
 constexpr double kLargestRounding = 1e-6;
 constexpr double kLargestRoundingShare = 1e-4;
-/// The same for a correction that is not taken.
+/// Largest norm of a correction (displacement gradient) that may be omitted.
 constexpr double kLargestLeft = 1e-8;
 
-/// Share of the correction at which the forces do no work on it any more. At a given load and small
-/// displacements one-sided supports have a convex energy, of which this is the least along the correction:
-/// so Newton's method can't cycle between contact patterns.
+/// Share of the correction at which the forces do no work along the correction. At fixed load and small
+/// displacements the energy of one-sided supports is convex and least there, so that Newton's method cannot
+/// cycle between contact states.
 double least_energy(EquilibriumProblem& problem, const Regime& regime, const Eigen::VectorXd& y,
                     double lambda, Workspace& work) {
   constexpr int kMostTrials = 12;
-  constexpr double kWorkLeft = 0.1;
+  constexpr double kWorkLeft = 0.1;  // largest work at the end of the line search over that at the start
+  // opposite work at the end over that at the start, above which the correction is shortened
   constexpr double kEnough = 0.5;
-  constexpr double kLongest = 64.0;
+  constexpr double kLongest = 64.0;  // factor on the correction
   const double at_start = work.residual.dot(work.correction);
   if (!(at_start < 0.0)) return 1.0;
   const auto work_at = [&](double share) {
@@ -64,7 +64,7 @@ double least_energy(EquilibriumProblem& problem, const Regime& regime, const Eig
   double high = 1.0;
   double work_low = at_start;
   double work_high = work_at(1.0);
-  // where contact is lost along the correction, the structure is softer than its tangent: further
+  // contact lost along the correction makes the structure softer than its tangent: longer correction
   while (work_high < kWorkLeft * at_start && high < kLongest) {
     low = high;
     work_low = work_high;
@@ -83,11 +83,11 @@ double least_energy(EquilibriumProblem& problem, const Regime& regime, const Eig
   return low > 0.0 ? low : high;
 }
 
-/// Takes the last correction. Where supports act on one side only it may cross to other contact, where the
-/// factors say nothing: then the point stays, if it is good enough as it is. The factors may also have lost
-/// digits, where a part of a member is at a buckling load of its own.
-/// @param exact whether another may follow that leaves less than this one
-/// @return false when neither is
+/// Applies the last correction. With one-sided supports the correction may change the contact and thus leave
+/// the range of the factors; the point then stays if its residual is small enough. The factors may also have
+/// lost digits where a part of a member is near its own buckling load.
+/// @param exact true: iteration may continue if that reduces the residual further
+/// @return false when the correction must not be the last
 bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, bool exact, Eigen::VectorXd& y,
                double& lambda, double dlambda, double correction, const CorrectorOutcome& out,
                Workspace& work) {
@@ -99,7 +99,7 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
     const double most = std::min(out.relative_residual, options.largest_residual);
     if (problem.one_sided() && size > std::max(most, rounding))
       return correction <= kLargestLeft && out.relative_residual <= options.stagnant_residual;
-    // one that leaves more was not the last, but where residuals are smooth and no longer fall
+    // a larger remainder requires another correction, unless residuals are smooth and no longer fall
     const bool falls = problem.one_sided() || size <= kStagnantShare * out.relative_residual;
     if (exact && falls && size > rounding) return false;
   }
@@ -108,7 +108,7 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
   return true;
 }
 
-/// What the corrections so far tell of the next.
+/// Decides from the sizes of the corrections whether Newton's method has converged or diverges.
 class Progress {
  public:
   Progress(const CorrectorOptions& options, double scale)
@@ -117,9 +117,9 @@ class Progress {
         displacement_(std::min(scale, options.displacement)),
         previous_(scale) {}
 
-  /// Whether the correction of this size, before which the residual is `residual`, is the last.
+  /// Whether a correction of norm `size`, computed at the relative residual `residual`, is the last.
   [[nodiscard]] bool is_last(int iteration, double size, double residual) {
-    // quadratic convergence, as the correction before let it expect and as this one does
+    // predicted next correction under quadratic convergence
     const bool small =
         std::max(expected_, size * ratio(size) * ratio(size)) <= options_.tolerance * displacement_ &&
         residual <= options_.largest_residual;
@@ -130,21 +130,21 @@ class Progress {
     last_residual_ = residual;
     return iteration > 0 && (small || (rounding && (stagnant_ || residual <= kResidualFloor)));
   }
-  /// Whether the first correction is rounding's, however large it is where the tangent is nearly singular.
+  /// Whether the first correction is only rounding, amplified by a nearly singular tangent.
   [[nodiscard]] bool is_rounding(int iteration, double size, double residual) const {
     return iteration == 0 && residual <= kRoundingResidual && size > options_.tangent_tolerance * scale_;
   }
-  /// Whether corrections converge, and do not merely happen to be small.
+  /// Whether the corrections contract fast enough for the tangent tolerance.
   [[nodiscard]] bool closes_in(double size) const { return size <= kClosingShare * previous_; }
-  /// Whether the residual no longer falls, as is_last() found.
+  /// Whether is_last() found that the residual no longer falls.
   [[nodiscard]] bool stagnant() const { return stagnant_; }
-  /// Whether the first correction or its growth shows that the predictor said nothing.
+  /// Whether the first correction, or the growth of corrections, exceeds its bound.
   [[nodiscard]] bool runs_away(int iteration, double size) const {
     return size > (iteration == 0 ? options_.largest_first * scale_ : options_.largest_growth * previous_);
   }
-  /// Takes in a correction of which `share` was taken; false when too many did not shrink.
+  /// Records a correction that was applied by `share`; false after too many corrections that did not shrink.
   [[nodiscard]] bool goes_on(double size, double share, double residual) {
-    // near rounding nothing falls
+    // near rounding no correction shrinks
     if (size > kStagnantShare * least_ && residual > options_.stagnant_residual) ++stalled_;
     least_ = std::min(least_, size);
     expected_ = share < 1.0 ? size : size * ratio(size) * ratio(size);
@@ -166,7 +166,7 @@ class Progress {
   bool stagnant_ = false;
 };
 
-/// Whether what the corrections left is what the supports' rounding leaves anyway.
+/// Whether the residual is at most the rounding of the supports' forces.
 bool settled_to_rounding(EquilibriumProblem& problem, const Regime& regime, const Eigen::VectorXd& y,
                          double lambda, CorrectorOutcome& out, Workspace& work) {
   problem.residual(y, lambda, work.residual, regime);

@@ -10,12 +10,11 @@
 
 namespace snapthrough {
 
-/// Response to a unit load, a displacement gradient in units of the structure's Euler load, that only a
-/// mechanism gives.
+/// Norm of the response to a unit load (displacement gradient per Euler load) that indicates a mechanism.
 inline constexpr double kSingularResponse = 1e13;
-/// Relative residual that rounding always leaves: a state with it is as good as exact.
+/// Relative residual of a state that is exact to rounding; the corrector stops below it.
 inline constexpr double kRoundingResidual = 1e-14;
-/// Relative residual that rounding allows: iterations for a state that is returned stop there.
+/// Relative residual that rounding can leave; iterations for a reported state stop below it.
 inline constexpr double kResidualFloor = 2e-13;
 
 /// @brief Norm of a step (dy, dlambda): sqrt(dy.W dy + weight dlambda^2), W the problem's metric.
@@ -28,42 +27,44 @@ struct PathMetric {
                              double lb) const {
     return (a.array() * weights->array() * b.array()).sum() + load_weight * la * lb;
   }
-  /// Also of a difference, which is not put into a vector for it.
+  /// Accepts Eigen expressions, so that the norm of a difference needs no temporary vector.
   template <class A>
   [[nodiscard]] double norm(const Eigen::MatrixBase<A>& a, double la) const {
     return std::sqrt(inner(a, la, a, la));
   }
 };
 
-/// @brief The side condition normal.(y - y_0) + normal_lambda (lambda - lambda_0) = 0 through the starting
-/// point.
+/// @brief Side condition normal.(y - y_0) + normal_lambda (lambda - lambda_0) = 0, (y_0, lambda_0) the
+/// starting point.
 struct SideCondition {
-  Eigen::VectorXd
-      normal;  ///< already weighted: a plain dot product with dy; empty counts as zero (load control)
+  Eigen::VectorXd normal;  ///< already weighted by the metric; empty: zero vector (load control)
   double normal_lambda = 1.0;
 };
 
 struct CorrectorOptions {
   int max_iterations = 12;
-  int most_stalled = 3;     ///< corrections that are not half the least so far: it does not converge
-  double tolerance = 1e-9;  ///< on the predicted norm of the next correction, relative to the step
-  /// What the tolerance is relative to where it is less than the step: the displacement part of it.
+  int most_stalled = 3;     ///< allowed corrections that exceed half of the smallest one so far
+  double tolerance = 1e-9;  ///< for the predicted norm of the next correction over the step
+  /// Replaces the step as reference of `tolerance` where smaller: the displacement part of the step.
   double displacement = std::numeric_limits<double>::infinity();
-  /// A correction below this share of the step is the last: the tangent at hand is the path's to this share,
-  /// the point to about its square. Zero: iterates to `tolerance`.
+  /// Norm of the last correction over the step at which iteration may stop: the tangent then has this
+  /// relative error, the point about its square. Zero: iterates to `tolerance`.
   double tangent_tolerance = 0.0;
-  double largest_residual = 1e-8;   ///< relative residual above which nothing counts as converged
-  double largest_correction = 2.0;  ///< a correction beyond this many steps ends the iteration as diverged
-  double largest_first = std::numeric_limits<double>::infinity();   ///< the same for the first
-  double largest_growth = std::numeric_limits<double>::infinity();  ///< from one correction to the next
-  Regime regime;                                                    ///< how supports are taken
-  /// Where supports are taken to act for the first correction; null: as for all.
+  double largest_residual = 1e-8;   ///< relative residual above which no state counts as converged
+  double largest_correction = 2.0;  ///< correction over the step above which the iteration diverges
+  /// Bound on the first correction over the step.
+  double largest_first = std::numeric_limits<double>::infinity();
+  /// Bound on the ratio of successive corrections.
+  double largest_growth = std::numeric_limits<double>::infinity();
+  Regime regime;  ///< contact and stiffness of one-sided supports
+  /// Frozen contact for the first correction; null: contact of `regime`.
   const FrozenContact* first_contact = nullptr;
-  bool least_energy = false;         ///< shortens corrections to where the energy is least, see correct()
-  double stagnant_residual = 1e-11;  ///< below it, one that no longer falls is rounding's, too
+  bool least_energy = false;  ///< line search along each correction for the least energy, see correct()
+  /// Relative residual below which a residual that no longer falls is rounding.
+  double stagnant_residual = 1e-11;
 };
 
-/// @brief The same options for going downhill in the energy at a given load, however far that leads.
+/// @brief Options for minimising the energy at a given load, with corrections of any size.
 [[nodiscard]] inline CorrectorOptions downhill(CorrectorOptions options, int max_iterations) {
   options.max_iterations = max_iterations;
   options.most_stalled = max_iterations;
@@ -77,24 +78,24 @@ enum class CorrectorStatus { converged, too_many_iterations, diverged };
 struct CorrectorOutcome {
   CorrectorStatus status = CorrectorStatus::diverged;
   int factorisations = 0;
-  double first_correction = 0.0;   ///< norm of the first correction: the predictor's error
-  double first_residual = 0.0;     ///< relative residual at the predictor
-  double relative_residual = 0.0;  ///< at the last linearisation, before the last correction
-  TangentReport tangent;           ///< at the last linearisation
+  double first_correction = 0.0;  ///< norm of the first correction: error of the predictor
+  double first_residual = 0.0;    ///< relative residual at the predictor
+  /// Relative residual at the last linearisation, before the last correction.
+  double relative_residual = 0.0;
+  TangentReport tangent;  ///< inertia at the last linearisation
 };
 
-/// @brief Vectors that the corrector and the predictor reuse, so that iterations do not allocate.
+/// @brief Scratch vectors of the corrector and the predictor.
 struct Workspace {
   Eigen::VectorXd residual, correction, load_response, trial;
 };
 
 /// @brief Corrects (y, lambda) in place.
 ///
-/// Each iteration factorises once and solves twice (bordering); the step taken with the last factors leaves
-/// the point more accurate than the tolerance, and `work.load_response` = J^-1 load with those factors, for
-/// the tangent.
-/// With least_energy, for a given load and small displacements, a correction ends where the
-/// forces do no work on it: the energy of one-sided supports is convex, and falls with each.
+/// Each iteration factorises once and solves twice (bordering). The last correction uses the last factors, so
+/// that the point is more accurate than the tolerance; `work.load_response` is J^-1 load with these factors,
+/// for the tangent. With `least_energy` (fixed load, small displacements) each correction ends where the
+/// forces do no work along it; the energy of one-sided supports is convex and decreases monotonically.
 /// @param scale norm of the step that led to the starting point
 [[nodiscard]] CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric,
                                        const SideCondition& side, double scale,

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The one way in which a place between two others is located: by a bracket that is never left.
+/// Bracketing methods: locating a root, or eigenvalues by counts, inside an interval.
 
 #include <algorithm>
 #include <cmath>
@@ -8,19 +8,19 @@
 
 namespace snapthrough {
 
-/// @brief A change of sign of a function between two places, closed by inverse quadratic interpolation where
-/// that can be trusted and by halving where not (Chandrupatla, Advances in Engineering Software 28, 1997).
+/// @brief Bracket of a sign change, closed by inverse quadratic interpolation where safe, else by bisection
+/// (Chandrupatla, Advances in Engineering Software 28, 1997).
 class SignBracket {
  public:
-  /// @param fa, fb of opposite signs, or one of them zero
+  /// @param fa, fb values at a and b, of opposite signs or one of them zero
   SignBracket(double a, double fa, double b, double fb) : a_(a), fa_(fa), b_(b), fb_(fb), c_(a), fc_(fa) {}
 
-  /// @brief The next place to look at, inside the bracket, at least a share of its width from both ends.
+  /// @brief Next position to evaluate, at least a share of the bracket's width from both ends.
   /// @param least share, in (0, 1/2)
   [[nodiscard]] double next(double least) const {
     return a_ + std::clamp(share_, least, 1.0 - least) * (b_ - a_);
   }
-  /// @brief Takes the value at next() into the bracket.
+  /// @brief Updates the bracket with the value fx at x = next().
   void take(double x, double fx) {
     c_ = a_;
     fc_ = fa_;
@@ -41,21 +41,21 @@ class SignBracket {
   }
   [[nodiscard]] double largest() const { return std::max(a_, b_); }
   [[nodiscard]] double width() const { return std::abs(b_ - a_); }
-  /// Its end with the smaller value.
+  /// End with the smaller absolute value.
   [[nodiscard]] double best() const { return std::abs(fa_) < std::abs(fb_) ? a_ : b_; }
   [[nodiscard]] bool is_exact() const { return fa_ == 0.0 || fb_ == 0.0; }
   [[nodiscard]] double middle() const { return 0.5 * (a_ + b_); }
 
  private:
-  double a_, fa_;  ///< the last place
-  double b_, fb_;  ///< the other end
-  double c_, fc_;  ///< the place before
+  double a_, fa_;  ///< latest position with its value
+  double b_, fb_;  ///< other end of the bracket with its value
+  double c_, fc_;  ///< previous position with its value
   double share_ = 0.5;
 };
 
-/// @brief Halves (lo, hi) until it is no wider than `width` or has no middle.
-/// @param is_beyond whether the place that is looked for is below a middle
-/// @return the middle of what is left
+/// @brief Bisects (lo, hi) to the given width or to adjacent doubles.
+/// @param is_beyond whether a position is above the wanted one
+/// @return middle of the final interval
 template <class IsBeyond>
 [[nodiscard]] double bisect(double lo, double hi, double width, const IsBeyond& is_beyond) {
   while (hi - lo > width) {
@@ -66,7 +66,7 @@ template <class IsBeyond>
   return 0.5 * (lo + hi);
 }
 
-/// An interval of load factors with the number of eigenvalues, or of buckling loads, below each end.
+/// Interval of load factors with the number of eigenvalues (or buckling loads) below each end.
 struct LoadBracket {
   double lo = 0.0;
   double hi = 0.0;
@@ -77,15 +77,15 @@ struct LoadBracket {
   [[nodiscard]] bool is_single() const { return below_hi - below_lo == 1; }
 };
 
-/// What Euler's load is multiplied by where a search begins: the root of 5, halved. Most columns, and
-/// elements held at one end, buckle at simple multiples of it, where elimination loses all digits; neither
-/// doubling nor halving from here meets one.
+/// Factor sqrt(5) / 2 on Euler's load at the start of a search. Many columns and elements buckle at simple
+/// multiples of Euler's load, at which elimination loses all digits; neither doubling nor halving reaches
+/// one.
 inline constexpr double kOffMultiples = 1.1180339887498949;
 
-/// @brief Splits a bracket of loads until each part is a leaf, and takes the leaves in ascending order.
-/// @param count loads below a load factor; one that lost its digits says no more than its neighbours
-/// @param wanted parts whose lower end has as many below it are left out
-/// @param take whether a part is a leaf; it has taken it then
+/// @brief Bisects a bracket of loads until `take` accepts each part; parts are taken in ascending order.
+/// @param count number of loads below a load factor; clamped to the counts at the bracket's ends
+/// @param wanted parts whose lower end has at least this count are omitted
+/// @param take accepts a part (true), or asks to divide it (false)
 template <class Count, class Take>
 void isolate_loads(const LoadBracket& bracket, int wanted, const Count& count, const Take& take) {
   if (bracket.is_empty() || bracket.below_lo >= wanted || take(bracket)) return;

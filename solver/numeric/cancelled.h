@@ -1,16 +1,16 @@
 #pragma once
 /// @file
-/// How an analysis ends in the middle of its work.
+/// Cancellation of an analysis.
 
 #include <stop_token>
 
 namespace snapthrough {
 
-/// Thrown by what takes long when its stop token was asked to stop. It never leaves solve() or
-/// follow_critical_point(): who knows what was reached says so.
+/// Thrown by long computations when their stop token is set; never leaves solve() or follow_critical_point(),
+/// which report what was reached.
 struct Cancelled {};
 
-/// @brief Looks at the token. What asks to stop is heard once: what was reached can still be evaluated.
+/// @brief Checks and resets the token: a stop request throws once, and results can still be evaluated.
 /// @throws Cancelled
 inline void end_if_asked(std::stop_token& stop) {
   if (!stop.stop_requested()) return;
@@ -18,7 +18,7 @@ inline void end_if_asked(std::stop_token& stop) {
   throw Cancelled{};
 }
 
-/// @brief Does it. @return false when it was cancelled in between
+/// @brief Runs `work`. @return false when it was cancelled
 template <class Work>
 [[nodiscard]] bool unless_cancelled(Work work) {
   try {

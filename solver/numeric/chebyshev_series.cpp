@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMost = ChebyshevSeries::kMostPoints;
 
-/// Row j: what the value at point j adds to the coefficients.
+/// Row j: contribution of the value at point j to the coefficients.
 using Transform = std::array<std::array<double, kMost>, kMost>;
 
 Transform make_transform(int n) {
@@ -19,7 +19,7 @@ Transform make_transform(int n) {
   for (int j = 0; j < n; ++j) {
     for (int k = 0; k < n; ++k) {
       const double ends = (j == 0 || j == last ? 0.5 : 1.0) * (k == 0 || k == last ? 0.5 : 1.0);
-      const double sign = k % 2 == 0 ? 1.0 : -1.0;  // the points ascend
+      const double sign = k % 2 == 0 ? 1.0 : -1.0;  // because the points ascend
       out[j][k] = sign * ends * 2.0 / last * std::cos(std::numbers::pi * j * k / last);
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A smooth function on an interval from its values at Chebyshev's points.
+/// Interpolation of a smooth function at Chebyshev points.
 
 #include <Eigen/Core>
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace snapthrough {
 
-/// @brief Interpolates n values at xi_i = (1 - cos(pi i / (n - 1))) / 2 of [0, 1] by a polynomial of degree
-/// n - 1: exact for those, and converging geometrically for what is smooth.
+/// @brief Polynomial of degree n - 1 through n values at xi_i = (1 - cos(pi i / (n - 1))) / 2 of [0, 1];
+/// converges geometrically for analytic functions.
 class ChebyshevSeries {
  public:
   static constexpr int kMostPoints = 2 * kMaxOrder + 3;
@@ -20,7 +20,7 @@ class ChebyshevSeries {
   explicit ChebyshevSeries(std::span<const double> values);
 
   [[nodiscard]] double value(double xi) const { return sum(coefficients_, xi); }
-  /// At four places at once.
+  /// Values at four positions.
   [[nodiscard]] Eigen::Array4d values(const Eigen::Array4d& xi) const { return sum(coefficients_, xi); }
   [[nodiscard]] double slope(double xi) const { return sum(slopes_, xi); }
 
@@ -42,7 +42,7 @@ class ChebyshevSeries {
 
   int size_;
   Coefficients coefficients_{};
-  Coefficients slopes_{};  ///< of d / d xi
+  Coefficients slopes_{};  ///< coefficients of d / d xi
 };
 
 }  // namespace snapthrough

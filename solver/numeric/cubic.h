@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The cubic by values and slopes at two places.
+/// Cubic Hermite interpolation.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace snapthrough {
 
-/// @brief Weights of the values (a, b) and slopes (da, db) at 0 and d in Hermite's cubic at tau.
+/// @brief Weights at tau of the cubic Hermite interpolant of values (a, b) and slopes (da, db) at 0 and d.
 struct CubicWeights {
   double a, da, b, db;
   CubicWeights(double tau, double d) {
@@ -22,8 +22,8 @@ struct CubicWeights {
   }
 };
 
-/// @brief Second and third derivative at its end of the cubic on a way of length d with these slopes and this
-/// rise; of numbers or vectors, the rise may be an expression.
+/// @brief Second and third derivative, at the end of an interval of length d, of the cubic with the given
+/// slopes at its ends and the given rise. T is a number or a vector; the rise may be an expression.
 template <class Rise, class T>
 [[nodiscard]] T second_derivative_at_end(const Rise& rise, const T& slope_before, const T& slope, double d) {
   return ((2.0 * slope_before + 4.0 * slope) - (6.0 / d) * rise) / d;
@@ -33,7 +33,7 @@ template <class Rise, class T>
   return (6.0 * (slope_before + slope) - (12.0 / d) * rise) / (d * d);
 }
 
-/// A number along a step from 0 to 1, by its values and slopes at both ends.
+/// Cubic on [0, 1] with given values and slopes at both ends.
 struct Cubic {
   double f0, m0, f1, m1;
 
@@ -45,23 +45,22 @@ struct Cubic {
     // m0 + 2 (3 (f1 - f0) - 2 m0 - m1) t + 3 (m0 + m1 - 2 (f1 - f0)) t^2
     return m0 + t * (2.0 * (3.0 * (f1 - f0) - 2.0 * m0 - m1) + t * 3.0 * (m0 + m1 - 2.0 * (f1 - f0)));
   }
-  /// Where between the ends its slope is greatest or least; empty: at an end.
+  /// Position of the extreme slope in (0, 1); empty: none.
   [[nodiscard]] std::optional<double> inflection() const {
     const double linear = 2.0 * (3.0 * (f1 - f0) - 2.0 * m0 - m1);
     const double square = 3.0 * (m0 + m1 - 2.0 * (f1 - f0));
     const double t = -0.5 * linear / square;
     return t > 0.0 && t < 1.0 ? std::optional(t) : std::nullopt;
   }
-  /// Where between the ends it is least; empty: at an end.
+  /// Position of the minimum in (0, 1); empty: none.
   [[nodiscard]] std::optional<double> minimum() const {
     const double a = 3.0 * (2.0 * (f0 - f1) + m0 + m1);
-    const double b =
-        3.0 * (f1 - f0) - 2.0 * m0 - m1;  // a t^2 + 2 b t + m0: its slope, rising where it is least
+    const double b = 3.0 * (f1 - f0) - 2.0 * m0 - m1;  // slope: a t^2 + 2 b t + m0
     const double root = std::sqrt(std::max(b * b - a * m0, 0.0));
     const double t = b > 0.0 ? -m0 / (b + root) : (root - b) / a;
     return t > 0.0 && t < 1.0 ? std::optional(t) : std::nullopt;
   }
-  /// A zero between the ends. @pre their values differ in sign
+  /// A zero in (0, 1). @pre f0 and f1 differ in sign
   [[nodiscard]] double zero() const {
     return bisect(0.0, 1.0, 1e-12, [this](double t) { return (value(t) > 0.0) != (f0 > 0.0); });
   }

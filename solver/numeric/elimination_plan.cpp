@@ -11,14 +11,14 @@
 namespace snapthrough {
 namespace {
 
-/// Below, one dense front is faster than many small ones.
+/// Number of unknowns up to which one dense front is faster than many small ones.
 constexpr int kOneFront = 64;
 
-/// Unknowns that the same blocks hold: they are eliminated together.
+/// Groups of unknowns that belong to the same blocks and are eliminated together.
 struct Groups {
-  std::vector<std::vector<int>> unknowns;  ///< of each group
-  std::vector<std::vector<int>> of_block;  ///< groups that a block couples, each once
-  std::vector<std::vector<int>> alone;     ///< unknowns of one block only, where it has others
+  std::vector<std::vector<int>> unknowns;  ///< one list per group
+  std::vector<std::vector<int>> of_block;  ///< groups coupled by each block, without repetition
+  std::vector<std::vector<int>> alone;  ///< unknowns that belong to this block only, if the block has others
 };
 
 Groups group(int size, std::span<const std::vector<int>> blocks) {
@@ -51,7 +51,7 @@ Groups group(int size, std::span<const std::vector<int>> blocks) {
   return groups;
 }
 
-/// Order in which the groups are eliminated: the first is order[0].
+/// Elimination order of the groups, first to last.
 std::vector<int> least_degree(const Groups& groups) {
   const auto count = static_cast<int>(groups.unknowns.size());
   std::vector<Eigen::Triplet<char>> entries;
@@ -65,13 +65,13 @@ std::vector<int> least_degree(const Groups& groups) {
   return {order.indices().data(), order.indices().data() + count};
 }
 
-/// A front over groups, by their places in the order of elimination.
+/// Front over groups, numbered in elimination order.
 struct GroupFront {
   std::vector<int> pivots;
   std::vector<int> rest;  ///< ascending
   std::vector<int> blocks;
   std::vector<int> children;
-  bool merged = false;  ///< into its parent
+  bool merged = false;  ///< merged into its parent
 };
 
 std::vector<GroupFront> symbolic(const Groups& groups, const std::vector<int>& place) {
@@ -100,7 +100,7 @@ std::vector<GroupFront> symbolic(const Groups& groups, const std::vector<int>& p
   return fronts;
 }
 
-/// Joins a front with a child whose rest is all of it: nothing more is computed, in fewer steps.
+/// Merges a front with a child whose rest is the whole front: the same operations in fewer steps.
 void merge(std::vector<GroupFront>& fronts) {
   for (GroupFront& front : fronts) {
     std::vector<int> children;

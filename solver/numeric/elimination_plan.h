@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// In which order the unknowns of a sparse symmetric matrix are eliminated.
+/// Elimination order of a sparse symmetric matrix.
 
 #include <span>
 #include <vector>
@@ -9,19 +9,19 @@ namespace snapthrough {
 
 /// Unknowns that are eliminated together.
 struct FrontPlan {
-  std::vector<int> pivots;    ///< eliminated here
-  std::vector<int> rest;      ///< what they are coupled with then
-  std::vector<int> blocks;    ///< of the matrix: those that are added here
-  std::vector<int> children;  ///< fronts whose rest is added here; all before this one
+  std::vector<int> pivots;    ///< unknowns that are eliminated in this front
+  std::vector<int> rest;      ///< unknowns that are coupled with the pivots
+  std::vector<int> blocks;    ///< blocks of the matrix that are assembled here
+  std::vector<int> children;  ///< fronts whose rest is assembled here; they precede this one
 };
 
-/// @brief Fronts in the order of their elimination, which keeps them small (approximate minimum degree).
+/// @brief Plans fronts in elimination order, kept small by approximate minimum degree.
 ///
-/// Unknowns of one block only are eliminated with the first of the block's other unknowns. So the forces at a
-/// member's ends, whose own rows may have no pivot, meet the displacements that they need. A small matrix is
-/// one front, in the order of the unknowns.
-/// @param size how many unknowns there are
-/// @param blocks unknowns of each block of the matrix; negative ones are none
+/// Unknowns of a single block are eliminated with the first of the block's other unknowns. Member end forces,
+/// whose diagonal may be zero, thus join the displacements that provide their pivots. A small matrix is one
+/// front in the order of its unknowns.
+/// @param size number of unknowns
+/// @param blocks unknowns of each block of the matrix; negative entries are ignored
 [[nodiscard]] std::vector<FrontPlan> plan_elimination(int size, std::span<const std::vector<int>> blocks);
 
 }  // namespace snapthrough

@@ -13,9 +13,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Bunch and Kaufman's share of the largest entry of a column, below which its diagonal is no pivot.
+/// Bunch and Kaufman's threshold: diagonal over largest entry of its column.
 const double kShare = (1.0 + std::sqrt(17.0)) / 8.0;
-/// The same where the largest entry's row can't be a pivot: factors are at most ten.
+/// Threshold if the largest entry is in a row that cannot be a pivot; bounds factors by ten.
 constexpr double kLeastShare = 0.1;
 
 }  // namespace
@@ -27,7 +27,7 @@ void PivotSummary::note(double eigenvalue) {
   log_abs_det += std::log(std::max(size, std::numeric_limits<double>::min()));
 }
 
-/// Symmetric exchange of rows and columns, and of the rows of what is factorised.
+/// Exchanges two rows and the corresponding columns, in the matrix and in the factor.
 void Front::swap_rows(Index a, Index b) {
   if (a == b) return;
   if (a > b) std::swap(a, b);
@@ -85,7 +85,7 @@ double Front::largest_in_row(Index row, Index except) const {
   return largest;
 }
 
-/// A row that makes a 2 x 2 pivot with row done_ that is small beside no other row; 0: there is none.
+/// Returns `row` if it forms a 2 x 2 pivot with row done_ that is not small relative to any row; otherwise 0.
 Index Front::choose_beside(Index row, double largest) const {
   if (row == 0) return 0;
   const double a = matrix(done_, done_);
@@ -98,10 +98,10 @@ Index Front::choose_beside(Index row, double largest) const {
   return std::max(first, second) * kLeastShare <= det ? row : 0;
 }
 
-/// Eliminates with row done_, or that and another; false: neither is a good pivot.
+/// Eliminates row done_, alone or with another row; false: no good pivot.
 bool Front::try_pivot(PivotSummary& pivots) {
   const Index k = done_;
-  double within = 0.0;  // largest entry of the column in the rows that can be pivots
+  double within = 0.0;  // largest entry in rows that can be pivots
   Index r = 0;
   for (Index i = k + 1; i < summed_; ++i)
     if (std::abs(matrix(i, k)) > within) within = std::abs(matrix(r = i, k));
@@ -109,7 +109,7 @@ bool Front::try_pivot(PivotSummary& pivots) {
   for (Index i = summed_; i < matrix.rows(); ++i) beyond = std::max(beyond, std::abs(matrix(i, k)));
   const double largest = std::max(within, beyond);
   const double diagonal = std::abs(matrix(k, k));
-  if (!(diagonal < kShare * largest)) {  // also what is not a number: it goes on into the solution
+  if (!(diagonal < kShare * largest)) {  // also for NaN, which then reaches the solution
     eliminate_one(pivots);
   } else if (within >= beyond) {
     const double sigma = std::max(within, largest_in_row(r, k));
@@ -137,19 +137,19 @@ void Front::eliminate(Index summed, PivotSummary& pivots) {
   summed_ = summed;
   done_ = 0;
   two_.assign(static_cast<std::size_t>(summed), 0);
-  Index refused = 0;  // rows in turn that are no pivots at the moment
+  Index refused = 0;  // consecutive rows without a good pivot
   while (done_ + refused < summed_) {
     if (try_pivot(pivots)) {
       refused = 0;
       continue;
     }
     ++refused;
-    swap_rows(done_, summed_ - refused);  // the next one's turn
+    swap_rows(done_, summed_ - refused);  // try the next row
   }
   update_rest();
 }
 
-/// Subtracts what all pivots take from the rows that could be none, at once: no pivot needs them before.
+/// Subtracts the contributions of all pivots from the remaining rows in one product.
 void Front::update_rest() {
   const Index rest = matrix.rows() - summed_;
   if (rest == 0 || done_ == 0) return;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// One dense step of a symmetric indefinite factorisation: rows that are eliminated, and what is left.
+/// Dense step of a symmetric indefinite factorisation.
 
 #include <Eigen/Core>
 #include <vector>
@@ -10,34 +10,34 @@ namespace snapthrough {
 /// Signs of the eigenvalues of a symmetric matrix.
 struct Inertia {
   int negative = 0;
-  int zero = 0;  ///< how many are zero to the tolerance, whatever their computed sign
+  int zero = 0;  ///< eigenvalues that are zero within the tolerance, of either computed sign
 };
 
-/// What the pivots of a factorisation say.
+/// Summary of the pivots of a factorisation.
 struct PivotSummary {
-  double floor = 0.0;  ///< a pivot of at most this size counts as zero
+  double floor = 0.0;  ///< size up to which a pivot counts as zero
   Inertia inertia;
-  double log_abs_det = 0.0;  ///< a zero pivot counts with its tiny replacement
+  double log_abs_det = 0.0;  ///< log |det|; zero pivots enter with their tiny replacement
 
   void note(double eigenvalue);
 };
 
-/// @brief A dense symmetric matrix over some unknowns, of which the first can be eliminated: P A P^T = L D
-/// L^T with 1 x 1 and 2 x 2 pivots (Bunch and Kaufman, Math. Comp. 31, 1977).
+/// @brief Dense symmetric matrix whose first unknowns can be eliminated: P A P^T = L D L^T with 1 x 1 and 2 x
+/// 2 pivots (Bunch and Kaufman, Math. Comp. 31, 1977).
 ///
-/// Where not all rows can be pivots, a pivot must not be small beside any row (Duff and Reid, ACM Trans.
-/// Math. Softw. 9, 1983); unknowns without such a pivot stay. Backward stable whatever the inertia.
+/// If some rows cannot be pivots, a pivot must not be small relative to any row (Duff and Reid, ACM Trans.
+/// Math. Softw. 9, 1983); unknowns without such a pivot remain. Backward stable for any inertia.
 class Front {
  public:
-  std::vector<int> unknowns;  ///< of the rows; eliminate() puts those first that it eliminates
-  Eigen::MatrixXd matrix;     ///< lower triangle; afterwards the factor, and what is left of the others
+  std::vector<int> unknowns;  ///< one per row; eliminate() moves those that it eliminates to the front
+  Eigen::MatrixXd matrix;     ///< lower triangle; after elimination the factor and the Schur complement
 
-  /// @brief Eliminates what it can of the first `summed` rows; all when there are no others.
-  /// @pre the entries are finite, or the solutions need not be
+  /// @brief Eliminates as many as possible of the first `summed` rows; all, if there are no other rows.
+  /// @pre the entries are finite (otherwise solutions are not)
   void eliminate(Eigen::Index summed, PivotSummary& pivots);
-  /// How many rows were eliminated.
+  /// Number of eliminated rows.
   [[nodiscard]] Eigen::Index eliminated() const { return done_; }
-  /// @brief L^-1, then D^-1 of the eliminated rows, then L^-T; each on x in the order of `unknowns`.
+  /// @brief Applies L^-1, D^-1 or L^-T of the eliminated rows to x, in the order of `unknowns`.
   void forward(Eigen::VectorXd& x) const;
   void scale(Eigen::VectorXd& x) const;
   void backward(Eigen::VectorXd& x) const;
@@ -53,7 +53,7 @@ class Front {
 
   Eigen::Index summed_ = 0;
   Eigen::Index done_ = 0;
-  std::vector<char> two_;   ///< a 2 x 2 pivot starts here
+  std::vector<char> two_;   ///< true: a 2 x 2 pivot starts at this row
   Eigen::MatrixXd scaled_;  ///< scratch of update_rest()
 };
 

@@ -8,7 +8,7 @@
 namespace snapthrough {
 namespace {
 
-/// Legendre P_0 .. P_n at x = 2 xi - 1.
+/// Legendre polynomials P_0 .. P_n at x = 2 xi - 1.
 void legendre(int n, double xi, std::span<double> p) {
   const double x = 2.0 * xi - 1.0;
   p[0] = 1.0;
@@ -58,7 +58,7 @@ Quadrature gauss_lobatto(int n) {
   const int m = n - 1;
   for (int i = 0; i < n; ++i) {
     double x = -std::cos(std::numbers::pi * i / m);
-    if (i > 0 && i < m) {  // roots of P_m', by Newton with P_m'' from Legendre's equation
+    if (i > 0 && i < m) {  // roots of P_m' by Newton's method, with P_m'' from Legendre's equation
       for (int it = 0; it < 100; ++it) {
         const auto [p, dp] = legendre_with_derivative(m, x);
         const double ddp = (2.0 * x * dp - m * (m + 1) * p) / (1.0 - x * x);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Quadrature on [0, 1] and the polynomials that the beam element is made of.
+/// Quadrature on [0, 1] and the polynomials of the beam element.
 
 #include <array>
 #include <span>
@@ -22,7 +22,7 @@ struct Quadrature {
 /// @brief Gauss-Lobatto rule with n >= 2 points (both ends included), exact up to degree 2n - 3.
 [[nodiscard]] Quadrature gauss_lobatto(int n);
 
-/// @brief The P-point Gauss collocation (Runge-Kutta) rule of one beam element.
+/// @brief P-point Gauss collocation (Runge-Kutta) rule of a beam element of order P.
 ///
 /// Displacements in an element are u(xi) = u_a + h sum_r A_r(xi) u'_r, with u'_r the derivatives at the Gauss
 /// points and A_r(xi) the integral from 0 to xi of the Lagrange polynomial l_r through those points: the same
@@ -43,7 +43,7 @@ class CollocationRule {
   /// @brief l_r(xi) for all r; `out` has size order().
   void values_at(double xi, std::span<double> out) const;
 
-  /// @brief The rule of an order, computed once. Thread safe.
+  /// @brief Rule of an order, cached. Thread safe.
   [[nodiscard]] static const CollocationRule& of(int order);
 
  private:

@@ -1,10 +1,10 @@
 #pragma once
 /// @file
-/// The largest order of elements.
+/// Largest element order.
 
 namespace snapthrough {
 
-/// Polynomial orders of elements, and of the collocation rules they stand on, go from 1 to this.
+/// Largest polynomial order of elements and of collocation rules; the smallest is 1.
 inline constexpr int kMaxOrder = 8;
 
 }  // namespace snapthrough

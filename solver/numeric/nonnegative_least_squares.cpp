@@ -12,13 +12,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The active set method's state: x is positive on `passive` and zero elsewhere.
+/// State of the active set method: x is positive on `passive` and zero elsewhere.
 class ActiveSet {
  public:
   ActiveSet(const MatrixXd& A, const VectorXd& b)
       : A_(A), b_(b), sizes_(A.colwise().norm()), x_(VectorXd::Zero(A.cols())), residual_(b) {}
 
-  /// Takes in the column that reduces the residual most. @return false: there is none
+  /// Adds the column with the largest reduction of the residual. @return false: none is left
   [[nodiscard]] bool advance();
   [[nodiscard]] NonnegativeSolution solution() const { return {x_, residual_}; }
 
@@ -37,9 +37,9 @@ class ActiveSet {
   std::vector<Index> passive_;
 };
 
-/// The column whose direction has the largest part of the residual, beyond rounding; -1: none.
+/// Column with the largest component of the residual, above rounding; -1: none.
 Index ActiveSet::steepest(const std::vector<Index>& rejected) const {
-  constexpr double kRoundings = 16.0;  // units in the last place of the sums that the residual is left of
+  constexpr double kRoundings = 16.0;  // rounding of the sums in the residual, in units in the last place
   const double rounding = kRoundings * std::numeric_limits<double>::epsilon() * (b_.norm() + sizes_.dot(x_));
   Index best = -1;
   double largest = rounding;
@@ -53,8 +53,8 @@ Index ActiveSet::steepest(const std::vector<Index>& rejected) const {
   return best;
 }
 
-/// From x towards the least squares solution on the passive columns; columns whose unknown becomes zero on
-/// the way leave them, until that solution is positive.
+/// Moves x towards the least squares solution on the passive columns; removes columns whose unknown reaches
+/// zero, until that solution is positive.
 void ActiveSet::move_to(VectorXd wanted) {
   while (!(wanted.array() > 0.0).all()) {
     double share = 1.0;
@@ -86,7 +86,7 @@ bool ActiveSet::advance() {
       residual_ = b_ - A_ * x_;
       return true;
     }
-    passive_.pop_back();  // its slope was rounding's
+    passive_.pop_back();  // the column's gradient component was rounding
     rejected.push_back(next);
   }
   return false;
@@ -95,7 +95,7 @@ bool ActiveSet::advance() {
 }  // namespace
 
 NonnegativeSolution nonnegative_least_squares(const MatrixXd& A, const VectorXd& b) {
-  constexpr Index kMostSteps = 10;  // by column and row: the method ends after about twice the rows
+  constexpr Index kMostSteps = 10;  // steps over rows plus columns; about twice the number of rows is usual
   ActiveSet set(A, b);
   for (Index step = 0; step < kMostSteps * (A.cols() + A.rows()); ++step)
     if (!set.advance()) break;

@@ -13,15 +13,15 @@ using Eigen::Index;
 using Eigen::SparseMatrix;
 using Eigen::VectorXd;
 
-/// Of what is computed from vectors of length one.
+/// Rounding of quantities computed from vectors of length one.
 constexpr double kRounding = 1e-12;
 
 NullSpace::NullSpace(SparseMatrix<double> rows, SparseMatrix<double> sizes, double tolerance)
     : rows_(std::move(rows)), sizes_(std::move(sizes)), tolerance_(tolerance) {
-  // some roundings of each diagonal entry: the pivots of a singular matrix stay positive, and a vector of the
-  // null space still grows a hundred times as fast as one that B maps to 1e-6
+  // shift over each diagonal entry: keeps the pivots of a singular matrix positive, while a null vector still
+  // grows a hundred times as fast as a vector with |B x| = 1e-6
   constexpr double kShift = 1e-14;
-  constexpr Index kMostEntries = 2'000'000;  // of the factor: half a second
+  constexpr Index kMostEntries = 2'000'000;  // limit on the factor's entries, about half a second
   SparseMatrix<double> squares = rows_.transpose() * rows_;
   SparseMatrix<double> shift(squares.rows(), squares.cols());
   shift.setIdentity();
@@ -35,8 +35,7 @@ NullSpace::NullSpace(SparseMatrix<double> rows, SparseMatrix<double> sizes, doub
 
 namespace {
 
-/// Removes the parts along orthonormal vectors; twice, as the first pass leaves rounding of what it
-/// subtracts.
+/// Orthogonalises x against orthonormal vectors; the second pass removes rounding of the first.
 void make_orthogonal(const std::vector<VectorXd>& others, VectorXd& x) {
   for (int pass = 0; pass < 2; ++pass)
     for (const VectorXd& other : others) x -= other.dot(x) * other;
@@ -44,7 +43,7 @@ void make_orthogonal(const std::vector<VectorXd>& others, VectorXd& x) {
 
 }  // namespace
 
-/// What vectors of the null space add to the sizes is left out: with them a vector can be large anywhere.
+/// Excludes the span of earlier vectors' S x, which could make |S x| large everywhere.
 bool NullSpace::is_null(const VectorXd& x) const {
   const double left = VectorXd(rows_ * x).lpNorm<Eigen::Infinity>();
   VectorXd size = sizes_ * x;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Null space of a sparse matrix, vector by vector.
+/// Null space of a sparse matrix.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
@@ -10,26 +10,24 @@
 
 namespace snapthrough {
 
-/// @brief Vectors x with B x = 0, by inverse iteration with B^T B and one sparse factorisation of it.
+/// @brief Computes vectors x with B x = 0 by inverse iteration on B^T B, with one sparse factorisation.
 ///
-/// The squares lose half of the digits, so whether x is in the null space is judged by B x itself, and what
-/// is left of B x is removed by iterative refinement.
+/// Squaring loses half of the digits; therefore B x itself decides on membership, and iterative refinement
+/// reduces B x.
 class NullSpace {
  public:
-  /// @param rows B, entries of order one
-  /// @param sizes what B x is compared with: x counts when |B x| <= `tolerance` |sizes x| or is rounding
+  /// @param rows B, with entries of order one
+  /// @param sizes reference S: x is accepted when |B x| <= `tolerance` |S x|, or when B x is rounding
   NullSpace(Eigen::SparseMatrix<double> rows, Eigen::SparseMatrix<double> sizes, double tolerance);
 
-  /// @brief Whether B^T B fills up so much when it is factorised that it is left: some seconds would be too
-  /// few. next() knows no vector then.
+  /// @brief Whether factorising B^T B was omitted because of its fill-in; next() then returns no vector.
   [[nodiscard]] bool too_dense() const { return too_dense_; }
 
-  /// @brief Another vector of the null space, of length one and orthogonal to those before; empty when there
-  /// is none.
+  /// @brief Next vector of the null space, of length one and orthogonal to the previous ones; empty: none.
   [[nodiscard]] std::optional<Eigen::VectorXd> next();
 
  private:
-  /// Tells how many entries its factor will have once the pattern is analysed.
+  /// Exposes the number of entries of the factor after symbolic analysis.
   class Factor : public Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> {
    public:
     [[nodiscard]] Eigen::Index entries() const { return m_matrix.nonZeros(); }
@@ -42,8 +40,8 @@ class NullSpace {
   double tolerance_;
   Factor factor_;
   bool too_dense_ = false;
-  std::vector<Eigen::VectorXd> found_;        ///< orthonormal
-  std::vector<Eigen::VectorXd> found_sizes_;  ///< orthonormal, span their sizes
+  std::vector<Eigen::VectorXd> found_;        ///< orthonormal null vectors
+  std::vector<Eigen::VectorXd> found_sizes_;  ///< orthonormal basis of the span of S x
 };
 
 }  // namespace snapthrough

@@ -1,14 +1,14 @@
 #pragma once
 /// @file
-/// Numbers in messages.
+/// Formatting of numbers in messages.
 
 #include <string>
 
 namespace snapthrough {
 
-/// A number in a message: the fewest digits that read back to the same value, as in the result document.
+/// Shortest decimal representation that reads back to the same value, as in the result document.
 [[nodiscard]] std::string number(double value);
-/// A size in a message that no field of the document repeats: to so many significant digits.
+/// Number rounded to `digits` significant digits, for quantities that occur in messages only.
 [[nodiscard]] std::string rounded(double value, int digits = 3);
 
 }  // namespace snapthrough

@@ -1,13 +1,13 @@
 #pragma once
 /// @file
-/// Vectors without pattern, the same on every run.
+/// Reproducible pseudo-random vectors.
 
 #include <Eigen/Core>
 
 namespace snapthrough {
 
-/// @brief Entries in [-1/2, 1/2) by a linear congruential generator: a start of iterations that has a part
-/// of every mode.
+/// @brief Vector with entries in [-1/2, 1/2) from a linear congruential generator; initial vector of
+/// iterations, with components in all modes.
 [[nodiscard]] inline Eigen::VectorXd pseudo_random(Eigen::Index size, unsigned seed) {
   Eigen::VectorXd x(size);
   unsigned state = seed * 2654435761U + 12345U;

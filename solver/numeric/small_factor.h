@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// L U of a matrix of three rows.
+/// LU factorisation of a 3 x 3 matrix.
 
 #include <Eigen/Core>
 #include <array>
@@ -11,12 +11,11 @@
 
 namespace snapthrough {
 
-/// @brief P A = L U with row pivoting. A solution's error is that of A's rounding, which an explicit inverse
-/// does not give where the solution is far smaller than inverse and right-hand side together.
+/// @brief P A = L U with row pivoting. Solutions are backward stable, unlike those by an explicit inverse.
 class SmallFactor {
  public:
   SmallFactor() = default;
-  /// @brief Factorises `a`; pivots of exactly zero become tiny.
+  /// @brief Factorises `a`; pivots that are exactly zero become 1e-300.
   explicit SmallFactor(const Eigen::Matrix3d& a) : lu_(a) {
     for (int k = 0; k < 2; ++k) {
       int best = k;
@@ -36,13 +35,13 @@ class SmallFactor {
     if (lu_(2, 2) == 0.0) lu_(2, 2) = kTiny;
   }
 
-  /// det A; not zero.
+  /// det A, replaced by a tiny number if zero.
   [[nodiscard]] double determinant() const {
     const double product = lu_(0, 0) * lu_(1, 1) * lu_(2, 2);
     if (product == 0.0) return std::numeric_limits<double>::min();
     return odd_ ? -product : product;
   }
-  /// A^-1 b.
+  /// Solution A^-1 b.
   [[nodiscard]] Eigen::Vector3d solve(const Eigen::Vector3d& b) const {
     const double y0 = b[row_[0]];
     const double y1 = b[row_[1]] - lu_(1, 0) * y0;
@@ -53,7 +52,7 @@ class SmallFactor {
     x[0] = (y0 - lu_(0, 1) * x[1] - lu_(0, 2) * x[2]) / lu_(0, 0);
     return x;
   }
-  /// A^-T b.
+  /// Solution A^-T b.
   [[nodiscard]] Eigen::Vector3d solve_transposed(const Eigen::Vector3d& b) const {
     const double y0 = b[0] / lu_(0, 0);
     const double y1 = (b[1] - lu_(0, 1) * y0) / lu_(1, 1);
@@ -65,7 +64,7 @@ class SmallFactor {
     x[row_[0]] = y0 - lu_(1, 0) * x1 - lu_(2, 0) * y2;
     return x;
   }
-  /// A^-1 B and A^-T B.
+  /// Solution A^-1 B.
   [[nodiscard]] Eigen::Matrix3d solve_columns(const Eigen::Matrix3d& b) const {
     Eigen::Matrix3d x;
     for (int j = 0; j < 3; ++j) x.col(j) = solve(Eigen::Vector3d(b.col(j)));
@@ -81,9 +80,9 @@ class SmallFactor {
  private:
   static constexpr double kTiny = 1e-300;
 
-  Eigen::Matrix3d lu_ = Eigen::Matrix3d::Identity();  ///< U, and L below its diagonal of ones
-  std::array<std::uint8_t, 3> row_{0, 1, 2};          ///< of A, for every row of L U
-  bool odd_ = false;                                  ///< permutation
+  Eigen::Matrix3d lu_ = Eigen::Matrix3d::Identity();  ///< U, and L below the unit diagonal
+  std::array<std::uint8_t, 3> row_{0, 1, 2};          ///< row of A for each row of L U
+  bool odd_ = false;                                  ///< the permutation is odd
 };
 
 }  // namespace snapthrough

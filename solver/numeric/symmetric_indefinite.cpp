@@ -20,7 +20,7 @@ void SymmetricIndefinite::analyse(int size, std::vector<std::vector<int>> blocks
   row_.assign(static_cast<std::size_t>(size), -1);
 }
 
-/// The unknowns of a front, also those that wait from its children. @return how many can be eliminated
+/// Collects the unknowns of a front with those delayed by its children. @return number that can be eliminated
 Index SymmetricIndefinite::start_front(std::size_t number) {
   const FrontPlan& plan = plan_[number];
   Front& front = fronts_[number];
@@ -36,7 +36,7 @@ Index SymmetricIndefinite::start_front(std::size_t number) {
   return summed;
 }
 
-/// Adds the front's blocks and what its children left.
+/// Adds the front's blocks and the Schur complements of its children.
 void SymmetricIndefinite::assemble(std::size_t number, std::span<const MatrixXd> values) {
   const FrontPlan& plan = plan_[number];
   Front& front = fronts_[number];

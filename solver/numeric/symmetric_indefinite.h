@@ -11,31 +11,29 @@
 
 namespace snapthrough {
 
-/// @brief A symmetric matrix that is the sum of small dense blocks, factorised front by front (Duff and Reid,
-/// ACM Trans. Math. Softw. 9, 1983).
+/// @brief Multifrontal factorisation of a symmetric matrix that is a sum of small dense blocks (Duff and
+/// Reid, ACM Trans. Math. Softw. 9, 1983).
 ///
-/// Unknowns that find no good pivot in their front wait for the next one, so that the factorisation is
-/// backward stable whatever the inertia. A small matrix is one dense front. Not thread safe while
-/// factorising.
+/// Unknowns without a good pivot are delayed to the next front, so that the factorisation is backward stable
+/// for any inertia. A small matrix is one dense front. Not thread safe during factorisation.
 class SymmetricIndefinite {
  public:
   /// @brief Plans the elimination.
-  /// @param blocks unknowns of each block; negative ones are left out
+  /// @param blocks unknowns of each block; negative entries are ignored
   void analyse(int size, std::vector<std::vector<int>> blocks);
-  /// @brief Factorises the sum of the blocks, of which the lower triangles are read. A pivot below
-  /// `tolerance` times the largest entry of a block counts as zero. When an entry is not finite, neither are
-  /// the solutions.
-  /// @pre one matrix a block of analyse(), of its size
+  /// @brief Factorises the sum of the blocks, reading lower triangles. Pivots below `tolerance` times the
+  /// largest entry of a block count as zero. Non-finite entries give non-finite solutions.
+  /// @pre one matrix per block of analyse(), of matching size
   void factorise(std::span<const Eigen::MatrixXd> values, double tolerance = 1e-15);
-  /// @brief Solves in place, `x` of the size of the matrix.
+  /// @brief Solves in place. @pre x.size() == size()
   void solve(Eigen::Ref<Eigen::VectorXd> x);
   [[nodiscard]] int size() const { return size_; }
-  /// Unknowns of each block, as analyse() was given them.
+  /// Unknowns of each block, as passed to analyse().
   [[nodiscard]] const std::vector<std::vector<int>>& blocks() const { return blocks_; }
   [[nodiscard]] Inertia inertia() const { return pivots_.inertia; }
-  /// log |det|; a zero pivot counts with its tiny replacement.
+  /// log |det|; zero pivots enter with their tiny replacement.
   [[nodiscard]] double log_abs_det() const { return pivots_.log_abs_det; }
-  /// Entries of the factor.
+  /// Number of entries of the factor.
   [[nodiscard]] Eigen::Index entries() const;
 
  private:
@@ -46,7 +44,7 @@ class SymmetricIndefinite {
   std::vector<std::vector<int>> blocks_;
   std::vector<FrontPlan> plan_;
   std::vector<Front> fronts_;
-  std::vector<int> row_;   ///< of each unknown in the front that is being built
+  std::vector<int> row_;   ///< row of each unknown in the current front
   Eigen::VectorXd local_;  ///< scratch of solve()
   PivotSummary pivots_;
   bool finite_ = true;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The seam between mechanics and path following.
+/// Interface between the structural model and path following.
 
 #include <Eigen/Core>
 #include <limits>
@@ -10,11 +10,12 @@
 
 namespace snapthrough {
 
-/// What a factorisation of the tangent says.
+/// Inertia and determinant of a factorised tangent stiffness.
 struct TangentReport {
   int negative = 0;          ///< negative eigenvalues of the constrained tangent stiffness
-  double log_abs_det = 0.0;  ///< of the tangent, up to a constant of the problem
-  /// The tangent is not symmetric: only whether `negative` is odd is certain, as the determinant's sign is.
+  double log_abs_det = 0.0;  ///< log |det J|, up to an additive constant of the problem
+  /// true: the tangent is not symmetric, and only the parity of `negative` is certain (sign of the
+  /// determinant)
   bool parity_only = false;
 };
 
@@ -31,46 +32,45 @@ class EquilibriumProblem {
   virtual ~EquilibriumProblem() = default;
 
   [[nodiscard]] virtual Eigen::Index size() const = 0;
-  /// @brief Diagonal weights (>= 0) of the path's norm: mesh independent, dimensionless; zero for what is no
-  /// displacement.
+  /// @brief Diagonal weights of the path's norm: >= 0, dimensionless, independent of the mesh, zero for
+  /// unknowns that are not displacements.
   [[nodiscard]] virtual const Eigen::VectorXd& metric() const = 0;
-  /// @brief F(y, lambda); overwritten.
+  /// @brief Computes the residual F(y, lambda) into `f` (overwritten).
   void residual(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f, const Regime& regime = {}) {
     find_residual(y, lambda, regime, f);
   }
-  /// @brief F as residual(), and factorises J(y, lambda).
+  /// @brief Computes F(y, lambda) into `f` and factorises J(y, lambda) for solve().
   TangentReport linearise(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& f,
                           const Regime& regime = {}) {
     return factorise(y, lambda, regime, f);
   }
-  /// @brief -dF/dlambda at (y, lambda): the load by unit load factor.
+  /// @brief Computes the reference load -dF/dlambda at (y, lambda) into `out` (overwritten).
   virtual void load(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& out) = 0;
-  /// @brief x := J^-1 x with the last factorised J.
+  /// @brief x := J^-1 x with the factors of the last linearise().
   virtual void solve(Eigen::VectorXd& x) = 0;
-  /// Whether some support can act on one side only, so that the response need not be differentiable at zero
-  /// load.
+  /// Whether any support is one-sided; the response then need not be differentiable at zero load.
   [[nodiscard]] virtual bool one_sided() const { return false; }
-  /// @brief Where one-sided foundations act at y, which moves at `rate` along a path.
+  /// @brief Contact zones of one-sided foundations at y; their ends move as y changes at `rate`.
   [[nodiscard]] virtual MovingZones moving_zones(const Eigen::VectorXd&, const Eigen::VectorXd&) const {
     return {};
   }
-  /// @brief One-sided supports that act: foundations in these zones, springs where they do at y.
+  /// @brief Contact state in which foundations act on the given zones, and springs where they act at y.
   [[nodiscard]] virtual FrozenContact freeze(const MovingZones&, const Eigen::VectorXd&) const { return {}; }
-  /// @brief Elements on which foundations act at y and not in `frozen`, or the other way, so that it counts.
+  /// @brief Length, in elements, on which foundation contact at y differs noticeably from `frozen`.
   [[nodiscard]] virtual double missed_contact(const FrozenContact&, const Eigen::VectorXd&) const {
     return 0.0;
   }
-  /// @brief Motions that nothing but one-sided supports can resist: orthonormal columns over the first
-  /// unknowns; without columns where there are none.
+  /// @brief Rigid-body motions that only one-sided supports can resist: orthonormal columns over the leading
+  /// unknowns; no columns when there are none.
   [[nodiscard]] virtual const Eigen::MatrixXd& free_motions() const;
-  /// @brief From now on these springs are part of F and J; empty: none.
+  /// @brief Adds the artificial springs of `holds` to F and J from now on; null removes them.
   virtual void set_holds(const SharedHolds&) {}
-  /// @brief Right-hand side of solve() for unit forces along a motion over the first unknowns; overwritten.
+  /// @brief Right-hand side of solve() for unit forces along a motion of the leading unknowns (overwritten).
   virtual void force_along(const Eigen::VectorXd& motion, Eigen::VectorXd& out) const {
     out.setZero(size());
     out.head(motion.size()) = motion;
   }
-  /// @brief J(y, lambda) times motions, column by column, in the rows of linearise(); the factors stay.
+  /// @brief J(y, lambda) times each column of `motions`, in the row order of linearise(); keeps the factors.
   [[nodiscard]] Eigen::MatrixXd tangent_products(const Eigen::VectorXd& y, double lambda,
                                                  const Eigen::Ref<const Eigen::MatrixXd>& motions,
                                                  const Regime& regime = {}) {
@@ -80,33 +80,32 @@ class EquilibriumProblem {
                                                 const Eigen::VectorXd& motion, const Regime& regime = {}) {
     return tangent_products(y, lambda, motion, regime);
   }
-  /// @brief Right-hand side of solve() for the forces W x, W the metric: none on what is fixed; overwritten.
+  /// @brief Right-hand side of solve() for the forces W x (W: metric), zero in constrained rows; overwritten.
   virtual void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
     out = metric().cwiseProduct(x);
   }
-  /// @brief The motion that has the displacements which stand in the rows of what is fixed, and no other.
+  /// @brief Extends the prescribed displacements in the constrained rows of `rows` by zeros.
   [[nodiscard]] virtual Eigen::VectorXd imposed_motion(const Eigen::VectorXd& rows) const {
     return Eigen::VectorXd::Zero(rows.size());
   }
-  /// @brief Work of forces, in the rows of linearise(), on a motion that keeps what is fixed in place.
+  /// @brief Work of forces (row order of linearise()) on a motion that keeps constrained displacements fixed.
   [[nodiscard]] virtual double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const {
     return forces.dot(motion);
   }
-  /// @brief Rough size of the first critical load factor from the response to a unit load; infinity when it
-  /// gives none.
+  /// @brief Estimated first critical load factor from the response to a unit load; infinity without axial
+  /// force.
   [[nodiscard]] virtual double critical_load_scale(const Eigen::VectorXd& unit_response) const;
-  /// @brief Rough size of the load factor at which the member that buckles last does so; 0 when the response
-  /// gives none.
+  /// @brief Estimated load factor at which the last member buckles; 0 when the response has no axial force.
   [[nodiscard]] virtual double largest_critical_load_scale(const Eigen::VectorXd&) const { return 0.0; }
-  /// @brief Size of F relative to the forces and displacements that it balances; rounding gives about 1e-15.
+  /// @brief Norm of the residual f over the forces and displacements that it balances; rounding gives 1e-15.
   [[nodiscard]] virtual double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd& y,
                                                  double lambda) = 0;
-  /// @brief Relative residual that the rounding of stiff supports' forces leaves at y, where residual() or
-  /// linearise() was called last; corrections that gain no more need not get below.
+  /// @brief Relative residual at y by rounding in the forces of stiff supports; 0 without such supports.
+  /// @pre residual() or linearise() was last called at y
   [[nodiscard]] virtual double residual_rounding(const Eigen::VectorXd&, double) const { return 0.0; }
 
  protected:
-  /// What the functions of the same purpose above do.
+  /// Implementations of residual(), linearise() and tangent_products().
   virtual void find_residual(const Eigen::VectorXd& y, double lambda, const Regime& regime,
                              Eigen::VectorXd& f) = 0;
   virtual TangentReport factorise(const Eigen::VectorXd& y, double lambda, const Regime& regime,

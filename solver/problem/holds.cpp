@@ -39,11 +39,11 @@ MotionStiffness motion_stiffness(EquilibriumProblem& problem, const SharedHolds&
 
 namespace {
 
-constexpr double kSoft = 1e-6;         // stiffness of soft holds
-constexpr double kShareOfSoft = 1e-3;  // stiffness beside it that counts as none
-constexpr double kFirm = 1e5;          // stiffness beside it that leaves 1e-5 of what soft springs change
-constexpr double kShareOfLoad = 1e-6;  // force beside the load that counts as none
-constexpr double kRoundingOfForce = 1e-12;  // what solutions leave of all actions by unit load
+constexpr double kSoft = 1e-6;         // scaled stiffness of soft holds
+constexpr double kShareOfSoft = 1e-3;  // stiffness over kSoft that counts as zero
+constexpr double kFirm = 1e5;  // stiffness over kSoft at which soft springs change the state by 1e-5 at most
+constexpr double kShareOfLoad = 1e-6;       // spring force over the load that counts as zero
+constexpr double kRoundingOfForce = 1e-12;  // rounding of a spring force per unit of the actions
 
 SharedHolds neutral_of(const MotionStiffness& all, const VectorXd& y, const NeutralBounds& bounds) {
   std::vector<Index> neutral;

@@ -19,9 +19,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Displacement gradient that initial strains and prescribed displacements ask for: strain, rotation of a
-/// member by its curvature, displacement over the structure's length.
-/// @param load unknowns of a pattern; its initial strains stand in the rows of section forces
+/// Displacement gradient of the initial strains and prescribed displacements of a load pattern: the largest
+/// of strain, curvature times member length, and displacement over the structure's length.
+/// @param load vector of the pattern; its initial strains are in the rows of section forces
 double imposed_gradient(const Structure& structure, const VectorXd& load,
                         std::array<double, 3> NodeSupport::*displacement) {
   const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
@@ -54,8 +54,7 @@ StructuralProblem::StructuralProblem(const Structure& structure)
   chains_.resize(members_);
   elements_ = structure.elements->make_work();
   spring_stiffness_.assign(structure.node_springs.size(), 0.0);
-  // a node's rotation is nobody's when every member there is released and neither support nor spring turns
-  // with it
+  // a node rotation is free when all members there are released and no support or spring acts on the rotation
   free_rotation_.assign(static_cast<std::size_t>(structure.nodes), 1);
   for (const ElementDofs& dofs : structure.dofs) {
     for (const int dof : {dofs.a[2], dofs.b[2]})
@@ -85,7 +84,7 @@ std::array<double, 2> StructuralProblem::turn_of(int dof) const {
   return {std::cos(angle), std::sin(angle)};
 }
 
-/// Columns: the support's axes in global ones.
+/// Support axes as columns, in global components.
 Matrix3d StructuralProblem::axes_of(const std::array<int, 3>& dofs) const {
   const auto [c, s] = turn_of(dofs[0]);
   Matrix3d axes = Matrix3d::Identity();
@@ -102,13 +101,13 @@ double StructuralProblem::penetration(const NodeSpring& spring, const VectorXd& 
   return w;
 }
 
-/// @param w displacement along its row
+/// @param w displacement along the spring's row
 bool StructuralProblem::node_spring_acts(const NodeSpring& spring, double w) {
   const bool known = spring.touch != Touch::none && std::abs(w - spring.law.gap) <= kTouchBand;
   return !spring.law.one_sided || (known ? spring.touch == Touch::acts : w > spring.law.gap);
 }
 
-/// Force of a spring at a node along its row; keeps its stiffness in the tangent.
+/// Returns the force of a node spring along its row and stores its tangent stiffness.
 double StructuralProblem::node_spring_force(std::size_t index, const VectorXd& y, const Regime& regime) {
   const NodeSpring& spring = structure_.node_springs[index];
   const double stiffness = spring.law.stiffness;
@@ -192,7 +191,7 @@ void StructuralProblem::add_holds(const VectorXd& y, VectorXd& f) const {
   f.head(rows) += holds_->stiffness * (holds_->motions * moved);
 }
 
-/// Turns the rows of nodes into the axes of their supports.
+/// Transforms the nodal rows of f into support axes.
 void StructuralProblem::turn_to_supports(Eigen::Ref<VectorXd> f) const {
   for (int j = 0; j < structure_.nodes; ++j) {
     const auto [c, s] = turn_of(3 * j);
@@ -203,7 +202,7 @@ void StructuralProblem::turn_to_supports(Eigen::Ref<VectorXd> f) const {
   }
 }
 
-/// Turns the rows of nodes into the axes of their supports and puts the constraints into the fixed ones.
+/// Transforms the nodal rows of f into support axes and replaces the constrained rows by the constraints.
 void StructuralProblem::constrain_residual(const VectorXd& y, double lambda, VectorXd& f) const {
   turn_to_supports(f);
   const auto [proportional, constant] = factors(lambda);
@@ -217,7 +216,7 @@ void StructuralProblem::constrain_residual(const VectorXd& y, double lambda, Vec
   }
 }
 
-/// Minus the dead loads.
+/// Starts the residual with minus the dead loads.
 void StructuralProblem::start_residual(double lambda, VectorXd& f) const {
   const auto [proportional, constant] = factors(lambda);
   f = -proportional * structure_.proportional_load - constant * structure_.constant_load;
@@ -256,15 +255,14 @@ void StructuralProblem::fill_member(std::size_t member, MatrixXd& block) const {
   const CondensedElement& ends = chains_[member].ends();
   const Matrix3d Ta = axes_of(structure_.dofs[structure_.mesh.first[member]].a);
   const Matrix3d Tb = axes_of(structure_.dofs[structure_.mesh.first[member + 1] - 1].b);
-  block.setZero(9, 9);  // start, end, force
+  block.setZero(9, 9);  // member start, member end, end forces
   block.topLeftCorner<3, 3>() = Ta.transpose() * ends.K * Ta;
   block.bottomLeftCorner<3, 3>() = ends.X * Ta;
   block.block<3, 3>(6, 3) = Tb;
   block.bottomRightCorner<3, 3>() = -ends.F;
 }
 
-/// Which scalars the blocks of the node system couple: members, then node springs, then nodes that are
-/// held.
+/// Collects the rows that each block of the node system couples: members, node springs, held nodes.
 void StructuralProblem::plan_nodes() {
   node_rows_.clear();
   for (std::size_t m = 0; m < members_; ++m) {
@@ -339,8 +337,8 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
   return report;
 }
 
-/// Where the tangent is not symmetric, stability against divergence changes where its determinant does: the
-/// count is that of the symmetric part, made to agree in parity.
+/// Corrects determinant and count of the symmetric part for the follower ends. A nonsymmetric tangent changes
+/// its divergence stability where its determinant changes sign; the count is changed to match that parity.
 void StructuralProblem::add_follower_ends(double lambda, TangentReport& report) {
   const auto [proportional, constant] = factors(lambda);
   const double det =
@@ -394,7 +392,7 @@ void StructuralProblem::solve_symmetric(VectorXd& x) {
   subtract_fixed(rhs, reduced);
   factor_.solve(reduced);
   for (std::size_t i = 0; i < free_.size(); ++i) rhs[free_[i]] = reduced[static_cast<Index>(i)];
-  // back to global axes, then inwards
+  // support axes to global axes, then recovery of the member interiors
   for (int j = 0; j < structure_.nodes; ++j) {
     const auto [c, s] = turn_of(3 * j);
     x[3 * j] = c * rhs[3 * j] - s * rhs[3 * j + 1];
@@ -412,12 +410,12 @@ void StructuralProblem::solve_symmetric(VectorXd& x) {
   elements_->recover(x);
 }
 
-/// Distance from a support within which it touches at y.
+/// Distances at which supports count as touching at y, from the largest displacement and force.
 TouchingDistance StructuralProblem::touching_distance(const VectorXd& y) const {
-  constexpr double kTouching = 1e-9;     // of the largest displacement
-  constexpr double kUnloaded = 1e-6;     // of the largest force
-  constexpr double kSolution = 1e-13;    // rounding of displacements, relative
-  constexpr double kCoordinate = 1e-14;  // and of the coordinates that they begin from
+  constexpr double kTouching = 1e-9;     // distance over the largest displacement
+  constexpr double kUnloaded = 1e-6;     // force over the largest force
+  constexpr double kSolution = 1e-13;    // relative rounding of displacements
+  constexpr double kCoordinate = 1e-14;  // rounding of coordinates over the structure's length
   const double largest = y.head(3 * structure_.nodes).lpNorm<Eigen::Infinity>();
   return {kTouching * largest + kCoordinate, kUnloaded * largest_force(y, 0.0),
           kSolution * largest + kCoordinate};
@@ -515,9 +513,8 @@ double StructuralProblem::largest_axial_force(std::size_t member, const VectorXd
   return force;
 }
 
-/// Section force that is not rounding, over imposed_force(). Random determinate structures with EA l^2 / EI
-/// up to 1e10 have 1e-14 by rounding; a member with less than 1e-12 would buckle at imposed displacement
-/// gradients beyond 1e12.
+/// Section force over imposed_force() below which the force is rounding. Rounding reaches 1e-14 in random
+/// statically determinate structures with EA l^2 / EI up to 1e10.
 constexpr double kLeastForce = 1e-12;
 
 double StructuralProblem::least_force() const {
@@ -534,7 +531,7 @@ double StructuralProblem::critical_load_scale(const VectorXd& unit_response) con
 }
 
 double StructuralProblem::largest_critical_load_scale(const VectorXd& unit_response) const {
-  constexpr double kCounts = 1e-2;  // of the largest force: members with less do not decide
+  constexpr double kCounts = 1e-2;  // axial force over the largest, below which a member is ignored
   double largest = 0.0;
   for (std::size_t m = 0; m < members_; ++m)
     largest = std::max(largest, largest_axial_force(m, unit_response));
@@ -563,24 +560,22 @@ double StructuralProblem::largest_force(const VectorXd& y, double lambda) const 
   return force;
 }
 
-/// Force that turns the softest member as much as initial strains and prescribed displacements at a load
-/// factor do: Euler's load times their displacement gradient. It is there where these meet no resistance and
-/// all forces are rounding's.
+/// Force scale of initial strains and prescribed displacements at a load factor: the smallest Euler load
+/// times their displacement gradient. Needed where these actions meet no resistance and all forces are
+/// rounding.
 double StructuralProblem::imposed_force(double lambda) const {
   const auto [proportional, constant] = factors(lambda);
   return std::abs(proportional) * proportional_imposed_ + std::abs(constant) * constant_imposed_;
 }
 
-/// Denominator of the relative residual of forces, a scaled force: the largest section force or load, or
-/// imposed_force() where that is larger.
+/// Denominator of the relative force residual (scaled): the largest section force, load or imposed_force().
 double StructuralProblem::force_scale(const VectorXd& y, double lambda) const {
   return std::max(largest_force(y, lambda), imposed_force(lambda));
 }
 
 double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) const {
-  constexpr double kRoundings =
-      0.5;  // half a unit in the last place; signs vary over the places of a foundation
-  constexpr double kMostRounding = 1e-7;  // beyond, supports are too stiff for this arithmetic
+  constexpr double kRoundings = 0.5;      // half a unit in the last place
+  constexpr double kMostRounding = 1e-7;  // larger rounding: supports too stiff for double precision
   double largest = elements_->support_rounding();
   for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
     const NodeSpring& spring = structure_.node_springs[i];
@@ -619,7 +614,7 @@ Eigen::MatrixXd StructuralProblem::find_products(const VectorXd& y, double lambd
   return products;
 }
 
-/// What is not the elements' of the tangent times a direction, in the rows of linearise().
+/// Adds the tangent times `direction`, without the elements' part, in the row order of linearise().
 void StructuralProblem::add_node_products(double lambda, const Eigen::Ref<const VectorXd>& direction,
                                           Eigen::Ref<VectorXd> out) const {
   const auto [proportional, constant] = factors(lambda);

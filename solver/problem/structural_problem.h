@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The equilibrium problem of a structure.
+/// The equilibrium problem of a structure on a mesh.
 
 #include <Eigen/Core>
 #include <array>
@@ -17,26 +17,25 @@
 
 namespace snapthrough {
 
-/// @brief Mixed equilibrium equations of a Structure, factorised in three levels.
+/// @brief Mixed equilibrium equations of a Structure, factorised at three levels.
 ///
-/// Element interiors (ElementSet), then the nodes inside members (Chain), then a sparse symmetric system for
-/// the nodes' displacements, released rotations and the forces at members' ends, one block a member:
+/// Level 1 eliminates element interiors (ElementSet), level 2 the nodes inside members (Chain). Level 3 is a
+/// sparse symmetric system for nodal displacements, released rotations and member end forces, with one block
+/// per member:
 ///
 ///   [ K_s + springs   X^T   .  ] [u_nodes]
 ///   [ X               -F    I  ] [m_member]     (I acts on its end node)
 ///
-/// Holds, k H H^T, are blocks with an unknown force of each: [ . sqrt(k) H ; . -1 ].
+/// Holds k H H^T add a block with one unknown force per motion: [ . sqrt(k) H ; . -1 ].
 ///
-/// Rows of a node with a turned support, and of its fixed components, are in the support's axes; a fixed
-/// component's row is u - lambda d - d_0. The inertia is the sum over the levels minus one negative for each
-/// stress and multiplier (Haynsworth), so it counts the negative eigenvalues of the constrained displacement
-/// stiffness.
+/// Rows of a node with an inclined support are in the support's axes. The row of a constrained component is u
+/// - lambda d - d_0. The negative eigenvalues of the constrained displacement stiffness number the negative
+/// pivots of all levels minus one for each stress and multiplier (Haynsworth's inertia formula).
 ///
-/// residual(), linearise() and tangent_products() look at the structure's stop token and throw Cancelled
-/// once.
+/// residual(), linearise() and tangent_products() throw Cancelled when the structure's stop token is set.
 class StructuralProblem final : public EquilibriumProblem {
  public:
-  /// @param structure kept by reference, must outlive this
+  /// @param structure kept by reference; must outlive this object
   explicit StructuralProblem(const Structure& structure);
 
   [[nodiscard]] Eigen::Index size() const override { return structure_.size; }
@@ -55,39 +54,39 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] const Eigen::MatrixXd& free_motions() const override { return structure_.free_motions; }
   void set_holds(const SharedHolds& holds) override;
   void force_along(const Eigen::VectorXd& motion, Eigen::VectorXd& out) const override;
-  /// Euler's load of the most compressed member: pi^2 EI / (N l^2).
+  /// Euler load factor of the member that buckles first: min over members of pi^2 EI / (N l^2).
   [[nodiscard]] double critical_load_scale(const Eigen::VectorXd& unit_response) const override;
   [[nodiscard]] double largest_critical_load_scale(const Eigen::VectorXd& unit_response) const override;
-  /// @brief Least section force in the response to a unit load of the stage at hand that is not rounding.
-  /// Zero where nothing imposes strains or displacements: then all forces are the loads'.
+  /// @brief Largest section force of the response to a unit load of the current stage that counts as
+  /// rounding. Zero where no action imposes strains or displacements.
   [[nodiscard]] double least_force() const;
 
-  /// What the load factor multiplies: the proportional actions, with the constant ones on; or, to put these
-  /// on, the constant ones alone.
+  /// Actions that the load factor multiplies: proportional ones, with the constant ones in full; or constant
+  /// ones.
   enum class Stage { proportional, constant };
   void set_stage(Stage stage) { stage_ = stage; }
   void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const override;
   [[nodiscard]] Eigen::VectorXd imposed_motion(const Eigen::VectorXd& rows) const override;
   [[nodiscard]] double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const override;
-  /// @brief One-sided supports glued where they touch at y, absent elsewhere.
+  /// @brief Contact state at y: one-sided supports act where they touch, and are absent elsewhere.
   [[nodiscard]] FrozenContact frozen_contact(const Eigen::VectorXd& y) const;
-  /// @brief The one-sided supports that touch without pressure at y: no further from touching than 1e-9 of
-  /// the largest displacement and 1e-6 of the largest force, foundations on all of their part of an element.
+  /// @brief Marks the one-sided supports that touch without pressure at y: distance below 1e-9 of the largest
+  /// displacement, force below 1e-6 of the largest force; foundations on their whole part of an element.
   [[nodiscard]] TouchingMarks marks_at(const Eigen::VectorXd& y) const;
-  /// @brief Displacement of each touching spring into its medium.
+  /// @brief Displacement of `mode` into the medium at each marked spring; `out` is overwritten.
   void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
                               std::vector<double>& out) const;
-  /// @brief Of the supports that touch these springs act, and foundations where `mode` moves into them.
-  /// @param mode empty: foundations act wherever they touch
-  /// @param springs one a touching spring
+  /// @brief Sets which marked supports act: springs as given, foundations where `mode` moves into the medium.
+  /// @param mode empty: marked foundations act everywhere
+  /// @param springs one entry per marked spring
   void set_touching(const TouchingMarks& marks, const Eigen::VectorXd& mode, std::span<const char> springs,
                     FrozenContact& out) const;
-  /// As set_touching() left them. @param frozen null: none acts
+  /// Marked supports with the contact of set_touching(). @param frozen null: no marked support acts
   [[nodiscard]] TouchingSupports touching(const TouchingMarks& marks, const FrozenContact* frozen) const;
   [[nodiscard]] std::size_t touching_springs(const TouchingMarks& marks) const;
 
  protected:
-  /// Small displacements where the regime or the structure says so.
+  /// Uses small displacements where the regime or the structure asks for them.
   void find_residual(const Eigen::VectorXd& y, double lambda, const Regime& asked,
                      Eigen::VectorXd& f) override;
   TangentReport factorise(const Eigen::VectorXd& y, double lambda, const Regime& asked,
@@ -115,8 +114,7 @@ class StructuralProblem final : public EquilibriumProblem {
   double node_spring_force(std::size_t index, const Eigen::VectorXd& y, const Regime& regime);
   void add_node_springs(const Eigen::VectorXd& y, const Regime& regime, Eigen::VectorXd& f);
   void add_holds(const Eigen::VectorXd& y, Eigen::VectorXd& f) const;
-  /// Of the loads and of the members' ends.
-  /// The largest of the rows that are forces or moments; the others are displacements and strains.
+  /// Largest residual among the rows of forces and moments; the other rows are displacements and strains.
   [[nodiscard]] double force_norm(const Eigen::VectorXd& f) const;
   [[nodiscard]] double largest_force(const Eigen::VectorXd& y, double lambda) const;
   [[nodiscard]] double imposed_force(double lambda) const;
@@ -125,9 +123,9 @@ class StructuralProblem final : public EquilibriumProblem {
   void plan_nodes();
   void assemble_nodes();
   void fill_member(std::size_t member, Eigen::MatrixXd& block) const;
-  /// Moves what is fixed to the right-hand side.
+  /// Moves the constrained displacements to the right-hand side.
   void subtract_fixed(const Eigen::VectorXd& rhs, Eigen::VectorXd& reduced) const;
-  /// Position of a displacement unknown's scalar in the node system is its index; multipliers follow.
+  /// First row of a member's end forces in the node system; displacement unknowns keep their index.
   [[nodiscard]] Eigen::Index multiplier(std::size_t member) const {
     return 3 * structure_.nodes + structure_.releases + 3 * static_cast<Eigen::Index>(member);
   }
@@ -140,22 +138,22 @@ class StructuralProblem final : public EquilibriumProblem {
   std::size_t members_;
   std::vector<CondensedElement> condensed_;
   std::vector<Chain> chains_;
-  std::vector<Eigen::Index> free_;  ///< node scalars and multipliers that are unknown
+  std::vector<Eigen::Index> free_;  ///< rows of the node system that are unknown
   std::vector<Eigen::Index> fixed_;
-  std::vector<std::vector<int>> node_rows_;   ///< scalars of each block of the node system
-  std::vector<Eigen::MatrixXd> node_blocks_;  ///< of members, node springs, nodes that are held
-  std::vector<char> free_rotation_;  ///< node rotations that nothing holds: all members released there
-  bool planned_ = false;             ///< node_rows_ and factor_ know the holds
+  std::vector<std::vector<int>> node_rows_;   ///< rows of each block of the node system
+  std::vector<Eigen::MatrixXd> node_blocks_;  ///< blocks of members, node springs and held nodes
+  std::vector<char> free_rotation_;  ///< node rotations without stiffness: all members are released there
+  bool planned_ = false;             ///< node_rows_ and factor_ include the holds
   SymmetricIndefinite factor_;
-  Eigen::VectorXd node_rhs_, free_rhs_;  ///< scratch of solve
+  Eigen::VectorXd node_rhs_, free_rhs_;  ///< scratch of solve()
   FollowerEnds follower_ends_;
   std::unique_ptr<ElementWork> elements_;
-  std::vector<double> spring_stiffness_;  ///< of each spring at a node, as add_node_springs() found it last
+  std::vector<double> spring_stiffness_;  ///< tangent stiffness of each node spring at the last evaluation
   SharedHolds holds_;
-  Eigen::MatrixXd hold_rows_;  ///< sqrt(k) H in the axes of the supports
+  Eigen::MatrixXd hold_rows_;  ///< sqrt(k) H in the support axes
   Stage stage_ = Stage::proportional;
-  double largest_load_ = 0.0;  ///< of the forces and moments of the unit load: imposed strains are none
-  /// Scales of force of what the unit proportional and the constant actions impose, see imposed_force().
+  double largest_load_ = 0.0;  ///< largest force or moment of the unit load, without imposed strains
+  /// Force scales of the unit proportional and of the constant imposed strains, see imposed_force().
   double proportional_imposed_ = 0.0;
   double constant_imposed_ = 0.0;
 };

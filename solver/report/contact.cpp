@@ -10,10 +10,10 @@
 namespace snapthrough {
 namespace {
 
-/// Rounding of a position, over the structure's length.
+/// Penetration over the structure's length that counts as rounding of a position.
 constexpr double kNoDepth = 4.0 * std::numeric_limits<double>::epsilon();
 
-/// Contact intervals of one part of a foundation, in its element's coordinate.
+/// Contact intervals of one part of a foundation, in the element's coordinate.
 void local_intervals(const Structure& structure, const FoundationPart& part, const Eigen::VectorXd& y,
                      double depth, std::vector<FoundationContact::Interval>& out) {
   out.assign(1, {part.range[0], part.range[1]});

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Where foundations and one-sided springs touch the structure.
+/// Contact of foundations and one-sided springs with the structure.
 
 #include <Eigen/Core>
 #include <array>
@@ -12,30 +12,29 @@
 
 namespace snapthrough {
 
-/// @brief Contact intervals [s0, s1] of a foundation in its member's arc length, ascending, neighbours
-/// joined; the whole range of a bilateral one.
-/// @param depth penetration over the structure's length that is taken for none, at least 0
+/// @brief Contact intervals [s0, s1] of a foundation in its member's arc length, ascending, adjacent ones
+/// joined; the whole range for a bilateral foundation.
+/// @param depth least penetration over the structure's length that counts as contact, >= 0
 [[nodiscard]] std::vector<std::array<double, 2>> contact_intervals(const Structure& structure,
                                                                    const Model& model,
                                                                    const Eigen::VectorXd& y, int foundation,
                                                                    double depth = 0.0);
 
-/// @brief Counts contact zones: of each one-sided foundation its intervals, of each one-sided spring 0 or 1.
-/// What is not deeper than the rounding of positions is no contact here: where nothing moves, zones of
-/// rounding would come and go at every step.
+/// @brief Counts contact zones: the intervals of each one-sided foundation, 0 or 1 for each one-sided spring.
+/// Penetrations within the rounding of positions do not count, because their zones change at every step.
 class ContactZones {
  public:
-  /// @param structure, model kept by reference, must outlive this
+  /// @param structure, model kept by reference; must outlive this object
   ContactZones(const Structure& structure, const Model& model);
 
-  /// Ids of the supports that are counted, in the order of the counts; empty: nothing is one-sided.
+  /// Ids of the counted supports, in the order of the counts; empty: no support is one-sided.
   [[nodiscard]] const std::vector<std::string>& ids() const { return ids_; }
-  /// @param zones overwritten, one count an id
+  /// @param zones overwritten; one count per id
   void count(const Eigen::VectorXd& y, std::vector<int>& zones) const;
 
  private:
   struct SpringRow {
-    SparseRow row;  ///< acts where it exceeds the gap
+    SparseRow row;  ///< displacement into the medium; the spring acts above the gap
     double gap = 0.0;
   };
   const Structure& structure_;

@@ -17,11 +17,11 @@ namespace {
 using Eigen::VectorXd;
 using Point = RigidParts::Point;
 
-/// Share of the structure's extent, or of the largest displacement, that is rounding of an escaping motion.
+/// Difference, over the structure's extent or the largest displacement, that counts as rounding.
 constexpr double kSame = 1e-6;
-/// Distance of a turn's centre, over the structure's extent, from which on it is told as a shift.
+/// Distance of the centre of rotation, over the structure's extent, above which a shift is reported.
 constexpr double kFar = 1e3;
-/// Ids of members that a message names.
+/// Largest number of members that a message names.
 constexpr std::size_t kMostNamed = 3;
 
 double value_of(const RigidParts::Row& row, const VectorXd& motion) {
@@ -30,7 +30,7 @@ double value_of(const RigidParts::Row& row, const VectorXd& motion) {
   return sum;
 }
 
-/// Small motion of a rigid body: displacements at a point, and the rotation.
+/// Small motion of a rigid body: displacement of a point, and rotation.
 struct BodyMotion {
   Point at{};
   Point displacement{};
@@ -43,12 +43,12 @@ struct BodyMotion {
 
 double distance(Point a, Point b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
-/// What moves most in an escape, in lengths over that of the longest member, from the first node.
+/// The members that move most in an escape; lengths over the longest member's, relative to the first node.
 class MovingPart {
  public:
   MovingPart(const Model& model, const RigidParts& parts, const VectorXd& motion);
 
-  /// Ids of its members.
+  /// Ids of the moving members.
   [[nodiscard]] std::string members() const;
   /// "turn clockwise about ..." or "shift in direction ...".
   [[nodiscard]] std::string motion() const;
@@ -65,15 +65,16 @@ class MovingPart {
   const Model& model_;
   const RigidParts& parts_;
   double extent_ = 0.0;
-  std::vector<BodyMotion> motions_;  ///< of each member
+  std::vector<BodyMotion> motions_;  ///< one per member
   BodyMotion largest_;
-  double size_ = 0.0;  ///< largest displacement of its members' ends
+  double size_ = 0.0;  ///< largest displacement of a member end
   std::vector<std::size_t> members_;
 };
 
 MovingPart::MovingPart(const Model& model, const RigidParts& parts, const VectorXd& motion)
     : model_(model), parts_(parts) {
-  constexpr double kMore = 1.0 + 1e-9;  // of those that move alike the first, whatever rounding says
+  // factor that prefers the first of several equal displacements despite rounding
+  constexpr double kMore = 1.0 + 1e-9;
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-low[0], -low[1]};
   for (std::size_t j = 0; j < model.nodes.size(); ++j)
@@ -173,7 +174,7 @@ std::string name_of(const Load& load) {
   return std::visit(Namer{}, load);
 }
 
-/// The load that does most work on the motion, of all that act.
+/// Name of the load that does most work on the motion.
 std::string driver(const RigidParts& parts, const Escape& escape) {
   double most = 0.0;
   std::string name = "the loads";

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Loads that one-sided supports cannot hold, in words.
+/// Messages on loads that one-sided supports cannot hold.
 
 #include <string>
 
@@ -10,10 +10,10 @@
 
 namespace snapthrough {
 
-/// @brief A clause that names the members that move most, their motion (a turn about a point or node, or a
-/// shift, in the model's axes) and the load that does most work on it; of a motion without work, that nothing
-/// presses the part onto its supports.
-/// @param escape of `motions`, which are those of `model`
+/// @brief Clause that names the members with the largest motion, that motion (rotation about a point, or
+/// shift, in the model's axes) and the load that drives it, or states that no load presses the part onto its
+/// supports.
+/// @param escape a motion of `motions`, which belong to `model`
 [[nodiscard]] std::string escape_text(const Model& model, const FreeMotions& motions, const Escape& escape);
 
 }  // namespace snapthrough

@@ -11,7 +11,7 @@ void widen(const Extreme& at, ExtremeRange& range) {
   if (at.value > range.max.value) range.max = at;
 }
 
-/// Extremes of a member that are all at its first sampled place.
+/// Extremes of a member initialised with its first sampled place.
 MemberExtremes first_place(const MemberState& member, int branch, double load_factor) {
   const auto at = [&](double value) { return Extreme{value, member.s.front(), branch, load_factor}; };
   const auto range = [&](const std::vector<double>& values) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Extreme section forces and displacements over many states.
+/// Extreme section forces and displacements over all states.
 
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace snapthrough {
 
-/// @brief Widens extremes by those of one more state at its sampled places.
-/// @param members of every state the same, in the same order
-/// @param extremes of each member; empty before the first state
+/// @brief Extends extremes by the sampled values of one more state.
+/// @param members same members in the same order at every call
+/// @param extremes one entry per member; empty before the first state
 void widen_extremes(const std::vector<MemberState>& members, int branch, double load_factor,
                     std::vector<MemberExtremes>& extremes);
 

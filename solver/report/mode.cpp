@@ -34,8 +34,10 @@ Mode mode_displacements(const Structure& structure, const Model& model, const Ei
 }
 
 double scale_to_largest(Mode& mode) {
-  constexpr double kNothing = 1e-12;      // of what the rotations would move over a member's length
-  constexpr double kLarger = 1.0 + 1e-6;  // equal ones differ by rounding: the first gives the sign
+  // displacement over largest rotation times member length, below which the mode has rotations only
+  constexpr double kNothing = 1e-12;
+  // factor that prefers the first of several equal values despite rounding
+  constexpr double kLarger = 1.0 + 1e-6;
   double largest = 0.0;
   double first_large = 0.0;
   double sign = 1.0;
@@ -64,9 +66,10 @@ double scale_to_largest(Mode& mode) {
 }
 
 std::string motion_text(const Mode& mode, const Model& model) {
-  constexpr double kLarger = 1.0 + 1e-6;  // of places that move alike the first
+  // factor that prefers the first of several equal displacements despite rounding
+  constexpr double kLarger = 1.0 + 1e-6;
   double largest = 0.0;
-  std::size_t moved = 0;  // number of the member
+  std::size_t moved = 0;  // index of the member
   std::size_t place = 0;
   for (std::size_t m = 0; m < mode.members.size(); ++m)
     for (std::size_t i = 0; i < mode.members[m].s.size(); ++i) {
@@ -82,7 +85,7 @@ std::string motion_text(const Mode& mode, const Model& model) {
   if (place == 0) where = "node \"" + model.members[moved].start + "\"";
   if (place + 1 == along.s.size()) where = "node \"" + model.members[moved].end + "\"";
   const auto component = [largest](double value) {
-    constexpr double kRounding = 1e-9;  // of the motion
+    constexpr double kRounding = 1e-9;  // component over the largest displacement that counts as zero
     return rounded(std::abs(value) < kRounding * largest ? 0.0 : value);
   };
   return "is largest at " + where + ", along (" + component(along.u[place]) + ", " +
@@ -91,7 +94,7 @@ std::string motion_text(const Mode& mode, const Model& model) {
 
 std::optional<std::size_t> member_that_buckles(const Structure& structure, const Model& model,
                                                const Eigen::VectorXd& mode) {
-  constexpr double kAlone = 0.9;  // share of the strain energy
+  constexpr double kAlone = 0.9;  // least share of the strain energy
   const int p = structure.mesh.order;
   const CollocationRule& rule = CollocationRule::of(p);
   const double length = structure.scales.length;

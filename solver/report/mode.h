@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a mode looks like: displacements of an eigenvector or of a path's direction.
+/// Displacements of eigenvectors and path directions, for results.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -14,30 +14,30 @@
 
 namespace snapthrough {
 
-/// @brief Displacements of a vector of unknowns at `points` equally spaced places of each member, not scaled.
+/// @brief Displacements of a vector of unknowns at `points` equally spaced places per member, not normalised.
 /// @param mode scaled unknowns; the result is in the model's units
 /// @pre points >= 2
 [[nodiscard]] Mode mode_displacements(const Structure& structure, const Model& model,
                                       const Eigen::VectorXd& mode, int points);
 
-/// @brief Scales a mode so that its largest displacement at the sampled places is one, its first large
-/// component positive; one that only turns members at these places, by its largest rotation.
-/// @return what it was multiplied by
+/// @brief Normalises a mode: largest sampled displacement one, first large component positive; by the largest
+/// rotation if only rotations occur.
+/// @return the factor applied
 double scale_to_largest(Mode& mode);
 
-/// @brief Where a mode is largest and which way it moves there, as the end of a sentence: "is largest at node
+/// @brief End of a sentence on the place and direction of a mode's largest displacement: "is largest at node
 /// ..., along (x, y)".
 [[nodiscard]] std::string motion_text(const Mode& mode, const Model& model);
 
-/// @brief The member that alone bends in a motion: it has nine tenths of the strain energy of the motion's
-/// section forces. A rod that buckles between stiff members does; a frame that sways has no such member.
-/// @param mode scaled unknowns, with their section forces
-/// @return index among the model's members; empty where no member has so much
+/// @brief The member that buckles by itself: it has at least nine tenths of the strain energy of the motion,
+/// as a rod between stiff members does. A swaying frame has no such member.
+/// @param mode scaled unknowns including section forces
+/// @return index of the member; empty when no member has that share
 [[nodiscard]] std::optional<std::size_t> member_that_buckles(const Structure& structure, const Model& model,
                                                              const Eigen::VectorXd& mode);
 
-/// @brief Offsets along the initial left normals, over the arc length in the model's units, of an eigenvector
-/// scaled so that the largest is `amplitude` (and positive with it); one spline a member.
+/// @brief Offsets along the initial left normals over arc length (model's units), from an eigenvector scaled
+/// to the largest offset `amplitude`; one spline per member.
 [[nodiscard]] std::vector<CubicSpline> normal_offsets(const Structure& structure, const Model& model,
                                                       const Eigen::VectorXd& mode, double amplitude);
 

@@ -12,17 +12,17 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kNothing = 1e-9;  // of a motion's largest component
-constexpr double kLarge = 1e-3;    // the same for one that tells the sense
+constexpr double kNothing = 1e-9;  // component over the largest one that counts as zero
+constexpr double kLarge = 1e-3;    // component over the largest one that may define the sign or a pivot
 
-/// Gauss-Jordan elimination of the columns, in the order of the components.
+/// Reduces the motions (columns) by Gauss-Jordan elimination in the order of the components.
 MatrixXd reduced(MatrixXd motions) {
   Index done = 0;
   for (Index row = 0; row < motions.rows() && done < motions.cols(); ++row) {
     Index pivot = done;
     for (Index c = done; c < motions.cols(); ++c)
       if (std::abs(motions(row, c)) > std::abs(motions(row, pivot))) pivot = c;
-    // a small pivot would mix rounding into the other motions
+    // a small pivot would amplify rounding in the other motions
     if (std::abs(motions(row, pivot)) < kLarge * motions.cwiseAbs().maxCoeff()) continue;
     motions.col(done).swap(motions.col(pivot));
     for (Index c = 0; c < motions.cols(); ++c)
@@ -38,7 +38,7 @@ NeutralMotion told(const Structure& structure, const Model& model, const Eigen::
     displaced = std::max(displaced, std::hypot(motion[3 * j], motion[3 * j + 1]));
   const double turned = motion.lpNorm<Eigen::Infinity>();
   const bool turns_only = displaced <= kNothing * turned;
-  // the first component that counts is positive
+  // the first large component becomes positive
   double sign = 1.0;
   for (Index i = motion.size(); i-- > 0;)
     if (std::abs(motion[i]) > kLarge * turned) sign = motion[i] < 0.0 ? -1.0 : 1.0;
@@ -69,7 +69,7 @@ std::vector<NeutralMotion> neutral_motions(const Structure& structure, const Mod
 void NeutralMotionLog::note(const SharedHolds& holds, double load_factor) {
   if (holds == holds_) return;
   holds_ = holds;
-  // what is let go where it was found has not been free
+  // motions released at the load factor where they were pinned were never free
   std::erase_if(out_, [&](const NeutralMotion& motion) {
     return motion.branch == branch_ && !motion.to && motion.from == load_factor;
   });

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Motions without stiffness as results tell of them.
+/// Reports motions without stiffness.
 
 #include <vector>
 
@@ -11,27 +11,27 @@
 
 namespace snapthrough {
 
-/// @brief The motions that are held at a point, each by the nodes that move: a basis in which each motion but
-/// one leaves some node's component where it is, so that a translation is told as a translation.
-/// @param holds empty: no motions
-/// @return with neither branch nor load factors
+/// @brief Held motions as displacements of nodes in a reduced basis: each pivot component (of a node) is
+/// nonzero in one motion only, so that a translation is reported as such.
+/// @param holds null: no motions
+/// @return motions without branch and load factors
 [[nodiscard]] std::vector<NeutralMotion> neutral_motions(const Structure& structure, const Model& model,
                                                          const SharedHolds& holds);
 
-/// @brief Writes down from where to where along a path motions are free.
+/// @brief Records the load factor range in which motions are free along a path.
 class NeutralMotionLog {
  public:
-  /// @param structure, model, out kept by reference, must outlive this
+  /// @param structure, model, out kept by reference; must outlive this object
   NeutralMotionLog(const Structure& structure, const Model& model, std::vector<NeutralMotion>& out)
       : structure_(structure), model_(model), out_(out) {}
 
-  /// A path begins: what was held before does not go on.
+  /// Starts a branch; motions of the previous branch end.
   void start(int branch) {
     branch_ = branch;
     holds_.reset();
   }
-  /// @param holds of the path's next point
-  /// @param load_factor there, of the model
+  /// @param holds holds at the path's next point
+  /// @param load_factor load factor of that point, in the model's units
   void note(const SharedHolds& holds, double load_factor);
 
  private:
@@ -39,7 +39,7 @@ class NeutralMotionLog {
   const Model& model_;
   std::vector<NeutralMotion>& out_;
   int branch_ = 0;
-  SharedHolds holds_;  ///< of the last point
+  SharedHolds holds_;  ///< holds at the last point
 };
 
 }  // namespace snapthrough

@@ -38,7 +38,7 @@ void withdraw_critical_load(Result& result) {
   result.summary.critical_type.reset();
   result.summary.error_estimate.reset();
   result.summary.at_critical.reset();
-  // without a minimum before the critical load the softest point was the critical one
+  // without a minimum of the stiffness the softest point was the withdrawn critical point
   if (result.summary.softest && result.summary.softest->stiffness_ratio == 0.0)
     result.summary.softest.reset();
 }

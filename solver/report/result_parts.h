@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What analyses of every kind write into their results.
+/// Parts of results that all kinds of analysis write.
 
 #include <string>
 
@@ -14,20 +14,20 @@
 
 namespace snapthrough {
 
-/// @brief The mode of a critical point as results report it, at the analysis' points of each member.
-/// @param problem of `structure`; factorised anew
+/// @brief Mode of a critical point at the requested points of each member.
+/// @param problem problem of `structure`; factorised again
 [[nodiscard]] Mode mode_at(const Structure& structure, const Model& model, EquilibriumProblem& problem,
                            const CriticalEvent& event, const Analysis& analysis);
 
 /// Adds the counts of a path to those of a result.
 void add_statistics(const PathStatistics& statistics, Result& result);
-/// Reports the mesh that the reported loads are from, and how often it was refined.
+/// Reports the mesh of the reported loads and its number of refinements.
 void report_mesh(const Structure& structure, int refinements, Result& result);
-/// Reports the mesh of a path: how many were followed up to it, and where its elements end.
+/// Reports the mesh of a path, the number of paths followed, and the element ends.
 void report_path_mesh(const Structure& structure, int paths, Result& result);
-/// A critical load that finer meshes do not confirm is none.
+/// Removes a critical load that finer meshes do not confirm.
 void withdraw_critical_load(Result& result);
-/// Makes a result that of a failed analysis.
+/// Marks a result as failed, with code and message.
 void fail(Result& result, const char* code, const std::string& detail);
 
 }  // namespace snapthrough

@@ -19,7 +19,7 @@ RigidMotions::RigidMotions(const Structure& structure, const Model& model, const
     rotation_[dofs[1]] = x + moved * y[dofs[0]];
     rotation_[dofs[2]] = 1.0;
   };
-  // nodes first, for those that no member begins or ends at; ends of members may be offset from them
+  // nodes first, for nodes without members; the ends of members may be offset from their nodes
   for (int j = 0; j < structure.nodes; ++j)
     set_node({3 * j, 3 * j + 1, 3 * j + 2}, (model.nodes[j].x - structure.origin[0]) / L,
              (model.nodes[j].y - structure.origin[1]) / L);

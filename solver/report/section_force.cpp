@@ -29,9 +29,8 @@ SectionForces::SectionForces(const Structure& structure, const Model& model, con
   add_springs();
 }
 
-/// The multiplier goes with the area formula of the pressure (element/element_work_supports.h), which puts a
-/// force on the node and its opposite on the element's end: take the latter back, so that end_ is what the
-/// section carries.
+/// Corrects end_ for follower pressure. The pressure's area formula (element/element_work_supports.h) adds a
+/// force on the node and its opposite on the element end; removing the latter leaves the section force.
 void SectionForces::release_end_of_pressure(const Eigen::VectorXd& y) {
   const StressFreeAxis& axis = *structure_.stress_free[cell_.member];
   const double length = axis.perfect().length();
@@ -130,7 +129,8 @@ Vec2 SectionForces::position(double xi) const {
       axis.at(axis.perfect().length() * (cell_.from + xi * (cell_.to - cell_.from)), axis_at(xi));
   const double x = p.x / structure_.scales.length;
   const double y = p.y / structure_.scales.length;
-  if (structure_.geometry == Geometry::linear) return {x, y};  // equilibrium is that of the undeformed shape
+  // linear geometry: equilibrium of the undeformed shape
+  if (structure_.geometry == Geometry::linear) return {x, y};
   const auto u = reader_.displacement(xi);
   return {x + u[0], y + u[1]};
 }
@@ -159,7 +159,7 @@ Vec2 SectionForces::density(double xi) const {
   return f;
 }
 
-/// G w' of a shear layer.
+/// Force G w' of a shear layer.
 double SectionForces::shear_layer(const FoundationLaw& foundation, double xi) const {
   const Vec2 n = normal_into(foundation, xi);
   const Vec2 dn = normal_rate(foundation, xi);
@@ -168,7 +168,8 @@ double SectionForces::shear_layer(const FoundationLaw& foundation, double xi) co
   return foundation.shear * (du[0] * n[0] + du[1] * n[1] + u[0] * dn[0] + u[1] * dn[1]);
 }
 
-/// Shear layers on [from, to] of the part beyond xi: by virtual work of its rigid motions, -int G w' dw' ds.
+/// Adds the resultant of shear layers on [from, to] on the part beyond xi: -int G w' dw' ds for the part's
+/// rigid motions.
 void SectionForces::add_shear_layers(double xi, double from, double to, std::array<double, 3>& sum) const {
   const Vec2 x0 = position(xi);
   for (const FoundationHere& foundation : foundations_) {
@@ -226,8 +227,7 @@ std::array<double, 3> SectionForces::at(double xi) const {
     add(position(point.xi), point.action[0], point.action[1]);
     sum[2] += point.action[2];
   }
-  if (pressure_ !=
-      0.0) {  // int (y', -x') ds and its moment about x0 are exact: the chord, and half its square
+  if (pressure_ != 0.0) {  // int (y', -x') ds and its moment about x0 are exact: chord and half its square
     const double dx = xb[0] - x0[0];
     const double dy = xb[1] - x0[1];
     sum[0] += pressure_ * dy;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Section forces of one element, from equilibrium.
+/// Section forces of one element from equilibrium.
 
 #include <Eigen/Core>
 #include <array>
@@ -12,22 +12,21 @@
 
 namespace snapthrough {
 
-/// @brief Force and moment carried through any section of an element.
+/// @brief Force and moment through any section of an element.
 ///
-/// The force through the element's end is an unknown of the solution and balances everything beyond it; what
-/// acts between a section and that end (dead loads, follower pressure, foundations, springs) is integrated
-/// and added:
+/// The force through the element's end is an unknown of the solution. The actions between a section and that
+/// end (dead loads, follower pressure, foundations, springs) are integrated and added:
 ///
 ///   n(xi) = m_f + int_xi^1 f ds,     M(xi) = m_m + (x_b - x) x m_f + int_xi^1 (x(s) - x) x f ds
 ///
-/// so that N, Q and M are in equilibrium with the loads at every section, and no strain is differentiated.
+/// N, Q and M are thus in equilibrium with the loads at every section, without differentiating strains.
 class SectionForces {
  public:
   /// @param lambda scaled load factor of the state y
   SectionForces(const Structure& structure, const Model& model, const Eigen::VectorXd& y, double lambda,
                 int element);
 
-  /// (force x, force y, moment) at xi in [0, 1], acting from the far part on the near part, scaled.
+  /// (force x, force y, moment) at xi in [0, 1] of the part beyond xi on the part before it, scaled.
   [[nodiscard]] std::array<double, 3> at(double xi) const;
 
  private:
@@ -35,11 +34,11 @@ class SectionForces {
   struct DeadLoad {
     Vec2 force;
     LoadMeasure per;
-    Vec2 range;  ///< of the element
+    Vec2 range;  ///< part of the element, in [0, 1]
   };
   struct FoundationHere {
     FoundationLaw law;
-    bool lumped;  ///< its reaction is that of point actions
+    bool lumped;  ///< true: its reaction consists of point forces
     Vec2 range;
     std::vector<FoundationContact::Interval> contact;
   };
@@ -54,10 +53,10 @@ class SectionForces {
   void add_foundations();
   void add_springs();
   void add_lumped(const FoundationLaw& foundation, Vec2 range);
-  /// The perfect axis at xi; the last place asked for is kept, it is asked for several times.
+  /// Perfect axis at xi; the last value is cached.
   [[nodiscard]] const AxisPoint& axis_at(double xi) const;
   [[nodiscard]] Vec2 position(double xi) const;
-  /// Into the foundation's medium, and d/ds of it.
+  /// Unit direction into the foundation's medium, and its derivative with respect to s.
   [[nodiscard]] Vec2 normal_into(const FoundationLaw& foundation, double xi) const {
     return foundation.direction.at(axis_at(xi).angle);
   }
@@ -67,7 +66,7 @@ class SectionForces {
   }
   /// Displacement into the foundation's medium.
   [[nodiscard]] double penetration(const FoundationLaw& foundation, double xi) const;
-  /// Density of forces at a section: everything continuous but the shear layer.
+  /// Force per length at a section, without shear layers.
   [[nodiscard]] Vec2 density(double xi) const;
   [[nodiscard]] double shear_layer(const FoundationLaw& foundation, double xi) const;
   void add_shear_layers(double xi, double from, double to, std::array<double, 3>& sum) const;
@@ -85,7 +84,7 @@ class SectionForces {
   std::vector<DeadLoad> dead_;
   std::vector<FoundationHere> foundations_;
   std::vector<PointAction> points_;
-  double pressure_ = 0.0;  ///< along the deformed right normal
+  double pressure_ = 0.0;  ///< pressure along the deformed right normal
 };
 
 }  // namespace snapthrough

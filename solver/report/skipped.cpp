@@ -3,7 +3,7 @@
 namespace snapthrough {
 namespace {
 
-/// Bilateral supports have no contact to look for.
+/// Notes that bilateral supports need no contact search.
 template <class Support>
 void add_bilateral(const char* kind, const std::vector<Support>& supports, std::vector<std::string>& out) {
   for (const Support& support : supports)

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What an analysis does not do because nobody asked for it or nothing needs it.
+/// Work that an analysis omits because it is not requested or not needed.
 
 #include <string>
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace snapthrough {
 
-/// @brief Whether points between the critical ones need not be equilibria to rounding: nobody gets their
-/// states, and the mesh was chosen for an accuracy.
+/// @brief Whether points between critical ones may be corrected to less than rounding: their states are not
+/// reported, and the mesh is chosen for an accuracy.
 [[nodiscard]] bool points_are_not_polished(const Analysis& analysis);
 
-/// @brief Sentences for `diagnostics.skipped`, "what: why", without what the mesh leaves out by itself.
+/// @brief Sentences "what: why" for `diagnostics.skipped`, without those of the mesh.
 [[nodiscard]] std::vector<std::string> skipped_work(const Model& model, const Analysis& analysis);
 
 }  // namespace snapthrough

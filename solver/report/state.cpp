@@ -39,7 +39,7 @@ MemberState member_state(const Structure& structure, const Model& model, const E
     const auto u = reader->displacement(place.xi);
     const auto n = forces->at(place.xi);
     const StressFreePoint p = axis.at(fraction * length);
-    // small displacements: equilibrium is that of the undeformed shape
+    // small displacements: equilibrium of the undeformed shape
     const double angle = p.angle + (structure.geometry == Geometry::linear ? 0.0 : u[2]);
     out.s.push_back(fraction * length);
     out.x0.push_back(structure.origin[0] + p.x);
@@ -56,7 +56,7 @@ MemberState member_state(const Structure& structure, const Model& model, const E
   return out;
 }
 
-/// The place of a fraction, on an element that the foundation acts on.
+/// Mesh place of a fraction, on an element within the foundation's range.
 MeshPlace place_under(const Mesh& mesh, int member, const Foundation& foundation, double fraction) {
   const MeshPlace place = place_of(mesh, member, fraction);
   const bool is_beyond = place.xi == 0.0 && place.element > mesh.first[static_cast<std::size_t>(member)] &&
@@ -78,12 +78,11 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     const MeshPlace place = place_under(structure.mesh, member, foundation, fraction);
     const auto u = ElementReader(structure, y, place.element).displacement(place.xi);
     const double angle = axis.at(fraction * axis.length()).angle;
-    // results are in the user's sense: a medium that pushes has a positive reaction, one that pulls a
-    // negative
+    // results use the user's sign: a pushing medium has a positive reaction, a pulling one a negative
     const auto d = law.direction.at(angle);
     double w = u[0] * d[0] + u[1] * d[1];
     const double reaction = law_on(structure, law, place.element).law.reaction(w);
-    // the surface of a base on which contact acts, however stiff the element takes it
+    // displacement of the base's surface by its given stiffness, where the element has a bounded one
     if (law.law.one_sided && law.law.acts(w)) w = law.law.gap + reaction / law.law.stiffness;
     out.s.push_back(fraction * axis.length());
     out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * reaction));

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a state of a structure looks like: shape, section forces, reactions, contact.
+/// Reported states of a structure: shape, section forces, reactions, contact.
 
 #include <Eigen/Core>
 #include <vector>
@@ -16,15 +16,15 @@ namespace snapthrough {
 [[nodiscard]] std::vector<MemberState> member_states(const Structure& structure, const Model& model,
                                                      const Eigen::VectorXd& y, double lambda, int points);
 
-/// @brief Everything a state says: members and foundations sampled at `points` equally spaced places, and
-/// what supports, springs, foundations and loads put on the structure. Its branch is 0, its refinements 0.
-/// @param y unknowns of the structure's problem (scaled units); the result is in the model's units
-/// @param lambda scaled load factor of that state
+/// @brief Makes the reported state: members and foundations at `points` equally spaced places, and the forces
+/// of supports, springs, foundations and loads on the structure. Branch and refinements are 0.
+/// @param y scaled unknowns of the structure's problem; the result is in the model's units
+/// @param lambda scaled load factor of the state
 /// @pre points >= 2
 [[nodiscard]] State make_state(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
                                double lambda, int points);
 
-/// @brief Share of each foundation's range that is in contact; 1 for a bilateral one.
+/// @brief Fraction of each foundation's range in contact; 1 for bilateral foundations.
 [[nodiscard]] std::vector<double> contact_fractions(const Structure& structure, const Model& model,
                                                     const Eigen::VectorXd& y);
 

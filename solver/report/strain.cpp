@@ -37,8 +37,8 @@ bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const 
 }
 
 bool StrainGauge::is_beyond_theory(const Eigen::VectorXd& y) const {
-  constexpr double kMostStrain = 1.0;
-  constexpr double kMostRotation = 10.0 * std::numbers::pi;
+  constexpr double kMostStrain = 1.0;                        // compression of a fibre to zero length
+  constexpr double kMostRotation = 10.0 * std::numbers::pi;  // five turns, rad
   const int p = structure_.mesh.order;
   for (std::size_t e = 0; e < structure_.dofs.size(); ++e) {
     const ElementDofs& dofs = structure_.dofs[e];

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// How large strains are: the constitutive law is that of small ones.
+/// Largest strains, for the limits of the small-strain constitutive law.
 
 #include <Eigen/Core>
 #include <vector>
@@ -10,33 +10,33 @@
 
 namespace snapthrough {
 
-/// The largest strain of a state and where it is.
+/// Largest strain of a state, with its member and position.
 struct LargestStrain {
   double strain = 0.0;
   int member = -1;
-  double s = 0.0;  ///< in the model's units
+  double s = 0.0;  ///< arc length in the model's units
 };
 
-/// @brief Measures strains at the elements' Gauss points, from the section forces there.
+/// @brief Evaluates strains at the elements' Gauss points from the section forces.
 ///
-/// A strain is the largest of |N| / EA, |Q| / GA and |M| / EI times the radius of gyration sqrt(EI / EA):
-/// what bending strains some fibre at the least, whatever the section's depth.
+/// A strain is the largest of |N| / EA, |Q| / GA and |M| / EI sqrt(EI / EA); the last is a lower bound of the
+/// bending strain in the outer fibre, for any section depth.
 class StrainGauge {
  public:
-  /// @param structure kept by reference, must outlive this
+  /// @param structure kept by reference; must outlive this object
   StrainGauge(const Structure& structure, const Model& model);
-  /// Replaces `largest` where a strain of y exceeds it; true when one does.
+  /// Replaces `largest` if a strain at y exceeds it; returns true in that case.
   [[nodiscard]] bool raise(const Eigen::VectorXd& y, LargestStrain& largest) const;
-  /// Whether y is out of reach of any section and any drawing: the strain along a fibre is 1, at which it is
-  /// compressed to nothing, or an element has turned by five turns, within which a member meets itself.
+  /// Whether y is outside the theory: a fibre strain reaches 1 (compression to zero length), or an element
+  /// has rotated by five turns, after which its member would intersect itself.
   [[nodiscard]] bool is_beyond_theory(const Eigen::VectorXd& y) const;
 
  private:
   struct Compliance {
-    double axial, shear, bending;  ///< strain by scaled section force
+    double axial, shear, bending;  ///< strain per scaled section force
   };
   const Structure& structure_;
-  std::vector<Compliance> compliances_;  ///< of each member
+  std::vector<Compliance> compliances_;  ///< one per member
 };
 
 }  // namespace snapthrough

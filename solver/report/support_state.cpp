@@ -18,20 +18,20 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// What springs or a foundation put on the structure, scaled, and the rounding of the penetrations that it is
-/// stiffness times: that of the displacements that these are sums of.
+/// Scaled resultant of springs or of a foundation on the structure, with its rounding: stiffness times the
+/// rounding of the displacements in the penetration.
 struct Bearing {
   Wrench wrench{};
   double rounding = 0.0;
 };
 
-/// A spring in a state, scaled.
+/// Scaled force of a spring in a state.
 struct SpringForce {
-  SparseRow row;              ///< displacement into its medium
-  double displacement = 0.0;  ///< its value
-  double force = 0.0;         ///< on the structure against it
+  SparseRow row;              ///< displacement into the medium
+  double displacement = 0.0;  ///< value of `row`
+  double force = 0.0;         ///< force on the structure, against `row`
   bool closed = false;
-  double rounding = 0.0;  ///< of the force
+  double rounding = 0.0;  ///< rounding of the force
 };
 
 SpringForce force_of(const Structure& structure, const Model& model, std::size_t index, const VectorXd& y) {
@@ -47,7 +47,7 @@ SpringForce force_of(const Structure& structure, const Model& model, std::size_t
   return out;
 }
 
-/// Adds the springs to the state; returns what they put on the nodes, in the problem's rows.
+/// Adds the springs to the state; returns their forces on the nodes, in the problem's rows.
 VectorXd add_springs(const Structure& structure, const Model& model, const VectorXd& y,
                      const RigidMotions& rigid, State& state, std::vector<Bearing>& bearings) {
   VectorXd on_nodes = VectorXd::Zero(3 * structure.nodes);
@@ -72,7 +72,7 @@ VectorXd add_springs(const Structure& structure, const Model& model, const Vecto
   return on_nodes;
 }
 
-/// Forces and moments on the nodes that nothing but supports can put there, in global axes.
+/// Nodal forces and moments that only rigid supports can balance, in global axes.
 VectorXd held_forces(const Structure& structure, ElementWork& elements, const VectorXd& y, double lambda,
                      const VectorXd& springs) {
   VectorXd f = -lambda * structure.proportional_load - structure.constant_load;
@@ -82,7 +82,7 @@ VectorXd held_forces(const Structure& structure, ElementWork& elements, const Ve
   return f.head(3 * structure.nodes) - springs;
 }
 
-/// Adds the supports to the state; returns what they put on the nodes, in the problem's rows.
+/// Adds the supports to the state; returns their forces on the nodes, in the problem's rows.
 VectorXd add_supports(const Structure& structure, const Model& model, const VectorXd& held, State& state) {
   const double F = structure.scales.force;
   VectorXd reactions = VectorXd::Zero(structure.size);
@@ -103,7 +103,7 @@ VectorXd add_supports(const Structure& structure, const Model& model, const Vect
   return reactions;
 }
 
-/// The springs of a foundation that act on one element.
+/// Springs of a foundation that act on one element.
 std::vector<SupportSpring> acting_springs(const Structure& structure, const FoundationLaw& foundation,
                                           const FoundationPart& part, const VectorXd& y) {
   if (!part.contact || structure.mesh.foundation == FoundationRule::lumped)
@@ -146,7 +146,7 @@ void add_foundations(const Structure& structure, const Model& model, const Vecto
   }
 }
 
-/// The largest of the forces at elements' ends and of those given.
+/// Largest of the element end forces and of the forces given.
 double largest_force(const Structure& structure, const VectorXd& y, const VectorXd& others) {
   double force = others.lpNorm<Eigen::Infinity>();
   for (const ElementDofs& dofs : structure.dofs)
@@ -154,14 +154,13 @@ double largest_force(const Structure& structure, const VectorXd& y, const Vector
   return force;
 }
 
-/// Gives what is left of the sum of all to the bearings, in proportion to the rounding of their penetrations:
-/// a state is found when its displacements are, so the force that is left then is that of stiff bearings, and
-/// equilibrium knows their reactions better than stiffness times penetration does.
-/// @param largest of the other forces; more than the share of it that correctors let stand, and than rounding
-/// of penetrations, stays
+/// Distributes the residual of the sum of all forces to springs and foundations in proportion to their
+/// rounding: the displacements have converged, so that the residual comes from stiff supports, whose
+/// reactions equilibrium determines better than stiffness times penetration.
+/// @param largest largest other force; a residual above the corrector's tolerance and above rounding stays
 void balance(const Wrench& others, double largest, std::vector<Bearing>& bearings) {
-  constexpr double kResidual = 1e-8;  // CorrectorOptions::largest_residual
-  constexpr double kRoundings = 8.0;  // of a displacement that is summed over an element
+  constexpr double kResidual = 1e-8;  // share of the largest force, as CorrectorOptions::largest_residual
+  constexpr double kRoundings = 8.0;  // factor on the rounding, which is summed over an element
   Wrench left = others;
   double rounding = 0.0;
   for (const Bearing& bearing : bearings) {
@@ -183,7 +182,7 @@ void add_forces_on_structure(const Structure& structure, const Model& model, con
                              State& state) {
   const RigidMotions rigid(structure, model, y);
   const std::unique_ptr<ElementWork> elements = structure.elements->make_work();
-  std::vector<Bearing> bearings;  // springs, then foundations
+  std::vector<Bearing> bearings;  // resultants of springs, then foundations
   const VectorXd springs = add_springs(structure, model, y, rigid, state, bearings);
   const VectorXd reactions =
       add_supports(structure, model, held_forces(structure, *elements, y, lambda, springs), state);

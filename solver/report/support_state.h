@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a state's supports, springs, foundations and loads put on the structure.
+/// Forces of supports, springs, foundations and loads on the structure in a state.
 
 #include <Eigen/Core>
 
@@ -10,13 +10,13 @@
 
 namespace snapthrough {
 
-/// @brief Fills `supports`, `springs`, `loads` and the resultants of `foundations`.
+/// @brief Fills `supports`, `springs`, `loads` and the resultants of `foundations` in a state.
 ///
-/// Reactions are what equilibrium of their nodes asks for: the forces at the ends of members, which are
-/// unknowns of the solution, and those of springs, less the loads, along the directions that are held. So
-/// nothing is differentiated, and everything adds up to zero to rounding on any mesh.
-/// @param y unknowns of the structure's problem at `lambda`, in equilibrium, constant actions on
-/// @param state its foundations are those of the model, in that order
+/// Reactions follow from equilibrium of the nodes along constrained directions: member end forces (unknowns
+/// of the solution) plus spring forces minus loads. All forces therefore sum to zero up to rounding on any
+/// mesh.
+/// @param y unknowns of the structure's problem in equilibrium at `lambda`, with the constant actions in full
+/// @param state with the model's foundations in their order
 void add_forces_on_structure(const Structure& structure, const Model& model, const Eigen::VectorXd& y,
                              double lambda, State& state);
 

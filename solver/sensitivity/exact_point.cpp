@@ -11,7 +11,7 @@ using Eigen::Index;
 
 namespace {
 
-/// Of several motions that lose their stiffness close together, the one that does so nearest to a load.
+/// Index of the null motion whose stiffness vanishes nearest to a load factor.
 Index nearest_target(const CriticalSolution& solution, double lambda) {
   const auto spectrum = solution.spectrum();
   Index target = 0;
@@ -23,8 +23,8 @@ Index nearest_target(const CriticalSolution& solution, double lambda) {
 
 std::optional<ExactPoint> exact_point(EquilibriumProblem& problem, const PathMetric& metric,
                                       const LocatedPoint& at, int& factorisations) {
-  constexpr double kPlace = 1e-9;
-  constexpr int kTimes = 2;  // the second for the derivatives, which are those of the last iteration but one
+  constexpr double kPlace = 1e-9;  // displacement tolerance over the reach
+  constexpr int kTimes = 2;        // the second solution updates the derivatives, which lag by one iteration
   const CriticalEvent& event = at.event;
   const bool limit = is_limit(event.type);
   CriticalOptions options;

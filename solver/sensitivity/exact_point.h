@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A critical point of a path, found again to rounding.
+/// Critical points of a path, solved to rounding.
 
 #include <optional>
 
@@ -9,21 +9,21 @@
 
 namespace snapthrough {
 
-/// A critical point and the measures of the path that it was found on.
+/// Critical point with the norm and scales of its path.
 struct LocatedPoint {
   const CriticalEvent& event;
-  double load_weight = 0.0;  ///< of the path's metric
-  double reach = 0.1;        ///< farthest that the point may be off, in the metric
-  double least_load = 0.0;   ///< load that tolerances are relative to at least
+  double load_weight = 0.0;  ///< load weight of the path's metric
+  double reach = 0.1;        ///< largest allowed distance from the given point, in the metric
+  double least_load = 0.0;   ///< lower bound of the load factor to which tolerances are relative
 };
 
-/// A critical point to rounding.
+/// Critical point exact to rounding.
 struct ExactPoint {
   CriticalSolution solution;
-  Eigen::Index target = 0;  ///< which of its null motions is the event's
+  Eigen::Index target = 0;  ///< index of the null motion that belongs to the event
 };
 
-/// @return empty where Newton's method does not find it
+/// @brief Solves for the critical point by Newton's method; empty when the iteration fails.
 [[nodiscard]] std::optional<ExactPoint> exact_point(EquilibriumProblem& problem, const PathMetric& metric,
                                                     const LocatedPoint& at, int& factorisations);
 

@@ -8,7 +8,7 @@
 namespace snapthrough {
 namespace {
 
-/// Amplitude along the null motion by unit load factor of the path that the point was met on.
+/// Rate of the amplitude along the null motion with the load factor, on the path through the point.
 std::optional<double> along_path(const CriticalEvent& event, const BorderedPoint& point) {
   const CriticalSolution& at = point.at();
   const double load = event.point.tangent_lambda;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Koiter's coefficients of bifurcations.
+/// Koiter coefficients of bifurcations.
 
 #include <optional>
 
@@ -11,13 +11,13 @@
 
 namespace snapthrough {
 
-/// @brief The load along the path that crosses at a bifurcation, by the amplitude of its mode as results have
-/// it.
-/// @param structure of the model, where the point is from
-/// @param points of a member at which the mode is scaled
-/// @param factorisations those that were made are added
-/// @return empty at other points, where several motions lose their stiffness, where contact or follower
-/// pressure on a free end makes the tangent jump or unsymmetric, and where the point is not found again
+/// @brief Load along the path that crosses at a bifurcation, as a function of the mode's reported amplitude.
+/// @param structure structure of `model` on which the point was found
+/// @param points points per member at which the mode is normalised
+/// @param factorisations incremented by the number of factorisations
+/// @return empty at other points, at multiple bifurcations, where contact makes the tangent discontinuous,
+/// with follower pressure on a free end (nonsymmetric tangent), and when the point cannot be solved to
+/// rounding
 [[nodiscard]] std::optional<KoiterCoefficients> koiter_coefficients(const Model& model,
                                                                     const Structure& structure,
                                                                     const LocatedPoint& at, int points,

@@ -16,10 +16,10 @@ namespace {
 using Eigen::MatrixXd;
 using Rate = CriticalSensitivity::Rate;
 
-/// The equations' derivative by one variation, and what follows from it.
+/// Derivative of the equations with respect to one variation, and the resulting sensitivity.
 class VariationRate {
  public:
-  /// @param here equations of the structure itself
+  /// @param here equations of the unchanged structure
   VariationRate(const Model& model, const Structure& structure, const CriticalEvent& event,
                 const CriticalSensitivity& point, const MatrixXd& here, const Variation& variation,
                 const std::function<ModeOffsets(const Model&)>& offsets)
@@ -31,12 +31,11 @@ class VariationRate {
         variation_(variation),
         offsets_(offsets) {}
 
-  /// @param lambda of the point
+  /// @param lambda scaled load factor of the point
   [[nodiscard]] Sensitivity find(double lambda);
 
  private:
-  /// Equations a step to both sides; where the value may change one way only, one and two half steps that
-  /// way.
+  /// Equations at value -/+ step; one-sided differences: at half a step (`less`) and a whole step (`more`).
   struct Sides {
     MatrixXd less;
     MatrixXd more;
@@ -56,11 +55,11 @@ class VariationRate {
   const MatrixXd& here_;
   const Variation& variation_;
   const std::function<ModeOffsets(const Model&)>& offsets_;
-  double way_ = 0.0;     ///< 1, -1: the value may change that way only
-  Sides coarse_, fine_;  ///< of the best difference
+  double way_ = 0.0;     ///< 0: both senses; 1, -1: the value may only grow, or only fall
+  Sides coarse_, fine_;  ///< equations with the best step and with half of it
 };
 
-/// What the equations are with another value, at the point's state.
+/// Equations with another value at the point's state; empty when the model may not have that value.
 std::optional<MatrixXd> VariationRate::equations_at(double value) const {
   const std::optional<Model> changed = variation_.model_at(value);
   if (!changed) return std::nullopt;
@@ -92,20 +91,22 @@ std::optional<VariationRate::Sides> VariationRate::sides(double step) {
   return Sides{*std::move(near), *std::move(far), step};
 }
 
-/// By a difference of second order.
+/// Rate by a difference of second order.
 Rate VariationRate::difference(const Sides& at) const {
   if (way_ == 0.0) return point_.rate((at.more - at.less) / (2.0 * at.step));
   return point_.rate((4.0 * at.less - at.more - 3.0 * here_) / (way_ * at.step));
 }
 
 std::optional<Rate> VariationRate::best_difference(double lambda) {
-  constexpr double kFirst = 2.5e-4;  // of the size
-  constexpr double kShorter = 0.125;
+  constexpr double kFirst = 2.5e-4;   // first step over the variation's size
+  constexpr double kShorter = 0.125;  // ratio of successive steps
   constexpr int kMostSteps = 6;
-  constexpr double kAgree = 1e-6;      // of the rate: what extrapolation leaves is about its square
-  constexpr double kNothing = 1e-8;    // of the load, by a change of the size: the same
-  constexpr double kRounding = 1e-13;  // of the load, in a difference
-  constexpr double kDiffer = 1e-3;
+  constexpr double kAgree = 1e-6;  // relative agreement; the error after extrapolation is about its square
+  // change of the load, per change by the variation's size, that counts as zero
+  constexpr double kNothing = 1e-8;
+  constexpr double kRounding = 1e-13;  // rounding of a difference over the load
+  constexpr double kDiffer = 1e-3;     // largest accepted error over the rate
+  // largest accepted error over the load, per change by the variation's size
   constexpr double kCounts = 1e-6;
   const double size = variation_.size;
   std::optional<Rate> best;
@@ -131,23 +132,26 @@ std::optional<Rate> VariationRate::best_difference(double lambda) {
   return settled ? best : std::nullopt;
 }
 
-/// Difference of the rates to both sides.
+/// Difference between the one-sided rates.
 double VariationRate::mismatch(const Sides& at) const {
   return point_.rate((at.more - 2.0 * here_ + at.less) / at.step).lambda;
 }
 
-/// Whether the rates to both sides differ, by no less over half the step: a support begins or ceases to act.
+/// Whether the one-sided rates differ, also over half the step: contact changes at the value.
 bool VariationRate::has_kink(double lambda) const {
+  // decrease of the difference of rates, when the step is halved, without a kink
   constexpr double kFalls = 0.75;
-  constexpr double kCounts = 1e-5;
+  constexpr double kCounts = 1e-5;  // relative change of the load by the kink that is ignored
   if (!structure_.one_sided || way_ != 0.0) return false;
   const double near = std::abs(mismatch(fine_));
   return near * variation_.size > kCounts * std::abs(lambda) && near > kFalls * std::abs(mismatch(coarse_));
 }
 
 Sensitivity VariationRate::find(double lambda) {
-  constexpr double kShare = 1e-5;         // of the forces' work on the motion: what rounding and meshes leave
-  constexpr double kImperfection = 1e-9;  // by a change of the size
+  // work of forces on the mode relative to its terms, caused by rounding and mesh
+  constexpr double kShare = 1e-5;
+  // imperfection, per change by the variation's size, that counts as zero
+  constexpr double kImperfection = 1e-9;
   Sensitivity out{variation_.pointer, std::nullopt, std::nullopt};
   const auto rate = best_difference(lambda);
   if (rate && event_.type == CriticalType::bifurcation && rate->breaking_share > kShare &&

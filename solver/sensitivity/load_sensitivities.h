@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Derivatives of critical loads by numbers of the model.
+/// Derivatives of critical loads with respect to numbers of the model.
 
 #include <functional>
 #include <vector>
@@ -13,17 +13,16 @@
 
 namespace snapthrough {
 
-/// @brief d load factor / d value, both in the user's units, for each variation, in order; or why there is
-/// none.
+/// @brief d load factor / d value in the user's units for each variation, in order, or why it does not exist.
 ///
-/// The point is found again to rounding, then nothing is solved but CriticalSensitivity's linear equations:
-/// the change of the equations is a difference between structures with more and less of the value, which have
-/// the unknowns, elements and scales of this one, at the point's state. Their step is a thousandth of the
-/// variation's size, and ever shorter until halving it changes nothing; of two steps the error is
-/// extrapolated away. Where the value may change one way only, so do the differences.
-/// @param structure of `model`, where the point is from
-/// @param offsets of a changed model's mode imperfections; may throw std::runtime_error where it has none
-/// @param factorisations those that were made are added
+/// The point is solved to rounding once; then only the linear equations of CriticalSensitivity are solved.
+/// The derivative of the equations is a difference between structures with larger and smaller value, which
+/// share unknowns, elements, scales and state. The step starts at 2.5e-4 of the variation's size and is
+/// shortened until halving it has no effect; two steps are extrapolated. Differences are one-sided if the
+/// value may change in one sense only.
+/// @param structure structure of `model` on which the point was found
+/// @param offsets mode imperfections of a changed model; may throw std::runtime_error when it lacks the modes
+/// @param factorisations incremented by the number of factorisations
 [[nodiscard]] std::vector<Sensitivity> load_sensitivities(
     const Model& model, const std::vector<Variation>& variations, const Structure& structure,
     const LocatedPoint& at, const std::function<ModeOffsets(const Model&)>& offsets, int& factorisations);

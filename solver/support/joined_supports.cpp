@@ -19,9 +19,9 @@ namespace {
 
 using Vec2 = std::array<double, 2>;
 
-constexpr double kOneLine = 1e-12;  ///< sine between two lines of action below which they are one
+constexpr double kOneLine = 1e-12;  ///< sine of the angle below which two lines of action coincide
 
-/// 1 where both react to the same displacement, -1 where they oppose one another, else 0.
+/// 1: same direction; -1: opposite directions; 0: different lines of action.
 double agreement(const Direction& a, const Direction& b) {
   if (a.turns != b.turns) return 0.0;
   if (a.turns) return a.sign * b.sign;
@@ -29,13 +29,13 @@ double agreement(const Direction& a, const Direction& b) {
   return a.fixed[0] * b.fixed[0] + a.fixed[1] * b.fixed[1] > 0.0 ? 1.0 : -1.0;
 }
 
-/// A rotation is a direction that turns with its place, too.
+/// Direction of action of a spring; for a rotational spring a turning direction with the spring's sign.
 Direction action_of(const Spring& spring) {
   const double sense = sense_of(spring.reaction);
   return spring.direction ? fixed_direction(*spring.direction, sense) : Direction{true, {}, sense};
 }
 
-/// The normal of a straight axis is fixed: a foundation with a direction may lie on the same line.
+/// Direction of action of a foundation; a fixed one on straight axes, for comparison with given directions.
 Direction action_of(const Model& model, const Member& member, const Foundation& foundation) {
   const Direction direction = direction_of(foundation);
   if (!direction.turns || !std::holds_alternative<LineCurve>(member.curve)) return direction;
@@ -44,23 +44,23 @@ Direction action_of(const Model& model, const Member& member, const Foundation& 
   return fixed_direction({-(b.y - a.y), b.x - a.x}, direction.sign);
 }
 
-/// A one-sided support, by its number in the model, that touches when nothing has moved.
+/// One-sided support without gap, with its index in the model.
 struct Touching {
   std::size_t number = 0;
   double stiffness = 0.0;
   Direction action;
 };
 
-/// Supports of one place and one line of action, summed.
+/// Sum of supports at one place with one line of action.
 struct JoinedLaw {
-  std::vector<std::size_t> members;  ///< positions in the list that was summed
-  std::size_t against = 0;           ///< position of the first that reacts the other way
+  std::vector<std::size_t> members;  ///< indices in the list of summed supports
+  std::size_t against = 0;           ///< index of the first support in the opposite direction
   double with_first = 0.0;
   double against_first = 0.0;
 
   [[nodiscard]] bool is_joined() const { return against_first > 0.0; }
   [[nodiscard]] double glued() const { return std::min(with_first, against_first); }
-  /// What the stiffer side has more; sums that differ by rounding are equal.
+  /// Difference of both sums; zero within rounding.
   [[nodiscard]] double rest() const {
     const double rounding = static_cast<double>(members.size()) * std::numeric_limits<double>::epsilon();
     const double more = std::abs(with_first - against_first);
@@ -88,7 +88,7 @@ std::vector<JoinedLaw> laws_of(const std::vector<Touching>& supports) {
   return out;
 }
 
-/// Appends a support in place of others: of another stiffness, and glued or as it was.
+/// Appends a support with a given stiffness and without gap, bilateral or as before.
 template <class Support>
 void append(Support support, double stiffness, bool glued, std::vector<Support>& out) {
   support.stiffness = stiffness;
@@ -107,7 +107,7 @@ class Joiner {
     }
   }
 
-  /// Whether anything was joined.
+  /// Joins the supports; false when none are opposite.
   [[nodiscard]] bool join() {
     join_springs();
     for (const Member& member : model_.members) join_foundations(member);
@@ -146,10 +146,10 @@ class Joiner {
   std::vector<Foundation> foundations_;
 };
 
-/// Springs in the order of their places: at nodes, where members end too, then inside members; rotations
-/// apart, because that of a member's end may be released.
+/// Joins springs, sorted by place: nodes (with member ends), then positions inside members. Rotational
+/// springs are kept apart, because the rotation of a member end may be released.
 void Joiner::join_springs() {
-  using Place = std::tuple<bool, bool, int, double>;  // rotation, at a member, which, fraction
+  using Place = std::tuple<bool, bool, int, double>;  // rotational, at a member, index, fraction
   std::vector<std::pair<Place, Touching>> sorted;
   for (std::size_t i = 0; i < model_.springs.size(); ++i) {
     const Spring& spring = model_.springs[i];
@@ -194,7 +194,7 @@ void Joiner::join_springs_at(const std::vector<Touching>& place) {
   }
 }
 
-/// The foundations of a member, on each part of it that no range ends in.
+/// Joins the foundations of a member on each part between the ends of their ranges.
 void Joiner::join_foundations(const Member& member) {
   std::vector<Touching> touching;
   std::vector<double> ends;
@@ -217,7 +217,7 @@ void Joiner::join_foundations(const Member& member) {
   foundations_.insert(foundations_.end(), parts.begin(), parts.end());
 }
 
-/// Appends what acts on a part of a member; whether something was joined there.
+/// Appends the supports on a part of a member; true when some were joined.
 bool Joiner::join_foundations_on(std::array<double, 2> range, const std::vector<Touching>& foundations,
                                  std::vector<Foundation>& out) const {
   const double middle = 0.5 * (range[0] + range[1]);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// How supports are taken when a structure is linearised.
+/// States of supports for which the equations are evaluated.
 
 #include <algorithm>
 #include <vector>
@@ -13,35 +13,36 @@ struct ElementPart {
   double to = 0.0;
 };
 
-/// Where one-sided supports act, whatever the displacements. In the order of the structure's own lists.
+/// Contact independent of the displacements. Entries follow the lists of the structure.
 struct FrozenContact {
-  std::vector<std::vector<ElementPart>> contacts;  ///< where each foundation on an element acts
-  std::vector<char> element_springs;               ///< which springs on elements act
-  std::vector<char> node_springs;                  ///< which springs at nodes act
+  /// Parts on which each foundation acts, per foundation on an element.
+  std::vector<std::vector<ElementPart>> contacts;
+  std::vector<char> element_springs;  ///< whether each spring on an element acts
+  std::vector<char> node_springs;     ///< whether each spring at a node acts
 };
 
-/// A stretch of members on which a one-sided foundation acts, and how fast its ends move along a path.
+/// Contact zone of a one-sided foundation, with the rates of its ends along a path.
 struct MovingZone {
-  double from = 0.0;  ///< length, counted from the first element on
+  double from = 0.0;  ///< arc length from the start of the first element
   double to = 0.0;
-  double from_rate = 0.0;  ///< by the path's arc length; 0 where the foundation itself ends
+  double from_rate = 0.0;  ///< rate of `from` per arc length of the path; 0 at an end of the foundation
   double to_rate = 0.0;
 };
-/// Those of each foundation, ascending.
+/// Contact zones of each foundation, ascending.
 using MovingZones = std::vector<std::vector<MovingZone>>;
 
-/// One-sided supports that touch without pressure, in the same order.
+/// One-sided supports that touch without pressure; entries as in FrozenContact.
 struct TouchingMarks {
   std::vector<char> contacts;
   std::vector<char> element_springs;
   std::vector<char> node_springs;
 };
 
-/// How near to touching a support is that touches without pressure: a stiff one that is pressed hardly moves.
+/// Distances at which a support counts as touching without pressure; smaller for stiff supports.
 struct TouchingDistance {
-  double any = 0.0;       ///< of the softest
-  double force = 0.0;     ///< that it carries there at most
-  double rounding = 0.0;  ///< of a displacement, whatever force that is
+  double any = 0.0;       ///< distance for the softest supports
+  double force = 0.0;     ///< force of a support that counts as unloaded
+  double rounding = 0.0;  ///< rounding of displacements: lower limit of the distance
 
   [[nodiscard]] double of(double stiffness) const {
     return std::min(any, std::max(force / stiffness, rounding));
@@ -61,17 +62,18 @@ struct LoadFactors {
   double constant = 0.0;
 };
 
-/// @brief What an equation of equilibrium takes its supports and displacements for.
+/// @brief Options of the equilibrium equations: state of one-sided supports and kinematics.
 struct Regime {
   enum class Contact {
-    unilateral,  ///< one-sided supports push or pull where they are touched
-    bilateral,   ///< they are glued, without gap
-    frozen       ///< they act where `frozen` says
+    unilateral,  ///< one-sided supports act where the displacement exceeds the gap
+    bilateral,   ///< one-sided supports act as bilateral ones without gap
+    frozen       ///< one-sided supports act according to `frozen`
   };
   Contact contact = Contact::unilateral;
   const FrozenContact* frozen = nullptr;
-  double softness = 1.0;  ///< share of their stiffness that one-sided supports have, in (0, 1]
-  double grip = 0.0;      ///< share of it with which they react in both directions, without gap, as well
+  double softness = 1.0;  ///< factor on the stiffness of one-sided supports, in (0, 1]
+  /// Additional bilateral stiffness without gap of one-sided supports, over their stiffness.
+  double grip = 0.0;
   bool small_displacements = false;  ///< strains linearised about the stress-free axis
 
   [[nodiscard]] bool bilateral() const { return contact == Contact::bilateral; }

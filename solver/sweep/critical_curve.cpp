@@ -24,23 +24,23 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kReach = 0.01;  // of the path so far, from the critical point to its two neighbours
-constexpr double kInterpolation = 1e-8;
-constexpr double kSameLoad = 1e-6;
+constexpr double kReach = 0.01;  // distance from the critical point to both equilibria, over the path length
+constexpr double kInterpolation = 1e-8;  // relative error of an interpolated load
+constexpr double kSameLoad = 1e-6;       // relative difference up to which loads agree
 constexpr int kMostHalvings = 7;
-constexpr std::size_t kHistory = 4;  // extrapolation is cubic
+constexpr std::size_t kHistory = 4;  // number of nodes: extrapolation is cubic
 
-/// An equilibrium, or a coefficient of an expansion of equilibria.
+/// Equilibrium state, or coefficient of a series of states.
 struct Place {
   VectorXd y;
   double lambda = 0.0;
 };
 
-/// A critical point with its neighbourhood on the path, for prediction at other values.
+/// Critical point with the path around it, for prediction at other values.
 struct Expansion {
-  double t = 0.0;  ///< the value or its logarithm
+  double t = 0.0;  ///< value of the parameter, or its logarithm
   double reach = 0.0;
-  /// The path as a power series of the distance from the critical point, along its direction there.
+  /// Power series of the path in the distance from the critical point along the path's direction.
   std::array<Place, 4> series;
   bool bifurcation = false;
   int negative_before = 0;
@@ -57,7 +57,7 @@ struct Expansion {
   }
 };
 
-/// The model of one value, on the mesh of all.
+/// Model of one value on the common mesh.
 struct Family {
   Family(const CriticalCurveRequest& request, double value)
       : model(request.model(value)),
@@ -84,7 +84,7 @@ struct Family {
   Structure structure;
   StructuralProblem problem;
   PathFollower follower;
-  bool is_held = true;  ///< one-sided supports hold the loads that the path begins with
+  bool is_held = true;  ///< one-sided supports hold the loads at the start of the path
 };
 
 /// A segment of the path as a cubic, in the length from its first point.
@@ -100,7 +100,7 @@ class Cubic {
   [[nodiscard]] double load_rate_a() const { return a_.tangent_lambda / rate_a_; }
   [[nodiscard]] double load_rate_b() const { return b_.tangent_lambda / rate_b_; }
 
-  /// The cubic about a place on it.
+  /// Power series of the cubic about a position.
   [[nodiscard]] std::array<Place, 4> series(double s) const {
     const auto about = [&](const auto& a, const auto& b, const auto& ma, const auto& mb) {
       const auto c2 = ((3.0 / length_ * (b - a) - 2.0 * ma - mb) / length_).eval();
@@ -116,7 +116,7 @@ class Cubic {
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = {y[i], lambda[i][0]};
     return out;
   }
-  /// Where the load is stationary, inside; negative when it is nowhere.
+  /// Position inside at which the load is stationary; negative: none.
   [[nodiscard]] double stationary() const {
     // derivative of the load: c0 + c1 x + c2 x^2
     const double r0 = load_rate_a();
@@ -157,8 +157,8 @@ class Follower {
 
   const CriticalCurveRequest& request_;
   CriticalCurve curve_;
-  std::unique_ptr<Family> measure_;  ///< whose norm and scales hold for all
-  std::deque<Expansion> nodes_;      ///< the latest last
+  std::unique_ptr<Family> measure_;  ///< reference for norm and scales of all values
+  std::deque<Expansion> nodes_;      ///< stored critical points, latest last
 };
 
 void Follower::remember(std::optional<Expansion> node) {
@@ -167,7 +167,7 @@ void Follower::remember(std::optional<Expansion> node) {
   if (nodes_.size() > kHistory) nodes_.pop_front();
 }
 
-/// The path's direction at the critical point, of norm one; that of the displacement alone at a limit point.
+/// Normalised direction of the path at the critical point; at a limit point without the load.
 Place direction_of(const Expansion& node, const PathNorm& path_norm) {
   const Place& first = node.series[1];
   const double load = node.bifurcation ? first.lambda : 0.0;
@@ -190,10 +190,10 @@ std::optional<PathPoint> equilibrium(PointSolver& solver, const Expansion& guess
   return Segment(solver, lo, hi, direction.y, direction.lambda).point_at(0.5);
 }
 
-/// A critical point's distance from the first of two neighbours, and how far off a lower order would be in
-/// the load.
+/// Position of a critical point after the first of two equilibria, and the load difference to the
+/// interpolation of next lower order.
 struct Found {
-  double distance = -1.0;  ///< negative: none
+  double distance = -1.0;  ///< position of the critical point; negative: none
   double change = 0.0;
 };
 
@@ -201,13 +201,13 @@ Found limit_point(const Cubic& path, const PathPoint& before) {
   const double s = path.stationary();
   if (s < 0.0) return {};
   const double load = path.series(s)[0].lambda;
-  // What linear rates alone would have given differs by the next order: times the distance over the path's
-  // length it bounds the cubic's own error.
+  // Linear interpolation of the rates differs by the next order; this difference, times the distance over the
+  // path length, bounds the error of the cubic.
   const double linear = path.length() * path.load_rate_a() / (path.load_rate_a() - path.load_rate_b());
   return {s, std::abs(before.lambda + 0.5 * path.load_rate_a() * linear - load)};
 }
 
-/// Where the determinant is zero: by the parabola through three points, held against the line through two.
+/// Zero of the determinant on the parabola through three points, with the difference to the line through two.
 Found bifurcation(const Segment& segment, const Cubic& path, const PathPoint& middle) {
   const PathPoint& before = segment.from();
   const PathPoint& after = segment.to();
@@ -218,13 +218,13 @@ Found bifurcation(const Segment& segment, const Cubic& path, const PathPoint& mi
   const double slope = (det(after) - d0) / x2;
   const double bend = ((det(middle) - d0) / x1 - slope) / (x1 - x2);
   const double line = -d0 / slope;
-  const double rate = slope - bend * x2;  // of d0 + rate s + bend s^2 at the first point
+  const double rate = slope - bend * x2;  // coefficient in d0 + rate s + bend s^2 at the first point
   const double s = -2.0 * d0 / (rate + std::copysign(std::sqrt(rate * rate - 4.0 * bend * d0), rate));
   if (!(line > 0.0 && line < x2 && s > 0.0 && s < x2)) return {};
   return {s, kReach * std::abs(path.series(s)[0].lambda - path.series(line)[0].lambda)};
 }
 
-/// The critical point that a guess is near to; empty when it can't be told with certainty.
+/// Corrects a predicted critical point; empty when it is uncertain.
 std::optional<Expansion> corrected(PointSolver& solver, const Expansion& guess, int attempts = 3) {
   const Place direction = direction_of(guess, solver.norm());
   const auto before = equilibrium(solver, guess, direction, -guess.reach);
@@ -244,14 +244,14 @@ std::optional<Expansion> corrected(PointSolver& solver, const Expansion& guess, 
   if (found.distance < 0.0) return std::nullopt;
   Expansion node = guess;
   node.series = path.series(found.distance);
-  // The neighbours come nearer, or go farther, so that the error stays well below what is accepted.
+  // Adapts the distance of the equilibria so that the error stays well below the tolerance.
   const double wanted = 0.1 * kInterpolation * std::abs(node.series[0].lambda) / kReach;
   node.reach = guess.reach * std::clamp(std::cbrt(wanted / std::max(found.change, 1e-3 * wanted)), 0.3, 1.2);
   if (found.change <= 10.0 * wanted) return node;
   return attempts > 1 ? corrected(solver, node, attempts - 1) : std::nullopt;
 }
 
-/// Extrapolates (Lagrange) from the latest nodes.
+/// Predicts the critical point by Lagrange extrapolation from the stored nodes.
 Expansion Follower::predicted(double t) const {
   Expansion guess = nodes_.back();
   guess.t = t;
@@ -271,7 +271,7 @@ Expansion Follower::predicted(double t) const {
   return guess;
 }
 
-/// Whether the critical point was found from the nodes; it is the latest of them then.
+/// Predicts and corrects the critical point of a value, and stores it as the latest node; false on failure.
 bool Follower::follow_to(double value, int halvings) {
   if (nodes_.empty()) return false;
   const double t = place_of(value);
@@ -295,7 +295,7 @@ bool Follower::follow_to(double value, int halvings) {
   return follow_to(value, halvings + 1);
 }
 
-/// Traces the path of a value; its critical point becomes the only node when it can be followed.
+/// Traces the path of a value; its critical point becomes the only node if it can be followed.
 CriticalCurvePoint Follower::trace_at(double value) {
   ++curve_.traced;
   nodes_.clear();
@@ -325,7 +325,7 @@ CriticalCurvePoint Follower::trace_at(double value) {
     const CriticalEvent& event = outcome.critical.back();
     point.load_factor = event.point.lambda / member->structure.scales.load;
     point.type = event.type;
-    // what is held where nothing resists it, or acts where supports touch, belongs to the one path
+    // paths with pinned free motions or touching supports have no comparable neighbours
     if (!touching && event.cause == CriticalCause::smooth && event.multiplicity == 1 && !event.point.holds) {
       Expansion guess;
       guess.t = place_of(value);
@@ -347,8 +347,8 @@ CriticalCurvePoint Follower::trace_at(double value) {
   return point;
 }
 
-/// Checks a followed point by its own path; where that has another critical point, all since `first` are
-/// traced.
+/// Checks a followed point by its traced path; if that has another critical point, all values since `first`
+/// are traced.
 void Follower::check_from(std::size_t first, std::size_t last) {
   const std::deque<Expansion> nodes = nodes_;
   std::unique_ptr<Family> measure = std::move(measure_);
@@ -368,7 +368,7 @@ void Follower::check_from(std::size_t first, std::size_t last) {
   followed = trace_at(request_.values[last]);
 }
 
-/// The next value; values before `checked` are certain.
+/// Adds the next value; values before `checked` are verified.
 void Follower::add_value(std::size_t i, std::size_t& checked) {
   const double value = request_.values[i];
   if (!follow_to(value, 0)) {
@@ -394,7 +394,7 @@ CriticalCurve Follower::run() {
       add_value(i, checked);
     }
   });
-  if (!all) curve_.points.resize(checked);  // what was followed since then is not certain
+  if (!all) curve_.points.resize(checked);  // values followed since the last check are unverified
   for (std::size_t i = curve_.points.size(); i < request_.values.size(); ++i)
     curve_.points.push_back({request_.values[i], std::nullopt, CriticalType::limit_max, false, "cancelled"});
   curve_.followed = static_cast<int>(std::count_if(curve_.points.begin(), curve_.points.end(),
