@@ -127,8 +127,7 @@ std::vector<Corner> corners_of(const std::vector<DrawnMember>& members, const St
     const MemberState& moved = state.members.at(member->id);
     const std::size_t i = start ? 0 : member->s.size() - 1;
     const Point n = left_normals(moved.x, moved.y)[i];
-    const double sign = start ? -1 : 1;  // the section force acts on a member's end, its opposite on the
-                                         // start
+    const double sign = start ? -1 : 1;  // the section force acts on a member's end, minus it on the start
     const double normal = sign * moved.shear_force[i];
     const double along = sign * moved.axial_force[i];
     if (corners.empty() || last != std::pair(kx, ky)) {
