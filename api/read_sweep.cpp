@@ -244,7 +244,7 @@ void read_follow(Object& root, SweepData& data) {
   std::string name;
   read(*follow, name);
   if (!follow->document_report().findings().empty()) {
-    return;  // depends on fields with findings
+    return;  // the check needs fields that have findings
   }
   if (name != data.parameters.back().name) {
     follow->report("unknown_reference", "follow names the last parameter, " + data.parameters.back().name);

@@ -161,7 +161,7 @@ std::vector<ModelFoundation> foundations_of(const std::vector<DrawnMember>& memb
     if (foundation.s.size() < 2) {
       continue;
     }
-    double least = kSameForce + 0.2;  // adds the whole displacement term: a base may report its own surface
+    double least = kSameForce + 0.2;  // 0.2 accepts any displacements: a base may report its own surface
     std::optional<ModelFoundation> best;
     for (const DrawnMember& member : members) {
       if (foundation.s.back() > member.s.back() * (1 + 1e-9)) {

@@ -38,7 +38,7 @@ Axes axes_of(const Scene& scene, const View& view, Occupancy& taken) {
   return axes;
 }
 
-/// Passes values and vertices of parabolas through them: a sampled circle of diameter 1 then measures 1.
+/// Passes values and parabola vertices to `include`, so that a sampled circle of diameter 1 measures 1.
 template <class Include>
 void include_with_peaks(const std::vector<double>& values, const Include& include) {
   for (std::size_t i = 0; i < values.size(); ++i) {

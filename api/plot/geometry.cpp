@@ -8,7 +8,7 @@
 namespace snapthrough::api::plot {
 namespace {
 
-using Curve = std::function<Point(double)>;  // point at a parameter from 0 to 1
+using Curve = std::function<Point(double)>;  // returns the point at a parameter from 0 to 1
 
 constexpr double kDegree = std::numbers::pi / 180;
 

@@ -57,7 +57,7 @@ struct Scene {
   SceneInput input;
   std::vector<DrawnMember> members;
   std::map<std::string, Joint> joints;       ///< by node id; empty without a model
-  std::vector<ModelFoundation> foundations;  ///< of the model, or found by foundations_of()
+  std::vector<ModelFoundation> foundations;  ///< from the model, or found by foundations_of()
   std::vector<SupportForce> support_forces;  ///< empty when the model is given
   ModelBox box;
   std::optional<double> mirror;  ///< x of the symmetry axis of a half structure

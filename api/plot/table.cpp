@@ -294,7 +294,7 @@ const Column& parameter(const Table& table, const std::string& name) {
 
 bool is_logarithmic(const Column& column) {
   const std::vector<double> values = distinct_values(column.values);
-  constexpr double kLeastRatio = 8;  // smallest ratio for a logarithm
+  constexpr double kLeastRatio = 8;  // smallest ratio of values for a logarithmic axis
   if (column.names || values.size() < 3 || !(values.front() > 0) ||
       values.back() < kLeastRatio * values.front()) {
     return false;

@@ -18,7 +18,7 @@ namespace snapthrough::server::cli {
 struct SolveOptions {
   bool csv = false;                       ///< write a table instead of the result
   std::optional<api::ResultTable> table;  ///< nullopt: default of the analysis type
-  bool show_progress = false;             ///< on the error stream
+  bool show_progress = false;             ///< show progress on the error stream
 };
 
 /// Solves a request ("-": from `in`) and writes the result or a table to `out`. SIGINT or SIGTERM ends the

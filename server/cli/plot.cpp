@@ -21,7 +21,7 @@ struct PlotArguments {
   std::string request;  ///< file of the solved request; empty: none
   std::string file;     ///< empty: standard output
   std::string kind;
-  std::vector<std::string> where;  ///< as NAME=VALUE
+  std::vector<std::string> where;  ///< conditions NAME=VALUE
   std::optional<double> scale;
   api::PlotRequest figure;
 };

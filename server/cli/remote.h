@@ -33,7 +33,7 @@ int submit_command(const std::string& path, const ServiceOptions& service, const
 
 struct WaitOptions {
   std::optional<double> timeout_s;  ///< seconds; nullopt: no limit
-  bool show_progress = false;       ///< on the error stream
+  bool show_progress = false;       ///< show progress on the error stream
 };
 
 /// @brief Waits for the end of a job or a sweep, and writes its last status to `out`.

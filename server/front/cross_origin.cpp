@@ -65,7 +65,7 @@ void CrossOrigin::mark(std::string_view origin, Response& response) const {
   if (allowed_.empty()) {
     return;
   }
-  response.headers.emplace_back("Vary", "Origin");  // also without an origin, so that caches keep them apart
+  response.headers.emplace_back("Vary", "Origin");  // for every response: caches must separate origins
   if (allows(origin)) {
     response.headers.emplace_back("Access-Control-Allow-Origin", origin);
     response.headers.emplace_back("Access-Control-Expose-Headers", kResponseHeaders);

@@ -241,7 +241,7 @@ void Listener::Server::sweep() {
   const Clock::time_point now = Clock::now();
   for (const ClientPointer& client : all) {
     const std::unique_lock lock(client->mutex, std::try_to_lock);
-    if (lock.owns_lock()) {  // else a thread works on it, so it is not late
+    if (lock.owns_lock()) {  // else a thread uses the client, which is not late
       sweep_one(client, now);
     }
   }

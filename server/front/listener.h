@@ -16,9 +16,9 @@ namespace snapthrough::server::http {
 struct ClientTimes {
   std::chrono::milliseconds idle{75'000};  ///< until the first byte of a request
   std::chrono::milliseconds head{10'000};  ///< from the first byte to the end of the head
-  std::chrono::milliseconds body{60'000};  ///< for the body
+  std::chrono::milliseconds body{60'000};  ///< to receive the body
   std::chrono::milliseconds send{30'000};  ///< until the client takes some bytes of a response
-  std::chrono::milliseconds ping{15'000};  ///< between signs of life on a stream without events
+  std::chrono::milliseconds ping{15'000};  ///< between keep-alive comments on a stream without events
   std::chrono::milliseconds drain{2'000};  ///< for requests and responses under way when the service stops
 };
 

@@ -129,7 +129,7 @@ bool read_request_line(std::string_view line, Head& head) {
   head.method = line.substr(0, first);
   head.target = origin_form(line.substr(first + 1, last - first - 1));
   head.takes_chunks = version == "HTTP/1.1";
-  head.keep_alive = head.takes_chunks;  // a header may change it
+  head.keep_alive = head.takes_chunks;  // default; a header may change it
   return (head.takes_chunks || version == "HTTP/1.0") && !head.target.empty() &&
          head.target.find_first_of(" #") == std::string::npos;
 }

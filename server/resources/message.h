@@ -22,7 +22,7 @@ struct Request {
   std::string method;
   std::string path;  ///< percent-decoded, without the query
   Fields query;      ///< decoded, sorted by name, values of one name in order
-  Fields headers;    ///< in order
+  Fields headers;    ///< in order of arrival
   std::string body;
   std::size_t body_bytes = 0;  ///< size of the received body
   std::string id;              ///< identifies the request in logs and problems

@@ -180,7 +180,7 @@ Response Routes::answer_call(const Request& request, const std::string& name,
     return response;
   }
   if ((*job)->state != JobState::successful) {
-    return result_of(request, **job);  // a refusal
+    return result_of(request, **job);  // returns a refusal
   }
   const StatusOr<std::string> text = whole_result(jobs_.store(), id);
   if (!text.ok()) {

@@ -20,8 +20,8 @@ namespace snapthrough::server {
 /// Counts of deliveries. Thread-safe.
 struct WebhookCounters {
   std::atomic<std::int64_t> delivered = 0;
-  std::atomic<std::int64_t> failed = 0;    ///< attempts
-  std::atomic<std::int64_t> given_up = 0;  ///< deliveries
+  std::atomic<std::int64_t> failed = 0;    ///< failed attempts
+  std::atomic<std::int64_t> given_up = 0;  ///< abandoned deliveries
 };
 
 /// Objects that deliveries use.

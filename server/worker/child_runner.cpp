@@ -65,7 +65,7 @@ void ChildRunner::pass_on(const Frame& news, const Hooks& hooks) {
 struct ChildRunner::Watch {
   std::stop_token stop;
   std::function<bool(Frame&)> take;        ///< @return whether it was the last frame
-  std::function<bool()> enough = nullptr;  ///< see UnitTask
+  std::function<bool()> enough = nullptr;  ///< UnitTask::enough; null for jobs
 };
 
 ChildRunner::ChildRunner(ChildRunnerOptions options, RunnerCounters& counters)

@@ -72,7 +72,7 @@ class ChildRunner final : public Runner {
   pid_t process_ = 0;
   int socket_ = -1;
   int control_ = -1;
-  FrameReceiver received_;                       ///< of the current process
+  FrameReceiver received_;                       ///< bytes received from the current process
   std::uint64_t task_ = 0;                       ///< task of the current process, from 1
   int alarm_ = -1;                               ///< eventfd: a stop was requested
   std::string ended_by_;                         ///< how the last crashed process ended

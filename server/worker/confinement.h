@@ -32,9 +32,9 @@ class MemoryBound {
   [[nodiscard]] std::int64_t peak() const;
 
  private:
-  int pages_;   ///< /proc/self/statm; -1: absent
-  int status_;  ///< /proc/self/status
-  int reset_;   ///< /proc/self/clear_refs
+  int pages_;   ///< descriptor of /proc/self/statm; -1: absent
+  int status_;  ///< descriptor of /proc/self/status
+  int reset_;   ///< descriptor of /proc/self/clear_refs
   std::int64_t resident_before_ = 0;
 };
 

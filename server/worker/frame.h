@@ -18,7 +18,7 @@ enum class FrameType : std::uint32_t {
   stop,    ///< number of a task: end it
   // from the runner
   news,      ///< progress, critical points and path points since the last news
-  job_run,   ///< JobRun
+  job_run,   ///< outcome of a job (JobRun)
   outcomes,  ///< outcomes of the points of units, in order
   done       ///< end of a list of units
 };

@@ -124,7 +124,7 @@ class Control {
   std::mutex mutex_;
   std::stop_source stop_;
   std::uint64_t stopped_ = 0;
-  std::atomic<std::uint64_t> task_ = 0;  ///< counted from 1
+  std::atomic<std::uint64_t> task_ = 0;  ///< number of the current task, from 1
   std::atomic<std::uint64_t> enough_ = 0;
 };
 

@@ -21,7 +21,7 @@ inline constexpr std::string_view kSolveRequest = "solve-request";
 /// A component, or the errors of its file.
 struct Entry {
   std::shared_ptr<const Definition> definition;  ///< null exactly when there are errors
-  std::vector<std::string> errors;               ///< sentences
+  std::vector<std::string> errors;               ///< errors of the file, as sentences
 };
 
 /// @brief The components of the service. Thread-safe.
