@@ -47,8 +47,8 @@ struct Polyline {
 
 /// Value of an output in a result.
 struct ComponentValue {
-  nlohmann::json value;         ///< for an output that is a place; null: the result has no value there
-  std::vector<Polyline> lines;  ///< for kPathOutput and kShapeOutput
+  nlohmann::json value;         ///< value at the output's place; null: none there
+  std::vector<Polyline> lines;  ///< polylines of kPathOutput and kShapeOutput
 };
 
 /// Names of the outputs that are polylines.
@@ -57,7 +57,7 @@ inline constexpr std::string_view kShapeOutput = "shape";
 
 /// Outcome of a call. Either `findings` is not empty or `document` is not null.
 struct ComponentCall {
-  std::vector<Finding> findings;  ///< the pointer is "/" and the input's name
+  std::vector<Finding> findings;  ///< pointers are "/" and an input's name
   nlohmann::json document;        ///< the request document
 };
 

@@ -38,7 +38,7 @@ class JsonPieces {
   int depth_ = 0;
   bool in_string_ = false;
   bool escaped_ = false;
-  bool wanted_ = false;  ///< the parser is inside the member
+  bool wanted_ = false;  ///< the read position is inside the member
   std::string name_;     ///< last text at depth 1
   std::string value_;    ///< incomplete text of the next value
   std::deque<std::string> complete_;

@@ -14,8 +14,8 @@ namespace snapthrough::api {
 
 /// Limits of a JSON text; the parser stops where a text exceeds them.
 struct ParseLimits {
-  int depth = 64;                  ///< nesting of arrays and objects, >= 1
-  std::size_t values = 1'000'000;  ///< number of values, containers included, >= 1
+  int depth = 64;                  ///< largest nesting of arrays and objects, >= 1
+  std::size_t values = 1'000'000;  ///< largest number of values, containers included, >= 1
 };
 
 /// Outcome of parsing: either `document` is not null or `findings` is not empty.

@@ -271,7 +271,7 @@ SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document, st
   if (read_design(root, *data)) {
     read_parameters(root, *data);
   } else {
-    static_cast<void>(root.find("parameters"));  // known field; its rules need the design
+    static_cast<void>(root.find("parameters"));  // marks it as known; its rules need the design
   }
   const bool targets_known = report.findings().empty();
   read_outputs(root, *data);

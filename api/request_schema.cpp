@@ -25,7 +25,7 @@ std::string within(const std::string& object, std::string_view name) {
 std::string kind_of(std::string_view pointer) {
   std::string kind;
   while (!pointer.empty()) {
-    pointer.remove_prefix(1);  // skips the slash
+    pointer.remove_prefix(1);  // without the leading slash
     const std::string_view token = pointer.substr(0, pointer.find('/'));
     pointer.remove_prefix(token.size());
     const bool is_index = !token.empty() && token.find_first_not_of("0123456789") == std::string_view::npos;

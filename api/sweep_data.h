@@ -40,7 +40,7 @@ struct SweepTarget {
 struct SweepParameter {
   std::string name;
   std::vector<SweepTarget> targets;
-  std::vector<nlohmann::json> values;  ///< empty when the parameter has a range
+  std::vector<nlohmann::json> values;  ///< listed values; empty when the parameter has a range
   std::vector<std::string> labels;     ///< texts that replace the values in tables; empty: none
   std::optional<SweepRange> range;
 

@@ -108,7 +108,7 @@ void check_outputs(const SweepData& data, Report& report) {
     const std::vector<std::string>& tokens = data.outputs[i].tokens;
     const std::string at = "/outputs/" + std::to_string(i);
     if (tokens.empty()) {
-      continue;  // reported before
+      continue;  // an invalid pointer was reported before
     }
     if (const auto nowhere = find_no_such_place(tokens, ids_in)) {
       report.add(at, nowhere->unknown_id ? "unknown_reference" : "unknown_field", nowhere->detail);

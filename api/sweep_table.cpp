@@ -128,7 +128,7 @@ void TableWriter::append_json(std::uint64_t point, const PointOutcome& outcome, 
     }
     text += dumped(error_of(outcome));
   } else {
-    text.append(outcome.outputs, 1, outcome.outputs.size() - 2);  // skips the brackets
+    text.append(outcome.outputs, 1, outcome.outputs.size() - 2);  // without the brackets
     text += ",null";
   }
   text += ']';

@@ -25,8 +25,8 @@ inline constexpr Named<TableForm> kTableForms[] = {
 
 /// Links to the points of a table; `{point}` stands for the point's number.
 struct PointLinks {
-  std::string request;  ///< GET: request document of a point
-  std::string job;      ///< POST: submits the request of a point as a job
+  std::string request;  ///< GET returns the request document of a point
+  std::string job;      ///< POST submits the request of a point as a job
 };
 
 /// Returns the form with a name; nullopt for an unknown name.

@@ -64,7 +64,7 @@ std::vector<std::string> owners_of(const std::string& field, const std::string& 
 
 std::string_view nearest_name(std::string_view written, std::span<const std::string_view> names) {
   constexpr std::size_t kLongest = 40;
-  constexpr std::size_t kMostLetters = 2;  // largest edit distance
+  constexpr std::size_t kMostLetters = 2;  // largest edit distance to a suggested name
   std::string_view best;
   std::size_t best_distance = kMostLetters + 1;
   if (written.size() > kLongest) {
@@ -72,7 +72,7 @@ std::string_view nearest_name(std::string_view written, std::span<const std::str
   }
   for (const std::string_view name : names) {
     if (name.size() > written.size() && name.starts_with(written) && name[written.size()] == '_') {
-      return name;  // first words of a name
+      return name;  // `written` is the first words of `name`
     }
     const std::size_t distance = edit_distance(written, name);
     if (distance < best_distance && 2 * distance < written.size()) {
@@ -131,7 +131,7 @@ std::optional<Value> Value::member(std::string_view key) const {
   if (found == json_->end()) {
     return std::nullopt;
   }
-  return Value(*found, path_.with(found.key()), *report_);  // the document owns the key
+  return Value(*found, path_.with(found.key()), *report_);  // the key belongs to the document
 }
 
 std::vector<std::string> Value::keys() const {
@@ -178,7 +178,7 @@ void read(const Value& value, int& out) {
     value.report_type("an integer");
     return;
   }
-  const double number = value.json().get<double>();  // exact up to 2^53
+  const double number = value.json().get<double>();  // exact up to 2^53, monotonic beyond
   if (!(std::floor(number) == number)) {
     value.report("wrong_type", "expected an integer, got " + checks::text(number));
   } else if (number < std::numeric_limits<int>::min() || number > std::numeric_limits<int>::max()) {

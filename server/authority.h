@@ -9,8 +9,8 @@ namespace snapthrough::server {
 
 /// The parts of `host` or `host:port`, not validated.
 struct Authority {
-  std::string_view host;                 ///< IPv6 addresses keep their brackets
-  std::optional<std::string_view> port;  ///< nullopt without a colon after the host
+  std::string_view host;                 ///< host; an IPv6 address keeps its brackets
+  std::optional<std::string_view> port;  ///< text after the colon; nullopt without colon
 
   /// @return views into `text`, which must outlive them
   [[nodiscard]] static Authority of(std::string_view text);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMostWorkers = 1024;
 constexpr int kMostConnections = 64;
-constexpr std::size_t kMostCallbackHosts = 16;  // one or two threads for each
+constexpr std::size_t kMostCallbackHosts = 16;  // each host needs one or two threads
 
 bool is_digest(const std::string& text) {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;

@@ -26,9 +26,9 @@ struct ConfigMistake {
 
 /// Settings of the service; every field has a working default.
 struct ServiceConfig {
-  http::ListenerOptions listener;             ///< must be loopback without keys
+  http::ListenerOptions listener;             ///< sockets; the host must be loopback without keys
   http::WaitLimits waits;                     ///< how long clients may wait for results
-  std::vector<http::ApiKey> keys;             ///< empty: requests are not authenticated
+  std::vector<http::ApiKey> keys;             ///< accepted keys; empty: requests are not authenticated
   std::vector<std::string> allowed_origins;   ///< origins whose pages may use the service; exact match
   std::string store_path = "snapthrough.db";  ///< SQLite file in an existing folder, or postgresql://...
   int store_connections = 4;                  ///< connections of this process to a database
@@ -41,7 +41,7 @@ struct ServiceConfig {
   std::string hops_folder;                           ///< Grasshopper components; empty: built-in ones
   std::int64_t ballast_bytes = 4 * 1024 * 1024;      ///< reserve on the disk of the store; 0: none
   std::int64_t least_free_bytes = 64 * 1024 * 1024;  ///< bytes free on that disk below which jobs are refused
-  std::chrono::seconds drain_delay{0};               ///< from SIGTERM to the stop of workers
+  std::chrono::seconds drain_delay{0};               ///< time from SIGTERM to the stop of workers
   LogLevel log_level = LogLevel::info;
   std::optional<std::pair<std::string, int>>
       observe;        ///< host and port for the state of a process that is no front; nullopt: none

@@ -17,7 +17,7 @@ using Time = std::chrono::sys_time<std::chrono::microseconds>;
 /// Access to clocks and random numbers. Each function must be callable from any thread.
 struct Environment {
   std::function<Time()> now;                   ///< wall clock, for time stamps
-  std::function<double()> monotonic_seconds;   ///< for durations; the origin is arbitrary
+  std::function<double()> monotonic_seconds;   ///< for durations, from an arbitrary origin
   std::function<std::uint64_t()> random_bits;  ///< 64 unpredictable bits
 
   /// Returns the system's clocks and random numbers.

@@ -37,7 +37,7 @@ Setting whole(std::string name, std::string help, Field field) {
             return std::nullopt;
           },
           [field](const ServiceConfig& config) {
-            return std::to_string(field(const_cast<ServiceConfig&>(config)));  // read only
+            return std::to_string(field(const_cast<ServiceConfig&>(config)));  // only read
           }};
 }
 
@@ -55,7 +55,7 @@ Setting duration(std::string name, std::string help, Field field) {
             return std::nullopt;
           },
           [field](const ServiceConfig& config) {
-            return std::to_string(field(const_cast<ServiceConfig&>(config)).count());  // read only
+            return std::to_string(field(const_cast<ServiceConfig&>(config)).count());  // only read
           }};
 }
 
@@ -111,7 +111,7 @@ Setting text(std::string name, std::string help, Field field) {
             return std::nullopt;
           },
           [field](const ServiceConfig& config) {
-            return field(const_cast<ServiceConfig&>(config));  // read only
+            return field(const_cast<ServiceConfig&>(config));  // only read
           }};
 }
 
@@ -129,7 +129,7 @@ Setting text_list(std::string name, std::string help, Field field) {
           },
           [field](const ServiceConfig& config) {
             std::string text;
-            for (const std::string& entry : field(const_cast<ServiceConfig&>(config))) {  // read only
+            for (const std::string& entry : field(const_cast<ServiceConfig&>(config))) {  // only read
               text += (text.empty() ? "" : ",") + entry;
             }
             return text;

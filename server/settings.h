@@ -31,7 +31,7 @@ struct Setting {
 struct SettingSources {
   std::string file;                                        ///< TOML file; empty: none
   std::map<std::string, std::string> environment;          ///< variables that begin with kVariablePrefix
-  std::vector<std::pair<std::string, std::string>> flags;  ///< by setting name
+  std::vector<std::pair<std::string, std::string>> flags;  ///< values by setting name
 };
 
 /// Prefix of variables that are settings or kConfigVariable; any other variable with it is an error.

@@ -24,7 +24,7 @@ enum class StatusCode {
 /// Outcome of an operation without a value. Copyable, immutable after construction.
 class [[nodiscard]] Status {
  public:
-  Status() = default;  ///< ok
+  Status() = default;  ///< the status `ok`
   Status(StatusCode code, std::string message) : code_(code), message_(std::move(message)) {}
 
   [[nodiscard]] bool ok() const { return code_ == StatusCode::ok; }

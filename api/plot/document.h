@@ -14,8 +14,7 @@
 
 namespace snapthrough::api::plot {
 
-inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  ///< a number that is absent or
-                                                                           ///< null
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  ///< absent or null number
 
 /// @brief A JSON value with its JSON Pointer. Refers to the document, which must outlive the Field.
 ///

@@ -193,7 +193,7 @@ std::vector<Shape> placed(const std::vector<LabelRequest>& labels, Occupancy& ta
 
 std::vector<Shape> draw_structure(const Scene& scene, const View& view, Size size, const std::string& caption,
                                   std::vector<Shape> over, Occupancy& taken) {
-  taken.add_box({0, 0, size.width, 18});  // room for the caption
+  taken.add_box({0, 0, size.width, 18});  // reserves the caption's room
   const Shape dimensions = dimension_shape(scene, view, size, taken);
   Axes axes = axes_of(scene, view, taken);
   Part monitors = monitor_part(scene, view, taken);

@@ -31,7 +31,7 @@ Curve over_chord(Point start, Point end, std::function<double(double)> offset) {
 Curve arc(double sweep, Point start, Point end) {
   const double chord = std::hypot(end.x - start.x, end.y - start.y);
   const double direction = std::atan2(end.y - start.y, end.x - start.x);
-  const double radius = chord / (2 * std::sin(sweep / 2));  // has the sign of the sweep
+  const double radius = chord / (2 * std::sin(sweep / 2));  // radius < 0 for a negative sweep
   const double angle = direction - sweep / 2;
   return [=](double t) {
     return Point{start.x + radius * (std::sin(angle + t * sweep) - std::sin(angle)),

@@ -117,7 +117,7 @@ void add_mirrored(std::vector<std::vector<Pixel>>& all, double twice) {
 /// Returns the reaction drawn as the ground's depth: the largest, but at least 2 % of the line loads and at
 /// least the rounding.
 double reference_reaction(const Scene& scene) {
-  constexpr double kRounding = 1e-6;  // relative to axial force / extent
+  constexpr double kRounding = 1e-6;  // of axial force / extent; smaller reactions are zero
   double largest = 0;
   if (scene.input.model != nullptr) {
     for (const ModelLoad& load : scene.input.model->loads) {
@@ -145,7 +145,7 @@ struct Profile {
   std::vector<Pixel> base;
   std::vector<Pixel> tips;
   Pixel peak;
-  double value = 0;  ///< reaction of the largest size, signed
+  double value = 0;  ///< signed value of the largest |reaction|
 };
 
 Profile profile_of(const View& view, const ModelFoundation& foundation, const DrawnMember& member,

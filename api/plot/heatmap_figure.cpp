@@ -85,7 +85,7 @@ std::vector<std::size_t> cells_of(const Map& map) {
     throw PlotError("/rows", "has no row with a value of both " + map.x.name + " and " + map.y.name);
   }
   if (columns * map.ys.size() > 2 * rows) {
-    return {};  // less than half of the cells have a row
+    return {};  // less than half of the cells have a row: no grid
   }
   std::vector<std::size_t> cells(columns * map.ys.size(), kNoRow);
   for (std::size_t row = 0; row < map.x.values.size(); ++row) {

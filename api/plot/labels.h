@@ -53,7 +53,7 @@ struct LabelRequest {
   int prefer = 7;         ///< preferred direction: 0 right, then clockwise in steps of 45 degrees
   bool leader = false;    ///< a line joins the anchor and a label beyond the first ring
   int rings = 4;          ///< number of rings around the anchor to try; 1 keeps the label at the anchor
-  double tolerance = 60;  ///< largest cost of a position; a label that would cost more is left out
+  double tolerance = 60;  ///< labels whose cheapest position costs more are left out
 };
 
 /// Draws a label at its cheapest position and adds its box to `taken`; nullopt above the tolerance.

@@ -174,7 +174,7 @@ std::string looks(bool dark) {
     text.append(coloured(rest.substr(open, close - open), dark)).append("\n");
     rest.remove_prefix(close);
   }
-  return text + "}\n";  // ends the @ rule
+  return text + "}\n";  // the last } ends the @ rule
 }
 
 constexpr double kMargin = 14;

@@ -46,7 +46,7 @@ struct ModelSpring {
 struct ModelFoundation {
   std::string id, member;
   double side = 1;                 ///< 1: the medium is left of the member, -1: right of it
-  std::optional<Point> direction;  ///< unit vector into the medium; nullopt: the normal
+  std::optional<Point> direction;  ///< unit vector into the medium; nullopt: along the normal
   bool one_sided = false;
   bool compression_only = false;
   double gap = 0;
@@ -56,7 +56,7 @@ struct ModelFoundation {
 struct ModelLoad {
   enum class Type { point, distributed, pressure, initial_strain };
   Type type = Type::point;
-  Location at;  ///< point load: its point; other loads: the member
+  Location at;  ///< location of a point load; other loads: only its member is set
   Point force;  ///< force of a point load; per length for a distributed one
   double moment = 0;
   double value = 0;  ///< pressure, positive when it pushes from `side`
@@ -71,7 +71,7 @@ struct ModelLoad {
 struct ModelMonitor {
   std::string id;
   Location at;
-  std::string component;  ///< "x", "y", "rotation", "normal"
+  std::string component;  ///< direction: "x", "y", "rotation" or "normal"
 };
 
 /// The model of a request, with members in the order of the request.

@@ -15,7 +15,7 @@ struct Vertex {
   double x = 0;
   double y = 0;
   double arc = 0;
-  std::optional<double> negative;  ///< nullopt: critical point; kNone: not counted
+  std::optional<double> negative;  ///< eigenvalues; nullopt: critical point; kNone: not counted
 };
 
 enum class Stability { stable, unstable, not_counted };
@@ -28,7 +28,7 @@ struct Curve {
 
 /// Quantity on the horizontal axis.
 struct Abscissa {
-  std::string monitor;  ///< empty: the arc length
+  std::string monitor;  ///< id of the monitor; empty: the arc length
   double sign = 1;      ///< -1: the axis shows minus the monitor
 };
 

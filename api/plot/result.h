@@ -20,9 +20,9 @@ using Monitors = std::map<std::string, std::vector<double>>;
 /// Rows of a branch of a path, or of a static analysis; lists of equal length.
 struct Branch {
   std::vector<double> load_factor;
-  std::vector<double> arc_length;  ///< static analysis: the row's index
+  std::vector<double> arc_length;  ///< arc length of the path; static analysis: row's index
   Monitors monitors;
-  std::vector<double> negative_eigenvalues;  ///< kNone: not counted
+  std::vector<double> negative_eigenvalues;  ///< number at each row; kNone: not counted
 };
 
 struct CriticalPoint {

@@ -10,7 +10,7 @@
 namespace snapthrough::api::plot {
 namespace {
 
-constexpr double kGroundDepth = 0.13;  // relative to the extent
+constexpr double kGroundDepth = 0.13;  // depth of the ground relative to the extent
 
 void set_normals(DrawnMember& member) {
   member.normals = left_normals(member.x0, member.y0);
@@ -319,7 +319,7 @@ std::optional<Place> place_of(const Scene& scene, const Location& location) {
 }
 
 double suggested_factor(const Scene& scene) {
-  constexpr double kVisible = 1.0 / 60;  // relative to the extent
+  constexpr double kVisible = 1.0 / 60;  // displacement relative to the extent
   constexpr double kWanted = 1.0 / 12;
   double largest = 0;
   for (const DrawnMember& member : scene.members) {

@@ -46,7 +46,7 @@ struct ModelBox {
 
 struct SceneInput {
   const Model* model = nullptr;  ///< null: the model is not given
-  const State* state = nullptr;  ///< null: undeformed structure
+  const State* state = nullptr;  ///< null: the undeformed structure is drawn
   const Mode* mode = nullptr;
   Units units;
   double factor = 1;  ///< factor of displacements
@@ -56,9 +56,9 @@ struct SceneInput {
 struct Scene {
   SceneInput input;
   std::vector<DrawnMember> members;
-  std::map<std::string, Joint> joints;       ///< by node id; empty without a model
+  std::map<std::string, Joint> joints;       ///< joints by node id; empty without a model
   std::vector<ModelFoundation> foundations;  ///< from the model, or found by foundations_of()
-  std::vector<SupportForce> support_forces;  ///< empty when the model is given
+  std::vector<SupportForce> support_forces;  ///< support forces found in the state; empty with a model
   ModelBox box;
   std::optional<double> mirror;  ///< x of the symmetry axis of a half structure
   double extent = 1;             ///< larger side of the undeformed structure's bounding box

@@ -22,7 +22,7 @@ struct SectionPanel {
   std::string name;   ///< title, such as "axial force N"
   std::string looks;  ///< CSS class: section-N, section-Q or section-M
   std::string unit;
-  std::vector<SectionLine> lines;  ///< one for each member, in the order of members
+  std::vector<SectionLine> lines;  ///< one line for each member, in the order of members
   double negligible = 0;           ///< values up to this size are drawn as zero
 };
 

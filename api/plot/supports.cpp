@@ -73,7 +73,7 @@ double clamp_angle(const Joint& joint) {
 }
 
 Shape support_shape(const ModelSupport& support, const Joint& joint, Pixel at) {
-  const double turn = -support.angle * kPi / 180;  // pixels have y down
+  const double turn = -support.angle * kPi / 180;  // y of pixels points down
   std::vector<Shape> shapes;
   if (support.x && support.y) {
     const SymbolAxes axes =

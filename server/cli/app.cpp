@@ -39,7 +39,7 @@ struct Arguments {
   std::vector<std::string> parts;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string config_file;
-  std::map<std::string, std::string> settings;  ///< given values by name of the setting
+  std::map<std::string, std::string> settings;  ///< values by name of the setting
   std::string store = "snapthrough.db";
   std::string target;
   std::string address = "127.0.0.1:8080";

@@ -17,7 +17,7 @@ namespace snapthrough::server::cli {
 
 struct SolveOptions {
   bool csv = false;                       ///< write a table instead of the result
-  std::optional<api::ResultTable> table;  ///< nullopt: default of the analysis type
+  std::optional<api::ResultTable> table;  ///< the table; nullopt: default of the analysis type
   bool show_progress = false;             ///< show progress on the error stream
 };
 
@@ -31,10 +31,10 @@ int check_command(const std::string& path, const Streams& streams);
 struct SweepOptions {
   api::TableForm form = api::TableForm::json;
   int threads = 1;                     ///< number of points solved at a time, >= 1; does not change rows
-  bool show_progress = false;          ///< a bar on the error stream; rows must not go there
+  bool show_progress = false;          ///< show a bar on the error stream; rows must not go there
   std::optional<std::uint64_t> point;  ///< write only the request of this point
   std::string out;  ///< part file for the rows (server/cli/part_file.h); empty: a table on `out`
-  SweepPart part;   ///< part of the points; default: all
+  SweepPart part;   ///< part of the sweep to solve; default: all
 };
 
 /// Solves a sweep and writes its rows to `out` in design order. When a point fails, its row has the reason

@@ -88,7 +88,7 @@ void PartReader::refuse(const std::string& why) const { throw std::runtime_error
 std::optional<std::string> PartReader::next_line() {
   std::string line;
   if (!std::getline(file_, line) || file_.eof()) {
-    return std::nullopt;  // a line without end was interrupted while written
+    return std::nullopt;  // a line without end is incomplete
   }
   bytes_ += line.size() + 1;
   return line;

@@ -19,7 +19,7 @@ namespace snapthrough::server::cli {
 struct PlotArguments {
   std::string document;
   std::string request;  ///< file of the solved request; empty: none
-  std::string file;     ///< empty: standard output
+  std::string file;     ///< file to write; empty: standard output
   std::string kind;
   std::vector<std::string> where;  ///< conditions NAME=VALUE
   std::optional<double> scale;

@@ -158,7 +158,7 @@ std::optional<Submission> prepare(const std::string& text, const std::string& la
 
 /// Path and status document of a job or sweep.
 struct Found {
-  std::string path;  ///< "/v1/jobs/ID" or "/v1/sweeps/ID"
+  std::string path;  ///< path "/v1/jobs/ID" or "/v1/sweeps/ID"
   json status;
   bool is_sweep = false;
 };

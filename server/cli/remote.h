@@ -13,14 +13,14 @@ namespace snapthrough::server::cli {
 /// Address of the service and options of requests.
 struct ServiceOptions {
   std::string url = "http://127.0.0.1:8080";
-  std::string key_file;      ///< its first line is the key; empty: no key
+  std::string key_file;      ///< file whose first line is the key; empty: no key
   std::string certificates;  ///< PEM file to verify https; empty: certificates of the system
   int patience_s = 60;       ///< seconds for which a request is repeated, >= 0
 };
 
 struct SubmitOptions {
-  std::string label;            ///< empty: no label
-  std::string idempotency_key;  ///< empty: a random one
+  std::string label;            ///< label of the job; empty: none
+  std::string idempotency_key;  ///< Idempotency-Key; empty: a random one
 };
 
 /// @brief Submits a request or a sweep, and writes its id to `out`.
@@ -32,7 +32,7 @@ int submit_command(const std::string& path, const ServiceOptions& service, const
                    const Streams& streams);
 
 struct WaitOptions {
-  std::optional<double> timeout_s;  ///< seconds; nullopt: no limit
+  std::optional<double> timeout_s;  ///< longest wait in seconds; nullopt: no limit
   bool show_progress = false;       ///< show progress on the error stream
 };
 
@@ -45,7 +45,7 @@ int wait_command(const std::string& id, const ServiceOptions& service, const Wai
 
 struct FetchOptions {
   bool csv = false;
-  bool ndjson = false;  ///< only for sweeps
+  bool ndjson = false;  ///< write NDJSON; only for sweeps
   std::string table;    ///< CSV table of a job; empty: default of the analysis type
   std::string output;   ///< file to write; empty: `out`
 };

@@ -15,7 +15,7 @@ namespace snapthrough::server::cli {
 
 /// Address of a service.
 struct ServiceAddress {
-  std::string origin;  ///< such as "https://host:port"
+  std::string origin;  ///< origin such as "https://host:port"
   std::string base;    ///< path before that of each resource, without a slash at its end; often empty
 };
 
@@ -28,7 +28,7 @@ struct Answer {
   int status = 0;                              ///< HTTP status; 0: no complete response
   std::string trouble;                         ///< why there is no complete response
   std::string body;                            ///< complete body
-  std::map<std::string, std::string> headers;  ///< names in lower case
+  std::map<std::string, std::string> headers;  ///< by name in lower case
 
   [[nodiscard]] std::string header(const std::string& name) const;
 };

@@ -129,7 +129,7 @@ class RowQueue {
     try {
       write_whole_rows();
     } catch (...) {
-      failure_ = std::current_exception();  // finish() rethrows
+      failure_ = std::current_exception();  // finish() rethrows it
       room_.notify_all();
     }
     show_bar(false);
@@ -183,7 +183,7 @@ class RowQueue {
   std::uint64_t given_;         ///< next unit to hand out
   std::uint64_t next_row_;      ///< point of the next row
   std::exception_ptr failure_;  ///< exception of the sink
-  std::uint64_t done_ = 0;      ///< number of points
+  std::uint64_t done_ = 0;      ///< number of computed points
   std::uint64_t failed_ = 0;
   const Clock::time_point start_ = Clock::now();
   Clock::time_point next_bar_ = start_;

@@ -40,7 +40,7 @@ std::size_t ChunkedBody::take(std::string_view bytes) {
         break;
     }
     taken += now;
-    if (state_ == before) {  // the rest is incomplete
+    if (state_ == before) {  // the rest of the bytes is incomplete
       break;
     }
   }

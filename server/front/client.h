@@ -87,13 +87,13 @@ struct Client {
   std::size_t output_sent = 0;
   bool close_after = false;              ///< close the connection after the response
   bool linger_after = false;             ///< wait for the client before closing
-  bool head_only = false;                ///< the request was HEAD
+  bool head_only = false;                ///< the request was HEAD: send no body
   bool chunked = false;                  ///< send a body with `rest` in chunks
   std::shared_ptr<BodySource> rest;      ///< rest of the body after `output`
   std::function<Response()> work;        ///< computes the response in its turn
   std::size_t work_bytes = 0;            ///< memory in use by `work`
   std::uint64_t deferral = 0;            ///< counts deferred responses
-  std::shared_ptr<Outbox> outbox;        ///< pieces of a stream
+  std::shared_ptr<Outbox> outbox;        ///< pieces of the stream that wait
   std::shared_ptr<StreamSource> source;  ///< fills the outbox
 };
 

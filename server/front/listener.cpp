@@ -219,13 +219,13 @@ void Listener::Server::accept_all() {
     }
     const std::uint64_t id = next_id_++;
     auto client = std::make_shared<Client>(socket, id, remote, options_.limits);
-    owned.release();  // the Client closes it
+    owned.release();  // the Client closes the socket
     client->deadline = Clock::now() + options_.times.idle;
     clients_.emplace(id, client);
     watch(socket, id, EPOLLIN | EPOLLONESHOT, EPOLL_CTL_ADD);
   }
   if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) {
-    std::this_thread::sleep_for(kSweep);  // poll() would return at once
+    std::this_thread::sleep_for(kSweep);  // without it poll() returns at once
   }
 }
 
@@ -290,7 +290,7 @@ void Listener::Server::attend(const ClientPointer& client, std::uint32_t events)
       return rearm(*client, EPOLLIN);
     case Phase::in_row:
     case Phase::deferred:
-      return drop(*client);  // watched for the end of the connection only
+      return drop(*client);  // these phases watch for the end only
     case Phase::closed:
       return;
   }
@@ -327,7 +327,7 @@ void Listener::Server::read_and_serve(const ClientPointer& client) {
     }
     drained = read == Client::Read::drained;
   }
-  rearm(*client, EPOLLIN | EPOLLOUT);  // fires at once, after other connections
+  rearm(*client, EPOLLIN | EPOLLOUT);  // fires at once, after others
 }
 
 /// Records an incomplete request. Returns false when there is no memory left for its body.
@@ -426,7 +426,7 @@ bool Listener::Server::deliver(const ClientPointer& client, Response response) {
 
 /// Sends a response, or refuses a large one when too many bytes are being sent.
 bool Listener::Server::begin_body(const ClientPointer& client, const Response& response) {
-  const std::size_t waiting = client->output.size();  // a 100 Continue
+  const std::size_t waiting = client->output.size();  // size of a "100 Continue"
   client->close_after = client->close_after || (response.rest && !client->chunked);
   client->output += to_bytes(response, client->head_only, !client->close_after, client->chunked);
   client->rest = client->head_only ? nullptr : response.rest;
@@ -523,7 +523,7 @@ bool Listener::Server::send_on(const ClientPointer& client) {
     const bool has_room = buffered_.fetch_add(kPieceBytes) <= options_.limits.buffered_bytes;
     const bool whole = !has_room || append_piece(client);
     buffered_ -= kPieceBytes;
-    if (!has_room) {  // until other clients have read
+    if (!has_room) {  // waits until other clients have read
       return wait_to_send(client, 0, Clock::now() + kSweep);
     }
     if (!whole) {
@@ -531,7 +531,7 @@ bool Listener::Server::send_on(const ClientPointer& client) {
       return false;
     }
   }
-  return wait_to_send(client, EPOLLOUT, Clock::now() + options_.times.send);  // after other clients
+  return wait_to_send(client, EPOLLOUT, Clock::now() + options_.times.send);  // lets other clients continue
 }
 
 bool Listener::Server::wait_to_send(const ClientPointer& client, std::uint32_t events,

@@ -14,20 +14,20 @@ namespace snapthrough::server::http {
 
 /// Time limits for clients.
 struct ClientTimes {
-  std::chrono::milliseconds idle{75'000};  ///< until the first byte of a request
+  std::chrono::milliseconds idle{75'000};  ///< to the first byte of a request
   std::chrono::milliseconds head{10'000};  ///< from the first byte to the end of the head
   std::chrono::milliseconds body{60'000};  ///< to receive the body
-  std::chrono::milliseconds send{30'000};  ///< until the client takes some bytes of a response
-  std::chrono::milliseconds ping{15'000};  ///< between keep-alive comments on a stream without events
+  std::chrono::milliseconds send{30'000};  ///< for a client to take some bytes of a response
+  std::chrono::milliseconds ping{15'000};  ///< between comments on a stream without events
   std::chrono::milliseconds drain{2'000};  ///< for requests and responses under way when the service stops
 };
 
 /// Options of a listener.
 struct ListenerOptions {
   std::string host = "127.0.0.1";
-  int port = 8080;           ///< 0: any free port
+  int port = 8080;           ///< port; 0: any free one
   int threads = 32;          ///< requests computed at a time; others wait
-  int connections = 10'000;  ///< open at a time; further ones are refused with 503
+  int connections = 10'000;  ///< open connections; further ones are refused with 503
   int streams = 200;         ///< open server-sent event streams; further ones are refused with 503
   HeadLimits limits;
   ClientTimes times;

@@ -32,7 +32,7 @@ struct Refusal {
 struct Head {
   std::string method;
   std::string target;  ///< path and query, not decoded
-  Fields headers;      ///< in order, values trimmed
+  Fields headers;      ///< headers in order, values trimmed
   std::size_t body_bytes = 0;
   bool chunked = false;            ///< the body is chunked; its size is unknown
   bool keep_alive = false;         ///< the connection stays open for another request

@@ -17,7 +17,7 @@
 namespace snapthrough::server::http {
 namespace {
 
-constexpr int kBacklog = 4096;  // the kernel reduces it to its limit
+constexpr int kBacklog = 4096;  // the kernel reduces it to its own limit
 
 Status cannot_listen(const std::string& host, int port, const std::string& cause) {
   return {StatusCode::unavailable, "cannot listen on " + host + ":" + std::to_string(port) + ": " + cause};

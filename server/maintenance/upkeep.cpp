@@ -78,7 +78,7 @@ void Upkeep::rescue(Time now) {
   const StatusOr<Recovery> recovery =
       context_.store.rescue(context_.new_lease().worker, context_.limits.max_crashes, now);
   if (!recovery.ok()) {
-    return;  // repeated soon; look_at_disk() reports it
+    return;  // the next run repeats it; look_at_disk() reports failures
   }
   log_recovery(context_.log, *recovery, "the lease of the worker ran out");
   for (const std::string& id : recovery->failed) {

@@ -46,7 +46,7 @@ class Histogram {
   static constexpr std::array kBounds{0.0001, 0.0005, 0.001, 0.005, 0.01, 0.05,  0.1,
                                       0.5,    1.0,    5.0,   10.0,  60.0, 600.0, 3600.0};
   struct Series {
-    std::array<std::uint64_t, kBounds.size() + 1> counts{};  ///< one for each interval of kBounds
+    std::array<std::uint64_t, kBounds.size() + 1> counts{};  ///< count of each interval of kBounds
     double sum = 0.0;
   };
   std::string_view name_;

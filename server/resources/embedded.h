@@ -10,7 +10,7 @@ namespace snapthrough::server::http {
 /// A document of the folder examples/ or a subfolder.
 struct Example {
   std::string_view name;      ///< file name without extension
-  std::string_view document;  ///< JSON text
+  std::string_view document;  ///< document as JSON text
 };
 
 /// Returns the request documents examples/*.json.

@@ -20,7 +20,7 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 /// A complete request. Names of headers are not case-sensitive.
 struct Request {
   std::string method;
-  std::string path;  ///< percent-decoded, without the query
+  std::string path;  ///< path, percent-decoded, without the query
   Fields query;      ///< decoded, sorted by name, values of one name in order
   Fields headers;    ///< in order of arrival
   std::string body;
@@ -86,7 +86,7 @@ struct Stream {
 
 struct Response {
   int status = 200;
-  Fields headers;  ///< without Content-Type and Content-Length
+  Fields headers;  ///< all but Content-Type and Content-Length
   std::string content_type;
   std::string body;
   std::string trouble;  ///< internal error, for the log only

@@ -15,7 +15,7 @@ namespace snapthrough::server::http {
 
 /// A file of web/dist or docs in the program; the build generates its definition.
 struct PageFile {
-  std::string_view path;                  ///< in a request: "/", "/assets/app-1A2B3C4D.js", "/docs/theory.md"
+  std::string_view path;                  ///< path in a request: "/", "/assets/app-1A2B3C4D.js"
   std::string_view digest;                ///< SHA-256 of the content, hexadecimal
   std::span<const unsigned char> packed;  ///< content in gzip format
 };

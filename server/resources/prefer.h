@@ -15,8 +15,8 @@ enum class ReturnPreference { minimal, representation };
 /// counts (RFC 7240).
 struct Preferences {
   bool respond_async = false;
-  std::optional<int> wait_s;                     ///< seconds, >= 0
-  std::optional<ReturnPreference> return_shape;  ///< return=minimal, return=representation
+  std::optional<int> wait_s;                     ///< preferred longest wait in seconds, >= 0
+  std::optional<ReturnPreference> return_shape;  ///< preference `return`
 
   /// Returns whether the response must be a job, even if its result is known.
   [[nodiscard]] bool wants_job() const { return respond_async || return_shape == ReturnPreference::minimal; }

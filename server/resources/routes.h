@@ -22,15 +22,15 @@ namespace snapthrough::server::http {
 
 /// Limits of the time for which one request may wait for a result.
 struct WaitLimits {
-  std::chrono::seconds default_wait{10};  ///< POST without preference
-  std::chrono::seconds longest_wait{60};  ///< limit of preferences
+  std::chrono::seconds default_wait{10};  ///< longest wait of a POST without preference
+  std::chrono::seconds longest_wait{60};  ///< upper limit of any preferred wait
 };
 
 /// Data of the resources about the service itself. Functions may be called from any thread.
 struct ServiceFacts {
-  std::function<std::string()> metrics;                ///< text format of Prometheus
-  std::function<std::string()> not_ready;              ///< why the service refuses work; empty: ready
-  std::vector<std::pair<std::string, double>> limits;  ///< name with unit, value
+  std::function<std::string()> metrics;                ///< returns metrics in the text format of Prometheus
+  std::function<std::string()> not_ready;              ///< returns why the service refuses work; "": ready
+  std::vector<std::pair<std::string, double>> limits;  ///< limits by name with unit
   Page page;                                           ///< the web page; default: none
   std::string hops_folder;                             ///< folder of hops::Catalogue
 };

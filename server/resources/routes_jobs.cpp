@@ -132,7 +132,7 @@ Response Routes::submit_job(const Request& request, std::string_view document) {
     if (!deleted_meanwhile) {
       return response;
     }
-    order.reuse = false;  // happens once: the next job is new
+    order.reuse = false;  // the next job is new, so this happens once
   }
 }
 

@@ -24,7 +24,7 @@ std::string name_of(JobState state) { return std::string(to_string(state)); }
 /// Query parameters of a table.
 struct TableQuery {
   PointQuery points;
-  bool links = false;  ///< CSV has the columns point and request
+  bool links = false;  ///< true: CSV has the columns point and request
 };
 
 bool read_table_parameter(const std::string& name, const std::string& value, TableQuery& table) {

@@ -8,8 +8,8 @@
 namespace snapthrough::server {
 
 struct WebhookTimes {
-  std::chrono::milliseconds attempt{10'000};  ///< from connecting to the response's status
-  std::chrono::milliseconds poll{500};        ///< between queries for due deliveries
+  std::chrono::milliseconds attempt{10'000};  ///< limit from connecting to the response's status
+  std::chrono::milliseconds poll{500};        ///< pause between queries for due deliveries
   /// Pauses after failed attempts; a delivery ends with the attempt after the last one.
   std::vector<std::chrono::milliseconds> pauses{std::chrono::seconds(5), std::chrono::seconds(30),
                                                 std::chrono::minutes(2), std::chrono::minutes(10),

@@ -100,7 +100,7 @@ void Webhooks::send_due(Sender& sender, const std::stop_token& stop) {
 bool Webhooks::deliver(Sender& sender, const Delivery& delivery, const std::stop_token& stop) {
   const StatusOr<std::string> body = ended_document(world_.store, delivery);
   if (!body.ok() || body->empty()) {
-    return body.ok();  // deleted or retried; its delivery is deleted, too
+    return body.ok();  // deleted or retried since, and so was its delivery
   }
   const std::string id = delivery.id + "-" + std::to_string(delivery.number);
   const std::int64_t timestamp =

@@ -56,7 +56,7 @@ class Webhooks {
   const WebhookSurroundings world_;
   const std::string key_;
   std::vector<std::unique_ptr<Sender>> senders_;
-  std::jthread watch_;  ///< aborts late POST requests
+  std::jthread watch_;  ///< thread that aborts late POST requests
 };
 
 }  // namespace snapthrough::server

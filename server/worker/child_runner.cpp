@@ -64,8 +64,8 @@ void ChildRunner::pass_on(const Frame& news, const Hooks& hooks) {
 /// Callbacks for a task that the process works on.
 struct ChildRunner::Watch {
   std::stop_token stop;
-  std::function<bool(Frame&)> take;        ///< @return whether it was the last frame
-  std::function<bool()> enough = nullptr;  ///< UnitTask::enough; null for jobs
+  std::function<bool(Frame&)> take;        ///< handles a frame. @return whether it was the last one
+  std::function<bool()> enough = nullptr;  ///< see UnitTask::enough; null for jobs
 };
 
 ChildRunner::ChildRunner(ChildRunnerOptions options, RunnerCounters& counters)
@@ -92,7 +92,7 @@ void ChildRunner::start() {
   std::array<int, 2> controls{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, completions.data()) != 0) {
     ended_by_ = std::string("it could not be started: ") + std::strerror(errno);
-    return;  // the next task fails
+    return;  // the next task finds no process and fails
   }
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, controls.data()) != 0) {
     ended_by_ = std::string("it could not be started: ") + std::strerror(errno);

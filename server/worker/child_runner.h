@@ -22,11 +22,11 @@ struct RunnerCounters {
   std::atomic<std::int64_t> started = 0;
   std::atomic<std::int64_t> out_of_memory = 0;
   std::atomic<std::int64_t> killed = 0;   ///< processes that ignored a stop request
-  std::atomic<std::int64_t> crashed = 0;  ///< processes that ended otherwise
+  std::atomic<std::int64_t> crashed = 0;  ///< processes ended by a signal or an unknown status
 };
 
 struct ChildRunnerOptions {
-  std::string executable;                 ///< path of snapthrough
+  std::string executable;                 ///< path of the program snapthrough
   std::int64_t memory = 0;                ///< limit of one analysis in bytes
   int max_crashes = 1;                    ///< crashes after which an analysis fails, >= 1
   std::chrono::milliseconds grace{2000};  ///< from the stop request to the kill
@@ -73,8 +73,8 @@ class ChildRunner final : public Runner {
   int socket_ = -1;
   int control_ = -1;
   FrameReceiver received_;                       ///< bytes received from the current process
-  std::uint64_t task_ = 0;                       ///< task of the current process, from 1
-  int alarm_ = -1;                               ///< eventfd: a stop was requested
+  std::uint64_t task_ = 0;                       ///< number of the process' current task, from 1
+  int alarm_ = -1;                               ///< eventfd that signals a stop request
   std::string ended_by_;                         ///< how the last crashed process ended
   std::map<std::string, std::uint64_t> sweeps_;  ///< numbers of sweeps known to the process, by id
   std::uint64_t next_sweep_ = 0;

@@ -10,16 +10,16 @@ namespace snapthrough::server {
 
 enum class FrameType : std::uint32_t {
   // to the runner
-  job,    ///< memory limit, request
-  sweep,  ///< whether to forget all sweeps, number, document
-  units,  ///< memory limit, number of the sweep, whether to send each unit at once, numbers of units
+  job,    ///< body: memory limit, request
+  sweep,  ///< body: whether to forget all sweeps, number, document
+  units,  ///< body: memory limit, sweep's number, whether to send each unit at once, units' numbers
   // on the control pipe; tasks are counted from 1, without sweeps
-  enough,  ///< number of a task: begin no further unit
-  stop,    ///< number of a task: end it
+  enough,  ///< body: number of a task that begins no further unit
+  stop,    ///< body: number of a task that ends now
   // from the runner
-  news,      ///< progress, critical points and path points since the last news
-  job_run,   ///< outcome of a job (JobRun)
-  outcomes,  ///< outcomes of the points of units, in order
+  news,      ///< body: progress, critical points and path points since the last news
+  job_run,   ///< body: JobRun, the outcome of a job
+  outcomes,  ///< body: outcomes of the points of units, in order
   done       ///< end of a list of units
 };
 

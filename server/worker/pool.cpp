@@ -167,7 +167,7 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
     return;
   }
   if (const Status status = store_outcome(claim, outcome, context, stop); !status.ok()) {
-    if (status.code() != StatusCode::conflict) {  // a conflict means dismissed or deleted
+    if (status.code() != StatusCode::conflict) {  // a conflict: dismissed or deleted meanwhile
       log_trouble(context.log, claim, status);
     }
     return;

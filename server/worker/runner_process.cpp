@@ -112,7 +112,7 @@ class Control {
       stopped_ = task;
       heed();
     }
-    ::_exit(EXIT_SUCCESS);  // the service has ended
+    ::_exit(EXIT_SUCCESS);  // the service has ended, so the runner ends
   }
 
   void heed() {

@@ -10,11 +10,11 @@ namespace snapthrough::server::cli {
 
 /// An option or a positional argument.
 struct OptionPage {
-  std::vector<std::string> names;  ///< "-o", "--output"; positional: its name
+  std::vector<std::string> names;  ///< such as "-o", "--output"; positional argument: its name
   std::string help;
   std::vector<std::string> choices;  ///< the allowed values; empty: any
   std::string default_value;         ///< empty: no default
-  std::string variable;              ///< environment variable; empty: none
+  std::string variable;              ///< environment variable of the option; empty: none
   bool is_positional = false;
   bool is_required = false;
   bool takes_value = false;
@@ -23,14 +23,14 @@ struct OptionPage {
 
 /// A command, or the program.
 struct CommandPage {
-  std::string name;  ///< such as "solve"; program: "snapthrough"
+  std::string name;  ///< name such as "solve"; program: "snapthrough"
   std::string description;
-  std::vector<OptionPage> options;  ///< in the order of --help, positional arguments last
+  std::vector<OptionPage> options;  ///< options in the order of --help, positional arguments last
 };
 
 struct ProgramPage {
   CommandPage program;
-  std::vector<CommandPage> commands;  ///< in the order of --help
+  std::vector<CommandPage> commands;  ///< commands in the order of --help
 };
 
 /// Returns all commands and options that run() parses.

@@ -15,7 +15,7 @@ namespace snapthrough::server::hops {
 
 /// Outcome of applying a definition to values of its inputs.
 struct Call {
-  std::vector<Finding> findings;  ///< the pointer is "/" and the input's name
+  std::vector<Finding> findings;  ///< pointers are "/" and an input's name
   std::string request;            ///< request document; empty exactly when there are findings
 };
 

@@ -33,8 +33,8 @@ constexpr int kAnyNumber = std::numeric_limits<std::int32_t>::max();
 
 struct TypeNames {
   PlugType type;
-  const char* param;   ///< Grasshopper type
-  const char* result;  ///< .NET type
+  const char* param;   ///< type in Grasshopper
+  const char* result;  ///< type in .NET
   const char* words;
 };
 constexpr TypeNames kTypes[] = {

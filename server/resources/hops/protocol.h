@@ -44,8 +44,8 @@ enum class Form {
 
 /// The values of a call, or findings about them.
 struct ReadValues {
-  std::map<std::string, nlohmann::json> values;  ///< by name of the input, of the input's type
-  std::vector<Finding> findings;                 ///< the pointer is "/" and the input's name
+  std::map<std::string, nlohmann::json> values;  ///< values by name of the input, of the input's type
+  std::vector<Finding> findings;                 ///< pointers are "/" and an input's name
 };
 
 /// @brief Reads `values` of a call. Inputs that the call lacks are left out.
@@ -55,7 +55,7 @@ struct ReadValues {
 /// An answer, or the reason why there is none.
 struct Answer {
   std::string text;   ///< document; empty: see `error`
-  std::string error;  ///< sentence
+  std::string error;  ///< why there is no answer, as a sentence
 };
 
 /// @brief Returns the answer to a call.
