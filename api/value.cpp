@@ -245,7 +245,7 @@ void Object::finish() const {
       continue;
     }
     std::string_view nearest = nearest_name(key, known_);
-    // A name that other objects have belongs there, unless it is the beginning of a name of this object.
+    // A field of other objects is reported as misplaced, unless its name begins a field name of this object.
     const auto owners =
         nearest.starts_with(key) ? std::vector<std::string>() : owners_of(key, value_.pointer());
     if (!owners.empty()) {

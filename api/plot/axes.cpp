@@ -167,7 +167,7 @@ void Range::include(double value) {
 
 Range widened(const Range& range) {
   constexpr double kRoom = 0.06;
-  constexpr double kFlat = 1e-12;  // relative to the larger end; ticks do not show less
+  constexpr double kFlat = 1e-12;  // smallest range that ticks resolve, relative to its larger end
   const auto [low, high] = std::pair(range.low, range.high);
   if (range.empty()) {
     return {0, 1};

@@ -15,7 +15,7 @@ struct Vertex {
   double x = 0;
   double y = 0;
   double arc = 0;
-  std::optional<double> negative;  ///< eigenvalues; nullopt: critical point; kNone: not counted
+  std::optional<double> negative;  ///< negative eigenvalues; nullopt: critical point; kNone: not counted
 };
 
 enum class Stability { stable, unstable, not_counted };

@@ -15,9 +15,9 @@ namespace snapthrough::server::http {
 /// State of the next request after the bytes received so far.
 struct Received {
   enum class Kind {
-    head_incomplete,  ///< the head is incomplete
-    body_incomplete,  ///< `head` is complete, its body is not
-    request,          ///< the request is complete
+    head_incomplete,  ///< more bytes are needed for the head
+    body_incomplete,  ///< `head` is complete; more bytes are needed for its body
+    request,          ///< `head` and `body` are complete
     refused           ///< `head.refusal` is set; later bytes have no defined meaning
   } kind = Kind::head_incomplete;
   Head head;

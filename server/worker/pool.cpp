@@ -148,7 +148,7 @@ bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, const W
   return true;
 }
 
-/// @param stored becomes ready when the store contains the job; null: it does already
+/// @param stored becomes ready when the store contains the job; null: the store contains the job
 void run_job(const Claim& claim, const std::shared_future<bool>* stored, const WorkerContext& context,
              Runner& runner, const std::stop_token& stop) {
   log_job(context.log, claim, JobState::running);
