@@ -49,7 +49,7 @@ void Neighbours::watch(const std::stop_token& stop) {
 
 void Neighbours::tell_others(const std::stop_token& stop) {
   while (context_.bell.wait(stop)) {
-    (void)store_.ring().ok();  // without the ring, others see the change later
+    (void)store_.ring().ok();  // a failed ring() only delays the others
     pause(stop, kBetweenRings);
   }
 }
@@ -127,7 +127,7 @@ void Neighbours::tell_progress() {
     }
   }
   if (!all.empty()) {
-    (void)store_.tell(all).ok();  // the next second repeats it
+    (void)store_.tell(all).ok();  // a failed tell() is repeated in a second
   }
 }
 

@@ -38,7 +38,7 @@ Response wrong_call(const Request& request, int status, std::vector<Finding> fin
                           request);
 }
 
-/// Returns the members of a result document with one of the names, and `warnings`; all without names.
+/// Returns the members of a result document with one of the names, and `warnings`; all members for no names.
 json parts_of(const std::string& text, const std::vector<std::string>& parts) {
   return json::parse(text, [&](int depth, json::parse_event_t event, json& value) {
     return depth != 1 || event != json::parse_event_t::key || parts.empty() || value == "warnings" ||
