@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Small owners and helpers for descriptors.
+/// Owners of file descriptors, and socket functions.
 
 #include <cstdint>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace snapthrough::server::http {
 
-/// Owns a descriptor.
+/// Owns a file descriptor.
 class Descriptor {
  public:
   explicit Descriptor(int value = -1) : value_(value) {}
@@ -22,24 +22,24 @@ class Descriptor {
 
   [[nodiscard]] int get() const { return value_; }
   void reset();
-  /// Leaves the descriptor to the caller.
+  /// Returns the descriptor and gives up its ownership.
   int release() { return std::exchange(value_, -1); }
 
  private:
   int value_;
 };
 
-/// A socket that listens; `unavailable` when the address can't be bound.
+/// Returns a listening socket; `unavailable` when the address cannot be bound.
 [[nodiscard]] StatusOr<Descriptor> listen_on(const std::string& host, int port);
-/// The port of a bound socket.
+/// Returns the port of a bound socket.
 [[nodiscard]] int port_of(int socket);
-/// The next client, without waiting: -1 when there is none (errno says why). Sets its address.
+/// Accepts a client without waiting, and sets its address; -1 when none waits (errno has the reason).
 [[nodiscard]] int accept_from(int listener, std::string& remote);
 
-/// An event counter (eventfd): add() makes it readable.
+/// An event counter (eventfd); add() makes it readable.
 class Counter {
  public:
-  /// @param one_by_one each take() takes one of what was added
+  /// @param one_by_one true: take() subtracts one; false: take() resets to zero
   explicit Counter(bool one_by_one);
   [[nodiscard]] int get() const { return descriptor_.get(); }
   void add() const;
@@ -49,7 +49,7 @@ class Counter {
   Descriptor descriptor_;
 };
 
-/// Lets the process open as many descriptors as it is allowed to.
+/// Raises the process' limit of open descriptors to the hard limit.
 void raise_descriptor_limit();
 
 }  // namespace snapthrough::server::http
