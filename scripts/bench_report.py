@@ -35,15 +35,29 @@ KERNELS = [("dense", "linearise", "interiors eliminated: all unknowns factorised
            ("linearise", "solve", "linearise() against one solve")]
 
 
-def plot(name, title, xlabel, ylabel, curves):
-    """curves: (title, points, style); both axes logarithmic."""
-    commands = [f"set terminal svg size 720,480 font 'sans,13' background 'white'\nset output '{DOCS / (name + '.svg')}'",
+WIDTH, HEIGHT = 720, 480  # px of a plot
+
+
+def plot(title, xlabel, ylabel, curves):
+    """An SVG document; curves: (title, points, style); both axes logarithmic."""
+    commands = [f"set terminal svg size {WIDTH},{HEIGHT} font 'sans,13' background 'white'",
                 f"set title \"{title}\"\nset xlabel '{xlabel}'\nset ylabel '{ylabel}'",
                 "set logscale xy\nset format y '1e%L'\nset grid\nset key outside right", ""]
     commands.append("plot " + ", ".join(f"'-' with {style} title \"{label}\"" for label, _, style in curves))
     for _, points, _ in curves:
         commands += [f"{x} {y}" for x, y in points] + ["e"]
-    subprocess.run(["gnuplot"], input="\n".join(commands), text=True, check=True)
+    return subprocess.run(["gnuplot"], input="\n".join(commands), text=True, check=True, stdout=subprocess.PIPE).stdout
+
+
+def beside(plots):
+    """One SVG document with plots from left to right."""
+    parts = [text[text.index("<svg"):].rstrip().replace("<svg", f'<svg x="{i * WIDTH}"', 1) for i, text in enumerate(plots)]
+    size = f'width="{len(plots) * WIDTH}" height="{HEIGHT}" viewBox="0 0 {len(plots) * WIDTH} {HEIGHT}"'
+    return "\n".join(['<?xml version="1.0" encoding="utf-8"?>', f'<svg {size} xmlns="http://www.w3.org/2000/svg">', *parts, "</svg>\n"])
+
+
+def write(name, text):
+    (DOCS / name).write_text(text, encoding="utf-8")
 
 
 def table(head, rows):
@@ -74,11 +88,12 @@ def precision_pages(by_group):
         meshes = by_group.get(("mesh", case), [])
         if not asked or not meshes:
             continue
-        text += [f"## {title}\n", f"![Error against time]({case}_time.svg) ![Error against unknowns]({case}_unknowns.svg)\n"]
+        text += [f"## {title}\n", f"![Error against time and against unknowns]({case}.svg)\n"]
         text.append(table(["asked", "error", "estimate", "elements", "order", "unknowns", "factorisations", "ms"],
                           [(r["parts"][2], error(r), f"{r.get('estimate', math.nan):.1e}", int(r["elements"]),
                             int(r["order"]), int(r["unknowns"]), int(r["factorizations"]), ms(r)) for r in asked]))
-        for key, label in (("cpu_time", "time"), ("unknowns", "unknowns")):
+        plots = []
+        for key, label in (("cpu_time", "CPU ms"), ("unknowns", "unknowns")):
             curves = []
             for order in sorted({r["parts"][2] for r in meshes}):
                 points = [(r[key], max(r["error"], 1e-14)) for r in meshes
@@ -86,8 +101,9 @@ def precision_pages(by_group):
                 if points:
                     curves.append((f"order {order}", points, "linespoints"))
             curves.append(("asked", [(r[key], max(r["error"], 1e-14)) for r in asked], "points pt 7 ps 1"))
-            plot(f"{case}_{label}", title, "CPU ms" if label == "time" else "unknowns", "relative error", curves)
-    (DOCS / "precision.md").write_text("\n".join(text), encoding="utf-8")
+            plots.append(plot(title, label, "relative error", curves))
+        write(f"{case}.svg", beside(plots))
+    write("precision.md", "\n".join(text))
 
 
 def compared(rows, a, b, what):
@@ -116,15 +132,16 @@ def summary_page(by_group):
                    [(int(r["elements"]), int(r["unknowns"]), int(r["factorizations"]), ms(r),
                      f"{1e3 * r['cpu_time'] / r['unknowns'] / r['factorizations']:.3f}") for r in growth])]
     text.append(f"Time grows with the unknowns to the power {growth_rate(growth):.2f}.\n")
-    plot("growth", "Four steps of an arch", "unknowns", "CPU ms",
-         [("measured", [(r["unknowns"], r["cpu_time"]) for r in growth], "linespoints"),
-          ("n^{1.1}", [(r["unknowns"], growth[0]["cpu_time"] * (r["unknowns"] / growth[0]["unknowns"])**1.1) for r in growth], "lines")])
+    almost_linear = [(r["unknowns"], growth[0]["cpu_time"] * (r["unknowns"] / growth[0]["unknowns"])**1.1) for r in growth]
+    write("growth.svg", plot("Four steps of an arch", "unknowns", "CPU ms",
+                             [("measured", [(r["unknowns"], r["cpu_time"]) for r in growth], "linespoints"),
+                              ("n^{1.1}", almost_linear, "lines")]))
     bases = sorted(by_group[("bases",)], key=lambda r: int(r["parts"][1]))
     text += ["## Growth with bases\n", "![Time against bases](bases.svg)\n",
              table(["bases", "elements", "factorisations", "ms"],
                    [(r["parts"][1], int(r["elements"]), int(r["factorizations"]), ms(r)) for r in bases])]
-    plot("bases", "Shallow arch, base outside cut into pieces", "bases", "CPU ms",
-         [("measured", [(int(r["parts"][1]), r["cpu_time"]) for r in bases], "linespoints")])
+    write("bases.svg", plot("Shallow arch, base outside cut into pieces", "bases", "CPU ms",
+                            [("measured", [(int(r["parts"][1]), r["cpu_time"]) for r in bases], "linespoints")]))
     skips = {r["parts"][1]: r for r in by_group[("skip",)]}
     text += ["## What is not done\n",
              table(["skipped", "with, ms", "without, ms", "ratio"],
@@ -132,7 +149,7 @@ def summary_page(by_group):
     kernels = {r["parts"][1]: r for r in by_group[("kernel",)]}
     text += ["Parts of one correction, five elements of order 5 without base:\n",
              table(["what", "with, ms", "without, ms", "ratio"], [compared(kernels, *pair) for pair in KERNELS])]
-    (DOCS / "README.md").write_text("\n".join(text), encoding="utf-8")
+    write("README.md", "\n".join(text))
 
 
 def main():

@@ -5,7 +5,8 @@
   check_shape.py --self-test  checks the checker
 
 A C++ function is counted from the first line of its signature to its closing brace, lambdas inside it included.
-Nesting counts the blocks inside the function's own braces, statements without braces included.
+Nesting counts the blocks inside the function's own braces, statements without braces included. C++ is read by its
+indentation, so it has to be formatted (scripts/format.sh).
 """
 import ast
 import pathlib
@@ -23,177 +24,85 @@ FOLDERS = ("solver", "api", "server", "clients", "tests", "bench", "scripts")
 # Made by clients/python/generate.py, one entry for each field of the contract.
 GENERATED = ("clients/python/snapthrough/documents.py", "clients/python/snapthrough/results.py")
 
-TYPE_HEAD = re.compile(r"^(?:typedef\s+)?(?:class|struct|union|enum)\b")
-SIGNATURE_END = re.compile(
-    r"\)\s*(?:const|noexcept(?:\s*\([^()]*\))?|override|final|mutable|try|&&?|\s)*"
-    r"(?:->\s*[\w:<>,\s*&.()]+?)?(?:\brequires\b.*)?\s*$", re.DOTALL)
-LAMBDA_END = re.compile(r"\[[^\[\]]*\]\s*$")
-BLOCK_WORD = re.compile(r"\b(?:else|do|try|mutable|noexcept|const)\s*$")
-CONTROL = re.compile(r"\b(?:if|for|while|switch|catch|else|do)\b")
-TOKEN = re.compile(r"\w+|::|->|\S")
-
-
-class Block:
-    """An open brace, or (virtual) the body of a control statement without braces."""
-
-    def __init__(self, kind, line, parens, head_line=0):
-        self.kind = kind  # scope, function, block, init, virtual
-        self.line = line
-        self.parens = parens
-        self.head_line = head_line
-
-
-def is_member_initialiser(head):
-    """Whether the head is a constructor's and stands inside its list of initialisers: `X::X(a) : a_(a), b_`."""
-    colon = re.search(r"\)\s*(?:noexcept\s*)?:(?!:)", head)
-    return bool(colon) and re.search(r"[\w>]\s*$", head) is not None
-
-
-def classify(head, inside, parent):
-    """What an opening brace after `head` (the text since the last boundary) opens."""
-    text = re.sub(r"\b(?:public|private|protected)\s*:(?!:)", " ", head).strip()
-    if inside:
-        if not text:
-            return "init" if parent == "init" else "block"
-        if SIGNATURE_END.search(text) or LAMBDA_END.search(text) or BLOCK_WORD.search(text) or text.endswith(":"):
-            return "block"
-        if TYPE_HEAD.match(text):
-            return "block"
-        return "init"
-    if parent == "init" and not text:
-        return "init"
-    if re.match(r"^(?:inline\s+)?namespace\b", text) or re.match(r"^extern\s+0\s*$", text):
-        return "scope"
-    text = re.sub(r"^(?:template\s*<[^{};]*?>\s*(?=class\b|struct\b|union\b))+", "", text)
-    if TYPE_HEAD.match(text) and not SIGNATURE_END.search(text):
-        return "scope"
-    if is_member_initialiser(text):
-        return "init"
-    if SIGNATURE_END.search(text) or LAMBDA_END.search(text):
-        return "function"
-    return "init"
+SCOPE = re.compile(r"(?:template\s*<.*>\s*)?(?:inline |typedef )*(?:namespace|extern|class|struct|union|enum)\b")
+CONTROL = re.compile(r"(?:\} )?(?:if|for|while|switch|else|do|try|catch)\b")
+LABEL = re.compile(r"(?:case\b.*|default|public|private|protected):$")
+INITIALISER = re.compile(r"(?:[^\s{]|\{\{|(?:=|,|\(|\breturn) )\{?$")
 
 
 class CppScanner:
-    """Walks the tokens of one file with a stack of blocks."""
+    """Reads blocks from the layout of clang-format: a block ends at a line that is indented as the first line of its head.
+
+    A block is (kind, indentation, line): kind is scope (namespace, class), function, block (inside a function) or
+    initialiser.
+    """
 
     def __init__(self, source):
-        self.text = strip_all(source)
+        self.lines = strip_all(source).split("\n")
         self.stack = []
-        self.head = []
-        self.head_line = 0
-        self.parens = 0
-        self.control = None  # parenthesis depth of a control statement whose body has not begun
-        self.depth_problem = None
+        self.head = []  # lines of the statement that has begun
+        self.start = (0, 0)  # indentation and line of its first line
         self.found = []  # (line, text)
 
-    def function(self):
-        return next((block for block in self.stack if block.kind == "function"), None)
-
-    def nesting(self):
-        inside = False
-        depth = 0
-        for block in self.stack:
-            depth += inside and block.kind in ("block", "virtual")
-            inside = inside or block.kind == "function"
-        return depth
-
-    def push(self, kind, line):
-        self.stack.append(Block(kind, line, self.parens, self.head_line or line))
-        if self.function() and self.nesting() > MAX_NESTING and self.depth_problem is None:
-            self.depth_problem = line
-            self.found.append((line, f"nesting deeper than {MAX_NESTING}"))
-
-    def boundary(self):
-        self.head = []
-        self.head_line = 0
-
-    def pop_virtual(self):
-        while self.stack and self.stack[-1].kind == "virtual" and self.stack[-1].parens >= self.parens:
-            self.stack.pop()
-
-    def open_brace(self, line):
-        parent = self.stack[-1].kind if self.stack else "scope"
-        kind = classify(" ".join(self.head), self.function() is not None, parent)
-        self.control = None
-        self.push(kind, line)
-        if kind != "init":
-            self.boundary()
-        else:
-            self.stack[-1].saved = self.head
-            self.head = []
-
-    def close_brace(self, line):
-        while self.stack and self.stack[-1].kind == "virtual":
-            self.stack.pop()
-        if not self.stack:
-            return
-        block = self.stack.pop()
-        self.parens = block.parens
-        if block.kind == "init":
-            self.head = block.saved + ["0", ")"] if is_member_initialiser(" ".join(block.saved)) else block.saved + ["0"]
-            return
-        if block.kind == "function":
-            length = line - block.head_line + 1
-            self.depth_problem = None
-            if length > MAX_FUNCTION:
-                self.found.append((block.head_line, f"function of {length} lines, at most {MAX_FUNCTION}"))
-        self.boundary()
-        self.pop_virtual()
-
-    def begin_statement(self, token, line):
-        """A token that is neither brace: opens a virtual block when it is the body of a control statement."""
-        if self.control is None or self.parens != self.control:
-            return
-        if token == "(" or (token == "if" and self.head[-1:] == ["else"]):
-            return
-        self.control = None
-        self.push("virtual", line)
-        self.boundary()
-
     def scan(self):
-        line = 1
-        position = 0
-        for match in TOKEN.finditer(self.text):
-            line += self.text.count("\n", position, match.start())
-            position = match.start()
-            self.token(match[0], line)
+        for number, line in enumerate(self.lines, 1):
+            text = line.strip()
+            if text:
+                self.take(text, len(line) - len(line.lstrip()), number)
         return self.found
 
-    def token(self, token, line):
-        if token == "{":
-            self.open_brace(line)
-            return
-        if token == "}":
-            self.close_brace(line)
-            return
-        if self.control_pending_done(token):
-            self.begin_statement(token, line)
-        if token == "(":
-            self.parens += 1
-        elif token == ")":
-            self.parens -= 1
-        if token == ";" and not self.in_parens():
-            self.pop_virtual()
-            self.control = None
-            self.boundary()
-            return
-        if not self.head:
-            self.head_line = line
-        self.head.append(token)
-        if self.function() and CONTROL.fullmatch(token):
-            self.control = self.parens
+    def take(self, text, indentation, number):
+        if not self.head or text.startswith("}"):
+            self.begin(text, indentation, number)
+        self.head.append(text)
+        if text.endswith("{"):
+            if self.is_in_parentheses():
+                self.start = (indentation, number)  # a lambda among arguments
+            self.open(text)
+        if self.is_complete(text):
+            self.head = []
 
-    def control_pending_done(self, token):
-        """Whether the condition of a pending control statement, if it has one, is complete."""
-        if self.control is None:
-            return False
-        last = self.head[-1] if self.head else ""
-        return last in ("else", "do") or (last == ")" and self.parens == self.control)
+    def is_complete(self, text):
+        """Whether the statement, its head or its label ends with this line."""
+        if text[-1] in "{}" or LABEL.match(text):
+            return True
+        return (text[-1] == ";" or CONTROL.match(self.head[0])) and not self.is_in_parentheses()
 
-    def in_parens(self):
-        base = self.stack[-1].parens if self.stack else 0
-        return self.parens > base
+    def is_in_parentheses(self):
+        head = " ".join(self.head)
+        return head.count("(") > head.count(")")
+
+    def begin(self, text, indentation, number):
+        """A line begins a statement, or closes a block."""
+        while self.stack and self.stack[-1][1] >= indentation:
+            kind, _, first = self.stack.pop()
+            length = number - first + 1
+            if kind == "function" and length > MAX_FUNCTION:
+                self.found.append((first, f"function of {length} lines, at most {MAX_FUNCTION}"))
+        self.head = []
+        self.start = (indentation, number)
+        if self.function() and CONTROL.match(text):
+            self.push("block")
+
+    def open(self, text):
+        """The statement ends with an opening brace."""
+        if self.stack and self.stack[-1][1:] == self.start:
+            return  # a control statement, pushed at its first line
+        inside = self.stack[-1][0] if self.stack else "scope"
+        if INITIALISER.search(text[:-1]) or (text == "{" and inside == "initialiser"):
+            self.push("initialiser")
+        elif self.function():
+            self.push("block")
+        else:
+            self.push("scope" if SCOPE.match(" ".join(self.head)) else "function")
+
+    def function(self):
+        return any(kind == "function" for kind, _, _ in self.stack)
+
+    def push(self, kind):
+        self.stack.append((kind, *self.start))
+        if kind == "block" and sum(one[0] == "block" for one in self.stack) == MAX_NESTING + 1:
+            self.found.append((self.start[1], f"nesting deeper than {MAX_NESTING}"))
 
 
 def check_cpp(source):
@@ -239,36 +148,43 @@ def check_source(source, suffix):
 # Self-test -------------------------------------------------------------------------------------------------------
 
 LONG = "".join(f"  x += {i};\n" for i in range(60))
-DEEP = "if (a) { for (;;) { while (b) { switch (c) { case 1: { x(); } } } } }"
+DEEP = "  if (a) {\n    for (;;) {\n      while (b) {\n        switch (c) {\n          case 1: {\n            x();\n"
 BAD = {
     "long function": (".cpp", f"int f() {{\n{LONG}}}\n"),
-    "long constructor": (".cpp", f"X::X(int a) : a_(a), b_{{1}} {{\n{LONG}}}\n"),
-    "long method after access specifier": (".h", f"class X {{\n public:\n  void f() const {{\n{LONG}}}\n}};\n"),
+    "long constructor": (".cpp", f"X::X(int a)\n    : a_(a),\n      b_{{1}} {{\n{LONG}}}\n"),
+    "long method after access specifier": (".h", f"class X {{\n public:\n  void f() const {{\n{LONG.replace('  x', '    x')}  }}\n}};\n"),
     "long template": (".h", f"template <class T>\n  requires std::integral<T>\nT f(T x) {{\n{LONG}}}\n"),
     "long function with trailing return": (".cpp", f"auto f() -> std::vector<int> {{\n{LONG}}}\n"),
-    "long lambda counts in its function": (".cpp", f"void f() {{\n g([&](int x) {{\n{LONG}}});\n}}\n"),
+    "long lambda counts in its function": (".cpp", f"void f() {{\n  g([&](int x) {{\n{LONG.replace('  x', '    x')}  }});\n}}\n"),
     "long lambda at namespace scope": (".cpp", f"const auto f = [](int x) {{\n{LONG}}};\n"),
     "long operator": (".cpp", f"bool operator()(int x) {{\n{LONG}}}\n"),
     "long test": (".cpp", f"TEST(A, B) {{\n{LONG}}}\n"),
-    "deep blocks": (".cpp", f"void f() {{ {DEEP} }}"),
-    "deep without braces": (".cpp", "void f() { if (a) for (;;) while (b) if (c) for (;;) x(); }"),
-    "deep through a lambda": (".cpp", "void f() { g([&] { if (a) { for (;;) { while (b) { if (c) { x(); } } } } }); }"),
-    "deep after strings with braces": (".cpp", 'void f() { s = "}}"; t = R"(}})"; c = \'}\'; ' + DEEP + " }"),
+    "long signature": (".cpp", "void f(" + "int a,\n       " * 58 + "int b) {\n  x();\n}\n"),
+    "deep blocks": (".cpp", f"void f() {{\n{DEEP}"),
+    "deep without braces": (".cpp", "void f() {\n  if (a)\n    for (;;)\n      while (b)\n        if (c)\n          for (;;) x();\n}\n"),
+    "deep through a lambda": (".cpp", "void f() {\n  g(\n      [&] {\n        if (a) {\n          for (;;) {\n            while (b) {\n"
+                              "              if (c) x();\n"),
+    "deep in an else": (".cpp", f"void f() {{\n  if (z) {{\n    x();\n  }} else {{\n{DEEP.replace('  ', '    ')}"),
+    "deep after strings with braces": (".cpp", 'void f() {\n  s = "}}";\n  t = R"(\n}})";\n  c = \'}\';\n' + DEEP),
     "long file": (".cpp", "int x;\n" * 801),
     "long python": (".py", "def f():\n" + "    x = 1\n" * 60),
     "deep python": (".py", "def f():\n if a:\n  for b in c:\n   while d:\n    with e:\n     if g:\n      pass\n"),
 }
 GOOD = {
     "60 lines": (".cpp", "int f() {\n" + "  x += 1;\n" * 58 + "}\n"),
-    "four levels": (".cpp", "void f() { if (a) { for (;;) { while (b) { if (c) { x(); } } } } }"),
-    "initialisers do not nest": (".cpp", "void f() { if (a) { g({{{{1, 2}}}}, X{Y{Z{1}}}); } }"),
-    "else if does not nest": (".cpp", "void f() { if (a) { } else if (b) { } else if (c) { } else if (d) { } "
-                              "else if (e) { } else { x(); } }"),
-    "unbraced statements in a row": (".cpp", "void f() { if (a) x(); if (b) x(); if (c) x(); if (d) x(); if (e) x(); }"),
+    "four levels": (".cpp", "void f() {\n  if (a) {\n    for (;;) {\n      while (b) {\n        if (c) {\n          x();\n"),
+    "initialisers do not nest": (".cpp", "void f() {\n  if (a) {\n    for (;;) {\n      while (b) {\n        if (c) {\n          g({{\n"
+                                 "              {\n                  1,\n"),
+    "else if does not nest": (".cpp", "void f() {\n  if (a) {\n    x();\n" + "  } else if (b) {\n    x();\n" * 5 + "  } else {\n    x();\n  }\n}\n"),
+    "unbraced statements in a row": (".cpp", "void f() {\n" + "  if (a) x();\n" * 6 + "}\n"),
+    "conditions of many lines": (".cpp", "void f() {\n" + "  if (a &&\n      b) {\n    x();\n  }\n" * 6 + "}\n"),
     "long class of short functions": (".h", "struct X {\n" + "  int f() { return 1; }\n" * 100 + "};\n"),
+    "long class template": (".h", "template <class T>\nclass X final : public Y<T> {\n" + "  int x;\n" * 100 + "};\n"),
     "long namespace": (".cpp", "namespace a {\n" + "int x;\n" * 100 + "}\n"),
-    "long table": (".cpp", "const int t[] = {\n" + "  1,\n" * 100 + "};\nstd::vector<X> v{\n" + " {1, 2},\n" * 99 + "};\n"),
-    "macro and comment": (".cpp", "#define F(x) { { { { { {\n// { { { {\n/* { { { */ int f() { return 1; }\n"),
+    "long table": (".cpp", "const int t[] = {\n" + "    1,\n" * 100 + "};\nstd::vector<X> v{\n" + "    {1, 2},\n" * 99 + "};\n"),
+    "long table of lambdas": (".cpp", "INSTANTIATE(X, Y,\n            Values(\n" + "                Z{1,\n                  [] {\n"
+                              "                    x();\n                  }},\n" * 20 + "                Z{2}));\n"),
+    "macro and comment": (".cpp", "#define F(x) { { { { { {\n// { { { {\n/* { { { */\nint f() { return 1; }\n"),
     "digit separators": (".cpp", "int f() { return 1'000'000 + '{'; }\n"),
     "elif python": (".py", "def f():\n if a:\n  pass\n elif b:\n  pass\n elif c:\n  pass\n elif d:\n  pass\n elif e:\n  pass\n"),
 }

@@ -95,7 +95,7 @@ def main():
         DOCS.mkdir(parents=True, exist_ok=True)
         plot_all(runs, results)
         (DOCS / "tables.md").write_text(table_page(results), encoding="utf-8")
-        for page in sorted(EXAMPLES.glob("pages/*.md")):
+        for page in sorted(EXAMPLES.glob("pages/*.md")):  # pages with tables; docs/thesis has the others as they are written
             (DOCS / page.name).write_text(filled(page.read_text(encoding="utf-8"), runs), encoding="utf-8")
         (DOCS / "errata.md").write_text(errata_page(arguments[0], results, springs, table_4_4), encoding="utf-8")
         print("\n".join(["wall time, start of the command line included:"] + times + runs.times))

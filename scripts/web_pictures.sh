@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes docs/page/*.png from the running page: that of the README, and each view at several sizes.
+# Makes docs/page/*.png from the running page: the pictures that tests/web/pictures.test.mjs compares with it.
 #   scripts/web_pictures.sh [executable]     default: build/release/snapthrough
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

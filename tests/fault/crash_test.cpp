@@ -1,6 +1,6 @@
 /// @file
 /// Kills the service, and as often a runner, again and again while clients use it, and checks what it
-/// promised them. KILLS sets how often (20); scripts/crash.sh passes its argument on.
+/// promised them. KILLS sets how often (20); scripts/fault.sh passes its argument on.
 
 #include <gmock/gmock.h>
 #include <sqlite3.h>

@@ -1,6 +1,6 @@
 /// @file
 /// Analyses that take all memory, never end, crash or talk nonsense: each is one job that ends with its code,
-/// and nobody else notices. HOSTILE sets how many (60); scripts/hostile.sh passes its argument on.
+/// and nobody else notices. HOSTILE sets how many (60); scripts/fault.sh passes its argument on.
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>

@@ -1,6 +1,5 @@
 /// @file
-/// Runs a fuzz target once on every file of the folders that are given: the kept corpus, in CI, without a
-/// fuzzer.
+/// Runs a fuzz target once on every file of the folders that are given: replays kept inputs without a fuzzer.
 
 #include <cstdint>
 #include <cstdio>

@@ -19,6 +19,14 @@ std::string answer_to(const ReferenceProblem& problem) {
   return api::write_result(request, solve(problem.model, problem.analysis), 0.0).dump();
 }
 
+/// Answers to all problems; the problem with index `first` is solved first.
+std::vector<std::string> answers_from(std::size_t first, const std::vector<ReferenceProblem>& problems) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    out.push_back(answer_to(problems[(i + first) % problems.size()]));
+  return out;
+}
+
 TEST(Determinism, SameRequestSameBitsWhateverRunsBeside) {
   const std::vector<ReferenceProblem> problems{shallow_arch(1e7, Side::left, {}), deep_arch(215.0, 1e4, 0.0),
                                                ring_in_medium(1200.0, {}, 0.0), lee_frame_path({}),
@@ -30,10 +38,7 @@ TEST(Determinism, SameRequestSameBitsWhateverRunsBeside) {
     {
       std::vector<std::jthread> threads;
       for (std::size_t w = 0; w < answers.size(); ++w)
-        threads.emplace_back([&problems, &out = answers[w], w] {
-          for (std::size_t i = 0; i < problems.size(); ++i)
-            out.push_back(answer_to(problems[(i + w) % problems.size()]));
-        });
+        threads.emplace_back([&problems, &out = answers[w], w] { out = answers_from(w, problems); });
     }
     for (std::size_t w = 0; w < answers.size(); ++w)
       for (std::size_t i = 0; i < problems.size(); ++i)

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Confirms what the regressions expect, by runs that the tests do not make.
 
-  confirm.py BINARY [TEXT...]     files whose name contains a TEXT; all without one
+  confirm.py BINARY [TEXT...]     models of regressions.jsonl whose name contains a TEXT; all without one
 
 A request that asks for an accuracy is solved at a tenth of it. One with a mesh of its own is drawn mirrored, from the other end
-and in another order, and its loads are compared with those without that mesh at an accuracy of 1e-4. Prints a line a file, and
-ends with status 1 when one of them does not confirm what is expected, but those that a file names in `not_by`.
+and in another order, and its loads are compared with those without that mesh at an accuracy of 1e-4. Prints a line a
+model, and ends with status 1 when one of these runs does not confirm what is expected, but those that the model names in
+`not_by`.
 """
 import copy
 import json
@@ -85,15 +86,14 @@ def main():
         raise SystemExit(__doc__)
     binary = program.Program(sys.argv[1], SECONDS)
     wrong = 0
-    for path in sorted(HERE.glob("*.json")):
-        if len(sys.argv) > 2 and not any(text in path.name for text in sys.argv[2:]):
+    for document in map(json.loads, (HERE / "regressions.jsonl").read_text(encoding="utf-8").splitlines()):
+        if len(sys.argv) > 2 and not any(text in document["name"] for text in sys.argv[2:]):
             continue
-        document = json.loads(path.read_text(encoding="utf-8"))
         done = list(checks(binary, document))
         excused = document["expected"].get("not_by", [])
         missed = [what for what, confirmed in done if not confirmed and what not in excused]
         wrong += 1 if missed or not any(confirmed for _, confirmed in done) else 0
-        print(f"{path.stem}: {', '.join(what for what, ok in done if ok) or 'nothing'} confirm"
+        print(f"{document['name']}: {', '.join(what for what, ok in done if ok) or 'nothing'} confirm"
               + (f"; WRONG: {', '.join(missed)}" if missed else ""), flush=True)
     raise SystemExit(1 if wrong else 0)
 

@@ -1,14 +1,16 @@
-/// Models that failed once. Each file of this folder is a request with what it must give, a test of its own:
-/// see README.md.
+/// Models that failed once. Each line of regressions.jsonl is a request with what it must give, a test of its
+/// own: see README.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "api/api.h"
@@ -20,20 +22,27 @@ namespace {
 
 using nlohmann::json;
 
-const std::filesystem::path kFolder = SNAPTHROUGH_SOURCE_DIR "/tests/regressions";
-
-/// Names of the files, without their ending.
-std::vector<std::string> situations() {
-  std::vector<std::string> out;
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
-    if (entry.path().extension() == ".json") out.push_back(entry.path().stem());
-  std::ranges::sort(out);
-  return out;
+/// The documents of regressions.jsonl by their names.
+const std::map<std::string, json>& documents() {
+  static const std::map<std::string, json> all = [] {
+    std::map<std::string, json> out;
+    std::ifstream in(SNAPTHROUGH_SOURCE_DIR "/tests/regressions/regressions.jsonl");
+    for (std::string line; std::getline(in, line);) {
+      json document = json::parse(line);
+      std::string name = document.at("name");
+      if (!out.emplace(name, std::move(document)).second) {
+        throw std::runtime_error("regressions.jsonl has two models of the name " + name);
+      }
+    }
+    return out;
+  }();
+  return all;
 }
 
-json read(const std::string& situation) {
-  std::ifstream in(kFolder / (situation + ".json"));
-  return json::parse(in);
+std::vector<std::string> names() {
+  std::vector<std::string> out;
+  for (const auto& [name, document] : documents()) out.push_back(name);
+  return out;
 }
 
 class Regression : public ::testing::TestWithParam<std::string> {};
@@ -70,7 +79,7 @@ void expect_points(const std::vector<CriticalPoint>& all, const json& expected) 
 
 TEST_P(Regression, EndsAsItMust) {
   constexpr double kMostSeconds = 120.0;  // twice what the longest takes
-  const json document = read(GetParam());
+  const json& document = documents().at(GetParam());
   SCOPED_TRACE(document.at("failed_once").get<std::string>());
   const json& expected = document.at("expected");
   const api::ReadOutcome read =
@@ -92,14 +101,14 @@ TEST_P(Regression, EndsAsItMust) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, Regression, ::testing::ValuesIn(situations()), [](const auto& p) {
+INSTANTIATE_TEST_SUITE_P(Models, Regression, ::testing::ValuesIn(names()), [](const auto& p) {
   std::string name = p.param;
   std::ranges::replace(name, '-', '_');
   return name;
 });
 
-/// An empty folder would pass.
-TEST(Regressions, AreThere) { EXPECT_GE(situations().size(), 50U); }
+/// Without models the tests above would pass.
+TEST(Regressions, AreThere) { EXPECT_GE(names().size(), 50U); }
 
 }  // namespace
 }  // namespace snapthrough::testing

@@ -1,5 +1,5 @@
 // Pictures of every view of the page, taken from the running executable.
-//   node tests/web/pictures.mjs               writes docs/page/: all views wide and light, some of them narrower and dark
+//   node tests/web/pictures.mjs               writes docs/page/: the pictures that pictures.test.mjs compares with the page
 //   node tests/web/pictures.mjs --all FOLDER  every view at every size, light and dark
 //   node tests/web/pictures.mjs --all FOLDER NAME...   these views only
 // scripts/web_pictures.sh runs it. SERVICE_EXECUTABLE names the executable; PAGE_FOLDER a page in place of the one that is built in.
@@ -7,23 +7,16 @@ import { mkdir, stat } from 'node:fs/promises';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { startBrowser } from './support/browser.mjs';
-import { kSizes, kViews, nameOf, startPlaces, take } from './support/views.mjs';
+import { kSizes, kStored, kViews, nameOf, startPlaces, take } from './support/views.mjs';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
-const kMost = 6_000_000;  // bytes of all pictures in docs/page
-/** Views that docs/page also has at other sizes or dark. */
-const kOthers = [
-  ['studio', 'wide', 'dark'], ['studio', 'tablet', 'light'], ['studio', 'phone', 'light'], ['studio', 'phone', 'dark'],
-  ['studio-tunnel_arch', 'tablet', 'dark'], ['json', 'tablet', 'light'], ['gallery', 'phone', 'light'],
-  ['sweep-map', 'wide', 'dark'], ['sweep-map', 'phone', 'light'], ['job', 'tablet', 'light'], ['jobs', 'phone', 'light'],
-];
-
+const kMost = 3_000_000;  // bytes of all pictures in docs/page
 /** Which pictures, and in which files. */
 function plan(all, names) {
-  const views = Object.keys(kViews).filter((view) => names.length === 0 || names.includes(view));
   if (!all) {
-    return [...views.map((view) => [view, 'wide', 'light']), ...kOthers];
+    return kStored;
   }
+  const views = Object.keys(kViews).filter((view) => names.length === 0 || names.includes(view));
   return views.flatMap((view) => Object.keys(kSizes).flatMap((size) => ['light', 'dark'].map((scheme) => [view, size, scheme])));
 }
 

@@ -7,18 +7,9 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { after, before, test } from 'node:test';
 import { startBrowser } from './support/browser.mjs';
-import { nameOf, startPlaces, take } from './support/views.mjs';
+import { kStored, nameOf, startPlaces, take } from './support/views.mjs';
 
 const stored = fileURLToPath(new URL('../../docs/page', import.meta.url));
-/** Views in which only times differ from run to run. */
-const kCompared = [
-  ['studio', 'wide', 'light'], ['studio', 'wide', 'dark'], ['studio', 'phone', 'light'], ['studio-tunnel_arch', 'tablet', 'dark'],
-  ['studio-column_between_walls', 'wide', 'light'], ['studio-pile_in_soil', 'wide', 'light'], ['studio-portal_sway', 'wide', 'light'],
-  ['studio-pipeline_upheaval', 'wide', 'light'], ['studio-film_on_substrate', 'wide', 'light'], ['studio-arch_no_base', 'wide', 'light'],
-  ['studio-frame_nearly_unstable', 'wide', 'light'], ['studio-frame_portal', 'wide', 'light'],
-  ['gallery', 'wide', 'light'], ['form', 'wide', 'light'], ['json', 'wide', 'light'],
-  ['sweep-line', 'wide', 'light'], ['sweep-map', 'wide', 'dark'], ['job-failed', 'wide', 'light'], ['documents', 'wide', 'light'],
-];
 /** Where times stand. */
 const kTimes = '.state, .rows dd, .cm-cursor';
 const kBlock = 24;     // px: a picture is compared block by block, so that a line that is missing counts
@@ -73,7 +64,7 @@ const boxesOf = (page) => page.locator(kTimes).evaluateAll((all) => all.map((one
   return { x: x + scrollX, y: y + scrollY, width, height };
 }));
 
-for (const picture of kCompared) {
+for (const picture of kStored) {
   test(`${nameOf(picture)} is as it was`, async () => {
     const path = join(folder, nameOf(picture));
     const boxes = await take(browser, places, picture, { path }, boxesOf);

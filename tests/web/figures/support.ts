@@ -19,16 +19,17 @@ export interface Case {
   result: Result;
 }
 
-function stored<T>(file: string): T {
-  return JSON.parse(readFileSync(join(CASES, file), "utf8")) as T;
+function stored(name: string): Record<string, unknown> {
+  return JSON.parse(readFileSync(join(CASES, `${name}.json`), "utf8")) as Record<string, unknown>;
 }
 
 export function readCase(name: string): Case {
-  return { name, request: stored<Request>(`${name}.request.json`), result: stored<Result>(`${name}.result.json`) };
+  const { request, result } = stored(name);
+  return { name, request: request as Request, result: result as Result };
 }
 
 export function readTable(name: string): Schemas["Table"] {
-  return stored<Schemas["Table"]>(`${name}.table.json`);
+  return stored(name)["table"] as Schemas["Table"];
 }
 
 export function styleSheet(): string {

@@ -201,6 +201,16 @@ export const kViews = {
   },
 };
 
+/** The pictures of docs/page: views in which only times differ from run to run, so that a test can compare them. */
+export const kStored = [
+  ['studio', 'wide', 'light'], ['studio', 'wide', 'dark'], ['studio', 'phone', 'light'], ['studio-tunnel_arch', 'tablet', 'dark'],
+  ['studio-column_between_walls', 'wide', 'light'], ['studio-pile_in_soil', 'wide', 'light'], ['studio-portal_sway', 'wide', 'light'],
+  ['studio-pipeline_upheaval', 'wide', 'light'], ['studio-film_on_substrate', 'wide', 'light'], ['studio-arch_no_base', 'wide', 'light'],
+  ['studio-frame_nearly_unstable', 'wide', 'light'], ['studio-frame_portal', 'wide', 'light'],
+  ['gallery', 'wide', 'light'], ['form', 'wide', 'light'], ['json', 'wide', 'light'],
+  ['sweep-line', 'wide', 'light'], ['sweep-map', 'wide', 'dark'], ['job-failed', 'wide', 'light'], ['documents', 'wide', 'light'],
+];
+
 async function startLocked(folder) {
   const config = join(folder, 'keys.toml');
   await writeFile(config, `[[keys]]\nowner = "ann"\nsha256 = "${createHash('sha256').update(kKey).digest('hex')}"\n`);
