@@ -2,7 +2,7 @@
 /// @file
 /// The unsymmetric part of follower pressures' tangent: at nodes where a pressed line ends free.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <functional>
 #include <vector>
 
