@@ -20,7 +20,7 @@ namespace {
 
 MatrixXd symmetric(const MatrixXd& m) { return 0.5 * (m + m.transpose()); }
 
-VectorXd eigenvalues(const MatrixXd& m) { return symmetric_eigen(symmetric(m)).values; }
+VectorXd eigenvalues(const MatrixXd& m) { return symmetric_eigenvalues(symmetric(m)); }
 
 /// A direction along z and the null motions, of norm one.
 CriticalDirection direction(const CriticalSolution& at, const VectorXd& along_null, double along_load,

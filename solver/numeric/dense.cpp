@@ -16,6 +16,10 @@ SymmetricEigen symmetric_eigen(const MatrixXd& A) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+VectorXd symmetric_eigenvalues(const MatrixXd& A) {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(A).eigenvalues();
+}
+
 SymmetricEigen generalised_symmetric_eigen(const MatrixXd& A, const MatrixXd& B) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(A, B);
   return {solver.eigenvalues(), solver.eigenvectors()};

@@ -16,6 +16,9 @@ struct SymmetricEigen {
 /// @brief A x = v x for a symmetric A, of which the lower triangle is read; vectors are orthonormal.
 [[nodiscard]] SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
 
+/// @brief Eigenvalues of a symmetric A, ascending; the lower triangle is read.
+[[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& A);
+
 /// @brief A x = v B x for a symmetric A and a symmetric, positive definite B; vectors satisfy x^T B x = 1.
 [[nodiscard]] SymmetricEigen generalised_symmetric_eigen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
