@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs clang-tidy with .clang-tidy over sources of a configured build.
+# Runs clang-tidy with .clang-tidy over sources, with the options of a build without precompiled headers: those of GCC
+# are none of clang's.
 #   scripts/tidy.sh [FILE...]        default: every .cpp of solver, api and server (slow: half an hour)
 #   scripts/tidy.sh --changed [REF]  those that changed since REF (default: the commit before the last), in CI; of
 #                                    more than 12 the first 12, with the number of those left out
@@ -30,7 +31,7 @@ elif [ "${#files[@]}" -eq 0 ]; then
 fi
 # Version 16: version 14, Debian's default, fails on <ranges> in C++20.
 install_packages "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}" clang-tidy-16
-[ -f "build/$preset/compile_commands.json" ] || cmake --preset "$preset" >/dev/null
+cmake --preset "$preset" -B build/tidy -DSNAPTHROUGH_PCH=OFF -DBUILD_TESTING=OFF -DSNAPTHROUGH_BENCH=OFF >/dev/null
 
-printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$(nproc)" clang-tidy-16 --quiet -p "build/$preset"
+printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$(nproc)" clang-tidy-16 --quiet -p build/tidy
 echo "tidy: ${#files[@]} files, nothing found"

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "solver/numeric/dense.h"
+
 namespace snapthrough {
 
 using Eigen::Index;
@@ -33,8 +35,8 @@ double FollowerEnds::prepare(double proportional, double constant, Index size,
     W_.col(j) = column;
     M.col(j) += weighted(column);
   }
-  inverse_ = M.inverse();
-  return M.determinant();
+  inverse_ = inverse(M);
+  return determinant(M);
 }
 
 void FollowerEnds::correct(VectorXd& x) const { x -= W_ * (inverse_ * weighted(x)); }

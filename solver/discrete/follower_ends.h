@@ -2,7 +2,7 @@
 /// @file
 /// Nonsymmetric part of the tangent of follower pressures, at free ends of pressed lines.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <functional>
 #include <vector>
 

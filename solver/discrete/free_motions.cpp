@@ -1,11 +1,11 @@
 #include "solver/discrete/free_motions.h"
 
-#include <Eigen/QR>
 #include <cstddef>
 #include <optional>
 #include <utility>
 
 #include "solver/discrete/mechanism.h"
+#include "solver/numeric/dense.h"
 #include "solver/support/joined_supports.h"
 
 namespace snapthrough {
@@ -27,8 +27,7 @@ MatrixXd FreeMotions::of_nodes() const {
   if (empty()) return {};
   MatrixXd nodes(3 * static_cast<Index>(joined_model().nodes.size()), motions_.cols());
   for (Index i = 0; i < motions_.cols(); ++i) nodes.col(i) = mechanism_->of_nodes(motions_.col(i));
-  const Eigen::HouseholderQR<MatrixXd> orthonormal(nodes);
-  const MatrixXd motions = orthonormal.householderQ() * MatrixXd::Identity(nodes.rows(), motions_.cols());
+  const MatrixXd motions = orthonormal_columns(nodes);
   // remove rounding in rows of fixed nodes, which would couple independent parts
   constexpr double kRounding = 1e-14;
   return (motions.array().abs() > kRounding).select(motions, 0.0);

@@ -1,6 +1,6 @@
 #include "solver/discrete/mechanism.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

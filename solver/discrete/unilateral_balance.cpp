@@ -1,6 +1,5 @@
 #include "solver/discrete/unilateral_balance.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "solver/discrete/rigid_loads.h"
+#include "solver/numeric/dense.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/nonnegative_least_squares.h"
 
@@ -37,22 +37,6 @@ void append(const VectorXd& column, MatrixXd& matrix) {
   matrix.conservativeResize(column.size(), matrix.cols() + 1);
   matrix.rightCols(1) = column;
 }
-
-/// Independent columns that span a matrix, by pivoted QR.
-MatrixXd independent_columns(const MatrixXd& columns) {
-  Eigen::ColPivHouseholderQR<MatrixXd> factors(columns);
-  factors.setThreshold(kUncoupled);
-  MatrixXd out(columns.rows(), factors.rank());
-  for (Index i = 0; i < out.cols(); ++i) out.col(i) = columns.col(factors.colsPermutation().indices()[i]);
-  return out;
-}
-
-MatrixXd orthonormal_span(const MatrixXd& columns) {
-  Eigen::ColPivHouseholderQR<MatrixXd> factors(columns);
-  factors.setThreshold(kUncoupled);
-  return factors.householderQ() * MatrixXd::Identity(columns.rows(), factors.rank());
-}
-
 /// Position of the maximum of a unimodal function on an interval (golden section search).
 template <class Function>
 double place_of_maximum(double lo, double hi, const Function& value) {
@@ -183,14 +167,14 @@ void UnilateralBalance::add_support(const std::vector<Row>& rows, const CurvedSu
     joined.curved.insert(joined.curved.end(), group->curved.begin(), group->curved.end());
     group = groups_.erase(group);
   }
-  joined.basis = orthonormal_span(span);
+  joined.basis = orthonormal_span(span, kUncoupled);
   groups_.push_back(std::move(joined));
 }
 
 void UnilateralBalance::close_groups() {
   for (Group& group : groups_) {
     group.rows = (group.basis.transpose() * group.rows).colwise().normalized().eval();
-    const MatrixXd independent = independent_columns(group.rows);
+    const MatrixXd independent = independent_columns(group.rows, kUncoupled);
     group.inside = independent.rowwise().sum() / static_cast<double>(independent.cols());
   }
 }
@@ -276,7 +260,7 @@ VectorXd off_pressed(const MatrixXd& rows, const NonnegativeSolution& found) {
   const VectorXd direction = found.residual.normalized();
   if (pressed.empty()) return direction;
   const MatrixXd A = rows(Eigen::all, pressed);
-  return VectorXd(direction - A * A.colPivHouseholderQr().solve(direction)).normalized();
+  return VectorXd(direction - A * least_squares(A, direction)).normalized();
 }
 
 }  // namespace

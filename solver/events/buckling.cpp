@@ -1,6 +1,5 @@
 #include "solver/events/buckling.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +10,7 @@
 #include "solver/newton/contact_state.h"
 #include "solver/newton/corrector.h"
 #include "solver/numeric/bracket.h"
+#include "solver/numeric/dense.h"
 #include "solver/numeric/pseudo_random.h"
 
 namespace snapthrough {
@@ -216,13 +216,12 @@ std::vector<EigenPair> ritz(Pencil& pencil, double shift, const std::vector<Vect
       right(i, j) = y[i].dot(gy);
     }
   }
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(left.partialPivLu().solve(right));
-  const Eigen::MatrixXcd vectors = solver.eigenvectors();  // computed anew by each call
+  const RealEigen found = real_eigen(solve_row_pivoting(left, right));
   std::vector<EigenPair> pairs;
   for (Index k = 0; k < m; ++k) {
     VectorXd mode = VectorXd::Zero(y[0].size());
-    for (Index j = 0; j < m; ++j) mode += vectors(j, k).real() * y[j];
-    pairs.push_back({shift - 1.0 / solver.eigenvalues()[k].real(), mode / mode.lpNorm<Eigen::Infinity>()});
+    for (Index j = 0; j < m; ++j) mode += found.vectors(j, k) * y[j];
+    pairs.push_back({shift - 1.0 / found.values[k], mode / mode.lpNorm<Eigen::Infinity>()});
   }
   std::sort(pairs.begin(), pairs.end(),
             [](const EigenPair& l, const EigenPair& r) { return l.load < r.load; });

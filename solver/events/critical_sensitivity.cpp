@@ -1,10 +1,10 @@
 #include "solver/events/critical_sensitivity.h"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
+#include "solver/numeric/dense.h"
 #include "solver/problem/derivatives.h"
 
 namespace snapthrough {
@@ -33,7 +33,7 @@ MatrixXd CriticalSensitivity::equations(EquilibriumProblem& problem) const {
 MatrixXd CriticalSensitivity::share_of_target() const {
   const CriticalSolution& at = point_.at();
   const auto spectrum = at.spectrum();
-  if (!spectrum) return at.B.inverse();
+  if (!spectrum) return inverse(at.B);
   const VectorXd w = spectrum->shares.col(target_);
   return w * w.transpose();
 }
@@ -67,7 +67,7 @@ CriticalSensitivity::Rate CriticalSensitivity::rate(const MatrixXd& change) cons
   equations.block(1, 1, k, k) = at.B;
   right.tail(k) = -crossing;
   Rate out;
-  out.lambda = equations.fullPivLu().solve(right)[0];
+  out.lambda = solve_full_pivoting(equations, right)[0];
   const double sizes = at.null.cwiseAbs().rowwise().sum().dot(force.forces.cwiseAbs());
   out.breaking_share = sizes > 0.0 ? along.norm() / sizes : 0.0;
   out.breaking = along.norm() / (std::abs(at.lambda) * at.B.norm());

@@ -1,14 +1,12 @@
 #include "solver/events/critical_system.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
 
+#include "solver/numeric/dense.h"
 #include "solver/numeric/pseudo_random.h"
 #include "solver/problem/derivatives.h"
 
@@ -22,9 +20,7 @@ namespace {
 
 MatrixXd symmetric(const MatrixXd& m) { return 0.5 * (m + m.transpose()); }
 
-VectorXd eigenvalues(const MatrixXd& m) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric(m)).eigenvalues();
-}
+VectorXd eigenvalues(const MatrixXd& m) { return symmetric_eigenvalues(symmetric(m)); }
 
 /// Direction n a + z b in (y, lambda), normalised, with the rate of the first null motion's stiffness.
 CriticalDirection direction(const CriticalSolution& at, const VectorXd& along_null, double along_load,
@@ -52,9 +48,9 @@ std::optional<CriticalSolution::Spectrum> CriticalSolution::spectrum() const {
   const double sign = B(0, 0) < 0.0 ? -1.0 : 1.0;
   const MatrixXd definite = symmetric(-sign * B);
   if ((eigenvalues(definite).array() >= 0.0).any()) return std::nullopt;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> pairs(symmetric(stiffness), -definite);
+  const SymmetricEigen pairs = generalised_symmetric_eigen(symmetric(stiffness), -definite);
   const Index k = stiffness.cols();
-  Spectrum out{-sign * pairs.eigenvalues(), pairs.eigenvectors()};
+  Spectrum out{-sign * pairs.values, pairs.vectors};
   if (sign > 0.0) {
     out.distances = out.distances.reverse().eval();
     out.shares = out.shares.rowwise().reverse().eval();
@@ -80,7 +76,7 @@ std::vector<CriticalDirection> CriticalSolution::tangents(const PathMetric& metr
     MatrixXd change = B;
     for (Index j = 0; j < k; ++j) change.col(j) += A[static_cast<std::size_t>(j)] * a;
     const VectorXd value = B * a + change * a + C;
-    a -= 0.5 * change.fullPivLu().solve(value);
+    a -= 0.5 * solve_full_pivoting(change, value);
   }
   if (!a.allFinite()) return {};
   return {direction(*this, a, 1.0, metric)};
@@ -193,7 +189,7 @@ bool CriticalNewton::factorise() {
   MatrixXd x = rows;
   x.rightCols(2) -= rows.leftCols(k) * shares;
   solve(x);
-  at_.stiffness = (border.transpose() * x.leftCols(k)).inverse();
+  at_.stiffness = inverse(border.transpose() * x.leftCols(k));
   v_ = x.leftCols(k) * at_.stiffness;
   // solution of [J, W n; n W, 0] [x; s] = [rows; 0] for the residual and the load
   const MatrixXd along = border.transpose() * x.rightCols(2);
@@ -298,7 +294,7 @@ void CriticalNewton::differentiate() {
 /// Matrix S such that the target's distance in the load factor is -trace(S stiffness) / trace(S B).
 MatrixXd CriticalNewton::share_of_target() const {
   const auto spectrum = at_.spectrum();
-  if (!spectrum) return at_.B.inverse();  // gives the mean distance of all null motions
+  if (!spectrum) return inverse(at_.B);  // gives the mean distance of all null motions
   const VectorXd w = spectrum->shares.col(guess_.target);
   return w * w.transpose() / w.dot(at_.B * w);
 }
@@ -320,7 +316,7 @@ VectorXd CriticalNewton::small_step() const {
     equations << at_.B(0, 0), at_.A[0](0, 0), rho_[0], -at_.stiffness(0, 0);
     right << -at_.stiffness(0, 0) - along_p_(0, 0), -pi_[0];
   }
-  return equations.fullPivLu().solve(right);
+  return solve_full_pivoting(equations, right);
 }
 
 bool CriticalNewton::step() {
@@ -339,8 +335,7 @@ bool CriticalNewton::step() {
   at_.response = q_;
   // orthonormalisation in the metric, span unchanged
   const MatrixXd gram = v_.transpose() * problem_.metric().asDiagonal() * v_;
-  const MatrixXd root = gram.llt().matrixU();
-  at_.null = root.transpose().triangularView<Eigen::Lower>().solve(v_.transpose()).transpose();
+  at_.null = orthonormal_by_gram(v_, gram);
   return metric_.norm(at_.y - guess_.y, at_.lambda - guess_.lambda) <= options_.reach;
 }
 

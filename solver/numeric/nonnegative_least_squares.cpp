@@ -1,9 +1,10 @@
 #include "solver/numeric/nonnegative_least_squares.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <limits>
 #include <vector>
+
+#include "solver/numeric/dense.h"
 
 namespace snapthrough {
 namespace {
@@ -24,9 +25,7 @@ class ActiveSet {
 
  private:
   [[nodiscard]] Index steepest(const std::vector<Index>& rejected) const;
-  [[nodiscard]] VectorXd least_squares() const {
-    return MatrixXd(A_(Eigen::all, passive_)).colPivHouseholderQr().solve(b_);
-  }
+  [[nodiscard]] VectorXd passive_solution() const { return least_squares(A_(Eigen::all, passive_), b_); }
   void move_to(VectorXd wanted);
 
   const MatrixXd& A_;
@@ -71,7 +70,7 @@ void ActiveSet::move_to(VectorXd wanted) {
     }
     passive_.erase(passive_.begin() + first);
     if (passive_.empty()) return;
-    wanted = least_squares();
+    wanted = passive_solution();
   }
   for (Index i = 0; i < wanted.size(); ++i) x_[passive_[static_cast<std::size_t>(i)]] = wanted[i];
 }
@@ -80,7 +79,7 @@ bool ActiveSet::advance() {
   std::vector<Index> rejected;
   for (Index next = steepest(rejected); next >= 0; next = steepest(rejected)) {
     passive_.push_back(next);
-    const VectorXd wanted = least_squares();
+    const VectorXd wanted = passive_solution();
     if (wanted[wanted.size() - 1] > 0.0) {
       move_to(wanted);
       residual_ = b_ - A_ * x_;

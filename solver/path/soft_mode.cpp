@@ -1,6 +1,5 @@
 #include "solver/path/soft_mode.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/numeric/dense.h"
 #include "solver/numeric/pseudo_random.h"
 
 namespace snapthrough {
@@ -81,13 +81,12 @@ Ritz ritz_pairs(const VectorXd& weights, const Block& block) {
   for (Index i = 0; i < k; ++i)
     for (Index j = 0; j < k; ++j)
       projected(i, j) = (block.z.col(i).array() * weights.array() * block.x.col(j).array()).sum();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (projected + projected.transpose()));
+  const SymmetricEigen found = symmetric_eigen(0.5 * (projected + projected.transpose()));
   std::vector<Index> order(static_cast<std::size_t>(k));
   std::iota(order.begin(), order.end(), Index{0});
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-    return std::abs(solver.eigenvalues()[a]) < std::abs(solver.eigenvalues()[b]);
-  });
-  return {solver.eigenvalues()(order), solver.eigenvectors()(Eigen::all, order)};
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return std::abs(found.values[a]) < std::abs(found.values[b]); });
+  return {found.values(order), found.vectors(Eigen::all, order)};
 }
 
 }  // namespace

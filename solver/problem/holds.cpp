@@ -1,11 +1,10 @@
 #include "solver/problem/holds.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "solver/numeric/dense.h"
 #include "solver/problem/equilibrium_problem.h"
 
 namespace snapthrough {
@@ -27,13 +26,13 @@ MotionStiffness motion_stiffness(EquilibriumProblem& problem, const SharedHolds&
     problem.solve(x);
     S.col(i) = H.transpose() * x.head(H.rows());
   }
-  const MatrixXd stiffness = S.inverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> principal(0.5 * (stiffness + stiffness.transpose()));
+  const MatrixXd stiffness = inverse(S);
+  const SymmetricEigen principal = symmetric_eigen(0.5 * (stiffness + stiffness.transpose()));
   MotionStiffness out;
-  out.motions = H * principal.eigenvectors();
-  out.stiffness = principal.eigenvalues().array() - holds->stiffness;
-  out.force = holds->stiffness * principal.eigenvectors().transpose() *
-              (H.transpose() * y.head(H.rows()) - holds->at);
+  out.motions = H * principal.vectors;
+  out.stiffness = principal.values.array() - holds->stiffness;
+  out.force =
+      holds->stiffness * principal.vectors.transpose() * (H.transpose() * y.head(H.rows()) - holds->at);
   return out;
 }
 

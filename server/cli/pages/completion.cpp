@@ -20,7 +20,7 @@ std::string with_backslashes(std::string_view text, std::string_view special) {
 }
 
 /// Returns the text in single quotes for bash and zsh.
-std::string quoted(std::string_view text) {
+std::string shell_quoted(std::string_view text) {
   std::string out = "'";
   for (const char c : text) {
     out += c == '\'' ? "'\\''" : std::string{c};
@@ -58,9 +58,9 @@ void write_bash_values(const CommandPage& command, std::ostream& script) {
     }
     std::string pattern;
     for (const std::string& name : option.names) {
-      pattern += (pattern.empty() ? "" : " | ") + quoted(command.name + " " + name);
+      pattern += (pattern.empty() ? "" : " | ") + shell_quoted(command.name + " " + name);
     }
-    script << "    " << pattern << ")\n      words=" << quoted(joined(option.choices))
+    script << "    " << pattern << ")\n      words=" << shell_quoted(joined(option.choices))
            << "\n      is_value=yes\n      ;;\n";
   }
 }
@@ -76,12 +76,12 @@ void write_zsh_options(const CommandPage& command, std::ostream& script) {
   for (const OptionPage& option : command.options) {
     const std::string help = with_backslashes(option.help, "[]\\:");
     if (option.is_positional) {
-      script << " \\\n        " << quoted("::" + option.names.front() + ":" + zsh_action(option));
+      script << " \\\n        " << shell_quoted("::" + option.names.front() + ":" + zsh_action(option));
       continue;
     }
     for (const std::string& name : option.names) {
       const std::string value = option.takes_value ? ":value:" + zsh_action(option) : "";
-      script << " \\\n        " << quoted(name + "[" + help + "]" + value);
+      script << " \\\n        " << shell_quoted(name + "[" + help + "]" + value);
     }
   }
 }
@@ -136,9 +136,9 @@ std::string bash_completion(const ProgramPage& program) {
             "  if [ -z \"$is_value\" ]; then\n"
             "    case \"$command\" in\n"
             "      '')\n        words="
-         << quoted(joined(first)) << "\n        ;;\n";
+         << shell_quoted(joined(first)) << "\n        ;;\n";
   for (const CommandPage& command : program.commands) {
-    script << "      " << command.name << ")\n        words=" << quoted(joined(option_names(command)))
+    script << "      " << command.name << ")\n        words=" << shell_quoted(joined(option_names(command)))
            << "\n        ;;\n";
   }
   // Without a reply bash completes file names, which arguments and other values may be.
@@ -163,7 +163,7 @@ std::string zsh_completion(const ProgramPage& program) {
             "  local -a commands\n"
             "  commands=(\n";
   for (const CommandPage& command : program.commands) {
-    script << "    " << quoted(command.name + ":" + command.description) << '\n';
+    script << "    " << shell_quoted(command.name + ":" + command.description) << '\n';
   }
   script << "  )\n  _arguments -C";
   write_zsh_options(program.program, script);
