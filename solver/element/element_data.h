@@ -37,6 +37,7 @@ struct ElementData {
   /// Linear functional of an element's displacements, with the law of the support that it drives.
   struct Functional {
     Law law;
+    double tangent = 0.0;  ///< stiffness of the law at the state, where the support acts
     Touch touch = Touch::none;
     int spring = -1;
     std::array<double, 3> a{};

@@ -110,16 +110,18 @@ bool StructuralProblem::node_spring_acts(const NodeSpring& spring, double w) {
 /// Returns the force of a node spring along its row and stores its tangent stiffness.
 double StructuralProblem::node_spring_force(std::size_t index, const VectorXd& y, const Regime& regime) {
   const NodeSpring& spring = structure_.node_springs[index];
-  const double stiffness = spring.law.stiffness;
   const double w = penetration(spring, y, 0.0);
   const double gap = regime.bilateral() ? 0.0 : spring.law.gap;
   bool acts = regime.bilateral() || node_spring_acts(spring, w);
   if (regime.is_frozen()) acts = regime.frozen->node_springs[index] != 0;
-  const double force = acts ? stiffness * (w - gap) : 0.0;
+  const double stiffness = spring.law.stiffness_at(w - gap);
+  const double force = acts ? spring.law.force_at(w - gap) : 0.0;
   spring_stiffness_[index] = acts ? stiffness : 0.0;
   if (!spring.law.one_sided) return force;
-  spring_stiffness_[index] = stiffness * ((acts ? regime.softness : 0.0) + regime.grip);
-  return force * regime.softness + regime.grip * stiffness * w;
+  // a share of the support acts at every displacement, without gap
+  spring_stiffness_[index] =
+      (acts ? regime.softness : 0.0) * stiffness + regime.grip * spring.law.stiffness_at(w);
+  return force * regime.softness + regime.grip * spring.law.force_at(w);
 }
 
 void StructuralProblem::add_node_springs(const VectorXd& y, const Regime& regime, VectorXd& f) {
