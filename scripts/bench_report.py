@@ -68,7 +68,7 @@ def growth_rate(runs):
 def precision_pages(by_group):
     """Tables and plots of error against time and unknowns, case by case."""
     text = ["# Work and precision\n", "Relative error of the first critical load against CPU milliseconds, all in one run of "
-            "`scripts/bench.sh`.\nCurves *asked*: the requested accuracy, nothing else set. Curves *order p*: fixed "
+            "`scripts/bench.sh`.\nCurves *asked*: the requested accuracy, nothing else set. *Order p*: fixed "
             "meshes of that order, 4 to 128 elements.\n"]
     for case, title in TITLES.items():
         asked = by_group.get(("accuracy", case), [])
