@@ -19,7 +19,8 @@ from lib.cpp_text import comments  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CODE = ("solver", "api", "server")
-DOCUMENTS = ("*.md", "docs/**/*.md", "solver/*.md", "bench/*.md", "clients/**/*.md", "examples/**/*.md", "tests/*/*.md")
+DOCUMENTS = ("*.md", "docs/**/*.md", "examples/**/*.md", "solver/*.md", "server/*.md", "bench/*.md", "clients/*/*.md",
+             "tests/*/*.md", "web/src/*/*.md")
 WIDTH = 120
 
 OPENINGS = ("of", "the same", "as", "those", "it")
