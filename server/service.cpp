@@ -13,7 +13,7 @@
 #include "server/front/listener.h"
 #include "server/jobs/callback.h"
 #include "server/jobs/envelope.h"
-#include "server/jobs/job_service.h"
+#include "server/queue/job_service.h"
 #include "server/maintenance/upkeep.h"
 #include "server/metrics/request_metrics.h"
 #include "server/neighbours/neighbours.h"

@@ -9,7 +9,7 @@
 #include "server/environment.h"
 #include "server/log/log.h"
 #include "server/status.h"
-#include "server/worker/pool.h"
+#include "server/queue/pool.h"
 
 namespace snapthrough::server {
 

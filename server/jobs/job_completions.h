@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "server/jobs/bell.h"
+#include "server/bell.h"
 
 namespace snapthrough::server {
 

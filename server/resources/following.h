@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "server/jobs/job_service.h"
+#include "server/queue/job_service.h"
 #include "server/resources/message.h"
 
 namespace snapthrough::server::http {

@@ -11,7 +11,7 @@
 
 #include "server/status.h"
 #include "server/store/list_query.h"
-#include "server/sweeps/sweep.h"
+#include "server/jobs/sweep.h"
 
 namespace snapthrough::server {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "server/sweeps/sweep.h"
+#include "server/jobs/sweep.h"
 
 namespace snapthrough::server {
 

@@ -16,7 +16,7 @@
 #include "api/sweep.h"
 #include "server/environment.h"
 #include "server/jobs/active_jobs.h"
-#include "server/sweeps/sweep.h"
+#include "server/jobs/sweep.h"
 
 namespace snapthrough::server {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "api/sweep_unit.h"
-#include "server/pause.h"
-#include "server/sweeps/unit.h"
+#include "server/bell.h"
+#include "server/worker/unit.h"
 
 namespace snapthrough::server {
 namespace {

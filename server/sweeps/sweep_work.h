@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "server/bell.h"
 #include "server/environment.h"
-#include "server/jobs/bell.h"
 #include "server/jobs/handoff.h"
 #include "server/jobs/job_completions.h"
 #include "server/jobs/job_metrics.h"

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "server/bell.h"
 #include "server/worker/frame.h"
 #include "server/worker/runner.h"
 
@@ -74,7 +75,7 @@ class ChildRunner final : public Runner {
   int control_ = -1;
   FrameReceiver received_;                       ///< of this process
   std::uint64_t task_ = 0;                       ///< of this process, counted from 1
-  int alarm_ = -1;                               ///< eventfd: a stop was requested
+  PollBell alarm_;                               ///< rung when a stop is requested
   std::string ended_by_;                         ///< how the last process that crashed ended
   std::map<std::string, std::uint64_t> sweeps_;  ///< that the process knows, by id
   std::uint64_t next_sweep_ = 0;

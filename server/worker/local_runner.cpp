@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "server/sweeps/unit.h"
+#include "server/worker/unit.h"
 
 namespace snapthrough::server {
 

@@ -26,7 +26,7 @@ struct JobRun {
   std::int64_t peak_bytes = 0;  ///< most memory that it used at a time; 0: not known
 };
 
-/// Units of a sweep (server/sweeps/unit.h) that are computed one after the other.
+/// Units of a sweep (server/worker/unit.h) that are computed one after the other.
 struct UnitTask {
   const std::string& id;        ///< of the sweep
   const std::string& document;  ///< that `sweep` was read from

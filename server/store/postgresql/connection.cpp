@@ -319,17 +319,26 @@ void Connection::execute(const std::string& sql) {
   PQclear(result);
 }
 
-bool Connection::wait_for_notification(int milliseconds) {
-  pollfd waiting{PQsocket(handle_.get()), POLLIN, 0};
-  if (::poll(&waiting, 1, milliseconds) > 0 && PQconsumeInput(handle_.get()) != 1) {
-    throw Error("", PQerrorMessage(handle_.get()));
-  }
+bool Connection::take_notifications() {
   bool any = false;
   while (PGnotify* notification = PQnotifies(handle_.get())) {
     PQfreemem(notification);
     any = true;
   }
   return any;
+}
+
+bool Connection::wait_for_notification(std::chrono::milliseconds longest, const PollBell& bell) {
+  if (take_notifications()) {
+    return true;  // read with the answer to an earlier statement
+  }
+  std::array<pollfd, 2> waited{pollfd{PQsocket(handle_.get()), POLLIN, 0},
+                               pollfd{bell.descriptor(), POLLIN, 0}};
+  const int ready = ::poll(waited.data(), waited.size(), static_cast<int>(longest.count()));
+  if (ready > 0 && waited[0].revents != 0 && PQconsumeInput(handle_.get()) != 1) {
+    throw Error("", PQerrorMessage(handle_.get()));
+  }
+  return take_notifications();
 }
 
 Transaction::Transaction(Connection& connection, bool synced) : connection_(connection) {

@@ -3,6 +3,7 @@
 /// Thin owners of libpq's handles. Inside the driver an error is an exception; the store's verbs turn it into
 /// a Status. libpq-fe.h is not included here.
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,6 +12,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "server/bell.h"
 
 struct pg_conn;
 struct pg_result;
@@ -117,10 +120,12 @@ class Connection {
   void execute(const std::string& sql);
   [[nodiscard]] bool in_transaction() const;
   [[nodiscard]] bool good() const;
-  /// Waits for notifications, at most so long; whether any came. @pre it listens
-  bool wait_for_notification(int milliseconds);
+  /// Waits for a notification until that time is over or the bell is rung; returns whether one came.
+  /// @pre the connection has run LISTEN
+  bool wait_for_notification(std::chrono::milliseconds longest, const PollBell& bell);
 
  private:
+  bool take_notifications();
   void send(const Statement& statement);
   bool read_pipeline(std::vector<Rows>& all, pg_result*& failed);
   [[noreturn]] void fail(pg_result* result) const;

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
-#include "server/pause.h"
+#include "server/bell.h"
 
 namespace snapthrough::server::postgresql {
 namespace {
 
-/// Between two tries to listen.
+/// Pause between two tries to listen.
 constexpr std::chrono::seconds kBetweenTries{5};
-/// How soon a stop is seen while nobody rings.
-constexpr std::chrono::milliseconds kSlice{100};
+/// Longest sleep without a look whether it is time for another try.
+constexpr std::chrono::milliseconds kBetweenLooks{100};
 
 }  // namespace
 
@@ -106,21 +106,22 @@ bool PostgresqlNeighbourStore::listen() {
 }
 
 bool PostgresqlNeighbourStore::wait(std::chrono::milliseconds longest, const std::stop_token& stop) {
+  const PollBell stopping;
+  const std::stop_callback on_stop(stop, [&] { stopping.ring(); });
   const auto end = std::chrono::steady_clock::now() + longest;
   for (auto left = longest; left.count() > 0 && !stop.stop_requested();
        left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now())) {
-    const auto slice = std::min(left, kSlice);
     if (!listen()) {
-      pause(stop, slice);
+      pause(stop, std::min(left, kBetweenLooks));
       continue;
     }
     try {
-      if (listener_->wait_for_notification(static_cast<int>(slice.count()))) {
+      if (listener_->wait_for_notification(left, stopping)) {
         return true;
       }
     } catch (const Error&) {
       listener_.reset();
-      return true;  // what was told meanwhile is not known
+      return true;  // notifications may have been lost with the connection
     }
   }
   return false;

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/sweeps/sweep.h"
+#include "server/jobs/sweep.h"
 
 namespace snapthrough::server::postgresql {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "server/jobs/job.h"
+#include "server/jobs/sweep.h"
 #include "server/store/postgresql/connection.h"
-#include "server/sweeps/sweep.h"
 
 namespace snapthrough::server::postgresql {
 

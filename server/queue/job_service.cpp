@@ -1,4 +1,4 @@
-#include "server/jobs/job_service.h"
+#include "server/queue/job_service.h"
 
 #include <utility>
 

@@ -12,8 +12,8 @@
 
 #include "server/environment.h"
 #include "server/jobs/submission.h"
-#include "server/jobs/worker_context.h"
 #include "server/log/log.h"
+#include "server/queue/worker_context.h"
 #include "server/store/store.h"
 #include "server/sweeps/sweep_service.h"
 #include "solver/solve.h"

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/jobs/worker_context.h"
+#include "server/queue/worker_context.h"
 #include "server/worker/runner.h"
 
 namespace snapthrough::server {

@@ -1,12 +1,12 @@
-#include "server/worker/pool.h"
+#include "server/queue/pool.h"
 
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "server/bell.h"
 #include "server/jobs/path_batch.h"
-#include "server/pause.h"
 #include "server/worker/solve_job.h"
 
 namespace snapthrough::server {

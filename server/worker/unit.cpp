@@ -1,4 +1,4 @@
-#include "server/sweeps/unit.h"
+#include "server/worker/unit.h"
 
 #include <chrono>
 #include <nlohmann/json.hpp>

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string>
 
+#include "server/bell.h"
 #include "server/environment.h"
 #include "server/jobs/active_jobs.h"
-#include "server/jobs/bell.h"
 #include "server/jobs/handoff.h"
 #include "server/jobs/job_completions.h"
 #include "server/jobs/job_metrics.h"

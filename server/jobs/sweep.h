@@ -43,7 +43,7 @@ struct NewSweep {
   std::int64_t points = 0;
   Time created;
   std::string owner = {};
-  std::int64_t unit_points = 1;  ///< points of each unit (server/sweeps/unit.h); divides `points`
+  std::int64_t unit_points = 1;  ///< points of each unit (server/worker/unit.h); divides `points`
   std::optional<IdempotencyKey> idempotency = {};
   bool reuse = true;  ///< rows of other sweeps of the same owner will do
   std::string analysis_type = {};
