@@ -11,8 +11,8 @@
 
 #include "server/front/keys.h"
 #include "server/front/listener.h"
-#include "server/queue/job_service.h"
 #include "server/log/log.h"
+#include "server/queue/job_service.h"
 #include "server/resources/routes.h"
 #include "server/webhooks/webhook_times.h"
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "server/jobs/sweep.h"
 #include "server/status.h"
 #include "server/store/list_query.h"
-#include "server/jobs/sweep.h"
 
 namespace snapthrough::server {
 
