@@ -2,12 +2,12 @@
 /// @file
 /// A job and what is kept of it. Plain data.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "server/environment.h"
-#include "server/jobs/quotas.h"
 #include "server/jobs/state.h"
 #include "solver/result.h"
 
@@ -18,6 +18,19 @@ struct JobFailure {
   std::string code;     ///< e.g. "no_convergence", "internal_error"
   std::string detail;   ///< a sentence
   std::string reached;  ///< result document (JSON text) of what was reached; empty: nothing
+};
+
+/// What one owner may have at most; 0: any amount. Work that would lead beyond it is not stored; what was
+/// accepted is computed and stored whatever its size.
+struct Quotas {
+  std::int64_t jobs_waiting = 0;     ///< accepted jobs
+  std::int64_t points_waiting = 0;   ///< points of accepted and running sweeps that have no row yet
+  std::int64_t bytes_kept = 0;       ///< of requests, results, sweeps and their rows
+  std::int64_t points_per_hour = 0;  ///< of sweeps, handed in or tried again
+
+  [[nodiscard]] bool any() const {
+    return jobs_waiting > 0 || points_waiting > 0 || bytes_kept > 0 || points_per_hour > 0;
+  }
 };
 
 /// What a client wants with a job or sweep. It has no part in what is computed.

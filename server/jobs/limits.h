@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "server/jobs/quotas.h"
+#include "server/jobs/job.h"
 #include "server/status.h"
 
 namespace snapthrough::server {

@@ -9,6 +9,7 @@
 
 #include "api/sweep.h"
 #include "server/jobs/job.h"
+#include "server/jobs/sweep_state.h"
 
 namespace snapthrough::server {
 

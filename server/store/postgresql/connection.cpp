@@ -130,15 +130,14 @@ std::int64_t Rows::changed() const {
   return text.empty() ? 0 : std::stoll(std::string(text));
 }
 
-bool Rows::is_null(int row, int column) const { return PQgetisnull(result_.get(), row, column) == 1; }
+bool ResultRow::is_null(int column) const { return PQgetisnull(result_, row_, column) == 1; }
 
-std::string_view Rows::bytes(int row, int column) const {
-  return {PQgetvalue(result_.get(), row, column),
-          static_cast<std::size_t>(PQgetlength(result_.get(), row, column))};
+std::string_view ResultRow::bytes(int column) const {
+  return {PQgetvalue(result_, row_, column), static_cast<std::size_t>(PQgetlength(result_, row_, column))};
 }
 
-std::int64_t Rows::integer(int row, int column) const {
-  const std::string_view value = bytes(row, column);
+std::int64_t ResultRow::integer(int column) const {
+  const std::string_view value = bytes(column);
   switch (value.size()) {
     case 2:
       return static_cast<std::int16_t>(big_endian(value));
@@ -147,20 +146,20 @@ std::int64_t Rows::integer(int row, int column) const {
     case 8:
       return static_cast<std::int64_t>(big_endian(value));
     default:
-      throw Error("XX001", "column " + std::to_string(column) + " of the store is no integer");
+      refuse("column " + std::to_string(column) + " of the store is no integer");
   }
 }
 
-double Rows::real(int row, int column) const {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(integer(row, column)));
+double ResultRow::real(int column) const {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(integer(column)));
 }
 
-bool Rows::boolean(int row, int column) const { return bytes(row, column) == std::string_view("\1", 1); }
+bool ResultRow::boolean(int column) const { return bytes(column) == std::string_view("\1", 1); }
 
-std::string Rows::text(int row, int column) const { return std::string(bytes(row, column)); }
+std::string ResultRow::text(int column) const { return std::string(bytes(column)); }
 
-std::vector<double> Rows::series(int row, int column) const {
-  const std::string_view value = bytes(row, column);
+std::vector<double> ResultRow::series(int column) const {
+  const std::string_view value = bytes(column);
   std::vector<double> values(value.size() / sizeof(double));
   if (!values.empty()) {
     std::memcpy(values.data(), value.data(), values.size() * sizeof(double));
@@ -168,13 +167,13 @@ std::vector<double> Rows::series(int row, int column) const {
   return values;
 }
 
-std::vector<std::int64_t> Rows::integers(int row, int column) const {
+std::vector<std::int64_t> ResultRow::integers(int column) const {
   constexpr std::size_t kHead = 20;  // dimensions, whether there are NULLs, type; length, lower bound
-  std::string_view value = bytes(row, column);
+  std::string_view value = bytes(column);
   std::vector<std::int64_t> all;
   for (value.remove_prefix(std::min(kHead, value.size())); value.size() >= 12; value.remove_prefix(12)) {
     if (big_endian(value.substr(0, 4)) != 8) {
-      throw Error("XX001", "an array of the store has another type, or NULLs");
+      refuse("an array of the store has another type, or NULLs");
     }
     all.push_back(static_cast<std::int64_t>(big_endian(value.substr(4, 8))));
   }
@@ -182,20 +181,14 @@ std::vector<std::int64_t> Rows::integers(int row, int column) const {
 }
 
 std::vector<std::string> Rows::texts(int column) const {
-  std::vector<std::string> all(static_cast<std::size_t>(count()));
+  std::vector<std::string> all;
   for (int row = 0; row < count(); ++row) {
-    all[static_cast<std::size_t>(row)] = text(row, column);
+    all.push_back((*this)[row].text(column));
   }
   return all;
 }
 
-std::optional<std::int64_t> Rows::optional_integer(int row, int column) const {
-  return is_null(row, column) ? std::nullopt : std::optional(integer(row, column));
-}
-
-std::optional<double> Rows::optional_real(int row, int column) const {
-  return is_null(row, column) ? std::nullopt : std::optional(real(row, column));
-}
+void ResultRow::refuse(const std::string& why) const { throw Error("XX001", why); }
 
 void Connection::Close::operator()(pg_conn* connection) const { PQfinish(connection); }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "server/bell.h"
+#include "server/store/driver.h"
 
 struct pg_conn;
 struct pg_result;
@@ -74,30 +75,41 @@ struct Statement {
   Parameters parameters = {};
 };
 
-/// @brief The rows that a statement gave. Columns and rows count from 0. Throws Error where a value is NULL
-/// or of another type.
+/// @brief One row of a result, which must outlive it. Throws Error where a value is NULL or of another type.
+class ResultRow final : public Row {
+ public:
+  ResultRow(const pg_result* result, int row) : result_(result), row_(row) {}
+
+  [[nodiscard]] bool is_null(int column) const override;
+  [[nodiscard]] std::int64_t integer(int column) const override;  ///< of any integer type
+  [[nodiscard]] double real(int column) const override;
+  [[nodiscard]] std::string text(int column) const override;  ///< text or bytes
+  [[nodiscard]] std::vector<double> series(int column) const override;
+  [[noreturn]] void refuse(const std::string& why) const override;
+  [[nodiscard]] bool boolean(int column) const;
+  /// An array of bigint without NULLs.
+  [[nodiscard]] std::vector<std::int64_t> integers(int column) const;
+
+ private:
+  [[nodiscard]] std::string_view bytes(int column) const;
+  const pg_result* result_;
+  int row_;
+};
+
+/// The result of a statement. Rows count from 0.
 class Rows {
  public:
   explicit Rows(pg_result* result);
 
   [[nodiscard]] int count() const;
   [[nodiscard]] bool empty() const { return count() == 0; }
-  /// Rows that an insert, update or delete changed.
+  /// Number of rows that an insert, update or delete changed.
   [[nodiscard]] std::int64_t changed() const;
-  [[nodiscard]] bool is_null(int row, int column) const;
-  [[nodiscard]] std::int64_t integer(int row, int column) const;  ///< of any integer type
-  [[nodiscard]] double real(int row, int column) const;
-  [[nodiscard]] bool boolean(int row, int column) const;
-  [[nodiscard]] std::string text(int row, int column) const;  ///< text or bytes; empty for NULL
-  [[nodiscard]] std::vector<double> series(int row, int column) const;
-  [[nodiscard]] std::vector<std::int64_t> integers(int row, int column) const;  ///< of an array of bigint
+  [[nodiscard]] ResultRow operator[](int row) const { return {result_.get(), row}; }
   /// A column of all rows.
   [[nodiscard]] std::vector<std::string> texts(int column) const;
-  [[nodiscard]] std::optional<std::int64_t> optional_integer(int row, int column) const;
-  [[nodiscard]] std::optional<double> optional_real(int row, int column) const;
 
  private:
-  [[nodiscard]] std::string_view bytes(int row, int column) const;
   struct Clear {
     void operator()(pg_result* result) const;
   };

@@ -60,9 +60,6 @@ class Pool {
   std::chrono::steady_clock::time_point next_try_{};
 };
 
-/// Whether a write has to survive the death of the database's machine before its caller goes on.
-enum class Durability { synced, unsynced };
-
 /// SQLSTATE that held_job() and held_units() of the schema raise.
 inline constexpr std::string_view kLostClaim = "ST001";
 

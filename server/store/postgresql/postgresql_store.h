@@ -7,7 +7,7 @@
 #include <string>
 
 #include "server/status.h"
-#include "server/store/migration.h"
+#include "server/store/driver.h"
 #include "server/store/store.h"
 
 namespace snapthrough::server::postgresql {

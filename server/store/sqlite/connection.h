@@ -13,6 +13,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "server/store/driver.h"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
@@ -46,25 +48,25 @@ class StatementCache {
   std::unordered_map<std::string, std::vector<sqlite3_stmt*>> idle_;
 };
 
-/// @brief A prepared statement: bind in order, step, read columns from 0. Not thread-safe.
-/// Every member throws Error.
-class Statement {
+/// @brief A prepared statement: add parameters in order, step, read the current row. Not thread-safe. Every
+/// member throws Error.
+class Statement final : public Row {
  public:
   /// Both must outlive the statement.
   Statement(sqlite3* database, StatementCache& cache, std::string_view sql);
 
-  /// Binds the next parameter. Text and blobs are copied.
-  Statement& bind(std::int64_t value);
-  Statement& bind(int value) { return bind(static_cast<std::int64_t>(value)); }
-  Statement& bind(double value);
-  Statement& bind(std::string_view text);
-  Statement& bind_null();
-  Statement& bind_blob(std::string_view bytes);
+  /// Gives the next parameter its value. Text and blobs are copied.
+  Statement& add(std::int64_t value);
+  Statement& add(int value) { return add(static_cast<std::int64_t>(value)); }
+  Statement& add(double value);
+  Statement& add(std::string_view text);
+  Statement& add_null();
+  Statement& add_blob(std::string_view bytes);
   /// Little-endian float64, one after the other.
-  Statement& bind_series(std::span<const double> values);
+  Statement& add_series(std::span<const double> values);
   template <class T>
-  Statement& bind(const std::optional<T>& value) {
-    return value ? bind(*value) : bind_null();
+  Statement& add(const std::optional<T>& value) {
+    return value ? add(*value) : add_null();
   }
 
   /// To the next row; false when there is none.
@@ -72,13 +74,12 @@ class Statement {
   /// Steps a statement that returns no rows.
   void run();
 
-  [[nodiscard]] bool is_null(int column) const;
-  [[nodiscard]] std::int64_t integer(int column) const;
-  [[nodiscard]] double real(int column) const;
-  [[nodiscard]] std::string text(int column) const;
-  [[nodiscard]] std::vector<double> series(int column) const;
-  [[nodiscard]] std::optional<std::int64_t> optional_integer(int column) const;
-  [[nodiscard]] std::optional<double> optional_real(int column) const;
+  [[nodiscard]] bool is_null(int column) const override;
+  [[nodiscard]] std::int64_t integer(int column) const override;
+  [[nodiscard]] double real(int column) const override;
+  [[nodiscard]] std::string text(int column) const override;
+  [[nodiscard]] std::vector<double> series(int column) const override;
+  [[noreturn]] void refuse(const std::string& why) const override;
 
  private:
   struct GiveBack {
@@ -103,6 +104,18 @@ class Connection {
   /// Runs statements that return nothing.
   void execute(const std::string& sql);
   [[nodiscard]] Statement prepare(std::string_view sql) const { return {handle_.get(), *cache_, sql}; }
+  /// The statement with its parameters, in order.
+  template <class... Values>
+  [[nodiscard]] Statement query(std::string_view sql, const Values&... values) const {
+    Statement statement = prepare(sql);
+    (statement.add(values), ...);
+    return statement;
+  }
+  /// Runs a statement that returns no rows with its parameters, in order.
+  template <class... Values>
+  void run(std::string_view sql, const Values&... values) {
+    query(sql, values...).run();
+  }
   /// Rows changed by the latest insert, update or delete.
   [[nodiscard]] std::int64_t changes() const;
   [[nodiscard]] std::int64_t last_row() const;

@@ -1,14 +1,12 @@
 #pragma once
 /// @file
-/// The schema's history: numbered steps, each applied once, in order; what is lacking in one transaction.
+/// The history of the schema: numbered steps, each applied once, in order.
 
 #include <span>
 #include <string>
 #include <vector>
 
 #include "server/environment.h"
-#include "server/status.h"
-#include "server/store/migration.h"
 #include "server/store/sqlite/connection.h"
 
 namespace snapthrough::server::sqlite {
@@ -16,10 +14,10 @@ namespace snapthrough::server::sqlite {
 /// The steps this program knows, in order. Defined in a source generated at build time.
 [[nodiscard]] const std::vector<Migration>& embedded_migrations();
 
-/// @brief Brings a database up to date and records each step in schema_migrations.
-/// @return `unsupported` when the database has a step that this program does not know (a newer version wrote
-/// it) or an applied step differs from the one known here; nothing When a step fails, the database is as it
-/// was before the first. Throws Error when the database can't be read or written.
+/// @brief Applies the steps that the database lacks in one transaction, and records each in
+/// schema_migrations.
+/// @return see check_applied(). Throws Error when a step fails, or the database can't be read or written: it
+/// is as before then.
 Status migrate(Connection& connection, std::span<const Migration> migrations, Time now);
 
 }  // namespace snapthrough::server::sqlite

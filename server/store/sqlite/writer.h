@@ -16,10 +16,6 @@
 
 namespace snapthrough::server::sqlite {
 
-/// Whether a write has to survive the death of the machine before its caller goes on. One that need not is
-/// in the log of the database all the same and survives the death of the process.
-enum class Durability { synced, unsynced };
-
 /// The status that an error of SQLite amounts to.
 [[nodiscard]] Status to_status(const Error& error);
 
