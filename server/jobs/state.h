@@ -2,9 +2,9 @@
 /// @file
 /// States of jobs and sweeps, and the table of legal changes of a job.
 ///
-/// This table and the one of sweeps (sweep_state.h) are the only lists of legal changes: drivers of stores
-/// make their SQL of them (server/store/driver.h), tests try every change on every driver, and a test
-/// compares them with the schemas, the OpenAPI document and docs/service.md.
+/// This table and the table of sweeps (sweep_state.h) are the only lists of legal changes. Drivers of stores
+/// make their SQL of them (server/store/driver.h). Tests try every change on every driver, and compare both
+/// tables with the schemas, the OpenAPI document and docs/service.md.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ inline constexpr std::array kJobStates{JobState::accepted, JobState::running, Jo
 inline constexpr std::array<std::string_view, kJobStates.size()> kJobStateNames{
     "accepted", "running", "successful", "failed", "dismissed"};
 
-/// What happens to a job.
+/// Event in the life of a job.
 enum class JobEvent { claim, finish, fail, requeue, dismiss };
 
 /// Names in databases and documents, in the order of JobEvent.

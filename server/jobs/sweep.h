@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A sweep and what is kept of it. Plain data.
+/// Sweeps as data: what is handed in, stored, claimed and returned.
 
 #include <cstdint>
 #include <optional>
@@ -13,61 +13,61 @@
 
 namespace snapthrough::server {
 
-/// @brief What is known of a sweep without its document and rows.
+/// @brief A sweep without its document and rows.
 ///
-/// A sweep is accepted until a worker takes its first points, running until every point has its row, and then
-/// successful, or failed when some of its points are. A failed or dismissed sweep that is tried again is
-/// accepted.
+/// A sweep is accepted until a worker takes its first units, running until every point has its row, and then
+/// successful, or failed if a row has an error. A failed or dismissed sweep that is tried again is accepted
+/// (sweep_state.h).
 struct SweepRecord {
   std::string id;
   JobState state = JobState::accepted;
-  std::string owner;  ///< as of a job
+  std::string owner;  ///< see Job
   std::string title;
-  std::string analysis_type;    ///< of its document, whatever its parameters make of it
-  std::int64_t points = 0;      ///< of the design
+  std::string analysis_type;    ///< type in its document; parameters may change the type of points
+  std::int64_t points = 0;      ///< points of the design
   std::int64_t successful = 0;  ///< rows with outputs
   std::int64_t failed = 0;      ///< rows with an error
-  std::int64_t reused = 0;      ///< of the successful ones: taken from another sweep
+  std::int64_t reused = 0;      ///< successful rows that were taken from another sweep
   Time created;
   std::optional<Time> started;
-  std::optional<Time> finished;  ///< exactly in a final state
+  std::optional<Time> finished;  ///< set exactly in a final state
   Annotations annotations;
 
   [[nodiscard]] std::int64_t done() const { return successful + failed; }
 };
 
-/// A sweep as it is handed in.
+/// A sweep that is submitted to a store.
 struct NewSweep {
   std::string id;  ///< from new_id()
   std::string title = {};
-  std::string document;  ///< JSON text as received
+  std::string document;  ///< sweep document as received, JSON text
   std::int64_t points = 0;
   Time created;
   std::string owner = {};
-  std::int64_t unit_points = 1;  ///< points of each unit (server/worker/unit.h); divides `points`
+  std::int64_t unit_points = 1;  ///< points of each unit (worker/unit.h); divides `points`
   std::optional<IdempotencyKey> idempotency = {};
-  bool reuse = true;  ///< rows of other sweeps of the same owner will do
+  bool reuse = true;  ///< rows of other sweeps of the owner may be used
   std::string analysis_type = {};
   Annotations annotations = {};
-  Quotas quotas = {};  ///< of the owner
+  Quotas quotas = {};  ///< bounds of the owner
 };
 
-/// A row of a sweep's table.
+/// Row of the table of a sweep.
 struct PointRow {
   std::uint64_t point = 0;
   api::PointOutcome outcome;
-  std::string key = {};  ///< equal for points with equal outputs; empty: not reused
+  std::string key = {};  ///< see point_key(); empty: the row is not reused
   bool reused = false;
 };
 
-/// What a worker needs of a sweep to go on with it.
+/// Part of an unfinished sweep that a worker needs.
 struct OpenSweep {
   std::string document;
   std::string owner;
   bool reuse = true;
 };
 
-/// Units of a sweep, one after the other.
+/// Consecutive units of a sweep.
 struct UnitRun {
   std::uint64_t first = 0;  ///< number of the first unit, counted from 0
   std::uint64_t count = 0;
@@ -75,18 +75,18 @@ struct UnitRun {
   bool operator==(const UnitRun&) const = default;
 };
 
-/// Units that a worker has until its lease runs out, and what proves that it still does.
+/// Claim of a worker on units. Stores refuse rows under a claim whose lease has run out.
 struct UnitClaim {
   std::int64_t number = 0;  ///< never used again
   std::string sweep;
   UnitRun units;
 };
 
-/// What of a sweep's table to read.
+/// Selection of rows of the table of a sweep.
 struct PointQuery {
   std::uint64_t first = 0;
-  std::uint64_t count = UINT64_MAX;  ///< points from there on, with a row or not
-  std::optional<bool> failed;        ///< only these
+  std::uint64_t count = UINT64_MAX;  ///< points from `first` on, with a row or not
+  std::optional<bool> failed;        ///< only rows with (true) or without (false) an error
 };
 
 }  // namespace snapthrough::server

@@ -6,7 +6,7 @@
 
 namespace snapthrough::server {
 
-/// What happens to a sweep. `finish` and `fail` come with the row of its last point.
+/// Event in the life of a sweep. `finish` and `fail` come with the row of its last point.
 enum class SweepEvent { claim, finish, fail, dismiss, retry };
 
 /// Names in documents, in the order of SweepEvent.

@@ -6,9 +6,8 @@
 #include "api/names.h"
 #include "server/jobs/content_key.h"
 #include "server/jobs/envelope.h"
-#include "server/jobs/large_document.h"
-#include "server/jobs/least_memory.h"
-#include "server/jobs/repetition.h"
+#include "server/jobs/memory.h"
+#include "server/jobs/submission.h"
 
 namespace snapthrough::server {
 namespace {
@@ -23,7 +22,8 @@ NewJob new_job(const Order& order, const api::Request& request, const Envelope& 
   job.created = world.now();
   job.owner = order.owner;
   job.content_key = content_key(*request.document);
-  job.reuse = order.reuse && order.idempotency_key.has_value();  // without a key it was looked for already
+  job.reuse =
+      order.reuse && order.idempotency_key.has_value();  // without a key submit() looks for a result first
   job.idempotency = key_of(order);
   job.annotations = envelope.annotations;
   return job;
@@ -31,7 +31,7 @@ NewJob new_job(const Order& order, const api::Request& request, const Envelope& 
 
 }  // namespace
 
-/// Keeps others from using an idempotency key at the same time.
+/// Reserves the idempotency key of an order for as long as it exists.
 class JobService::KeyInUse {
  public:
   KeyInUse(JobService& jobs, const Order& order) : jobs_(jobs), used_(order.idempotency_key.has_value()) {
@@ -114,7 +114,8 @@ StatusOr<Submission> JobService::store_new(const Order& order, NewJob job) {
   std::promise<bool> stored;
   Handoff handoff{{job.id, 1, job.document, job.created}, stored.get_future().share()};
   const Lease lease = context_.new_lease();
-  // What may be a repetition, or have a result already, or be refused for its bytes, nobody shall solve.
+  // A job that may be a repetition, have a stored result or be refused for its bytes is not solved before it
+  // is stored.
   if (!order.idempotency_key && !job.reuse && job.quotas.bytes_kept == 0 && handoffs_.offer(handoff)) {
     job.lease = lease;
     job.patient = order.waits;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a caller can do with jobs, whatever the protocol: hand one in, look at it, dismiss it.
+/// Jobs for any protocol: submit, get, dismiss, remove.
 
 #include <atomic>
 #include <chrono>
@@ -20,29 +20,30 @@
 
 namespace snapthrough::server {
 
-/// @brief Where jobs are handed in and asked for. Thread-safe; the parts it is given must outlive it.
+/// Takes jobs in and answers questions about them. Thread-safe. REQUIRES: the parts of the constructor
+/// outlive it.
 class JobService {
  public:
   JobService(Store& store, const Environment& environment, Log& log, JobLimits limits = {});
 
-  /// @brief Reads and checks a request document and, when nothing is wrong, stores it as a job.
-  /// The job is durable when this returns an id. `unavailable` when nothing can be stored at the moment.
+  /// @brief Checks a request document and stores it as a job if it has no findings. The job is durable when
+  /// an id is returned. @return `unavailable` or `stopping` while the service takes no work
   StatusOr<Submission> submit(const Order& order);
-  /// The job, if there is one and it is the owner's.
+  /// The job of that id and owner, or nothing.
   StatusOr<std::optional<Job>> get(const std::string& id, std::string_view owner);
-  /// Dismisses a job and stops its analysis. @pre get() found it
+  /// Dismisses a job and stops its analysis. @pre get() found the job
   StatusOr<Dismissal> dismiss(const std::string& id);
-  /// Removes a job, after stopping its analysis. @pre get() found it
+  /// Stops the analysis of a job and removes the job. @pre get() found the job
   Status remove(const std::string& id);
 
-  /// Where the analysis of a running job stands; nothing before its first step. What runs in another process
-  /// tells it once a second.
+  /// Progress of a running job; nothing before its first step. Another process tells its progress once a
+  /// second.
   [[nodiscard]] std::optional<Progress> progress(const Job& job) const;
   [[nodiscard]] Store& store() { return store_; }
   [[nodiscard]] const Environment& environment() const { return environment_; }
   [[nodiscard]] const JobLimits& limits() const { return limits_; }
   [[nodiscard]] SweepService& sweeps() { return sweeps_; }
-  /// For the workers, and for whoever follows what they do.
+  /// The parts that workers, upkeep and followers use.
   [[nodiscard]] const WorkerContext& context() const { return context_; }
 
  private:
@@ -64,7 +65,7 @@ class JobService {
   ActiveJobs active_;
   JobProgress progress_;
   JobMetrics metrics_;
-  const std::string instance_;  ///< the name that leases bear
+  const std::string instance_;  ///< name of this instance of the service, in leases
   SweepService sweeps_;
   const WorkerContext context_;
 };

@@ -14,14 +14,14 @@ namespace {
 
 using std::chrono::duration;
 
-/// How long a worker without work waits at most before it looks at the queue again, though nobody said that
-/// there is more. Where the store is shared, Neighbours looks for all workers of the process.
+/// Longest sleep, in seconds, of a worker without work before it looks at the store though no bell was rung.
+/// In front of a shared store Neighbours looks for all workers of the process.
 constexpr duration<double> kLongestNap{1.0};
 constexpr duration<double> kLongestSharedNap{10.0};
-/// How long a worker waits before it tries again to store an outcome.
+/// Pause between two tries to store an outcome.
 constexpr std::chrono::milliseconds kRetryPause{200};
 
-/// Adds points of the path, and forgets the oldest of those that are too many.
+/// Adds points of the path; drops the oldest beyond kTracedBytes.
 void note_traced(JobNews& news, std::string document) {
   news.traced.push_back({news.number, std::move(document)});
   std::size_t bytes = 0;
@@ -33,7 +33,7 @@ void note_traced(JobNews& news, std::string document) {
   }
 }
 
-/// Hooks that let the followers of a job know what its analysis does.
+/// Hooks that tell the followers of a job what its analysis does.
 Hooks told_hooks(const Claim& claim, JobProgress& topic, const std::stop_token& stop) {
   const auto tell = [&claim, &topic](auto change) {
     topic.update(claim.id, [&](JobNews& news) {
@@ -57,7 +57,7 @@ Hooks told_hooks(const Claim& claim, JobProgress& topic, const std::stop_token& 
           [batch](const TracedPoint& point) { batch->add(point); }};
 }
 
-/// A job begins or goes back to the queue.
+/// Logs that a job begins or goes back to the queue.
 void log_job(Log& log, const Claim& claim, JobState state) {
   log.write(LogLevel::info, "job",
             {{"job", std::string_view(claim.id)},
@@ -65,7 +65,7 @@ void log_job(Log& log, const Claim& claim, JobState state) {
              {"attempt", static_cast<std::int64_t>(claim.attempt)}});
 }
 
-/// A job ended: with a termination or failure code, and a sentence.
+/// Logs the end of a job, with its termination or failure code and a sentence.
 void log_job_end(Log& log, const Claim& claim, const JobRun& outcome) {
   const bool failed = outcome.failure.has_value();
   log.write(
@@ -94,14 +94,15 @@ Status store_once(const Claim& claim, JobRun& outcome, const WorkerContext& cont
   if (status.code() != StatusCode::io_error) {
     return status;
   }
-  // The result itself can't be stored (a number that is none): say so rather than leave the job running.
+  // The store refuses the result itself (e.g. a number that is NaN): the job fails, so that it does not stay
+  // running.
   outcome.result.reset();
   outcome.failure = JobFailure{"not_stored", "the result could not be stored: " + status.message(), ""};
   return context.store.fail(claim, *outcome.failure, {}, now);
 }
 
-/// Stores the outcome; while the store can't be written, again and again until the claim is lost or the
-/// service stops: the job is found running at the next start then.
+/// Stores the outcome. While the store can't be written, tries until the claim is lost or the service stops;
+/// then the next start finds the job running.
 Status store_outcome(const Claim& claim, JobRun& outcome, const WorkerContext& context,
                      const std::stop_token& stop) {
   Status status = store_once(claim, outcome, context);
@@ -124,11 +125,12 @@ void give_back(const Claim& claim, const WorkerContext& context) {
   log_job(context.log, claim, JobState::accepted);
 }
 
-/// What an analysis that was asked to stop came to; false when nothing is to be stored.
+/// Changes the outcome of an analysis by the reason for which it was stopped; false when nothing is to be
+/// stored.
 bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, const WorkerContext& context) {
   const bool cancelled = outcome.failure && outcome.failure->code == kCancelled;
   if (!cancelled) {
-    return true;  // it came to its end before it saw the request to stop
+    return true;  // the analysis ended before it saw the request to stop
   }
   switch (reason) {
     case StopReason::shutdown:
@@ -148,7 +150,7 @@ bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, const W
   return true;
 }
 
-/// @param stored when the store may be asked about the job, if that is not now
+/// @param stored set when the store has queued the job; null: the store has the job
 void run_job(const Claim& claim, const std::shared_future<bool>* stored, const WorkerContext& context,
              Runner& runner, const std::stop_token& stop) {
   log_job(context.log, claim, JobState::running);
@@ -167,7 +169,7 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
     return;
   }
   if (const Status status = store_outcome(claim, outcome, context, stop); !status.ok()) {
-    if (status.code() != StatusCode::conflict) {  // dismissed or removed meanwhile: nobody's trouble
+    if (status.code() != StatusCode::conflict) {  // a conflict: the job was dismissed or removed meanwhile
       log_trouble(context.log, claim, status);
     }
     return;
@@ -232,15 +234,15 @@ void WorkerPool::run(const std::stop_token& stop) {
   std::uint64_t seen = 0;
   const auto nap = context_.store.neighbours() == nullptr ? kLongestNap : kLongestSharedNap;
   while (!stop.stop_requested()) {
-    // In turn: neither jobs nor sweeps wait for the end of the other. While sweeps go on the store is not
-    // asked for jobs that nobody submitted.
+    // Jobs and sweeps in turn, so that neither waits for the end of the other. While sweeps go on, the store
+    // is asked for jobs only when some wait.
     const bool waited = context_.waiting > 0;
     const bool worked = waited && claim_and_work(runner, stop);
     if ((!stop.stop_requested() && context_.sweeps.do_next(runner, stop)) || worked ||
         (!waited && claim_and_work(runner, stop))) {
       continue;
     }
-    // Jobs that are given directly come before those that wait: nobody is idle while some wait.
+    // A job from offer() comes at once: no worker is idle while jobs wait in the store.
     std::optional<Handoff> handoff;
     while ((handoff = context_.handoffs.wait(seen, stop, nap))) {
       work_on(*handoff, context_, runner, stop);

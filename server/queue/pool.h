@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The threads that claim, solve and complete jobs and points of sweeps.
+/// Threads that claim, solve and complete jobs and chunks of sweeps.
 
 #include <stop_token>
 #include <thread>
@@ -11,30 +11,30 @@
 
 namespace snapthrough::server {
 
-/// @brief Works on one claimed job to its end and stores the outcome.
+/// @brief Solves a claimed job and stores the outcome.
 ///
-/// A numerical failure or an exception makes the job failed; a stop of the service that interrupts the
-/// analysis gives the job back to the queue. A claim that was lost meanwhile changes nothing. While the store
-/// can't be written, the outcome is kept and tried again as long as the lease may hold.
+/// A numerical failure or an exception fails the job. A stop of the service that interrupts the analysis
+/// gives the job back to the queue. Under a lost claim nothing is stored. While the store can't be written,
+/// the outcome is kept and stored later, as long as the lease holds.
 void work_on(const Claim& claim, const WorkerContext& context, Runner& runner, const std::stop_token& stop);
 
-/// The same for a job that is still being stored.
+/// Solves a job while it is being stored; stores the outcome if the job was stored.
 void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runner,
              const std::stop_token& stop);
 
-/// @brief A fixed number of working threads. Thread-safe; the parts it is given must outlive it.
+/// A fixed number of working threads. Thread-safe. REQUIRES: the context outlives it.
 class WorkerPool {
  public:
-  /// @param make called once on each thread
+  /// @param make makes the runner of a thread; called once on each
   WorkerPool(int threads, const WorkerContext& context, RunnerFactory make);
-  /// Stops first if need be.
+  /// Calls stop().
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
   WorkerPool(WorkerPool&&) = delete;
   WorkerPool& operator=(WorkerPool&&) = delete;
 
-  /// Asks running analyses to stop, and returns when their jobs are back in the queue. Repeatable.
+  /// Asks running analyses to stop and returns when their jobs are back in the queue. May be called again.
   void stop();
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a worker, and whoever looks after workers, is given.
+/// Parts that workers, Upkeep and Neighbours share.
 
 #include <atomic>
 #include <cstdint>
@@ -20,24 +20,24 @@
 
 namespace snapthrough::server {
 
-/// Where work comes from, where it is told, and where it ends. All parts are thread-safe.
+/// Parts that workers, Upkeep and Neighbours share. All are thread-safe.
 struct WorkerContext {
   Store& store;
   const Environment& environment;
   Log& log;
   const JobLimits& limits;
   StoreHealth& health;
-  std::atomic<std::int64_t>& waiting;  ///< jobs that wait, about
+  std::atomic<std::int64_t>& waiting;  ///< accepted jobs, about
   JobCompletions& completions;
   HandoffQueue& handoffs;
   ActiveJobs& active;
   JobProgress& progress;
   SweepWork& sweeps;
   JobMetrics& metrics;
-  Bell& bell;                  ///< for other processes
-  const std::string instance;  ///< of the service: the name that leases bear
+  Bell& bell;                  ///< wakes the thread that rings other processes
+  const std::string instance;  ///< name of this instance of the service, in leases
 
-  /// A lease from now on.
+  /// A lease of this instance that begins now.
   [[nodiscard]] Lease new_lease() const { return {instance, environment.now() + limits.lease}; }
 };
 

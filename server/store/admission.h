@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Decisions of drivers about what is handed in: whether its owner may have more, and what it comes to.
+/// Decisions of drivers about submissions: quotas of the owner, repetitions, reuse of results.
 
 #include <cstdint>
 #include <optional>
@@ -13,10 +13,10 @@ namespace snapthrough::server {
 
 /// What an owner has, or what a request adds to it.
 struct Usage {
-  std::int64_t jobs = 0;    ///< accepted
-  std::int64_t points = 0;  ///< of unfinished sweeps, without a row
+  std::int64_t jobs = 0;    ///< accepted jobs
+  std::int64_t points = 0;  ///< points of unfinished sweeps, without a row
   std::int64_t bytes = 0;
-  std::int64_t points_this_hour = 0;  ///< handed in during the last sixty minutes
+  std::int64_t points_this_hour = 0;  ///< points handed in during the last sixty minutes
 };
 
 /// `waiting_quota`, `storage_quota` or `rate_quota`, with the name of the quota, when `has` and `more`
@@ -27,14 +27,14 @@ struct Usage {
 struct KnownJob {
   std::int64_t row = 0;
   std::string id;
-  Annotations annotations;  ///< without the callback, which was told
+  Annotations annotations;  ///< without the callback
 };
 
 /// @brief The statements of a submission, in one transaction. A submission calls each at most once.
 class JobSubmission {
  public:
   explicit JobSubmission(const NewJob& job) : job_(job) {}
-  /// What becomes of the job. See Store::submit().
+  /// Decides and stores; see Store::submit().
   [[nodiscard]] StatusOr<Submitted> run();
 
  protected:
@@ -56,7 +56,7 @@ class JobSubmission {
   /// Stores the idempotency key with the id of the job that it stands for.
   virtual void insert_key(const std::string& id) = 0;
 
-  const NewJob& job_;  // NOLINT: drivers read it
+  const NewJob& job_;
 };
 
 }  // namespace snapthrough::server

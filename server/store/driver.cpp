@@ -26,7 +26,7 @@ const char* const kCriticalPointColumns =
 
 namespace {
 
-/// The reverse of with_nan(). @param count values of the series; a series that was not stored has none known
+/// Inverse of with_nan(). @param count length of the series; a series that was not stored has no known values
 std::vector<std::optional<double>> without_nan(std::span<const double> values, std::size_t count) {
   std::vector<std::optional<double>> known(count);
   for (std::size_t i = 0; i < count && i < values.size(); ++i) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What drivers of stores share: stored rows as types of the service, conditions on states, schema steps.
+/// What drivers of stores share beside SQL: rows as types of the service, conditions on states, schema steps.
 
 #include <cstdint>
 #include <optional>
@@ -46,8 +46,8 @@ template <class Event>
   return "status = " + literal(state_after(event));
 }
 
-/// @brief The current row of a result. Columns count from 0. What is not as the schema says throws the error
-/// of the driver.
+/// @brief Row of a result. Columns count from 0. A value that the schema does not allow throws the error of
+/// the driver.
 class Row {
  public:
   [[nodiscard]] virtual bool is_null(int column) const = 0;
@@ -64,7 +64,7 @@ class Row {
   [[nodiscard]] std::uint64_t number(int column) const { return static_cast<std::uint64_t>(integer(column)); }
   [[nodiscard]] std::optional<std::int64_t> optional_integer(int column) const;
   [[nodiscard]] std::optional<double> optional_real(int column) const;
-  /// Stored as microseconds since 1970.
+  /// A time that is stored as microseconds since 1970.
   [[nodiscard]] Time time(int column) const;
   [[nodiscard]] std::optional<Time> optional_time(int column) const;
   [[nodiscard]] JobState state(int column) const;
@@ -80,9 +80,9 @@ class Row {
   ~Row() = default;
 };
 
-/// Microseconds since 1970, as times are stored.
+/// Microseconds since 1970: the stored form of a time.
 [[nodiscard]] inline std::int64_t to_row(Time time) { return time.time_since_epoch().count(); }
-/// Nothing (NULL) for an empty text.
+/// The text; nothing (NULL) for an empty text.
 [[nodiscard]] inline std::optional<std::string_view> text_or_null(std::string_view text) {
   return text.empty() ? std::nullopt : std::optional(text);
 }
@@ -97,7 +97,7 @@ extern const char* const kSweepColumns;
 inline constexpr int kSweepColumnCount = 12;
 [[nodiscard]] SweepRecord read_sweep(const Row& row);
 
-/// @brief What a submission with a known idempotency key comes to.
+/// @brief Outcome of a submission with a known idempotency key.
 /// @param row fingerprint of the document that came with the key; id of the job or sweep that was made of it
 [[nodiscard]] Submitted known_key(const Row& row, const IdempotencyKey& key);
 
@@ -130,9 +130,9 @@ void add_critical_point(Values& values, const CriticalPoint& point) {
 /// A table whose rows are listed: it has the columns seq, owner, status, label, analysis_type, created_us.
 struct ListedTable {
   const char* name;
-  const char* columns;    ///< for SELECT
+  const char* columns;    ///< columns for SELECT
   int count;              ///< number of columns
-  const char* condition;  ///< of every row that is listed: " AND ...", or ""
+  const char* condition;  ///< condition on every listed row: " AND ...", or ""
 };
 
 /// @brief Bounds of a page: rows created after `after`, and whose (created, number) is less than `end`.

@@ -35,8 +35,8 @@ struct HeldUnits {
 struct RowCounts {
   std::int64_t successful = 0;
   std::int64_t failed = 0;
-  std::int64_t reused = 0;  ///< of the successful ones
-  std::int64_t bytes = 0;   ///< of outputs, codes and details
+  std::int64_t reused = 0;  ///< successful rows that were taken from another sweep
+  std::int64_t bytes = 0;   ///< bytes of outputs, codes and details
 
   void add(const PointRow& row);
 };
@@ -54,19 +54,19 @@ void add_unit(std::vector<UnitRun>& runs, std::uint64_t unit);
 /// smaller, so that one harmful unit of thousands is found with three deaths.
 [[nodiscard]] std::uint64_t most_after_crashes(std::uint64_t most, std::int64_t crashes);
 
-/// @brief What becomes of work whose lease has run out.
-/// A worker that rescues its own lease is alive, only slow: that is no crash.
+/// Fate of work whose lease has run out. A worker that rescues its own lease is alive, only slow: that is no
+/// crash.
 struct LostLease {
-  bool crashed = false;  ///< the process that held it counts as dead
+  bool crashed = false;  ///< the process that held the lease counts as dead
   bool given_up = false;
 };
 /// @param holder the worker that held the lease
 /// @param rescuer the worker that takes the work back; empty: every holder is known to be dead
-/// @param crashes of the job before
+/// @param crashes earlier crashes of the job
 [[nodiscard]] LostLease lost_job(std::string_view holder, std::string_view rescuer, std::int64_t crashes,
                                  int max_crashes);
-/// The same decision about units; counts the crash in `held`. Several units are tried again one at a time,
-/// since any of them may have been the cause.
+/// Decides about units as lost_job() does about a job, and counts the crash in `held`. Several units are not
+/// given up: any of them may be the cause.
 [[nodiscard]] LostLease lost_units(std::string_view holder, std::string_view rescuer, int max_crashes,
                                    HeldUnits& held);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Units of a sweep: what of it is computed, stored and reused as a whole.
+/// Units of a sweep: points that are computed, stored and reused together.
 
 #include <chrono>
 #include <cstdint>
@@ -16,30 +16,30 @@
 
 namespace snapthrough::server {
 
-/// @brief A point, or a curve, which is all points along the parameter that is followed. Refers to the sweep,
-/// which must outlive it. Thread-safe.
+/// @brief One point, or one curve (all points along the parameter that is followed). Thread-safe. REQUIRES:
+/// the sweep outlives the unit.
 class SweepUnit {
  public:
-  /// @pre number < sweep.units(); units are counted from 0
+  /// @param number counted from 0 @pre number < sweep.units()
   SweepUnit(const api::Sweep& sweep, std::uint64_t number) : sweep_(sweep), number_(number) {}
 
-  /// Number of its first point; its other points come next.
+  /// Number of its first point; its other points follow.
   [[nodiscard]] std::uint64_t first() const { return number_ * count(); }
   [[nodiscard]] std::uint64_t count() const { return sweep_.unit_size(); }
 
-  /// @brief The keys of its points (point_key()), in their order. Points of a curve are the same only on the
-  /// same curve: following gives other last digits than tracing.
+  /// @brief Keys of its points (point_key()), in their order. The key of a point of a curve includes the
+  /// curve: following gives other last digits than tracing.
   /// @param outputs Sweep::outputs_text()
-  /// @param document of a point of the sweep, to be written over; null makes a new one
+  /// @param document document of any point of the sweep, overwritten; null: a new one is made
   [[nodiscard]] std::vector<std::string> keys(const std::string& outputs, std::string_view owner,
                                               std::shared_ptr<nlohmann::json>& document) const;
 
-  /// @brief The outcomes of its points, in their order (api::unit_outcomes()). Thread-safe if `solve` is.
-  /// @param document as above
+  /// @brief Outcomes of its points, in their order (api::unit_outcomes()). Thread-safe if `solve` is.
+  /// @param document see keys()
   [[nodiscard]] std::vector<api::PointOutcome> compute(const SolveFunction& solve, const Hooks& hooks,
                                                        std::shared_ptr<nlohmann::json>& document) const;
 
-  /// Why outcomes are missing when it took longer than `longest`: a sentence.
+  /// Sentence for the error of points without outcome after more than `longest`.
   [[nodiscard]] std::string too_long(std::chrono::seconds longest) const;
 
  private:
@@ -47,8 +47,8 @@ class SweepUnit {
   std::uint64_t number_;
 };
 
-/// @brief Computes the units of a task one after the other on this thread, and tells the outcomes of each.
-/// Ends early when it is enough, or asked to stop.
+/// Computes the units of a task one after the other on this thread and tells the outcomes of each. Ends early
+/// when `enough` says so or a stop is requested.
 void compute_units(const UnitTask& task, const SolveFunction& solve);
 
 }  // namespace snapthrough::server

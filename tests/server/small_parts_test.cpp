@@ -14,7 +14,7 @@
 #include "server/config.h"
 #include "server/environment.h"
 #include "server/front/turns.h"
-#include "server/jobs/large_document.h"
+#include "server/jobs/memory.h"
 #include "server/jobs/path_batch.h"
 #include "server/log/log.h"
 #include "server/resources/prefer.h"

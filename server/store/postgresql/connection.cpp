@@ -35,7 +35,7 @@ std::uint64_t big_endian(std::string_view bytes) {
   return value;
 }
 
-/// The wire's form of an array of one dimension without NULLs.
+/// Array of one dimension without NULLs in the binary form of the protocol.
 std::string array_bytes(unsigned type, const std::vector<std::string>& elements) {
   std::string bytes;
   append_big_endian(bytes, std::uint32_t{elements.empty() ? 0U : 1U});
@@ -61,8 +61,8 @@ std::string series_bytes(std::span<const double> values) {
   return bytes;
 }
 
-/// A server that is gone is noticed within about 15 s; what it does with this connection then ends, too.
-/// What the location says, which comes last, wins.
+/// Defaults of a connection: a server that is gone is noticed within about 15 s. The location, which comes
+/// last, overrides them.
 constexpr std::array kKeywords{"application_name",    "connect_timeout",  "keepalives_idle",
                                "keepalives_interval", "keepalives_count", "tcp_user_timeout",
                                "client_encoding",     "dbname",           static_cast<const char*>(nullptr)};
@@ -193,7 +193,7 @@ void ResultRow::refuse(const std::string& why) const { throw Error("XX001", why)
 void Connection::Close::operator()(pg_conn* connection) const { PQfinish(connection); }
 
 Connection::Connection(const std::string& location) {
-  // What is wrong with it is not said: that would quote it, and it may have a password.
+  // The error does not quote the location, which may have a password.
   PQconninfoOption* const parsed = PQconninfoParse(location.c_str(), nullptr);
   if (parsed == nullptr) {
     throw Error("", "this is no connection URI of PostgreSQL");
@@ -269,19 +269,19 @@ std::vector<Rows> Connection::run_all(std::span<const Statement> statements) {
   return all;
 }
 
-/// @brief Reads what the statements of a pipeline gave until it is synchronised, which is after their commit:
-/// a commit that fails tells it then, and who does not hear of it does not know.
-/// @param failed the first error, if there is one; the caller's
-/// @return whether it came to that
+/// @brief Reads the results of a pipeline up to its synchronisation, which follows the commit: only then it
+/// is known that the commit did not fail.
+/// @param failed the first error, which the caller owns, or null
+/// @return false when the connection was lost before the synchronisation
 bool Connection::read_pipeline(std::vector<Rows>& all, PGresult*& failed) {
-  bool ended = false;  // of the results of a statement; none twice: the server has gone
+  bool ended = false;  // a null result ended a statement; a second one: the server is gone
   while (good()) {
     PGresult* result = PQgetResult(handle_.get());
     if (result == nullptr && ended) {
       return false;
     }
     ended = result == nullptr;
-    switch (PQresultStatus(result)) {  // of none: PGRES_FATAL_ERROR
+    switch (PQresultStatus(result)) {  // PGRES_FATAL_ERROR for a null result
       case PGRES_PIPELINE_SYNC:
         PQclear(result);
         return true;

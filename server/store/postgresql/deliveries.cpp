@@ -9,7 +9,7 @@ class PostgresqlDeliveryStore final : public DeliveryStore {
 
   StatusOr<std::optional<Delivery>> next(std::string_view origin, std::chrono::milliseconds hold,
                                          Time now) override {
-    // Nothing is written while nothing is due. Who takes one makes it due later for the others.
+    // Nothing is written while nothing is due. A delivery that is taken is due later for other processes.
     static constexpr std::string_view kSql =
         "WITH clock AS (SELECT coalesce($2, snapthrough_now()) AS moment),"
         " mine AS MATERIALIZED (SELECT number FROM deliveries WHERE origin = $1"

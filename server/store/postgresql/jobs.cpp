@@ -332,8 +332,8 @@ class PostgresqlStore final : public Store {
           Parameters().add(clock_.at(now)).add(microseconds(age))}});
   }
 
-  /// @brief A database that only reads (a standby) says so without a row that is written. After its disk was
-  /// full there has to be room for a megabyte again: what is small finds some now and then before.
+  /// @brief Asks a database whether it is read-only (a standby) without a write. After a full disk it writes
+  /// a megabyte: small writes may find room before the disk has any to speak of.
   Status probe(Time /*now*/) override {
     const StatusOr<bool> writes = database_.read<bool>([](Connection& connection) {
       return connection
@@ -458,7 +458,8 @@ class PostgresqlStore final : public Store {
     return Submitted{Submitted::Kind::created, job.id};
   }
 
-  /// Ends a job under its claim, with what it left. @param bytes of the documents that it left
+  /// Ends a job under its claim. @param more statements that store its outcome @param bytes size of the
+  /// stored documents
   Status end(const Claim& claim, JobEvent event, std::vector<Statement> more, std::int64_t bytes, Time now) {
     static constexpr std::string_view kFence = "SELECT held_job($1, $2, coalesce($3, snapthrough_now()))";
     static constexpr std::string_view kEnd =

@@ -23,7 +23,7 @@ StatusOr<std::size_t> applied_steps(Connection& connection, std::span<const Migr
 
 Status migrate(Connection& connection, std::span<const Migration> migrations) {
   Transaction transaction(connection, true);
-  connection.execute("SET LOCAL lock_timeout = '5min'");  // for who is at it
+  connection.execute("SET LOCAL lock_timeout = '5min'");  // another program may be applying steps
   connection.run("SELECT pg_advisory_xact_lock($1)", Parameters().add(kLock));
   connection.execute(
       "SET LOCAL client_min_messages = warning; CREATE TABLE IF NOT EXISTS schema_migrations ("

@@ -57,7 +57,7 @@ class PostgresqlNeighbourStore final : public NeighbourStore {
       row.add(one.progress.step).add(one.progress.load_factor).add(one.progress.negative_eigenvalues);
       statements.push_back({kSql, std::move(row)});
     }
-    // What any process told of jobs that run no more goes.
+    // Progress of jobs that do not run any more is removed, whoever stored it.
     statements.push_back(
         {"DELETE FROM job_progress WHERE NOT EXISTS"
          " (SELECT FROM job_leases WHERE job_leases.job = job_progress.job)"});
@@ -110,7 +110,7 @@ class PostgresqlNeighbourStore final : public NeighbourStore {
   }
 
  private:
-  /// Whether it listens.
+  /// Opens the listening connection if need be; returns whether it is open.
   bool listen() {
     if (listener_) {
       return true;

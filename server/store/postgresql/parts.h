@@ -35,13 +35,13 @@ class Clock {
   return duration.count();
 }
 
-/// What a submission with an idempotency key comes to; empty for a new key. @param rows see known_key(Row,
-/// ...)
+/// Outcome of a submission with an idempotency key; empty for a new key. @param rows none or one row for
+/// server::known_key()
 [[nodiscard]] inline std::optional<Submitted> known_key(const Rows& rows, const IdempotencyKey& key) {
   return rows.empty() ? std::nullopt : std::optional(server::known_key(rows[0], key));
 }
 
-// The parts of the store. @pre the database outlives them
+// Parts of the store. REQUIRES: the database outlives them.
 [[nodiscard]] std::unique_ptr<Store> jobs_in(const std::string& location, int connections, Clock clock);
 [[nodiscard]] std::unique_ptr<SweepStore> sweeps_in(Database& database, Clock clock);
 [[nodiscard]] std::unique_ptr<DeliveryStore> deliveries_in(Database& database, Clock clock);
@@ -68,9 +68,9 @@ inline constexpr std::size_t kPiece = std::size_t{1} << 20;
 /// Adds statements that insert the result document. @param job its id
 void add_document(std::vector<Statement>& statements, std::string_view job, const JobResult& result);
 
-/// A frame of zstd with the bytes.
+/// Frame of zstd with the bytes.
 [[nodiscard]] std::string packed(std::string_view bytes);
-/// The bytes of a frame. @throws Error with "XX001" when it is none
+/// Bytes of a frame of zstd. @throws Error with "XX001" for anything else
 [[nodiscard]] std::string unpacked(std::string_view frame);
 
 }  // namespace snapthrough::server::postgresql

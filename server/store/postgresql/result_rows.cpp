@@ -1,4 +1,4 @@
-/// What a result leaves in the database: its document, its path and its critical points.
+/// Stored parts of a result: document, path, critical points.
 
 #include <zstd.h>
 
@@ -10,7 +10,7 @@
 namespace snapthrough::server::postgresql {
 namespace {
 
-/// Fast, and a third of the size of a document of numbers.
+/// Level of compression: fast; a document of numbers shrinks to a third.
 constexpr int kZstdLevel = 1;
 
 constexpr std::string_view kJobOf = "(SELECT seq FROM jobs WHERE id = $1)";

@@ -17,7 +17,7 @@ RowCounts count(const std::vector<PointRow>& rows) {
   return counts;
 }
 
-/// Keys of rows that other sweeps may use. A row that is itself reused is found where it came from.
+/// Keys of rows that other sweeps may reuse. A reused row is found in the sweep that computed it.
 std::vector<std::int64_t> short_keys(const std::vector<PointRow>& rows) {
   std::vector<std::int64_t> keys;
   for (const PointRow& row : rows) {
@@ -61,7 +61,7 @@ Statement merge_rows(const Rows& there, const HeldUnits& lease, std::vector<Poin
   const std::vector<std::int64_t> keys = short_keys(rows);
   Parameters row;
   row.add(lease.sweep).add(there[0].integer(0)).add_bytes(pack_rows(all)).add(count(all).failed);
-  if (keys.empty()) {  // all keys would go into the index again
+  if (keys.empty()) {  // without a new key the index of keys is not rewritten
     return {"UPDATE sweep_rows SET rows = $3, failed = $4 WHERE sweep = $1 AND first = $2", std::move(row)};
   }
   row.add(keys);
@@ -96,7 +96,7 @@ Statement end_if_done(std::int64_t sweep, const std::optional<std::int64_t>& now
 }  // namespace
 
 std::string pack_rows(const std::vector<PointRow>& rows) {
-  // Column by column, which packs better; an empty text where there is nothing.
+  // Columns pack better than rows. An empty text stands for nothing.
   nlohmann::json columns{{"point", nlohmann::json::array()},
                          {"outputs", nlohmann::json::array()},
                          {"code", nlohmann::json::array()},
@@ -104,9 +104,10 @@ std::string pack_rows(const std::vector<PointRow>& rows) {
                          {"key", nlohmann::json::array()}};
   std::uint64_t last = 0;
   for (const PointRow& row : rows) {
-    columns["point"].push_back(static_cast<std::int64_t>(row.point - last));  // mostly 1
+    columns["point"].push_back(
+        static_cast<std::int64_t>(row.point - last));  // the difference is mostly 1, which packs well
     last = row.point;
-    // bytes: a detail need not be UTF-8
+    // bytes, since a detail need not be UTF-8
     const auto bytes = [](const std::string& text) {
       return nlohmann::json::binary({text.begin(), text.end()});
     };
@@ -138,7 +139,7 @@ std::vector<PointRow> unpack_rows(std::string_view bytes) try {
 }
 
 std::int64_t short_key(std::string_view key) {
-  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a, which gives the same on every host
+  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a: the same value on every host
   for (const char c : key) {
     hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   }

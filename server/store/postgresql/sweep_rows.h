@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Rows of a sweep as they are stored: those of one lease together, packed.
+/// Stored form of rows of a sweep: the rows of one lease are packed together.
 
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,7 @@ namespace snapthrough::server::postgresql {
 /// 64 bits of a key, by which rows are found.
 [[nodiscard]] std::int64_t short_key(std::string_view key);
 
-/// Inserts units that nobody has.
+/// Inserts free units of a sweep.
 [[nodiscard]] Statement insert_left(std::int64_t sweep, const UnitRun& run, std::int64_t crashes);
 
 /// Stores rows of a lease that was ended, gives its other units out again, and ends the sweep if it is

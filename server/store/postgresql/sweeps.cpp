@@ -36,8 +36,8 @@ HeldUnits read_held(const Row& row) {
   return {row.integer(0), {row.number(1), row.number(2)}, row.integer(3), row.integer(4)};
 }
 
-/// @brief Locks the sweep against who would change it. Leases come first, as where units are stored, so that
-/// two never wait for each other.
+/// @brief Locks the sweep against changes by other transactions. Leases are locked first, as where rows are
+/// stored, so that no deadlock arises.
 std::optional<StoredSweep> lock(Connection& connection, std::string_view id) {
   const Parameters sweep = Parameters().add(id);
   connection.run(
@@ -83,8 +83,8 @@ void insert_sweep(Connection& connection, const NewSweep& sweep, const Clock& cl
   }
 }
 
-/// Takes the failed rows out of what one lease came to, and gives their units out again; bytes that were
-/// freed.
+/// Removes the failed rows from the rows of one lease and gives their units out again; returns the bytes that
+/// were freed.
 std::int64_t drop_failed(Connection& connection, std::int64_t sweep, std::int64_t unit_points,
                          std::int64_t first, std::string_view stored) {
   std::vector<PointRow> rows = unpack_rows(stored);
@@ -110,7 +110,7 @@ std::int64_t drop_failed(Connection& connection, std::int64_t sweep, std::int64_
   return freed;
 }
 
-/// Makes failed points of a sweep points that nobody has computed.
+/// Removes all failed rows of a sweep, gives their units out again, and makes the sweep accepted.
 void forget_failures(Connection& connection, std::int64_t sweep, std::int64_t unit_points) {
   static const std::string kAgain =
       "UPDATE sweeps SET " + becomes(SweepEvent::retry) + ", finished_us = NULL WHERE seq = $1";
@@ -136,19 +136,19 @@ void forget_failures(Connection& connection, std::int64_t sweep, std::int64_t un
       {kAgain, row}});
 }
 
-/// What is not needed of sweeps that nobody finds any more: their units, and their counts, so that their
-/// owners have the bytes back. `gone` is a table of their rows.
+/// Removes units, leases and counts of removed sweeps, so that their bytes do not count for their owners.
+/// `gone` has the numbers of the sweeps.
 constexpr const char* kEndRemoved =
     ", counts AS (DELETE FROM sweep_counts WHERE sweep IN (SELECT seq FROM gone)),"
     " units AS (DELETE FROM sweep_left WHERE sweep IN (SELECT seq FROM gone)),"
     " leases AS (DELETE FROM sweep_leases WHERE sweep IN (SELECT seq FROM gone))"
     " SELECT count(*) FROM gone";
 
-/// Leases' rows that are read at a time, at most: no transaction is open for long. It begins with one, since
-/// who sends a table asks for little at a time.
+/// Largest number of packs (the rows of one lease each) in one read, so that no transaction is open for long.
+/// Reading begins with one pack, since a table is sent piece by piece.
 constexpr int kReadAtOnce = 16;
 
-/// Calls `use` with the rows that are asked for; false when it wants no more.
+/// Calls `use` with the rows of a pack that the query selects; false when `use` returned false.
 StatusOr<bool> use_rows(const std::string& pack, const PointQuery& query,
                         const std::function<bool(std::uint64_t, const api::PointOutcome&)>& use) try {
   for (const PointRow& row : unpack_rows(pack)) {
@@ -162,10 +162,10 @@ StatusOr<bool> use_rows(const std::string& pack, const PointQuery& query,
 } catch (const Error& error) {
   return to_status(error);
 }
-/// Keys of a sample, by which it is seen whether it is worth to look for all.
+/// Number of keys in the sample that decides whether all keys are looked up.
 constexpr std::size_t kSample = 32;
 
-/// Some of them, the first and the last among them.
+/// Evenly spaced keys, the first and the last among them.
 std::vector<std::int64_t> sample(const std::vector<std::int64_t>& keys) {
   if (keys.size() <= kSample) {
     return keys;
@@ -177,9 +177,8 @@ std::vector<std::int64_t> sample(const std::vector<std::int64_t>& keys) {
   return some;
 }
 
-/// @brief Where rows with these keys are stored: sweep and first point, each once. One search of the index of
-/// keys for each, whatever the planner thinks: it takes no account of arrays that are stored apart, and
-/// would rather read the table.
+/// @brief Places of packs with these keys: sweep and first point. Searches the index once for each key; the
+/// planner, which ignores that the arrays are stored apart, would read the whole table.
 std::set<std::pair<std::int64_t, std::int64_t>> places_of(Connection& connection,
                                                           const std::vector<std::int64_t>& keys) {
   const std::vector<Rows> all = connection.run_all(std::vector<Statement>{
@@ -374,7 +373,8 @@ class PostgresqlSweepStore final : public SweepStore {
         " AND id = $3 AND first = $4 AND units = $5 AND until_us >= coalesce($2, snapthrough_now())"
         " RETURNING sweep, first, units, crashes, unit_points";
     static const std::string kRecord = "SELECT " + columns() + " FROM sweeps WHERE seq = $1";
-    // The units, too: a number whose claim was lost with the database's machine may be another's now.
+    // The units are compared too: after a crash of the database's machine the number may belong to another
+    // claim.
     Parameters held;
     held.add(claim.number).add(clock_.at(now)).add(claim.sweep);
     held.add(static_cast<std::int64_t>(claim.units.first)).add(static_cast<std::int64_t>(claim.units.count));
@@ -401,7 +401,8 @@ class PostgresqlSweepStore final : public SweepStore {
     static constexpr std::string_view kLate =
         "SELECT number, sweep FROM sweep_leases WHERE until_us < coalesce($1, snapthrough_now()) ORDER BY "
         "sweep, number";
-    static constexpr std::string_view kEnd =  // unless it was renewed, or somebody else was faster
+    static constexpr std::string_view
+        kEnd =  // nothing when the lease was renewed, or another process ended it
         "DELETE FROM sweep_leases USING sweeps WHERE seq = sweep AND number = $1"
         " AND until_us < coalesce($2, snapthrough_now())"
         " RETURNING sweep, first, units, crashes, unit_points, worker";
@@ -538,7 +539,7 @@ class PostgresqlSweepStore final : public SweepStore {
     return database_.read<Found>([&](Connection& connection) {
       Found found(keys.size());
       if (places_of(connection, sample(some)).empty()) {
-        return found;  // where none of a sample is known, they are computed
+        return found;  // without a known key in the sample, all points are computed
       }
       for (const auto& [sweep, first] : places_of(connection, some)) {
         const Rows rows = connection.run("SELECT rows FROM sweep_rows WHERE sweep = $1 AND first = $2",

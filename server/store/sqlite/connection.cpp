@@ -9,7 +9,7 @@
 namespace snapthrough::server::sqlite {
 namespace {
 
-// Series are stored as little-endian float64; a big-endian machine would have to swap here.
+// Series are stored as little-endian float64 without conversion.
 static_assert(std::endian::native == std::endian::little);
 static_assert(sizeof(double) == 8);
 
@@ -203,7 +203,7 @@ void Connection::copy_to(const std::string& path) const {
   if (backup == nullptr) {
     raise(target.handle_.get(), sqlite3_errcode(target.handle_.get()));
   }
-  sqlite3_backup_step(backup, -1);  // all at once: one state of the database, whatever is written meanwhile
+  sqlite3_backup_step(backup, -1);  // all pages at once: one state of the database although others write
   const int code = sqlite3_backup_finish(backup);
   if (code != SQLITE_OK) {
     raise(target.handle_.get(), code);
@@ -221,7 +221,7 @@ Transaction::~Transaction() {
   try {
     connection_.execute("ROLLBACK");
   } catch (const Error&) {
-    // SQLite has rolled back by itself already (disk full, I/O error): nothing is left to undo.
+    // After a full disk or an I/O error SQLite has rolled back already.
   }
 }
 

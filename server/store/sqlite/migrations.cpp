@@ -11,7 +11,7 @@ constexpr const char* kHistoryTable =
     " applied_us INTEGER NOT NULL"
     ") STRICT";
 
-/// How many steps the database has, or why it cannot be used.
+/// Number of steps that the database has, or why it cannot be used.
 StatusOr<std::size_t> applied_steps(Connection& connection, std::span<const Migration> migrations) {
   Statement rows =
       connection.prepare("SELECT version, name, checksum FROM schema_migrations ORDER BY version");

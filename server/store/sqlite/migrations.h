@@ -11,7 +11,8 @@
 
 namespace snapthrough::server::sqlite {
 
-/// The steps this program knows, in order. Defined in a source generated at build time.
+/// The steps that this program knows, in order. CMake generates the definition
+/// (store/embed_migrations.cmake).
 [[nodiscard]] const std::vector<Migration>& embedded_migrations();
 
 /// @brief Applies the steps that the database lacks in one transaction, and records each in

@@ -12,10 +12,10 @@
 
 namespace snapthrough::server::sqlite {
 
-/// The sweeps of a database. @pre the database outlives them
+/// The sweeps of a database. REQUIRES: the database outlives them.
 [[nodiscard]] std::unique_ptr<SweepStore> sweeps_in(Database& database);
-/// The deliveries of a database; triggers (migrations/sqlite/0007_deliveries.sql) fill their table.
-/// @pre the database outlives them
+/// The deliveries of a database; triggers (migrations/sqlite/0007_deliveries.sql) fill their table. REQUIRES:
+/// the database outlives them.
 [[nodiscard]] std::unique_ptr<DeliveryStore> deliveries_in(Database& database);
 
 /// Counts what an owner hands in, or returns as check_quotas() which quota forbids it.

@@ -1,4 +1,4 @@
-/// What a result leaves in the database: its document, its path and its critical points.
+/// Stored parts of a result: document, path, critical points.
 
 #include <algorithm>
 #include <utility>
@@ -8,7 +8,7 @@
 namespace snapthrough::server::sqlite {
 namespace {
 
-/// Bytes of a piece of a document, at most.
+/// Largest number of bytes in a piece of a document.
 constexpr std::size_t kStoredBytes = std::size_t{1} << 20;
 
 void insert_series(Connection& connection, std::int64_t job, int branch, std::string_view kind,
@@ -91,7 +91,7 @@ std::string_view first_piece(std::string_view document) {
   std::size_t end = std::min(kStoredBytes, document.size());
   const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
   while (end < document.size() && end > 0 && continues(document[end])) {
-    --end;  // a text ends with a whole character
+    --end;  // a piece that is stored as text ends with a whole character
   }
   return document.substr(0, end);
 }

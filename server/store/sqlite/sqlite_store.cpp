@@ -141,7 +141,7 @@ class SqliteSubmission final : public JobSubmission {
   Connection& connection_;
 };
 
-/// Takes the oldest accepted job of the next owner, by name, after `last` that has one; sets `last`.
+/// Finds the oldest accepted job of the next owner, by name, after `last` that has one; sets `last`.
 std::optional<Claim> next_in_turn(const Connection& connection, std::string& last, std::int64_t& row) {
   static const std::string kWaits = may(JobEvent::claim);
   static const std::string kSql =
@@ -444,7 +444,7 @@ class SqliteStore final : public Store {
   DeliveryStore& deliveries() override { return *deliveries_; }
 
  private:
-  Descriptor lock_;         ///< of the file
+  Descriptor lock_;         ///< lock of the file
   std::string last_owner_;  ///< whose job was claimed last; only the writing thread uses it
   Database database_;
   std::unique_ptr<SweepStore> sweeps_;
@@ -474,7 +474,7 @@ StatusOr<std::unique_ptr<Store>> open_store(const std::string& path, Time now,
 
 namespace {
 
-/// A copy that is not finished, and what SQLite keeps beside it.
+/// Removes an unfinished copy with the files that SQLite keeps beside it.
 void remove_unfinished(const std::string& path) {
   for (const char* ending : {"", "-journal", "-wal", "-shm"}) {
     std::error_code ignored;
@@ -485,7 +485,7 @@ void remove_unfinished(const std::string& path) {
 Status copy_and_check(const std::string& path, const std::string& copy_path, const std::string& target) {
   try {
     Connection(path, Access::read_only).copy_to(copy_path);
-    // One that may write removes its -wal and -shm when it is closed.
+    // A connection that may write removes -wal and -shm when it is closed.
     const Connection copy(copy_path, Access::read_write);
     Statement check = copy.prepare("PRAGMA integrity_check");
     if (!check.step() || check.text(0) != "ok") {

@@ -41,7 +41,7 @@ std::optional<Submitted> find_key_in(const Connection& connection, const Idempot
   return row.step() ? std::optional(known_key(row, key)) : std::nullopt;
 }
 
-/// Inserts units that nobody has.
+/// Inserts free units of a sweep.
 void insert_left(Connection& connection, std::int64_t sweep, const UnitRun& units, std::int64_t crashes) {
   connection.run("INSERT INTO sweep_left (sweep, first, units, crashes) VALUES (?, ?, ?, ?)", sweep,
                  static_cast<std::int64_t>(units.first), static_cast<std::int64_t>(units.count), crashes);
@@ -99,7 +99,7 @@ void insert_points(Connection& connection, std::int64_t sweep, const std::vector
   connection.run(kEnd, to_row(now), sweep);
 }
 
-/// Takes units that nobody has out of what is left of a sweep, at most `most`.
+/// Removes at most `most` free units of a sweep from `sweep_left` and returns them.
 std::optional<HeldUnits> take_left(Connection& connection, std::int64_t sweep, std::uint64_t most) {
   Statement row = connection.query(
       "SELECT first, units, crashes FROM sweep_left WHERE sweep = ? ORDER BY crashes, first LIMIT 1", sweep);
@@ -143,8 +143,8 @@ struct LateClaim {
   LostLease lost;
 };
 
-/// Ends claims whose lease ends before `ended_before`; see lost_units() for the others. Returns how many
-/// units are given out again.
+/// Ends claims whose lease ends before `ended_before`, by the decisions of lost_units(). Returns the number
+/// of units that are given out again.
 std::int64_t take_claims_back(Connection& connection, Time ended_before, std::string_view rescuer,
                               int max_crashes, Time now) {
   static const std::string kSql = "SELECT " + std::string(kHeldColumns) +
