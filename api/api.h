@@ -1,10 +1,9 @@
 #pragma once
 /// @file
-/// JSON in, JSON out: reads request documents strictly and writes result documents.
+/// Reads request documents (JSON) strictly and writes result documents (JSON).
 ///
-/// Only `nlohmann/json_fwd.hpp` is included, so this header is cheap; a file that looks inside a document
-/// includes
-/// `<nlohmann/json.hpp>` itself. Every function is reentrant and shares nothing.
+/// The header includes only `nlohmann/json_fwd.hpp`; a file that accesses a document includes
+/// `<nlohmann/json.hpp>` itself. Every function is reentrant and has no shared state.
 
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -20,41 +19,41 @@
 
 namespace snapthrough::api {
 
-/// A request that was read and found to be without mistakes.
+/// A request document that was read without findings.
 struct Request {
   Model model;
   Analysis analysis;
   std::shared_ptr<const nlohmann::json>
-      document;  ///< as received; never null in a request that read_request gave
+      document;  ///< the document as received; never null after read_request()
 };
 
-/// What reading a text gave. Exactly one of `findings` (not empty) and `request` (a value) holds.
+/// Outcome of reading a request. Either `findings` is not empty or `request` has a value.
 struct ReadOutcome {
-  bool malformed = false;  ///< not acceptable as JSON: syntax, too deep, duplicate keys, too many values
-  std::vector<Finding> findings;  ///< every mistake, at most kMaxFindings and one that says there are more
+  bool malformed = false;         ///< not acceptable JSON: syntax, nesting, duplicate keys, number of values
+  std::vector<Finding> findings;  ///< all mistakes; beyond kMaxFindings one finding gives their number
   std::optional<Request> request;
 };
 
-/// More mistakes than this are not listed one by one.
+/// Largest number of findings that are listed one by one.
 inline constexpr int kMaxFindings = 1000;
 
-/// @brief Reads a request document and checks it: JSON syntax, fields, types, ranges, references, mechanics.
-/// @param text UTF-8 JSON; its size is the caller's to limit
-/// @return The request, or all that is wrong with it. Never throws for a wrong text (std::bad_alloc apart).
+/// @brief Reads and checks a request document: JSON syntax, fields, types, ranges, references, mechanics.
+/// @param text UTF-8 JSON; the caller limits its size
+/// @return the request, or all findings. Throws only std::bad_alloc, whatever the text.
 [[nodiscard]] ReadOutcome read_request(std::string_view text);
 
-/// @brief The same for a document that is in memory already, such as one point of a sweep.
+/// @brief Reads and checks a request document in memory, such as a point of a sweep.
 /// @pre document is not null and nested no deeper than ParseLimits::depth (api/json_text.h)
 [[nodiscard]] ReadOutcome read_request_document(std::shared_ptr<const nlohmann::json> document);
 
-/// @brief The result document.
-/// @param wall_time_s seconds that the analysis took, as its caller measured them
-/// @param parts names of the document's members that are wanted; none: all of them
+/// @brief Returns the result document.
+/// @param wall_time_s duration of the analysis in seconds, measured by the caller
+/// @param parts names of the members to write; empty: all members
 /// @throws std::runtime_error with the JSON Pointer of the first number that is not finite
 [[nodiscard]] nlohmann::json write_result(const Request& request, const Result& result, double wall_time_s,
                                           std::span<const std::string_view> parts = {});
 
-/// @brief `[{"pointer", "code", "detail"}, ...]`, in the order given.
+/// @brief Returns findings as `[{"pointer", "code", "detail"}, ...]`, in their order.
 [[nodiscard]] nlohmann::json write_findings(const std::vector<Finding>& findings);
 
 }  // namespace snapthrough::api

@@ -11,14 +11,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Points of a sweep that are read until one is a valid request.
+/// Largest number of points that are read to find a valid request.
 constexpr std::uint64_t kTries = 10;
 
-/// Free displacement unknowns of the mesh that a request asks for, before any refinement.
+/// Returns the number of free displacement unknowns of the request's mesh, before any refinement.
 int unknowns_of(const Request& request) {
   const Model& model = request.model;
   const Mesh mesh = make_mesh(model, request.analysis.discretization, make_axes(model));
-  // A member of n elements of order p has n p - 1 places inside, and all places have three displacements.
+  // A member of n elements of order p has n p - 1 inner nodes with three displacements each.
   int unknowns = 3 * static_cast<int>(model.nodes.size());
   unknowns +=
       3 * (static_cast<int>(mesh.elements.size()) * mesh.order - static_cast<int>(model.members.size()));

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Every mistake of a request or a sweep, or its size: what POST /v1/check answers.
+/// Checks a request or a sweep without solving it, and gives its size (POST /v1/check).
 
 #include <cstdint>
 #include <functional>
@@ -14,32 +14,32 @@
 
 namespace snapthrough::api {
 
-/// What is wrong with a document, and how large its analyses are.
+/// Findings about a document and the size of its analyses.
 struct CheckedDocument {
-  std::vector<Finding> findings;  ///< empty: it can be solved
-  std::uint64_t points = 1;       ///< of a sweep
+  std::vector<Finding> findings;  ///< empty: the document is valid
+  std::uint64_t points = 1;       ///< number of points of a sweep
   int unknowns =
-      0;  ///< free displacements of the first mesh; of a sweep: at the first point that is a valid request
+      0;  ///< free displacements of the first mesh, for a sweep at its first valid point; 0: none valid
 };
 
-/// What else a caller refuses in a request without mistakes, such as one that needs too much memory.
+/// Further findings of the caller about a valid request, such as too much memory.
 using AlsoRefused = std::function<std::vector<Finding>(const Request&)>;
 
 /// @brief Checks a request document.
 /// @pre document is not null and nested no deeper than ParseLimits::depth (api/json_text.h)
-/// @param also asked about a request that has no mistakes; may be empty
+/// @param also called with a request without findings; may be empty
 [[nodiscard]] CheckedDocument check_request(const std::shared_ptr<const nlohmann::json>& document,
                                             const AlsoRefused& also = {});
 
 /// @brief Checks a sweep document.
-/// @pre as check_request()
-/// @param most_points sweeps with more are refused; at most kMaxSweepPoints
-/// @param also asked about the points from which the size is taken; may be empty
+/// @pre document is not null and nested no deeper than ParseLimits::depth (api/json_text.h)
+/// @param most_points largest accepted number of points, at most kMaxSweepPoints
+/// @param also called with the points read for the size; may be empty
 [[nodiscard]] CheckedDocument check_sweep(const std::shared_ptr<const nlohmann::json>& document,
                                           std::uint64_t most_points = kMaxSweepPoints,
                                           const AlsoRefused& also = {});
 
-/// `{"valid", "errors", "size": {"points", "unknowns"} or null}` as a text; texts that are no UTF-8 are
+/// Returns `{"valid", "errors", "size": {"points", "unknowns"} or null}` as JSON text; invalid UTF-8 is
 /// replaced.
 [[nodiscard]] std::string write_check(const CheckedDocument& checked);
 

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Whether a value can be written at a pointer: everything above it is there, and an array has the element.
+/// Returns whether a value can be written at a pointer: its parent exists, and an array has the element.
 bool has_place(const Json& document, const std::vector<std::string>& tokens) {
   const Json* at = &document;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
@@ -33,7 +33,7 @@ bool has_place(const Json& document, const std::vector<std::string>& tokens) {
   return true;
 }
 
-/// Why a target cannot get its number for a value; empty when it can.
+/// Returns why a value gives no finite number at a target; "" when it does.
 std::string number_refusal(const SweepTarget& target, double value) {
   if (std::isfinite(target.number_for(value))) {
     return "";
@@ -50,7 +50,7 @@ bool overlap(std::string_view a, std::string_view b) {
   return b.starts_with(a) && (a.size() == b.size() || b[a.size()] == '/');
 }
 
-/// Whether values are numbers that rise, or fall, from one to the next.
+/// Returns whether the values are strictly increasing or strictly decreasing numbers.
 bool is_monotonic(const SweepParameter& parameter) {
   if (parameter.range) {
     return parameter.range->from != parameter.range->to;
@@ -70,8 +70,8 @@ bool is_monotonic(const SweepParameter& parameter) {
   return up || down;
 }
 
-/// Mistakes of the request that no point can be without: fields that nobody knows, lack, or are of a wrong
-/// type, at places that no parameter writes. Other findings may depend on the values and stay the point's.
+/// Adds findings about the request that hold for every point: unknown and missing fields and wrong types at
+/// places that no parameter writes. Other findings may depend on values and are left to the points.
 void check_request(const Sweep& sweep, const SweepData& data, std::vector<Finding>& findings) {
   const ReadOutcome first = read_request_document(sweep.document_at(0));
   for (const Finding& finding : first.findings) {
@@ -94,9 +94,9 @@ void check_request(const Sweep& sweep, const SweepData& data, std::vector<Findin
   }
 }
 
-/// Why a target of the parameter does not take values of this one's type; empty when they all do.
+/// Returns why a target of the parameter rejects the type of `value`; "" when all targets accept it.
 std::string type_refusal(const Json& first, const SweepParameter& parameter, const Json& value) {
-  const Json probe = value.is_number() ? Json(1) : value;  // 1 is of every type of number
+  const Json probe = value.is_number() ? Json(1) : value;  // 1 is valid for integers, too
   const auto document = std::make_shared<Json>(first);
   for (const SweepTarget& target : parameter.targets) {
     (*document)[target.place] = probe;
@@ -111,8 +111,8 @@ std::string type_refusal(const Json& first, const SweepParameter& parameter, con
   return "";
 }
 
-/// Values that no point of theirs can do with, because they are of a type that the target does not take: each
-/// type of JSON that occurs is tried once.
+/// Adds findings about values whose JSON type their target rejects. Each type that occurs is tried once, at
+/// the first point.
 void check_value_types(const Sweep& sweep, const SweepData& data, std::vector<Finding>& findings) {
   const auto first = sweep.document_at(0);
   for (std::size_t i = 0; i < data.parameters.size(); ++i) {
@@ -121,7 +121,7 @@ void check_value_types(const Sweep& sweep, const SweepData& data, std::vector<Fi
     if (const std::string why = parameter.range ? type_refusal(*first, parameter, 1) : ""; !why.empty()) {
       findings.push_back({at + "/range", "wrong_type", why});
     }
-    std::map<std::string_view, std::string> refused;  // why, by type; empty: it is taken
+    std::map<std::string_view, std::string> refused;  // reason by type; empty: accepted
     for (std::size_t v = 0; v < parameter.values.size() && findings.size() < kMaxFindings; ++v) {
       const auto [known, is_new] = refused.try_emplace(parameter.values[v].type_name());
       if (is_new) {
@@ -174,7 +174,7 @@ void check_range(const SweepParameter& parameter, const Value& value) {
     value.report("out_of_range", "from and to must be positive where the spacing is log");
   }
   if (!std::isfinite(range.from) || !std::isfinite(range.to)) {
-    return;  // reported already
+    return;  // not finite: reported before
   }
   for (const SweepTarget& target : parameter.targets) {
     if (!target.computes()) {
@@ -200,7 +200,7 @@ void check_labels(const SweepParameter& parameter, const Value& label) {
   std::set<std::string_view> seen;
   for (std::size_t i = 0; i < parameter.labels.size(); ++i) {
     if (const Value text = label.item(i); !text.is_string()) {
-      continue;  // reported already
+      continue;  // wrong type: reported before
     } else if (parameter.labels[i].empty()) {
       text.report("invalid_name", "a label is not empty");
     } else if (!seen.insert(parameter.labels[i]).second) {
@@ -235,7 +235,7 @@ void check_follow(const SweepData& data, const Value& follow) {
 }
 
 void check_distinct(const SweepData& data, Report& report) {
-  std::vector<std::pair<std::string, std::string>> seen;  // target and where it stands
+  std::vector<std::pair<std::string, std::string>> seen;  // pointer of each target, and where it stands
   for (std::size_t i = 0; i < data.parameters.size(); ++i) {
     const std::string at = "/parameters/" + std::to_string(i);
     for (std::size_t j = 0; j < i; ++j) {
@@ -270,7 +270,7 @@ void count_points(SweepData& data, std::uint64_t most, Report& report) {
       return;
     }
     if (data.design == SweepDesign::grid && data.points <= most) {
-      data.points *= count;  // both factors fit 32 bits
+      data.points *= count;  // both factors are below 2^32
     }
   }
   if (data.points > most) {

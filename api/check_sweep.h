@@ -1,10 +1,10 @@
 #pragma once
 /// @file
-/// The rules of a sweep document: what its fields say together, and with the model and the analysis. Internal
+/// Rules that relate several fields of a sweep document, or a field and the model or the analysis. Internal
 /// to api/.
 ///
-/// The reader (read_sweep.cpp) calls each function when what it needs has been read, so that mistakes come in
-/// the order of the document. Each reports what it finds at the value it is given, or in `report`.
+/// The reader (read_sweep.cpp) calls each function as soon as its input is read, so that findings have the
+/// order of the document. Each function reports at the Value it receives, or in `report`.
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -17,40 +17,40 @@
 
 namespace snapthrough::api {
 
-/// A name is that of a column, and of no other. @pre the name is a text
+/// Reports a name that is empty, begins with / or is the name of another column. @pre the name is a text
 void check_name(const SweepParameter& parameter, const Value& name);
 
-/// The request has the place that a target names, or an object that it can be a new member of. Tells whether.
-/// @param tokens of the pointer @param base model and analysis
+/// Reports a target whose place the request lacks and cannot get. Returns whether the target is valid.
+/// @param tokens tokens of the target's pointer @param base model and analysis
 [[nodiscard]] bool check_target(const std::vector<std::string>& tokens, const nlohmann::json& base,
                                 const Value& pointer);
 
-/// Values are numbers where a target computes with them, and so is what it gets. @pre the targets were read
+/// Reports values that give no finite number at a target with scale or power. @pre the targets were read
 void check_values(const SweepParameter& parameter, const Value& values);
 
-/// A logarithmic range is positive; and the same as check_values() for all from one end to the other.
-/// @pre the targets were read, and there is a range
+/// Reports a range with log spacing that is not positive, or that gives no finite number at a target.
+/// @pre the targets were read, and the parameter has a range
 void check_range(const SweepParameter& parameter, const Value& range);
 
-/// Each value has a label, and no other value has it. @pre the values were read
+/// Reports labels that are empty, repeated, or not as many as values. @pre the values were read
 void check_labels(const SweepParameter& parameter, const Value& label);
 
-/// What following needs: the last parameter of a grid, numbers in order, a critical analysis on a fixed mesh,
-/// and outputs that a curve has. @pre all else was read without a mistake
+/// Reports why a critical point cannot be followed: design, order of values, analysis, mesh, outputs.
+/// @pre the rest of the document has no findings
 void check_follow(const SweepData& data, const Value& follow);
 
-/// @brief Outputs are places that a result of this analysis and this model has (sweep_outputs.cpp).
+/// @brief Reports outputs that no result of this analysis and model has (sweep_outputs.cpp).
 /// @pre the parameters and outputs were read; an output that is no pointer has no tokens
 void check_outputs(const SweepData& data, Report& report);
 
-/// No name twice, and no place written by two targets: which one won would depend on their order.
+/// Reports repeated names and targets that overlap, for which the order of targets would decide.
 void check_distinct(const SweepData& data, Report& report);
 
-/// Sets the number of points, without building any; what is too many is not counted to its end.
+/// Sets the number of points without building points; reports more than `most` and stops counting there.
 void count_points(SweepData& data, std::uint64_t most, Report& report);
 
-/// @brief What no point can do without: a request that is right beside the targets, and values of types that
-/// their targets take. @pre all else holds
+/// @brief Reports mistakes that all points share: in the request apart from the targets, and in the types of
+/// values. @pre no other findings
 void check_points(const Sweep& sweep, const SweepData& data, std::vector<Finding>& findings);
 
 }  // namespace snapthrough::api

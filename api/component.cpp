@@ -23,7 +23,7 @@ bool is_point(const Json& value) {
   return value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
 }
 
-/// What an input with such a value takes; nothing when the type is none that an input can have.
+/// Type of an input that has a given value; plug_of() returns nullopt for a type that inputs do not support.
 struct Plug {
   PlugType type = PlugType::number;
   bool list = false;
@@ -51,7 +51,7 @@ std::optional<Plug> plug_of(const Json& value) {
   return std::nullopt;
 }
 
-/// Whether every place that a parameter is written to holds whole numbers only.
+/// Returns whether all targets of a parameter accept integers only.
 bool takes_integers(const SweepParameter& parameter) {
   return std::all_of(parameter.targets.begin(), parameter.targets.end(), [](const SweepTarget& target) {
     const std::optional<std::vector<std::string>> tokens = pointer_tokens(target.pointer);
@@ -78,7 +78,7 @@ std::string described(const SweepParameter& parameter, const ComponentInput& inp
   return text;
 }
 
-/// The bounds that several numbers set; a single one sets none.
+/// Sets the bounds of an input to the extremes of its range or of several numbers; a single number sets none.
 void set_bounds(const SweepParameter& parameter, ComponentInput& input) {
   std::vector<double> numbers;
   if (parameter.range) {
@@ -95,7 +95,7 @@ void set_bounds(const SweepParameter& parameter, ComponentInput& input) {
   }
 }
 
-/// @param findings takes what keeps the parameter from being an input
+/// @param findings receives the reasons why the parameter cannot be an input
 ComponentInput input_of(const SweepParameter& parameter, std::size_t index, std::vector<Finding>& findings) {
   ComponentInput input;
   input.name = parameter.name;
@@ -126,7 +126,7 @@ ComponentInput input_of(const SweepParameter& parameter, std::size_t index, std:
   return input;
 }
 
-/// What an output gives: the type of its place, or of the elements of a list there.
+/// Returns the type at a place of results, or of the elements of a list there.
 PlugType type_of_place(std::vector<std::string> tokens) {
   PlaceTypes types = types_at("Result", tokens);
   while (types.list && !types.object && !types.text) {
@@ -134,7 +134,7 @@ PlugType type_of_place(std::vector<std::string> tokens) {
     types = types_at("Result", tokens);
   }
   if (types.object || types.list) {
-    return PlugType::text;  // as JSON
+    return PlugType::text;  // as JSON text
   }
   if (types.number || types.integer) {
     return types.number ? PlugType::number : PlugType::integer;
@@ -142,8 +142,8 @@ PlugType type_of_place(std::vector<std::string> tokens) {
   return types.boolean ? PlugType::boolean : PlugType::text;
 }
 
-/// The name of an output: the last token of its JSON Pointer that is no index, and the indices after it.
-/// While another output has that name, the token before it is added.
+/// Returns the name of an output: the last token of its JSON Pointer that is no index, with the indices after
+/// it. While another output has that name, the preceding token is added.
 std::string name_of_place(const std::vector<std::string>& tokens, const std::set<std::string>& taken) {
   std::size_t begin = tokens.size() - 1;
   while (begin > 0 && array_index(tokens[begin])) {
@@ -165,7 +165,7 @@ const Json* find_at(const Json& document, const char* pointer) {
   return document.contains(place) ? &document.at(place) : nullptr;
 }
 
-/// The type of the analysis; empty when it depends on an input.
+/// Returns the type of the analysis; "" when a parameter writes it.
 std::string analysis_type(const SweepData& data) {
   for (const SweepParameter& parameter : data.parameters) {
     for (const SweepTarget& target : parameter.targets) {
@@ -211,7 +211,7 @@ std::vector<ComponentOutput> outputs_of(const SweepData& data) {
   return outputs;
 }
 
-/// The numbers of a list; empty when it is none.
+/// Returns the numbers of a list (NaN for other items); empty for another type.
 std::vector<double> numbers_of(const Json& list) {
   std::vector<double> numbers;
   for (const Json& one : list.is_array() ? list : Json::array()) {
@@ -220,7 +220,7 @@ std::vector<double> numbers_of(const Json& list) {
   return numbers;
 }
 
-/// The points that have both coordinates.
+/// Returns the polyline of the points whose two coordinates are finite.
 Polyline line_of(std::vector<int> place, const Json& x, const Json& y) {
   Polyline line{std::move(place), {}};
   const std::vector<double> xs = numbers_of(x);
@@ -274,10 +274,10 @@ std::vector<Polyline> drawn_shape(const Json& result) {
   return lines;
 }
 
-/// The value to write for an input, or the rule that it breaks.
+/// The value to write for an input, or the rule that the value breaks.
 struct Taken {
   Json value;
-  std::string broken_rule;  ///< empty: none
+  std::string broken_rule;  ///< empty: the value is valid
 };
 
 Taken labelled(const ComponentInput& input, const SweepParameter& parameter, const Json& value) {

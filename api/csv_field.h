@@ -7,11 +7,11 @@
 
 namespace snapthrough::api {
 
-/// Appends a field, in quotes where it holds a comma, a quote or a line end.
+/// Appends a field, quoted if it contains a comma, a quote or a line end.
 void append_csv_field(std::string& text, std::string_view field);
 
-/// The same for a name or a text, which spreadsheets take for a formula when it begins with = + - @, a tab or
-/// a carriage return: an apostrophe before it says that it is none.
+/// Appends a text as append_csv_field() does; an apostrophe precedes a text that spreadsheets would take for
+/// a formula because it begins with = + - @, a tab or a carriage return.
 void append_csv_text(std::string& text, std::string_view field);
 
 }  // namespace snapthrough::api

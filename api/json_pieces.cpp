@@ -86,7 +86,7 @@ void JsonPieces::keep(char c) {
   }
 }
 
-/// Where an array is empty there is none.
+/// Ends a value; white space alone is an empty array, which has no element.
 void JsonPieces::complete() {
   if (value_.find_first_not_of(" \t\r\n") != std::string::npos) {
     complete_.push_back(std::move(value_));

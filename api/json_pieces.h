@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// One member of a JSON document that comes in pieces, without the rest of it in memory.
+/// Extracts one member of a JSON document that arrives in pieces, without holding the rest in memory.
 
 #include <deque>
 #include <optional>
@@ -9,23 +9,23 @@
 
 namespace snapthrough::api {
 
-/// What is taken of the member.
+/// Extract the member's whole value, or each element of its array.
 enum class JsonPart { value, elements };
 
-/// @brief Cuts the text of one member, or of each element of its array, out of a JSON object.
-/// @pre the pieces together are valid JSON; names of members at the top have no escapes
+/// @brief Extracts the text of one member of a JSON object, or of each element of the member's array.
+/// @pre the pieces together are valid JSON, and names of the object's members contain no escapes
 class JsonPieces {
  public:
   JsonPieces(std::string member, JsonPart part) : member_(std::move(member)), level_(level_of(part)) {}
 
   void append(std::string_view piece);
-  /// The next value that is complete, or nothing yet.
+  /// Returns the next complete value; nullopt until it is complete.
   [[nodiscard]] std::optional<std::string> next();
-  /// Memory that is kept, about.
+  /// Returns the approximate memory in use, in bytes.
   [[nodiscard]] std::size_t held_bytes() const;
 
  private:
-  /// Depth of brackets at which values are separated.
+  /// Returns the nesting depth at which values are separated.
   static int level_of(JsonPart part) { return part == JsonPart::value ? 1 : 2; }
   [[nodiscard]] bool inside() const { return wanted_ && depth_ >= level_; }
   void take(char c);
@@ -38,9 +38,9 @@ class JsonPieces {
   int depth_ = 0;
   bool in_string_ = false;
   bool escaped_ = false;
-  bool wanted_ = false;  ///< within the member
-  std::string name_;     ///< the last text at the top
-  std::string value_;    ///< what is known of the next value
+  bool wanted_ = false;  ///< the read position is inside the member
+  std::string name_;     ///< last text at depth 1
+  std::string value_;    ///< incomplete text of the next value
   std::deque<std::string> complete_;
 };
 

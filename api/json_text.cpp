@@ -13,10 +13,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Duplicate keys are collected up to this number, then reading stops.
+/// Number of duplicate keys after which reading stops.
 constexpr std::size_t kMaxDuplicates = 100;
 
-/// Where a byte (counted from 1; past the end when the text is cut short) stands, in the way editors count.
+/// Returns line, column and byte of a position. `byte` counts from 1; past the end means truncated text.
 std::string describe_position(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, byte > 0 ? byte - 1 : 0);
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
@@ -26,7 +26,7 @@ std::string describe_position(std::string_view text, std::size_t byte) {
          std::to_string(byte) + ")";
 }
 
-/// The parser's message without its internal codes, and safe to print: ASCII, no controls, not too long.
+/// Returns the parser's message without internal codes, in printable ASCII, at most 300 characters.
 std::string clean_message(std::string_view message) {
   constexpr std::size_t kMaxLength = 300;
   const auto drop_through = [&message](std::string_view mark) {
@@ -44,12 +44,12 @@ std::string clean_message(std::string_view message) {
   return cleaned;
 }
 
-/// Builds a document from the parser's events, and stops it at the limits. Depth costs heap, not stack.
+/// Builds a document from parser events and stops at the limits. Nesting uses heap memory, not stack.
 class DocumentBuilder {
  public:
   DocumentBuilder(std::string_view text, const ParseLimits& limits) : text_(text), limits_(limits) {}
 
-  // Events, named and typed as nlohmann::json::sax_parse calls them; false stops the parser.
+  // Event handlers with the signatures of nlohmann::json::sax_parse; false stops the parser.
   bool null() { return add(nullptr); }
   bool boolean(bool value) { return add(value); }
   bool number_integer(Json::number_integer_t value) { return add(value); }
@@ -67,7 +67,7 @@ class DocumentBuilder {
   ParsedText take();
 
  private:
-  /// An array or object that is not complete, and the key of the value that comes next in it.
+  /// An incomplete array or object, and the key of its next member.
   struct Open {
     Json* container;
     std::string key;

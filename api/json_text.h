@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// JSON text to a document in memory, with bounds. Reentrant.
+/// Parses JSON text with limits on depth and size. Reentrant.
 
 #include <cstddef>
 #include <memory>
@@ -12,23 +12,23 @@
 
 namespace snapthrough::api {
 
-/// What a JSON text may hold at most; a text that holds more is refused while it is being read.
+/// Limits of a JSON text; the parser stops where a text exceeds them.
 struct ParseLimits {
-  int depth = 64;                  ///< arrays and objects inside one another, >= 1
-  std::size_t values = 1'000'000;  ///< values of any kind, containers included, >= 1
+  int depth = 64;                  ///< largest nesting of arrays and objects, >= 1
+  std::size_t values = 1'000'000;  ///< largest number of values, containers included, >= 1
 };
 
-/// Either `document` (not null) or `findings` (not empty).
+/// Outcome of parsing: either `document` is not null or `findings` is not empty.
 struct ParsedText {
   std::shared_ptr<nlohmann::json> document;
   std::vector<Finding> findings;  ///< codes "malformed", "too_deep", "too_many_values", "duplicate_key"
 };
 
-/// @brief Parses RFC 8259 JSON in UTF-8, no comments, no duplicate keys, no numbers that a double cannot
-/// hold.
+/// @brief Parses RFC 8259 JSON in UTF-8, without comments, duplicate keys or numbers beyond the range of
+/// double.
 ///
-/// A finding names the line, column and byte where reading stopped; its pointer is the value that was being
-/// read. Memory and stack are bounded by the limits, whatever the text.
+/// A finding gives line, column and byte where the parser stopped; its pointer is the value that the parser
+/// was reading. The limits bound memory and stack for any text.
 [[nodiscard]] ParsedText parse_json(std::string_view text, const ParseLimits& limits = {});
 
 }  // namespace snapthrough::api

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The texts of enumerations: one table for each, for whoever reads or writes a document, a row of the store
-/// or a query.
+/// Names of enumeration values: one table for each enumeration, used by documents, rows of the store and
+/// queries.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace snapthrough::api {
 
-/// A name of the contract and what it stands for.
+/// A name in documents, and its value.
 template <class E>
 struct Named {
   std::string_view name;
@@ -48,11 +48,11 @@ inline constexpr Named<BifurcationKind> kBifurcationKinds[] = {
     {"stable_symmetric", BifurcationKind::stable_symmetric},
     {"unstable_symmetric", BifurcationKind::unstable_symmetric}};
 
-/// Those that are a text.
+/// States that a request selects by a name.
 inline constexpr Named<StateOutput> kStateOutputs[] = {
     {"none", StateOutput::none}, {"critical", StateOutput::critical}, {"all", StateOutput::all}};
 
-/// The name of a value. @throws std::invalid_argument when the table does not have it
+/// Returns the name of a value. @throws std::invalid_argument when the table lacks the value
 template <class E, std::size_t n>
 [[nodiscard]] constexpr std::string_view name_of(const Named<E> (&table)[n], E value) {
   for (const Named<E>& row : table) {
@@ -63,7 +63,7 @@ template <class E, std::size_t n>
   throw std::invalid_argument("an enumeration has a value without a name");
 }
 
-/// The value of that name, or nothing.
+/// Returns the value with a name; nullopt when the table lacks the name.
 template <class E, std::size_t n>
 [[nodiscard]] constexpr std::optional<E> value_of(const Named<E> (&table)[n], std::string_view name) {
   const auto* row =
@@ -71,7 +71,7 @@ template <class E, std::size_t n>
   return row == std::end(table) ? std::nullopt : std::optional<E>(row->value);
 }
 
-/// The largest value.
+/// Returns the largest value of a table.
 template <class E, std::size_t n>
 [[nodiscard]] constexpr E last_of(const Named<E> (&table)[n]) {
   return std::max_element(std::begin(table), std::end(table),
@@ -79,7 +79,7 @@ template <class E, std::size_t n>
       ->value;
 }
 
-/// The names, for sentences: "a, b, c".
+/// Returns all names for a message: "a, b, c".
 template <class E, std::size_t n>
 [[nodiscard]] std::string names_in(const Named<E> (&table)[n]) {
   std::string all;

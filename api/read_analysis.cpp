@@ -1,10 +1,10 @@
-/// The analysis: each function is the table of one part's fields.
+/// Reader of the analysis: each function lists the fields of one part.
 
 #include "api/read_parts.h"
 
 namespace snapthrough::api {
 
-// The functions are static, not in an unnamed namespace, so that the templates of api/value.h find them.
+// The functions are static, not in an unnamed namespace, so that templates of api/value.h find them.
 
 static void read(const Value& value, AnalysisType& out) { read_named(value, kAnalysisTypes, out); }
 
@@ -31,7 +31,7 @@ static void read(const Value& value, Follow& out) {
   read_named(value, kNames, out);
 }
 
-/// A number for every member, or an object with one for each.
+/// Reads one number for all members, or an object with a number for each member.
 static void read_elements(const Value& value, Discretization& out) {
   if (value.is_number()) {
     read(value, out.elements);
@@ -140,7 +140,7 @@ static void read(const Value& value, BranchOptions& out) {
   in.finish();
 }
 
-/// A name, or an object with one of two fields.
+/// Reads a name, or an object with `every` or `at_load_factors`.
 static void read_states(const Value& value, OutputOptions& out) {
   if (value.is_string()) {
     read_named(value, kStateOutputs, out.states);
@@ -173,7 +173,7 @@ static void read(const Value& value, OutputOptions& out) {
   in.finish();
 }
 
-/// Its pointer; the rest needs the model (read_sensitivities()).
+/// Reads only the pointer; read_sensitivities() completes the variation when the model is known.
 static void read(const Value& value, Variation& out) { read(value, out.pointer); }
 
 void read(const Value& value, Analysis& analysis) {

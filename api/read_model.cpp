@@ -1,4 +1,4 @@
-/// The structure: each function is the table of one entity's fields.
+/// Reader of the model: each function lists the fields of one entity.
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 namespace snapthrough::api {
 
-// The functions are static, not in an unnamed namespace, so that the templates of api/value.h find them.
+// The functions are static, not in an unnamed namespace, so that templates of api/value.h find them.
 
 static void read(const Value& value, Pattern& out) {
   static constexpr Named<Pattern> kNames[] = {{"proportional", Pattern::proportional},
@@ -61,7 +61,7 @@ static void read(const Value& value, Location& out) {
   in.finish();
 }
 
-/// A set of names, such as ["x", "y"]; reports a name that is there twice.
+/// Reads a set of names, such as ["x", "y"]; reports a repeated name.
 template <std::size_t n>
 static std::array<bool, n> read_set(const Value& value, const std::array<std::string_view, n>& names) {
   std::array<bool, n> out{};
@@ -81,7 +81,7 @@ static std::array<bool, n> read_set(const Value& value, const std::array<std::st
   return out;
 }
 
-/// A fixed direction, or the one name that stands for the default (then empty).
+/// Reads a direction vector, or the name of the default direction, which gives nullopt.
 static void read_direction(const Value& value, std::string_view default_name,
                            std::optional<std::array<double, 2>>& out) {
   out.reset();
@@ -102,7 +102,7 @@ static void read(const Value& value, Node& out) {
   in.finish();
 }
 
-/// A field that must be there and positive; NaN when it is not.
+/// Reads a required positive number; NaN when it is invalid.
 static void read_positive(Object& in, std::string_view key, double& out) {
   in.required(key, out);
   if (!(out > 0.0 && out <= kMaxMagnitude) && out == out) {
@@ -111,7 +111,7 @@ static void read_positive(Object& in, std::string_view key, double& out) {
   }
 }
 
-/// Sections by material and shape: EA = E A, EI = E I, GA = shear_area E / (2 (1 + nu)).
+/// Reads a section by material and shape: EA = E A, EI = E I, GA = shear_area E / (2 (1 + nu)).
 static void read_material_section(Object& in, Section& out) {
   double E = 0.0, A = 0.0, I = 0.0, nu = 0.0, shear_area = 0.0;
   read_positive(in, "E", E);
@@ -233,7 +233,7 @@ static void read(const Value& value, PrescribedDisplacement& out) {
   in.finish();
 }
 
-/// `pattern` may stand in the displacement or beside it, not in both.
+/// Reads `displacement` with its `pattern`, which may also stand beside `displacement`, but not in both.
 static void read_displacement(Object& in, Support& out) {
   const auto displacement = in.find("displacement");
   const auto pattern = in.find("pattern");

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The two halves of a request document.
+/// Readers of the two members of a request document.
 
 #include "api/value.h"
 #include "solver/model/analysis.h"

@@ -12,8 +12,8 @@ namespace snapthrough::api {
 
 namespace {
 
-/// Whether a finding only follows from what could not be read: an id that is unreadable makes every reference
-/// to it unknown, and a member that is unreadable leaves its nodes unreached.
+/// Returns whether an unreadable value causes a finding: an unreadable id makes references to it unknown, and
+/// an unreadable member leaves its nodes unconnected.
 bool follows_from_unreadable(const Finding& finding, const Report& report) {
   struct Referrer {
     std::string_view field;
@@ -43,7 +43,7 @@ bool follows_from_unreadable(const Finding& finding, const Report& report) {
   return false;
 }
 
-/// What was found while reading, then what else is wrong with the parts that could be read.
+/// Returns the findings of reading, then the findings of check() about what could be read.
 std::vector<Finding> merge_findings(const Report& report, std::vector<Finding> checked) {
   std::vector<Finding> all = report.findings();
   for (Finding& finding : checked) {

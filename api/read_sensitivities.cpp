@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Extent of the nodes; 1 where they are one.
+/// Returns the largest distance between the first and another node; 1 when it is zero.
 double extent_of(const Model& model) {
   double extent = 0.0;
   for (const Node& node : model.nodes) {
@@ -28,7 +28,7 @@ double extent_of(const Model& model) {
   return extent > 0.0 && std::isfinite(extent) ? extent : 1.0;
 }
 
-/// The shortest chord of a member at a node, which its coordinates change.
+/// Returns the shortest chord of the members at a node, at most the extent.
 double chord_at(const Model& model, std::size_t node) {
   double least = extent_of(model);
   for (const Member& member : model.members) {
@@ -63,7 +63,7 @@ double largest_load(const Model& model) {
   return largest > 0.0 ? largest : 1.0;
 }
 
-/// Size of a number that is zero, by what it is: the equations are linear in all but lengths and angles.
+/// Returns the scale of a quantity that is zero, by its name. Only lengths and angles enter nonlinearly.
 double size_of_nothing(const std::vector<std::string>& tokens, const Model& model) {
   static constexpr std::array<std::string_view, 6> kLengths{"x", "y", "rise", "amplitude", "gap", "points"};
   constexpr double kRadian = 57.0;
@@ -90,7 +90,7 @@ double size_of_nothing(const std::vector<std::string>& tokens, const Model& mode
   return names("force") || names("moment") || names("value") ? largest_load(model) : 1.0;
 }
 
-/// Size of a change that is a large one.
+/// Returns the size of a large change of a quantity.
 double size_of(const std::vector<std::string>& tokens, double value, const Model& model) {
   if (tokens[1] == "nodes") {
     return chord_at(model, *array_index(tokens[2]));
@@ -101,7 +101,7 @@ double size_of(const std::vector<std::string>& tokens, double value, const Model
   return value != 0.0 ? std::abs(value) : size_of_nothing(tokens, model);
 }
 
-/// Why a critical load has no derivative by what a pointer names; empty: it may have one.
+/// Returns why critical loads have no derivative with respect to a value; "" when they may have one.
 std::string refusal(const std::vector<std::string>& tokens, const Json& value) {
   if (!value.is_number()) {
     return std::string("is not a number but ") + (value.is_array() ? "an array" : value.type_name());
@@ -112,7 +112,7 @@ std::string refusal(const std::vector<std::string>& tokens, const Json& value) {
   return tokens[1] == "monitors" ? "changes what is read from the structure, not the structure" : "";
 }
 
-/// The model with another value there, if it may have it.
+/// Returns the model with another value at a place; nullopt when that model is invalid.
 std::optional<Model> model_with(const Json& document, const Json::json_pointer& place, double value) {
   Json changed = document.at("model");
   changed[place] = value;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The numbers of the model that critical loads are differentiated by. Internal to api/.
+/// Values of the model with respect to which critical loads are differentiated. Internal to api/.
 
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -11,11 +11,11 @@
 
 namespace snapthrough::api {
 
-/// @brief Completes the analysis' sensitivities, of which only the pointers were read: their values and
-/// sizes, and how the model is with another value. Reports pointers that name no number which the structure
-/// depends on smoothly.
-/// @param document of the request; the variations keep it
-/// @param model as it was read from there
+/// @brief Completes the analysis' sensitivities, of which only the pointers were read: value, size of a large
+/// change, and model as a function of the value. Reports pointers to anything but numbers on which the
+/// structure depends smoothly.
+/// @param document request document; the variations keep a reference to it
+/// @param model model read from the document
 void read_sensitivities(const std::shared_ptr<const nlohmann::json>& document, const Model& model,
                         Analysis& analysis, Report& report);
 

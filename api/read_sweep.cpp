@@ -1,5 +1,5 @@
-/// The sweep document: each function reads one part of it. What its fields say together is judged in
-/// check_sweep.cpp.
+/// Reader of the sweep document: each function reads one part. check_sweep.cpp checks rules that relate
+/// several fields.
 
 #include <algorithm>
 #include <charconv>
@@ -78,7 +78,7 @@ SweepTarget read_target(const Value& value, const Json& base) {
   return target;
 }
 
-/// @param counted the design takes the values one by one, so the range says how many
+/// @param counted true: the design uses listed values, so the range needs a count
 SweepRange read_range(const Value& value, bool counted) {
   static constexpr Named<bool> kSpacings[] = {{"linear", false}, {"log", true}};
   SweepRange range;
@@ -101,7 +101,7 @@ SweepRange read_range(const Value& value, bool counted) {
   return range;
 }
 
-/// Texts in place of the values of a list, one for each.
+/// Reads `label`, the texts that replace listed values in tables.
 void read_labels(Object& in, SweepParameter& parameter) {
   const auto label = in.find("label");
   if (!label) {
@@ -188,7 +188,7 @@ void read_whole(Object& in, std::string_view key, int least, int& out) {
   }
 }
 
-/// @return whether the design could be read: without it nothing is known of what parameters need
+/// @return false when the design is unreadable; the rules of parameters are then unknown
 bool read_design(Object& root, SweepData& data) {
   static constexpr Named<SweepDesign> kDesigns[] = {{"grid", SweepDesign::grid}, {"zip", SweepDesign::zip}};
   const auto design = root.find_required("design");
@@ -244,7 +244,7 @@ void read_follow(Object& root, SweepData& data) {
   std::string name;
   read(*follow, name);
   if (!follow->document_report().findings().empty()) {
-    return;  // it can't be judged
+    return;  // the check needs fields that have findings
   }
   if (name != data.parameters.back().name) {
     follow->report("unknown_reference", "follow names the last parameter, " + data.parameters.back().name);
@@ -271,7 +271,7 @@ SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document, st
   if (read_design(root, *data)) {
     read_parameters(root, *data);
   } else {
-    static_cast<void>(root.find("parameters"));  // known, although nothing can be said about it
+    static_cast<void>(root.find("parameters"));  // marks it as known; its rules need the design
   }
   const bool targets_known = report.findings().empty();
   read_outputs(root, *data);

@@ -16,16 +16,16 @@ using Json = nlohmann::json;
 
 constexpr std::string_view kModel = "model.";
 
-/// Appends a name to the dotted name of the object that it is in.
+/// Returns the dotted name of a member of an object.
 std::string within(const std::string& object, std::string_view name) {
   return object.empty() ? std::string(name) : object + "." + std::string(name);
 }
 
-/// Kind of the object at a pointer, as a dotted name without indices: "model.members.curve".
+/// Returns the dotted name of the object at a pointer, without indices: "model.members.curve".
 std::string kind_of(std::string_view pointer) {
   std::string kind;
   while (!pointer.empty()) {
-    pointer.remove_prefix(1);  // the slash
+    pointer.remove_prefix(1);  // without the leading slash
     const std::string_view token = pointer.substr(0, pointer.find('/'));
     pointer.remove_prefix(token.size());
     const bool is_index = !token.empty() && token.find_first_not_of("0123456789") == std::string_view::npos;
@@ -36,7 +36,7 @@ std::string kind_of(std::string_view pointer) {
   return kind;
 }
 
-/// An object's kind as a reader calls it.
+/// Returns the name of a kind of object in messages.
 std::string spoken(const std::string& kind, const std::string& type) {
   std::string name = kind.starts_with(kModel) ? kind.substr(kModel.size()) : kind;
   if (name.empty()) {
@@ -45,13 +45,13 @@ std::string spoken(const std::string& kind, const std::string& type) {
   return type.empty() ? name : name + " of type \"" + type + "\"";
 }
 
-/// A form of an object that has some field.
+/// A kind of object that has a given field.
 struct Owner {
   std::string kind;
-  std::string type;  ///< value of its field `type`; empty: the object has no such forms
+  std::string type;  ///< value of the object's field `type`; empty: the kind has no types
 };
 
-/// The owners of each field, made once: a document may have as many unknown fields as it has values.
+/// Owners by field name, built once: a document may have as many unknown fields as values.
 class FieldIndex {
  public:
   FieldIndex() { look_into(published_schema("Request"), ""); }

@@ -1,7 +1,6 @@
 #pragma once
 /// @file
-/// Objects of the request document and their fields, as the published interface describes them (schema
-/// `Request`).
+/// Objects of the request document and their fields, according to the published interface (schema `Request`).
 
 #include <string>
 #include <string_view>
@@ -9,11 +8,11 @@
 
 namespace snapthrough::api {
 
-/// @brief The objects of a request that have a field of a name, as a reader calls them: `springs` for the
-/// objects of /model/springs, `analysis.stop`, `members.curve of type "arc"`. Ascending by their names.
+/// @brief Returns the objects of a request that have a field, as messages name them: `springs` for the
+/// objects of /model/springs, `analysis.stop`, `members.curve of type "arc"`. Sorted by name.
 ///
 /// Thread-safe.
-/// @param at pointer of the object that does not have the field: objects of its own kind are left out
+/// @param at pointer of the object that lacks the field; objects of the same kind are left out
 /// @return empty when no object has the field
 [[nodiscard]] std::vector<std::string> objects_with_field(std::string_view field, std::string_view at);
 

@@ -15,13 +15,13 @@ namespace {
 using Json = nlohmann::json;
 using Alternatives = std::vector<const Json*>;
 
-/// Where one token leads.
+/// Outcome of following one token.
 struct Step {
   Alternatives next;
-  bool open = false;                    ///< anything may stand here: the schema does not say
-  std::string list;                     ///< of the model, whose ids the token is one of; empty: none
-  bool is_array = false;                ///< an index is wanted
-  std::vector<std::string_view> known;  ///< fields that there are
+  bool open = false;                    ///< the schema allows anything here
+  std::string list;                     ///< list of the model whose ids are valid tokens; empty: none
+  bool is_array = false;                ///< the token must be an index
+  std::vector<std::string_view> known;  ///< names of known fields
 };
 
 void step_into_object(const Json& schema, const std::string& token, Step& step) {
@@ -89,14 +89,14 @@ std::string pointer_to(std::span<const std::string> tokens) {
   return pointer;
 }
 
-/// "; did you mean ...?" with the nearest name in place of the token, or the names that there are.
+/// Returns "; did you mean ...?" with the nearest name in place of the token, or the list of names.
 std::string suggestion(std::span<const std::string> tokens, std::size_t at,
                        const std::vector<std::string_view>& names, const IdsIn& ids_in) {
   const std::string_view nearest = nearest_name(tokens[at], names);
   if (!nearest.empty()) {
     std::vector<std::string> meant(tokens.begin(), tokens.end());
     meant[at] = nearest;
-    // What follows is kept where it fits the other name, too.
+    // Following tokens are kept as far as they fit the other name.
     if (const auto next = find_no_such_place(meant, ids_in)) {
       meant.resize(next->token);
     }

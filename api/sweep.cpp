@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// What an output pointer found: a value, nothing where a list ended, or a place that results do not have.
+/// Outcome of an output pointer: a value, null past the end of a list, or a field that results do not have.
 struct Found {
   const Json* value = nullptr;
   bool no_such_field = false;
@@ -43,7 +43,7 @@ Found look_up(const Json& result, const std::vector<std::string>& tokens) {
 }
 
 std::size_t bytes_of(const Json& value) {
-  constexpr std::size_t kNode = 64;  // of the tree that an object is
+  constexpr std::size_t kNode = 64;  // estimated size of a tree node
   std::size_t bytes = sizeof(Json);
   if (value.is_string()) {
     bytes += value.get_ref<const std::string&>().size();
@@ -61,7 +61,7 @@ std::size_t bytes_of(const Json& value) {
 
 }  // namespace
 
-/// @param document the base, or what this has made of it for other values
+/// @param document base document, or the document of another point of this sweep
 static void write_values(const SweepData& data, const std::vector<Json>& values, Json& document) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     for (const SweepTarget& target : data.parameters[i].targets) {
@@ -127,7 +127,7 @@ std::string Sweep::outputs_text() const {
 
 namespace {
 
-/// A text of a part of the request; empty when it has none.
+/// Returns a text member of a part of the request; "" when absent.
 std::string text_of(const Json& part, const char* member) {
   const auto found = part.find(member);
   return found != part.end() && found->is_string() ? found->get<std::string>() : "";

@@ -1,4 +1,4 @@
-/// Points of grids, zips and Latin hypercubes. Every point is computed alone, from its number.
+/// Points of grids, zips and Latin hypercubes, each computed from its number alone.
 
 #include <algorithm>
 #include <bit>
@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection of 64-bit numbers that mixes all bits.
+/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection of 64-bit integers that mixes all bits.
 std::uint64_t mix(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15U;
   x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
@@ -20,11 +20,10 @@ std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31U);
 }
 
-/// @brief Where `i` goes in a random permutation of 0 to n - 1.
+/// @brief Returns the image of `i` in a pseudo-random permutation of 0 to n - 1.
 ///
-/// A Feistel network permutes the numbers of the next even number of bits, and is applied until the number is
-/// below n again (cycle walking; Black, Rogaway 2002): no table, so that a design takes no memory however
-/// large it is.
+/// A Feistel network permutes the integers of the next even number of bits, and is applied until the result
+/// is below n (cycle walking; Black, Rogaway 2002). There is no table, so memory does not depend on n.
 std::uint64_t permuted(std::uint64_t i, std::uint64_t n, std::uint64_t key) {
   constexpr std::uint64_t kRounds = 8;
   const unsigned half = std::max(1U, (static_cast<unsigned>(std::bit_width(n - 1)) + 1) / 2);
@@ -42,8 +41,8 @@ std::uint64_t permuted(std::uint64_t i, std::uint64_t n, std::uint64_t key) {
   return i;
 }
 
-/// @brief Coordinate in [0, 1) of a sample: exactly one sample lies in each of `samples` equal parts, at a
-/// random place in it (McKay, Beckman, Conover 1979).
+/// @brief Returns the coordinate of a sample in [0, 1): each of `samples` equal parts holds exactly one
+/// sample, at a random position (McKay, Beckman, Conover 1979).
 double hypercube_coordinate(const SweepData& data, std::size_t parameter, std::uint64_t point) {
   const auto samples = static_cast<std::uint64_t>(data.samples);
   const std::uint64_t key = mix(mix(static_cast<std::uint64_t>(data.seed)) + parameter);
@@ -64,17 +63,17 @@ Json listed_value(const SweepRange& range, std::uint64_t i) {
     return i == 0 ? range.from : range.to;  // the ends are exact
   }
   if (!range.log) {
-    // The product first: 1, 2, 3, ... stay whole, and a range that is widened keeps its values.
+    // Multiplying before dividing keeps 1, 2, 3, ... whole, and keeps the values of a range that is extended.
     return range.from + (range.to - range.from) * static_cast<double>(i) / static_cast<double>(last);
   }
   return in_range(range, static_cast<double>(i) / static_cast<double>(last));
 }
 
-/// Where a point stands in one parameter: at an entry of its list or its counted range, or at a place of a
-/// range that is sampled.
+/// Position of a point in one parameter: the index in its list or counted range, or a position in a sampled
+/// range.
 struct Coordinate {
   std::uint64_t entry = 0;
-  double place = 0.0;  ///< in [0, 1); for a Latin hypercube
+  double place = 0.0;  ///< position in [0, 1) of a Latin hypercube
 };
 
 std::vector<Coordinate> coordinates(const SweepData& data, std::uint64_t point) {

@@ -1,4 +1,4 @@
-/// Whether results of a sweep can have its outputs, told before anything is computed.
+/// Checks before solving whether results of a sweep can have its outputs.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Parts of a result that only some analyses fill.
+/// A part of results that only some types of analysis have.
 struct PartOfAnalysis {
   std::string_view part;
   std::array<std::string_view, 3> types;
@@ -37,7 +37,7 @@ bool is_within(std::string_view inner, std::string_view outer) {
   return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '/');
 }
 
-/// Whether a parameter writes this place, or something that it is in.
+/// Returns whether a parameter writes a place or a container of it.
 bool is_written(const SweepData& data, std::string_view place) {
   return std::any_of(data.parameters.begin(), data.parameters.end(), [&](const SweepParameter& parameter) {
     return std::any_of(parameter.targets.begin(), parameter.targets.end(),
@@ -50,7 +50,7 @@ const Json* find_at(const Json& document, const std::string& pointer) {
   return document.contains(place) ? &document.at(place) : nullptr;
 }
 
-/// The ids of a list of the model; nothing when they depend on the point, or cannot be read.
+/// Returns the ids of a list of the model; nullopt when parameters write them or they are unreadable.
 std::optional<std::vector<std::string>> ids_of(const SweepData& data, std::string_view name) {
   const std::string place = "/model/" + std::string(name);
   const std::string key = name == "supports" ? "/node" : "/id";
@@ -70,7 +70,7 @@ std::optional<std::vector<std::string>> ids_of(const SweepData& data, std::strin
   return ids;
 }
 
-/// Why an analysis as it was asked for has no such part; empty when it has, or when it depends on the point.
+/// Returns why results of the analysis lack a part; "" when they have it or when parameters decide.
 std::string part_refusal(const SweepData& data, const std::string& part) {
   if (part == "failure") {
     return "a point that fails has its code in the column error, and no outputs";
@@ -108,7 +108,7 @@ void check_outputs(const SweepData& data, Report& report) {
     const std::vector<std::string>& tokens = data.outputs[i].tokens;
     const std::string at = "/outputs/" + std::to_string(i);
     if (tokens.empty()) {
-      continue;  // reported already
+      continue;  // an invalid pointer was reported before
     }
     if (const auto nowhere = find_no_such_place(tokens, ids_in)) {
       report.add(at, nowhere->unknown_id ? "unknown_reference" : "unknown_field", nowhere->detail);

@@ -24,14 +24,14 @@ void append_csv_value(const Json& value, std::string& text) {
 
 Json error_of(const PointOutcome& outcome) { return {{"code", outcome.code}, {"detail", outcome.detail}}; }
 
-/// A link with the number of the point in it.
+/// Returns a link with {point} replaced by the point's number.
 std::string for_point(std::string link, std::uint64_t point) {
   constexpr std::string_view kPlace = "{point}";
   const std::size_t at = link.find(kPlace);
   return at == link.npos ? link : link.replace(at, kPlace.size(), std::to_string(point));
 }
 
-/// Texts of analyses are UTF-8, those of exceptions may be anything.
+/// Returns JSON text with invalid UTF-8 replaced, which messages of exceptions may contain.
 std::string dumped(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace
@@ -128,7 +128,7 @@ void TableWriter::append_json(std::uint64_t point, const PointOutcome& outcome, 
     }
     text += dumped(error_of(outcome));
   } else {
-    text.append(outcome.outputs, 1, outcome.outputs.size() - 2);  // without its brackets
+    text.append(outcome.outputs, 1, outcome.outputs.size() - 2);  // without the brackets
     text += ",null";
   }
   text += ']';

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The table of a sweep as text: JSON, CSV, or NDJSON, piece by piece, so that no table has to be in memory.
+/// The table of a sweep as JSON, CSV or NDJSON text, in pieces, so that a table need not fit into memory.
 
 #include <cstdint>
 #include <optional>
@@ -16,39 +16,39 @@ namespace snapthrough::api {
 
 enum class TableForm {
   json,   ///< `{"columns": [...], "rows": [[...], ...], "points": [...]}`
-  csv,    ///< header and rows (RFC 4180 quoting, lines end with a line feed); null is empty
-  ndjson  ///< one object a line, members named like the columns
+  csv,    ///< header and rows (RFC 4180 quoting, lines end with LF); null is empty
+  ndjson  ///< one object a line, with the columns as members
 };
 
 inline constexpr Named<TableForm> kTableForms[] = {
     {"json", TableForm::json}, {"csv", TableForm::csv}, {"ndjson", TableForm::ndjson}};
 
-/// Where the points of a table are found, as texts in which `{point}` stands for the number of a point.
+/// Links to the points of a table; `{point}` stands for the point's number.
 struct PointLinks {
-  std::string request;  ///< GET: its request document
-  std::string job;      ///< POST: its request is handed in as a job
+  std::string request;  ///< GET returns the request document of a point
+  std::string job;      ///< POST submits the request of a point as a job
 };
 
-/// The form of that name, or nothing.
+/// Returns the form with a name; nullopt for an unknown name.
 [[nodiscard]] std::optional<TableForm> table_form_from(std::string_view name);
 
 /// @brief Writes the rows of one sweep. Not thread-safe.
 ///
-/// The columns of JSON and NDJSON are Sweep::columns() and `point`, the number of the point. With links a
-/// JSON document has them as a member, and CSV has columns `point` and `request`.
+/// The columns of JSON and NDJSON are Sweep::columns() and `point`, the point's number. With links, JSON has
+/// a member `links`, and CSV has the columns `point` and `request`.
 class TableWriter {
  public:
   TableWriter(const Sweep& sweep, TableForm form, std::optional<PointLinks> links = {});
 
-  /// What comes before the rows.
+  /// Returns the text before the rows.
   [[nodiscard]] std::string head() const;
   /// Appends the row of a point. @pre outcome.outputs is a JSON array of sweep.output_count() values, or
   /// outcome.failed()
   void append_row(std::uint64_t point, const PointOutcome& outcome, std::string& text);
-  /// @brief Appends what comes after the rows, at most about so many bytes of it at once.
-  /// False when that was the rest of it. No row may follow.
+  /// @brief Appends at most about `bytes` of the text after the rows. Returns false at its end.
+  /// @pre no row follows
   bool append_tail(std::string& text, std::size_t bytes = SIZE_MAX);
-  /// Memory that it keeps, about.
+  /// Returns the approximate memory in use, in bytes.
   [[nodiscard]] std::size_t held_bytes() const;
 
  private:
@@ -60,12 +60,12 @@ class TableWriter {
   TableForm form_;
   std::optional<PointLinks> links_;
   std::vector<std::string> columns_;
-  std::vector<std::string> keys_;  ///< of NDJSON, quoted
-  /// Numbers of points of the rows, for the end of a JSON document: first and one past the last, in order.
+  std::vector<std::string> keys_;  ///< quoted member names of NDJSON
+  /// Ranges [first, end) of the numbers of written points in their order, for the end of a JSON document.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> runs_;
   bool tail_begun_ = false;
-  std::size_t run_ = 0;               ///< of the tail: that is written next,
-  std::uint64_t written_of_run_ = 0;  ///< and how many of its points were
+  std::size_t run_ = 0;               ///< range that the tail writes next
+  std::uint64_t written_of_run_ = 0;  ///< number of its points that are written
 };
 
 }  // namespace snapthrough::api

@@ -13,7 +13,7 @@
 namespace snapthrough::api {
 namespace {
 
-/// All that is wrong with a request in one text.
+/// Returns all findings in one text.
 std::string sentence_of(const std::vector<Finding>& findings) {
   std::string detail;
   for (const Finding& finding : findings) {
@@ -37,7 +37,7 @@ PointOutcome solved(const Sweep& sweep, const std::shared_ptr<const nlohmann::js
   return sweep.outcome(write_result(*read.request, result, seconds, sweep.parts()));
 }
 
-/// A model of the curve, which need not be a point's.
+/// Returns a model between points of a curve. @throws std::runtime_error when the request is invalid there
 Model model_between(const Sweep& sweep, std::uint64_t first, double value) {
   ReadOutcome read = read_request_document(sweep.document_between(first, value));
   if (!read.request) {
@@ -46,7 +46,7 @@ Model model_between(const Sweep& sweep, std::uint64_t first, double value) {
   return std::move(read.request->model);
 }
 
-/// The result document as far as a curve has it.
+/// Returns the part of a result document that a curve gives.
 nlohmann::json curve_document(const CriticalCurvePoint& point) {
   nlohmann::json summary{{"critical_load_factor", nullptr}, {"critical_type", nullptr}};
   if (point.load_factor) {
@@ -59,7 +59,7 @@ nlohmann::json curve_document(const CriticalCurvePoint& point) {
 std::vector<PointOutcome> followed(const Sweep& sweep, std::uint64_t first, const std::stop_token& stop) {
   std::vector<PointOutcome> outcomes(sweep.unit_size());
   CriticalCurveRequest request;
-  std::vector<std::size_t> rows;  // of the curve's values
+  std::vector<std::size_t> rows;  // index of each value in `outcomes`
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const ReadOutcome read = read_request_document(sweep.document_at(first + i));
     if (!read.request) {
@@ -86,7 +86,7 @@ std::vector<PointOutcome> followed(const Sweep& sweep, std::uint64_t first, cons
   return outcomes;
 }
 
-/// unit_outcomes(), but for what is thrown.
+/// Computes unit_outcomes(), but lets exceptions pass.
 std::vector<PointOutcome> outcomes_of(const Sweep& sweep, std::uint64_t unit, const SolvePoint& solve,
                                       const Hooks& hooks, std::shared_ptr<nlohmann::json>& document) {
   const std::uint64_t first = unit * sweep.unit_size();

@@ -15,7 +15,7 @@ namespace {
 
 using checks::in_quotes;
 
-/// Levenshtein's distance: insertions, deletions and replacements of a byte that turn one into the other.
+/// Returns the Levenshtein distance: least number of inserted, deleted and replaced bytes between two texts.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -39,12 +39,12 @@ std::string join(std::span<const std::string_view> names) {
   return all;
 }
 
-/// '; did you mean "x"?' or, where no name is near, the names to choose from.
+/// Returns '; did you mean "x"?', or the list of names when `nearest` is empty.
 std::string suggest(std::string_view nearest, std::span<const std::string_view> names) {
   return nearest.empty() ? "; known here: " + join(names) : "; did you mean " + in_quotes(nearest) + "?";
 }
 
-/// "a, b and c"
+/// Returns "a, b and c".
 std::string join_with_and(const std::vector<std::string>& names) {
   std::string all;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -53,7 +53,7 @@ std::string join_with_and(const std::vector<std::string>& names) {
   return all;
 }
 
-/// The objects that have a field of this name, unless they are so many that naming them tells nothing.
+/// Returns the objects that have a field; empty for more than three, whose list would not help.
 std::vector<std::string> owners_of(const std::string& field, const std::string& pointer) {
   constexpr std::size_t kMost = 3;
   auto owners = objects_with_field(field, pointer);
@@ -64,7 +64,7 @@ std::vector<std::string> owners_of(const std::string& field, const std::string& 
 
 std::string_view nearest_name(std::string_view written, std::span<const std::string_view> names) {
   constexpr std::size_t kLongest = 40;
-  constexpr std::size_t kMostLetters = 2;  // that are wrong
+  constexpr std::size_t kMostLetters = 2;  // largest edit distance to a suggested name
   std::string_view best;
   std::size_t best_distance = kMostLetters + 1;
   if (written.size() > kLongest) {
@@ -72,7 +72,7 @@ std::string_view nearest_name(std::string_view written, std::span<const std::str
   }
   for (const std::string_view name : names) {
     if (name.size() > written.size() && name.starts_with(written) && name[written.size()] == '_') {
-      return name;  // its first words
+      return name;  // `written` is the first words of `name`
     }
     const std::size_t distance = edit_distance(written, name);
     if (distance < best_distance && 2 * distance < written.size()) {
@@ -131,7 +131,7 @@ std::optional<Value> Value::member(std::string_view key) const {
   if (found == json_->end()) {
     return std::nullopt;
   }
-  return Value(*found, path_.with(found.key()), *report_);  // the document's key lives long enough
+  return Value(*found, path_.with(found.key()), *report_);  // the key belongs to the document
 }
 
 std::vector<std::string> Value::keys() const {
@@ -178,7 +178,7 @@ void read(const Value& value, int& out) {
     value.report_type("an integer");
     return;
   }
-  const double number = value.json().get<double>();  // exact up to 2^53, and monotonic beyond
+  const double number = value.json().get<double>();  // exact up to 2^53, monotonic beyond
   if (!(std::floor(number) == number)) {
     value.report("wrong_type", "expected an integer, got " + checks::text(number));
   } else if (number < std::numeric_limits<int>::min() || number > std::numeric_limits<int>::max()) {
@@ -245,7 +245,7 @@ void Object::finish() const {
       continue;
     }
     std::string_view nearest = nearest_name(key, known_);
-    // unless it begins a name of this object, a name that is right elsewhere is in the wrong place
+    // A field of other objects is reported as misplaced, unless its name begins a field name of this object.
     const auto owners =
         nearest.starts_with(key) ? std::vector<std::string>() : owners_of(key, value_.pointer());
     if (!owners.empty()) {

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// Typed reading of one document with everything that is wrong with it: values that know where they stand,
-/// and objects whose fields are read one by one. No full JSON header here, so that readers compile fast.
+/// Typed reading of one document with collection of all findings: values with their pointers, and objects
+/// whose fields are read one by one. Does not include the full JSON header, so that readers compile fast.
 
 #include <array>
 #include <cstddef>
@@ -21,19 +21,19 @@
 
 namespace snapthrough::api {
 
-/// What is wrong with a document so far. Places that could not be read are remembered, so that findings of
-/// later checks that only follow from them can be left out.
+/// Findings about a document. Unreadable places are recorded, so that later findings that only follow from
+/// them can be left out.
 class Report {
  public:
-  /// A mistake at a value that could not be read.
+  /// Adds a finding about a value that could not be read.
   void add(const std::string& pointer, std::string_view code, std::string detail);
-  /// A field that nobody knows; `meant` (may be empty) is the pointer of the field that was probably meant.
+  /// Adds a finding about an unknown field; `meant` is the pointer of the field probably meant, or "".
   void add_unknown_field(const std::string& pointer, const std::string& meant, std::string detail);
 
-  /// Whether the place, something in it, or something that it is in could not be read.
+  /// Returns whether a place, a part of it, or a container of it is unreadable.
   [[nodiscard]] bool covers(const std::string& pointer) const;
 
-  /// Nothing can be said about what is in here, although the mistake itself is reported elsewhere.
+  /// Records an unreadable place without a finding.
   void mark_unreadable(const std::string& pointer);
 
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
@@ -44,7 +44,7 @@ class Report {
   std::unordered_set<std::string> above_unreadable_;
 };
 
-/// A value of the document and its pointer. Refers to the document and the report, which must outlive it.
+/// A value of a document with its pointer. Refers to document and report, which must outlive the Value.
 class Value {
  public:
   Value(const nlohmann::json& json, PointerPath path, Report& report)
@@ -58,19 +58,19 @@ class Value {
   [[nodiscard]] bool is_array() const;
   [[nodiscard]] bool is_string() const;
   [[nodiscard]] bool is_number() const;
-  /// Elements of an array, members of an object.
+  /// Returns the number of elements of an array or of members of an object.
   [[nodiscard]] std::size_t size() const;
-  /// @pre is_array() and i < size()
+  /// Returns an element. @pre is_array() and i < size()
   [[nodiscard]] Value item(std::size_t i) const;
-  /// @pre is_object(). Empty when there is no such member.
+  /// Returns a member; nullopt when the object lacks it. @pre is_object()
   [[nodiscard]] std::optional<Value> member(std::string_view key) const;
-  /// @pre is_object(). In the document's key order.
+  /// Returns the keys in the order of the document. @pre is_object()
   [[nodiscard]] std::vector<std::string> keys() const;
 
   void report(std::string_view code, std::string detail) const {
     report_->add(pointer(), code, std::move(detail));
   }
-  /// Reports that `expected` ("a number", ...) was wanted here.
+  /// Reports that the value does not have the type `expected`, such as "a number".
   void report_type(std::string_view expected) const;
 
  private:
@@ -79,15 +79,15 @@ class Value {
   Report* report_;
 };
 
-// Each read() sets `out` or reports; then a number is NaN and anything else stays as it was.
+// Each read() sets `out` or reports; after a report a number is NaN and another type keeps its value.
 void read(const Value& value, std::string& out);
 void read(const Value& value, double& out);
-/// Integers of any JSON spelling (1, 1.0) that an int can hold.
+/// Reads an integer in the range of int, in any JSON form (1, 1.0).
 void read(const Value& value, int& out);
 void read(const Value& value, bool& out);
 void read(const Value& value, std::array<double, 2>& out);
 
-/// What a field holds until it has been read: a number that is not there is NaN.
+/// Sets `out` to the value of an unread field: NaN for numbers, no change for other types.
 template <class T>
 void set_unread(T&) {}
 inline void set_unread(double& out) { out = std::numeric_limits<double>::quiet_NaN(); }
@@ -98,7 +98,7 @@ void read(const Value& value, std::optional<T>& out) {
   read(value, out.emplace());
 }
 
-/// An array of any length; every element gets its place, readable or not, so that positions stay.
+/// Reads an array of any length; unreadable elements keep their positions.
 template <class T>
 void read(const Value& value, std::vector<T>& out) {
   if (!value.is_array()) {
@@ -111,7 +111,7 @@ void read(const Value& value, std::vector<T>& out) {
   }
 }
 
-/// @return Position of the string in `names`; when it is not one of them, reports it with the nearest name.
+/// @return index of the string in `names`; nullopt after a report that suggests the nearest name
 std::optional<std::size_t> read_choice(const Value& value, std::span<const std::string_view> names);
 
 template <class E, std::size_t n>
@@ -125,14 +125,14 @@ void read_named(const Value& value, const Named<E> (&table)[n], E& out) {
   }
 }
 
-/// @brief An object whose fields are read one by one; finish() then reports the fields that nobody asked for.
+/// @brief An object whose fields are read one by one; finish() then reports all other fields as unknown.
 ///
-/// A value that is not an object is reported once, and every field is then absent without a further word.
+/// A value that is not an object is reported once; all its fields then count as absent.
 class Object {
  public:
   explicit Object(const Value& value);
 
-  /// A field that must be there.
+  /// Reads a field; reports it when absent.
   template <class T>
   void required(std::string_view key, T& out) {
     set_unread(out);
@@ -140,7 +140,7 @@ class Object {
       read(*value, out);
     }
   }
-  /// A field that may be there; `out` keeps its default when it is not. Tells whether it is there.
+  /// Reads a field if present, else `out` keeps its default. Returns whether the field is present.
   template <class T>
   bool optional(std::string_view key, T& out) {
     const auto value = find(key);
@@ -155,7 +155,7 @@ class Object {
   [[nodiscard]] bool is_readable() const { return readable_; }
   [[nodiscard]] const Value& value() const { return value_; }
 
-  /// Reports every field that was not asked for. To be called last; not when what to ask for is not known.
+  /// Reports all fields that were not read. Call it last, and only if the set of known fields is complete.
   void finish() const;
 
  private:
@@ -164,10 +164,9 @@ class Object {
   std::vector<std::string_view> known_;
 };
 
-/// @brief An object whose field "type" names one of several forms; the form's function reads the other
-/// fields.
+/// @brief Reads an object whose field "type" selects a form; the form's function reads the other fields.
 ///
-/// When the form is not known, the whole object counts as unreadable and `out` stays as it was.
+/// For an unknown type, the whole object counts as unreadable and `out` keeps its value.
 template <class T, std::size_t n>
 void read_tagged(const Value& value, const Named<T (*)(Object&)> (&forms)[n], T& out) {
   Object in(value);
@@ -183,8 +182,8 @@ void read_tagged(const Value& value, const Named<T (*)(Object&)> (&forms)[n], T&
   in.finish();
 }
 
-/// @brief The one of `names` that was probably meant: one that begins with the words written, else the
-/// nearest within two letters and less than half of what was written; empty when there is none.
+/// @brief Returns the name probably meant: one that begins with the written words, else the nearest at an
+/// edit distance of at most two and less than half the written length; "" when there is none.
 [[nodiscard]] std::string_view nearest_name(std::string_view written,
                                             std::span<const std::string_view> names);
 

@@ -15,13 +15,13 @@ namespace {
 
 constexpr int kMostWorkers = 1024;
 constexpr int kMostConnections = 64;
-constexpr std::size_t kMostCallbackHosts = 16;  // each has a thread, or two
+constexpr std::size_t kMostCallbackHosts = 16;  // each host needs one or two threads
 
 bool is_digest(const std::string& text) {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-/// What must hold of where work is kept, and of who does it.
+/// Checks the settings of store and workers.
 template <class Require>
 void check_store(const ServiceConfig& config, const Require& require) {
   require(!config.store_path.empty(), "store_path", "must name a file, or a database as postgresql://...");

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What can be set for the service.
+/// Configuration of the service.
 
 #include <chrono>
 #include <cstdint>
@@ -18,43 +18,42 @@
 
 namespace snapthrough::server {
 
-/// A field of the configuration that cannot be used.
+/// An invalid field of the configuration.
 struct ConfigMistake {
-  std::string field;   ///< as in ServiceConfig, e.g. "workers"
-  std::string detail;  ///< a sentence with the rule
+  std::string field;   ///< name in ServiceConfig, such as "workers"
+  std::string detail;  ///< the rule, as a sentence
 };
 
 /// Settings of the service; every field has a working default.
 struct ServiceConfig {
-  http::ListenerOptions listener;             ///< without keys a loopback address
+  http::ListenerOptions listener;             ///< sockets; the host must be loopback without keys
   http::WaitLimits waits;                     ///< how long clients may wait for results
-  std::vector<http::ApiKey> keys;             ///< empty: requests are not authenticated
-  std::vector<std::string> allowed_origins;   ///< pages of these may use the service, too; exact
-  std::string store_path = "snapthrough.db";  ///< SQLite file, its folder must exist; or postgresql://...
-  int store_connections = 4;                  ///< to a database, of this process
-  int workers = 1;  ///< analyses at the same time, to 1024; 0: others that share the store work
-  std::string runner_executable = "/proc/self/exe";  ///< snapthrough; what computes is started from it
-  JobLimits jobs;                                    ///< queue, leases, retention, hosts of callbacks
-  std::string callback_secret_file;  ///< what callbacks are signed with; empty: there are none
+  std::vector<http::ApiKey> keys;             ///< accepted keys; empty: requests are not authenticated
+  std::vector<std::string> allowed_origins;   ///< origins whose pages may use the service; exact match
+  std::string store_path = "snapthrough.db";  ///< SQLite file in an existing folder, or postgresql://...
+  int store_connections = 4;                  ///< connections of this process to a database
+  int workers = 1;  ///< analyses at a time, <= 1024; 0: processes that share the store work
+  std::string runner_executable = "/proc/self/exe";  ///< path of snapthrough; runners are started from it
+  JobLimits jobs;                                    ///< queue, leases, retention, callback hosts
+  std::string callback_secret_file;                  ///< secret that signs callbacks; empty: no callbacks
   WebhookTimes callback_times;
   std::string web{http::kEmbeddedPage};              ///< the page: built in, none, or a folder
-  std::string hops_folder;                           ///< components of Grasshopper; empty: the built-in ones
+  std::string hops_folder;                           ///< Grasshopper components; empty: built-in ones
   std::int64_t ballast_bytes = 4 * 1024 * 1024;      ///< reserve on the disk of the store; 0: none
-  std::int64_t least_free_bytes = 64 * 1024 * 1024;  ///< with less on that disk no jobs are taken
-  std::chrono::seconds drain_delay{0};               ///< from SIGTERM until workers are stopped
+  std::int64_t least_free_bytes = 64 * 1024 * 1024;  ///< bytes free on that disk below which jobs are refused
+  std::chrono::seconds drain_delay{0};               ///< time from SIGTERM to the stop of workers
   LogLevel log_level = LogLevel::info;
   std::optional<std::pair<std::string, int>>
-      observe;  ///< host and port at which one that is no front tells how it is; empty: nowhere
-  bool front =
-      true;  ///< answers requests; else it only works on what others, who share the store, were given
+      observe;        ///< host and port for the state of a process that is no front; nullopt: none
+  bool front = true;  ///< answers requests; false: only works on jobs of services that share the store
 
-  /// One worker for each core.
+  /// Returns the default configuration, with one worker for each core.
   [[nodiscard]] static ServiceConfig defaults();
-  /// Every field that cannot be used.
+  /// Returns all invalid fields.
   [[nodiscard]] std::vector<ConfigMistake> check() const;
 };
 
-/// Splits "host:port" or "[ipv6]:port"; nothing when it has another form or the port is not 0 to 65535.
+/// Splits "host:port" or "[ipv6]:port"; nullopt for another form or a port beyond 65535.
 [[nodiscard]] std::optional<std::pair<std::string, int>> parse_address(std::string_view text);
 
 }  // namespace snapthrough::server

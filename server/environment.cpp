@@ -21,7 +21,7 @@ CivilTime civil(Time time) {
           std::chrono::hh_mm_ss<std::chrono::microseconds>{time - day}};
 }
 
-/// The number that so many digits of a text from there on are, or nothing.
+/// Returns the number that `count` digits from index `at` form; nullopt when they are not all digits.
 std::optional<int> digits(std::string_view text, std::size_t at, std::size_t count) {
   int value = 0;
   for (const char c : text.substr(at, count)) {
@@ -33,7 +33,7 @@ std::optional<int> digits(std::string_view text, std::size_t at, std::size_t cou
   return text.size() >= at + count ? std::optional(value) : std::nullopt;
 }
 
-/// What follows the seconds of a time: the fraction less the offset ("", ".25" before "Z", "+01:00").
+/// Returns fraction minus offset of what follows the seconds of a time ("", ".25" before "Z", "+01:00").
 std::optional<std::chrono::microseconds> fraction_and_offset(std::string_view text) {
   std::chrono::microseconds sum{0};
   if (text.starts_with('.')) {

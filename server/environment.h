@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Time and randomness, which are given to the code that needs them so that tests decide them.
+/// Time and randomness, passed to the code that needs them so that tests can replace them.
 
 #include <chrono>
 #include <cstdint>
@@ -11,34 +11,34 @@
 
 namespace snapthrough::server {
 
-/// A moment in UTC, to the microsecond.
+/// A point in time in UTC, in microseconds.
 using Time = std::chrono::sys_time<std::chrono::microseconds>;
 
-/// What the service asks its surroundings. Each function must be callable from any thread.
+/// Access to clocks and random numbers. Each function must be callable from any thread.
 struct Environment {
-  std::function<Time()> now;                   ///< the wall clock, for time stamps
-  std::function<double()> monotonic_seconds;   ///< for durations; the origin means nothing
+  std::function<Time()> now;                   ///< wall clock, for time stamps
+  std::function<double()> monotonic_seconds;   ///< for durations, from an arbitrary origin
   std::function<std::uint64_t()> random_bits;  ///< 64 unpredictable bits
 
-  /// The real clock and the kernel's random numbers.
+  /// Returns the system's clocks and random numbers.
   [[nodiscard]] static Environment system();
 };
 
-/// RFC 3339 in UTC with microseconds, e.g. "2026-01-31T08:30:00.250000Z".
+/// Returns a time in RFC 3339 format in UTC with microseconds, such as "2026-01-31T08:30:00.250000Z".
 [[nodiscard]] std::string rfc3339(Time time);
 
-/// @brief The time that a text of RFC 3339 means ("2026-01-31T08:30:00Z", with up to six digits of a
-/// fraction, or an offset such as "+01:00"), or nothing when it is none or before 1970 or after 9999.
+/// @brief Parses a time in RFC 3339 format ("2026-01-31T08:30:00Z", with up to six digits of fraction, or an
+/// offset such as "+01:00"); nullopt for another format or a year outside 1970 to 9999.
 [[nodiscard]] std::optional<Time> time_from(std::string_view text);
 
-/// HTTP date (RFC 9110, 5.6.7), e.g. "Sat, 31 Jan 2026 08:30:00 GMT".
+/// Returns an HTTP date (RFC 9110, 5.6.7), such as "Sat, 31 Jan 2026 08:30:00 GMT".
 [[nodiscard]] std::string http_date(Time time);
 
-/// A new identifier: a UUID of version 7 (RFC 9562), 36 characters that sort by the millisecond of creation
-/// and hold 74 random bits.
+/// Returns a new UUID of version 7 (RFC 9562): 36 characters that sort by the millisecond of creation, with
+/// 74 random bits.
 [[nodiscard]] std::string new_id(const Environment& environment);
 
-/// Whether the text has the form of an identifier made by new_id().
+/// Returns whether a text has the format of new_id().
 [[nodiscard]] bool is_id(std::string_view text);
 
 }  // namespace snapthrough::server

@@ -1,5 +1,5 @@
 /// @file
-/// Writes manual pages and shell completion when the program is built.
+/// Program of the build that writes manual pages and shell completion.
 
 #include <filesystem>
 #include <fstream>

@@ -80,7 +80,7 @@ ChildRunnerOptions runner_options(const ServiceConfig& config) {
   return {config.runner_executable, config.jobs.job_memory, config.jobs.max_crashes};
 }
 
-/// Of the disk that the store is on, if it is a file here.
+/// Returns the guard of the store's disk; nullopt for a store that is no local file.
 std::optional<DiskGuard> disk_guard(const ServiceConfig& config) {
   if (is_shared_location(config.store_path)) {
     return std::nullopt;
@@ -89,7 +89,7 @@ std::optional<DiskGuard> disk_guard(const ServiceConfig& config) {
                    static_cast<std::uint64_t>(config.least_free_bytes));
 }
 
-/// What callbacks are signed with; empty when there are none.
+/// Returns the key that signs callbacks; "" without callbacks.
 StatusOr<std::string> callback_key(const ServiceConfig& config) {
   if (config.jobs.callback_hosts.empty() || !config.front) {
     return std::string();
@@ -104,7 +104,7 @@ StatusOr<std::string> callback_key(const ServiceConfig& config) {
   return *std::move(key);
 }
 
-/// Where it listens, if it does.
+/// Returns the options of the listener of a front, or of the state of a process that is none.
 http::ListenerOptions listener_options(const ServiceConfig& config) {
   http::ListenerOptions options = config.listener;
   if (!config.front && config.observe) {
@@ -115,7 +115,7 @@ http::ListenerOptions listener_options(const ServiceConfig& config) {
 
 }  // namespace
 
-/// Built bottom up; destroyed top down.
+/// Parts of a running service, constructed in this order and destroyed in reverse.
 struct Service::Parts {
   Parts(const ServiceConfig& config, const Environment& environment, const RunnerFactory& runners, Log& log,
         std::unique_ptr<Store> opened, std::string callback_key)
@@ -295,7 +295,7 @@ void Service::stop() {
   context.health.draining = true;
   std::this_thread::sleep_for(config_.drain_delay);
   parts_->workers.stop();
-  context.completions.close();  // after that: who waits is told what became of the job
+  context.completions.close();  // after the workers: waiting clients then get the final status of their jobs
   parts_->listener.stop();
   parts_.reset();
   log_.write(LogLevel::info, "stopped");

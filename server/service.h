@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The whole service: store, queue, workers and HTTP, put together.
+/// The whole service: store, queue, workers and HTTP.
 
 #include <memory>
 #include <vector>
@@ -13,31 +13,31 @@
 
 namespace snapthrough::server {
 
-/// @brief A service that runs from start() to stop(). start() and stop() from one thread.
+/// @brief A service that runs from start() to stop(), which must be called from one thread.
 class Service {
  public:
-  /// @param runners what computes; empty: processes of their own (worker/child_runner.h)
+  /// @param runners factory of runners; empty: child processes (worker/child_runner.h)
   /// @pre config.check() is empty; `log` outlives the service
   Service(ServiceConfig config, Environment environment, RunnerFactory runners, Log& log);
-  /// Stops first if need be.
+  /// Calls stop() if necessary.
   ~Service();
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
   Service(Service&&) = delete;
   Service& operator=(Service&&) = delete;
 
-  /// @brief Opens the store, puts jobs that a dead process left running back, starts workers, and listens if
-  /// it is a front.
+  /// @brief Opens the store, requeues jobs that a dead process left running, starts workers, and listens if
+  /// the configuration asks for it.
   Status start();
-  /// The port that is listened to, once started.
+  /// Returns the port after start().
   [[nodiscard]] int port() const;
-  /// @brief Accepts these keys from now on and no others. `unsupported`, and nothing changes, when the
-  /// service was started with keys and these are none, or the other way round. @pre started; the keys are
+  /// @brief Replaces the accepted keys. Returns `unsupported` and changes nothing when the service was
+  /// started with keys and `keys` is empty, or the reverse. @pre the service is started, and the keys are
   /// valid
   Status replace_keys(std::vector<http::ApiKey> keys);
-  /// @brief Takes no new work and is not ready from now on, but answers everything else: for `drain_delay`,
-  /// and until running jobs are back in the queue. Then answers requests in flight (those that wait for a
-  /// result get the job's status) and stops listening. Repeatable.
+  /// @brief Stops the service: refuses new work and reports not ready, but answers other requests for
+  /// `drain_delay` and until running jobs are requeued. Then answers requests in flight (those that wait for
+  /// a result get the job's status) and stops listening. May be called repeatedly.
   void stop();
 
  private:

@@ -23,7 +23,7 @@ std::optional<Number> number(const std::string& text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
-/// A setting that is a whole number; `field` gives a reference to it.
+/// Returns a setting that is an integer; `field` returns a reference to it.
 template <class Field>
 Setting whole(std::string name, std::string help, Field field) {
   using Value = std::remove_reference_t<decltype(field(std::declval<ServiceConfig&>()))>;
@@ -37,11 +37,11 @@ Setting whole(std::string name, std::string help, Field field) {
             return std::nullopt;
           },
           [field](const ServiceConfig& config) {
-            return std::to_string(field(const_cast<ServiceConfig&>(config)));  // read only
+            return std::to_string(field(const_cast<ServiceConfig&>(config)));  // only read
           }};
 }
 
-/// A setting that is a duration in whole units of `Duration`.
+/// Returns a setting that is a duration in whole units of `Duration`.
 template <class Field>
 Setting duration(std::string name, std::string help, Field field) {
   using Duration = std::remove_reference_t<decltype(field(std::declval<ServiceConfig&>()))>;
@@ -55,7 +55,7 @@ Setting duration(std::string name, std::string help, Field field) {
             return std::nullopt;
           },
           [field](const ServiceConfig& config) {
-            return std::to_string(field(const_cast<ServiceConfig&>(config)).count());  // read only
+            return std::to_string(field(const_cast<ServiceConfig&>(config)).count());  // only read
           }};
 }
 
@@ -102,7 +102,7 @@ Setting store_setting() {
       [](const ServiceConfig& config) { return shown_location(config.store_path); }};
 }
 
-/// A setting that is a text.
+/// Returns a setting that is a text.
 template <class Field>
 Setting text(std::string name, std::string help, Field field) {
   return {std::move(name), std::move(help),
@@ -111,11 +111,11 @@ Setting text(std::string name, std::string help, Field field) {
             return std::nullopt;
           },
           [field](const ServiceConfig& config) {
-            return field(const_cast<ServiceConfig&>(config));  // read only
+            return field(const_cast<ServiceConfig&>(config));  // only read
           }};
 }
 
-/// A setting that is a list of texts with commas between.
+/// Returns a setting that is a list of texts, separated by commas.
 template <class Field>
 Setting text_list(std::string name, std::string help, Field field) {
   return {std::move(name), std::move(help),
@@ -129,7 +129,7 @@ Setting text_list(std::string name, std::string help, Field field) {
           },
           [field](const ServiceConfig& config) {
             std::string text;
-            for (const std::string& entry : field(const_cast<ServiceConfig&>(config))) {  // read only
+            for (const std::string& entry : field(const_cast<ServiceConfig&>(config))) {  // only read
               text += (text.empty() ? "" : ",") + entry;
             }
             return text;
@@ -266,9 +266,9 @@ const Setting* find_setting(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-/// How many characters have to be put in, left out or replaced to make one text of the other.
+/// Returns the edit distance: least number of inserted, deleted and replaced characters.
 std::size_t edit_distance(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);  // of the part of `from` so far to each beginning of `to`
+  std::vector<std::size_t> row(to.size() + 1);  // distances from a beginning of `from` to those of `to`
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < from.size(); ++i) {
     std::size_t diagonal = std::exchange(row[0], i + 1);
@@ -281,7 +281,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return row.back();
 }
 
-/// @param form the name of a setting as this source spells it
+/// @param form returns a setting's name in the syntax of the source
 template <class Form>
 std::string no_such_setting(const std::string& name, const Form& form) {
   std::vector<std::string> known;

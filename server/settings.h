@@ -1,7 +1,6 @@
 #pragma once
 /// @file
-/// The settings by name, from wherever they come: one table for the configuration file, the environment and
-/// the command line.
+/// Settings by name: one table for the configuration file, the environment and the command line.
 
 #include <functional>
 #include <map>
@@ -15,37 +14,37 @@
 
 namespace snapthrough::server {
 
-/// One setting. As `name` in the file, SNAPTHROUGH_NAME in the environment, --name (with dashes) as a flag.
+/// A setting: `name` in the file, SNAPTHROUGH_NAME in the environment, --name (with dashes) as a flag.
 struct Setting {
   std::string name;
   std::string help;
-  /// Takes the value; what is wrong with it, or nothing.
+  /// Sets the value; returns what is wrong with it, or nullopt.
   std::function<std::optional<std::string>(ServiceConfig&, const std::string&)> set;
-  /// The value in the form that set() takes.
+  /// Returns the value in the format of set().
   std::function<std::string(const ServiceConfig&)> get;
 };
 
-/// Every setting; keys apart, which only the file has.
+/// Returns all settings except keys, which only the file can have.
 [[nodiscard]] const std::vector<Setting>& settings();
 
-/// Where values come from; later ones win: file, environment, flags.
+/// Sources of settings in ascending priority: file, environment, flags.
 struct SettingSources {
-  std::string file;                                ///< TOML; empty: none
-  std::map<std::string, std::string> environment;  ///< every variable that begins with kVariablePrefix
-  std::vector<std::pair<std::string, std::string>> flags;  ///< by setting name
+  std::string file;                                        ///< TOML file; empty: none
+  std::map<std::string, std::string> environment;          ///< variables that begin with kVariablePrefix
+  std::vector<std::pair<std::string, std::string>> flags;  ///< values by setting name
 };
 
-/// Variables of the environment that begin so are settings, or kConfigVariable; others are mistakes.
+/// Prefix of variables that are settings or kConfigVariable; any other variable with it is an error.
 inline constexpr std::string_view kVariablePrefix = "SNAPTHROUGH_";
-/// Names the configuration file.
+/// Environment variable with the path of the configuration file.
 inline constexpr const char* kConfigVariable = "SNAPTHROUGH_CONFIG";
 
-/// @brief Reads all sources. Every mistake is listed with the place it comes from; the configuration is not
-/// to be used then. @param front see ServiceConfig
+/// @brief Reads all sources. If there are mistakes (each with its source), the configuration must not be
+/// used. @param front see ServiceConfig
 [[nodiscard]] std::pair<ServiceConfig, std::vector<ConfigMistake>> load_config(const SettingSources& sources,
                                                                                bool front = true);
 
-/// The name of the variable of a setting: SNAPTHROUGH_NAME.
+/// Returns the environment variable of a setting: SNAPTHROUGH_NAME.
 [[nodiscard]] std::string variable_name(const std::string& setting);
 
 }  // namespace snapthrough::server

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// How input and output report trouble: by value, never to be ignored.
+/// Status values of input and output, which callers must not ignore.
 
 #include <optional>
 #include <string>
@@ -8,23 +8,23 @@
 
 namespace snapthrough::server {
 
-/// What went wrong with a store, a socket or a file. `ok` is the only success.
+/// Kind of failure of a store, a socket or a file. Only `ok` means success.
 enum class StatusCode {
   ok,
-  conflict,       ///< the job is no longer in the state, or the attempt, that the caller holds
-  unavailable,    ///< it may work later: busy, disk full, address in use
-  stopping,       ///< nothing new is taken: the service is about to end
-  waiting_quota,  ///< the owner has as much waiting as it may
-  rate_quota,     ///< the owner has handed in as much as it may at the moment
-  storage_quota,  ///< the owner keeps as much as it may
-  unsupported,    ///< written by a newer version, or by something else
-  io_error,       ///< everything else
+  conflict,       ///< the job is no longer in the expected state or attempt
+  unavailable,    ///< may succeed later: busy, disk full, address in use
+  stopping,       ///< the service is about to end and accepts nothing new
+  waiting_quota,  ///< the owner's waiting work reaches its quota
+  rate_quota,     ///< the owner's submissions reach their quota for the moment
+  storage_quota,  ///< the owner's stored documents reach their quota
+  unsupported,    ///< written by a newer version, or by another program
+  io_error,       ///< any other failure
 };
 
 /// Outcome of an operation without a value. Copyable, immutable after construction.
 class [[nodiscard]] Status {
  public:
-  Status() = default;  ///< ok
+  Status() = default;  ///< the status `ok`
   Status(StatusCode code, std::string message) : code_(code), message_(std::move(message)) {}
 
   [[nodiscard]] bool ok() const { return code_ == StatusCode::ok; }
@@ -36,11 +36,11 @@ class [[nodiscard]] Status {
   std::string message_;
 };
 
-/// A value or the status that says why there is none.
+/// A value, or the status of the failure.
 template <class T>
 class [[nodiscard]] StatusOr {
  public:
-  // Both conversions are wanted: `return value;` and `return Status{...};`.
+  // Implicit conversions allow `return value;` and `return Status{...};`.
   StatusOr(T value) : value_(std::move(value)) {}          // NOLINT(google-explicit-constructor)
   StatusOr(Status status) : status_(std::move(status)) {}  // NOLINT(google-explicit-constructor)
 

@@ -32,7 +32,7 @@ bool is_choice(const Json& schema) {
 
 void expand(const Json& schema, std::vector<const Json*>& out) {
   if (const auto reference = schema.find("$ref"); reference != schema.end()) {
-    const std::string pointer = reference->get<std::string>().substr(1);  // without the #
+    const std::string pointer = reference->get<std::string>().substr(1);  // without the leading #
     expand(published().at(Json::json_pointer(pointer)), out);
   }
   for (const char* choice : kChoices) {

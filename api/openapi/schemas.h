@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Schemas of the published interface, for whoever asks what fields a document has. Thread-safe.
+/// Look-up of schemas in the published interface. Thread-safe.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string_view>
@@ -8,15 +8,15 @@
 
 namespace snapthrough::api {
 
-/// @brief A schema by its name under components/schemas of the OpenAPI document.
-/// @throws nlohmann::json::out_of_range when there is none of that name
+/// @brief Returns the schema with a name under components/schemas of the OpenAPI document.
+/// @throws nlohmann::json::out_of_range when the document has no schema of that name
 [[nodiscard]] const nlohmann::json& published_schema(std::string_view name);
 
-/// Whether a schema lists other schemas to choose from.
+/// Returns whether a schema has anyOf, oneOf or allOf.
 [[nodiscard]] bool is_choice(const nlohmann::json& schema);
 
-/// @brief Appends the schemas that a schema refers to or chooses from, through any number of references, and
-/// then the schema itself: a value fulfils at least one of them.
+/// @brief Appends a schema after all schemas that it references or chooses from, recursively. A valid value
+/// satisfies at least one of them.
 void expand(const nlohmann::json& schema, std::vector<const nlohmann::json*>& out);
 
 }  // namespace snapthrough::api

@@ -8,20 +8,20 @@
 namespace snapthrough::api::plot {
 namespace {
 
-/// Comparisons of foundations or supports with members, of which a document has at most some hundreds; a
-/// document that would need more than these has its contact and supports left out.
+/// Largest number of pairs (foundation, member) or (support, member end) to compare. Documents have some
+/// hundreds; for a larger one, foundations and supports are not searched.
 constexpr double kMostComparisons = 1e7;
 
-/// The largest difference at which forces are taken for equal, relative to them: a state gives them at few
-/// places, between which they are taken as linear.
+/// Largest relative difference of forces taken as equal. Its cause is the linear interpolation of forces
+/// between the sampled places of a state.
 constexpr double kSameForce = 0.1;
 
-/// Reactions along a member summed up with an assumed direction into the medium.
+/// Integrals of a foundation's reactions along a member, for an assumed direction into the medium.
 struct Sum {
   double fx = 0, fy = 0, moment = 0;
-  double size = 0;           ///< of the reactions, whatever their sign
-  double missed = 0;         ///< of displacements into the medium,
-  double displacements = 0;  ///< and their size
+  double size = 0;           ///< integral of |reaction|
+  double missed = 0;         ///< sum of |difference| of the displacements into the medium
+  double displacements = 0;  ///< sum of the |displacements|
 };
 
 Sum sum_of(const DrawnMember& member, const MemberState& moved, const FoundationState& state,
@@ -47,12 +47,12 @@ Sum sum_of(const DrawnMember& member, const MemberState& moved, const Foundation
   return sum;
 }
 
-/// How badly an assumption fits: 0 when resultant and displacements are those of the state.
+/// Returns the relative error of an assumption: 0 when resultant and displacements agree with the state.
 double misfit(const Sum& sum, const Force& resultant, double arm) {
   if (!(sum.size > 0)) {
     return std::numeric_limits<double>::infinity();
   }
-  // Displacements tell the sides of a closed ring apart, whose reactions are in equilibrium on either.
+  // Displacements decide between the sides of a closed ring: reactions are in equilibrium on both.
   constexpr double kOfDisplacements = 0.2;
   const double forces = std::hypot(sum.fx - resultant.fx, sum.fy - resultant.fy) / sum.size;
   const double moments = std::abs(sum.moment - resultant.moment) / (sum.size * arm);
@@ -60,7 +60,7 @@ double misfit(const Sum& sum, const Force& resultant, double arm) {
          kOfDisplacements * (sum.displacements > 0 ? sum.missed / sum.displacements : 0);
 }
 
-/// Left, right, and along the resultant, which a medium with a direction of its own has.
+/// Assumed directions: left, right, and against the resultant (a medium with its own direction).
 std::vector<ModelFoundation> assumptions(const std::string& id, const std::string& member,
                                          const Force& resultant) {
   std::vector<ModelFoundation> all(2);
@@ -78,7 +78,7 @@ std::vector<ModelFoundation> assumptions(const std::string& id, const std::strin
   return all;
 }
 
-/// Distance from the origin that moments are compared by.
+/// Lever arm that makes moments comparable with forces: largest distance from the origin.
 double arm_of(const std::vector<DrawnMember>& members) {
   double arm = 0;
   for (const DrawnMember& member : members) {
@@ -89,13 +89,13 @@ double arm_of(const std::vector<DrawnMember>& members) {
   return arm > 0 ? arm : 1;
 }
 
-/// A base pulls where it is bilateral; one that only presses is one-sided as far as the state tells.
+/// Returns whether no reaction is tension; the state does not say more about a one-sided foundation.
 bool presses_only(const FoundationState& state) {
   const auto [least, most] = std::minmax_element(state.reaction.begin(), state.reaction.end());
-  return *least >= -1e-6 * std::abs(*most);  // rounding
+  return *least >= -1e-6 * std::abs(*most);  // tolerance for rounding
 }
 
-/// Ends of members at one place, with the force that balances their internal forces.
+/// Member ends at one position, with the sum of the forces that balance their internal forces.
 struct Corner {
   Point at;
   double fx = 0;
@@ -103,9 +103,9 @@ struct Corner {
   bool taken = false;
 };
 
-using End = std::tuple<double, double, const DrawnMember*, bool>;  // undeformed place, member, at its start
+using End = std::tuple<double, double, const DrawnMember*, bool>;  // undeformed x, y; member; at its start
 
-/// Ends in the order of their places, so that those of one place follow one another.
+/// Returns all member ends sorted by position, so that ends at one position are adjacent.
 std::vector<End> ends_of(const std::vector<DrawnMember>& members, double slack) {
   std::vector<End> ends;
   for (const DrawnMember& member : members) {
@@ -127,7 +127,7 @@ std::vector<Corner> corners_of(const std::vector<DrawnMember>& members, const St
     const MemberState& moved = state.members.at(member->id);
     const std::size_t i = start ? 0 : member->s.size() - 1;
     const Point n = left_normals(moved.x, moved.y)[i];
-    const double sign = start ? -1 : 1;  // a member's beginning presses on the node with the force beyond it
+    const double sign = start ? -1 : 1;  // the section force acts on a member's end, minus it on the start
     const double normal = sign * moved.shear_force[i];
     const double along = sign * moved.axial_force[i];
     if (corners.empty() || last != std::pair(kx, ky)) {
@@ -161,7 +161,7 @@ std::vector<ModelFoundation> foundations_of(const std::vector<DrawnMember>& memb
     if (foundation.s.size() < 2) {
       continue;
     }
-    double least = kSameForce + 0.2;  // displacements may be those of a stiffer base's own surface
+    double least = kSameForce + 0.2;  // 0.2 accepts any displacements: a base may report its own surface
     std::optional<ModelFoundation> best;
     for (const DrawnMember& member : members) {
       if (foundation.s.back() > member.s.back() * (1 + 1e-9)) {
@@ -190,7 +190,7 @@ std::vector<SupportForce> support_forces_of(const std::vector<DrawnMember>& memb
       kMostComparisons) {
     return found;
   }
-  constexpr double kVisible = 0.02;  // of the largest: less is no arrow
+  constexpr double kVisible = 0.02;  // smallest force drawn, relative to the largest
   const double largest = largest_force(state);
   std::vector<Corner> corners = corners_of(members, state, 1e-6 * arm_of(members));
   for (const auto& [node, force] : state.supports) {

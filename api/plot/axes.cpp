@@ -11,7 +11,7 @@
 namespace snapthrough::api::plot {
 namespace {
 
-constexpr double kTickRounding = 1e-9;  // of a step: a tick at the end of a range is in it
+constexpr double kTickRounding = 1e-9;  // relative to a step: tolerance for a tick at the end of a range
 
 double position(const Scale& scale, double value) {
   return scale.log ? std::log10(value / scale.from) / std::log10(scale.to / scale.from)
@@ -44,7 +44,7 @@ struct Written {
   std::string text;
 };
 
-/// Ticks of an axis with their texts: numbers, or names at 0, 1, 2, ... as many as find room.
+/// Returns the ticks of an axis with their texts: numbers, or as many of the names as find room.
 std::vector<Written> written(const Scale& scale, const std::optional<std::vector<std::string>>& names,
                              const std::optional<std::vector<double>>& values, double spacing) {
   std::vector<Written> all;
@@ -67,7 +67,7 @@ std::vector<Written> written(const Scale& scale, const std::optional<std::vector
 constexpr double kTickSpacingX = 80;
 constexpr double kTickSpacingY = 50;
 
-/// Sector of directions from an anchor within which a straight line passes all points so far.
+/// Angles from `middle` (rad) at which a line from the anchor passes all points so far within the tolerance.
 struct Sector {
   double middle = 0;
   double low = 0;
@@ -90,7 +90,7 @@ Sector first_sector(Pixel anchor, Pixel next, double tolerance) {
   return {angle, -half, half, distance};
 }
 
-/// The sector that still passes by the next point; nothing when none does or the line turns back.
+/// Returns the sector narrowed by the next point; nullopt when the point lies outside or the line turns back.
 std::optional<Sector> narrowed(const Sector& sector, Pixel anchor, Pixel next, double tolerance) {
   const double distance = std::hypot(next.x - anchor.x, next.y - anchor.y);
   if (distance < sector.reach - tolerance) {
@@ -147,7 +147,7 @@ std::vector<double> ticks(const Scale& scale, double spacing) {
   }
   const double step = round_step(high - low, count);
   std::vector<double> values;
-  // A step is no less than a twentieth of the range over `count`: the bound only stops where rounding would.
+  // A step is at least 1/20 of the range over `count`; the bound ends the loop when rounding would not.
   const double first = std::ceil(low / step - kTickRounding);
   for (double i = 0; i <= 20 * count && (first + i) * step <= high + kTickRounding * step; ++i) {
     values.push_back(multiple(first + i, step));
@@ -167,7 +167,7 @@ void Range::include(double value) {
 
 Range widened(const Range& range) {
   constexpr double kRoom = 0.06;
-  constexpr double kFlat = 1e-12;  // of the larger end: less than what the ticks' digits tell apart
+  constexpr double kFlat = 1e-12;  // smallest range that ticks resolve, relative to its larger end
   const auto [low, high] = std::pair(range.low, range.high);
   if (range.empty()) {
     return {0, 1};

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Scales, round ticks, grid and axis labels that all charts share; thinning of lines by what can be seen.
+/// Scales, ticks, grid lines and axis labels of all charts; removal of points that a line does not need.
 
 #include <optional>
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace snapthrough::api::plot {
 
-/// A scale from values to pixels; `log` maps the logarithm, of values above zero.
+/// Linear or logarithmic map of the values [from, to] to the pixels [start, end]; `log` requires values > 0.
 struct Scale {
   double from = 0;
   double to = 1;
@@ -21,16 +21,16 @@ struct Scale {
   bool log = false;
 };
 
-/// The pixel of a value.
+/// Returns the pixel coordinate of a value.
 [[nodiscard]] double place(const Scale& scale, double value);
-/// The step of 1, 2 or 5 times a power of ten that cuts a length into about so many parts.
+/// Returns the step (1, 2 or 5 times a power of ten) that divides `length` into about `parts` intervals.
 [[nodiscard]] double round_step(double length, double parts);
-/// Round values of a scale, about one every `spacing` pixels.
+/// Returns round values within a scale, in increasing order, one about every `spacing` pixels.
 [[nodiscard]] std::vector<double> ticks(const Scale& scale, double spacing);
-/// k * step without the rounding that the product has.
+/// Returns k * step, rounded to 12 significant digits so that 3 * 0.1 is written 0.3.
 [[nodiscard]] double multiple(double k, double step);
 
-/// Least and largest of values; what is not finite is left out. Empty (low > high) without values.
+/// Smallest and largest finite value of a set; without values low > high.
 struct Range {
   double low;
   double high;
@@ -40,36 +40,36 @@ struct Range {
   [[nodiscard]] bool empty() const { return !(low <= high); }
 };
 
-/// A range with room at both ends, that is never empty and holds zero where it is near.
+/// Adds 6 % at both ends of a range; an end near zero moves to zero, and an empty range becomes [0, 1].
 [[nodiscard]] Range widened(const Range& range);
 
-/// The frame of a chart: grid lines, numbers, axis labels.
+/// Axes of a chart: scales, labels and ticks.
 struct Frame {
   Scale x;
   Scale y;
   std::string x_label;
   std::string y_label;
-  /// Names at 0, 1, 2, ..., where an axis has names and not numbers.
+  /// Names of the positions 0, 1, 2, ... of an axis of texts; nullopt: the axis has numbers.
   std::optional<std::vector<std::string>> x_names;
   std::optional<std::vector<std::string>> y_names;
-  /// Values to write at, where there are few that mean something.
+  /// Values at which ticks stand; nullopt: ticks() chooses round values.
   std::optional<std::vector<double>> x_values;
   std::optional<std::vector<double>> y_values;
 };
 
-/// The pixel of a point.
+/// Returns the pixel of the point (x, y) in chart values.
 [[nodiscard]] Pixel place(const Frame& frame, double x, double y);
-/// Grid, zero lines and numbers; every value is finite.
+/// Draws grid lines, zero lines, tick texts and axis labels. @pre the ends of both scales are finite
 [[nodiscard]] Shape frame_shape(const Frame& frame, Size size);
-/// Room at the left of a plot for the numbers of its vertical axis and its label.
+/// Returns the width in pixels left of the plot area that the tick texts and label of the y axis need.
 [[nodiscard]] double room_for_numbers(const Frame& frame);
 
-/// @brief Indices of the points of a line to draw: the first, the last, and those without which the line
-/// would be off by more than the tolerance in pixels.
+/// @brief Returns the indices of the points that a polyline needs: first, last, and each one without which
+/// the line moves by more than `tolerance` pixels.
 ///
-/// The sector algorithm of Williams (Cartography 15, 1978), with a stop where the line turns back. O(n).
+/// Sector algorithm of Williams (Cartography 15, 1978); a point where the line turns back is kept. O(n).
 [[nodiscard]] std::vector<std::size_t> thinned(std::span<const Pixel> points, double tolerance = 0.25);
-/// The points that thinned() keeps.
+/// Returns the points whose indices thinned() returns.
 [[nodiscard]] std::vector<Pixel> thinned_points(std::span<const Pixel> points, double tolerance = 0.25);
 
 }  // namespace snapthrough::api::plot

@@ -12,8 +12,8 @@ struct Corner {
   double value = 0;
 };
 
-/// Pieces of the contour in one cell. In a saddle the mean of the corners decides which crossings belong
-/// together.
+/// Adds the contour segments of one cell. In a saddle, the mean of the corner values decides which crossings
+/// are joined.
 void add_pieces(const std::array<Corner, 4>& corners, double level, std::vector<Segment>& pieces) {
   std::array<Pixel, 4> found;
   std::size_t count = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Contour lines on a grid by marching squares.
+/// Contour lines of values on a rectangular grid, by marching squares.
 
 #include <utility>
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace snapthrough::api::plot {
 
-/// value(i, j) = values[j * x.size() + i] at (x[i], y[j]) in pixels; a cell with a corner that is not finite
-/// has no lines.
+/// Grid points (x[i], y[j]) in pixels with values[j * x.size() + i]; cells with a corner value that is not
+/// finite have no contour.
 struct Grid {
   std::vector<double> x, y, values;
 };
 
 using Segment = std::pair<Pixel, Pixel>;
 
-/// All pieces of the contour lines of increasing levels, one list a level.
+/// Returns the segments of the contour lines, one list for each level. @pre `levels` increase
 [[nodiscard]] std::vector<std::vector<Segment>> contours(const Grid& grid, const std::vector<double>& levels);
 
 }  // namespace snapthrough::api::plot

@@ -1,7 +1,6 @@
 #pragma once
 /// @file
-/// Reading of documents that nobody has checked: each value knows where it stands, and a wrong one is a
-/// PlotError with its pointer.
+/// Reader of unchecked JSON documents; an invalid value throws PlotError with the value's JSON Pointer.
 
 #include <cstddef>
 #include <limits>
@@ -15,12 +14,12 @@
 
 namespace snapthrough::api::plot {
 
-inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  ///< a value that is not there
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  ///< absent or null number
 
-/// @brief A value of a document. Refers to the document, which must outlive it.
+/// @brief A JSON value with its JSON Pointer. Refers to the document, which must outlive the Field.
 ///
-/// Numbers are finite and at most 1e100 in size, so that no product of two of them overflows; those below
-/// 1e-100 are read as zero.
+/// A reader throws PlotError for a value of another type. Numbers must be finite and at most 1e100 in size,
+/// so that no product of two overflows; numbers below 1e-100 in size read as zero.
 class Field {
  public:
   explicit Field(const nlohmann::json& value, PointerPath place = PointerPath())
@@ -30,29 +29,29 @@ class Field {
   [[nodiscard]] std::string pointer() const { return place_.text(); }
   [[noreturn]] void fail(const std::string& rule) const;
 
-  /// A member of an object, which must be there.
+  /// Returns a member of an object. @throws PlotError when the member is absent
   [[nodiscard]] Field at(std::string_view key) const;
-  /// A member of an object; nothing where it is absent or null.
+  /// Returns a member of an object; nullopt when the member is absent or null.
   [[nodiscard]] std::optional<Field> find(std::string_view key) const;
-  /// An item of a list. @pre index < size()
+  /// Returns an item of a list. @pre index < size()
   [[nodiscard]] Field item(std::size_t index) const;
-  /// Number of items of a list.
+  /// Returns the number of items of a list.
   [[nodiscard]] std::size_t size() const;
 
-  /// Members of an object, in the order of their names.
+  /// Returns name and value of each member of an object, sorted by name.
   [[nodiscard]] std::vector<std::pair<std::string, Field>> members() const;
 
   [[nodiscard]] double number() const;
-  /// kNone where it is null.
+  /// Returns number(), or kNone for null.
   [[nodiscard]] double number_or_none() const;
   [[nodiscard]] std::string text() const;
   [[nodiscard]] bool flag() const;
   [[nodiscard]] std::size_t index() const;
   [[nodiscard]] std::vector<double> numbers() const;
   [[nodiscard]] std::vector<double> numbers_or_none() const;
-  /// numbers() of a list that must have so many.
+  /// Returns numbers(). @throws PlotError when the list does not have `count` items
   [[nodiscard]] std::vector<double> numbers(std::size_t count) const;
-  /// numbers() that must not decrease.
+  /// Returns numbers(). @throws PlotError when an item is less than the item before it
   [[nodiscard]] std::vector<double> increasing() const;
 
  private:
@@ -61,9 +60,9 @@ class Field {
   PointerPath place_;
 };
 
-/// The member's number, or what stands for it where it is absent.
+/// Returns the number of a member of an object, or `otherwise` when the member is absent or null.
 [[nodiscard]] double number_or(const Field& object, std::string_view key, double otherwise);
-/// The text of a member of an object, or a default where the object has no such member.
+/// Returns the text of a member of an object, or `otherwise` when the member is absent or null.
 [[nodiscard]] std::string text_or(const Field& object, std::string_view key, std::string_view otherwise);
 
 }  // namespace snapthrough::api::plot

@@ -9,7 +9,7 @@
 namespace snapthrough::api::plot {
 namespace {
 
-/// The undeformed axes, and over them the deformed ones.
+/// Undeformed axes, and deformed axes drawn over them.
 struct Axes {
   std::vector<Shape> still;
   std::vector<Shape> moved;
@@ -38,7 +38,7 @@ Axes axes_of(const Scene& scene, const View& view, Occupancy& taken) {
   return axes;
 }
 
-/// Values along a curve, and its peaks between them by parabolas, so that a ring of diameter 1 measures 1.
+/// Passes values and parabola vertices to `include`, so that a sampled circle of diameter 1 measures 1.
 template <class Include>
 void include_with_peaks(const std::vector<double>& values, const Include& include) {
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -54,7 +54,7 @@ void include_with_peaks(const std::vector<double>& values, const Include& includ
   }
 }
 
-/// The box of the undeformed axes, mirror image included.
+/// Returns the bounding box of the undeformed axes, including the mirror image.
 ModelBox still_box(const Scene& scene) {
   Range across;
   Range up;
@@ -80,7 +80,7 @@ Shape dimension_line(Pixel a, Pixel b) {
   return path_of("dimension", path_data(ends) + tick(a) + tick(b));
 }
 
-constexpr double kLeastDimension = 24;  // pixels: shorter ones have no room for their number
+constexpr double kLeastDimension = 24;  // pixels; a shorter line has no room for its number
 
 double monitor_value(const ModelMonitor& monitor, const Place& place, const MemberState& state, double s) {
   const double u = interpolate(state.s, state.u, s);
@@ -91,7 +91,7 @@ double monitor_value(const ModelMonitor& monitor, const Place& place, const Memb
   return monitor.component == "y" ? v : u * place.normal.x + v * place.normal.y;
 }
 
-/// Id of a monitor with its value in the state; rotations are left out, which no arrow shows.
+/// Returns a monitor's id with its displacement in the state; without value for a rotation.
 std::string monitor_text(const Scene& scene, const ModelMonitor& monitor, const Place& place) {
   if (scene.input.state == nullptr || monitor.component == "rotation") {
     return monitor.id;
@@ -100,14 +100,14 @@ std::string monitor_text(const Scene& scene, const ModelMonitor& monitor, const 
   if (state == scene.input.state->members.end()) {
     return monitor.id;
   }
-  constexpr double kRounding = 1e-9;  // of the structure: less is no displacement
+  constexpr double kRounding = 1e-9;  // relative to the extent; less counts as zero
   const double value = monitor_value(monitor, place, state->second, place.s);
   const char* symbol = monitor.component == "x" ? " u = " : monitor.component == "y" ? " v = " : " w = ";
   return monitor.id + symbol +
          with_unit(std::abs(value) > kRounding * scene.extent ? value : 0, scene.input.units.length, 3);
 }
 
-/// The mirror image of what is drawn, and the line of symmetry.
+/// Adds the line of symmetry and the mirror image of `own` to `shapes`.
 void add_mirror_image(const Scene& scene, const View& view, const std::vector<Shape>& own,
                       std::vector<Shape>& shapes) {
   if (!scene.mirror) {
@@ -125,7 +125,7 @@ void add_mirror_image(const Scene& scene, const View& view, const std::vector<Sh
 }  // namespace
 
 Part monitor_part(const Scene& scene, const View& view, Occupancy& taken) {
-  constexpr std::size_t kMost = 12;  // names; all have their marks
+  constexpr std::size_t kMost = 12;  // largest number of labels
   Part part;
   if (scene.input.model == nullptr || scene.input.mode != nullptr) {
     return part;
@@ -193,7 +193,7 @@ std::vector<Shape> placed(const std::vector<LabelRequest>& labels, Occupancy& ta
 
 std::vector<Shape> draw_structure(const Scene& scene, const View& view, Size size, const std::string& caption,
                                   std::vector<Shape> over, Occupancy& taken) {
-  taken.add_box({0, 0, size.width, 18});  // the caption
+  taken.add_box({0, 0, size.width, 18});  // reserves the caption's room
   const Shape dimensions = dimension_shape(scene, view, size, taken);
   Axes axes = axes_of(scene, view, taken);
   Part monitors = monitor_part(scene, view, taken);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The figures of each kind. `size` is that of the figure, without the margin and heading of the file.
+/// One function for each kind of figure. `size` is the figure's size in pixels without margin and heading.
 
 #include "api/plot/document.h"
 #include "api/plot/looks.h"
@@ -9,34 +9,34 @@
 
 namespace snapthrough::api::plot {
 
-/// What the figures of results are made of.
+/// Input of the figures of results.
 struct ResultInput {
   Field result;
-  std::optional<Model> model;  ///< of the request that was solved, where it is known
+  std::optional<Model> model;  ///< model of the solved request; nullopt: not given
   Units units;
 };
 
-/// Stable pieces solid, unstable ones dashed, changing at the critical point between rows; critical points
-/// with load factor and type, contact events.
+/// Draws load factor over a monitor or the arc length: stable pieces solid, unstable ones dashed, with
+/// critical points (load factor, type) and contact events.
 [[nodiscard]] Figure path_figure(const ResultInput& input, const PlotRequest& request, Size size);
 
-/// A state: undeformed and deformed axes, contact, reactions; supports, springs, ground, loads, monitors
-/// where the model is known.
+/// Draws a state: undeformed and deformed axes, contact, reactions; supports, springs, ground, loads and
+/// monitors when the model is given.
 [[nodiscard]] Figure shape_figure(const ResultInput& input, const PlotRequest& request, Size size);
 
-/// N, Q and M over the undeformed arc length, one member after another; positive values upwards.
+/// Draws N, Q and M over the undeformed arc length, one member after another; positive values point up.
 [[nodiscard]] Figure sections_figure(const ResultInput& input, const PlotRequest& request, Size size);
 
-/// A mode on the undeformed structure; where its axes are not known, displacements along the members.
+/// Draws a mode on the undeformed structure, or its displacements over arc length when the axes are unknown.
 [[nodiscard]] Figure mode_figure(const ResultInput& input, const PlotRequest& request, Size size);
 
-/// An output over one parameter; failed points are crosses on the axis.
+/// Draws an output over one parameter; crosses on the axis mark failed points.
 [[nodiscard]] Figure sweep_figure(const Field& document, const PlotRequest& request, Size size);
 
-/// An output over two parameters in bands between round values; cells that failed are hatched.
+/// Draws an output over two parameters as colour bands between round values; failed cells are hatched.
 [[nodiscard]] Figure heatmap_figure(const Field& document, const PlotRequest& request, Size size);
 
-/// Whether a sweep's table is better seen as a map; see default_plot_kind().
+/// Returns whether a table varies exactly two parameters, each with more than six values.
 [[nodiscard]] bool is_for_heatmap(const Field& document);
 
 }  // namespace snapthrough::api::plot

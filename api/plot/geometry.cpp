@@ -8,7 +8,7 @@
 namespace snapthrough::api::plot {
 namespace {
 
-using Curve = std::function<Point(double)>;  // of a parameter from 0 to 1
+using Curve = std::function<Point(double)>;  // returns the point at a parameter from 0 to 1
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -17,7 +17,7 @@ struct Drawn {
   std::size_t intervals;
 };
 
-/// A curve given by its offset to the left of the chord.
+/// Returns the curve with the given offset to the left of the chord.
 Curve over_chord(Point start, Point end, std::function<double(double)> offset) {
   const double dx = end.x - start.x;
   const double dy = end.y - start.y;
@@ -31,7 +31,7 @@ Curve over_chord(Point start, Point end, std::function<double(double)> offset) {
 Curve arc(double sweep, Point start, Point end) {
   const double chord = std::hypot(end.x - start.x, end.y - start.y);
   const double direction = std::atan2(end.y - start.y, end.x - start.x);
-  const double radius = chord / (2 * std::sin(sweep / 2));  // of the sweep's sign: the centre is on its side
+  const double radius = chord / (2 * std::sin(sweep / 2));  // radius < 0 for a negative sweep
   const double angle = direction - sweep / 2;
   return [=](double t) {
     return Point{start.x + radius * (std::sin(angle + t * sweep) - std::sin(angle)),
@@ -39,8 +39,8 @@ Curve arc(double sweep, Point start, Point end) {
   };
 }
 
-/// Second derivatives of the cubic spline through (t, f), not-a-knot at its ends, four points and more:
-/// Thomas' algorithm for the inner ones, with those at the ends eliminated.
+/// Returns the second derivatives at the points (t, f) of the not-a-knot cubic spline. Thomas' algorithm
+/// solves for the inner points, with the end values eliminated.
 std::vector<double> spline_bends(const std::vector<double>& t, const std::vector<double>& f) {
   const std::size_t n = t.size();
   const auto h = [&](std::size_t i) { return t[i + 1] - t[i]; };
@@ -143,7 +143,7 @@ Drawn curve_of(const std::optional<Field>& field, Point start, Point end) {
   field->at("type").fail("is a type of curve that no figure knows");
 }
 
-/// Three-point difference at an end of values, so that a curve's normal there is as good as between.
+/// Returns a one-sided difference at an end, proportional to the slope; second order from three values on.
 double end_slope(const std::vector<double>& values, std::size_t end) {
   const std::size_t n = values.size();
   if (end == 0) {

@@ -14,7 +14,7 @@ struct Surface {
   std::vector<Point> directions;
 };
 
-/// The undeformed surface of the ground: the initial axis moved by the gap.
+/// Returns the undeformed ground surface: the undeformed axis, moved into the medium by the gap.
 Surface surface_of(const DrawnMember& member, const ModelFoundation& foundation, double gap) {
   const double length = member.s.back();
   const auto [from, to] = foundation.range;
@@ -33,7 +33,7 @@ Surface surface_of(const DrawnMember& member, const ModelFoundation& foundation,
   return surface;
 }
 
-/// Depth that does not run over the centre of curvature on a member's hollow side.
+/// Returns the drawn depth: at most 0.7 of the radius of curvature on a concave side, at least 0.3 `depth`.
 double depth_of(const Surface& surface, double depth) {
   double least = depth;
   for (std::size_t i = 1; i < surface.points.size(); ++i) {
@@ -55,7 +55,7 @@ struct Crossing {
   int way;
 };
 
-/// Where the edges of a polygon cross the lines x + y = k spacing, within the figure.
+/// Returns the x of crossings between a polygon's edges and the lines x + y = k kHatchSpacing, by k.
 std::map<long, std::vector<Crossing>> crossings_of(const std::vector<Pixel>& polygon, Size size) {
   std::map<long, std::vector<Crossing>> crossings;
   const double end = size.width + size.height;
@@ -75,7 +75,7 @@ std::map<long, std::vector<Crossing>> crossings_of(const std::vector<Pixel>& pol
   return crossings;
 }
 
-/// Pieces of lines at 45 degrees inside polygons (non-zero winding).
+/// Returns path data of the hatch lines at 45 degrees inside polygons (non-zero winding rule).
 std::string hatch(const std::vector<std::vector<Pixel>>& polygons, Size size) {
   std::string text;
   for (const std::vector<Pixel>& polygon : polygons) {
@@ -114,10 +114,10 @@ void add_mirrored(std::vector<std::vector<Pixel>>& all, double twice) {
   }
 }
 
-/// The reaction that is drawn as the ground's depth: the largest, but no less than a fiftieth of the line
-/// loads or rounding.
+/// Returns the reaction drawn as the ground's depth: the largest, but at least 2 % of the line loads and at
+/// least the rounding.
 double reference_reaction(const Scene& scene) {
-  constexpr double kRounding = 1e-6;  // of the largest axial force over the structure's size
+  constexpr double kRounding = 1e-6;  // of axial force / extent; smaller reactions are zero
   double largest = 0;
   if (scene.input.model != nullptr) {
     for (const ModelLoad& load : scene.input.model->loads) {
@@ -145,7 +145,7 @@ struct Profile {
   std::vector<Pixel> base;
   std::vector<Pixel> tips;
   Pixel peak;
-  double value = 0;  ///< largest reaction, with its sign
+  double value = 0;  ///< signed value of the largest |reaction|
 };
 
 Profile profile_of(const View& view, const ModelFoundation& foundation, const DrawnMember& member,

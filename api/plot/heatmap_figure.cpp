@@ -13,24 +13,24 @@
 namespace snapthrough::api::plot {
 namespace {
 
-constexpr std::size_t kBands = 12;      // looks band-0 ... band-11
-constexpr std::size_t kForHeatmap = 6;  // fewer values of a parameter are better seen as curves
+constexpr std::size_t kBands = 12;      // CSS classes band-0 ... band-11
+constexpr std::size_t kForHeatmap = 6;  // up to six values of a parameter are drawn as curves
 constexpr std::size_t kNoRow = std::numeric_limits<std::size_t>::max();
 constexpr double kFailedHatch = 6;  // pixels between hatch lines
 
-/// The map: rows of the table in cells of a grid, or as dots where they are none.
+/// A table's rows as cells of a rectangular grid, or as dots when they do not form a grid.
 struct Map {
   const Table& table;
   const Column& x;
   const Column& y;
   std::vector<double> xs, ys;      ///< distinct values, increasing
-  std::vector<std::size_t> cells;  ///< row of each cell, x running fastest, or kNoRow; empty: no grid
-  std::vector<double> levels;      ///< borders between bands, increasing
+  std::vector<std::size_t> cells;  ///< row of each cell, x varying fastest, or kNoRow; empty: no grid
+  std::vector<double> levels;      ///< bounds between bands, increasing
   Frame frame;
-  std::vector<double> x_edges, y_edges;  ///< borders of cells in pixels, one more than values
+  std::vector<double> x_edges, y_edges;  ///< cell bounds in pixels, one more than values
 };
 
-/// Round values between which a range falls into at most so many bands.
+/// Returns round values that divide the range of a column into at most kBands bands.
 std::vector<double> band_levels(const Column& output) {
   if (output.names) {
     std::vector<double> levels;
@@ -59,7 +59,7 @@ std::vector<double> band_levels(const Column& output) {
   return levels;
 }
 
-/// Looks of a band, spread over the whole scale of colours.
+/// Returns the CSS class of a value's band; the bands use the whole range of colours.
 std::string band_looks(const Map& map, double value) {
   if (!std::isfinite(value)) {
     return "no-value";
@@ -70,7 +70,7 @@ std::string band_looks(const Map& map, double value) {
   return "band-" + std::to_string(static_cast<int>(std::round(share * (kBands - 1))));
 }
 
-/// Index of a value in its sorted list.
+/// Returns the index of a value in a sorted list.
 std::size_t index_in(const std::vector<double>& values, double value) {
   return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
 }
@@ -85,7 +85,7 @@ std::vector<std::size_t> cells_of(const Map& map) {
     throw PlotError("/rows", "has no row with a value of both " + map.x.name + " and " + map.y.name);
   }
   if (columns * map.ys.size() > 2 * rows) {
-    return {};  // less than half of the places are taken: no grid
+    return {};  // less than half of the cells have a row: no grid
   }
   std::vector<std::size_t> cells(columns * map.ys.size(), kNoRow);
   for (std::size_t row = 0; row < map.x.values.size(); ++row) {
@@ -104,7 +104,7 @@ std::vector<std::size_t> cells_of(const Map& map) {
   return cells;
 }
 
-/// A scale that ends half a cell beyond the values.
+/// Returns a scale that extends half a cell beyond the extreme values.
 Scale cell_scale(const Column& column, const std::vector<double>& values, double start, double end) {
   if (column.names || values.size() < 2) {
     return axis_of(column, start, end, false);
@@ -118,7 +118,7 @@ Scale cell_scale(const Column& column, const std::vector<double>& values, double
           end};
 }
 
-/// Borders half way between neighbours, in pixels.
+/// Returns cell bounds in pixels, half way between adjacent values.
 std::vector<double> edges_of(const Scale& scale, const std::vector<double>& values) {
   std::vector<double> edges{scale.start};
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -128,7 +128,7 @@ std::vector<double> edges_of(const Scale& scale, const std::vector<double>& valu
   return edges;
 }
 
-/// Text at a border between bands; of texts the name of the band above it.
+/// Returns the text of the upper bound of band i, or the band's name for a column of texts.
 std::string level_text(const Map& map, std::size_t i) {
   return map.table.output.names ? (*map.table.output.names)[i] : format_number(map.levels[i]);
 }
@@ -161,7 +161,7 @@ void set_frame(Map& map, Size size, double top) {
   map.y_edges = edges_of(frame.y, map.ys);
 }
 
-/// What a cell looks like; empty where no row is there.
+/// Returns the CSS class of a cell; "" for a cell without row.
 std::string cell_looks(const Map& map, std::size_t cell) {
   const std::size_t row = map.cells[cell];
   if (row == kNoRow) {
@@ -171,7 +171,7 @@ std::string cell_looks(const Map& map, std::size_t cell) {
                                         : "band " + band_looks(map, map.table.output.values[row]);
 }
 
-/// Lines at 45 degrees inside a box.
+/// Returns path data of hatch lines at 45 degrees inside a box.
 std::string hatch_of(const Box& box) {
   std::string text;
   const double from = std::ceil((box.left + box.top) / kFailedHatch);
@@ -192,7 +192,7 @@ std::string box_data(const Box& box) {
          coordinate(box.top) + "H" + coordinate(box.left) + "Z";
 }
 
-/// Rectangles of neighbouring cells that look alike, all of one look in one path; hatches over failed ones.
+/// Draws cells, adjacent equal ones of a grid row as one rectangle, with hatch over failed cells.
 std::vector<Shape> cell_shapes(const Map& map) {
   std::map<std::string, std::string> data;
   std::string hatches;
@@ -225,7 +225,7 @@ std::vector<Shape> cell_shapes(const Map& map) {
   return shapes;
 }
 
-/// Points that are no grid, as dots; failed ones as crosses.
+/// Draws rows that do not form a grid as dots, and failed ones as crosses.
 std::vector<Shape> dot_shapes(const Map& map) {
   std::vector<Shape> shapes;
   std::string failed;
@@ -244,7 +244,7 @@ std::vector<Shape> dot_shapes(const Map& map) {
   return shapes;
 }
 
-/// Contour lines between the centres of cells, with their values where there is room.
+/// Draws contour lines between cell centres, labelled with their values when there is room.
 std::vector<Shape> contour_shapes(const Map& map, Size size) {
   std::vector<Shape> shapes;
   if (map.cells.empty() || map.xs.size() < 3 || map.ys.size() < 3 || map.table.output.names) {
@@ -289,7 +289,7 @@ std::vector<Shape> contour_shapes(const Map& map, Size size) {
   return shapes;
 }
 
-/// The scale of colours: borders of bands with their values, or bands with their names.
+/// Draws the colour bar: bands with the values of their bounds, or with their names.
 std::vector<Shape> bar_shapes(const Map& map, Size size) {
   const double x = map.frame.x.end + 16;
   const double bottom = map.frame.y.start;
@@ -315,7 +315,7 @@ std::vector<Shape> bar_shapes(const Map& map, Size size) {
   return shapes;
 }
 
-/// What hatched and grey cells are, above the map.
+/// Draws the key of failed cells and cells without value above the map.
 std::vector<Shape> key_shapes(const Map& map, const std::string& failures, Size size) {
   std::vector<Shape> shapes;
   double x = map.frame.x.start;

@@ -16,7 +16,7 @@ bool is_one_of(char32_t point, std::u32string_view all) {
   return all.find(point) != std::u32string_view::npos;
 }
 
-/// Width of a character over the size of the font.
+/// Returns the estimated width of a character relative to the font size.
 double width_of(char32_t point) {
   if (is_one_of(point, U"ilI.,:;'|!\u202f\u00a0 ()-")) {
     return 0.34;
@@ -51,12 +51,12 @@ Candidate candidate(const LabelRequest& request, int eighth, int ring, double wi
   result.text = {x, middle + kSize * 0.36};
   result.anchor = dx > 0 ? Anchor::start : dx < 0 ? Anchor::end : Anchor::middle;
   result.far = ring > 0;
-  const int turn = std::abs(((eighth - request.prefer + 12) % 8) - 4);  // eighths from the preferred place
+  const int turn = std::abs(((eighth - request.prefer + 12) % 8) - 4);  // turn in steps of 45 degrees
   result.cost = taken.cost(result.box) + turn * 1.5 + ring * 22;
   return result;
 }
 
-/// From beside the anchor to the nearest point of the label's box.
+/// Returns a line from near the anchor to the nearest point of the label's box.
 Shape leader_shape(Pixel at, const Box& box) {
   const Pixel end{std::clamp(at.x, box.left, box.right), std::clamp(at.y, box.top, box.bottom)};
   const double length = std::hypot(end.x - at.x, end.y - at.y);

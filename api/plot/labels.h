@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Labels that never collide: each is tried around its anchor and takes the place that covers least.
+/// Placement of labels: of the positions around its anchor, a label takes the one that covers least.
 
 #include <cstdint>
 #include <optional>
@@ -12,21 +12,21 @@
 
 namespace snapthrough::api::plot {
 
-/// Estimated width of a text in pixels: generous, since there are no fonts to measure it with.
+/// Returns an upper estimate of the width of a text in pixels; `size` is the font size in pixels.
 [[nodiscard]] double text_width(std::string_view text, double size = 12, bool bold = false);
-/// The text, or as much of its beginning as fits with an ellipsis.
+/// Returns the text, shortened with an ellipsis when text_width() exceeds `width` pixels.
 [[nodiscard]] std::string fitted(std::string_view text, double width, double size = 12, bool bold = false);
 
-/// Text of a box that no label may cover.
+/// Weight of a box that no label may cover.
 inline constexpr int kLabelWeight = 250;
 
-/// @brief How much is drawn where, in cells of 4 pixels. Marks, lines and labels add their weight, 1 to 255.
+/// @brief Covered area in cells of 4 pixels; a cell holds the largest weight (1 to 255) drawn on it.
 class Occupancy {
  public:
   explicit Occupancy(Size size);
   void add_box(const Box& box, int weight = kLabelWeight);
   void add_line(std::span<const Pixel> points, int weight = 8);
-  /// What a box would cover; infinite where it covers a label or leaves the figure.
+  /// Returns the sum of weights in a box; infinity when the box covers a label or leaves the figure.
   [[nodiscard]] double cost(const Box& box) const;
 
  private:
@@ -38,7 +38,7 @@ class Occupancy {
   std::vector<std::uint8_t> weight_;
 };
 
-/// A piece of a label with its looks; a space stands between pieces.
+/// A piece of a label with its CSS class; a space separates pieces.
 struct Run {
   std::string text;
   std::string looks;
@@ -49,14 +49,14 @@ struct LabelRequest {
   Pixel at;
   std::vector<Run> runs;
   std::string looks;
-  double distance = 6;    ///< free distance from the anchor
-  int prefer = 7;         ///< 0: right, then clockwise by eighths of a turn; 7: above on the right
-  bool leader = false;    ///< a line leads to a label that finds its place far away
-  int rings = 4;          ///< rings around the anchor that are tried; 1 keeps the label beside its anchor
-  double tolerance = 60;  ///< weight that it may cover; labels that cover more are left out
+  double distance = 6;    ///< distance from the anchor in pixels
+  int prefer = 7;         ///< preferred direction: 0 right, then clockwise in steps of 45 degrees
+  bool leader = false;    ///< a line joins the anchor and a label beyond the first ring
+  int rings = 4;          ///< number of rings around the anchor to try; 1 keeps the label at the anchor
+  double tolerance = 60;  ///< labels whose cheapest position costs more are left out
 };
 
-/// Writes a label where it covers least, and takes the place; nothing when there is none.
+/// Draws a label at its cheapest position and adds its box to `taken`; nullopt above the tolerance.
 [[nodiscard]] std::optional<Shape> place_label(const LabelRequest& request, Occupancy& taken);
 
 }  // namespace snapthrough::api::plot

@@ -9,19 +9,19 @@
 namespace snapthrough::api::plot {
 namespace {
 
-constexpr double kPointArrow = 46;  // lengths of the largest arrows in pixels
+constexpr double kPointArrow = 46;  // pixels; length of the arrow of the largest load
 constexpr double kLineArrow = 26;
 constexpr double kLineSpacing = 30;
 constexpr double kHead = 8;
 
-/// Lines and heads of arrows as two paths, so that a hundred arrows are two shapes; the texts beside them.
+/// Arrows as two SVG paths, one for all shafts and one for all heads, and the texts beside them.
 struct Arrows {
   std::string lines;
   std::string heads;
   struct Note {
     Pixel at;
     std::string text;
-    double size;  ///< of the load: the largest is written first
+    double size;  ///< size of the load; largest first
   };
   std::vector<Note> notes;
   std::vector<std::pair<Pixel, Pixel>> drawn;
@@ -47,7 +47,7 @@ void Arrows::add(Pixel tail, Pixel tip) {
   heads += path_data(point, true);
 }
 
-/// What is drawn of loads: largest sizes that the lengths of arrows are compared with.
+/// Largest sizes of loads, which the lengths of arrows are relative to.
 struct LoadScene {
   const Scene& scene;
   const View& view;
@@ -55,7 +55,7 @@ struct LoadScene {
   double largest_line = 0;
 
   [[nodiscard]] double factor(const ModelLoad& load) const { return load.constant ? 1 : scene.load_factor(); }
-  /// The direction that a load factor gives; that of the load itself where it is zero.
+  /// Returns the sign of the load's factor; 1 for a factor of zero, so that the arrow shows the load itself.
   [[nodiscard]] double sense(const ModelLoad& load) const { return factor(load) < 0 ? -1 : 1; }
   [[nodiscard]] std::string text(double value, Quantity quantity) const {
     return with_unit(value, unit_of(scene.input.units, quantity));
@@ -98,8 +98,8 @@ void point_arrow(const ModelLoad& load, const LoadScene& all, Arrows& arrows) {
   }
 }
 
-/// Arrows along a member; `pull` gives the load at a place, in model axes, 1 for the largest. Returns the
-/// highest tail.
+/// Draws arrows along a member. `pull` returns the load at a point in model axes, relative to the largest
+/// load. Returns the highest tail.
 std::optional<Pixel> line_arrows(const DrawnMember& member, std::pair<double, double> range,
                                  const LoadScene& all, const std::function<Point(const Place&)>& pull,
                                  Arrows& arrows) {
@@ -143,7 +143,7 @@ void pressure_arrows(const ModelLoad& load, const LoadScene& all, Arrows& arrows
   if (member == nullptr || load.value == 0) {
     return;
   }
-  // a pressure from the left pushes along the right normal (ty, -tx)
+  // a pressure on the left side pushes along the right normal (ty, -tx)
   const double scale = load.side * all.sense(load) * (load.value < 0 ? -1 : 1) *
                        std::max(0.5, std::abs(load.value) / all.largest_line);
   const auto pull = [&](const Place& place) {
@@ -171,7 +171,7 @@ void strain_note(const ModelLoad& load, const LoadScene& all, Arrows& arrows) {
   arrows.notes.push_back({to_pixel(all.view, place_on(*member, 0.35 * member->s.back()).moved), text, 0});
 }
 
-/// At most four labels, and each text once: equal loads are read from one of them.
+/// Returns at most four labels with different texts, largest loads first.
 std::vector<LabelRequest> notes_of(Arrows& arrows, const std::string& looks) {
   constexpr std::size_t kMost = 4;
   std::stable_sort(arrows.notes.begin(), arrows.notes.end(),

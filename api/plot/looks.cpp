@@ -9,9 +9,8 @@
 namespace snapthrough::api::plot {
 namespace {
 
-/// The same as of the page's figures (web/src/figures/figures.css), with the values of its custom properties
-/// to be written in: few programs but browsers know those.
-/// Rules of one theme; the last is an @ rule.
+/// Copy of the page's style sheet (web/src/figures/figures.css) for one theme; the last rule is an @ rule.
+/// Names after $ are replaced by colours, because few programs except browsers support custom properties.
 constexpr std::string_view kLooks = R"(
 .figure { font-family: system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; font-size: 12px; }
 text { fill: $ink; font-variant-numeric: tabular-nums; }
@@ -111,7 +110,7 @@ struct Colour {
   std::string_view dark;
 };
 
-/// A name comes before its beginnings: it is the first that a place in the style sheet begins with.
+/// The search takes the first match: a name stands before its prefixes ("accentsoft" before "accent").
 constexpr Colour kColours[] = {{"paper", "#fff", "#161b22"},         {"ink", "#1c2430", "#e6eaf0"},
                                {"muted", "#6b7686", "#98a3b3"},      {"line", "#e3e6ea", "#2a323d"},
                                {"strong", "#c3c9d1", "#465160"},     {"accentsoft", "#dce8f5", "#1f3350"},
@@ -121,7 +120,7 @@ constexpr Colour kColours[] = {{"paper", "#fff", "#161b22"},         {"ink", "#1
                                {"moment", "#b3261e", "#ef7b73"},     {"neutralsoft", "#e9ecf0", "#252c36"},
                                {"groundline", "#b9a98c", "#7d7156"}, {"ground", "#f3ede2", "#262219"}};
 
-/// A declaration block with the values of its colours written in.
+/// Returns a declaration block with names replaced by colours.
 std::string coloured(std::string_view block, bool dark) {
   std::string text;
   for (std::size_t at = 0; at < block.size();) {
@@ -138,8 +137,8 @@ std::string coloured(std::string_view block, bool dark) {
   return text;
 }
 
-/// A list of selectors, each within figures of one theme: in a page of several figures, or with other SVG,
-/// the rules of one do not reach the others.
+/// Prefixes each selector with the class of one theme, so that the rules do not reach other figures of the
+/// same page.
 std::string scoped(std::string_view selectors, std::string_view scope) {
   std::string text;
   while (!selectors.empty()) {
@@ -161,7 +160,7 @@ std::string looks(bool dark) {
   std::string text;
   while (rest.find('{') != std::string_view::npos) {
     rest.remove_prefix(rest.find_first_not_of(" \n"));
-    if (rest.starts_with('@') || rest.starts_with('}')) {  // the brackets of an @ rule around others
+    if (rest.starts_with('@') || rest.starts_with('}')) {  // start or end of an @ rule's block
       const std::size_t end = rest.find_first_of("{}") + 1;
       text.append(rest.substr(0, end)).append("\n");
       rest.remove_prefix(end);
@@ -175,7 +174,7 @@ std::string looks(bool dark) {
     text.append(coloured(rest.substr(open, close - open), dark)).append("\n");
     rest.remove_prefix(close);
   }
-  return text + "}\n";  // of the last @ rule
+  return text + "}\n";  // the last } ends the @ rule
 }
 
 constexpr double kMargin = 14;
@@ -183,7 +182,7 @@ constexpr double kHeadingSize = 13;
 constexpr double kHeadingRow = 18;
 constexpr std::size_t kHeadingRows = 2;
 
-/// A heading in at most so many rows, cut between words; what does not fit ends with an ellipsis.
+/// Returns the heading in at most kHeadingRows rows, broken between words; an ellipsis ends a longer heading.
 std::vector<std::string> heading_rows(const std::string& heading, double width) {
   std::vector<std::string> rows;
   std::string_view rest = heading;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The looks of figures as a style sheet, and the file around a figure.
+/// The style sheet of figures, and the SVG file around a figure.
 
 #include <string>
 #include <vector>
@@ -9,18 +9,18 @@
 
 namespace snapthrough::api::plot {
 
-/// What a figure shows: its shapes within a size, and the words for those who do not see it.
+/// Shapes of a figure, and its description in words for screen readers.
 struct Figure {
   std::vector<Shape> shapes;
-  std::string title;        ///< one sentence: what is plotted
-  std::string description;  ///< its numbers: critical points, extremes, ranges
-  double height = 0;        ///< that it takes, where it needs less than it has; 0: all
+  std::string title;        ///< one sentence: what the figure plots
+  std::string description;  ///< main numbers: critical points, extremes, ranges
+  double height = 0;        ///< height in pixels that the figure uses; 0: all of its size
 };
 
-/// The size that is left for a figure in a file of a size with a heading.
+/// Returns the size in pixels that margins and heading leave for the figure in a file of the size `file`.
 [[nodiscard]] Size content_size(Size file, const std::string& heading);
 
-/// A file of its own on paper: the heading above the figure, which is made for content_size().
+/// Returns the SVG file with heading and figure. @pre the figure was drawn for content_size()
 [[nodiscard]] std::string file_of(Figure figure, Size file, const std::string& heading, bool dark);
 
 }  // namespace snapthrough::api::plot

@@ -26,8 +26,8 @@ Shape polygon(std::string_view looks, Pixel at, std::vector<Pixel> corners) {
   return path(looks, corners, true);
 }
 
-constexpr double kLeft = 62;     // where plots begin
-constexpr double kNarrow = 420;  // narrower figures use all their width
+constexpr double kLeft = 62;     // pixels; left end of plots
+constexpr double kNarrow = 420;  // pixels; narrower legends start at the left edge
 constexpr double kRow = 18;
 
 double sample_width(const LegendEntry& entry) { return entry.mark ? 18 : 30; }

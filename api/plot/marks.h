@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Marks of charts, each kind of its own form so that they are told apart without colour, and legends.
+/// Marks of critical points and contact events, whose shapes differ without colour, and legends.
 
 #include <optional>
 #include <set>
@@ -13,26 +13,26 @@ namespace snapthrough::api::plot {
 
 enum class Mark { limit_max, limit_min, bifurcation, broken_bifurcation, softest, closed, opened };
 
-/// The mark of a type of critical point or contact event; nothing for another name.
+/// Returns the mark of a type of critical point or contact event; nullopt for an unknown name.
 [[nodiscard]] std::optional<Mark> mark_named(std::string_view name);
-/// What a legend calls it.
+/// Returns the name of a mark in legends.
 [[nodiscard]] const char* mark_text(Mark mark);
-/// Triangle up or down: limit point; diamond: bifurcation, hollow when broken; hollow square: softest point;
-/// dot: contact made, ring: lost.
+/// Draws a mark. Triangle: limit point, maximum (up) or minimum (down); diamond: bifurcation, hollow when
+/// broken; hollow square: softest point; dot: contact made; ring: contact lost.
 [[nodiscard]] Shape mark_shape(Mark mark, Pixel at);
 
-/// A line with its looks, or a mark, and its name.
+/// A legend entry: a text with a line sample or a mark.
 struct LegendEntry {
   std::string text;
   std::string line;
-  std::string group = "sample";  ///< looks of the group around the line
+  std::string group = "sample";  ///< CSS class of the group around the line
   std::optional<Mark> mark = std::nullopt;
 };
 
-/// Height of a legend in a figure of a width.
+/// Returns the height in pixels of a legend that is `width` pixels wide.
 [[nodiscard]] double legend_height(const std::vector<LegendEntry>& entries, double width);
 [[nodiscard]] Shape legend_shape(const std::vector<LegendEntry>& entries, double width, double top = 0);
-/// Entries of marks in their usual order.
+/// Returns a legend entry for each mark, in the order of the enumeration.
 [[nodiscard]] std::vector<LegendEntry> mark_entries(const std::set<Mark>& marks);
 
 }  // namespace snapthrough::api::plot

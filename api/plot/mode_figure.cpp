@@ -11,7 +11,7 @@ namespace {
 struct ChosenMode {
   Mode mode;
   double load_factor = 0;
-  std::optional<std::size_t> state;  ///< the state that it is the mode of
+  std::optional<std::size_t> state;  ///< index of the critical point's state
   std::string name;
 };
 
@@ -52,7 +52,7 @@ ChosenMode read_chosen(const Field& result, const std::optional<std::size_t>& as
   return read_critical_mode(result, asked);
 }
 
-/// The mode drawn from the undeformed axes.
+/// Returns the axes displaced by the mode times `amplitude`.
 std::vector<Shape> mode_shapes(const Scene& scene, const View& view, const Mode& mode, double amplitude,
                                Occupancy& taken) {
   std::vector<Shape> shapes;
@@ -71,7 +71,7 @@ std::vector<Shape> mode_shapes(const Scene& scene, const View& view, const Mode&
   return shapes;
 }
 
-/// Displacements of a mode along members whose axes nobody knows.
+/// Draws the displacements of a mode over the members' arc length, when the axes are unknown.
 Figure mode_panels(const ChosenMode& chosen, const Units& units, const std::string& caption, Size size) {
   std::vector<std::string> ids;
   for (const auto& [id, shape] : chosen.mode) {
@@ -93,7 +93,7 @@ Figure mode_panels(const ChosenMode& chosen, const Units& units, const std::stri
 }  // namespace
 
 Figure mode_figure(const ResultInput& input, const PlotRequest& request, Size size) {
-  constexpr double kShare = 0.1;  // of the structure's extent: how large a mode is drawn
+  constexpr double kShare = 0.1;  // amplitude relative to the extent
   const ChosenMode chosen = read_chosen(input.result, request.mode);
   const std::string caption =
       chosen.name + " at load factor " + format_number(chosen.load_factor, 5) + ", size without meaning";
@@ -104,7 +104,7 @@ Figure mode_figure(const ResultInput& input, const PlotRequest& request, Size si
   if (!input.model && !state) {
     return mode_panels(chosen, input.units, caption, size);
   }
-  // the mode stands on the undeformed structure: factor 0 keeps the state's axes where they were
+  // a mode is drawn on the undeformed structure: the state gives axes only
   SceneInput scene_input{
       input.model ? &*input.model : nullptr, nullptr, &chosen.mode, input.units, 1, chosen.load_factor};
   if (state) {

@@ -8,7 +8,7 @@
 namespace snapthrough::api::plot {
 namespace {
 
-/// Calls `take` with every item of a list that may be absent.
+/// Calls `take` for each item of an optional list.
 template <class Take>
 void for_each(const Field& model, std::string_view key, const Take& take) {
   if (const std::optional<Field> list = model.find(key)) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The parts of a request's model that figures show.
+/// The parts of a request's model that figures draw.
 
 #include <map>
 #include <optional>
@@ -13,9 +13,9 @@
 
 namespace snapthrough::api::plot {
 
-/// A place on the structure: a node, or a fraction of a member's length.
+/// A point of the structure: a node, or a fraction (0 to 1) of a member's length.
 struct Location {
-  std::string node;  ///< empty: on the member
+  std::string node;  ///< empty: the point is on `member`
   std::string member;
   double fraction = 0;
 };
@@ -32,49 +32,49 @@ struct ModelSupport {
   bool x = false;
   bool y = false;
   bool rotation = false;
-  double angle = 0;  ///< degrees, counter-clockwise
+  double angle = 0;  ///< rotation of the fixed directions in degrees, counter-clockwise
 };
 
 struct ModelSpring {
   std::string id;
   Location at;
-  std::optional<Point> direction;  ///< into the medium; nothing: a rotational spring
+  std::optional<Point> direction;  ///< unit vector into the medium; nullopt: rotational spring
   bool one_sided = false;
   double gap = 0;
 };
 
 struct ModelFoundation {
   std::string id, member;
-  double side = 1;                 ///< 1: the medium is on the member's left, -1: on its right
-  std::optional<Point> direction;  ///< of unit length, where the medium has a direction of its own
+  double side = 1;                 ///< 1: the medium is left of the member, -1: right of it
+  std::optional<Point> direction;  ///< unit vector into the medium; nullopt: along the normal
   bool one_sided = false;
   bool compression_only = false;
   double gap = 0;
-  std::pair<double, double> range = {0, 1};  ///< fractions of the member's length
+  std::pair<double, double> range = {0, 1};  ///< loaded part, as fractions of the member's length
 };
 
 struct ModelLoad {
   enum class Type { point, distributed, pressure, initial_strain };
   Type type = Type::point;
-  Location at;  ///< of the others the member
-  Point force;  ///< per length for a distributed one
+  Location at;  ///< location of a point load; other loads: only its member is set
+  Point force;  ///< force of a point load; per length for a distributed one
   double moment = 0;
-  double value = 0;  ///< of a pressure, positive from its side
-  double side = 1;   ///< of a pressure: 1: it acts on the left side
+  double value = 0;  ///< pressure, positive when it pushes from `side`
+  double side = 1;   ///< pressure acts on the left (1) or right (-1) side
   std::pair<double, double> range = {0, 1};
-  std::string per;  ///< of a distributed one: "length", "horizontal", "vertical"
+  std::string per;  ///< reference length of a distributed load: "length", "horizontal", "vertical"
   double axial = 0;
   double curvature = 0;
-  bool constant = false;  ///< not multiplied by the load factor
+  bool constant = false;  ///< true: the load factor does not multiply the load
 };
 
 struct ModelMonitor {
   std::string id;
   Location at;
-  std::string component;  ///< "x", "y", "rotation", "normal"
+  std::string component;  ///< direction: "x", "y", "rotation" or "normal"
 };
 
-/// The model of a request; members in the request's order.
+/// The model of a request, with members in the order of the request.
 struct Model {
   std::vector<ModelMember> members;
   std::map<std::string, Point> nodes;
@@ -87,11 +87,11 @@ struct Model {
   [[nodiscard]] const ModelMonitor* monitor(const std::string& id) const;
 };
 
-/// The sense of positive values of a monitor in words, or that of negative ones: "up", "down".
+/// Returns the direction of positive or negative values of a monitor in words, such as "up" or "down".
 [[nodiscard]] std::string sense_of(const ModelMonitor& monitor, bool negative);
 
 /// @brief Reads the model of a request document.
-/// @throws PlotError with a pointer that begins with "request:"
+/// @throws PlotError whose pointer begins with "request:" when the model is invalid
 [[nodiscard]] Model read_model(const nlohmann::json& request);
 
 }  // namespace snapthrough::api::plot

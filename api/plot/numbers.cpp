@@ -29,7 +29,7 @@ std::string written(double value, std::chars_format format, int decimals) {
   return {std::begin(digits), end.ptr};
 }
 
-/// Without zeros at the end of decimals.
+/// Removes trailing zeros of the decimals.
 std::string trimmed(std::string text) {
   if (text.find('.') == std::string::npos) {
     return text;
@@ -41,7 +41,7 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-/// Thousands of numbers of five digits and more are set apart.
+/// Inserts thin spaces between thousands of numbers with five or more digits.
 std::string grouped(const std::string& text) {
   const std::size_t whole = std::min(text.find('.'), text.size());
   if (whole <= 4) {

@@ -10,12 +10,12 @@
 namespace snapthrough::api::plot {
 namespace {
 
-/// A place of a curve: a row of a branch, or a critical point between rows.
+/// A vertex of a curve: a row of a branch, or a critical point between rows.
 struct Vertex {
   double x = 0;
   double y = 0;
   double arc = 0;
-  std::optional<double> negative;  ///< nothing: a critical point, where stability changes; kNone: not counted
+  std::optional<double> negative;  ///< negative eigenvalues; nullopt: critical point; kNone: not counted
 };
 
 enum class Stability { stable, unstable, not_counted };
@@ -23,13 +23,13 @@ enum class Stability { stable, unstable, not_counted };
 struct Curve {
   std::size_t branch = 0;
   std::vector<Vertex> vertices;
-  std::vector<Stability> pieces;  ///< of each vertex but the last to the next
+  std::vector<Stability> pieces;  ///< stability between vertices i and i + 1
 };
 
-/// What the horizontal axis shows.
+/// Quantity on the horizontal axis.
 struct Abscissa {
-  std::string monitor;  ///< empty: the arc length
-  double sign = 1;      ///< -1 where minus the monitor's value is shown
+  std::string monitor;  ///< id of the monitor; empty: the arc length
+  double sign = 1;      ///< -1: the axis shows minus the monitor
 };
 
 struct PathData {
@@ -40,7 +40,7 @@ struct PathData {
   bool is_static = false;
 };
 
-/// The quantity along a branch; empty where it has no such monitor.
+/// Returns the quantity at each row of a branch; empty when the branch lacks the monitor.
 std::vector<double> values_of(const Branch& branch, const Abscissa& quantity) {
   if (quantity.monitor.empty()) {
     return branch.arc_length;
@@ -61,7 +61,7 @@ double value_of(const CriticalPoint& point, const Abscissa& quantity) {
   return found == point.monitors.end() ? kNone : quantity.sign * found->second;
 }
 
-/// -1 where a monitor is negative along the primary path, so that the path begins to the right.
+/// Returns -1 when the monitor's mean on the primary path is negative, so that the path starts to the right.
 double sign_of(const std::vector<Branch>& branches, const std::string& monitor) {
   double largest = 0;
   for (const Branch& branch : branches) {
@@ -74,11 +74,11 @@ double sign_of(const std::vector<Branch>& branches, const std::string& monitor) 
   for (const double value : values) {
     mean += value / static_cast<double>(values.size());
   }
-  // Values of the size of rounding have no sense: only other branches move the monitor then.
+  // A mean as small as rounding has no sign: only other branches move the monitor.
   return mean < -1e-9 * largest ? -1 : 1;
 }
 
-/// The ids of the monitors, for a sentence.
+/// Returns the monitors' ids for an error message.
 std::string monitor_names(const Monitors& monitors) {
   std::string all;
   for (const auto& [id, values] : monitors) {
@@ -113,7 +113,7 @@ Abscissa chosen_quantity(const ResultInput& input, const PlotRequest& request,
   return id.empty() ? Abscissa{} : Abscissa{id, sign_of(branches, id)};
 }
 
-/// Says why there is no path.
+/// Throws the reason why the result has no path.
 [[noreturn]] void fail_without_path(const Field& result) {
   if (const std::optional<Field> failure = result.find("failure")) {
     throw PlotError("/failure",
@@ -140,7 +140,7 @@ PathData read_path(const ResultInput& input, const PlotRequest& request) {
   }
   path.x = chosen_quantity(input, request, path.branches);
   if (path.is_static && path.x.monitor.empty()) {
-    path.points.clear();  // the axis counts rows, which a critical point between them has no place on
+    path.points.clear();  // the axis counts rows; a critical point has no row
   }
   if (request.branch) {
     std::erase_if(path.points, [&](const CriticalPoint& one) { return one.branch != *request.branch; });
@@ -149,7 +149,7 @@ PathData read_path(const ResultInput& input, const PlotRequest& request) {
   return path;
 }
 
-/// Rows of a branch with its critical points between them, in the order of the arc length.
+/// Returns the rows of a branch and its critical points in the order of arc length.
 std::vector<Vertex> vertices_of(const PathData& path, std::size_t index) {
   const Branch& branch = path.branches[index];
   const std::vector<double> xs = values_of(branch, path.x);
@@ -164,7 +164,7 @@ std::vector<Vertex> vertices_of(const PathData& path, std::size_t index) {
   }
   std::stable_sort(points.begin(), points.end(),
                    [](const Vertex& a, const Vertex& b) { return a.arc < b.arc; });
-  const double near = 1e-9 * branch.arc_length.back();  // of the path: less is the same place
+  const double near = 1e-9 * branch.arc_length.back();  // smaller differences of arc length are rounding
   std::vector<Vertex> merged;
   std::size_t next = 0;
   for (std::size_t i = 0; i < xs.size(); ++i) {
@@ -182,8 +182,8 @@ std::vector<Vertex> vertices_of(const PathData& path, std::size_t index) {
   return merged;
 }
 
-/// Stability of each piece from the rows at its ends; between two critical points it is that of the piece
-/// before.
+/// Returns the stability between vertices from the rows at both ends; between two critical points, that of
+/// the piece before.
 std::vector<Stability> pieces_of(const std::vector<Vertex>& vertices) {
   std::vector<Stability> pieces;
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
@@ -228,7 +228,7 @@ const char* looks_of(Stability stability) {
   return "";
 }
 
-/// Pieces of one stability as lines; neighbours share their end.
+/// Draws each run of pieces with equal stability as one line; adjacent lines share a vertex.
 void draw_curve(const Curve& curve, const Frame& frame, Occupancy& taken, std::vector<Shape>& shapes) {
   std::vector<Pixel> all;
   for (const Vertex& vertex : curve.vertices) {
@@ -265,10 +265,10 @@ std::optional<Softest> read_softest(const Field& result) {
     return std::nullopt;
   }
   const Softest found{softest->at("load_factor").number(), softest->at("stiffness_ratio").number()};
-  return found.ratio > 0 ? std::optional(found) : std::nullopt;  // zero: it is a critical point
+  return found.ratio > 0 ? std::optional(found) : std::nullopt;  // ratio 0: a critical point
 }
 
-/// Where the primary path first comes to a load factor.
+/// Returns the first point of a curve at a load factor, by linear interpolation; nullopt if there is none.
 std::optional<Pixel> first_at_load(const Curve& curve, const Frame& frame, double load) {
   for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
     const Vertex& a = curve.vertices[i - 1];
@@ -306,7 +306,7 @@ std::vector<PlacedMark> marks_of(const PathData& path, const ResultInput& input,
   return marks;
 }
 
-/// Marks, then their labels where these cover neither a line nor one another; the first always has its label.
+/// Draws marks, then the labels that find room; the first label is drawn even over lines.
 void draw_marks(const std::vector<PlacedMark>& marks, Occupancy& taken, std::vector<Shape>& shapes) {
   std::vector<Shape> drawn;
   for (const PlacedMark& mark : marks) {
@@ -348,10 +348,10 @@ void draw_events(const PathData& path, const Frame& frame, std::vector<Shape>& s
   shapes.push_back(group("events", std::move(drawn)));
 }
 
-/// A static analysis has few rows, each of which was asked for.
+/// Draws the rows of a static analysis as dots; of a path only a single row.
 void draw_rows(const PathData& path, const std::vector<Curve>& curves, const Frame& frame,
                std::vector<Shape>& shapes) {
-  constexpr std::size_t kMost = 200;  // more run into one another
+  constexpr std::size_t kMost = 200;  // more dots overlap
   for (const Curve& curve : curves) {
     const bool alone = curve.vertices.size() == 1;
     for (std::size_t i = 0;
@@ -452,7 +452,7 @@ std::string description_of(const PathData& path, const std::vector<Curve>& curve
   return text;
 }
 
-/// Nothing is written where the numbers of the axes and the legend stand.
+/// Keeps labels off axis numbers and legend.
 void keep_margins(const Frame& frame, Size size, Occupancy& taken) {
   taken.add_box({0, 0, size.width, frame.y.end - 4});
   taken.add_box({0, 0, frame.x.start - 4, size.height});

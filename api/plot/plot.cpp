@@ -18,7 +18,7 @@ bool is_table(const nlohmann::json& document) {
   return document.contains("columns") && document.contains("rows");
 }
 
-/// Whether a document has a list or an object with something in it.
+/// Returns whether a member of a document is a non-empty list or object.
 bool has(const nlohmann::json& document, const char* key) {
   const auto found = document.find(key);
   return found != document.end() && found->is_structured() && !found->empty();

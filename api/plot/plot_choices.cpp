@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Takes a value, and tells the rule that it breaks; empty: none.
+/// Stores a value and returns "", or returns the rule that the value breaks.
 using Take = std::function<std::string(const Json&)>;
 
 Take number_between(std::optional<double>& to, double least, double largest) {
@@ -80,7 +80,7 @@ std::string take_where(const Json& value, PlotRequest& request) {
 }
 
 std::map<std::string_view, Take> takers(PlotRequest& request) {
-  constexpr double kLargestFactor = 1e12;  // beyond it nothing of a structure is left in the figure
+  constexpr double kLargestFactor = 1e12;  // a larger factor moves every point out of the figure
   return {{"kind", [&request](const Json& value) { return take_kind(value, request); }},
           {"width", number_between(request.width, kLeastPlotSize, kLargestPlotSize)},
           {"height", number_between(request.height, kLeastPlotSize, kLargestPlotSize)},

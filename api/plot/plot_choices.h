@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The choices of a figure as a JSON document, for callers that are not C++.
+/// The choices of a figure (PlotRequest) as a JSON document, for callers in other languages.
 
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -11,17 +11,16 @@
 
 namespace snapthrough::api {
 
-/// What reading the choices gave. `request` can be used where `findings` is empty; it refers to the document.
+/// Outcome of reading the choices. `request` is valid when `findings` is empty, and refers to the document.
 struct PlotChoices {
   PlotRequest request;
   std::vector<Finding> findings;
 };
 
-/// @brief Reads the choices of a figure: an object whose members are those of PlotRequest by their names, all
-/// optional.
+/// @brief Reads the choices of a figure from an object with the members of PlotRequest, all optional.
 ///
-/// `kind` is a text, `where` an object of texts, `solved_request` the request document that was solved. The
-/// findings have pointers into this document.
+/// `kind` is a text, `where` an object of texts, `solved_request` the request document of the result.
+/// Pointers of findings refer to `document`.
 /// @param document must outlive the result
 [[nodiscard]] PlotChoices read_plot_choices(const nlohmann::json& document);
 

@@ -9,7 +9,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The number that a text begins with, as its digits without zeros before them.
+/// Returns the digits of the number at the beginning of a text, without leading zeros.
 std::string_view leading_number(std::string_view text) {
   std::size_t end = 0;
   while (end < text.size() && is_digit(text[end])) {
@@ -92,7 +92,7 @@ Mark read_mark(const Field& field) {
   return *mark;
 }
 
-/// Index of a branch of the result; a static analysis has none, and its points belong to its table.
+/// Returns the index of the branch of a point. A static analysis has no branches; any index is then valid.
 std::size_t read_branch_index(const Field& result, const Field& point) {
   const Field field = point.at("branch");
   const std::size_t index = field.index();

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The parts of a result document that figures are made of, read and checked.
+/// The parts of a result document that figures draw, read and checked.
 
 #include <cstddef>
 #include <map>
@@ -17,12 +17,12 @@ namespace snapthrough::api::plot {
 
 using Monitors = std::map<std::string, std::vector<double>>;
 
-/// Rows of a branch, or of a static analysis; lists of equal length.
+/// Rows of a branch of a path, or of a static analysis; lists of equal length.
 struct Branch {
   std::vector<double> load_factor;
-  std::vector<double> arc_length;  ///< of a static analysis: the number of the row
+  std::vector<double> arc_length;  ///< arc length of the path; static analysis: row's index
   Monitors monitors;
-  std::vector<double> negative_eigenvalues;  ///< kNone: not counted
+  std::vector<double> negative_eigenvalues;  ///< number at each row; kNone: not counted
 };
 
 struct CriticalPoint {
@@ -42,7 +42,7 @@ struct ContactEvent {
   double arc_length = 0;
 };
 
-/// Lists along a member, of equal length: two places and more.
+/// State of a member along its axis; lists of equal length, at least two.
 struct MemberState {
   std::vector<double> s, x0, y0, x, y, u, v, axial_force, shear_force, bending_moment;
 };
@@ -55,7 +55,7 @@ struct Force {
 
 struct FoundationState {
   std::vector<double> s, reaction, displacement;
-  std::vector<std::pair<double, double>> contact;  ///< intervals of s
+  std::vector<std::pair<double, double>> contact;  ///< intervals of s in contact
   Force resultant;
 };
 
@@ -66,31 +66,31 @@ struct SpringState {
 struct State {
   double load_factor = 0;
   std::map<std::string, MemberState> members;
-  std::map<std::string, Force> supports;  ///< by node
+  std::map<std::string, Force> supports;  ///< support forces by node id
   std::map<std::string, FoundationState> foundations;
   std::map<std::string, SpringState> springs;
 };
 
-/// Displacements along a member, of equal length: two places and more.
+/// Displacements of a mode along a member; lists of equal length, at least two.
 struct ModeShape {
   std::vector<double> s, u, v;
 };
 using Mode = std::map<std::string, ModeShape>;
 
-/// Branches of a path, or the rows of a static analysis as one.
+/// Returns the branches of a path, or the rows of a static analysis as one branch.
 [[nodiscard]] std::vector<Branch> read_branches(const Field& result);
-/// In the order of the document.
+/// Returns critical points in the order of the document.
 [[nodiscard]] std::vector<CriticalPoint> read_critical_points(const Field& result);
 [[nodiscard]] std::vector<ContactEvent> read_contact_events(const Field& result);
-/// One state. @throws PlotError when there is no state with that index
+/// Returns one state. @throws PlotError when the result has no state of that index
 [[nodiscard]] State read_state(const Field& result, std::size_t index);
-/// The state that is asked for, or that of the first critical point that has one, or the last.
+/// Returns `asked`, or the state of the first critical point with a state, or the last state.
 [[nodiscard]] std::size_t chosen_state(const Field& result, const std::optional<std::size_t>& asked);
 [[nodiscard]] Mode read_mode(const Field& mode);
 [[nodiscard]] Units read_units(const Field& result);
 [[nodiscard]] std::string read_title(const Field& result);
 
-/// Ids as people count: "m2" before "m10".
+/// Sorts ids with numbers in numerical order: "m2" before "m10".
 [[nodiscard]] std::vector<std::string> naturally_sorted(std::vector<std::string> ids);
 
 }  // namespace snapthrough::api::plot

@@ -10,7 +10,7 @@
 namespace snapthrough::api::plot {
 namespace {
 
-constexpr double kGroundDepth = 0.13;  // of the structure's extent
+constexpr double kGroundDepth = 0.13;  // depth of the ground relative to the extent
 
 void set_normals(DrawnMember& member) {
   member.normals = left_normals(member.x0, member.y0);
@@ -50,7 +50,7 @@ const MemberState* state_of(const SceneInput& input, const std::string& id) {
   return found == input.state->members.end() ? nullptr : &found->second;
 }
 
-/// Every member that a state or a mode names must be one of the model.
+/// Throws unless the scene has each member of a state or mode.
 template <class Named>
 void need_members(const Scene& scene, const Named& named) {
   for (const auto& [id, shape] : named) {
@@ -96,13 +96,13 @@ void add_members(Scene& scene) {
       scene.members.push_back(drawn_member(id, nullptr, &input.state->members.at(id), input.factor));
     }
   }
-  // member() finds by a binary search
+  // Scene::member() uses a binary search.
   std::stable_sort(scene.members.begin(), scene.members.end(),
                    [](const DrawnMember& a, const DrawnMember& b) { return a.id < b.id; });
 }
 
-/// @brief The vertical line that a model is one half beside: where supports hold x and rotation and nothing
-/// else, as symmetry does, at two places or more on it, with the whole structure on one side.
+/// @brief Returns x of the symmetry line if the model is one half of a structure: at least two supports on
+/// the line fix x and rotation only, and all members lie on one side of the line.
 std::optional<double> symmetry_line(const Scene& scene) {
   if (scene.input.model == nullptr) {
     return std::nullopt;
@@ -147,7 +147,7 @@ struct Margin {
   double left, right, top, bottom;
 };
 
-/// Room around the structure and its ground for caption, arrows, symbols and dimensions, in pixels.
+/// Returns pixels around structure and ground for caption, arrows, symbols and dimensions.
 Margin margin_of(const Scene& scene) {
   bool points = false;
   bool sideways = false;
@@ -319,7 +319,7 @@ std::optional<Place> place_of(const Scene& scene, const Location& location) {
 }
 
 double suggested_factor(const Scene& scene) {
-  constexpr double kVisible = 1.0 / 60;  // of the structure's extent
+  constexpr double kVisible = 1.0 / 60;  // displacement relative to the extent
   constexpr double kWanted = 1.0 / 12;
   double largest = 0;
   for (const DrawnMember& member : scene.members) {

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The members of a drawing with their undeformed and deformed axes, and how the model's axes lie on the
-/// figure.
+/// The members of a drawing with undeformed and deformed axes, and the transformation from model axes to
+/// pixels.
 
 #include <map>
 #include <optional>
@@ -14,29 +14,29 @@
 
 namespace snapthrough::api::plot {
 
-/// Lists of equal length, two places and more.
+/// Axes of a member; lists of equal length, at least two.
 struct DrawnMember {
   std::string id;
-  std::vector<double> s, x0, y0, x, y;  ///< undeformed, and deformed with the factor of the scene
-  std::vector<Point> normals;           ///< initial left normals
+  std::vector<double> s, x0, y0, x, y;  ///< arc length, undeformed axis (x0, y0), deformed axis (x, y)
+  std::vector<Point> normals;           ///< left normals of the undeformed axis
   std::vector<double> normal_x, normal_y;
 };
 
-/// A node with the members that meet there.
+/// A node and the members that end at it.
 struct Joint {
   Point still;
   Point moved;
-  std::vector<Point> leaving;  ///< initial unit tangents that leave it
+  std::vector<Point> leaving;  ///< unit tangents of the undeformed members, away from the node
 };
 
-/// The force of a support on the structure, where it acts.
+/// The force of a support on the structure and its point of application.
 struct SupportForce {
   Point at;
   double fx = 0;
   double fy = 0;
 };
 
-/// A box in the model's axes, y up.
+/// A rectangle in model axes, y up.
 struct ModelBox {
   double left, right, bottom, top;
   ModelBox();
@@ -45,34 +45,34 @@ struct ModelBox {
 };
 
 struct SceneInput {
-  const Model* model = nullptr;  ///< null: not known
-  const State* state = nullptr;  ///< null: undeformed
+  const Model* model = nullptr;  ///< null: the model is not given
+  const State* state = nullptr;  ///< null: the undeformed structure is drawn
   const Mode* mode = nullptr;
   Units units;
-  double factor = 1;  ///< of displacements
+  double factor = 1;  ///< factor of displacements
   std::optional<double> load_factor;
 };
 
 struct Scene {
   SceneInput input;
   std::vector<DrawnMember> members;
-  std::map<std::string, Joint> joints;       ///< by node; empty where the model is not known
-  std::vector<ModelFoundation> foundations;  ///< those of the model, or those that the state tells
-  std::vector<SupportForce> support_forces;  ///< where the model is not known
+  std::map<std::string, Joint> joints;       ///< joints by node id; empty without a model
+  std::vector<ModelFoundation> foundations;  ///< from the model, or found by foundations_of()
+  std::vector<SupportForce> support_forces;  ///< support forces found in the state; empty with a model
   ModelBox box;
-  std::optional<double> mirror;  ///< x of the line that a half structure is mirrored at
-  double extent = 1;             ///< larger side of the undeformed structure's box
-  double depth = 0;              ///< of the ground that is drawn
+  std::optional<double> mirror;  ///< x of the symmetry axis of a half structure
+  double extent = 1;             ///< larger side of the undeformed structure's bounding box
+  double depth = 0;              ///< depth of the drawn ground in model units
 
   [[nodiscard]] const DrawnMember* member(const std::string& id) const;
   [[nodiscard]] double load_factor() const { return input.load_factor.value_or(1); }
 };
 
-/// @pre the state or the model is known
-/// @throws PlotError when a member of the state or the mode is not one of the model
+/// Builds the scene. @pre the state or the model is given
+/// @throws PlotError when a member of the state or the mode is missing in the model
 [[nodiscard]] Scene make_scene(const SceneInput& input);
 
-/// How the model lies on the figure: pixel = (left + scale x, top - scale y).
+/// Map from model axes to pixels: pixel = (left + scale x, top - scale y).
 struct View {
   double scale = 1;
   double left = 0;
@@ -83,36 +83,36 @@ struct View {
 [[nodiscard]] std::vector<Pixel> to_pixels(const View& view, const std::vector<double>& x,
                                            const std::vector<double>& y);
 
-/// The unit direction into the medium at an initial left normal.
+/// Returns the unit direction into the medium at a point with the undeformed left normal `normal`.
 [[nodiscard]] Point into_medium(const ModelFoundation& foundation, Point normal);
 
-/// The box of the structure and its ground, mirror image included.
+/// Returns the bounding box of structure and ground in model axes, including the mirror image.
 [[nodiscard]] ModelBox box_with_ground(const Scene& scene);
-/// The size without the height that a flat structure leaves empty.
+/// Returns `size` with its height reduced to that of the drawing.
 [[nodiscard]] Size needed_size(const Scene& scene, Size size);
-/// A view that shows the whole structure with its ground, loads, supports and dimensions.
+/// Returns the view that fits the structure with ground, loads, supports and dimensions into `size`.
 [[nodiscard]] View scene_view(const Scene& scene, Size size);
 
-/// A place on a member: undeformed, deformed, initial left normal, deformed unit tangent.
+/// A point on a member: undeformed and deformed position, undeformed left normal, deformed unit tangent.
 struct Place {
   Point still, moved, normal, tangent;
   const DrawnMember* member = nullptr;
   double s = 0;
 };
 [[nodiscard]] Place place_on(const DrawnMember& member, double s);
-/// The place of a location; nothing where it is not on the structure.
+/// Returns the point of a location; nullopt when the location is not on the structure.
 [[nodiscard]] std::optional<Place> place_of(const Scene& scene, const Location& location);
 
-/// A round factor (1, 2, 5 times a power of ten) that makes displacements a twelfth of the structure; 1 where
-/// they are to be seen without.
+/// Returns a factor of displacements (1, 2, 5 times a power of ten) that shows the largest one as about a
+/// twelfth of the extent; 1 when it exceeds a sixtieth of the extent without magnification.
 [[nodiscard]] double suggested_factor(const Scene& scene);
 
-/// @brief Where foundations lie that a state has reactions of, found by equilibrium: the member and the side
-/// whose reactions have the resultant that the state gives. Those that fit no member are left out.
+/// @brief Finds the foundations of a state without a model: for each, the member and side whose reactions
+/// have the foundation's resultant. A foundation that fits no member is left out.
 [[nodiscard]] std::vector<ModelFoundation> foundations_of(const std::vector<DrawnMember>& members,
                                                           const State& state);
-/// @brief Where supports stand that a state has forces of: the ends of members whose internal forces they
-/// balance. Those that fit none are left out.
+/// @brief Finds the supports of a state without a model: each stands at the member ends whose internal forces
+/// its force balances. A support that fits no member end is left out.
 [[nodiscard]] std::vector<SupportForce> support_forces_of(const std::vector<DrawnMember>& members,
                                                           const State& state);
 

@@ -11,19 +11,19 @@ namespace {
 
 constexpr double kCaption = 22;
 constexpr double kTitle = 20;
-constexpr double kHead = 20;   // for a value above the highest point
-constexpr double kBelow = 20;  // for a value below the lowest point
-constexpr double kFoot = 20;   // names of members, or lengths
+constexpr double kHead = 20;   // pixels above the highest point for a value
+constexpr double kBelow = 20;  // pixels below the lowest point for a value
+constexpr double kFoot = 20;   // pixels for member ids or lengths
 constexpr double kRowGap = 10;
 constexpr double kSide = 4;
 
-/// A panel with its place.
+/// A panel with its scales and position.
 struct Placed {
   const SectionPanel* panel;
   Scale x;
   Scale y;
-  double top = 0;   ///< of the title
-  double foot = 0;  ///< where names of members, or lengths, begin
+  double top = 0;   ///< top of the title
+  double foot = 0;  ///< top of the row of member ids or lengths
   bool zero = false;
 };
 
@@ -60,9 +60,9 @@ struct Extreme {
   double value;
 };
 
-/// The largest and the smallest value, where they differ well and are not small beside one another.
+/// Returns the largest and smallest value; leaves out one that is small or nearly equal to the other.
 std::vector<Extreme> extremes_of(const Sections& sections, const Placed& placed) {
-  constexpr double kAlike = 0.02;  // extremes that differ by less are one
+  constexpr double kAlike = 0.02;  // relative difference below which one extreme is marked
   constexpr double kSmall = 0.03;
   std::optional<Extreme> low;
   std::optional<Extreme> high;
@@ -114,7 +114,7 @@ void draw_curves(const Sections& sections, const Placed& placed, Occupancy& take
   }
 }
 
-/// Where members begin, and their names where there is room.
+/// Draws lines where members meet, and member ids when there is room.
 void draw_members(const Sections& sections, const Placed& placed, std::vector<Shape>& shapes) {
   double from = 0;
   double drawn_at = 0;
@@ -122,7 +122,7 @@ void draw_members(const Sections& sections, const Placed& placed, std::vector<Sh
     const auto& [id, length] = sections.members[m];
     const double left = place(placed.x, from);
     const double right = place(placed.x, from + length);
-    if (m > 0 && left - drawn_at > 1) {  // less than a pixel apart they are one
+    if (m > 0 && left - drawn_at > 1) {  // lines less than a pixel apart are drawn once
       shapes.push_back(line("section-joint", {left, placed.foot}, {left, placed.y.end}));
       drawn_at = left;
     }
@@ -135,7 +135,7 @@ void draw_members(const Sections& sections, const Placed& placed, std::vector<Sh
   }
 }
 
-/// Lengths along a single member.
+/// Draws the axis of arc length below a single member.
 void draw_lengths(const Sections& sections, const Placed& placed, std::vector<Shape>& shapes) {
   if (sections.members.size() != 1) {
     return;
@@ -155,7 +155,7 @@ void draw_lengths(const Sections& sections, const Placed& placed, std::vector<Sh
   }
 }
 
-/// Keeps values off what stands around a panel and off its title.
+/// Returns the covered area: everything outside the panel, and its title.
 Occupancy room_of(const Placed& placed, Size size, double title) {
   Occupancy taken(size);
   const double bottom = placed.foot + kFoot;

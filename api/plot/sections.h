@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Panels of quantities along the members of a structure, one member after another.
+/// Diagrams of quantities along members, one member after another, one panel below the other.
 
 #include <string>
 #include <vector>
@@ -10,20 +10,20 @@
 
 namespace snapthrough::api::plot {
 
-/// Relative to the largest: less is rounding, and the panel says "zero".
+/// Relative limit of rounding: a panel whose values are all smaller shows "zero".
 inline constexpr double kRoundingOfSections = 1e-6;
 
-/// Values along a member; lists of equal length, two and more.
+/// Values over the arc length of a member; lists of equal length, at least two.
 struct SectionLine {
   std::vector<double> s, values;
 };
 
 struct SectionPanel {
-  std::string name;   ///< "axial force N"
-  std::string looks;  ///< section-N, section-Q or section-M
+  std::string name;   ///< title, such as "axial force N"
+  std::string looks;  ///< CSS class: section-N, section-Q or section-M
   std::string unit;
-  std::vector<SectionLine> lines;  ///< one a member, in the order of the members
-  double negligible = 0;           ///< values up to this size are zero
+  std::vector<SectionLine> lines;  ///< one line for each member, in the order of members
+  double negligible = 0;           ///< values up to this size are drawn as zero
 };
 
 struct SectionMember {
@@ -37,12 +37,12 @@ struct Sections {
   Units units;
 };
 
-/// Largest size of a value.
+/// Returns the largest absolute value of a panel.
 [[nodiscard]] double largest_of(const SectionPanel& panel);
-/// Length of all members.
+/// Returns the sum of the members' lengths, or 1 when that is zero.
 [[nodiscard]] double length_of(const Sections& sections);
 
-/// Panels one below the other, extremes marked with their values; positive values upwards.
+/// Draws the panels below one another with their extreme values marked; positive values point up.
 [[nodiscard]] Figure draw_sections(const Sections& sections, const std::string& caption, Size size);
 
 }  // namespace snapthrough::api::plot

@@ -41,7 +41,7 @@ Figure sections_figure(const ResultInput& input, const PlotRequest& request, Siz
     sections.panels[1].lines.push_back(line_of(member, member.shear_force));
     sections.panels[2].lines.push_back(line_of(member, member.bending_moment));
   }
-  // Below these a quantity is rounding: forces of the largest force, moments of that times the length.
+  // Smaller values are rounding; the limit of moments is relative to the largest force times the length.
   const double force = std::max(largest_of(sections.panels[0]), largest_of(sections.panels[1]));
   sections.panels[0].negligible = sections.panels[1].negligible = kRoundingOfSections * force;
   sections.panels[2].negligible = kRoundingOfSections * force * length_of(sections);

@@ -15,13 +15,13 @@ const char* anchor_name(Anchor anchor) {
   return anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
 }
 
-/// Whether XML 1.0 allows a character.
+/// Returns whether XML 1.0 allows a character.
 bool is_allowed(char32_t point) {
   return point == '\t' || point == '\n' || point == '\r' || (point >= 0x20 && point <= 0xd7ff) ||
          (point >= 0xe000 && point <= 0xfffd) || (point >= 0x10000 && point <= 0x10ffff);
 }
 
-/// Reads the code point at `at` and moves past it; one byte that is no UTF-8 is one replacement.
+/// Returns the code point at `at` and advances; an invalid byte gives kReplacement and advances by one.
 char32_t next_point(std::string_view text, std::size_t& at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(at++);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A tree of SVG shapes and its text.
+/// A tree of SVG elements, and its conversion to text.
 
 #include <span>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace snapthrough::api::plot {
 
-/// A place in a figure, in pixels from its top left corner, y down.
+/// A point of a figure in pixels from its top left corner, y down.
 struct Pixel {
   double x = 0;
   double y = 0;
@@ -29,7 +29,7 @@ struct Box {
   double bottom = 0;
 };
 
-/// An element with its attributes and children; without a name it is `text`.
+/// An SVG element with attributes and children; a Shape without a name is the text node `text`.
 struct Shape {
   std::string name;
   std::vector<std::pair<std::string, std::string>> attributes;
@@ -39,11 +39,11 @@ struct Shape {
 
 enum class Anchor { start, middle, end };
 
-/// A coordinate as it is written, to a hundredth of a pixel.
-/// @throws PlotError when it is not finite
+/// Returns the text of a coordinate, rounded to 0.01 pixel.
+/// @throws PlotError when the coordinate is not finite
 [[nodiscard]] std::string coordinate(double value);
 
-/// The `d` of a path through points; what is not finite breaks the line.
+/// Returns the `d` attribute of a path; a point that is not finite interrupts the line.
 [[nodiscard]] std::string path_data(std::span<const Pixel> points, bool closed = false);
 
 [[nodiscard]] Shape text_node(std::string text);
@@ -54,22 +54,22 @@ enum class Anchor { start, middle, end };
 [[nodiscard]] Shape path(std::string_view looks, std::span<const Pixel> points, bool closed = false);
 [[nodiscard]] Shape path_of(std::string_view looks, std::string data);
 [[nodiscard]] Shape circle(std::string_view looks, Pixel centre, double radius);
-/// A rectangle; nothing is drawn where the box has no area.
+/// Returns a rectangle; a box without area gives a rectangle of size zero.
 [[nodiscard]] Shape rectangle(std::string_view looks, const Box& box);
 [[nodiscard]] Shape label(std::string_view looks, Pixel at, Anchor anchor, std::string text);
 [[nodiscard]] Shape label_of(std::string_view looks, Pixel at, Anchor anchor, std::vector<Shape> runs);
-/// A label that reads upwards, centred at a place.
+/// Returns a label turned by -90 degrees about its centre `at`.
 [[nodiscard]] Shape upright_label(std::string_view looks, Pixel at, std::string text);
-/// Appends copies.
+/// Moves shapes to the end of `all`.
 void append(std::vector<Shape>& all, std::vector<Shape> more);
 
-/// @brief Code points of a text. Bytes that are no UTF-8 and characters that XML does not allow become
+/// @brief Returns the code points of a UTF-8 text. Invalid bytes and characters that XML forbids become
 /// U+FFFD.
 [[nodiscard]] std::u32string code_points(std::string_view text);
-/// Appends one code point as UTF-8.
+/// Appends a code point in UTF-8.
 void append_utf8(std::string& text, char32_t point);
 
-/// The shape as SVG text, escaped.
+/// Returns the SVG text of a shape and its children, with texts escaped.
 [[nodiscard]] std::string to_text(const Shape& shape);
 
 }  // namespace snapthrough::api::plot

@@ -6,12 +6,12 @@
 namespace snapthrough::api::plot {
 namespace {
 
-/// The factor of displacements that is asked for, or one at which they are to be seen.
+/// Returns the requested factor of displacements, or suggested_factor().
 double factor_of(const PlotRequest& request, const SceneInput& input) {
   return request.magnify ? *request.magnify : suggested_factor(make_scene(input));
 }
 
-/// Whether the state is a critical point of the result, and which.
+/// Returns the type of the critical point that has the state, in brackets; "" when none has it.
 std::string critical_words(const Field& result, std::size_t state) {
   for (const CriticalPoint& point : read_critical_points(result)) {
     if (point.state == state) {

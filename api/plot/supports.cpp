@@ -7,10 +7,10 @@ namespace snapthrough::api::plot {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kTriangle = 13;  // height of a triangle in pixels
+constexpr double kTriangle = 13;  // pixels; height of a support triangle
 constexpr double kSpringLength = 34;
 
-/// Axes of a symbol in pixels: `out` points away from the structure, `along` to its left.
+/// Pixel axes of a symbol: `out` points away from the structure, `along` is `out` turned by 90 degrees.
 struct SymbolAxes {
   Pixel at;
   Point out;
@@ -25,7 +25,7 @@ SymbolAxes axes_at(Pixel at, double angle) {
   return {at, {std::cos(angle), std::sin(angle)}, {-std::sin(angle), std::cos(angle)}};
 }
 
-/// A line across `out` at a distance, with the hatching of ground.
+/// Draws a line across `out` at a distance in pixels, with ground hatching behind it.
 void add_ground_line(std::vector<Shape>& shapes, const SymbolAxes& axes, double distance, double half) {
   std::string strokes;
   for (double a = -half + 2; a <= half; a += 5) {
@@ -47,8 +47,8 @@ void add_rollers(std::vector<Shape>& shapes, const SymbolAxes& axes, double dist
   }
 }
 
-/// Of the two senses of a direction, in pixels with y down, that which members leave least; down and left
-/// when equal.
+/// Returns `angle` or its opposite (rad, y down), whichever points more away from the members, down (weight
+/// 1.1) and left (weight 0.2).
 double outward(double angle, const Joint& joint) {
   const auto score = [&](double a) {
     double away = 0;
@@ -61,7 +61,7 @@ double outward(double angle, const Joint& joint) {
   return score(angle) >= score(angle + kPi) ? angle : angle + kPi;
 }
 
-/// The direction that a clamp stands across: the mean tangent that leaves the node.
+/// Returns the angle of `out` for a clamp: opposite to the mean tangent of members; down for a mean of zero.
 double clamp_angle(const Joint& joint) {
   double x = 0;
   double y = 0;
@@ -73,7 +73,7 @@ double clamp_angle(const Joint& joint) {
 }
 
 Shape support_shape(const ModelSupport& support, const Joint& joint, Pixel at) {
-  const double turn = -support.angle * kPi / 180;  // pixels have y down
+  const double turn = -support.angle * kPi / 180;  // y of pixels points down
   std::vector<Shape> shapes;
   if (support.x && support.y) {
     const SymbolAxes axes =
@@ -138,7 +138,7 @@ Shape spring_shape(const ModelSpring& spring, const Place& place, bool closed, c
   if (!spring.direction) {
     return spiral(tip, looks);
   }
-  // the ground does not move: the far end stands where the undeformed structure says
+  // the far end of a spring does not move: its position follows from the undeformed structure
   const Pixel still = to_pixel(view, place.still);
   SymbolAxes axes = axes_at(still, std::atan2(-spring.direction->y, spring.direction->x));
   const double gap = std::min(spring.gap * view.scale, 60.0);

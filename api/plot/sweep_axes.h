@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What the figures of sweeps share: axes of columns, failed points.
+/// Axes and marks of failed points for the two figures of sweeps.
 
 #include <string>
 
@@ -9,21 +9,21 @@
 
 namespace snapthrough::api::plot {
 
-/// The axis of a column: names at equal distances, or numbers, with a logarithm where it fits them better.
-/// @param tight the axis ends with the values; else there is room beyond them
+/// Returns the scale of a column: texts at equal distances, numbers linear or logarithmic.
+/// @param tight true: the axis ends at the extreme values; false: it has margins and is linear
 [[nodiscard]] Scale axis_of(const Column& column, double start, double end, bool tight);
 
-/// The two parameters that a figure shows by itself; `by` is null where only one varies.
+/// Parameters of the horizontal axis (x) and of the curves or the vertical axis (by; null if only x varies).
 struct ChosenParameters {
   const Column* x;
   const Column* by;
 };
-/// The parameter with most values on the horizontal axis, unless that is the one asked for as `by`.
+/// Returns the parameters of the request; the varied parameters with most values replace those not requested.
 [[nodiscard]] ChosenParameters default_parameters(const Table& table, const PlotRequest& request);
 
-/// `d` of a cross.
+/// Returns the `d` attribute of a diagonal cross; `half` is half its width in pixels.
 [[nodiscard]] std::string cross(Pixel at, double half);
-/// How many points failed, at the top of a figure.
+/// Draws the text about failed points at the top of a figure.
 [[nodiscard]] Shape failure_note(const std::string& text, Size size);
 
 }  // namespace snapthrough::api::plot

@@ -13,18 +13,18 @@
 namespace snapthrough::api::plot {
 namespace {
 
-constexpr std::size_t kNamed = 16;   // more curves than these are crowded: not named, without dots
-constexpr std::size_t kColours = 6;  // further curves begin again
-constexpr double kTolerance = 0.25;  // pixels that a thinned line may be off
+constexpr std::size_t kNamed = 16;   // largest number of curves with dots and legend
+constexpr std::size_t kColours = 6;  // further curves repeat the colours
+constexpr double kTolerance = 0.25;  // pixels; deviation of a thinned line
 constexpr double kCrowdedTolerance = 0.75;
 
-/// Rows of one value of the second parameter, in the order of the first.
+/// Rows with equal values of the series' parameters, sorted by x.
 struct Curve {
   std::string name;
   std::vector<std::size_t> rows;
 };
 
-/// All parameters but that of the horizontal axis: a curve for each choice of their values.
+/// Returns the parameters whose values distinguish curves: `by` and all other varied ones except x.
 std::vector<const Column*> series_of(const Table& table, const PlotRequest& request, const Column& x) {
   std::vector<const Column*> series;
   if (request.by) {
@@ -46,7 +46,7 @@ std::vector<Curve> curves_of(const std::vector<const Column*>& series, const Col
     std::string name;
     for (const Column* column : series) {
       const double value = column->values[row];
-      key.push_back(std::isfinite(value) ? value : -1e300);  // rows without a value make one curve
+      key.push_back(std::isfinite(value) ? value : -1e300);  // rows without value form one curve
       name += (name.empty() ? "" : ", ") + column->name + " = " + value_text(*column, value);
     }
     const auto [place, is_new] = known.emplace(std::move(key), curves.size());
@@ -78,7 +78,7 @@ std::vector<LegendEntry> legend_of(const std::vector<Curve>& curves, const Colum
   return entries;
 }
 
-/// A curve with its gaps where rows have no value, thinned between them.
+/// Returns path data of a curve, interrupted at rows without value and thinned between them.
 std::string line_data(const std::vector<Pixel>& points, double tolerance) {
   std::string text;
   std::vector<Pixel> part;
@@ -99,7 +99,7 @@ std::string line_data(const std::vector<Pixel>& points, double tolerance) {
 
 Shape curve_shape(const Curve& curve, std::size_t number, bool crowded, const Frame& frame, const Column& x,
                   const Column& y) {
-  constexpr std::size_t kMostDots = 80;  // more run into a band
+  constexpr std::size_t kMostDots = 80;  // more dots overlap
   std::vector<Pixel> points;
   std::vector<Pixel> seen;
   for (const std::size_t row : curve.rows) {
@@ -117,7 +117,7 @@ Shape curve_shape(const Curve& curve, std::size_t number, bool crowded, const Fr
   return group("series series-" + std::to_string(number % kColours), std::move(shapes));
 }
 
-/// Crosses on the axis where points failed, one for all that fall on the same pixel.
+/// Draws a cross on the axis for failed points, one cross for each pixel.
 Shape failed_shape(const Table& table, const Column& x, const Frame& frame) {
   std::set<long> seen;
   std::string data;

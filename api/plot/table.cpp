@@ -25,7 +25,7 @@ bool is_number(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Tokens of a JSON Pointer, unescaped.
+/// Returns the unescaped tokens of a JSON Pointer.
 std::vector<std::string> tokens_of(const std::string& pointer) {
   std::vector<std::string> tokens;
   for (std::size_t i = 0; i < pointer.size(); ++i) {
@@ -46,14 +46,14 @@ std::string in_words(std::string token) {
   return token;
 }
 
-/// One more than an index that a token is, as people count.
+/// Returns the index in a token plus one, as text.
 std::string ordinal(const std::string& token) {
   std::size_t index = 0;
   std::from_chars(token.data(), token.data() + token.size(), index);
   return std::to_string(index + 1);
 }
 
-/// "/critical_points/0/monitors/crown" is "crown at critical point 1".
+/// Returns the label of a column: "/critical_points/0/monitors/crown" is "crown at critical point 1".
 std::string label_of(const std::string& column) {
   for (const auto& [pointer, label] : kLabels) {
     if (column == pointer) {
@@ -77,7 +77,7 @@ std::string label_of(const std::string& column) {
   return words.size() > 1 ? in_words(words[words.size() - 2]) + ", " + label : label;
 }
 
-/// A cell as text: what a row shows where it is no number.
+/// Returns the text of a cell that is not a number.
 std::string text_of(const nlohmann::json& cell) {
   if (cell.is_string()) {
     return cell.get<std::string>();
@@ -85,11 +85,11 @@ std::string text_of(const nlohmann::json& cell) {
   return cell.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// The document's rows that are drawn, with the columns' names. Refers to the document.
+/// Rows of a document that match the request, and column names. Refers to the document.
 struct Raw {
   std::vector<std::string> columns;
-  Field all;                      ///< the list of rows
-  std::vector<std::size_t> rows;  ///< indices of those that are drawn
+  Field all;                      ///< all rows of the document
+  std::vector<std::size_t> rows;  ///< indices of the matching rows
 
   [[nodiscard]] Field cell(std::size_t row, std::size_t column) const {
     return all.item(rows[row]).item(column);
@@ -99,7 +99,7 @@ struct Raw {
   }
 };
 
-/// What a column holds; numbers only where all its cells are numbers or null.
+/// Returns a column: as numbers when all cells are numbers or null, else as texts.
 Column column_of(const Raw& raw, std::size_t index) {
   const std::string& name = raw.columns[index];
   Column column{name, label_of(name), {}, std::nullopt};
@@ -159,19 +159,19 @@ bool is_parameter(const std::string& column) {
   return !column.starts_with('/') && column != "error" && column != "point" && column != "request";
 }
 
-/// Whether a cell has the value that a text says: a name, or a number however it is written.
+/// Returns whether a cell equals a text; a number may be written in any form.
 bool is_value(const nlohmann::json& cell, const std::string& text) {
   if (!cell.is_number()) {
     return text_of(cell) == text;
   }
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  // twelve digits: a range's values are often written with fewer than they have
+  // relative tolerance 1e-12: a range's values are often written with fewer digits
   return error == std::errc() && end == text.data() + text.size() &&
          std::abs(cell.get<double>() - value) <= 1e-12 * std::abs(value);
 }
 
-/// Leaves the rows with the values that are asked for.
+/// Keeps only the rows with the values in `where`.
 void keep_rows(Raw& raw, const PlotRequest& request) {
   for (const auto& [name, value] : request.where) {
     const auto found = std::find(raw.columns.begin(), raw.columns.end(), name);
@@ -190,7 +190,7 @@ void keep_rows(Raw& raw, const PlotRequest& request) {
   }
 }
 
-/// The column that is asked for, or the first output that has numbers.
+/// Returns the requested output, or the first one with numbers.
 Column read_output(const Raw& raw, const PlotRequest& request) {
   std::vector<std::string> outputs;
   for (std::size_t i = 0; i < raw.columns.size(); ++i) {
@@ -226,7 +226,7 @@ std::vector<std::string> read_errors(const Raw& raw) {
   return errors;
 }
 
-/// Standard deviation of steps over their mean.
+/// Returns the coefficient of variation of the steps between values, or between their logarithms.
 double unevenness(const std::vector<double>& values, bool logarithms) {
   double sum = 0;
   double squares = 0;
@@ -294,7 +294,7 @@ const Column& parameter(const Table& table, const std::string& name) {
 
 bool is_logarithmic(const Column& column) {
   const std::vector<double> values = distinct_values(column.values);
-  constexpr double kLeastRatio = 8;  // within less the two scales look alike
+  constexpr double kLeastRatio = 8;  // smallest ratio of values for a logarithmic axis
   if (column.names || values.size() < 3 || !(values.front() > 0) ||
       values.back() < kLeastRatio * values.front()) {
     return false;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Tables of sweeps: parameters, outputs, and why points failed (docs/sweeps.md).
+/// Tables of sweeps: parameters, outputs, and error codes of failed points (docs/sweeps.md).
 
 #include <map>
 #include <optional>
@@ -12,46 +12,44 @@
 
 namespace snapthrough::api::plot {
 
-/// A column as numbers: kNone where there is none; texts count as 0, 1, 2, ... in the order of their first
-/// rows.
+/// A column as numbers: kNone for null; texts are numbered 0, 1, 2, ... in the order of their first rows.
 struct Column {
   std::string name;
-  std::string label;  ///< as people say it
+  std::string label;  ///< name in words, for axis labels
   std::vector<double> values;
-  std::optional<std::vector<std::string>> names;  ///< the texts; nothing for numbers
+  std::optional<std::vector<std::string>> names;  ///< texts by number; nullopt: a column of numbers
 
   [[nodiscard]] bool has_values() const;
   [[nodiscard]] std::size_t distinct() const;
 };
 
-/// Rows that were asked for.
+/// The rows of a sweep table that a figure draws.
 struct Table {
   std::vector<Column> parameters;
   Column output;
-  std::vector<std::string> errors;  ///< code of each row; empty where it did not fail
+  std::vector<std::string> errors;  ///< error code of each row; empty: the point did not fail
 };
 
-/// @brief The rows of a table with the columns of all parameters and of the output that is asked for.
-/// @throws PlotError also when the request names a column or a value that is not there
+/// @brief Reads the rows that match `where`, with all parameters and the requested output.
+/// @throws PlotError when the table is invalid or lacks a column or value of the request
 [[nodiscard]] Table read_table(const Field& document, const PlotRequest& request);
 
-/// The parameters with more than one value, those with most values first; one at least.
-/// @throws PlotError when the table has no parameter
+/// Returns the parameters with more than one value, most values first; the first parameter if none varies.
 [[nodiscard]] std::vector<const Column*> varied_parameters(const Table& table);
 
-/// The parameter of that name. @throws PlotError when there is none
+/// Returns the parameter with a name. @throws PlotError when the table has none
 [[nodiscard]] const Column& parameter(const Table& table, const std::string& name);
 
-/// Whether values belong on a logarithmic axis: positive, and spaced more evenly there.
+/// Returns whether a logarithmic axis spaces the values more evenly: all > 0, over a factor of 8 or more.
 [[nodiscard]] bool is_logarithmic(const Column& column);
 
-/// "3 failed: 2 no_start, 1 mechanism"; "" when none did.
+/// Returns the counts of error codes, such as "3 failed: 2 no_start, 1 mechanism"; "" without errors.
 [[nodiscard]] std::string failure_text(const std::vector<std::string>& errors);
 
-/// Distinct finite values, increasing.
+/// Returns the distinct finite values in increasing order.
 [[nodiscard]] std::vector<double> distinct_values(const std::vector<double>& values);
 
-/// The value of a column as text: its name, or a number.
+/// Returns a value of a column as text: the text with that number, or the number.
 [[nodiscard]] std::string value_text(const Column& column, double value);
 
 }  // namespace snapthrough::api::plot

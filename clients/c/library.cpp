@@ -38,16 +38,16 @@ using snapthrough::Progress;
 using snapthrough::Result;
 namespace api = snapthrough::api;
 
-/// The least of snapthrough_options that any version has had.
+/// Smallest size of snapthrough_options in any version of the header.
 constexpr std::size_t kFirstOptions = sizeof(snapthrough_options);
 
-/// A text with what the call came to, before it is the caller's.
+/// Status and text of a returned document before its allocation.
 struct Answer {
   snapthrough_status status = SNAPTHROUGH_DONE;
   std::string text;
 };
 
-/// The document and its text in one allocation, which snapthrough_free() releases; null without memory.
+/// Returns a document and its text in one allocation, for snapthrough_free(); null without memory.
 snapthrough_document* given_away(const Answer& answer) noexcept {
   void* memory = ::operator new(sizeof(snapthrough_document) + answer.text.size() + 1, std::nothrow);
   if (memory == nullptr) {
@@ -62,7 +62,7 @@ std::string dumped(const ordered_json& document) {
   return document.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-/// A problem document (RFC 9457), as the service has it.
+/// Returns a problem document (RFC 9457) like those of the HTTP service.
 ordered_json problem(const char* kind, const char* title, int status, const std::string& detail) {
   return {{"type", std::string("urn:snapthrough:problem:") + kind},
           {"title", title},
@@ -74,7 +74,7 @@ Answer wrong_use(const std::string& rule) {
   return {SNAPTHROUGH_WRONG_USE, dumped(problem("wrong-use", "Wrong use of a function", 400, rule))};
 }
 
-/// What is wrong with a request or a sweep.
+/// Returns a problem with the findings of a request or a sweep.
 Answer refused(bool malformed, const std::vector<Finding>& findings) {
   ordered_json document =
       malformed ? problem("malformed-json", "Malformed JSON", 400, "The text is no acceptable JSON text.")
@@ -90,7 +90,7 @@ Answer mishap(snapthrough_status status, const char* code, const std::string& de
   return {status, dumped(document)};
 }
 
-/// Calls a function that makes an answer; whatever it throws is an answer, too.
+/// Calls a function and returns its answer as a document; an exception becomes an answer, too.
 template <typename Function>
 snapthrough_document* answered(const Function& function) noexcept {
   try {
@@ -104,11 +104,11 @@ snapthrough_document* answered(const Function& function) noexcept {
       return given_away(mishap(SNAPTHROUGH_INTERNAL_ERROR, "internal_error", "An unknown exception was thrown."));
     }
   } catch (...) {
-    return nullptr;  // no memory for the few bytes of a problem
+    return nullptr;  // no memory even for a problem document
   }
 }
 
-/// The stop source of a call: the caller's, which other threads can use, or its own.
+/// Returns the stop source of the options (shared with other threads) or a new one; nullopt for a wrong size.
 std::optional<std::stop_source> stop_of(const snapthrough_options* options) {
   if (options == nullptr) {
     return std::stop_source();
@@ -122,8 +122,8 @@ std::optional<std::stop_source> stop_of(const snapthrough_options* options) {
 constexpr const char* kSizeRule = "options->size is sizeof(snapthrough_options) of the header that the caller used.";
 constexpr const char* kTextRule = "The pointer to a text of one byte or more is not null.";
 
-/// @brief What the caller has to do with a running call: is told how far it is, and stops it by the callback's value or
-/// from another thread.
+/// @brief Connects a running call with its caller: reports progress, and stops the call by the callback's
+/// value or from another thread.
 class Caller {
  public:
   Caller(const std::stop_source& stop, snapthrough_callback callback, void* user)
@@ -145,7 +145,7 @@ class Caller {
 
   snapthrough_callback callback_;
   void* user_;
-  std::stop_source stopped_;  ///< of this call alone: others may share the caller's
+  std::stop_source stopped_;  ///< for this call only; several calls may share the caller's
   std::stop_callback<Request> forward_;
 };
 
@@ -189,7 +189,7 @@ Answer checked(std::string_view text) {
   return {result.findings.empty() ? SNAPTHROUGH_DONE : SNAPTHROUGH_WRONG_REQUEST, api::write_check(result)};
 }
 
-/// Mistakes in the choices of a figure, told apart from those in the document.
+/// Returns findings about the choices of a figure, with pointers that begin with "choices:".
 Answer refused_choices(bool malformed, std::vector<Finding> findings) {
   for (Finding& finding : findings) {
     finding.pointer.insert(0, "choices:");
@@ -223,7 +223,7 @@ struct Points {
   std::uint64_t count = 0;
 };
 
-/// The rule that these points break, or nothing.
+/// Returns the rule that `points` breaks; "" for valid points.
 std::string broken_rule(const api::Sweep& sweep, const Points& points) {
   const std::string unit = std::to_string(sweep.unit_size());
   if (points.first % sweep.unit_size() != 0 || points.count % sweep.unit_size() != 0) {

@@ -5,8 +5,8 @@
  * Documents are JSON in UTF-8, the same as those of the command line and of the HTTP service: docs/requests.md,
  * docs/sweeps.md and docs/results.md of the project describe them; its OpenAPI document lists every field.
  *
- * Every function can be called from several threads at once. Calls share nothing but a snapthrough_stop that is
- * given to several of them. The same request gives the same bytes, but for "diagnostics.wall_time_s". No function
+ * Every function can be called from several threads at once. Calls share nothing except a snapthrough_stop in the
+ * options of several calls. Equal requests give equal bytes, except for "diagnostics.wall_time_s". No function
  * throws, writes to a standard stream, changes a locale or a signal handler, or ends the process.
  */
 #ifndef SNAPTHROUGH_SNAPTHROUGH_H
@@ -25,70 +25,70 @@
 extern "C" {
 #endif
 
-/** What a call came to. The values 0, 2 and 3 are the exit statuses of the command line. */
+/** Outcome of a call. The values 0, 2 and 3 are the exit statuses of the command line. */
 typedef enum snapthrough_status {
-  SNAPTHROUGH_DONE = 0,          /**< the document is what was asked for */
-  SNAPTHROUGH_WRONG_USE = 1,     /**< an argument of the call itself breaks a rule; the document says which */
+  SNAPTHROUGH_DONE = 0,          /**< success: the document is the requested one */
+  SNAPTHROUGH_WRONG_USE = 1,     /**< an argument of the call is invalid; the document has the rule */
   SNAPTHROUGH_WRONG_REQUEST = 2, /**< the request has mistakes; the document lists them */
-  SNAPTHROUGH_NOT_COMPLETED = 3, /**< the analysis failed; the document has "failure" and what was reached */
-  SNAPTHROUGH_CANCELLED = 4,     /**< the caller stopped it; the document has what was reached */
+  SNAPTHROUGH_NOT_COMPLETED = 3, /**< the analysis failed; the document has "failure" and the part before it */
+  SNAPTHROUGH_CANCELLED = 4,     /**< the caller stopped the call; the document has the part before that */
   SNAPTHROUGH_OUT_OF_MEMORY = 5, /**< the document is a problem with the code "out_of_memory" */
   SNAPTHROUGH_INTERNAL_ERROR = 6 /**< a defect of the library; the document is a problem with its message */
 } snapthrough_status;
 
 /**
- * A document that a call returned. Never null, except where not even its own few bytes could be allocated; a null
- * pointer therefore means SNAPTHROUGH_OUT_OF_MEMORY. It belongs to the caller, who gives it to snapthrough_free().
+ * A document that a call returned. A null pointer means SNAPTHROUGH_OUT_OF_MEMORY: not even the few bytes of a
+ * problem could be allocated. The caller owns the document and releases it with snapthrough_free().
  *
- * With the statuses WRONG_USE, WRONG_REQUEST, OUT_OF_MEMORY and INTERNAL_ERROR, the text is a problem as the HTTP
- * service has it (RFC 9457): {"type", "title", "status", "detail"}, with "errors": [{"pointer", "code", "detail"}]
- * where the request is wrong, and with "code" where an analysis is.
+ * With the statuses WRONG_USE, WRONG_REQUEST, OUT_OF_MEMORY and INTERNAL_ERROR, the text is a problem like those of
+ * the HTTP service (RFC 9457): {"type", "title", "status", "detail"}, with "errors": [{"pointer", "code", "detail"}]
+ * for a wrong request, and with "code" for a failed analysis.
  */
 typedef struct snapthrough_document {
   const char* text;          /**< UTF-8 JSON, followed by a zero byte */
-  size_t length;             /**< bytes of the text without that zero byte */
-  snapthrough_status status; /**< what the call came to */
+  size_t length;             /**< bytes of the text without the zero byte */
+  snapthrough_status status; /**< outcome of the call */
 } snapthrough_document;
 
-/** How far a call is. Fields are added at the end only; `size` tells which are there. */
+/** Progress of a call. New versions append fields; `size` tells which ones the library has. */
 typedef struct snapthrough_progress {
   size_t size;              /**< sizeof(snapthrough_progress) of the library */
   uint64_t done;            /**< sweeps: points that have ended; analyses: steps along the branch */
   uint64_t total;           /**< sweeps: points of this call; analyses: 0, since their number is not known */
-  double load_factor;       /**< of the last point of the path; sweeps: 0 */
+  double load_factor;       /**< load factor of the last point of the path; sweeps: 0 */
   int branch;               /**< index of the path's branch, from 0; sweeps: 0 */
-  int negative_eigenvalues; /**< of the tangent stiffness; 0 is stable; sweeps: 0 */
+  int negative_eigenvalues; /**< negative eigenvalues of the tangent stiffness; 0: stable; sweeps: 0 */
 } snapthrough_progress;
 
 /**
  * Called on the thread of the call, after each step of a path or each unit of a sweep. A value other than 0 stops
- * the call, which then returns SNAPTHROUGH_CANCELLED. It may call any function of this library. It must not throw
- * and must not leave by longjmp.
+ * the call, which then returns SNAPTHROUGH_CANCELLED. The callback may call any function of this library. It must
+ * not throw and must not leave by longjmp.
  */
 typedef int (*snapthrough_callback)(const snapthrough_progress* progress, void* user);
 
 /** Stops running calls from another thread. */
 typedef struct snapthrough_stop snapthrough_stop;
 
-/** Choices of a call. Fields are added at the end only. A null pointer to options chooses the defaults. */
+/** Options of a call. New versions append fields. A null pointer to options means the defaults. */
 typedef struct snapthrough_options {
-  size_t size;            /**< sizeof(snapthrough_options), so that later versions know which fields are there */
+  size_t size;            /**< sizeof(snapthrough_options), which tells later versions the fields of the caller */
   snapthrough_stop* stop; /**< stops the call; null: only the callback can */
 } snapthrough_options;
 
 /** The version of the library, such as "0.1.0". The text belongs to the library. */
 SNAPTHROUGH_EXPORT const char* snapthrough_version(void);
 
-/** A new means to stop calls, or null when there is no memory for it. */
+/** Returns a new object that can stop calls; null without memory. */
 SNAPTHROUGH_EXPORT snapthrough_stop* snapthrough_stop_new(void);
 
 /**
- * Stops every call that was given `stop`, and every later one. A call returns within a few steps of its iteration,
+ * Stops every running and later call with `stop` in its options. A call returns within a few steps of its iteration,
  * normally within milliseconds. Can be called from any thread and repeated. Null is ignored.
  */
 SNAPTHROUGH_EXPORT void snapthrough_stop_request(snapthrough_stop* stop);
 
-/** Releases what snapthrough_stop_new() returned; calls that were given it may still run. Null is ignored. */
+/** Releases an object of snapthrough_stop_new(); calls with it may still run. Null is ignored. */
 SNAPTHROUGH_EXPORT void snapthrough_stop_free(snapthrough_stop* stop);
 
 /**
@@ -97,8 +97,8 @@ SNAPTHROUGH_EXPORT void snapthrough_stop_free(snapthrough_stop* stop);
  * @param request  UTF-8 JSON: {"model": ..., "analysis": ...}; need not end with a zero byte
  * @param length   bytes of the request; the caller bounds it
  * @param options  null for the defaults
- * @param callback called as the path grows; null for none
- * @param user     given to the callback
+ * @param callback called after each step of a path; null for none
+ * @param user     passed to the callback
  * @return the result document with DONE, NOT_COMPLETED or CANCELLED, otherwise a problem
  */
 SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_solve(const char* request, size_t length,
@@ -119,19 +119,19 @@ SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_check(const char* document,
 
 /**
  * Solves `count` points of a sweep from the point `first` on, one after the other on the calling thread. A caller
- * that has more cores shares the points out among threads, processes or machines; a row does not depend on which
- * other points are solved in the same call.
+ * with more cores distributes the points among threads, processes or machines; a row does not depend on which other
+ * points are solved in the same call.
+ *
+ * A sweep's unit is the number of its points that are computed together: 1, or the length of a curve along which a
+ * critical point is followed. A first call with `count` 0 returns the unit.
  *
  * @param document UTF-8 JSON: a sweep
  * @param length   bytes of the document
- * A sweep's unit is the number of its points that are computed together: 1, or the length of a curve along which a
- * critical point is followed. A first call with `count` 0 tells it.
- *
  * @param first    a multiple of the unit, less than the number of points of the sweep
  * @param count    a multiple of the unit; points past the end of the sweep are left out
  * @param options  null for the defaults
  * @param callback called after each unit; null for none
- * @param user     given to the callback
+ * @param user     passed to the callback
  * @return with DONE or CANCELLED the table that `snapthrough sweep` writes, of these points:
  *         {"total", "unit", "columns": [name...], "rows": [[value...]...], "points": [number...]}, where `total` is
  *         the number of points of the whole sweep, and `points` has the number of the point of each row, counted
@@ -143,7 +143,7 @@ SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_sweep(const char* document,
                                                            snapthrough_callback callback, void* user);
 
 /**
- * Draws a result, or the table of a sweep, in the look of the page's figures (docs/howto/plot-results.md).
+ * Draws a result, or the table of a sweep, in the style of the web page's figures (docs/howto/plot-results.md).
  *
  * @param document       UTF-8 JSON: what snapthrough_solve() or snapthrough_sweep() returned, or a file of the
  *                       command line or the service
@@ -154,8 +154,8 @@ SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_sweep(const char* document,
  *                       "by" (names of parameters), "where" ({name: value}), "solved_request" (the request, so
  *                       that supports, ground and loads can be drawn)
  * @param choices_length bytes of the choices
- * @return with DONE an SVG document (here the text is no JSON); otherwise a problem. Its "errors" have pointers into
- *         the document, or, where they begin with "choices:", into the choices
+ * @return with DONE an SVG document (text that is no JSON); otherwise a problem, whose "errors" have pointers into
+ *         the document, or into the choices if they begin with "choices:"
  */
 SNAPTHROUGH_EXPORT snapthrough_document* snapthrough_plot(const char* document, size_t length, const char* choices,
                                                           size_t choices_length);

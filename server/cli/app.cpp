@@ -21,13 +21,13 @@
 namespace snapthrough::server::cli {
 namespace {
 
-/// A default that is shown in words: manual pages are made on another machine than they are read on.
+/// Default of `workers` and --threads in help texts: the manual pages are built on another machine.
 constexpr const char* kOneForEachCore = "one for each core";
 
-/// Runs a command whose arguments are known; returns the exit status.
+/// Runs a command with the parsed arguments; returns the exit status.
 using Action = std::function<int(const Streams&)>;
 
-/// What the arguments set.
+/// Values of all command-line arguments.
 struct Arguments {
   std::string request;
   bool csv = false;
@@ -39,16 +39,16 @@ struct Arguments {
   std::vector<std::string> parts;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::string config_file;
-  std::map<std::string, std::string> settings;  ///< by name, as given
+  std::map<std::string, std::string> settings;  ///< values by name of the setting
   std::string store = "snapthrough.db";
   std::string target;
   std::string address = "127.0.0.1:8080";
   bool ready = false;
   RemoteArguments remote;
-  Action action;  ///< of the command that was given
+  Action action;  ///< action of the given command
 };
 
-/// The variables that are the service's, by name.
+/// Returns the environment variables that are settings of the service, by name.
 std::map<std::string, std::string> own_variables() {
   std::map<std::string, std::string> own;
   for (char** entry = environ; *entry != nullptr; ++entry) {
@@ -124,7 +124,7 @@ api::TableForm form_of(const Arguments& arguments) {
                             : api::TableForm::json;
 }
 
-/// Every setting is a flag: log_level is --log-level.
+/// Adds a command whose flags are the settings of the service, such as --log-level for log_level.
 CLI::App* add_service_command(CLI::App& app, const char* name, const char* description,
                               Arguments& arguments) {
   CLI::App* command = app.add_subcommand(name, description);
@@ -177,12 +177,12 @@ SettingSources sources_of(const Arguments& arguments) {
   return sources;
 }
 
-/// Makes an action that of a command. @pre the arguments outlive the command
+/// Makes `action` the action of a command. @pre the arguments outlive the command
 void on(CLI::App* command, Arguments& arguments, const Action& action) {
   command->callback([&arguments, action] { arguments.action = action; });
 }
 
-/// Commands that solve in this process.
+/// Adds the commands that solve in this process.
 void add_solving_commands(CLI::App& app, Arguments& arguments) {
   on(add_solve_command(app, arguments), arguments, [&arguments](const Streams& streams) {
     return solve_command(arguments.request, streams,
@@ -192,7 +192,7 @@ void add_solving_commands(CLI::App& app, Arguments& arguments) {
   on(add_request_command(app, "check", "Validate a request", arguments), arguments,
      [&arguments](const Streams& streams) { return check_command(arguments.request, streams); });
   on(add_sweep_command(app, arguments), arguments, [&arguments](const Streams& streams) {
-    // On a terminal the rows themselves show how far it is, unless a file takes them.
+    // Rows on the terminal replace the bar, unless a file takes the rows.
     const bool bar = ::isatty(STDERR_FILENO) == 1 && (::isatty(STDOUT_FILENO) == 0 || !arguments.out.empty());
     return sweep_command(arguments.request, streams,
                          {form_of(arguments), arguments.threads, bar, arguments.point, arguments.out,
@@ -206,7 +206,7 @@ void add_solving_commands(CLI::App& app, Arguments& arguments) {
      [plot](const Streams& streams) { return plot_command(*plot, streams); });
 }
 
-/// Commands that are the service, or look after its store.
+/// Adds the commands that run the service or maintain its store.
 void add_service_commands(CLI::App& app, Arguments& arguments) {
   on(add_service_command(app, "serve", "Run the service", arguments), arguments,
      [&arguments](const Streams& streams) { return serve_command(sources_of(arguments), true, streams); });
@@ -228,7 +228,7 @@ void add_service_commands(CLI::App& app, Arguments& arguments) {
   });
 }
 
-/// Every command with its options. @pre the arguments outlive the app
+/// Adds all commands with their options. @pre the arguments outlive the app
 void describe(CLI::App& app, Arguments& arguments) {
   app.description("Equilibrium paths and critical loads of slender structures on elastic bases");
   app.name("snapthrough");

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The command line.
+/// Entry point of the command line.
 
 #include <iosfwd>
 
@@ -8,13 +8,13 @@ namespace snapthrough::server::cli {
 
 /// Exit statuses of the program.
 inline constexpr int kDone = 0;
-inline constexpr int kOther = 1;         ///< usage, files, sockets, anything unexpected
-inline constexpr int kWrongRequest = 2;  ///< the request document is wrong: findings are on the error stream
+inline constexpr int kOther = 1;         ///< wrong usage, failed file or socket, other errors
+inline constexpr int kWrongRequest = 2;  ///< invalid document; the error stream has the findings
 inline constexpr int kNotCompleted = 3;  ///< the analysis could not be completed
-inline constexpr int kUnfinished = 4;    ///< what a service was asked for has not ended yet
-// 128 + signal: solve and sweep were interrupted, and wrote what they had
+inline constexpr int kUnfinished = 4;    ///< a job or sweep of a service has not ended
+// 128 + signal: solve or sweep was interrupted after it wrote what was complete
 
-/// Standard streams, or a test's.
+/// Standard streams, or streams of a test.
 struct Streams {
   std::istream& in;
   std::ostream& out;

@@ -1,13 +1,13 @@
 #pragma once
 /// @file
-/// The command line as data: what manual pages and shell completion are made of.
+/// The command line as data, for manual pages and shell completion.
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
 namespace snapthrough::server::cli {
 
-/// Every command with its options, their help and their defaults, as run() parses them.
+/// Returns all commands with options, help and defaults, as run() parses them.
 [[nodiscard]] std::shared_ptr<const CLI::App> described_app();
 
 }  // namespace snapthrough::server::cli

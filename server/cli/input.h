@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What the commands that read a document share.
+/// Functions shared by the commands that read a document.
 
 #include <optional>
 #include <string>
@@ -11,10 +11,10 @@
 
 namespace snapthrough::server::cli {
 
-/// The text of a file, or of standard input for "-"; nothing when it cannot be read, which `err` then says.
+/// Returns the text of a file, or of standard input for "-"; nullopt after a message on `err`.
 [[nodiscard]] std::optional<std::string> read_all(const std::string& path, const Streams& streams);
 
-/// One line a finding on `err`, JSON Pointer first.
+/// Writes findings to `err`, one a line, JSON Pointer first.
 void print_findings(const std::vector<Finding>& findings, const Streams& streams);
 
 }  // namespace snapthrough::server::cli

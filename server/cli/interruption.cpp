@@ -45,7 +45,7 @@ void Interruption::watch() {
     signalfd_siginfo info{};
     if (waited[1].revents != 0 && ::read(incoming_.get(), &info, sizeof info) == sizeof info) {
       signal_ = static_cast<int>(info.ssi_signo);
-      pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);  // the next one ends the process, in this thread
+      pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);  // a second signal ends the process
       count = 1;
       stop_.request_stop();
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Ctrl-C while something is computed.
+/// Handles SIGINT and SIGTERM during a computation.
 
 #include <atomic>
 #include <csignal>
@@ -11,10 +11,10 @@
 
 namespace snapthrough::server::cli {
 
-/// @brief While this exists, the first SIGINT or SIGTERM asks the work to stop, and a second one ends the
+/// @brief During its lifetime, the first SIGINT or SIGTERM requests a stop, and the second one ends the
 /// process at once. A signal that the process ignores stays ignored.
 ///
-/// REQUIRES: threads that share the work are started while this exists. One at a time.
+/// REQUIRES: threads of the computation start during its lifetime. At most one object exists at a time.
 class Interruption {
  public:
   Interruption();
@@ -24,11 +24,11 @@ class Interruption {
   Interruption(Interruption&&) = delete;
   Interruption& operator=(Interruption&&) = delete;
 
-  /// Asked to stop by the first signal.
+  /// Returns the token on which the first signal requests a stop.
   [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
-  /// The signal that came; 0: none yet.
+  /// Returns the received signal; 0 before the first one.
   [[nodiscard]] int signal() const { return signal_; }
-  /// What a shell gives a command that the signal ended: 128 + signal. @pre signal() != 0
+  /// Returns the exit status of a command ended by the signal: 128 + signal. @pre signal() != 0
   [[nodiscard]] int exit_status() const { return 128 + signal_; }
 
  private:

@@ -9,21 +9,21 @@
 namespace snapthrough::server::cli {
 namespace {
 
-/// Rows of one file, and those that it should have.
+/// A part file and its number of rows.
 struct PartRows {
   std::string path;
   SweepPart part;
-  std::uint64_t first = 0;    ///< point
-  std::uint64_t points = 0;   ///< of the part
-  std::uint64_t present = 0;  ///< rows
+  std::uint64_t first = 0;    ///< number of the part's first point
+  std::uint64_t points = 0;   ///< number of the part's points
+  std::uint64_t present = 0;  ///< number of rows in the file
 };
 
-/// A name of a part as `--part` takes it.
+/// Returns the name of a part in the syntax of --part.
 std::string name_of(const SweepPart& part) {
   return std::to_string(part.number) + "/" + std::to_string(part.count);
 }
 
-/// @throws std::runtime_error when the rows are not those of this part
+/// Counts the rows of a part. @throws std::runtime_error when a row does not belong to the part
 PartRows rows_of(PartReader& reader, const api::Sweep& sweep) {
   const UnitRange units = units_of(reader.part(), sweep);
   PartRows rows{reader.path(), reader.part(), units.first * sweep.unit_size(),
@@ -38,7 +38,7 @@ PartRows rows_of(PartReader& reader, const api::Sweep& sweep) {
   return rows;
 }
 
-/// The sweep that the first file is a part of. @throws std::runtime_error
+/// Returns the sweep of the first file. @throws std::runtime_error when its document is invalid
 api::Sweep sweep_of(const PartReader& reader) {
   api::SweepOutcome outcome = api::read_sweep_document(std::make_shared<nlohmann::json>(reader.document()));
   if (!outcome.sweep) {
@@ -48,7 +48,7 @@ api::Sweep sweep_of(const PartReader& reader) {
   return std::move(*outcome.sweep);
 }
 
-/// The parts in their order. @throws std::runtime_error when the files do not belong together
+/// Returns the parts in their order. @throws std::runtime_error when the files are not parts of one split
 std::vector<PartRows> parts_of(const std::vector<std::string>& paths, const nlohmann::json& document,
                                const api::Sweep& sweep) {
   std::vector<PartRows> parts;
@@ -74,7 +74,7 @@ std::vector<PartRows> parts_of(const std::vector<std::string>& paths, const nloh
   return parts;
 }
 
-/// Says which rows are not there, and how they are computed. @return whether all are there
+/// Reports missing parts and rows on `err`, with the command for them. @return whether none is missing
 bool all_there(const std::vector<PartRows>& parts, const Streams& streams) {
   bool complete = true;
   std::uint64_t next = 1;

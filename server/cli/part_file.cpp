@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// Of the file's form; another one is another number.
+/// Version of the file format.
 constexpr int kForm = 1;
 constexpr const char* kFormKey = "snapthrough_part";
 
@@ -35,7 +35,7 @@ std::optional<std::uint64_t> number_from(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-/// A member of an object as JSON text; empty when there is none.
+/// Returns a member of an object as JSON text; "" when absent.
 std::string text_of(const json& object, const char* name) {
   const auto member = object.find(name);
   return member == object.end() ? "" : member->dump(-1, ' ', false, json::error_handler_t::replace);
@@ -88,7 +88,7 @@ void PartReader::refuse(const std::string& why) const { throw std::runtime_error
 std::optional<std::string> PartReader::next_line() {
   std::string line;
   if (!std::getline(file_, line) || file_.eof()) {
-    return std::nullopt;  // a line without its end was cut off while it was written
+    return std::nullopt;  // a line without end is incomplete
   }
   bytes_ += line.size() + 1;
   return line;
@@ -108,7 +108,7 @@ std::optional<std::pair<std::uint64_t, api::PointOutcome>> PartReader::next() {
       code != row.end() && code->is_string() && detail != row.end() && detail->is_string()) {
     return std::pair(point, api::PointOutcome{"", code->get<std::string>(), detail->get<std::string>()});
   }
-  // The outputs' own text, so that a merged table has the digits that were computed.
+  // The original text of the outputs keeps their digits in a merged table.
   const std::string begin = row_begin(point) + ",\"outputs\":";
   if (!line->starts_with(begin) || !row.contains("outputs") || !row["outputs"].is_array()) {
     refuse("has a row that is neither outputs nor a failure, of point " + std::to_string(point));

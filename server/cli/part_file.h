@@ -1,12 +1,11 @@
 #pragma once
 /// @file
-/// Files that hold the rows of a part of a sweep, so that a sweep can be shared out among processes and
-/// hosts, be interrupted and be resumed.
+/// Files with the rows of a part of a sweep: processes and hosts can share a sweep, which can be interrupted
+/// and resumed.
 ///
 /// A part file is NDJSON: a head `{"snapthrough_part": 1, "program", "part", "parts", "sweep"}` with the
-/// whole sweep document, and one line for each point in the order of the points: `{"point": N, "outputs":
-/// [...]}`, or
-/// `{"point": N, "code": "...", "detail": "..."}` where the point failed.
+/// sweep document, then a line for each point in their order: `{"point": N, "outputs": [...]}`, or
+/// `{"point": N, "code": "...", "detail": "..."}` for a failed point.
 
 #include <cstdint>
 #include <fstream>
@@ -29,10 +28,10 @@ struct SweepPart {
   bool operator==(const SweepPart&) const = default;
 };
 
-/// "3/16" as a part, or nothing: both numbers are at least 1, and the first is at most the second.
+/// Parses a part such as "3/16"; nullopt unless 1 <= number <= count.
 [[nodiscard]] std::optional<SweepPart> sweep_part_from(std::string_view text);
 
-/// Units from `first` up to, and without, `end`.
+/// Units `first` to `end` - 1.
 struct UnitRange {
   std::uint64_t first = 0;
   std::uint64_t end = 0;
@@ -40,16 +39,15 @@ struct UnitRange {
   bool operator==(const UnitRange&) const = default;
 };
 
-/// @brief The units of a part of a sweep: consecutive ones; sizes of parts differ by one unit at most. Empty
-/// for some parts where there are more parts than units.
+/// @brief Returns the consecutive units of a part. Sizes of parts differ by at most one unit; with more parts
+/// than units, some parts are empty.
 [[nodiscard]] UnitRange units_of(const SweepPart& part, const api::Sweep& sweep);
 
-/// @brief Reads a part file from its beginning.
-/// Not thread-safe. Its functions throw std::runtime_error, with the file's name, where the file is not what
-/// it should be.
+/// @brief Reads a part file from its beginning. Not thread-safe. Functions throw std::runtime_error with the
+/// file's name when the file's content is invalid.
 class PartReader {
  public:
-  /// Reads the head. @throws std::runtime_error when the file cannot be read or is of another version of the
+  /// Reads the head. @throws std::runtime_error when the file is unreadable or of another version of the
   /// program
   explicit PartReader(std::string path);
 
@@ -57,9 +55,9 @@ class PartReader {
   [[nodiscard]] const SweepPart& part() const { return part_; }
   [[nodiscard]] const nlohmann::json& document() const { return document_; }
 
-  /// The next point, or nothing after the last whole row.
+  /// Returns the next row; nullopt after the last complete row.
   [[nodiscard]] std::optional<std::pair<std::uint64_t, api::PointOutcome>> next();
-  /// Bytes up to the end of what was read: the head and whole rows.
+  /// Returns the number of bytes read: the head and complete rows.
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
@@ -73,23 +71,23 @@ class PartReader {
   std::uint64_t bytes_ = 0;
 };
 
-/// @brief Writes a part file, or goes on with one.
-/// The file is locked while it is open: two processes cannot write the same part. Not thread-safe.
+/// @brief Creates or extends a part file. The file is locked while it is open, so that two processes cannot
+/// write it. Not thread-safe.
 class PartWriter {
  public:
-  /// @brief Takes over the rows of whole units that the file has already; what follows them is cut off.
+  /// @brief Keeps the rows of complete units that the file has, and truncates the file after them.
   /// @throws std::runtime_error when the file is in use, cannot be written, or holds another part, another
-  /// sweep or rows of another version of the program: it is left as it is then
+  /// sweep or rows of another version of the program; the file is then unchanged
   PartWriter(std::string path, const nlohmann::json& document, const api::Sweep& sweep,
              const SweepPart& part);
 
-  /// Points that the file had, and how many of them had failed.
+  /// Return the number of points, and of failed points, that the file had at first.
   [[nodiscard]] std::uint64_t points_before() const { return points_; }
   [[nodiscard]] std::uint64_t failed_before() const { return failed_; }
 
-  /// The line of a point.
+  /// Appends the line of a point to `text`.
   static void append_row(std::uint64_t point, const api::PointOutcome& outcome, std::string& text);
-  /// @throws std::runtime_error when the disk does not take it
+  /// @throws std::runtime_error when the write fails
   void write(std::string_view text);
 
  private:

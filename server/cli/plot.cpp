@@ -15,13 +15,13 @@
 
 namespace snapthrough::server::cli {
 
-/// What the arguments set; pointers and names as given.
+/// Values of the arguments of `plot`.
 struct PlotArguments {
   std::string document;
   std::string request;  ///< file of the solved request; empty: none
-  std::string file;     ///< empty: standard output
+  std::string file;     ///< file to write; empty: standard output
   std::string kind;
-  std::vector<std::string> where;  ///< NAME=VALUE
+  std::vector<std::string> where;  ///< conditions NAME=VALUE
   std::optional<double> scale;
   api::PlotRequest figure;
 };
@@ -76,7 +76,7 @@ void add_looks(CLI::App& command, PlotArguments& arguments) {
   command.add_flag("--dark", arguments.figure.dark, "Light lines on dark paper");
 }
 
-/// A document in a file; nothing, and `status`, when it cannot be read.
+/// Returns the document of a file; null with the exit status in `status` when it is invalid.
 std::shared_ptr<nlohmann::json> read_document(const std::string& path, const Streams& streams, int& status) {
   const std::optional<std::string> text = read_all(path, streams);
   if (!text) {
@@ -95,7 +95,7 @@ bool ends_with(std::string text, std::string_view ending) {
   return text.ends_with(ending);
 }
 
-/// What is wrong with the arguments together; empty: nothing.
+/// Returns the error in a combination of arguments; "" for valid ones.
 std::string mistake_in(const PlotArguments& arguments) {
   const bool png = ends_with(arguments.file, ".png");
   if (!arguments.file.empty() && !png && !ends_with(arguments.file, ".svg")) {

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The command that makes figures of results and sweeps.
+/// The command `plot`, which draws figures of results and sweeps.
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -11,13 +11,13 @@ namespace snapthrough::server::cli {
 
 struct PlotArguments;
 
-/// Adds `plot` with its options to the program; the arguments are set when it parses.
+/// Adds `plot` with its options to the app, whose parsing sets the returned arguments.
 std::shared_ptr<PlotArguments> add_plot_command(CLI::App& app);
 
-/// @brief Writes the figure as SVG on `out`, or to a file: SVG, or PNG made by rsvg-convert.
+/// @brief Writes the figure as SVG to `out` or a file, or as PNG to a file (with rsvg-convert).
 ///
-/// A file is there when it is whole, else what was there before. kWrongRequest when no figure can be made of
-/// the document: `err` has the pointer and the rule.
+/// A failure leaves an existing file unchanged. kWrongRequest when the document gives no figure; `err` has
+/// the pointer and the rule.
 int plot_command(const PlotArguments& arguments, const Streams& streams);
 
 }  // namespace snapthrough::server::cli

@@ -31,15 +31,15 @@ bool write_all(int descriptor, const std::string& text) {
   return true;
 }
 
-/// The permissions that a new file gets.
+/// Returns the permissions of a new file (0666 without the umask).
 mode_t new_file_mode() {
   const mode_t mask = ::umask(0);
   ::umask(mask);
   return 0666 & ~mask;
 }
 
-/// Has `fill` write to a file beside the one that is meant, and puts it in its place when that went well.
-/// Something that is no file, such as a pipe, is written to as it is.
+/// Calls `fill` with a temporary file and renames that file to `file` after success. Writes directly to an
+/// existing `file` that is not regular, such as a pipe.
 std::string replace(const std::string& file, const std::function<std::string(int)>& fill) {
   struct stat status {};
   if (::stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
@@ -67,7 +67,7 @@ std::string replace(const std::string& file, const std::function<std::string(int
   return problem;
 }
 
-/// The first line of what a program wrote about its failure.
+/// Returns the first line of an error output.
 std::string first_line(int descriptor) {
   std::array<char, 300> text{};
   const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);

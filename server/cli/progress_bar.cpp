@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kWidth = 30;
 
-/// 1:02:03, or 02:03 below an hour.
+/// Returns a duration as 1:02:03, or as 02:03 below an hour.
 std::string clock_time(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(seconds));
   std::array<char, 40> text{};

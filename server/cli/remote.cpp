@@ -22,11 +22,11 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-// A request waits so long for an end, or this long where the waiting is shown.
+// Seconds that the service may delay its answer until the job ends; shorter if progress is shown.
 constexpr int kPatientWait_s = 30;
 constexpr int kShownWait_s = 1;
 
-/// The part of a problem's type that names the kind.
+/// Returns the last part of a problem's type, which names its kind.
 std::string kind_of(const json& problem) {
   const std::string type = problem.is_object() ? problem.value("type", "") : "";
   return type.substr(type.rfind(':') + 1);
@@ -37,8 +37,8 @@ json document_of(const Answer& answer) {
   return document.is_discarded() ? json() : document;
 }
 
-/// Says what the service, or what stands before it, answered in place of what was asked for. Findings lose
-/// `prefix`, which is the envelope's and not the document's.
+/// Reports an answer other than the expected one on `err`; returns the exit status. `prefix` is removed from
+/// the pointers of findings, so that they refer to the document without its envelope.
 int tell_problem(const Answer& answer, const RemoteService& service, const Streams& streams,
                  const std::string& prefix = "") {
   const json problem = document_of(answer);
@@ -70,7 +70,7 @@ int tell_problem(const Answer& answer, const RemoteService& service, const Strea
   return kOther;
 }
 
-/// The first line of a file; nothing when it can't be read or is empty, which `err` then says.
+/// Returns the first line of a file; nullopt after a message on `err` when it is unreadable or empty.
 std::optional<std::string> read_key(const std::string& path, const Streams& streams) {
   std::ifstream file(path);
   std::string line;
@@ -83,7 +83,7 @@ std::optional<std::string> read_key(const std::string& path, const Streams& stre
   return line;
 }
 
-/// The service that the options name; nothing when they are wrong, which `err` then says.
+/// Returns the service that the options name; nullopt after a message on `err` for invalid options.
 std::optional<RemoteService> open_service(const ServiceOptions& options, const Interruption& interruption,
                                           const Streams& streams) {
   const auto address = parse_service_address(options.url);
@@ -108,7 +108,7 @@ std::optional<RemoteService> open_service(const ServiceOptions& options, const I
       });
 }
 
-/// A text that nobody else sends: 128 random bits.
+/// Returns 128 random bits as 32 hexadecimal digits.
 std::string random_key() {
   std::random_device random;
   std::string key;
@@ -120,14 +120,14 @@ std::string random_key() {
   return key;
 }
 
-/// What is handed in, and where.
+/// A document to submit.
 struct Submission {
   std::string path;
   std::string body;
-  std::string prefix;  ///< of pointers into the document: that of the envelope which was put around it
+  std::string prefix;  ///< pointer to the document in its envelope; "": no envelope
 };
 
-/// Puts the document into an envelope when it is to have a label. Nothing when it is wrong: see `status`.
+/// Puts the document into an envelope if it gets a label; nullopt and an exit status in `status` if invalid.
 std::optional<Submission> prepare(const std::string& text, const std::string& label, const Streams& streams,
                                   int& status) {
   const api::ParsedText parsed = api::parse_json(text);
@@ -156,20 +156,20 @@ std::optional<Submission> prepare(const std::string& text, const std::string& la
   return submission;
 }
 
-/// Where the resource of an id is, and its status.
+/// Path and status document of a job or sweep.
 struct Found {
-  std::string path;  ///< "/v1/jobs/ID" or "/v1/sweeps/ID"
+  std::string path;  ///< path "/v1/jobs/ID" or "/v1/sweeps/ID"
   json status;
   bool is_sweep = false;
 };
 
-/// Whether it is a text that ids are made of, so that it can stand in an address.
+/// Returns whether a text has the characters of ids, so that it can be part of a path.
 bool is_id(const std::string& text) {
   return !text.empty() && text.size() <= 64 &&
          text.find_first_not_of("0123456789abcdefABCDEF-") == std::string::npos;
 }
 
-/// The job or sweep of that id; nothing when there is none or the service can't say, which `err` then tells.
+/// Returns the job or sweep with an id; nullopt after a message on `err`.
 std::optional<Found> find(const std::string& id, RemoteService& service, const Streams& streams) {
   if (!is_id(id)) {
     streams.err << "snapthrough: " << id << " is no id: submit writes one, hexadecimal digits with dashes\n";
@@ -196,7 +196,7 @@ bool has_ended(const json& status) {
   return word != "accepted" && word != "running";
 }
 
-/// Says why it is not successful. @pre it has ended
+/// Reports on `err` why a job or sweep was not successful; returns the exit status. @pre it has ended
 int tell_end(const Found& found, const Streams& streams) {
   const std::string word = found.status.value("status", "");
   if (word == "successful") {
@@ -216,7 +216,7 @@ int tell_end(const Found& found, const Streams& streams) {
   return kNotCompleted;
 }
 
-/// Seconds that the next request may wait for the end; 0: the time is over.
+/// Returns how many seconds the next request may wait; 0 after the timeout.
 int next_wait_s(const WaitOptions& options, Clock::time_point start) {
   const int longest = options.show_progress ? kShownWait_s : kPatientWait_s;
   if (!options.timeout_s) {
@@ -226,7 +226,7 @@ int next_wait_s(const WaitOptions& options, Clock::time_point start) {
   return left <= 0.0 ? 0 : static_cast<int>(std::ceil(std::min(left, static_cast<double>(longest))));
 }
 
-/// Asks until it has ended or the time is over. @return why it could not be asked, or kDone
+/// Polls until the job or sweep ends or the timeout is over. @return kDone, or the status of a failed request
 int follow(Found& found, RemoteService& service, const WaitOptions& options, const Streams& streams) {
   const Clock::time_point start = Clock::now();
   while (!has_ended(found.status)) {
@@ -249,7 +249,7 @@ int follow(Found& found, RemoteService& service, const WaitOptions& options, con
   return kDone;
 }
 
-/// Where a result or a table goes: `out`, or a file that gets its name when everything is in it.
+/// Destination of a result or table: `out`, or a file that is renamed from a temporary one when complete.
 class Output {
  public:
   Output(std::string path, std::ostream& out) : path_(std::move(path)), out_(out) {
@@ -270,7 +270,7 @@ class Output {
   Output& operator=(Output&&) = delete;
 
   void write(std::string_view text) { (path_.empty() ? out_ : file_) << text; }
-  /// To be called when everything was written. @return whether it is there
+  /// Completes the output. Call it after the last write(). @return whether all was written
   [[nodiscard]] bool keep() {
     std::ostream& stream = path_.empty() ? out_ : file_;
     stream << std::flush;
@@ -293,7 +293,7 @@ class Output {
   bool kept_ = false;
 };
 
-/// Writes a text to where it is wanted; `status` unless that fails.
+/// Writes a text to its destination. @return `status`, or kOther when writing fails
 int write_whole(std::string_view text, const FetchOptions& options, const Streams& streams, int status) {
   Output output(options.output, streams.out);
   output.write(text);
@@ -305,14 +305,14 @@ int write_whole(std::string_view text, const FetchOptions& options, const Stream
   return status;
 }
 
-/// As solve_command() tells them.
+/// Prints warnings as solve_command() does.
 void print_warnings(const json& result, const Streams& streams) {
   for (const json& warning : result.value("warnings", json::array())) {
     streams.err << "Warning: " << warning.value("detail", "") << " [" << warning.value("code", "") << "]\n";
   }
 }
 
-/// Of a job that failed: what it reached.
+/// Writes the result that a failed job reached.
 int fetch_reached(const Found& found, const Answer& answer, const FetchOptions& options,
                   const Streams& streams) {
   const json reached = document_of(answer).value("reached", json());
@@ -347,7 +347,7 @@ int fetch_result(const Found& found, RemoteService& service, const FetchOptions&
                              : tell_problem(table, service, streams);
 }
 
-/// Puts the rows of the next part of a table behind those that are there.
+/// Appends the rows of a part of a table to the table.
 void append_part(const std::string& format, const std::string& part, std::string& table, json& document) {
   if (format == "json") {
     json next = json::parse(part);
@@ -393,7 +393,7 @@ int fetch_table(Found found, RemoteService& service, const FetchOptions& options
   if (!document.is_null()) {
     table = document.dump() + "\n";
   }
-  // It may have ended since it was asked for.
+  // The sweep may have ended in the meantime.
   if (const Answer now = service.get(found.path); now.status == 200) {
     found.status = document_of(now);
   }

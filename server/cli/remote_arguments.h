@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The arguments of submit, wait and fetch.
+/// Command-line arguments of submit, wait and fetch.
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -11,23 +11,23 @@
 
 namespace snapthrough::server::cli {
 
-/// Where the service is, for those who do not want to write --service each time.
+/// Environment variable that stands for --service.
 inline constexpr const char* kServiceVariable = "SNAPTHROUGH_SERVICE";
-/// Names the file with the key.
+/// Environment variable that stands for --key-file.
 inline constexpr const char* kKeyFileVariable = "SNAPTHROUGH_KEY_FILE";
 
-/// Whether a variable of the environment is of these commands, and no setting of the service.
+/// Returns whether a variable belongs to these commands and is no setting of the service.
 [[nodiscard]] bool is_remote_variable(std::string_view name);
 
-/// What the arguments set.
+/// Values of the arguments of submit, wait and fetch.
 struct RemoteArguments {
   ServiceOptions service;
   SubmitOptions submit;
   WaitOptions wait;
   FetchOptions fetch;
-  std::string document;  ///< path
+  std::string document;  ///< path of the document
   std::string id;
-  std::function<int(const Streams&)> action;  ///< of the command that was given; empty: none of these
+  std::function<int(const Streams&)> action;  ///< action of the given command; empty: another command
 };
 
 /// Adds submit, wait and fetch. @pre the arguments outlive the app

@@ -17,7 +17,7 @@ using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
 
 constexpr seconds kToConnect{5};
-// Longer than the service lets a client wait for the end of a job (longest_wait_s is 60 at most).
+// Exceeds the longest time that a service delays an answer until a job ends (longest_wait_s <= 60).
 constexpr seconds kToAnswer{90};
 constexpr seconds kLongestPause{10};
 constexpr std::chrono::milliseconds kBetweenCuts{20};
@@ -28,7 +28,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// The pause that an answer asks for, or nothing.
+/// Returns the pause in Retry-After; nullopt without a valid one.
 std::optional<seconds> asked_pause(const Answer& answer) {
   const std::string text = answer.header("retry-after");
   int count = 0;
@@ -39,9 +39,9 @@ std::optional<seconds> asked_pause(const Answer& answer) {
   return seconds(count);
 }
 
-/// @brief While it exists, a stop ends what the client is doing.
+/// @brief During its lifetime, a requested stop ends the client's request.
 ///
-/// The client is told again and again: it does not listen before its connection is there.
+/// The client is stopped repeatedly, because it ignores a stop before its connection is open.
 class Cutter {
  public:
   Cutter(httplib::Client& client, const std::stop_token& stop)

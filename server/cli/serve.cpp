@@ -12,7 +12,7 @@
 namespace snapthrough::server::cli {
 namespace {
 
-/// Holds SIGTERM, SIGINT and SIGHUP back from every thread made after it, so that one place waits for them.
+/// Blocks SIGTERM, SIGINT and SIGHUP in all threads started later, so that wait() alone receives them.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -29,13 +29,13 @@ class HeldSignals {
   HeldSignals(HeldSignals&&) = delete;
   HeldSignals& operator=(HeldSignals&&) = delete;
 
-  /// The next signal that comes.
+  /// Waits for the next signal and returns it.
   [[nodiscard]] int wait() const {
     int signal = 0;
     sigwait(&signals_, &signal);
     return signal;
   }
-  /// From now on SIGTERM and SIGINT end the process at once, and SIGHUP does nothing.
+  /// Unblocks the signals: SIGTERM and SIGINT end the process at once, SIGHUP is ignored.
   void release() const {
     std::signal(SIGHUP, SIG_IGN);
     pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
@@ -45,15 +45,15 @@ class HeldSignals {
   sigset_t signals_{};
 };
 
-/// Large blocks go back to the system when they are freed, and threads share arenas: one wide document shall
-/// not leave the process larger for ever.
+/// Makes malloc return large freed blocks to the system and share arenas, so that memory of a large document
+/// is not kept.
 void keep_heap_small() {
   ::mallopt(M_MMAP_THRESHOLD, 1 << 20);
   ::mallopt(M_TRIM_THRESHOLD, 2 << 20);
   ::mallopt(M_ARENA_MAX, 4);
 }
 
-/// The configuration as it is used; keys are counted, not shown.
+/// Logs all settings; keys appear only as their number.
 void log_config(Log& log, const ServiceConfig& config) {
   for (const Setting& setting : settings()) {
     const std::string value = setting.get(config);
@@ -62,7 +62,7 @@ void log_config(Log& log, const ServiceConfig& config) {
   }
 }
 
-/// Reads the sources again and uses their keys; when something is wrong, all stays as it is.
+/// Reads the configuration again and replaces the keys; on an error all keys stay.
 void reload_keys(const SettingSources& sources, const ServiceConfig& running, Service& service, Log& log) {
   auto [config, mistakes] = load_config(sources, running.front);
   const std::size_t count = config.keys.size();
@@ -114,7 +114,7 @@ int serve_command(const SettingSources& sources, bool front, const Streams& stre
     reload_keys(sources, config, service, log);
     signal = signals.wait();
   }
-  signals.release();  // who signals twice does not want to wait
+  signals.release();  // a second signal ends the process
   log.write(LogLevel::info, "stopping", {{"signal", static_cast<std::int64_t>(signal)}});
   service.stop();
   return kDone;

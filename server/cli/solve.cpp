@@ -16,7 +16,7 @@
 namespace snapthrough::server::cli {
 namespace {
 
-/// The request in a file, or the exit status with what is wrong already said.
+/// A valid request, or an exit status after the findings were printed.
 struct Read {
   std::optional<api::Request> request;
   int exit_status = kDone;
@@ -49,8 +49,8 @@ Result solve_watched(const api::Request& request, const Streams& streams, const 
   return result;
 }
 
-/// What a table of the result is to be made of: empty when its document is wanted, nothing when results of
-/// this analysis have no such table, which is said then.
+/// Returns the table to write; an inner nullopt for the result document, an outer one after a message on
+/// `err` that results of this analysis lack the table.
 std::optional<std::optional<api::ResultTable>> chosen_table(const api::Request& request,
                                                             const SolveOptions& options,
                                                             const Streams& streams) {
@@ -82,8 +82,8 @@ void write(const api::Request& request, const Result& result, double seconds,
   out << std::flush;
 }
 
-/// Says on the error stream what the reader of the result must know: a table does not hold it, and a document
-/// is long.
+/// Prints warnings on the error stream: a table does not contain them, and in a long document they are easily
+/// missed.
 void print_warnings(const Result& result, const Streams& streams) {
   for (const Warning& warning : result.warnings) {
     streams.err << "Warning: " << warning.detail << " [" << warning.code << "]\n";
@@ -105,8 +105,7 @@ int solve_command(const std::string& path, const Streams& streams, const SolveOp
   const auto start = std::chrono::steady_clock::now();
   const Result result = solve_watched(*read_request.request, streams, interruption, options.show_progress);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  // After a failure the output holds what was reached; the exit status and the error stream say that it
-  // failed.
+  // After a failure the output holds the computed part; exit status and error stream report the failure.
   write(*read_request.request, result, elapsed.count(), *table, streams.out);
   if (!streams.out) {
     streams.err << "snapthrough: cannot write the result\n";

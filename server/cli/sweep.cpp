@@ -27,18 +27,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Rows wait here until those before them are written; workers further ahead than this wait, so that memory
-/// does not grow with the sweep.
+/// Largest number of points by which a worker may be ahead of the last written row. Rows wait in memory until
+/// those before them are written; the limit bounds that memory.
 constexpr std::uint64_t kLongestLead = 4096;
 constexpr std::chrono::milliseconds kBetweenBars{100};
 
-/// Of the rows that are there.
+/// Counts of rows.
 struct RowCounts {
   std::uint64_t written = 0;
   std::uint64_t failed = 0;
 };
 
-/// Where rows go, in the order of their points: a table, or a part file.
+/// Destination of rows in the order of points: a table or a part file.
 class RowSink {
  public:
   RowSink() = default;
@@ -50,7 +50,7 @@ class RowSink {
 
   virtual void append_row(std::uint64_t point, const api::PointOutcome& outcome, std::string& text) = 0;
   virtual void write(const std::string& text) = 0;
-  /// No row may follow.
+  /// Ends the output. @pre no row follows
   virtual void end() = 0;
 };
 
@@ -90,12 +90,12 @@ class PartSink final : public RowSink {
   PartWriter& file_;
 };
 
-/// @brief Gives units out and puts the rows of their points in design order. Thread-safe.
+/// @brief Hands out units and writes the rows of their points in design order. Thread-safe.
 class RowQueue {
  public:
-  /// @param units those that are to be computed
-  /// @param bar where a bar is shown; null for none
-  /// @param stop no more units are given out then
+  /// @param units units to compute
+  /// @param bar stream of the progress bar; null: no bar
+  /// @param stop after a requested stop, next() returns nullopt
   RowQueue(const api::Sweep& sweep, UnitRange units, RowSink& sink, std::ostream* bar, std::stop_token stop)
       : sweep_(sweep),
         units_(units),
@@ -105,7 +105,7 @@ class RowQueue {
         given_(units.first),
         next_row_(units.first * sweep.unit_size()) {}
 
-  /// The number of a unit to compute; nothing when there are no more.
+  /// Returns the next unit to compute; nullopt when there is none left.
   std::optional<std::uint64_t> next() {
     std::unique_lock lock(mutex_);
     if (given_ == units_.end || failure_ || stop_.stop_requested()) {
@@ -118,7 +118,7 @@ class RowQueue {
     return has_room && !failure_ ? std::optional(unit) : std::nullopt;
   }
 
-  /// A point that was stopped leaves no row, and none is written after it.
+  /// Takes the outcome of a point. A cancelled point gets no row, so that no later row is written either.
   void put(std::uint64_t point, api::PointOutcome outcome) {
     if (stop_.stop_requested() && outcome.code == kCancelled) {
       return;
@@ -129,13 +129,13 @@ class RowQueue {
     try {
       write_whole_rows();
     } catch (...) {
-      failure_ = std::current_exception();  // for the thread that called, by finish()
+      failure_ = std::current_exception();  // finish() rethrows it
       room_.notify_all();
     }
     show_bar(false);
   }
 
-  /// To be called when all points were put that ever will be. @throws what the sink threw
+  /// Ends the output. Call it after the last put(). @throws the exception of the sink
   RowCounts finish() {
     const std::lock_guard guard(mutex_);
     if (failure_) {
@@ -180,17 +180,17 @@ class RowQueue {
   std::mutex mutex_;
   std::condition_variable_any room_;
   std::map<std::uint64_t, api::PointOutcome> waiting_;
-  std::uint64_t given_;         ///< unit
-  std::uint64_t next_row_;      ///< point of the row that is written next
-  std::exception_ptr failure_;  ///< of the sink
-  std::uint64_t done_ = 0;      ///< points
+  std::uint64_t given_;         ///< next unit to hand out
+  std::uint64_t next_row_;      ///< point of the next row
+  std::exception_ptr failure_;  ///< exception of the sink
+  std::uint64_t done_ = 0;      ///< number of computed points
   std::uint64_t failed_ = 0;
   const Clock::time_point start_ = Clock::now();
   Clock::time_point next_bar_ = start_;
 };
 
-/// Computes the units of a queue on so many threads. Each unit is computed alone, so that rows do not depend
-/// on how many threads share them.
+/// Computes the units of a queue on `threads` threads. Units are independent, so that rows do not depend on
+/// the number of threads.
 RowCounts compute_rows(const api::Sweep& sweep, RowQueue& queue, int threads, const std::stop_token& stop) {
   const SolveFunction solver = [](const Model& model, const Analysis& analysis, const Hooks& hooks) {
     return solve_checked(model, analysis, hooks);
@@ -215,7 +215,7 @@ RowCounts compute_rows(const api::Sweep& sweep, RowQueue& queue, int threads, co
   return queue.finish();
 }
 
-/// The request document of a point, to be solved alone.
+/// Writes the request document of one point.
 int write_point(const api::Sweep& sweep, std::uint64_t point, const Streams& streams) {
   if (point >= sweep.size()) {
     streams.err << "snapthrough: the points of this sweep are 0 to " << sweep.size() - 1 << ", not " << point
@@ -226,7 +226,7 @@ int write_point(const api::Sweep& sweep, std::uint64_t point, const Streams& str
   return kDone;
 }
 
-/// The rows of the whole sweep, as a table on the output.
+/// Solves the whole sweep and writes its table to the output.
 int write_table(const api::Sweep& sweep, const Streams& streams, const SweepOptions& options) {
   const Interruption interruption;
   TableSink sink(sweep, options.form, streams.out);
@@ -244,7 +244,7 @@ int write_table(const api::Sweep& sweep, const Streams& streams, const SweepOpti
   return told_failed(rows.failed, sweep.size(), streams);
 }
 
-/// The rows of a part of the sweep that its file has not yet.
+/// Solves the points of a part that its file lacks, and appends their rows.
 int write_part(const api::Sweep& sweep, const nlohmann::json& document, const Streams& streams,
                const SweepOptions& options) {
   const Interruption interruption;

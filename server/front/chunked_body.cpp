@@ -8,7 +8,7 @@ namespace snapthrough::server::http {
 namespace {
 
 constexpr std::string_view kLineEnd = "\r\n";
-constexpr std::size_t kMostDigits = 16;  // of a chunk's size: 64 bits
+constexpr std::size_t kMostDigits = 16;  // digits of a 64-bit chunk size
 
 }  // namespace
 
@@ -40,7 +40,7 @@ std::size_t ChunkedBody::take(std::string_view bytes) {
         break;
     }
     taken += now;
-    if (state_ == before) {  // what is left is not complete
+    if (state_ == before) {  // the rest of the bytes is incomplete
       break;
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A request body that comes in chunks (RFC 9112, 7.1): from its bytes to the body.
+/// Decoder of request bodies in chunks (RFC 9112, 7.1).
 
 #include <cstddef>
 #include <optional>
@@ -12,23 +12,23 @@
 
 namespace snapthrough::server::http {
 
-/// @brief Decodes the chunks of one body. Chunk extensions and trailers are refused: no client of the service
-/// needs them, and two parsers that read them differently see different requests. Not thread-safe.
+/// @brief Decodes the chunks of one body. Chunk extensions and trailers are refused: clients of the service
+/// do not use them, and request smuggling relies on parsers that read them differently. Not thread-safe.
 class ChunkedBody {
  public:
-  /// @param limit bytes that the decoded body may have
+  /// @param limit largest size of the decoded body in bytes
   explicit ChunkedBody(std::size_t limit) : limit_(limit) {}
 
-  /// @brief Decodes what has come, as far as it is complete.
-  /// @param bytes what follows the bytes that were taken before
-  /// @return how many of them were taken: the next call begins behind them
+  /// @brief Decodes the complete chunks in `bytes`.
+  /// @param bytes the bytes after those of the previous calls that were taken
+  /// @return number of bytes taken; the next call begins after them
   std::size_t take(std::string_view bytes);
 
   [[nodiscard]] bool complete() const { return state_ == State::complete; }
-  /// Why the body is refused; nothing must be taken after that.
+  /// Returns why the body is refused; take() must not be called afterwards.
   [[nodiscard]] const std::optional<Refusal>& refusal() const { return refusal_; }
   [[nodiscard]] std::size_t size() const { return body_.size(); }
-  /// The decoded body; it is no longer here afterwards.
+  /// Moves the decoded body out of the decoder.
   [[nodiscard]] std::string release() { return std::move(body_); }
 
  private:
@@ -41,7 +41,7 @@ class ChunkedBody {
 
   std::size_t limit_;
   State state_ = State::size;
-  std::size_t left_ = 0;  ///< bytes of the chunk that are still to come
+  std::size_t left_ = 0;  ///< missing bytes of the chunk
   std::string body_;
   std::optional<Refusal> refusal_;
 };

@@ -12,7 +12,7 @@ namespace {
 
 bool would_block() { return errno == EAGAIN || errno == EWOULDBLOCK; }
 
-/// A client that leaves so much waiting does not follow any more.
+/// Largest number of waiting bytes; a client that reads more slowly is disconnected.
 constexpr std::size_t kMostWaiting = 256 * 1024;
 
 }  // namespace
@@ -51,7 +51,7 @@ std::size_t Client::held_bytes() const {
 }
 
 Client::Read Client::receive() {
-  std::array<char, 16 * 1024> chunk;  // not cleared: it costs as much as the rest
+  std::array<char, 16 * 1024> chunk;  // uninitialised: clearing costs as much as the rest
   ssize_t count = 0;
   do {
     count = ::recv(socket, chunk.data(), chunk.size(), MSG_DONTWAIT);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// One client's connection, as the listener keeps it.
+/// State of one client's connection to the listener.
 
 #include <atomic>
 #include <chrono>
@@ -18,27 +18,27 @@ namespace snapthrough::server::http {
 
 /// What a connection waits for.
 enum class Phase {
-  idle,       ///< the first byte of a request
-  head,       ///< the rest of a head
-  body,       ///< the rest of a body
-  in_row,     ///< its turn to be worked on
-  deferred,   ///< what its response depends on
-  sending,    ///< the client, to take the response
+  idle,       ///< first byte of a request
+  head,       ///< rest of a head
+  body,       ///< rest of a body
+  in_row,     ///< its turn to compute the response
+  deferred,   ///< the event that completes a deferred response
+  sending,    ///< the client, to receive the response
   streaming,  ///< events to send
-  lingering,  ///< the client, to read a refusal and go
+  lingering,  ///< the client, to read the refusal and close
   closed
 };
 
-/// What a stream's source wants sent. Thread-safe.
+/// Pieces of a stream that wait to be sent. Thread-safe.
 class Outbox {
  public:
-  /// False when the client is gone, or so slow that too much waits already.
+  /// Adds a piece. Returns false when the client is gone or so slow that too much waits.
   bool put(std::string piece, bool last);
-  /// Takes what waits; `last` becomes true when nothing follows it.
+  /// Returns the waiting pieces; sets `last` when no piece follows.
   std::string take(bool& last);
-  /// Nothing more can be sent.
+  /// Rejects all further pieces.
   void close();
-  /// Whether that is so, because it was closed or too much was put.
+  /// Returns whether the outbox is closed, by close() or because too much was waiting.
   [[nodiscard]] bool closed();
 
  private:
@@ -48,7 +48,7 @@ class Outbox {
   bool closed_ = false;
 };
 
-/// @brief A connection. Whoever holds `mutex` may use it; nothing here locks.
+/// @brief A connection. A caller must hold `mutex`; the functions do not lock.
 struct Client {
   using Clock = std::chrono::steady_clock;
 
@@ -60,19 +60,19 @@ struct Client {
   Client(Client&&) = delete;
   Client& operator=(Client&&) = delete;
 
-  enum class Read { more, drained, nothing_now, ended };  ///< drained: something, and nothing is left
-  /// Appends what the socket has, at most one piece.
+  enum class Read { more, drained, nothing_now, ended };  ///< drained: bytes were read, none are left
+  /// Appends bytes of the socket to the reader, at most 16 KiB.
   Read receive();
   enum class Sent { all, some, failed };
-  /// Sends of `output` what the socket takes now.
+  /// Sends as much of `output` as the socket accepts.
   Sent flush();
-  /// Ends the sending side, so that a client that still sends reads the response instead of an aborted
-  /// connection.
+  /// Shuts the sending side down, so that a client that still sends can read the response before the
+  /// connection closes.
   void end_output() const;
-  /// Whether there was something to discard and more may come.
+  /// Reads and discards bytes. Returns `more` if any were read, `ended` at the end of the connection.
   [[nodiscard]] Read discard() const;
   void close();
-  /// What is in memory for this client, about.
+  /// Returns the approximate memory of the client in bytes.
   [[nodiscard]] std::size_t held_bytes() const;
 
   std::mutex mutex;
@@ -82,18 +82,18 @@ struct Client {
   Phase phase = Phase::idle;
   Clock::time_point deadline;
   RequestReader reader;
-  std::size_t counted = 0;  ///< of held_bytes(): what the listener has counted
+  std::size_t counted = 0;  ///< part of held_bytes() that the listener has counted
   std::string output;
   std::size_t output_sent = 0;
-  bool close_after = false;              ///< the response that is being sent is the last
-  bool linger_after = false;             ///< and the client may still be sending
-  bool head_only = false;                ///< the request was HEAD
-  bool chunked = false;                  ///< how a body with a rest is sent
-  std::shared_ptr<BodySource> rest;      ///< what follows `output`
-  std::function<Response()> work;        ///< makes the response, in its turn
-  std::size_t work_bytes = 0;            ///< that it keeps
+  bool close_after = false;              ///< close the connection after the response
+  bool linger_after = false;             ///< wait for the client before closing
+  bool head_only = false;                ///< the request was HEAD: send no body
+  bool chunked = false;                  ///< send a body with `rest` in chunks
+  std::shared_ptr<BodySource> rest;      ///< rest of the body after `output`
+  std::function<Response()> work;        ///< computes the response in its turn
+  std::size_t work_bytes = 0;            ///< memory in use by `work`
   std::uint64_t deferral = 0;            ///< counts deferred responses
-  std::shared_ptr<Outbox> outbox;        ///< of a stream
+  std::shared_ptr<Outbox> outbox;        ///< pieces of the stream that wait
   std::shared_ptr<StreamSource> source;  ///< fills the outbox
 };
 

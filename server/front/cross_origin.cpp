@@ -8,15 +8,15 @@
 namespace snapthrough::server::http {
 namespace {
 
-/// Headers of requests that a page may set, beside those it always may.
+/// Request headers that pages may set, in addition to those that browsers always allow.
 constexpr const char* kRequestHeaders =
     "Authorization, Cache-Control, Content-Type, Idempotency-Key, If-None-Match, Last-Event-ID, Prefer, "
     "X-Request-Id, traceparent";
-/// Headers of responses that a page may read, beside those it always may.
+/// Response headers that pages may read, in addition to those that browsers always allow.
 constexpr const char* kResponseHeaders =
     "Allow, Content-Location, ETag, Link, Location, Preference-Applied, Retry-After, WWW-Authenticate, "
     "X-Cache, X-Complete, X-Request-Id";
-/// Browsers keep the answer so long, in seconds (Chromium two hours at most).
+/// Seconds for which browsers may cache a preflight response (Chromium: two hours at most).
 constexpr const char* kMaxAge = "7200";
 
 bool is_scheme_port(std::string_view scheme, int port) {
@@ -65,7 +65,7 @@ void CrossOrigin::mark(std::string_view origin, Response& response) const {
   if (allowed_.empty()) {
     return;
   }
-  response.headers.emplace_back("Vary", "Origin");  // also without one: a cache must not mix them up
+  response.headers.emplace_back("Vary", "Origin");  // for every response: caches must separate origins
   if (allows(origin)) {
     response.headers.emplace_back("Access-Control-Allow-Origin", origin);
     response.headers.emplace_back("Access-Control-Expose-Headers", kResponseHeaders);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Pages of other origins that may use the service (CORS, https://fetch.spec.whatwg.org/#http-cors-protocol).
+/// Use of the service by pages of other origins (CORS, https://fetch.spec.whatwg.org/#http-cors-protocol).
 
 #include <string>
 #include <string_view>
@@ -10,23 +10,23 @@
 
 namespace snapthrough::server::http {
 
-/// Whether a text is an origin as browsers send it: scheme "http" or "https", host in lower case, port if it
-/// is not the scheme's own; nothing after it. "*" and "null" are none.
+/// Returns whether a text is an origin as browsers send it: scheme http or https, host in lower case, port
+/// unless it is the scheme's default, nothing more. "*" and "null" are not origins.
 [[nodiscard]] bool is_origin(std::string_view text);
 
-/// @brief The origins that are allowed, and what browsers have to be told for them. Thread-safe.
+/// @brief The allowed origins and their response headers. Thread-safe.
 class CrossOrigin {
  public:
-  /// @param allowed each is_origin()
+  /// @param allowed texts for which is_origin() is true
   explicit CrossOrigin(std::vector<std::string> allowed = {}) : allowed_(std::move(allowed)) {}
 
   [[nodiscard]] bool allows(std::string_view origin) const;
-  /// Whether a browser asks if a page of an allowed origin may send a request. It sends no key with that.
+  /// Returns whether a request is a preflight from an allowed origin. Browsers send preflights without a key.
   [[nodiscard]] bool is_preflight(const Request& request) const;
-  /// The response to a preflight. @param methods of the resource, as a list; not empty
+  /// Returns the response to a preflight. @param methods methods of the resource, as a list; not empty
   [[nodiscard]] static Response preflight(const std::string& methods);
-  /// Headers that let an allowed page read a response, errors included. @param origin of the page; may be
-  /// empty
+  /// Adds the headers that let an allowed page read a response, also an error. @param origin origin of the
+  /// page; may be empty
   void mark(std::string_view origin, Response& response) const;
 
  private:

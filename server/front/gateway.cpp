@@ -19,13 +19,13 @@ bool is_token(std::string_view text) {
   return !text.empty() && text.size() <= 128 && std::all_of(text.begin(), text.end(), allowed);
 }
 
-/// The trace of a W3C traceparent header ("00-<32 hexadecimal digits>-..."), else empty.
+/// Returns the trace id of a W3C traceparent header ("00-<32 hexadecimal digits>-..."), else "".
 std::string_view trace_of(const Request& request) {
   const std::string_view parent = request.header("traceparent").value_or("");
   return parent.size() >= 55 && parent[2] == '-' && parent[35] == '-' ? parent.substr(3, 32) : "";
 }
 
-/// The client's identifier when it is harmless, else that of its trace, else a new one.
+/// Returns the client's X-Request-Id if it is a token, else the trace id, else a new id.
 std::string request_id(const Request& request, const Environment& environment) {
   for (const std::string_view given : {request.header("X-Request-Id").value_or(""), trace_of(request)}) {
     if (is_token(given)) {
@@ -37,11 +37,11 @@ std::string request_id(const Request& request, const Environment& environment) {
 
 bool is_probe(std::string_view path) { return path == "/livez" || path == "/readyz"; }
 
-/// What tells how the process is.
+/// Returns whether a path reports the state of the process.
 bool is_state(std::string_view path) { return is_probe(path) || path == "/metrics"; }
 
-/// What tells nothing about anybody's jobs is answered without a key. Hops sends none when it asks for the
-/// description of a component.
+/// Returns whether a request needs no key, because its answer contains no jobs. Hops sends no key when it
+/// asks for the description of a component.
 bool is_public(const Request& request) {
   const std::string_view path = request.path;
   const bool reads = request.method == "GET" || request.method == "HEAD";
@@ -70,8 +70,8 @@ const char* problem_kind(int status) {
   }
 }
 
-/// A page of another site that reaches this machine by a name that its owner points here (DNS rebinding), or
-/// sends a request from where it was loaded.
+/// Returns whether a request comes from a foreign page: the Host header is not local (DNS rebinding), or the
+/// Origin is neither the service's own nor allowed.
 bool comes_from_elsewhere(const Request& request, const CrossOrigin& allowed) {
   const std::string_view host = request.header("Host").value_or("localhost");
   const std::string_view name = without_brackets(Authority::of(host).host);
@@ -82,7 +82,7 @@ bool comes_from_elsewhere(const Request& request, const CrossOrigin& allowed) {
   return origin && *origin != "http://" + std::string(host) && !allowed.allows(*origin);
 }
 
-/// A body whose failures are logged, exceptions too.
+/// A body source that logs failures and turns exceptions into failures.
 class GuardedSource final : public BodySource {
  public:
   GuardedSource(std::shared_ptr<BodySource> source, Log& log, std::string request_id)
@@ -192,7 +192,7 @@ Response Gateway::finish(const std::shared_ptr<Request>& request, Response respo
     complete(*request, response, start);
     return response;
   }
-  std::string().swap(request->body);  // it was read
+  std::string().swap(request->body);  // the body was read
   response.deferred->resume = [this, request, start, route = response.route,
                                resume = std::move(response.deferred->resume)] {
     Response late = guarded(*request, resume);

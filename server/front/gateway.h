@@ -1,7 +1,6 @@
 #pragma once
 /// @file
-/// What every request gets whatever it asks for: an identifier, an owner, a Date, one log line, its place in
-/// the metrics.
+/// Common handling of all requests: identifier, owner, Date, log line, metrics.
 
 #include "server/environment.h"
 #include "server/front/cross_origin.h"
@@ -15,10 +14,10 @@
 
 namespace snapthrough::server::http {
 
-/// What is answered: everything, or only how the process is (/livez, /readyz, /metrics).
+/// Answered requests: all, or only those for the state of the process (/livez, /readyz, /metrics).
 enum class Answers { all, state };
 
-/// @brief Serves requests through the routes. Thread-safe; the parts it is given must outlive it.
+/// @brief Serves requests through the routes. Thread-safe; the constructor's arguments must outlive it.
 class Gateway {
  public:
   Gateway(Routes& routes, const Environment& environment, Log& log, const KeyRing& keys,
@@ -31,17 +30,17 @@ class Gateway {
         cross_origin_(std::move(cross_origin)),
         answers_(answers) {}
 
-  /// Never throws for a request: what a resource throws is logged and becomes status 500 without particulars.
-  /// A deferred response comes back deferred; what its `resume` gives is complete and was logged.
+  /// Answers a request. Never throws: an exception of a resource is logged and becomes status 500 without
+  /// details. A deferred response is returned deferred; its `resume` returns a complete, logged response.
   [[nodiscard]] Response serve(Request request);
-  /// Whether serve() answers such a request from memory, in microseconds: what tells whether the service
-  /// lives.
+  /// Returns whether serve() answers a request from memory within microseconds: /livez and /readyz, which
+  /// health checks use.
   [[nodiscard]] static bool answers_at_once(const Request& request);
-  /// The response to a request that was refused from its bytes; what is known of it is in `head`.
+  /// Returns the response to a request that was refused while its bytes were read; `head` has what was read.
   [[nodiscard]] Response refuse(const Head& head, const std::string& remote);
 
  private:
-  /// The response that a request gets before any resource is asked, if it does.
+  /// Returns a response that needs no resource, such as a refusal or a preflight; nullopt for other requests.
   [[nodiscard]] std::optional<Response> without_resource(const Request& request, bool known) const;
   Response guarded(const Request& request, const std::function<Response()>& work) const;
   Response finish(const std::shared_ptr<Request>& request, Response response, double start);

@@ -13,8 +13,8 @@ void KeyRing::replace(std::vector<ApiKey> keys) {
 
 namespace {
 
-/// The key that came with a request. Hops (Grasshopper) can send none as a bearer key, but has a header of
-/// its own, which counts where there is no Authorization.
+/// Returns the key of a request. Hops (Grasshopper) cannot send bearer keys; its own header is read when
+/// there is no Authorization.
 std::optional<std::string_view> key_of(const Request& request) {
   const std::optional<std::string_view> value = request.header("Authorization");
   if (!value) {
@@ -40,7 +40,7 @@ std::optional<std::string> KeyRing::owner(const Request& request) const {
   const std::string digest = sha256_hex(trimmed(*given));
   std::optional<std::string> owner;
   const std::shared_lock guard(mutex_);
-  for (const ApiKey& key : keys_) {  // all of them, so that the time does not tell which
+  for (const ApiKey& key : keys_) {  // compares all keys, so that the time reveals nothing
     if (equal_in_constant_time(key.sha256, digest)) {
       owner = key.owner;
     }

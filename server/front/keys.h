@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Who may use the service.
+/// Keys that give access to the service.
 
 #include <optional>
 #include <shared_mutex>
@@ -12,23 +12,23 @@
 
 namespace snapthrough::server::http {
 
-/// A bearer key as it is configured: its digest, never the key.
+/// A configured bearer key, stored as its digest.
 struct ApiKey {
-  std::string owner;   ///< name of whom it was given to; jobs belong to it
-  std::string sha256;  ///< of the key, 64 lower-case hexadecimal digits
+  std::string owner;   ///< owner of the key and of the jobs submitted with it
+  std::string sha256;  ///< digest of the key, 64 lower-case hexadecimal digits
 };
 
-/// @brief The keys that are accepted. Thread-safe.
+/// @brief The accepted keys. Thread-safe.
 class KeyRing {
  public:
   explicit KeyRing(std::vector<ApiKey> keys = {}) : open_(keys.empty()), keys_(std::move(keys)) {}
 
-  /// Without keys everybody may do everything, and jobs have no owner. Does not change.
+  /// Returns whether the service has no keys: everybody has access, and jobs have no owner. Constant.
   [[nodiscard]] bool open() const { return open_; }
-  /// These are accepted from now on, and no others. @pre they are empty exactly when open()
+  /// Replaces the accepted keys. @pre keys.empty() == open()
   void replace(std::vector<ApiKey> keys);
-  /// The owner of the key that came with the request (Authorization: Bearer, else RhinoComputeKey); nothing
-  /// when it has none that is known.
+  /// Returns the owner of the request's key (Authorization: Bearer, else RhinoComputeKey); nullopt without a
+  /// known key.
   [[nodiscard]] std::optional<std::string> owner(const Request& request) const;
 
  private:

@@ -29,16 +29,16 @@ namespace {
 using Clock = Client::Clock;
 using ClientPointer = std::shared_ptr<Client>;
 
-constexpr std::uint64_t kWakes = 0;  ///< epoll names: clients are numbered from kFirstClient
+constexpr std::uint64_t kWakes = 0;  ///< epoll data; clients are numbered from kFirstClient
 constexpr std::uint64_t kEnd = 1;
 constexpr std::uint64_t kFirstClient = 2;
-/// Steps of one connection before others get their turn.
+/// Steps of one connection before other connections continue.
 constexpr int kFairSteps = 64;
 constexpr std::chrono::milliseconds kSweep{100};
 constexpr std::chrono::milliseconds kLinger{500};
-/// Threads beside those that work on requests: what is answered at once does not wait for them.
+/// Threads in addition to those that compute responses, so that immediate answers do not wait for them.
 constexpr int kAttending = 2;
-/// A response that is smaller is always sent.
+/// Responses below this size in bytes are always sent.
 constexpr std::size_t kSmallResponse = 64 * 1024;
 constexpr std::string_view kTooMany =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 5\r\nContent-Type: application/problem+json\r\n"
@@ -46,11 +46,11 @@ constexpr std::string_view kTooMany =
     R"({"type":"urn:snapthrough:problem:too-many-connections","title":"Too many connections","status":503,)"
     R"("detail":"As many connections are open as are taken."})";
 
-/// Something happened to a connection; a deferred response that was meant may be gone meanwhile.
+/// An event of a connection; its deferred response may have been dropped in the meantime.
 struct Wake {
   std::uint64_t client = 0;
   std::uint64_t deferral = 0;
-  bool has_turn = false;  ///< to work, which it must pass on
+  bool has_turn = false;  ///< the client got a turn to work and must pass it on
 };
 
 }  // namespace
@@ -114,7 +114,7 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
 
   const ListenerOptions options_;
   Gateway& gateway_;
-  Turns turns_;  ///< to work on a request
+  Turns turns_;  ///< turns to compute responses
   Descriptor epoll_;
   Descriptor listening_;
   PollBell wakes_ready_{true};
@@ -187,7 +187,7 @@ void Listener::Server::work() {
   }
 }
 
-/// Accepts, and ends what takes too long; after a stop until nobody is left or the time for it is over.
+/// Accepts connections and closes late ones; after a stop, continues until all are closed or `drain` is over.
 void Listener::Server::keep() {
   Clock::time_point next_sweep = Clock::now() + kSweep;
   while (!stopping_) {
@@ -220,13 +220,13 @@ void Listener::Server::accept_all() {
     }
     const std::uint64_t id = next_id_++;
     auto client = std::make_shared<Client>(socket, id, remote, options_.limits);
-    owned.release();  // the client closes it
+    owned.release();  // the Client closes the socket
     client->deadline = Clock::now() + options_.times.idle;
     clients_.emplace(id, client);
     watch(socket, id, EPOLLIN | EPOLLONESHOT, EPOLL_CTL_ADD);
   }
   if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) {
-    std::this_thread::sleep_for(kSweep);  // poll() would come back at once
+    std::this_thread::sleep_for(kSweep);  // without it poll() returns at once
   }
 }
 
@@ -242,7 +242,7 @@ void Listener::Server::sweep() {
   const Clock::time_point now = Clock::now();
   for (const ClientPointer& client : all) {
     const std::unique_lock lock(client->mutex, std::try_to_lock);
-    if (lock.owns_lock()) {  // else it is being worked on, and nobody is late
+    if (lock.owns_lock()) {  // else a thread uses the client, which is not late
       sweep_one(client, now);
     }
   }
@@ -291,13 +291,13 @@ void Listener::Server::attend(const ClientPointer& client, std::uint32_t events)
       return rearm(*client, EPOLLIN);
     case Phase::in_row:
     case Phase::deferred:
-      return drop(*client);  // they are watched for their end only
+      return drop(*client);  // these phases watch for the end only
     case Phase::closed:
       return;
   }
 }
 
-/// Serves the requests that are there, then waits for more.
+/// Serves the requests that have arrived, then waits for more.
 void Listener::Server::read_and_serve(const ClientPointer& client) {
   bool drained = false;
   for (int step = 0; step < kFairSteps; ++step) {
@@ -328,10 +328,10 @@ void Listener::Server::read_and_serve(const ClientPointer& client) {
     }
     drained = read == Client::Read::drained;
   }
-  rearm(*client, EPOLLIN | EPOLLOUT);  // comes back at once, behind the others
+  rearm(*client, EPOLLIN | EPOLLOUT);  // fires at once, after others
 }
 
-/// False when the service has no room for what is still to come.
+/// Records an incomplete request. Returns false when there is no memory left for its body.
 bool Listener::Server::note_incomplete(Client& client, const Received& received) {
   account(client);
   const Clock::time_point now = Clock::now();
@@ -365,8 +365,8 @@ bool Listener::Server::answer(const ClientPointer& client, Received received) {
       client, [this, kept] { return gateway_.serve(std::move(*kept)); }, size);
 }
 
-/// Does what a response needs, now or when it has its turn.
-/// @param bytes that the work keeps
+/// Computes a response, at once or in the client's turn. Returns whether the client can send the next one.
+/// @param bytes memory in use by `work`
 bool Listener::Server::in_turn(const ClientPointer& client, std::function<Response()> work,
                                std::size_t bytes) {
   client->work = std::move(work);
@@ -381,7 +381,7 @@ bool Listener::Server::in_turn(const ClientPointer& client, std::function<Respon
   return false;
 }
 
-/// Works, in its turn. True as of deliver().
+/// Computes the response in the client's turn. Returns the value of deliver().
 bool Listener::Server::work_on(const ClientPointer& client) {
   Response response = std::exchange(client->work, nullptr)();
   pass_turn();
@@ -390,7 +390,7 @@ bool Listener::Server::work_on(const ClientPointer& client) {
   return deliver(client, std::move(response));
 }
 
-/// To the next in the row that is still there.
+/// Passes the turn to the next waiting client that is still connected.
 void Listener::Server::pass_turn() {
   std::optional<std::uint64_t> next = turns_.pass();
   while (next && !find(*next)) {
@@ -401,7 +401,7 @@ void Listener::Server::pass_turn() {
   }
 }
 
-/// Answers and ends the connection: what follows on it can't be trusted.
+/// Sends a refusal and closes the connection: bytes after an invalid request have no defined meaning.
 bool Listener::Server::refuse(const ClientPointer& client, const Head& head, bool linger) {
   Head refused = head;
   if (!refused.refusal) {
@@ -413,7 +413,7 @@ bool Listener::Server::refuse(const ClientPointer& client, const Head& head, boo
   return deliver(client, gateway_.refuse(refused, client->remote));
 }
 
-/// True when the response was sent and the connection is ready for another request.
+/// Sends a response. Returns true when it was sent and the connection is ready for another request.
 bool Listener::Server::deliver(const ClientPointer& client, Response response) {
   client->close_after = client->close_after || stopping_;
   if (response.deferred) {
@@ -425,9 +425,9 @@ bool Listener::Server::deliver(const ClientPointer& client, Response response) {
   return begin_body(client, response);
 }
 
-/// Sends a response, unless it is large and too much is being sent already.
+/// Sends a response, or refuses a large one when too many bytes are being sent.
 bool Listener::Server::begin_body(const ClientPointer& client, const Response& response) {
-  const std::size_t waiting = client->output.size();  // a 100 Continue
+  const std::size_t waiting = client->output.size();  // size of a "100 Continue"
   client->close_after = client->close_after || (response.rest && !client->chunked);
   client->output += to_bytes(response, client->head_only, !client->close_after, client->chunked);
   client->rest = client->head_only ? nullptr : response.rest;
@@ -479,7 +479,7 @@ bool Listener::Server::begin_stream(const ClientPointer& client, const Response&
   return false;
 }
 
-/// Sends what a stream has, as far as the client takes it.
+/// Sends the pieces of a stream as far as the client accepts them.
 void Listener::Server::pump(const ClientPointer& client) {
   if (client->source) {
     client->source->poll();
@@ -503,7 +503,7 @@ void Listener::Server::pump(const ClientPointer& client) {
   rearm(*client, EPOLLRDHUP | (sent == Client::Sent::some ? EPOLLOUT : 0U));
 }
 
-/// True when the response was sent and the connection is ready for another request.
+/// Continues to send. Returns true when the response was sent and the connection is ready for a request.
 bool Listener::Server::send_on(const ClientPointer& client) {
   for (int piece = 0; piece < kFairSteps; ++piece) {
     const std::size_t before = client->output_sent;
@@ -513,18 +513,18 @@ bool Listener::Server::send_on(const ClientPointer& client) {
       drop(*client);
       return false;
     }
-    if (sent == Client::Sent::some) {  // the client has its time anew when it took something
+    if (sent == Client::Sent::some) {  // the deadline restarts when the client took bytes
       const bool first = client->phase != Phase::sending || piece > 0 || client->output_sent > before;
       return wait_to_send(client, EPOLLOUT, first ? Clock::now() + options_.times.send : client->deadline);
     }
     if (!client->rest) {
       return after_response(client);
     }
-    // room for a piece is taken before it is made, so that not all find the same room
+    // memory for a piece is reserved before it is made, so that threads do not all find the same free memory
     const bool has_room = buffered_.fetch_add(kPieceBytes) <= options_.limits.buffered_bytes;
     const bool whole = !has_room || append_piece(client);
     buffered_ -= kPieceBytes;
-    if (!has_room) {  // until others have read
+    if (!has_room) {  // waits until other clients have read
       return wait_to_send(client, 0, Clock::now() + kSweep);
     }
     if (!whole) {
@@ -532,7 +532,7 @@ bool Listener::Server::send_on(const ClientPointer& client) {
       return false;
     }
   }
-  return wait_to_send(client, EPOLLOUT, Clock::now() + options_.times.send);  // behind the others
+  return wait_to_send(client, EPOLLOUT, Clock::now() + options_.times.send);  // lets other clients continue
 }
 
 bool Listener::Server::wait_to_send(const ClientPointer& client, std::uint32_t events,
@@ -543,7 +543,7 @@ bool Listener::Server::wait_to_send(const ClientPointer& client, std::uint32_t e
   return false;
 }
 
-/// False when the body can't be completed.
+/// Appends a piece of the body. Returns false when the body cannot be completed.
 bool Listener::Server::append_piece(const ClientPointer& client) {
   std::string piece;
   const StatusOr<bool> more = client->rest->append_next(piece);
@@ -607,7 +607,7 @@ void Listener::Server::woken(const Wake& wake) {
   }
   const std::lock_guard guard(client->mutex);
   if (wake.has_turn) {
-    if (client->phase != Phase::in_row) {  // it left meanwhile
+    if (client->phase != Phase::in_row) {  // the client left in the meantime
       return pass_turn();
     }
     if (work_on(client)) {
@@ -630,7 +630,7 @@ void Listener::Server::woken(const Wake& wake) {
   }
 }
 
-/// Counts what is in memory for a client; the sum of all of them without what this call added.
+/// Updates the counted memory of a client. Returns the sum of all clients before this update.
 std::size_t Listener::Server::account(Client& client) {
   const std::size_t held = client.held_bytes();
   return buffered_.fetch_add(held - std::exchange(client.counted, held));

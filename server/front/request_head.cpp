@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kLineEnd = "\r\n";
 
-/// Takes the first line, without its end, off the text.
+/// Removes the first line from the text and returns it without its end.
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find(kLineEnd);
   if (end == std::string_view::npos) {
@@ -27,7 +27,7 @@ Head refuse(Head head, int status, std::string detail) {
   return head;
 }
 
-/// What the headers say, before it is judged.
+/// Headers that determine body and connection, before validation.
 struct Facts {
   std::optional<std::string_view> content_length;
   bool two_lengths = false;
@@ -46,7 +46,7 @@ bool lists(std::string_view value, std::string_view word) {
                      [&](std::string_view part) { return equal_ignoring_case(part, word); });
 }
 
-/// Control characters are how a second parser is made to see another request.
+/// Control characters can make two parsers see different requests (request smuggling).
 bool has_control(std::string_view text) {
   return std::any_of(text.begin(), text.end(),
                      [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F; });
@@ -79,7 +79,7 @@ Facts facts_of(const Fields& headers) {
   return facts;
 }
 
-/// Nothing when a line is no header.
+/// Returns the headers; nullopt when a line is not a header.
 std::optional<Fields> read_headers(std::string_view lines) {
   Fields headers;
   while (!lines.empty()) {
@@ -89,7 +89,7 @@ std::optional<Fields> read_headers(std::string_view lines) {
     }
     const std::size_t colon = line.find(':');
     const std::string_view name = line.substr(0, colon);
-    // A space in or before the name is how headers are smuggled past one of two parsers.
+    // A space in or before a name lets headers pass one of two parsers (request smuggling).
     if (colon == std::string_view::npos || name.empty() || name.find_first_of(" \t") != name.npos ||
         has_control(line)) {
       return std::nullopt;
@@ -109,7 +109,7 @@ std::optional<std::size_t> length_of(std::string_view digits) {
   return whole ? std::optional(value) : std::nullopt;
 }
 
-/// The path and query of a target that names the scheme and host as well; the target itself if it doesn't.
+/// Returns path and query of a target in absolute form (with scheme and host); other targets unchanged.
 std::string_view origin_form(std::string_view target) {
   constexpr std::string_view kScheme = "http://";
   if (target.size() < kScheme.size() || !equal_ignoring_case(target.substr(0, kScheme.size()), kScheme)) {
@@ -129,7 +129,7 @@ bool read_request_line(std::string_view line, Head& head) {
   head.method = line.substr(0, first);
   head.target = origin_form(line.substr(first + 1, last - first - 1));
   head.takes_chunks = version == "HTTP/1.1";
-  head.keep_alive = head.takes_chunks;  // unless a header says otherwise
+  head.keep_alive = head.takes_chunks;  // default; a header may change it
   return (head.takes_chunks || version == "HTTP/1.0") && !head.target.empty() &&
          head.target.find_first_of(" #") == std::string::npos;
 }
@@ -154,8 +154,7 @@ Head judge(Head head, const HeadLimits& limits) {
     return refuse(std::move(head), 400, "A request of HTTP/1.1 needs a Host.");
   }
   if (facts.transfer_encoding) {
-    // a length beside chunks, or chunks in an old version, is how requests are smuggled past one of two
-    // parsers
+    // Content-Length with chunks, or chunks in HTTP/1.0, allow request smuggling between two parsers.
     if (facts.content_length || facts.two_encodings || !head.takes_chunks) {
       return refuse(std::move(head), 400, "A body has either a Content-Length or, in HTTP/1.1, chunks.");
     }

@@ -49,7 +49,7 @@ Received RequestReader::next() {
   }
   received.kind = Received::Kind::request;
   received.head = std::exchange(head_, {});
-  if (buffer_.size() == total) {  // a large body is not there twice, and not kept while its answer waits
+  if (buffer_.size() == total) {  // a large body is moved, not copied, and freed while its answer waits
     received.body = std::exchange(buffer_, {});
     received.body.erase(0, head_size_);
   } else {

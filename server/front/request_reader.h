@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// Bytes of one connection to whole requests. No sockets, no clock, no library: what it does depends on the
-/// bytes alone.
+/// Turns the bytes of a connection into requests. Without sockets, clock or library, so that the result
+/// depends on the bytes alone.
 
 #include <optional>
 #include <string>
@@ -12,31 +12,31 @@
 
 namespace snapthrough::server::http {
 
-/// What the bytes so far amount to.
+/// State of the next request after the bytes received so far.
 struct Received {
   enum class Kind {
-    head_incomplete,  ///< more bytes are needed to know what is asked
-    body_incomplete,  ///< `head` is known, its body is not complete
-    request,          ///< complete
-    refused           ///< `head.refusal` says why; what follows can't be trusted
+    head_incomplete,  ///< more bytes are needed for the head
+    body_incomplete,  ///< `head` is complete; more bytes are needed for its body
+    request,          ///< `head` and `body` are complete
+    refused           ///< `head.refusal` is set; later bytes have no defined meaning
   } kind = Kind::head_incomplete;
   Head head;
   std::string body;
 };
 
-/// @brief Collects the bytes of a connection and takes requests off them. Not thread-safe.
+/// @brief Collects the bytes of a connection and extracts requests. Not thread-safe.
 class RequestReader {
  public:
   /// `limits` must outlive the reader.
   explicit RequestReader(const HeadLimits& limits) : limits_(limits) {}
 
   void append(std::string_view bytes) { buffer_.append(bytes); }
-  /// Takes the next request if it is there. After `refused` the reader must not be used any more.
+  /// Extracts the next request if it is complete. After `refused` the reader must not be used.
   Received next();
 
-  /// Bytes that are held.
+  /// Returns the number of bytes held.
   [[nodiscard]] std::size_t held() const { return buffer_.size() + (chunks_ ? chunks_->size() : 0); }
-  /// Gives memory back that an earlier, larger request needed.
+  /// Releases memory that an earlier, larger request needed.
   void shrink();
 
  private:
@@ -45,10 +45,10 @@ class RequestReader {
 
   const HeadLimits& limits_;
   std::string buffer_;
-  std::size_t searched_ = 0;   ///< no end of a head before this place
-  std::size_t head_size_ = 0;  ///< of the request whose body is awaited; 0: none
+  std::size_t searched_ = 0;   ///< no end of a head begins before this index
+  std::size_t head_size_ = 0;  ///< size of the head whose body is incomplete; 0: none
   Head head_;
-  std::optional<ChunkedBody> chunks_;  ///< of the request whose body is awaited in chunks
+  std::optional<ChunkedBody> chunks_;  ///< decoder of a body whose chunks are incomplete
 };
 
 }  // namespace snapthrough::server::http

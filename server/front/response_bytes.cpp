@@ -14,14 +14,14 @@
 namespace snapthrough::server::http {
 namespace {
 
-constexpr std::size_t kWorthCompressing = 1400;  // what fits in one packet is not made faster
+constexpr std::size_t kWorthCompressing = 1400;  // bytes; a body of one packet gains nothing
 
 bool begin_gzip(z_stream& stream) {
   constexpr int kGzip = 15 + 16;
   return ::deflateInit2(&stream, 1, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) == Z_OK;
 }
 
-/// The gzip form, empty when the library does not manage.
+/// Returns the body in gzip format; "" when zlib fails.
 std::string gzip(const std::string& body) {
   z_stream stream{};
   if (!begin_gzip(stream)) {
@@ -38,7 +38,7 @@ std::string gzip(const std::string& body) {
   return packed;
 }
 
-/// The gzip form of a body that comes in pieces.
+/// Compresses a body that is sent in pieces to gzip format.
 class GzipSource final : public BodySource {
  public:
   explicit GzipSource(std::shared_ptr<BodySource> plain) : plain_(std::move(plain)) {
@@ -81,7 +81,7 @@ class GzipSource final : public BodySource {
   std::shared_ptr<BodySource> plain_;
 };
 
-/// False when it is not worth while.
+/// Compresses the body. Returns false when that does not make it smaller.
 bool pack(Response& response) {
   if (response.rest) {
     const auto source = std::make_shared<GzipSource>(std::move(response.rest));
@@ -161,7 +161,7 @@ std::string to_bytes(const Response& response, bool head_only, bool keep_alive, 
 }
 
 void append_chunk(std::string& bytes, std::string_view piece, bool last) {
-  if (!piece.empty()) {  // an empty chunk is the end
+  if (!piece.empty()) {  // an empty chunk would end the body
     std::array<char, 20> size{};
     const char* end = std::to_chars(size.data(), size.data() + size.size(), piece.size(), 16).ptr;
     bytes.append(std::string_view(size.data(), end)).append("\r\n").append(piece).append("\r\n");

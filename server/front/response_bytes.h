@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Responses as they go over the wire.
+/// Serialises responses to bytes of HTTP/1.1.
 
 #include <string>
 #include <string_view>
@@ -9,21 +9,21 @@
 
 namespace snapthrough::server::http {
 
-/// The phrase of a status code, e.g. "Not Found".
+/// Returns the phrase of a status code, such as "Not Found".
 [[nodiscard]] std::string_view reason_phrase(int status);
 
-/// @brief Head and body. Of a stream the head only; its end is the end of the connection.
+/// @brief Returns head and body of a response; of a stream only the head (the connection's end ends it).
 /// @param head_only the request's method was HEAD
-/// @param chunked how a body with a `rest` is sent; else its end is the end of the connection
+/// @param chunked true: a body with `rest` is sent in chunks; false: the connection's end ends it
 [[nodiscard]] std::string to_bytes(const Response& response, bool head_only, bool keep_alive,
                                    bool chunked = true);
 
-/// Appends a piece of a chunked body, and its end after the last one.
+/// Appends a piece of a chunked body, and the final chunk after the last piece.
 void append_chunk(std::string& bytes, std::string_view piece, bool last);
 
-/// @brief Compresses the body (gzip, level 1) where the client takes it and it pays. The entity tag of a
-/// compressed body ends with "-gzip", since a strong tag names the bytes. A body with a `rest` is compressed
-/// piece by piece.
+/// @brief Compresses the body (gzip, level 1) if the client accepts it and it gets smaller. The entity tag of
+/// a compressed body gets the suffix "-gzip", because a strong tag identifies bytes. A body with `rest` is
+/// compressed piece by piece.
 void compress(Response& response, std::string_view accept_encoding);
 
 }  // namespace snapthrough::server::http

@@ -14,7 +14,7 @@
 namespace snapthrough::server::http {
 namespace {
 
-constexpr int kBacklog = 4096;  // the kernel lowers it to its own limit
+constexpr int kBacklog = 4096;  // the kernel reduces it to its own limit
 
 Status cannot_listen(const std::string& host, int port, const std::string& cause) {
   return {StatusCode::unavailable, "cannot listen on " + host + ":" + std::to_string(port) + ": " + cause};
@@ -35,7 +35,7 @@ StatusOr<Descriptor> listen_on(const std::string& host, int port) {
   int cause = 0;
   for (const addrinfo* address = list; address != nullptr; address = address->ai_next) {
     Descriptor socket(::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    // Only SO_REUSEADDR: with SO_REUSEPORT two services could share a port without noticing.
+    // Only SO_REUSEADDR: SO_REUSEPORT would let two services share a port unnoticed.
     const int on = 1;
     ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     if (socket.get() >= 0 && ::bind(socket.get(), address->ai_addr, address->ai_addrlen) == 0 &&
@@ -67,8 +67,8 @@ int accept_from(int listener, std::string& remote) {
   }
   const int on = 1;
   ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  // Writable as soon as that little is unsent: a client that reads slowly is seen to read, and the kernel
-  // keeps no megabytes for it.
+  // The socket becomes writable when little is unsent: progress of slow clients shows, and the kernel buffers
+  // less for them.
   const int unsent = 128 * 1024;
   ::setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
   std::array<char, NI_MAXHOST> host{};

@@ -9,14 +9,14 @@
 
 namespace snapthrough::server::http {
 
-/// A socket that listens; `unavailable` when the address can't be bound.
+/// Returns a listening socket; `unavailable` when the address cannot be bound.
 [[nodiscard]] StatusOr<Descriptor> listen_on(const std::string& host, int port);
-/// The port of a bound socket.
+/// Returns the port of a bound socket.
 [[nodiscard]] int port_of(int socket);
-/// The next client, without waiting: -1 when there is none (errno says why). Sets its address.
+/// Accepts a client without waiting, and sets its address; -1 when none waits (errno has the reason).
 [[nodiscard]] int accept_from(int listener, std::string& remote);
 
-/// Lets the process open as many descriptors as it is allowed to.
+/// Raises the process' limit of open descriptors to the hard limit.
 void raise_descriptor_limit();
 
 }  // namespace snapthrough::server::http

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Who may work: so many at a time, the others in the order they came.
+/// Limits how many clients are worked on at a time; others wait in the order of arrival.
 
 #include <cstdint>
 #include <deque>
@@ -9,12 +9,12 @@
 
 namespace snapthrough::server::http {
 
-/// A number of turns. Thread-safe; nobody waits in here.
+/// A fixed number of turns. Thread-safe; no function blocks.
 class Turns {
  public:
   explicit Turns(int count) : free_(count) {}
 
-  /// Whether this one has a turn now; else it is the last in the row, and pass() will name it.
+  /// Returns whether `who` gets a turn at once; else `who` joins the end of the queue for pass().
   bool take(std::uint64_t who) {
     const std::lock_guard guard(mutex_);
     if (free_ == 0) {
@@ -25,7 +25,7 @@ class Turns {
     return true;
   }
 
-  /// Passes a turn on: who has it now, or nobody.
+  /// Passes a turn to the first in the queue and returns it; nullopt when the queue is empty.
   std::optional<std::uint64_t> pass() {
     const std::lock_guard guard(mutex_);
     if (row_.empty()) {

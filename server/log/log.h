@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// One JSON object a line: time, level, event, and the event's own fields.
+/// Log of one JSON object a line: time, level, event, and fields of the event.
 
 #include <cstdint>
 #include <initializer_list>
@@ -16,7 +16,7 @@ namespace snapthrough::server {
 
 enum class LogLevel { debug, info, warning, error, off };
 
-/// The level of that name ("debug", "info", "warning", "error", "off"), or nothing.
+/// Returns the level with a name ("debug", "info", "warning", "error", "off"); nullopt for another name.
 [[nodiscard]] std::optional<LogLevel> log_level_from(std::string_view name);
 
 /// A named value of a log line. The views must live until the call returns.
@@ -25,14 +25,14 @@ struct LogField {
   std::variant<std::string_view, std::int64_t, double, bool> value;
 };
 
-/// @brief Writes log lines. Thread-safe; a line is never torn. Text that is not UTF-8 is repaired, so that
-/// every line is valid JSON.
+/// @brief Writes log lines. Thread-safe; lines are not interleaved. Invalid UTF-8 is replaced, so that every
+/// line is valid JSON.
 class Log {
  public:
-  /// To a descriptor, standard error if none is given. It is never waited for: where nobody reads, lines are
-  /// lost and counted.
+  /// Writes to a descriptor (default: standard error) without blocking: when its reader is too slow, lines
+  /// are dropped and counted.
   Log(LogLevel level, std::function<Time()> now, int descriptor = 2);
-  /// To a stream that outlives the log.
+  /// Writes to a stream, which must outlive the log.
   Log(LogLevel level, std::function<Time()> now, std::ostream& stream);
   ~Log();
   Log(const Log&) = delete;

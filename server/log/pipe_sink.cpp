@@ -8,7 +8,7 @@
 
 namespace snapthrough::server {
 
-/// False when the rest has to wait. A pipe that is ready takes PIPE_BUF bytes without waiting.
+/// Writes the pending bytes; returns false if some are left. A writable pipe takes PIPE_BUF bytes at once.
 bool PipeSink::write_pending() {
   while (!pending_.empty()) {
     pollfd ready{descriptor_, POLLOUT, 0};
@@ -18,7 +18,7 @@ bool PipeSink::write_pending() {
     const ssize_t written =
         ::write(descriptor_, pending_.data(), std::min<std::size_t>(pending_.size(), PIPE_BUF));
     if (written < 0) {
-      pending_.clear();  // nobody reads any more
+      pending_.clear();  // the reader has closed the pipe
       return true;
     }
     pending_.erase(0, static_cast<std::size_t>(written));

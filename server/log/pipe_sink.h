@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Log lines to a descriptor that may not be read.
+/// Log sink for a descriptor that may not be read.
 
 #include <spdlog/sinks/base_sink.h>
 
@@ -10,8 +10,8 @@
 
 namespace snapthrough::server {
 
-/// @brief Writes whole lines to a descriptor and never waits for who reads it: lines that find no room are
-/// lost, and the first one that finds some again is preceded by how many.
+/// @brief Writes whole lines to a descriptor without blocking. Lines that do not fit are dropped; their
+/// number is written before the next line that fits.
 class PipeSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
   explicit PipeSink(int descriptor) : descriptor_(descriptor) {}
@@ -24,7 +24,7 @@ class PipeSink final : public spdlog::sinks::base_sink<std::mutex> {
   [[nodiscard]] bool write_pending();
 
   const int descriptor_;
-  std::string pending_;  ///< of a line that is written in part
+  std::string pending_;  ///< rest of a partly written line
   std::int64_t lost_ = 0;
 };
 

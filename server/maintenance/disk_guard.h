@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Watches the disk of the store and keeps a reserve on it.
+/// Monitors the disk of the store and keeps a reserve on it.
 
 #include <cstdint>
 #include <string>
@@ -9,20 +9,20 @@ namespace snapthrough::server {
 
 /// @brief A ballast file beside the store. Not thread-safe.
 ///
-/// A full disk leaves a database without room even to delete. So a file of some size is kept and given up
-/// when a write fails for want of space; until there is room for it again, no new jobs are taken, so that
-/// the space serves results, removals and checkpoints.
+/// On a full disk a database cannot even delete rows. The ballast file is deleted when a write fails; until
+/// there is room for it again, no new jobs are accepted, so that the space serves results, deletions and
+/// checkpoints.
 class DiskGuard {
  public:
-  /// @param ballast_bytes size of the reserve; 0: none
-  /// @param least_free bytes that must be free for new jobs
+  /// @param ballast_bytes size of the ballast file; 0: none
+  /// @param least_free free bytes required for new jobs
   DiskGuard(std::string store_path, std::uint64_t ballast_bytes, std::uint64_t least_free);
 
-  /// Looks at the disk. @param writable whether the latest write went well
+  /// Deletes or restores the ballast file as needed. @param writable whether the latest write succeeded
   /// @return whether there is room for new jobs
   bool check(bool writable);
 
-  /// Bytes that are free for the service.
+  /// Returns the number of bytes that the service can use.
   [[nodiscard]] std::uint64_t free_bytes() const;
 
  private:

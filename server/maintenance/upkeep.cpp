@@ -9,11 +9,11 @@ namespace {
 
 constexpr std::chrono::seconds kPause{1};
 constexpr std::chrono::seconds kBetweenRetirements{10};
-/// Jobs that are removed in one transaction, so that it stays short, and such transactions in a row, so that
-/// leases are renewed in between.
+/// Jobs deleted in one transaction, which must be short; and transactions in a row, limited so that leases
+/// are renewed in time.
 constexpr int kRetiredAtOnce = 200;
 constexpr int kRetirementsAtOnce = 100;
-/// Rows of removed sweeps that are given back in one transaction, and such transactions in a row.
+/// Rows of deleted sweeps that are purged in one transaction, and consecutive transactions.
 constexpr int kPurgedRows = 2000;
 constexpr int kPurgesAtOnce = 100;
 
@@ -39,7 +39,7 @@ void Upkeep::run_once(Time now) {
   const bool shared = context_.store.neighbours() != nullptr;
   if (const auto quarter = std::chrono::milliseconds(context_.limits.lease) / 4;
       shared || now >= next_renewal_) {
-    // Shared, each time: a claim that was dismissed in another process is seen to be lost then.
+    // A shared store is asked each time, which shows claims dismissed by other processes.
     next_renewal_ = now + quarter;
     renew_leases(shared ? now : now - quarter / 2, now);
   }
@@ -56,7 +56,7 @@ void Upkeep::run_once(Time now) {
   }
 }
 
-/// Of what is held since before that time.
+/// Renews the leases of jobs and units held since before `since`.
 void Upkeep::renew_leases(Time since, Time now) {
   context_.sweeps.renew_leases(since, now);
   const std::vector<Claim> held = context_.active.older(since);
@@ -78,7 +78,7 @@ void Upkeep::rescue(Time now) {
   const StatusOr<Recovery> recovery =
       context_.store.rescue(context_.new_lease().worker, context_.limits.max_crashes, now);
   if (!recovery.ok()) {
-    return;  // it is tried again soon, and the disk is looked at
+    return;  // the next run repeats it; look_at_disk() reports failures
   }
   log_recovery(context_.log, *recovery, "the lease of the worker ran out");
   for (const std::string& id : recovery->failed) {
@@ -124,7 +124,7 @@ void Upkeep::retire(Time now) {
   }
 }
 
-/// Sweeps that are kept no longer, and the space of those that were removed.
+/// Deletes sweeps past their retention time, and purges the rows of deleted ones.
 void Upkeep::retire_sweeps(Time now) {
   SweepStore& store = context_.store.sweeps();
   const JobLimits& limits = context_.limits;
@@ -146,7 +146,7 @@ void Upkeep::retire_sweeps(Time now) {
 void Upkeep::count_waiting() {
   std::int64_t before = context_.waiting;
   if (const StatusOr<std::int64_t> waiting = context_.store.waiting(); waiting.ok()) {
-    // where jobs came or went meanwhile the count is of neither moment: the next will do
+    // The exchange fails if jobs were added or claimed in the meantime; the next count then decides.
     context_.waiting.compare_exchange_strong(before, *waiting);
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What has to be done again and again, whatever the requests: leases, retention, the state of the disk.
+/// Periodic tasks of the service: leases, retention, monitoring of the disk.
 
 #include <optional>
 #include <thread>
@@ -12,14 +12,14 @@
 
 namespace snapthrough::server {
 
-/// @brief The recurring work. run_once() from one thread; the parts it is given must outlive it.
+/// @brief The periodic tasks. run_once() is for one thread; the constructor's arguments must outlive it.
 class Upkeep {
  public:
-  /// @param guard of the disk of a store that is a file here
+  /// @param guard guard of the store's disk; nullopt: the store is not a file
   Upkeep(const WorkerContext& context, std::optional<DiskGuard> guard)
       : context_(context), guard_(std::move(guard)) {}
 
-  /// Does what is due at that time.
+  /// Runs the tasks that are due at `now`.
   void run_once(Time now);
 
  private:
@@ -37,7 +37,7 @@ class Upkeep {
   Time next_retirement_{};
 };
 
-/// Runs the upkeep every second on a thread of its own for as long as it exists.
+/// Runs the upkeep every second on its own thread during its lifetime.
 class UpkeepThread {
  public:
   UpkeepThread(Upkeep& upkeep, const Environment& environment);
@@ -46,7 +46,7 @@ class UpkeepThread {
   std::jthread thread_;
 };
 
-/// One log line a job that was taken back.
+/// Writes a log line for each recovered job.
 void log_recovery(Log& log, const Recovery& recovery, std::string_view why);
 
 }  // namespace snapthrough::server

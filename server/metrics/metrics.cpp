@@ -61,7 +61,7 @@ void Histogram::write(std::string& text) const {
   write_head(text, name_, "histogram", help_);
   const std::lock_guard guard(mutex_);
   for (const auto& [labels, series] : series_) {
-    double below = 0.0;  // the counts of a format that adds them up
+    double below = 0.0;  // buckets are cumulative in this format
     for (std::size_t i = 0; i < series.counts.size(); ++i) {
       below += static_cast<double>(series.counts[i]);
       const std::string bound = label("le", i < kBounds.size() ? number(kBounds[i]) : "+Inf");

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What the service counts and times, in the text format of Prometheus.
+/// Counters and histograms in the text format of Prometheus.
 
 #include <array>
 #include <chrono>
@@ -12,18 +12,18 @@
 
 namespace snapthrough::server {
 
-/// One label as the format has it, `name="value"`; several are joined by commas. Values are escaped.
+/// Returns a label `name="value"` with the value escaped; commas join several labels.
 [[nodiscard]] std::string label(std::string_view name, std::string_view value);
 
-/// @brief How often something happened, by labels. Thread-safe.
+/// @brief Counts events by labels. Thread-safe.
 ///
-/// Each combination of labels is kept for ever: their values must come from a bounded set.
+/// Each combination of labels is kept for ever, so values must come from a bounded set.
 class Counter {
  public:
   /// @param name ends with _total @param help a sentence
   Counter(std::string_view name, std::string_view help) : name_(name), help_(help) {}
   void add(const std::string& labels);
-  /// Appends the metric; its HELP and TYPE lines also when nothing happened yet.
+  /// Appends the metric, with HELP and TYPE lines even without events.
   void write(std::string& text) const;
 
  private:
@@ -33,20 +33,20 @@ class Counter {
   std::map<std::string, std::uint64_t> counts_;
 };
 
-/// @brief How long something took, by labels as of a Counter. Thread-safe.
+/// @brief Distribution of durations by labels (see Counter). Thread-safe.
 class Histogram {
  public:
   /// @param name ends with _seconds @param help a sentence
   Histogram(std::string_view name, std::string_view help) : name_(name), help_(help) {}
   void observe(double seconds, const std::string& labels = "");
-  /// Appends the metric; its HELP and TYPE lines also when nothing was observed yet.
+  /// Appends the metric, with HELP and TYPE lines even without observations.
   void write(std::string& text) const;
 
  private:
   static constexpr std::array kBounds{0.0001, 0.0005, 0.001, 0.005, 0.01, 0.05,  0.1,
                                       0.5,    1.0,    5.0,   10.0,  60.0, 600.0, 3600.0};
   struct Series {
-    std::array<std::uint64_t, kBounds.size() + 1> counts{};  ///< by the least bound that is not exceeded
+    std::array<std::uint64_t, kBounds.size() + 1> counts{};  ///< count of each interval of kBounds
     double sum = 0.0;
   };
   std::string_view name_;
@@ -55,7 +55,7 @@ class Histogram {
   std::map<std::string, Series> series_;
 };
 
-/// Observes how long it exists.
+/// Observes the duration of its lifetime.
 class Timed {
  public:
   explicit Timed(Histogram& histogram) : histogram_(histogram) {}
@@ -71,7 +71,7 @@ class Timed {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Appends one metric without labels. `type` is "gauge" or "counter".
+/// Appends a metric without labels. `type` is "gauge" or "counter".
 void write_metric(std::string& text, std::string_view name, std::string_view type, std::string_view help,
                   double value);
 

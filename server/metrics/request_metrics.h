@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What is measured of requests.
+/// Metrics of requests.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace snapthrough::server {
 
-/// Requests that were answered. Thread-safe.
+/// Counts and durations of answered requests. Thread-safe.
 struct RequestMetrics {
   Counter answered{"snapthrough_requests_total", "Requests answered, by method, route template and status."};
   Histogram seconds{"snapthrough_request_seconds",

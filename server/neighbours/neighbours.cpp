@@ -11,14 +11,14 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kShortest{50};
 constexpr milliseconds kLongest{1000};
-/// While somebody waits here for an end: it is seen so soon even where nobody can ring.
+/// Longest pause while a thread here waits for the end of a job, which is seen even without a ring.
 constexpr milliseconds kLongestWhileWaiting{250};
-/// A process rings at most so often: many ends are one ring.
+/// Shortest time between two rings of a process, so that many ends give one ring.
 constexpr milliseconds kBetweenRings{20};
-/// Waiting jobs are counted no further: more is many.
+/// Waiting jobs are counted up to this number.
 constexpr std::int64_t kMany = 1000;
 
-/// A quarter more or less, so that processes that began together do not look together for ever.
+/// Returns the pause with a random change of up to a quarter, so that processes do not poll in step.
 milliseconds with_jitter(milliseconds pause, const Environment& environment) {
   const auto quarter = static_cast<std::uint64_t>(pause.count() / 4 + 1);
   return pause - milliseconds(quarter) + milliseconds(environment.random_bits() % (2 * quarter));
@@ -51,13 +51,13 @@ void Neighbours::tell_others(const std::stop_token& stop) {
   std::uint64_t seen = 0;
   while (!stop.stop_requested()) {
     if (context_.bell.wait(seen, stop, kLongest)) {
-      (void)store_.ring().ok();  // when it is lost, the others see it a moment later
+      (void)store_.ring().ok();  // a failed ring() only delays the others
       pause(stop, kBetweenRings);
     }
   }
 }
 
-/// Whether there was something.
+/// Looks once for ends and work, and each second for progress. Returns whether it found ends or work.
 bool Neighbours::look() {
   const double now = context_.environment.monotonic_seconds();
   const bool second = now >= next_second_;
@@ -89,7 +89,7 @@ bool Neighbours::look_for_work() {
   if (!work.ok()) {
     return false;
   }
-  // unless jobs came or went here meanwhile: then the next look will do
+  // fails if jobs were added or claimed in the meantime; the next look then decides
   context_.waiting.compare_exchange_strong(before, work->jobs < kMany ? work->jobs : std::max(before, kMany));
   const std::size_t idle = context_.handoffs.idle();
   for (std::size_t i = 0; i < std::min(idle, static_cast<std::size_t>(work->jobs)); ++i) {
@@ -101,7 +101,7 @@ bool Neighbours::look_for_work() {
   return idle > 0 && (work->jobs > 0 || work->units);
 }
 
-/// What others told of what is followed here.
+/// Publishes the progress of other processes to the followers in this process.
 void Neighbours::pass_on_progress() {
   const std::vector<std::string> jobs = context_.progress.followed();
   const StatusOr<std::vector<ToldProgress>> told =
@@ -119,7 +119,7 @@ void Neighbours::pass_on_progress() {
   }
 }
 
-/// Where the analyses of this process stand.
+/// Stores the progress of this process' analyses for other processes.
 void Neighbours::tell_progress() {
   std::vector<ToldProgress> all;
   for (const Claim& claim : context_.active.older(Time::max())) {
@@ -130,7 +130,7 @@ void Neighbours::tell_progress() {
     }
   }
   if (!all.empty()) {
-    (void)store_.tell(all).ok();  // it is told again in a second
+    (void)store_.tell(all).ok();  // a failed tell() is repeated in a second
   }
 }
 

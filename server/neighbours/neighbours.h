@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a process does that shares its store with others: it sees what they did, and lets them know.
+/// Exchange between processes that share a store: each sees and announces ends, work and progress.
 
 #include <chrono>
 #include <stop_token>
@@ -13,9 +13,9 @@
 
 namespace snapthrough::server {
 
-/// @brief Looks at the store again and again for as long as it exists: for work, for idle workers; for ends
-/// that somebody waits for; for progress that somebody follows. Every 50 ms, and ever more rarely, to once a
-/// second, while nothing happens; at once when another process rings. The parts it is given must outlive it.
+/// @brief Polls the store during its lifetime: for work for idle workers, for ends that a thread waits for,
+/// for progress that a client follows. The interval grows from 50 ms to one second while nothing is found; a
+/// ring of another process ends it at once. The constructor's arguments must outlive the object.
 class Neighbours {
  public:
   Neighbours(NeighbourStore& store, const WorkerContext& context);

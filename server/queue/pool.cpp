@@ -14,14 +14,14 @@ namespace {
 
 using std::chrono::duration;
 
-/// Longest sleep, in seconds, of a worker without work before it looks at the store though no bell was rung.
-/// In front of a shared store Neighbours looks for all workers of the process.
+/// Longest time for which an idle worker waits before it queries the store again without notice. For a shared
+/// store it is longer, because Neighbours polls for all workers of the process.
 constexpr duration<double> kLongestNap{1.0};
 constexpr duration<double> kLongestSharedNap{10.0};
-/// Pause between two tries to store an outcome.
+/// Pause before another attempt to store an outcome.
 constexpr std::chrono::milliseconds kRetryPause{200};
 
-/// Adds points of the path; drops the oldest beyond kTracedBytes.
+/// Adds points of the path, and removes the oldest beyond kTracedBytes.
 void note_traced(JobNews& news, std::string document) {
   news.traced.push_back({news.number, std::move(document)});
   std::size_t bytes = 0;
@@ -33,7 +33,7 @@ void note_traced(JobNews& news, std::string document) {
   }
 }
 
-/// Hooks that tell the followers of a job what its analysis does.
+/// Returns hooks that publish news of an analysis to the followers of its job.
 Hooks told_hooks(const Claim& claim, JobProgress& topic, const std::stop_token& stop) {
   const auto tell = [&claim, &topic](auto change) {
     topic.update(claim.id, [&](JobNews& news) {
@@ -57,7 +57,7 @@ Hooks told_hooks(const Claim& claim, JobProgress& topic, const std::stop_token& 
           [batch](const TracedPoint& point) { batch->add(point); }};
 }
 
-/// Logs that a job begins or goes back to the queue.
+/// Logs that a job begins or is requeued.
 void log_job(Log& log, const Claim& claim, JobState state) {
   log.write(LogLevel::info, "job",
             {{"job", std::string_view(claim.id)},
@@ -65,7 +65,7 @@ void log_job(Log& log, const Claim& claim, JobState state) {
              {"attempt", static_cast<std::int64_t>(claim.attempt)}});
 }
 
-/// Logs the end of a job, with its termination or failure code and a sentence.
+/// Logs the end of a job with its termination or failure code and message.
 void log_job_end(Log& log, const Claim& claim, const JobRun& outcome) {
   const bool failed = outcome.failure.has_value();
   log.write(
@@ -94,15 +94,14 @@ Status store_once(const Claim& claim, JobRun& outcome, const WorkerContext& cont
   if (status.code() != StatusCode::io_error) {
     return status;
   }
-  // The store refuses the result itself (e.g. a number that is NaN): the job fails, so that it does not stay
-  // running.
+  // A result with a number that is not finite cannot be stored; the job then fails instead of staying open.
   outcome.result.reset();
   outcome.failure = JobFailure{"not_stored", "the result could not be stored: " + status.message(), ""};
   return context.store.fail(claim, *outcome.failure, {}, now);
 }
 
-/// Stores the outcome. While the store can't be written, tries until the claim is lost or the service stops;
-/// then the next start finds the job running.
+/// Stores the outcome. Repeats while the store is not writable, until the claim is lost or the service stops;
+/// the next start then finds the job running.
 Status store_outcome(const Claim& claim, JobRun& outcome, const WorkerContext& context,
                      const std::stop_token& stop) {
   Status status = store_once(claim, outcome, context);
@@ -125,12 +124,11 @@ void give_back(const Claim& claim, const WorkerContext& context) {
   log_job(context.log, claim, JobState::accepted);
 }
 
-/// Changes the outcome of an analysis by the reason for which it was stopped; false when nothing is to be
-/// stored.
+/// Handles the outcome of a stopped analysis; returns whether the outcome must be stored.
 bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, const WorkerContext& context) {
   const bool cancelled = outcome.failure && outcome.failure->code == kCancelled;
   if (!cancelled) {
-    return true;  // the analysis ended before it saw the request to stop
+    return true;  // the analysis ended before it noticed the stop request
   }
   switch (reason) {
     case StopReason::shutdown:
@@ -150,7 +148,7 @@ bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, const W
   return true;
 }
 
-/// @param stored set when the store has queued the job; null: the store has the job
+/// @param stored becomes ready when the store contains the job; null: the store contains the job
 void run_job(const Claim& claim, const std::shared_future<bool>* stored, const WorkerContext& context,
              Runner& runner, const std::stop_token& stop) {
   log_job(context.log, claim, JobState::running);
@@ -169,7 +167,7 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
     return;
   }
   if (const Status status = store_outcome(claim, outcome, context, stop); !status.ok()) {
-    if (status.code() != StatusCode::conflict) {  // a conflict: the job was dismissed or removed meanwhile
+    if (status.code() != StatusCode::conflict) {  // a conflict: dismissed or deleted meanwhile
       log_trouble(context.log, claim, status);
     }
     return;
@@ -234,15 +232,15 @@ void WorkerPool::run(const std::stop_token& stop) {
   std::uint64_t seen = 0;
   const auto nap = context_.store.neighbours() == nullptr ? kLongestNap : kLongestSharedNap;
   while (!stop.stop_requested()) {
-    // Jobs and sweeps in turn, so that neither waits for the end of the other. While sweeps go on, the store
-    // is asked for jobs only when some wait.
+    // Jobs and sweeps alternate, so that neither waits for the end of the other. While sweeps run, the store
+    // is not queried for jobs unless some are known to wait.
     const bool waited = context_.waiting > 0;
     const bool worked = waited && claim_and_work(runner, stop);
     if ((!stop.stop_requested() && context_.sweeps.do_next(runner, stop)) || worked ||
         (!waited && claim_and_work(runner, stop))) {
       continue;
     }
-    // A job from offer() comes at once: no worker is idle while jobs wait in the store.
+    // Jobs handed over directly have priority over stored ones, so that no worker idles while jobs wait.
     std::optional<Handoff> handoff;
     while ((handoff = context_.handoffs.wait(seen, stop, nap))) {
       work_on(*handoff, context_, runner, stop);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Threads that claim, solve and complete jobs and chunks of sweeps.
+/// Worker threads, which claim, solve and complete jobs and points of sweeps.
 
 #include <stop_token>
 #include <thread>
@@ -11,30 +11,30 @@
 
 namespace snapthrough::server {
 
-/// @brief Solves a claimed job and stores the outcome.
+/// @brief Solves a claimed job and stores its outcome.
 ///
-/// A numerical failure or an exception fails the job. A stop of the service that interrupts the analysis
-/// gives the job back to the queue. Under a lost claim nothing is stored. While the store can't be written,
-/// the outcome is kept and stored later, as long as the lease holds.
+/// A numerical failure or an exception fails the job; a stop of the service requeues it. A claim that was
+/// lost in the meantime changes nothing. While the store is not writable, the outcome is kept and storing is
+/// repeated as long as the lease may hold.
 void work_on(const Claim& claim, const WorkerContext& context, Runner& runner, const std::stop_token& stop);
 
-/// Solves a job while it is being stored; stores the outcome if the job was stored.
+/// Solves a job that is still being stored, and stores its outcome.
 void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runner,
              const std::stop_token& stop);
 
-/// A fixed number of working threads. Thread-safe. REQUIRES: the context outlives it.
+/// @brief A fixed number of worker threads. Thread-safe; the constructor's arguments must outlive the object.
 class WorkerPool {
  public:
   /// @param make makes the runner of a thread; called once on each
   WorkerPool(int threads, const WorkerContext& context, RunnerFactory make);
-  /// Calls stop().
+  /// Calls stop() if necessary.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
   WorkerPool(WorkerPool&&) = delete;
   WorkerPool& operator=(WorkerPool&&) = delete;
 
-  /// Asks running analyses to stop and returns when their jobs are back in the queue. May be called again.
+  /// Stops running analyses, and returns when their jobs are requeued. May be called repeatedly.
   void stop();
 
  private:

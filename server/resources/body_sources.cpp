@@ -65,7 +65,7 @@ Status TableSource::check_same() const {
   return {};
 }
 
-/// A result document, byte for byte as it was stored.
+/// A result document, byte for byte as stored.
 class ResultSource final : public BodySource {
  public:
   ResultSource(Store& store, std::string job) : store_(store), job_(std::move(job)) {}

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// Bodies that are read from the store while they are sent, in pieces: no reader holds a transaction longer
-/// than a piece takes, and no body is in memory as a whole.
+/// Bodies that are read from the store in pieces while they are sent: no reader holds a transaction longer
+/// than one piece takes, and no body is in memory as a whole.
 
 #include <memory>
 #include <string>
@@ -13,23 +13,23 @@
 
 namespace snapthrough::server::http {
 
-/// @brief The rows of a sweep's table, in the order of points, each as it is when its piece is read.
+/// @brief Returns the rows of a sweep's table in the order of points, each as stored when its piece is read.
 ///
-/// A table that was complete at the beginning ends with an error when the sweep was tried again meanwhile,
-/// any table when the sweep was removed.
-/// @param sweep as it is at the beginning
+/// The body of a complete table ends with an error when the sweep is retried in the meantime, the body of any
+/// table when the sweep is deleted.
+/// @param sweep record of the sweep at the beginning
 [[nodiscard]] std::shared_ptr<BodySource> table_source(SweepStore& store, const SweepRecord& sweep,
                                                        api::TableWriter writer, const PointQuery& query);
 
-/// @brief The result document of a successful job. Fails with `conflict` when the job is removed meanwhile.
+/// @brief Returns the result document of a successful job. `conflict` when the job is deleted meanwhile.
 [[nodiscard]] std::shared_ptr<BodySource> result_source(Store& store, const std::string& job);
 
-/// A table of that job's result as CSV. Fails as result_source() does.
+/// Returns a table of a job's result as CSV. `conflict` when the job is deleted meanwhile.
 [[nodiscard]] StatusOr<std::shared_ptr<BodySource>> result_table_source(Store& store, const std::string& job,
                                                                         api::ResultTable table);
 
-/// @brief The response (200) with this body: the whole of it when it is no more than a piece.
-/// What the source says when its first piece fails.
+/// @brief Returns a response (200) that begins with the body's first piece; `rest` has the others, if any.
+/// Returns the source's status when the first piece fails.
 [[nodiscard]] StatusOr<Response> begin_body(std::shared_ptr<BodySource> source);
 
 }  // namespace snapthrough::server::http

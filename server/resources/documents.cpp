@@ -25,7 +25,7 @@ ordered_json link(std::string_view rel, const std::string& href) {
   return {{"rel", rel}, {"href", href}, {"type", "application/json"}};
 }
 
-/// Members that are there only where a client gave them.
+/// Adds label, metadata and callback, each if the client gave it.
 void add_annotations(const Annotations& annotations, ordered_json& status) {
   if (!annotations.label.empty()) {
     status["label"] = annotations.label;
@@ -71,7 +71,7 @@ ordered_json job_status(const Job& job, const std::optional<Progress>& progress)
   ordered_json status{
       {"id", job.id},
       {"status", to_string(job.state)},
-      // The length of an equilibrium path is not known before its end; the message says where it is.
+      // The length of an equilibrium path is unknown before its end; the message gives the current point.
       {"progress", is_final(job.state) ? 100 : 0},
       {"message", status_message(job, progress)},
       {"title", job.title},
@@ -170,7 +170,7 @@ std::string job_list_document(const JobPage& page, std::string_view next) {
 
 namespace {
 
-/// The sentences of a problem for a client that shows nothing else of it.
+/// Returns a problem in sentences, for clients that show no other part of it.
 std::vector<std::string> sentences_of(const Problem& problem) {
   if (!problem.errors.empty()) {
     return hops::sentences_of(problem.errors);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The JSON documents of the interface other than requests and results: job status, lists, problems.
+/// JSON documents of the interface other than requests and results: job status, lists, problems.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -15,39 +15,39 @@
 
 namespace snapthrough::server::http {
 
-/// An error response (RFC 9457). `kind` names its type: urn:snapthrough:problem:<kind>.
+/// An error response (RFC 9457). `kind` determines its type: urn:snapthrough:problem:<kind>.
 struct Problem {
   int status = 500;
   std::string kind;
   std::string title;
   std::string detail;
-  std::vector<Finding> errors;  ///< what is wrong with a document
-  std::string code;             ///< of a failed analysis
-  std::string reached;          ///< result document (JSON text) of what a failed analysis reached
+  std::vector<Finding> errors;  ///< findings about a document
+  std::string code;             ///< code of a failed analysis
+  std::string reached;          ///< result document (JSON text) that a failed analysis reached
 };
 
-/// The job's place: "/v1/jobs/<id>".
+/// Returns the path of a job: "/v1/jobs/<id>".
 [[nodiscard]] std::string job_path(std::string_view id);
 
-/// Status of one job, with the progress of a running one if it is known.
+/// Returns the status document of a job, with its progress if known.
 [[nodiscard]] std::string job_status_document(const Job& job, const std::optional<Progress>& progress);
 
-/// A page of jobs; `next` is the path of the following page, empty on the last.
+/// Returns a page of jobs; `next` is the path of the next page, "" on the last one.
 [[nodiscard]] std::string job_list_document(const JobPage& page, std::string_view next);
 
-/// The sweep's place: "/v1/sweeps/<id>".
+/// Returns the path of a sweep: "/v1/sweeps/<id>".
 [[nodiscard]] std::string sweep_path(std::string_view id);
 
-/// What became of its points: so many successful, failed, reused (of the successful ones) and remaining.
+/// Returns the numbers of successful, failed, reused (among the successful) and remaining points.
 [[nodiscard]] nlohmann::ordered_json sweep_counts(const SweepRecord& sweep);
 
 [[nodiscard]] std::string sweep_status_document(const SweepRecord& sweep);
 
-/// A page of sweeps; `next` is the path of the following page, empty on the last.
+/// Returns a page of sweeps; `next` is the path of the next page, "" on the last one.
 [[nodiscard]] std::string sweep_list_document(const SweepPage& page, std::string_view next);
 
-/// application/problem+json for a request; to a client that speaks the protocol of Hops a document of that
-/// protocol, which has room for sentences only.
+/// Returns application/problem+json; for a request of the Hops protocol a document of that protocol, which
+/// can only hold sentences.
 [[nodiscard]] Response problem_response(const Problem& problem, const Request& request);
 
 }  // namespace snapthrough::server::http

@@ -1,21 +1,21 @@
 #pragma once
 /// @file
-/// Documents that are built into the program. Defined in a source generated at build time.
+/// Documents in the program; the build generates their definition.
 
 #include <string_view>
 #include <vector>
 
 namespace snapthrough::server::http {
 
-/// A document of the folder examples/, or of one in it.
+/// A document of the folder examples/ or a subfolder.
 struct Example {
-  std::string_view name;      ///< file name without ending
-  std::string_view document;  ///< JSON text
+  std::string_view name;      ///< file name without extension
+  std::string_view document;  ///< document as JSON text
 };
 
-/// Request documents: examples/*.json.
+/// Returns the request documents examples/*.json.
 [[nodiscard]] const std::vector<Example>& embedded_examples();
-/// Components: examples/components/*.json.
+/// Returns the components examples/components/*.json.
 [[nodiscard]] const std::vector<Example>& embedded_components();
 
 }  // namespace snapthrough::server::http

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Events of a running job are numbered attempt by attempt; those of its end come after all of them.
+// Ids of a running job's events: attempt * kAttempt + number; ids of the end's events exceed all of them.
 constexpr std::uint64_t kAttempt = 1'000'000'000'000;
 constexpr std::uint64_t kEndings = 1'000'000 * kAttempt;
 static_assert(kEndings < kEndOfJob);
@@ -27,7 +27,7 @@ std::string progress_data(const Progress& progress) {
       .dump();
 }
 
-/// @param last as the result has it; else as the path's own mesh gave it
+/// @param last true: the point is from the result; false: from the mesh of the running path
 std::string critical_data(const CriticalPoint& point, bool last) {
   ordered_json data{{"branch", point.branch},
                     {"type", api::name_of(api::kCriticalTypes, point.type)},
@@ -40,7 +40,7 @@ std::string critical_data(const CriticalPoint& point, bool last) {
   return data.dump();
 }
 
-/// One client that follows one job.
+/// A client that follows a job.
 class FollowingJob final : public Following {
  public:
   using Following::Following;
@@ -57,7 +57,7 @@ class FollowingJob final : public Following {
   }
 
  private:
-  /// The first of news in the order of their numbers that the client has not seen.
+  /// Returns the first item that the client has not received; items are sorted by number.
   template <class List>
   [[nodiscard]] auto first_lacking(const List& told, std::uint64_t base) const {
     return std::partition_point(told.begin(), told.end(),

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What happens to a job, as server-sent events.
+/// Server-sent events about a job or a sweep.
 
 #include <cstdint>
 #include <memory>
@@ -11,20 +11,20 @@
 
 namespace snapthrough::server::http {
 
-/// Ids of the last events there are: `end` of a job, and of a sweep. Who has seen it need not come back.
+/// Ids of the last event, `end`, of a job and of a sweep. A client that received it need not reconnect.
 inline constexpr std::uint64_t kEndOfJob = 2'000'000'000'000'000'000;
 inline constexpr std::uint64_t kEndOfSweep = 1'000'000'000'000;
 
-/// @brief Sends `status` at once; while the analysis runs `progress` and `points` of the path (at most 20 a
-/// second each) and each `critical_point` as it is found, those that were found before among them, and what
-/// is kept of the points before; when the job has ended its `critical_point` events as the result has them
-/// (`final`: true) and `end`, which is the last.
+/// @brief Streams the events of a job. `status` comes at once. While the analysis runs: `progress` and
+/// `points` of the path (at most 20 a second each, older points as far as kept), and `critical_point` for
+/// each one found, earlier ones included. At the end: `critical_point` events as in the result (`final`:
+/// true), then `end`, the last event.
 ///
-/// Event ids grow; what a client has seen (`last_id`, from Last-Event-ID) is not sent again.
+/// Event ids increase; events up to `last_id` (from Last-Event-ID) are not repeated.
 [[nodiscard]] std::shared_ptr<StreamSource> follow_job(JobService& jobs, const std::string& id,
                                                        std::uint64_t last_id, Stream::Push push);
 
-/// @brief The same for a sweep: `status` at once, `progress` (counts) while points are computed, `end`.
+/// @brief Streams the events of a sweep: `status` at once, `progress` (counts) during computation, `end`.
 [[nodiscard]] std::shared_ptr<StreamSource> follow_sweep(JobService& jobs, const std::string& id,
                                                          std::uint64_t last_id, Stream::Push push);
 

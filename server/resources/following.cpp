@@ -29,12 +29,12 @@ void Following::poll() {
 }
 
 void Following::send_status(std::uint64_t number, const std::string& document) {
-  last_ = std::max(number, last_.load());  // a client that was further already comes back to where it was
+  last_ = std::max(number, last_.load());  // the id must not decrease for a client that received later events
   push_("retry: 1000\n\n" + event_text(last_, "status", document), false);
 }
 
 void Following::listen_for_end() {
-  // The announcing thread holds locks: it only leaves a mark, and poll() asks the store.
+  // The announcing thread holds locks, so it only sets a flag; poll() reads the store.
   ticket_.on_end([ended = ended_, push = push_] {
     *ended = true;
     push("", false);

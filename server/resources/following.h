@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What streams of server-sent events have in common, whatever they follow.
+/// Common base of server-sent event streams.
 
 #include <atomic>
 #include <cstdint>
@@ -12,34 +12,34 @@
 
 namespace snapthrough::server::http {
 
-/// One server-sent event; its data is one line.
+/// Returns a server-sent event; its data is one line.
 [[nodiscard]] std::string event_text(std::uint64_t id, const char* kind, const std::string& data);
 
-/// @brief One client that follows one thing with an id until it ends. News come from the threads of those who
-/// work on it, one at a time; the rest is called by the listener.
+/// @brief A client that follows a job or sweep until its end. Threads that work on it deliver news, one at a
+/// time; the listener calls the other functions.
 class Following : public StreamSource {
  public:
-  /// @param last_id of the last event that the client has seen; 0: none
+  /// @param last_id id of the last event that the client received; 0: none
   Following(JobService& jobs, std::string id, std::uint64_t last_id, Stream::Push push);
 
-  /// Sends the last events once the end was announced.
+  /// Sends the last events after the end was announced.
   void poll() override;
 
  protected:
-  /// The events of the end, as the store has it; empty when it has not ended (the service stops).
+  /// Returns the events of the end from the store; "" when it has not ended (the service stops).
   [[nodiscard]] virtual std::string ending() = 0;
 
-  /// It has ended already, or is not there: poll() does the rest.
+  /// Makes poll() send the end, for a job or sweep that has ended or does not exist.
   void end_at_once() { *ended_ = true; }
-  /// Sends the status it has now, which tells all up to that number.
+  /// Sends the current status, which includes all events up to `number`.
   void send_status(std::uint64_t number, const std::string& document);
-  /// From now on the announced end is seen.
+  /// Starts to receive the announcement of the end.
   void listen_for_end();
-  /// Whether the client lacks this event.
+  /// Returns whether the client has not received an event.
   [[nodiscard]] bool lacks(std::uint64_t number) const { return number > last_; }
   /// Sends an event that the client lacks. Only for callbacks that come one at a time.
   void send(std::uint64_t number, const char* kind, const std::string& data);
-  /// Sends progress, unless some was sent a moment ago.
+  /// Sends progress, unless the last one was sent less than 50 ms ago.
   void send_progress(std::uint64_t number, const std::string& data);
 
   JobService& jobs_;

@@ -43,7 +43,7 @@ std::optional<api::TableForm> accepted_form(std::string_view range) {
   return json ? std::optional(api::TableForm::json) : std::nullopt;
 }
 
-/// A place in a list as a cursor: "<microseconds>.<number>".
+/// Returns the cursor of a place in a list: "<microseconds>.<number>".
 std::string cursor_of(const ListPlace& place) {
   return std::to_string(place.created.time_since_epoch().count()) + "." + std::to_string(place.number);
 }
@@ -56,10 +56,10 @@ std::optional<ListPlace> place_of(std::string_view cursor) {
                         : std::nullopt;
 }
 
-/// One query parameter of a list.
+/// A query parameter of a list.
 struct ListParameter {
   std::string_view name;
-  /// False when the value is not acceptable.
+  /// Returns false for an invalid value.
   bool (*read)(const std::string& value, ListQuery& query);
 };
 
@@ -91,7 +91,7 @@ constexpr ListParameter kListParameters[] = {
      }},
 };
 
-/// False when it is unknown, there already, or its value is not acceptable.
+/// Returns false for a parameter that is unknown, repeated or invalid.
 bool read_list_parameter(const std::string& name, const std::string& value, std::set<std::string>& seen,
                          ListQuery& query) {
   const auto* parameter = std::find_if(std::begin(kListParameters), std::end(kListParameters),

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What requests about jobs and about sweeps say in the same way, and how both are refused.
+/// Headers, query parameters and refusals that requests about jobs and sweeps share.
 
 #include <charconv>
 #include <cstdint>
@@ -24,54 +24,54 @@ template <class Number>
   return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
-/// Most entries of one page of a list.
+/// Largest number of entries on a page of a list.
 inline constexpr int kLargestPage = 1000;
 
-/// @brief Reads the query parameters of a list, of jobs or of sweeps, into `query`.
-/// @return the problem of the first that is unknown, repeated, or has no acceptable value; nothing when all
-/// are good
+/// @brief Reads the query parameters of a list of jobs or sweeps into `query`.
+/// @return a problem about the first parameter that is unknown, repeated or invalid; nullopt when all are
+/// valid
 [[nodiscard]] std::optional<Response> read_list_query(const Request& request, ListQuery& query);
 
-/// The target of a list's next page, with the same filters; empty when there is none.
-/// @param next where it begins
+/// Returns the target of the next page of a list with the same filters; "" when there is none.
+/// @param next first entry of the next page
 [[nodiscard]] std::string next_page(const Request& request, const std::optional<ListPlace>& next);
 
-/// A page of a list; `next`, if not empty, is its Link.
+/// Returns a page of a list; `next` becomes its Link header unless empty.
 [[nodiscard]] Response list_page(std::string document, const std::string& next);
 
-/// A problem about the query parameter. @param expected which there are
+/// Returns a problem about a query parameter. @param expected the valid parameters
 [[nodiscard]] Response wrong_parameter(const Request& request, const std::string& expected,
                                        const std::string& name, const std::string& value);
 
-/// @brief A stream of events from the one after Last-Event-ID on; 204 when that was the last one there is,
-/// which tells an EventSource not to come back.
-/// @param end id of the last event, if what is followed has ended
-/// @param follow called with the id of the last event that was seen and the push function
+/// @brief Returns a stream of the events after Last-Event-ID; 204 when that is the last event, after which an
+/// EventSource does not reconnect.
+/// @param end id of the last event, if the job or sweep has ended
+/// @param follow called with the last received id and the push function
 [[nodiscard]] Response event_stream(
     const Request& request, std::optional<std::uint64_t> end,
     std::function<std::shared_ptr<StreamSource>(std::uint64_t, Stream::Push)> follow);
 
-/// Whether a list of codings ("br;q=1.0, gzip;q=0.8") takes gzip.
+/// Returns whether a list of codings ("br;q=1.0, gzip;q=0.8") accepts gzip.
 [[nodiscard]] bool takes_gzip(std::string_view accepted);
 
-/// Whether If-None-Match names the tag, or the one of the same bytes compressed.
+/// Returns whether If-None-Match contains the tag, or the tag of the compressed body.
 [[nodiscard]] bool matches_etag(const Request& request, const std::string& etag);
 
-/// Whether the client does not want what is stored already.
+/// Returns whether the client rejects stored results (Cache-Control: no-cache).
 [[nodiscard]] bool wants_fresh(const Request& request);
 
-/// The problem of an Idempotency-Key that is none; nothing when there is none, or a good one.
+/// Returns a problem about an invalid Idempotency-Key; nullopt without key or for a valid one.
 [[nodiscard]] std::optional<Response> refused_key(const Request& request);
 
-/// The problem of a submission that left nothing in the store. @param what "jobs" or "sweeps"
+/// Returns the problem of a submission that was not stored. @param what "jobs" or "sweeps"
 [[nodiscard]] std::optional<Response> refusal_of(const Request& request, Submission& submission,
                                                  const char* what);
 
-/// @brief The request as if its query asked for CSV, whatever it accepts; nothing when the query has a
-/// format. Refers to nothing of the request.
+/// @brief Returns a copy of the request that asks for CSV, whatever it accepts; nullopt when its query has
+/// `format`.
 [[nodiscard]] std::optional<Request> as_csv(const Request& request);
 
-/// The form of a table that the client takes: by ?format= before Accept; JSON when any will do.
+/// Returns the table form that the client accepts (?format= before Accept); JSON when it accepts any.
 [[nodiscard]] std::optional<api::TableForm> wanted_table_form(const Request& request);
 
 }  // namespace snapthrough::server::http

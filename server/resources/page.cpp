@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kAssets = "/assets/";
 constexpr std::string_view kDocuments = "/docs/";
-// Scripts, styles and requests of the service itself only. A picture that is exported is drawn from a blob.
+// Allows scripts, styles and requests of the service only. Exported pictures are drawn from a blob.
 constexpr const char* kContentSecurityPolicy =
     "default-src 'self'; img-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; "
     "object-src 'none'";
@@ -35,7 +35,7 @@ const char* content_type(std::string_view path) {
   return found == kTypes.end() ? "text/html; charset=utf-8" : found->second;
 }
 
-/// Names of assets change with their content: who has one never asks for it again.
+/// Adds headers; assets are cached for a year, because their names change with their content.
 void add_headers(Response& response, std::string_view path, const std::string& etag, bool changes) {
   response.content_type = content_type(path);
   response.headers.emplace_back("ETag", etag);
@@ -102,7 +102,7 @@ std::optional<Response> built_in(const Request& request) {
   return response;
 }
 
-/// Letters, digits and single marks between them: no path leads out of the folder.
+/// Returns whether a name has only letters, digits, "-", "_" and ".", so that no path leaves the folder.
 bool is_file_name(std::string_view name) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||

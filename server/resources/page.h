@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The page that people look at: its files at "/" and "/assets/NAME", built into the program or of a folder,
-/// and the documents that it shows at "/docs/NAME", built in.
+/// The web page: its files at "/" and "/assets/NAME", built in or from a folder, and its documents at
+/// "/docs/NAME", built in.
 
 #include <optional>
 #include <span>
@@ -13,21 +13,21 @@
 
 namespace snapthrough::server::http {
 
-/// A file of web/dist or docs that is built into the program. Defined in a source generated at build time.
+/// A file of web/dist or docs in the program; the build generates its definition.
 struct PageFile {
-  std::string_view path;                  ///< in a request: "/", "/assets/app-1A2B3C4D.js", "/docs/theory.md"
+  std::string_view path;                  ///< path in a request: "/", "/assets/app-1A2B3C4D.js"
   std::string_view digest;                ///< SHA-256 of the content, hexadecimal
-  std::span<const unsigned char> packed;  ///< the content, gzip
+  std::span<const unsigned char> packed;  ///< content in gzip format
 };
 
 [[nodiscard]] const std::vector<PageFile>& embedded_page();
 
-/// Where the page comes from unless a folder is named.
+/// Sources of the page other than a folder.
 inline constexpr std::string_view kEmbeddedPage = "built-in";
 inline constexpr std::string_view kNoPage = "none";
 
-/// Whether a path is one that only files of the page can have. They are the same for everybody and tell
-/// nothing of jobs, so they need no key.
+/// Returns whether only files of the page can have a path. They contain no jobs and are equal for all
+/// clients, so they need no key.
 [[nodiscard]] bool is_page_path(std::string_view path);
 
 /// @brief Serves the files of the page. Thread-safe.
@@ -37,7 +37,7 @@ class Page {
   /// @param source kEmbeddedPage, kNoPage, or a folder like web/dist, which is read at every request
   explicit Page(std::string source) : source_(std::move(source)) {}
 
-  /// The response to a GET or HEAD, or nothing when the page has no such file.
+  /// Returns the response to a GET or HEAD; nullopt when the page has no such file.
   [[nodiscard]] std::optional<Response> respond(const Request& request) const;
 
  private:

@@ -14,7 +14,7 @@ std::optional<ReturnPreference> return_shape(std::string_view value) {
 }
 
 void read_preference(std::string_view text, Preferences& preferences) {
-  text = trimmed(text.substr(0, text.find(';')));  // parameters of a preference mean nothing here
+  text = trimmed(text.substr(0, text.find(';')));  // ignores parameters of the preference
   const std::size_t equals = text.find('=');
   const std::string_view name = trimmed(text.substr(0, equals));
   if (equal_ignoring_case(name, "respond-async")) {

@@ -8,21 +8,21 @@
 
 namespace snapthrough::server::http {
 
-/// What a client wants to be answered with.
+/// Preferred content of the response.
 enum class ReturnPreference { minimal, representation };
 
-/// What the client would like. Preferences that are unknown or malformed are ignored, and of several of one
-/// name the first counts, as the RFC asks.
+/// Preferences of the client. Unknown or malformed ones are ignored; of several with one name, the first
+/// counts (RFC 7240).
 struct Preferences {
   bool respond_async = false;
-  std::optional<int> wait_s;                     ///< seconds, >= 0
-  std::optional<ReturnPreference> return_shape;  ///< return=minimal, return=representation
+  std::optional<int> wait_s;                     ///< preferred longest wait in seconds, >= 0
+  std::optional<ReturnPreference> return_shape;  ///< preference `return`
 
-  /// Whether a job is wanted, whatever is known of its result.
+  /// Returns whether the response must be a job, even if its result is known.
   [[nodiscard]] bool wants_job() const { return respond_async || return_shape == ReturnPreference::minimal; }
 };
 
-/// Reads every Prefer header of a request.
+/// Reads all Prefer headers of a request.
 [[nodiscard]] Preferences read_preferences(const Request& request);
 
 }  // namespace snapthrough::server::http

@@ -5,13 +5,13 @@
 namespace snapthrough::server::http {
 namespace {
 
-/// What the segments of a path are that a pattern leaves open.
+/// Segments of a path that match "{id}" and "{n}".
 struct Segments {
   std::string id;
   std::string point;
 };
 
-/// Whether a path has the form of a route's pattern; "{id}" and "{n}" take one segment each.
+/// Returns whether a path matches a route's pattern; "{id}" and "{n}" match one segment each.
 bool matches(std::string_view pattern, std::string_view path, Segments& found) {
   while (!pattern.empty() && !path.empty()) {
     const std::size_t pattern_end = std::min(pattern.find('/', 1), pattern.size());
@@ -84,9 +84,9 @@ Response job_missing(const Request& request, const std::string& id) {
 struct Routes::Route {
   const char* method;
   const char* pattern;
-  /// Given the request and the segment {id}.
+  /// Called with the request and the segment {id}.
   Response (Routes::*handler)(const Request&, const std::string&);
-  /// In its place where there is a segment {n}, which it is given too.
+  /// Replaces `handler` for patterns with {n}, whose segment is the third argument.
   Response (Routes::*point_handler)(const Request&, const std::string&, const std::string&) = nullptr;
 };
 

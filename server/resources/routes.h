@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The resources of the interface: each translates a request to verbs on jobs, and their outcome to a
+/// Resources of the interface: each translates a request to operations on jobs, and their outcome to a
 /// response.
 
 #include <chrono>
@@ -20,50 +20,50 @@
 
 namespace snapthrough::server::http {
 
-/// How long a client may wait for a result in one request.
+/// Limits of the time for which one request may wait for a result.
 struct WaitLimits {
-  std::chrono::seconds default_wait{10};  ///< POST without preference
-  std::chrono::seconds longest_wait{60};  ///< whatever is preferred
+  std::chrono::seconds default_wait{10};  ///< longest wait of a POST without preference
+  std::chrono::seconds longest_wait{60};  ///< upper limit of any preferred wait
 };
 
-/// What the resources about the service itself tell. Functions may be called from any thread.
+/// Data of the resources about the service itself. Functions may be called from any thread.
 struct ServiceFacts {
-  std::function<std::string()> metrics;                ///< text format of Prometheus
-  std::function<std::string()> not_ready;              ///< why no work should be sent here; empty: it should
-  std::vector<std::pair<std::string, double>> limits;  ///< name with unit, value
-  Page page;                                           ///< what people look at; by default none
-  std::string hops_folder;                             ///< see hops::Catalogue
+  std::function<std::string()> metrics;                ///< returns metrics in the text format of Prometheus
+  std::function<std::string()> not_ready;              ///< returns why the service refuses work; "": ready
+  std::vector<std::pair<std::string, double>> limits;  ///< limits by name with unit
+  Page page;                                           ///< the web page; default: none
+  std::string hops_folder;                             ///< folder of hops::Catalogue
 };
 
-/// @brief Answers every request, wrong ones with a problem. Thread-safe; never waits for a job: a response
-/// that has to is deferred.
+/// @brief Answers every request, invalid ones with a problem. Thread-safe; never blocks for a job: responses
+/// that wait are deferred.
 class Routes {
  public:
   Routes(JobService& jobs, WaitLimits waits, ServiceFacts facts = {})
       : jobs_(jobs), waits_(waits), facts_(std::move(facts)), components_(facts_.hops_folder) {}
 
-  /// Throws only for what is nobody's fault but the program's (std::bad_alloc, a defect).
+  /// Returns the response. Throws only for errors of the program or its environment (std::bad_alloc).
   [[nodiscard]] Response respond(const Request& request);
 
-  /// Methods of the resource at a path, as a list; empty when there is none.
+  /// Returns the methods of the resource at a path, as a list; "" when there is none.
   [[nodiscard]] static std::string methods_at(std::string_view path);
 
-  /// Method and path template of every resource, for tests against the published document.
+  /// Returns method and path template of every resource, for comparison with the published document.
   [[nodiscard]] static std::vector<std::pair<std::string, std::string>> resources();
 
  private:
   struct Route;
   static const std::vector<Route>& table();
 
-  // routes_jobs.cpp
+  // Defined in routes_jobs.cpp.
   Response create_job(const Request& request, const std::string& id);
-  /// Hands a document in as a job, as the request's headers want it, and answers with what comes of it.
+  /// Submits a document as a job, according to the request's headers, and returns the response.
   Response submit_job(const Request& request, std::string_view document);
   Response list_jobs(const Request& request, const std::string& id);
   Response job_status(const Request& request, const std::string& id);
   Response job_result(const Request& request, const std::string& id);
-  /// A table of the result as CSV, for programs that can send an address and nothing else: what the query
-  /// does not say is decided here, and a job that still runs is waited for.
+  /// Answers with a table of the result as CSV, for programs that can only send an address: the query has
+  /// defaults, and the response waits for a running job.
   Response job_csv(const Request& request, const std::string& id);
   Response job_request(const Request& request, const std::string& id);
   Response job_events(const Request& request, const std::string& id);
@@ -78,13 +78,13 @@ class Routes {
   Response result_of(const Request& request, const Job& job);
   Response table_of_result(const Request& request, const Job& job, api::ResultTable table);
 
-  // routes_sweeps.cpp
+  // Defined in routes_sweeps.cpp.
   Response create_sweep(const Request& request, const std::string& id);
   Response list_sweeps(const Request& request, const std::string& id);
   Response sweep_status(const Request& request, const std::string& id);
   Response sweep_request(const Request& request, const std::string& id);
   Response sweep_table(const Request& request, const std::string& id);
-  /// The rows as CSV, see job_csv().
+  /// Answers with the rows as CSV, see job_csv().
   Response sweep_csv(const Request& request, const std::string& id);
   Response sweep_events(const Request& request, const std::string& id);
   Response point_request(const Request& request, const std::string& id, const std::string& point);
@@ -92,29 +92,29 @@ class Routes {
   Response dismiss_sweep(const Request& request, const std::string& id);
   Response retry_sweep(const Request& request, const std::string& id);
   Response delete_sweep(const Request& request, const std::string& id);
-  /// Calls `answer` with the sweep if there is one and it is the owner's, else answers itself.
+  /// Calls `answer` with the sweep if it exists and belongs to the owner; else returns a problem.
   Response with_sweep(const Request& request, const std::string& id,
                       const std::function<Response(const SweepRecord&)>& answer);
-  /// Calls `answer` with the request document of a point of it, as with_sweep() does.
+  /// Calls `answer` with the request document of a point; else returns a problem.
   Response with_point(const Request& request, const std::string& id, const std::string& point,
                       const std::function<Response(std::string)>& answer);
   Response status_of_sweep(const Request& request, const std::string& id, int status);
 
-  // routes_hops.cpp
+  // Defined in routes_hops.cpp.
   Response list_components(const Request& request, const std::string& id);
   Response describe_component(const Request& request, const std::string& name);
-  /// A call that names its component in `pointer`.
+  /// Answers a call whose `pointer` names the component.
   Response solve(const Request& request, const std::string& id);
-  /// A call of the component of that name; of the one in `pointer` when the name is "solve".
+  /// Answers a call of the component with a name; for "solve", of the one in `pointer`.
   Response solve_component(const Request& request, const std::string& name);
   Response submit_call(const Request& request, const std::string& name,
                        const std::shared_ptr<const hops::Definition>& definition,
                        const std::string& document);
-  /// What has become of the job of a call, as an answer to it.
+  /// Returns the outcome of a call's job as an answer to the call.
   Response answer_call(const Request& request, const std::string& name,
                        const std::shared_ptr<const hops::Definition>& definition, const std::string& id);
 
-  // routes_service.cpp
+  // Defined in routes_service.cpp.
   Response check(const Request& request, const std::string& id);
   Response limits(const Request& request, const std::string& id);
   Response openapi(const Request& request, const std::string& id);
@@ -129,13 +129,13 @@ class Routes {
   hops::Catalogue components_;
 };
 
-// What several resources answer with.
+// Responses of several resources.
 [[nodiscard]] Response json_response(int status, std::string body);
 [[nodiscard]] Response simple_problem(const Request& request, int status, const char* kind, const char* title,
                                       std::string detail);
 [[nodiscard]] Response store_trouble(const Request& request, const Status& status);
 [[nodiscard]] Response job_missing(const Request& request, const std::string& id);
-/// Whether a Content-Type names JSON.
+/// Returns whether a Content-Type is JSON.
 [[nodiscard]] bool is_json(std::string_view content_type);
 
 }  // namespace snapthrough::server::http

@@ -15,11 +15,11 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// Result documents that are read to answer a call. Larger ones have more values than an answer may have.
+/// Largest result document in bytes that is read for an answer; larger ones have too many values anyway.
 constexpr std::size_t kLargestResult = 64 * 1024 * 1024;
 
-/// Both the name of an address that calls any component, and the last segment of one that calls the component
-/// in `pointer`.
+/// Name of the address that calls any component, and last segment of the address that calls the component in
+/// `pointer`.
 constexpr std::string_view kSolve = "solve";
 
 Response component_missing(const Request& request, const std::string& name,
@@ -38,7 +38,7 @@ Response wrong_call(const Request& request, int status, std::vector<Finding> fin
                           request);
 }
 
-/// The members of a result document that have one of these names; all of them when there is no name.
+/// Returns the members of a result document with one of the names, and `warnings`; all members for no names.
 json parts_of(const std::string& text, const std::vector<std::string>& parts) {
   return json::parse(text, [&](int depth, json::parse_event_t event, json& value) {
     return depth != 1 || event != json::parse_event_t::key || parts.empty() || value == "warnings" ||
@@ -46,7 +46,7 @@ json parts_of(const std::string& text, const std::vector<std::string>& parts) {
   });
 }
 
-/// The text of a result; `unsupported` when it is too large to be answered.
+/// Returns the text of a result; `unsupported` when it exceeds kLargestResult.
 StatusOr<std::string> whole_result(Store& store, const std::string& job) {
   const std::shared_ptr<BodySource> source = result_source(store, job);
   std::string text;
@@ -63,7 +63,7 @@ StatusOr<std::string> whole_result(Store& store, const std::string& job) {
   return text;
 }
 
-/// What is wrong with a call as a whole.
+/// Returns findings about a call other than its values.
 std::vector<Finding> mistakes_of(const api::ParsedText& parsed) {
   if (parsed.document == nullptr) {
     return parsed.findings;
@@ -155,7 +155,7 @@ Response Routes::submit_call(const Request& request, const std::string& name,
   if (std::optional<Response> refusal = refusal_of(request, submission, "jobs")) {
     return *std::move(refusal);
   }
-  // The request lives as long as whoever holds this function (see Gateway).
+  // The function's owner keeps the request alive (see Gateway).
   return when_ended(request, submission.id, waits_.longest_wait,
                     [this, &request, name, definition, id = submission.id] {
                       Response response = answer_call(request, name, definition, id);
@@ -180,7 +180,7 @@ Response Routes::answer_call(const Request& request, const std::string& name,
     return response;
   }
   if ((*job)->state != JobState::successful) {
-    return result_of(request, **job);  // a refusal
+    return result_of(request, **job);  // returns a refusal
   }
   const StatusOr<std::string> text = whole_result(jobs_.store(), id);
   if (!text.ok()) {

@@ -13,7 +13,7 @@
 namespace snapthrough::server::http {
 namespace {
 
-/// The problem of a failed job: the caller's model could not be analysed, or the service is to blame.
+/// Returns the problem of a failed job: 422 for the client's model, 500 for the service.
 Problem failure_problem(const JobFailure& failure) {
   static constexpr std::array kOwnFaults{"internal_error", "out_of_memory", "crashed", "not_stored"};
   const bool own_fault = std::find(kOwnFaults.begin(), kOwnFaults.end(), failure.code) != kOwnFaults.end();
@@ -21,7 +21,7 @@ Problem failure_problem(const JobFailure& failure) {
           failure.code,          failure.reached};
 }
 
-/// A result never changes, so its job's id is a strong validator.
+/// Returns a strong entity tag: a result never changes, so the job's id identifies it.
 std::string result_etag(const std::string& id, const std::string& form) {
   return "\"" + id + "." + form + "\"";
 }
@@ -34,8 +34,8 @@ std::optional<std::string> query_value(const Request& request, std::string_view 
   return found == request.query.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// The form of a result that the client takes: by ?format= before Accept; CSV when only a table is named,
-/// else JSON when both will do.
+/// Returns the form of a result that the client accepts (?format= before Accept); CSV if only `table` is
+/// given, else JSON if it accepts both.
 Form wanted_form(const Request& request) {
   if (const auto value = query_value(request, "format")) {
     return *value == "csv" ? Form::csv : *value == "json" ? Form::json : Form::none;
@@ -63,7 +63,7 @@ Form wanted_form(const Request& request) {
   return form;
 }
 
-/// Preference-Applied (RFC 7240) of a response with a result or with a job.
+/// Returns the Preference-Applied header (RFC 7240) of a response.
 std::string applied_preferences(const Preferences& preferences, bool with_result, std::chrono::seconds wait) {
   std::vector<std::string> applied;
   if (preferences.respond_async) {
@@ -85,7 +85,7 @@ std::string applied_preferences(const Preferences& preferences, bool with_result
   return list;
 }
 
-/// The table of that name, or the one to give by default, if results of such an analysis have it.
+/// Returns the table with a name, or the default table; nullopt when the analysis type lacks it.
 std::optional<api::ResultTable> wanted_table(const std::optional<std::string>& name,
                                              const std::string& analysis_type) {
   const std::span<const api::ResultTable> tables = api::tables_of(analysis_type);
@@ -96,7 +96,7 @@ std::optional<api::ResultTable> wanted_table(const std::optional<std::string>& n
   return table && std::find(tables.begin(), tables.end(), *table) != tables.end() ? table : std::nullopt;
 }
 
-/// A result that can't be read: removed meanwhile, or the store's trouble.
+/// Returns the problem of an unreadable result: 404 when the job was deleted, else a failure of the store.
 Response trouble_of_result(const Request& request, const std::string& id, const Status& status) {
   return status.code() == StatusCode::conflict ? job_missing(request, id) : store_trouble(request, status);
 }
@@ -132,11 +132,11 @@ Response Routes::submit_job(const Request& request, std::string_view document) {
     if (!deleted_meanwhile) {
       return response;
     }
-    order.reuse = false;  // so this happens once
+    order.reuse = false;  // the next job is new, so this happens once
   }
 }
 
-/// How long a submission waits for its outcome: a job is there at once, a result is waited for.
+/// Returns how long a submission waits: as preferred (limited), else 0 for a job, the default for a result.
 std::chrono::seconds Routes::wait_of(const Preferences& preferences) const {
   if (preferences.wait_s) {
     return std::min(std::chrono::seconds(*preferences.wait_s), waits_.longest_wait);
@@ -144,7 +144,7 @@ std::chrono::seconds Routes::wait_of(const Preferences& preferences) const {
   return preferences.wants_job() ? std::chrono::seconds(0) : waits_.default_wait;
 }
 
-/// Answers once the job has ended or the time is over.
+/// Answers when the job has ended or the wait is over.
 Response Routes::when_ended(const Request& request, const std::string& id, std::chrono::seconds wait,
                             std::function<Response()> answer) {
   if (wait.count() <= 0) {
@@ -162,15 +162,15 @@ Response Routes::when_ended(const Request& request, const std::string& id, std::
 }
 
 Response Routes::created(const Request& request, const Submission& submission) {
-  // The request lives as long as whoever holds this function (see Gateway).
+  // The function's owner keeps the request alive (see Gateway).
   return when_ended(request, submission.id, wait_of(read_preferences(request)),
                     [this, &request, id = submission.id, kind = submission.kind] {
                       return answer_of_post(request, id, kind);
                     });
 }
 
-/// The shape is told by the status: 200 with a result, 202 with a job whose result is not there yet, 201 with
-/// a new job; 200 with a job only where a job was asked for.
+/// Returns 200 with a result, 202 with a job whose result is not ready, 201 with a new job; 200 with a job
+/// only if the client asked for a job.
 Response Routes::answer_of_post(const Request& request, const std::string& id, Submission::Kind kind) {
   const StatusOr<std::optional<Job>> job = jobs_.get(id, request.owner);
   if (!job.ok() || !job->has_value()) {
@@ -226,7 +226,7 @@ Response Routes::list_jobs(const Request& request, const std::string& /*id*/) {
 
 Response Routes::job_status(const Request& request, const std::string& id) {
   const std::chrono::seconds wait{read_preferences(request).wait_s.value_or(0)};
-  // The request lives as long as whoever holds this function (see Gateway).
+  // The function's owner keeps the request alive (see Gateway).
   return when_ended(request, id, std::min(wait, waits_.longest_wait),
                     [this, &request, id] { return status_of_job(request, id); });
 }

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A document with or without an envelope, of either kind.
+/// Returns a request or a sweep, with or without its envelope.
 Envelope opened(std::string_view body, const std::vector<std::string>& callback_hosts) {
   Envelope envelope = open_envelope(body, "request", callback_hosts);
   const bool sweep = envelope.document != nullptr && envelope.pointer.empty() &&

@@ -18,13 +18,13 @@ Response sweep_missing(const Request& request, const std::string& id) {
                         "There is no sweep with the id " + id + ".");
 }
 
-/// For sentences.
+/// Returns the name of a state, for messages.
 std::string name_of(JobState state) { return std::string(to_string(state)); }
 
-/// What of a table is asked for.
+/// Query parameters of a table.
 struct TableQuery {
   PointQuery points;
-  bool links = false;  ///< CSV: with the columns point and request
+  bool links = false;  ///< true: CSV has the columns point and request
 };
 
 bool read_table_parameter(const std::string& name, const std::string& value, TableQuery& table) {
@@ -43,7 +43,7 @@ bool read_table_parameter(const std::string& name, const std::string& value, Tab
     table.links = value == "true";
     return value == "true" || value == "false";
   }
-  return name == "format";  // judged elsewhere
+  return name == "format";  // read by wanted_table_form()
 }
 
 const char* content_type(api::TableForm form) {
@@ -58,7 +58,7 @@ const char* content_type(api::TableForm form) {
   return "";
 }
 
-/// Of a table that is complete: rows change only when points are tried again, and then its end does.
+/// Returns the entity tag of a complete table. Its rows change only by a retry, which changes `finished`.
 std::string table_etag(const SweepRecord& sweep, api::TableForm form, const TableQuery& table) {
   const PointQuery& query = table.points;
   std::string tag = "\"" + sweep.id + "." + std::to_string(static_cast<int>(form)) + "." +
@@ -69,13 +69,13 @@ std::string table_etag(const SweepRecord& sweep, api::TableForm form, const Tabl
   return tag + "\"";
 }
 
-/// How many rows a table would have at most.
+/// Returns an upper bound of a table's number of rows.
 std::uint64_t most_rows(const SweepRecord& sweep, const PointQuery& query) {
   const std::int64_t rows = query.failed ? (*query.failed ? sweep.failed : sweep.successful) : sweep.done();
   return std::min(query.count, static_cast<std::uint64_t>(rows));
 }
 
-/// The sweep as it was handed in, or the response that says why not.
+/// The submitted sweep, or the response to a failure.
 struct ReadSweep {
   LargeDocument room;
   std::optional<api::Sweep> sweep;
@@ -187,7 +187,7 @@ Response Routes::sweep_status(const Request& request, const std::string& id) {
     Response response;
     response.deferred =
         Deferred{[ticket](std::function<void()> wake) { ticket->on_end(std::move(wake)); }, wait,
-                 // The request lives as long as whoever holds this function (see Gateway).
+                 // The function's owner keeps the request alive (see Gateway).
                  [this, ticket, &request, id] { return status_of_sweep(request, id, 200); }};
     return response;
   });

@@ -9,7 +9,7 @@
 namespace snapthrough::server::http {
 namespace {
 
-// Events of progress are numbered by the points that are done; that of the end comes after all of them.
+// Id of a progress event: number of computed points plus one; the id of the end exceeds all of them.
 static_assert(api::kMaxSweepPoints < kEndOfSweep);
 
 std::string progress_data(const SweepRecord& sweep) {
@@ -18,7 +18,7 @@ std::string progress_data(const SweepRecord& sweep) {
   return data.dump();
 }
 
-/// One client that follows one sweep.
+/// A client that follows a sweep.
 class FollowingSweep final : public Following {
  public:
   FollowingSweep(JobService& jobs, std::string id, std::uint64_t last_id, Stream::Push push)

@@ -7,7 +7,7 @@
 namespace snapthrough::server {
 namespace {
 
-constexpr std::size_t kMostRead = 65536;  // bytes of a response's body, so that its sender can finish
+constexpr std::size_t kMostRead = 65536;  // bytes read of a response body; its sender can then finish
 
 }  // namespace
 
@@ -51,7 +51,7 @@ PostOutcome Poster::post(const std::string& target, const std::string& body,
   for (const auto& [name, value] : headers) {
     request.set_header(name, value);
   }
-  // The status counts, whatever becomes of the body.
+  // The status decides, even if the body fails.
   request.response_handler = [&](const httplib::Response& response) {
     status = response.status;
     return true;

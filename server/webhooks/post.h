@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// One POST to a callback.
+/// HTTP client for callbacks.
 
 #include <chrono>
 #include <mutex>
@@ -12,28 +12,28 @@
 
 namespace snapthrough::server {
 
-/// What became of a POST.
+/// Outcome of a POST.
 struct PostOutcome {
-  int status = 0;       ///< of the response; 0: there was none
-  std::string trouble;  ///< why there was none
+  int status = 0;       ///< HTTP status; 0: no response
+  std::string trouble;  ///< why there is no response
   [[nodiscard]] bool delivered() const { return status >= 200 && status < 300; }
 };
 
-/// @brief Sends POST requests to one origin, one at a time, each on a connection of its own, by no proxy. The
-/// certificate of an https origin has to be one that the system trusts for its host. A redirect is not
-/// followed, a body of a response is not kept. Only cut_late() may be called from other threads.
+/// @brief Sends POST requests to one origin, one at a time, each on its own connection without a proxy. The
+/// system must trust the certificate of an https origin for its host. Redirects are not followed; response
+/// bodies are discarded. Only cut_late() may be called from other threads.
 class Poster {
  public:
   /// @param origin "https://host:port" or "http://host:port"
-  /// @param longest from connecting to the status of the response
+  /// @param longest time limit from connecting to the response's status
   Poster(std::string origin, std::chrono::milliseconds longest)
       : origin_(std::move(origin)), longest_(longest) {}
 
-  /// Sends JSON. @param target what follows the origin in the address
+  /// Sends JSON. @param target path and query of the address
   [[nodiscard]] PostOutcome post(const std::string& target, const std::string& body,
                                  const std::vector<std::pair<std::string, std::string>>& headers);
-  /// Ends a POST that has taken longer than it may, or any if `now`. To be called again and again: what is
-  /// being connected may have another address to try.
+  /// Aborts a POST that exceeds its time limit, or any POST if `now`. Call it repeatedly: a client that
+  /// connects may try another address.
   void cut_late(bool now);
 
  private:
@@ -44,7 +44,7 @@ class Poster {
   const std::chrono::milliseconds longest_;
   std::mutex mutex_;
   Clock::time_point deadline_;
-  Descriptor socket_;  ///< a duplicate: the library may close its own at any moment
+  Descriptor socket_;  ///< a duplicate, because the library may close its own at any time
 };
 
 }  // namespace snapthrough::server

@@ -19,7 +19,7 @@ const unsigned char* bytes_of(std::string_view text) {
 }
 
 std::string base64(const unsigned char* bytes, std::size_t size) {
-  std::string text((size + 2) / 3 * 4 + 1, '\0');  // with an end that OpenSSL writes
+  std::string text((size + 2) / 3 * 4 + 1, '\0');  // one byte more for OpenSSL's terminating zero
   text.resize(static_cast<std::size_t>(
       ::EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), bytes, static_cast<int>(size))));
   return text;
@@ -41,7 +41,7 @@ std::optional<std::string> webhook_key(std::string_view text) {
   if (size < 0) {
     return std::nullopt;
   }
-  // What is decoded is a multiple of 3 long, with zeros where the text has "=".
+  // The decoded length is a multiple of 3, with zeros for "=" in the text.
   const std::size_t padding = text.ends_with("==") ? 2 : (text.ends_with('=') ? 1 : 0);
   key.resize(static_cast<std::size_t>(size) - std::min(padding, static_cast<std::size_t>(size)));
   const bool right = key.size() >= kLeastKey && key.size() <= kMostKey;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// How long a receiver of callbacks may take, and when it is tried again.
+/// Time limits and repetition of callbacks.
 
 #include <chrono>
 #include <vector>
@@ -8,9 +8,9 @@
 namespace snapthrough::server {
 
 struct WebhookTimes {
-  std::chrono::milliseconds attempt{10'000};  ///< from connecting to the status of the response
-  std::chrono::milliseconds poll{500};        ///< between looks for what is due
-  /// After each attempt that failed; after one more the delivery is given up.
+  std::chrono::milliseconds attempt{10'000};  ///< limit from connecting to the response's status
+  std::chrono::milliseconds poll{500};        ///< pause between queries for due deliveries
+  /// Pauses after failed attempts; a delivery ends with the attempt after the last one.
   std::vector<std::chrono::milliseconds> pauses{std::chrono::seconds(5), std::chrono::seconds(30),
                                                 std::chrono::minutes(2), std::chrono::minutes(10),
                                                 std::chrono::hours(1),   std::chrono::hours(6)};

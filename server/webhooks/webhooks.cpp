@@ -14,7 +14,7 @@ namespace {
 constexpr std::chrono::milliseconds kBetweenCuts{50};
 constexpr std::chrono::seconds kAfterStoreTrouble{5};
 
-/// A socket that the other side has closed is an error, not a signal.
+/// Blocks SIGPIPE: a write to a closed socket then returns an error.
 void ignore_closed_sockets() {
   sigset_t signals;
   ::sigemptyset(&signals);
@@ -22,7 +22,7 @@ void ignore_closed_sockets() {
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
-/// The status document of what ended; empty when it is there no more, or has not ended any more.
+/// Returns the status document of an ended job or sweep; "" when it was deleted or is running again.
 StatusOr<std::string> ended_document(Store& store, const Delivery& delivery) {
   if (delivery.sweep) {
     const StatusOr<std::optional<SweepRecord>> sweep = store.sweeps().get(delivery.id);
@@ -91,16 +91,16 @@ void Webhooks::send_due(Sender& sender, const std::stop_token& stop) {
     if (!due.ok() || !*due) {
       pause(stop, world_.times.poll);
     } else if (!deliver(sender, **due, stop)) {
-      pause(stop, kAfterStoreTrouble);  // what can't be noted would be sent again at once
+      pause(stop, kAfterStoreTrouble);  // a delivery that cannot be recorded would be repeated at once
     }
   }
 }
 
-/// False when the store failed.
+/// Sends one delivery. Returns false when the store failed.
 bool Webhooks::deliver(Sender& sender, const Delivery& delivery, const std::stop_token& stop) {
   const StatusOr<std::string> body = ended_document(world_.store, delivery);
   if (!body.ok() || body->empty()) {
-    return body.ok();  // removed or tried again since: the delivery went with it
+    return body.ok();  // deleted or retried since, and so was its delivery
   }
   const std::string id = delivery.id + "-" + std::to_string(delivery.number);
   const std::int64_t timestamp =
@@ -111,7 +111,7 @@ bool Webhooks::deliver(Sender& sender, const Delivery& delivery, const std::stop
                           {"webhook-timestamp", std::to_string(timestamp)},
                           {"webhook-signature", webhook_signature(key_, id, timestamp, *body)}});
   if (stop.stop_requested() && !outcome.delivered()) {
-    return true;  // cut: it does not count
+    return true;  // aborted by stop: not counted
   }
   return settle(delivery, outcome);
 }

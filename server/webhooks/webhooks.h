@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The threads that tell callbacks of the ends of jobs and sweeps.
+/// Threads that send callbacks at the end of jobs and sweeps.
 
 #include <atomic>
 #include <cstdint>
@@ -17,14 +17,14 @@
 
 namespace snapthrough::server {
 
-/// How deliveries went. Thread-safe.
+/// Counts of deliveries. Thread-safe.
 struct WebhookCounters {
   std::atomic<std::int64_t> delivered = 0;
-  std::atomic<std::int64_t> failed = 0;    ///< attempts
-  std::atomic<std::int64_t> given_up = 0;  ///< deliveries
+  std::atomic<std::int64_t> failed = 0;    ///< failed attempts
+  std::atomic<std::int64_t> given_up = 0;  ///< abandoned deliveries
 };
 
-/// What deliveries are made with.
+/// Objects that deliveries use.
 struct WebhookSurroundings {
   Store& store;
   const Environment& environment;
@@ -33,13 +33,13 @@ struct WebhookSurroundings {
   WebhookCounters& counters;
 };
 
-/// @brief Makes the deliveries of each origin on a thread of its own, one after the other, for as long as it
-/// exists. An origin that is slow or down delays no other, nor the end of this.
+/// @brief Sends the deliveries of each origin in sequence on its own thread during its lifetime. A slow
+/// origin delays neither other origins nor the destructor.
 class Webhooks {
  public:
-  /// @param key what is signed with
+  /// @param key key that signs callbacks
   Webhooks(const WebhookSurroundings& surroundings, const std::vector<std::string>& origins, std::string key);
-  /// Cuts what is being sent: it is due again at the next start.
+  /// Aborts deliveries under way; they are due again at the next start.
   ~Webhooks();
   Webhooks(const Webhooks&) = delete;
   Webhooks& operator=(const Webhooks&) = delete;
@@ -56,7 +56,7 @@ class Webhooks {
   const WebhookSurroundings world_;
   const std::string key_;
   std::vector<std::unique_ptr<Sender>> senders_;
-  std::jthread watch_;  ///< cuts what takes too long
+  std::jthread watch_;  ///< thread that aborts late POST requests
 };
 
 }  // namespace snapthrough::server

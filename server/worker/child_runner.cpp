@@ -30,21 +30,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How often it is asked whether what is left of a list may wait.
+/// Interval at which UnitTask::enough is asked.
 constexpr std::chrono::milliseconds kLook{20};
-/// Bytes of a frame beside what an analysis may hold.
+/// Bytes of a frame in addition to the memory limit of an analysis.
 constexpr std::uint64_t kMostBeside = 1 << 20;
-/// Bytes of what a running analysis tells at once.
+/// Largest size in bytes of one news frame of a running analysis.
 constexpr std::size_t kMostNews = 4 << 20;
-/// How long a process may leave what it is sent where it is. Who waits for a task takes it at once.
+/// Longest time for which a process may leave sent bytes unread; a process without task reads at once.
 constexpr timeval kLongestSend{5, 0};
-/// Sweeps that a process is told of before it forgets them all.
+/// Number of sweeps that a process knows before it must forget all of them.
 constexpr std::size_t kMostSweeps = 16;
 
 }  // namespace
 
-/// Calls the hooks for what a running analysis tells. @throws std::runtime_error for more than it may tell at
-/// once
+/// Calls the hooks for a news frame of a running analysis. @throws std::runtime_error for a frame that is too
+/// large or malformed
 void ChildRunner::pass_on(const Frame& news, const Hooks& hooks) {
   if (news.body.size() > kMostNews) {
     throw std::runtime_error("news of more bytes than there can be");
@@ -60,11 +60,11 @@ void ChildRunner::pass_on(const Frame& news, const Hooks& hooks) {
   if (progress && hooks.on_progress) hooks.on_progress(*progress);
 }
 
-/// What to do while the process works on a task.
+/// Callbacks for a task that the process works on.
 struct ChildRunner::Watch {
   std::stop_token stop;
-  std::function<bool(Frame&)> take;        ///< @return whether it was the last frame
-  std::function<bool()> enough = nullptr;  ///< see UnitTask
+  std::function<bool(Frame&)> take;        ///< handles a frame. @return whether it was the last one
+  std::function<bool()> enough = nullptr;  ///< see UnitTask::enough; null for jobs
 };
 
 ChildRunner::ChildRunner(ChildRunnerOptions options, RunnerCounters& counters)
@@ -90,7 +90,7 @@ void ChildRunner::start() {
   std::array<int, 2> controls{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, completions.data()) != 0) {
     ended_by_ = std::string("it could not be started: ") + std::strerror(errno);
-    return;  // the next task finds no process
+    return;  // the next task finds no process and fails
   }
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, controls.data()) != 0) {
     ended_by_ = std::string("it could not be started: ") + std::strerror(errno);
@@ -112,7 +112,7 @@ void ChildRunner::start() {
   sigfillset(&all);
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setsigdefault(&attributes, &all);
-  // a signal from the terminal is for the service, which ends the analysis in its own way
+  // signals of the terminal are for the service, which stops the analysis itself
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes,
                            POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
@@ -143,7 +143,7 @@ void ChildRunner::start() {
   task_ = 0;
 }
 
-/// A process that has ended, or shall: its successor knows nothing.
+/// Starts a successor of a process that has ended or shall end. The successor knows no sweeps.
 void ChildRunner::replace() {
   if (process_ != 0) {
     close_ends();
@@ -168,7 +168,7 @@ ChildRunner::End ChildRunner::end_of_process(bool killed) {
   return end;
 }
 
-/// A process that does not take it is killed. @return whether attend() can tell how it goes on
+/// Sends a frame; kills a process that does not read it. @return whether the process can still answer
 bool ChildRunner::send(FrameType type, std::string_view body) {
   if (process_ == 0 || write_frame(socket_, type, body)) {
     return true;
@@ -188,9 +188,9 @@ ChildRunner::End ChildRunner::run_task(FrameType type, std::string_view body, Wa
   return send(type, body) ? attend(watch) : end_of_process(false);
 }
 
-/// Takes a frame, if there is a whole one. What the process sends is not trusted: it may have been led astray
-/// by what it computes.
-/// @return whether it was the last; nothing when the process is gone, or talks nonsense and is killed
+/// Receives a frame if it is complete. Its content is not trusted, because the analysis may have corrupted
+/// the process.
+/// @return whether it was the last one; nullopt when the process is gone, or was killed for invalid content
 std::optional<bool> ChildRunner::take_frame(Watch& watch) {
   try {
     switch (received_.receive(socket_, static_cast<std::uint64_t>(options_.memory) + kMostBeside)) {
@@ -204,21 +204,21 @@ std::optional<bool> ChildRunner::take_frame(Watch& watch) {
         break;
     }
   } catch (const std::exception&) {
-    // the record is none, or larger than this process can hold
+    // the record is malformed, or too large for this process
   }
   ::kill(process_, SIGKILL);
   return std::nullopt;
 }
 
-/// Takes the frames of a task until its last one, the process' end, or the end of the grace that it has to
-/// stop in.
+/// Receives the frames of a task until the last one, the end of the process, or the end of the grace period
+/// after a stop request.
 ChildRunner::End ChildRunner::attend(Watch& watch) {
   if (process_ == 0) {
     ++counters_.crashed;
     replace();
     return End::crashed;
   }
-  alarm_.silence();  // a stop may have come while the last process ended
+  alarm_.silence();  // clears a stop request that arrived while a process ended
   const std::stop_callback on_stop(watch.stop, [this] { alarm_.ring(); });
   std::optional<Clock::time_point> deadline;
   bool told_enough = false;
@@ -307,7 +307,7 @@ JobRun ChildRunner::run_job(std::string_view request, const Hooks& hooks) {
   }
 }
 
-/// The number that the process knows the sweep by; it is told of it if need be.
+/// Returns the number of the sweep in the process; sends the sweep if the process does not know it.
 std::uint64_t ChildRunner::send_sweep(const UnitTask& task) {
   if (const auto known = sweeps_.find(task.id); known != sweeps_.end()) {
     return known->second;
@@ -323,7 +323,7 @@ std::uint64_t ChildRunner::send_sweep(const UnitTask& task) {
   writer.put(forget);
   writer.put(number);
   writer.put(task.document);
-  static_cast<void>(send(FrameType::sweep, body));  // the task that follows finds out
+  static_cast<void>(send(FrameType::sweep, body));  // a failure shows in the task that follows
   return number;
 }
 
@@ -337,7 +337,7 @@ ChildRunner::End ChildRunner::attempt_units(const UnitTask& task, std::size_t& t
   writer.put(number);
   writer.put(at_once);
   writer.put(std::vector<std::uint64_t>(rest.begin(), rest.end()));
-  std::vector<api::PointOutcome> outcomes;  // of the unit that is told next
+  std::vector<api::PointOutcome> outcomes;  // outcomes of an incomplete unit
   Watch watch{task.stop,
               [&](Frame& frame) {
                 for (RecordReader reader(frame.body); !reader.at_end();) {
@@ -360,8 +360,8 @@ ChildRunner::End ChildRunner::attempt_units(const UnitTask& task, std::size_t& t
   return run_task(FrameType::units, body, watch);
 }
 
-/// A process that runs out of memory tells all outcomes before, so that the next unit is the one; one that
-/// crashes may not, and tells each at once after that. Where one unit is left it is the one.
+/// A process without memory first sends all outcomes, so that the next unit is the cause. A crashed process
+/// may not have sent all; a second attempt sends each at once. A single remaining unit is the cause.
 void ChildRunner::run_units(const UnitTask& task) {
   int crashes = 0;
   bool at_once = task.units.size() == 1;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A runner in a process of its own: what happens to it is one failed analysis, never the service's end.
+/// A runner in a child process: its crash fails one analysis and does not end the service.
 
 #include <sys/types.h>
 
@@ -18,44 +18,44 @@
 
 namespace snapthrough::server {
 
-/// What the runners of a service did. Thread-safe.
+/// Counts of events of a service's runners. Thread-safe.
 struct RunnerCounters {
   std::atomic<std::int64_t> started = 0;
   std::atomic<std::int64_t> out_of_memory = 0;
-  std::atomic<std::int64_t> killed = 0;   ///< they did not stop when they were asked to
-  std::atomic<std::int64_t> crashed = 0;  ///< they ended otherwise
+  std::atomic<std::int64_t> killed = 0;   ///< processes that ignored a stop request
+  std::atomic<std::int64_t> crashed = 0;  ///< processes ended by a signal or an unknown status
 };
 
 struct ChildRunnerOptions {
-  std::string executable;   ///< snapthrough itself
-  std::int64_t memory = 0;  ///< bytes of one analysis
-  int max_crashes = 1;      ///< an analysis during which runners died so often is given up, >= 1
-  std::chrono::milliseconds grace{2000};  ///< from the request to stop to the kill
+  std::string executable;                 ///< path of the program snapthrough
+  std::int64_t memory = 0;                ///< limit of one analysis in bytes
+  int max_crashes = 1;                    ///< crashes after which an analysis fails, >= 1
+  std::chrono::milliseconds grace{2000};  ///< from the stop request to the kill
 };
 
-/// @brief Asks a child process, which is replaced as soon as it ends. The process ends with the thread that
-/// makes the runner.
+/// @brief Lets a child process compute, and replaces it when it ends. The process ends with the thread that
+/// created the runner.
 class ChildRunner final : public Runner {
  public:
-  /// @param counters outlive it
+  /// @param counters must outlive the runner
   ChildRunner(ChildRunnerOptions options, RunnerCounters& counters);
   ~ChildRunner() override;
 
   [[nodiscard]] JobRun run_job(std::string_view request, const Hooks& hooks) override;
   void run_units(const UnitTask& task) override;
 
-  /// The process, for tests that harm it; 0: there is none.
+  /// Returns the id of the process, for tests that damage it; 0: there is none.
   [[nodiscard]] pid_t process() const { return process_; }
 
  private:
-  /// How a task came to its end.
+  /// How a task ended.
   enum class End { answered, out_of_memory, killed, crashed };
   struct Watch;
 
   void start();
   void replace();
   void close_ends();
-  /// Sends the task and attends to it.
+  /// Sends a task and receives its answer.
   [[nodiscard]] End run_task(FrameType type, std::string_view body, Watch& watch);
   [[nodiscard]] bool send(FrameType type, std::string_view body);
   [[nodiscard]] bool control(FrameType type);
@@ -64,7 +64,7 @@ class ChildRunner final : public Runner {
   [[nodiscard]] std::optional<bool> take_frame(Watch& watch);
   static void pass_on(const Frame& news, const Hooks& hooks);
   [[nodiscard]] End end_of_process(bool killed);
-  /// What is left of a list of units, until the process has answered or ended.
+  /// Computes the remaining units of a list, until the process has answered or ended.
   [[nodiscard]] End attempt_units(const UnitTask& task, std::size_t& told, bool at_once);
   [[nodiscard]] JobFailure failure_of(End end, int crashes) const;
 
@@ -73,15 +73,15 @@ class ChildRunner final : public Runner {
   pid_t process_ = 0;
   int socket_ = -1;
   int control_ = -1;
-  FrameReceiver received_;                       ///< of this process
-  std::uint64_t task_ = 0;                       ///< of this process, counted from 1
+  FrameReceiver received_;                       ///< bytes received from the current process
+  std::uint64_t task_ = 0;                       ///< number of the process' current task, from 1
   PollBell alarm_;                               ///< rung when a stop is requested
-  std::string ended_by_;                         ///< how the last process that crashed ended
-  std::map<std::string, std::uint64_t> sweeps_;  ///< that the process knows, by id
+  std::string ended_by_;                         ///< how the last crashed process ended
+  std::map<std::string, std::uint64_t> sweeps_;  ///< numbers of sweeps known to the process, by id
   std::uint64_t next_sweep_ = 0;
 };
 
-/// @brief The factory for a service. @param executable empty: this program
+/// @brief Returns the factory of a service. @param executable empty: this program
 [[nodiscard]] RunnerFactory child_runners(ChildRunnerOptions options, RunnerCounters& counters);
 
 }  // namespace snapthrough::server

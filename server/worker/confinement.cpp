@@ -19,7 +19,7 @@
 #include <vector>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SNAPTHROUGH_OWN_RUNTIME 1  // sanitizers reserve terabytes and make calls of their own
+#define SNAPTHROUGH_OWN_RUNTIME 1  // sanitizers reserve terabytes and use other system calls
 #else
 #define SNAPTHROUGH_OWN_RUNTIME 0
 #endif
@@ -32,7 +32,7 @@ void write_once(const char* path, std::string_view text) {
   if (file < 0) {
     return;
   }
-  // best effort: what is refused leaves the process as it was
+  // best effort: a refused write changes nothing
   [[maybe_unused]] const ssize_t written = ::write(file, text.data(), text.size());
   ::close(file);
 }
@@ -44,14 +44,14 @@ void limit(decltype(RLIMIT_CORE) resource, rlim_t soft) {
   ::setrlimit(resource, &now);
 }
 
-/// The text of a file that is made when it is read.
+/// Returns the text of a file in /proc.
 template <std::size_t n>
 std::string_view contents(int file, std::array<char, n>& text) {
   const ssize_t size = ::pread(file, text.data(), text.size(), 0);
   return {text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))};
 }
 
-/// Takes the first number off a text; 0 when there is none.
+/// Removes the first number from a text and returns it; 0 when there is none.
 std::int64_t first_number(std::string_view& text) {
   std::int64_t value = 0;
   text.remove_prefix(std::min(text.find_first_of("0123456789"), text.size()));
@@ -76,7 +76,7 @@ bool confine_process(int parent) {
 }
 
 void confine_calls() {
-  ::prctl(PR_SET_DUMPABLE, 0);  // from now on the files of /proc/self are not the user's any more
+  ::prctl(PR_SET_DUMPABLE, 0);  // files of /proc/self then belong to root
 #if !SNAPTHROUGH_OWN_RUNTIME && defined(__x86_64__)
   static constexpr std::array kAllowed{SYS_read,
                                        SYS_write,
@@ -107,7 +107,7 @@ void confine_calls() {
                                        SYS_tgkill,
                                        SYS_restart_syscall,
                                        SYS_rseq,
-                                       SYS_set_robust_list};  // these two are a new thread's first calls
+                                       SYS_set_robust_list};  // first calls of a new thread
   std::vector<sock_filter> filter;
   const auto load = [&](std::size_t offset) {
     filter.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)));
@@ -144,7 +144,7 @@ void MemoryBound::set(std::int64_t bytes) {
   constexpr int kResident = 1;
   constexpr int kData = 5;
   if (::write(reset_, kResetPeak.data(), kResetPeak.size()) < 0) {
-    // the peak is that of the process then
+    // peak() then counts from the start of the process
   }
   std::array<char, 256> text{};
   std::string_view rest = contents(pages_, text);

@@ -1,21 +1,21 @@
 #pragma once
 /// @file
-/// What a process gives up before it computes what somebody else asked for.
+/// Restrictions of a process that computes for untrusted clients.
 
 #include <cstdint>
 
 namespace snapthrough::server {
 
-/// @brief Ends with its parent, gains no rights, leaves no core dump, is the first to go when the machine has
-/// no memory left, and yields the processor to others.
-/// @return false when the parent is gone already
+/// @brief Makes the process end with its parent, gain no rights, write no core dump, be killed first when the
+/// machine has no memory left, and run at low priority.
+/// @return false when the parent has ended already
 [[nodiscard]] bool confine_process(int parent);
 
-/// @brief From now on nobody of its user can look into the process, and it can read, write, take memory and
-/// end; opening, connecting or starting anything ends it. Does nothing where the kernel has no filters.
+/// @brief Hides the process from others of its user, and allows it only to read, write, allocate and exit;
+/// the kernel kills it for other system calls (open, connect, start). Does nothing without seccomp filters.
 void confine_calls();
 
-/// Memory of this process and its bound.
+/// Memory of this process and its limit.
 class MemoryBound {
  public:
   MemoryBound();
@@ -25,16 +25,16 @@ class MemoryBound {
   MemoryBound(MemoryBound&&) = delete;
   MemoryBound& operator=(MemoryBound&&) = delete;
 
-  /// From now on no more than so many bytes beyond what is in use. The peak begins anew.
+  /// Limits new memory to `bytes` beyond the current use, and resets the peak.
   void set(std::int64_t bytes);
   void lift();
-  /// The most memory in use since set(), beyond what was in use then, bytes.
+  /// Returns the largest memory use since set(), minus the use at set(), in bytes.
   [[nodiscard]] std::int64_t peak() const;
 
  private:
-  int pages_;   ///< /proc/self/statm; -1: not there
-  int status_;  ///< /proc/self/status
-  int reset_;   ///< /proc/self/clear_refs
+  int pages_;   ///< descriptor of /proc/self/statm; -1: absent
+  int status_;  ///< descriptor of /proc/self/status
+  int reset_;   ///< descriptor of /proc/self/clear_refs
   std::int64_t resident_before_ = 0;
 };
 

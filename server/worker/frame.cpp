@@ -104,7 +104,7 @@ FrameReceiver::State FrameReceiver::receive(int fd, std::uint64_t most) {
       }
       size_ = head.size;
       frame_.type = head.type;
-      frame_.body.reserve(size_);  // address space: what is not sent takes no memory
+      frame_.body.reserve(size_);  // reserves address space; unsent bytes use no memory
     }
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Messages between the service and a runner, each with its length before it.
+/// Messages between the service and a runner, each preceded by its length.
 
 #include <cstdint>
 #include <string>
@@ -10,17 +10,17 @@ namespace snapthrough::server {
 
 enum class FrameType : std::uint32_t {
   // to the runner
-  job,    ///< memory, request
-  sweep,  ///< forget those before, number, document
-  units,  ///< memory, number of the sweep, whether to tell each unit at once, numbers of units
-  // on the control pipe; tasks are counted from 1, sweeps are none
-  enough,  ///< number of a task: no further unit of it
-  stop,    ///< number of a task: it shall end
+  job,    ///< body: memory limit, request
+  sweep,  ///< body: whether to forget all sweeps, number, document
+  units,  ///< body: memory limit, sweep's number, whether to send each unit at once, units' numbers
+  // on the control pipe; tasks are counted from 1, without sweeps
+  enough,  ///< body: number of a task that begins no further unit
+  stop,    ///< body: number of a task that ends now
   // from the runner
-  news,      ///< progress, critical points that were found since
-  job_run,   ///< JobRun
-  outcomes,  ///< of the points of units, in their order
-  done       ///< of a list of units: no more outcomes
+  news,      ///< body: progress, critical points and path points since the last news
+  job_run,   ///< body: JobRun, the outcome of a job
+  outcomes,  ///< body: outcomes of the points of units, in order
+  done       ///< end of a list of units
 };
 
 struct Frame {
@@ -28,25 +28,25 @@ struct Frame {
   std::string body;
 };
 
-/// @brief Writes a whole frame. @return false when the other side is gone
+/// @brief Writes a frame. @return false when the peer is gone
 [[nodiscard]] bool write_frame(int fd, FrameType type, std::string_view body);
-/// @brief Waits for a whole frame. @return false when the other side is gone
+/// @brief Waits for a complete frame. @return false when the peer is gone
 [[nodiscard]] bool read_frame(int fd, Frame& frame);
 
-/// @brief Puts frames together from what has arrived, and never waits: the other side may send a part of one
-/// and then nothing.
+/// @brief Assembles frames from the bytes that have arrived, without blocking: the peer may send a part of a
+/// frame and then nothing.
 class FrameReceiver {
  public:
   enum class State { incomplete, complete, gone };
 
-  /// @param most bytes of a frame; the other side is taken for gone when it says that there are more
+  /// @param most largest size of a frame; returns `gone` for a larger one
   [[nodiscard]] State receive(int fd, std::uint64_t most);
-  /// @pre receive() said that it is complete
+  /// Returns the frame. @pre receive() returned `complete`
   [[nodiscard]] Frame take();
 
  private:
   std::string head_;
-  std::uint64_t size_ = 0;  ///< of the body, once the head is there
+  std::uint64_t size_ = 0;  ///< size of the body, from the head
   Frame frame_;
 };
 

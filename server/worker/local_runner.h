@@ -1,14 +1,14 @@
 #pragma once
 /// @file
-/// A runner in this process: no bound holds its analyses. For tests with a solver of their own, and inside
-/// the runner's own process.
+/// A runner in this process, without limits, for tests with their own solver and for the inside of a runner
+/// process.
 
 #include "server/worker/runner.h"
 #include "server/worker/solve_job.h"
 
 namespace snapthrough::server {
 
-/// Computes with a function on the thread that calls it.
+/// Computes with a function on the calling thread.
 class LocalRunner final : public Runner {
  public:
   explicit LocalRunner(SolveFunction solve) : solve_(std::move(solve)) {}
@@ -19,7 +19,7 @@ class LocalRunner final : public Runner {
   const SolveFunction solve_;
 };
 
-/// A runner of its own for each worker, in this process.
+/// Returns a factory that creates a runner in this process for each worker.
 [[nodiscard]] RunnerFactory local_runners(SolveFunction solve);
 
 }  // namespace snapthrough::server

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What computes for a worker: in a process of its own (child_runner.h) or in this one (local_runner.h).
+/// What computes for a worker: a child process (child_runner.h) or this process (local_runner.h).
 
 #include <cstdint>
 #include <functional>
@@ -18,30 +18,30 @@
 
 namespace snapthrough::server {
 
-/// What an attempt at a job came to: exactly one of `result` and `failure` is set.
+/// Outcome of an attempt at a job; exactly one of `result` and `failure` is set.
 struct JobRun {
   std::optional<JobResult> result;
   std::optional<JobFailure> failure;
-  StoredPath reached = {};      ///< with a failure
-  std::int64_t peak_bytes = 0;  ///< most memory that it used at a time; 0: not known
+  StoredPath reached = {};      ///< path up to the failure
+  std::int64_t peak_bytes = 0;  ///< largest memory use; 0: unknown
 };
 
-/// Units of a sweep (server/worker/unit.h) that are computed one after the other.
+/// Units of a sweep (server/worker/unit.h) that are computed in sequence.
 struct UnitTask {
-  const std::string& id;        ///< of the sweep
-  const std::string& document;  ///< that `sweep` was read from
+  const std::string& id;        ///< id of the sweep
+  const std::string& document;  ///< document of the sweep
   const api::Sweep& sweep;
-  std::span<const std::uint64_t> units;  ///< their numbers
+  std::span<const std::uint64_t> units;  ///< numbers of the units
   std::stop_token stop;
-  /// Asked now and then: whether what is left may wait. At least one unit is computed.
+  /// Asked now and then whether the remaining units may wait. At least one unit is computed.
   std::function<bool()> enough = {};
-  /// Told the outcomes of each unit, in the order of the units.
+  /// Called with the outcomes of each unit, in the order of units.
   std::function<void(std::vector<api::PointOutcome>)> tell = {};
 };
 
-/// @brief Computes jobs and units of sweeps, one at a time. Whatever goes wrong is a value: a failure with a
-/// code (of the solver's; "memory_limit", "crashed", "internal_error"). Asked to stop, what is computed ends
-/// with the code "cancelled". One thread uses it.
+/// @brief Computes jobs and units of sweeps, one at a time, on one thread. Errors are values: failures with a
+/// code of the solver, "memory_limit", "crashed" or "internal_error". After a stop request, the current
+/// computation ends with the code "cancelled".
 class Runner {
  public:
   Runner() = default;
@@ -51,13 +51,13 @@ class Runner {
   Runner& operator=(Runner&&) = delete;
   virtual ~Runner() = default;
 
-  /// @param request document of the job, as it was handed in
+  /// @param request submitted document of the job
   [[nodiscard]] virtual JobRun run_job(std::string_view request, const Hooks& hooks) = 0;
-  /// Ends early when it is enough, or after outcomes that were "cancelled".
+  /// Computes units; ends early when `enough` returns true, or after "cancelled" outcomes.
   virtual void run_units(const UnitTask& task) = 0;
 };
 
-/// Called once by each worker, on its own thread.
+/// Called once by each worker, on the worker's thread.
 using RunnerFactory = std::function<std::unique_ptr<Runner>()>;
 
 }  // namespace snapthrough::server

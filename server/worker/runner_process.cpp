@@ -24,11 +24,11 @@
 namespace snapthrough::server {
 namespace {
 
-/// Outcomes that are not told yet, as bytes: they can be told when no memory is left.
+/// Unsent outcomes, serialised so that they can be sent when no memory is left.
 class OutcomeBuffer {
  public:
   void add(const api::PointOutcome& outcome) { RecordWriter(bytes_).put(outcome); }
-  /// @return whether the other side is there
+  /// @return whether the service is still connected
   bool tell() {
     if (bytes_.empty()) {
       return true;
@@ -47,13 +47,13 @@ OutcomeBuffer& untold() {
   return buffer;
 }
 
-/// Nothing can be unwound where memory is out: destructors may need some.
+/// Ends without unwinding: destructors may need memory, and there is none.
 [[noreturn]] void end_without_memory() {
   untold().tell();
   ::_exit(kOutOfMemoryStatus);
 }
 
-/// An exception that nobody may catch: of an allocation, or a mistake in this program.
+/// Handles an uncaught exception: of an allocation, or by an error of this program.
 [[noreturn]] void on_terminate() {
   try {
     if (std::current_exception()) {
@@ -66,8 +66,8 @@ OutcomeBuffer& untold() {
   std::abort();
 }
 
-/// What the service wants of the task at hand, read by a thread of its own: it is heard at once, and tasks
-/// need not pass from one thread to another.
+/// Receives requests of the service about the current task on a separate thread, so that they take effect at
+/// once and tasks stay on one thread.
 class Control {
  public:
   Control() {
@@ -83,7 +83,7 @@ class Control {
     pthread_attr_destroy(&attributes);
   }
 
-  /// The next task begins, which may have been asked to stop already.
+  /// Begins the next task; a stop request for it may have arrived before.
   [[nodiscard]] std::stop_token begin() {
     const std::lock_guard guard(mutex_);
     ++task_;
@@ -91,7 +91,7 @@ class Control {
     heed();
     return stop_.get_token();
   }
-  /// Whether the task at hand shall begin nothing new.
+  /// Returns whether the current task must begin no further unit.
   [[nodiscard]] bool enough() const { return enough_ == task_; }
 
  private:
@@ -112,7 +112,7 @@ class Control {
       stopped_ = task;
       heed();
     }
-    ::_exit(EXIT_SUCCESS);  // nobody is there to compute for
+    ::_exit(EXIT_SUCCESS);  // the service has ended, so the runner ends
   }
 
   void heed() {
@@ -124,11 +124,11 @@ class Control {
   std::mutex mutex_;
   std::stop_source stop_;
   std::uint64_t stopped_ = 0;
-  std::atomic<std::uint64_t> task_ = 0;  ///< counted from 1
+  std::atomic<std::uint64_t> task_ = 0;  ///< number of the current task, from 1
   std::atomic<std::uint64_t> enough_ = 0;
 };
 
-/// News of a running analysis, at most twenty times a second.
+/// Sends news of a running analysis, at most twenty times a second.
 class News {
  public:
   [[nodiscard]] Hooks hooks(std::stop_token stop) {
@@ -143,7 +143,7 @@ class News {
             },
             [this](const TracedPoint& point) { traced_.add(point); }};
   }
-  /// What was not told yet.
+  /// Sends the pending news.
   void tell() {
     if (!progress_ && found_.empty()) {
       return;
@@ -172,7 +172,7 @@ class News {
 
   std::optional<Progress> progress_;
   std::vector<CriticalPoint> found_;
-  PathBatch traced_;  ///< progress follows each of its points
+  PathBatch traced_;  ///< points since the last news; progress follows each
   std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
 };
 
@@ -180,7 +180,7 @@ class RunnerProcess {
  public:
   RunnerProcess(MemoryBound& memory, const SolveFunction& solve) : memory_(memory), solve_(solve) {}
 
-  /// Until the other side is gone.
+  /// Works until the service disconnects.
   void work() {
     Frame frame;
     while (read_frame(kTaskSocket, frame)) {
@@ -237,7 +237,7 @@ class RunnerProcess {
     }
   }
 
-  /// What is not told at once is told when the next unit takes long.
+  /// Computes units. Outcomes wait up to 10 ms, unless `at_once`, and longer only while a unit runs.
   void run_units(RecordReader& reader) {
     constexpr std::chrono::milliseconds kUntold{10};
     const std::stop_token stop = control_.begin();
@@ -274,7 +274,7 @@ class RunnerProcess {
   std::unordered_map<std::uint64_t, api::Sweep> sweeps_;
 };
 
-/// What is freed goes back to the system: the bound of an analysis is on what the process has.
+/// Makes malloc return freed memory to the system, because the limit of an analysis applies to the process.
 void keep_heap_small() {
   constexpr int kLarge = 1 << 20;
   ::mallopt(M_MMAP_THRESHOLD, kLarge);

@@ -1,23 +1,23 @@
 #pragma once
 /// @file
-/// The inside of a runner's process.
+/// Main function of a runner process.
 
 #include "server/worker/solve_job.h"
 
 namespace snapthrough::server {
 
-/// The name of the subcommand that makes a process a runner; not for users.
+/// Internal subcommand that starts a runner process.
 inline constexpr const char* kRunnerCommand = "runner";
-/// How a runner ends when memory could not be had.
+/// Exit status of a runner without memory.
 inline constexpr int kOutOfMemoryStatus = 77;
 
-/// Descriptors of a runner: tasks and answers; what is wanted of the task at hand.
+/// Descriptors of a runner: socket for tasks and answers; pipe for requests about the current task.
 inline constexpr int kTaskSocket = 0;
 inline constexpr int kControlPipe = 3;
 
-/// @brief Computes what frames on kTaskSocket ask for, one after the other, until the other side is gone.
-/// @param parent process that it ends with
-/// @param solve  what solves jobs and points; curves are followed as SweepUnit::compute() says
+/// @brief Computes the tasks of frames from kTaskSocket in sequence, until the service disconnects.
+/// @param parent process with which the runner ends
+/// @param solve solves jobs and points; SweepUnit::compute() follows curves
 /// @return exit status of the process
 [[nodiscard]] int run_runner(int parent, const SolveFunction& solve);
 

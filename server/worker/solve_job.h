@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// One analysis on the thread that asks for it, and what is said when it can't be completed.
+/// Solves a job on the calling thread; failures are values.
 
 #include <functional>
 #include <string_view>
@@ -11,18 +11,18 @@
 
 namespace snapthrough::server {
 
-/// What runs one analysis: snapthrough::solve, or a test's stand-in. Must be reentrant.
+/// Runs an analysis: snapthrough::solve, or a replacement in tests. Must be reentrant.
 using SolveFunction = std::function<Result(const Model&, const Analysis&, const Hooks&)>;
 
-/// The code of a failure where memory could not be had, and of what was asked to stop (the solver's).
+/// Failure codes of a failed allocation, and of a stop request (same as the solver's).
 inline constexpr const char* kOutOfMemory = "out_of_memory";
 inline constexpr const char* kCancelled = "cancelled";
 
-/// The exception that is being handled as a failure ("internal_error", or kOutOfMemory).
+/// Returns the current exception as a failure ("internal_error", or kOutOfMemory).
 [[nodiscard]] JobFailure mishap_now();
 
-/// @brief The outcome of one job. Whatever goes wrong is a failure. Thread-safe if `solve` is.
-/// @param request document of the job, as it was handed in
+/// @brief Returns the outcome of a job. All errors become failures. Thread-safe if `solve` is.
+/// @param request submitted document of the job
 [[nodiscard]] JobRun solve_job(std::string_view request, const SolveFunction& solve, const Hooks& hooks);
 
 }  // namespace snapthrough::server

@@ -7,7 +7,7 @@
 namespace snapthrough::server::cli {
 namespace {
 
-/// What each character that `special` has becomes with a backslash before it.
+/// Returns the text with a backslash before each character of `special`.
 std::string with_backslashes(std::string_view text, std::string_view special) {
   std::string escaped;
   for (const char c : text) {
@@ -19,7 +19,7 @@ std::string with_backslashes(std::string_view text, std::string_view special) {
   return escaped;
 }
 
-/// A text in single quotes, for bash and zsh.
+/// Returns the text in single quotes for bash and zsh.
 std::string quoted(std::string_view text) {
   std::string out = "'";
   for (const char c : text) {
@@ -28,7 +28,7 @@ std::string quoted(std::string_view text) {
   return out + "'";
 }
 
-/// A text in single quotes, for fish.
+/// Returns the text in single quotes for fish.
 std::string fish_quoted(std::string_view text) { return "'" + with_backslashes(text, "\\'") + "'"; }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -39,7 +39,7 @@ std::string joined(const std::vector<std::string>& words) {
   return line;
 }
 
-/// The names of all options, positional arguments apart.
+/// Returns the names of all options without positional arguments.
 std::vector<std::string> option_names(const CommandPage& command) {
   std::vector<std::string> names;
   for (const OptionPage& option : command.options) {
@@ -50,7 +50,7 @@ std::vector<std::string> option_names(const CommandPage& command) {
   return names;
 }
 
-/// The cases of bash in which a value is completed other than by the names of files.
+/// Writes the bash cases for options whose values are choices or numbers, not file names.
 void write_bash_values(const CommandPage& command, std::ostream& script) {
   for (const OptionPage& option : command.options) {
     if (option.is_positional || !option.takes_value || (option.choices.empty() && !option.is_number)) {
@@ -141,7 +141,7 @@ std::string bash_completion(const ProgramPage& program) {
     script << "      " << command.name << ")\n        words=" << quoted(joined(option_names(command)))
            << "\n        ;;\n";
   }
-  // Without an answer bash completes names of files: wanted of arguments and of values that may be one.
+  // Without a reply bash completes file names, which arguments and other values may be.
   script << "    esac\n"
             "    if [ -n \"$command\" ] && [[ $word != -* ]]; then\n"
             "      return\n"

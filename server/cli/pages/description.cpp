@@ -9,7 +9,7 @@
 namespace snapthrough::server::cli {
 namespace {
 
-/// The values of CLI::IsMember, which stand in the name of an option's type as "TEXT:{a,b}".
+/// Returns the values of CLI::IsMember, which the name of the option's type contains as "TEXT:{a,b}".
 std::vector<std::string> choices_of(const std::string& type) {
   const std::size_t begin = type.find('{');
   const std::size_t end = type.find('}');
@@ -50,7 +50,7 @@ OptionPage option_page(const CLI::Option& option) {
 CommandPage command_page(const CLI::App& command) {
   CommandPage page{command.get_name(), command.get_description(), {}};
   for (const CLI::Option* option : command.get_options()) {
-    if (!option->get_group().empty()) {  // others are hidden
+    if (!option->get_group().empty()) {  // options without a group are hidden
       page.options.push_back(option_page(*option));
     }
   }

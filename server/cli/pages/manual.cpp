@@ -27,7 +27,7 @@ std::vector<ExitStatus> exit_statuses() {
           {"128 + N", "Ended by signal N; what was reached is written."}};
 }
 
-/// A text that roff takes literally. Hyphens of options and names are the character of the keyboard.
+/// Returns roff text that prints `text` literally; hyphens become the ASCII character.
 std::string literal(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
@@ -57,8 +57,8 @@ std::string literal(std::string_view text) {
   return escaped;
 }
 
-/// Words in lines of at most 78 characters. No line begins with a character that roff takes for a command:
-/// words that begin so are preceded by a zero-width one.
+/// Breaks words into lines of at most 78 characters. A zero-width character precedes a leading full stop,
+/// which roff would take for a command.
 std::string filled(std::string_view text) {
   constexpr std::size_t kWidth = 78;
   std::istringstream words{std::string(text)};
@@ -92,7 +92,7 @@ std::string head(const std::string& title, const std::string& date) {
          " \"snapthrough " SNAPTHROUGH_VERSION "\" \"snapthrough manual\"\n";
 }
 
-/// The name of the value of an option in its line: of --key-file FILE that is FILE.
+/// Returns the placeholder for an option's value.
 std::string value_name(const OptionPage& option) { return option.is_number ? "NUMBER" : "VALUE"; }
 
 void write_option(const OptionPage& option, std::ostream& page) {

@@ -13,8 +13,8 @@ namespace snapthrough::server::hops {
 namespace {
 
 constexpr std::string_view kReserved = "solve";
-/// A component is read at the request of anybody, so its file is bounded: the largest model that a person
-/// writes parameters into is smaller by far.
+/// Largest file of a component in bytes. Anyone may request a component, so reading its file must be cheap;
+/// models written by hand are far smaller.
 constexpr std::uintmax_t kLargestFile = 1024 * 1024;
 
 bool is_name(std::string_view name) {
@@ -39,7 +39,7 @@ Entry entry_of(std::string_view text) {
   return entry;
 }
 
-/// The example that the component for any request begins with: a short one that has a critical point.
+/// Returns the initial request of `solve-request`: a short example with a critical point.
 std::string_view first_request() {
   const std::vector<http::Example>& examples = http::embedded_examples();
   const auto found = std::find_if(examples.begin(), examples.end(), [](const http::Example& example) {
@@ -88,7 +88,7 @@ std::optional<Entry> Catalogue::of_folder(const std::string& name) const {
       return known->second.entry;
     }
   }
-  // Read without the lock: a large document waits for others, and who has one may wait for the lock.
+  // Without the lock: a large document waits for others, whose threads may wait for the lock (deadlock).
   Read read{changed, bytes, {}};
   std::ifstream file(path, std::ios::binary);
   if (bytes > kLargestFile || !file) {

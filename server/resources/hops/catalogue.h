@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Where components come from: those that are built into the program, and the sweep documents of a folder.
+/// Catalogue of components: built-in ones, and sweep documents of a folder.
 
 #include <filesystem>
 #include <map>
@@ -15,28 +15,28 @@
 
 namespace snapthrough::server::hops {
 
-/// The component that takes any request document.
+/// Name of the component whose input is any request document.
 inline constexpr std::string_view kSolveRequest = "solve-request";
 
-/// A component by its name, or why its file is none.
+/// A component, or the errors of its file.
 struct Entry {
   std::shared_ptr<const Definition> definition;  ///< null exactly when there are errors
-  std::vector<std::string> errors;               ///< sentences
+  std::vector<std::string> errors;               ///< errors of the file, as sentences
 };
 
 /// @brief The components of the service. Thread-safe.
 ///
-/// NAME.json in the folder is the component NAME, and goes before a built-in one of that name. A file that
-/// changed is read again when it is asked for. Names are letters, digits, "-", "_" and "."; other files are
-/// left out, and "solve" is the name of no component: it is a part of the protocol's addresses.
+/// NAME.json in the folder is the component NAME and replaces a built-in one of that name. A changed file is
+/// read again at the next request. Names consist of letters, digits, "-", "_" and "."; other files are
+/// ignored. "solve" is no name, because addresses of the protocol contain it.
 class Catalogue {
  public:
   /// @param folder empty: built-in components only
   explicit Catalogue(std::string folder = {});
 
-  /// Ascending.
+  /// Returns all names in ascending order.
   [[nodiscard]] std::vector<std::string> names() const;
-  /// Nothing when there is no component of that name.
+  /// Returns a component; nullopt when there is none of that name.
   [[nodiscard]] std::optional<Entry> find(std::string_view name) const;
 
  private:
@@ -50,7 +50,7 @@ class Catalogue {
   const std::string folder_;
   std::map<std::string, Entry, std::less<>> built_in_;
   mutable std::mutex mutex_;
-  mutable std::map<std::string, Read, std::less<>> read_;  ///< files as they were last read
+  mutable std::map<std::string, Read, std::less<>> read_;  ///< files as last read
 };
 
 }  // namespace snapthrough::server::hops

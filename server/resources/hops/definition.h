@@ -1,7 +1,6 @@
 #pragma once
 /// @file
-/// Components of Grasshopper that the service has: functions from named values to named values, each call of
-/// which is one analysis.
+/// Grasshopper components of the service: functions of named values, each call of which is one analysis.
 
 #include <map>
 #include <memory>
@@ -14,13 +13,13 @@
 
 namespace snapthrough::server::hops {
 
-/// What a definition makes of the values of its inputs.
+/// Outcome of applying a definition to values of its inputs.
 struct Call {
-  std::vector<Finding> findings;  ///< pointers are "/" and the name of an input
+  std::vector<Finding> findings;  ///< pointers are "/" and an input's name
   std::string request;            ///< request document; empty exactly when there are findings
 };
 
-/// @brief A component. Immutable, so it may be used by several threads.
+/// @brief A component. Immutable, hence thread-safe.
 class Definition {
  public:
   Definition() = default;
@@ -35,19 +34,19 @@ class Definition {
   [[nodiscard]] virtual const std::vector<api::ComponentOutput>& outputs() const = 0;
   /// @param values by name of the input, each of the input's type; some may be missing
   [[nodiscard]] virtual Call call(const std::map<std::string, nlohmann::json>& values) const = 0;
-  /// The input that is written to a place of the request, or around it; empty: none.
+  /// Returns the input that writes a place of the request, a part or a container of it; "": none.
   [[nodiscard]] virtual std::string input_at(std::string_view pointer) const = 0;
-  /// Members of the result document that values() looks into; none: all of them.
+  /// Returns the members of the result document that values() needs; empty: all.
   [[nodiscard]] virtual std::vector<std::string> parts() const = 0;
-  /// What a result gives for the outputs, in their order. @param result with at least parts()
+  /// Returns the outputs' values in a result, in their order. @param result has at least parts()
   [[nodiscard]] virtual std::vector<api::ComponentValue> values(const nlohmann::json& result) const = 0;
 };
 
-/// The definition that a sweep document is.
+/// Returns the definition of a sweep document.
 [[nodiscard]] std::shared_ptr<const Definition> sweep_definition(api::Component component);
 
-/// @brief The definition with one input, a request document as a text, and what every result has as outputs.
-/// @param example the request that the input has at the beginning
+/// @brief Returns the definition with a request document as input and the common values of results as output.
+/// @param example initial value of the input
 [[nodiscard]] std::shared_ptr<const Definition> request_definition(std::string_view example);
 
 }  // namespace snapthrough::server::hops

@@ -23,18 +23,18 @@ using nlohmann::ordered_json;
 constexpr std::string_view kAddress = "/v1/hops";
 constexpr std::string_view kSolve = "/solve";
 
-/// Errors that are shown one by one at a component; a balloon with more cannot be read.
+/// Largest number of errors shown one by one at a component, whose message area is small.
 constexpr std::size_t kMostSentences = 20;
-/// Values of one answer, each of which takes some 100 bytes of it.
+/// Largest number of values in an answer; each takes about 100 bytes.
 constexpr std::size_t kMostItems = 50'000;
-/// Of the result document as a text output.
+/// Largest size in bytes of the result document as a text output.
 constexpr std::size_t kLongestText = 1024 * 1024;
 constexpr int kAnyNumber = std::numeric_limits<std::int32_t>::max();
 
 struct TypeNames {
   PlugType type;
-  const char* param;   ///< of Grasshopper
-  const char* result;  ///< of .NET
+  const char* param;   ///< type in Grasshopper
+  const char* result;  ///< type in .NET
   const char* words;
 };
 constexpr TypeNames kTypes[] = {
@@ -52,14 +52,14 @@ const TypeNames& names_of(PlugType type) {
 
 std::string text_of(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
-/// A point as Rhino writes it.
+/// Returns a point in the JSON format of Rhino.
 std::string point_text(double x, double y) { return text_of({{"X", x}, {"Y", y}, {"Z", 0.0}}); }
 
 ordered_json item_of(PlugType type, std::string data) {
   return {{"type", names_of(type).result}, {"data", std::move(data)}};
 }
 
-/// What an input has at the beginning: a value, or a tree where it takes a list.
+/// Returns the initial value of an input, as a tree if the input takes a list.
 ordered_json initial_of(const ComponentInput& input) {
   if (!input.list) {
     return input.initial;
@@ -92,7 +92,7 @@ ordered_json described(const ComponentInput& input) {
   return document;
 }
 
-/// A value as its input takes it, or nothing when it has another type.
+/// Returns a value converted to the type of an input; nullopt for a value of another type.
 std::optional<json> taken(PlugType type, const json& value) {
   switch (type) {
     case PlugType::number:
@@ -116,13 +116,13 @@ std::optional<json> taken(PlugType type, const json& value) {
                                             : std::nullopt;
 }
 
-/// Reads the values of one input; reports at it.
+/// Reads the values of one input and adds findings about them.
 class InputReader {
  public:
   InputReader(const ComponentInput& input, std::vector<Finding>& findings)
       : input_(input), findings_(findings) {}
 
-  /// Nothing when there is no value, or a mistake.
+  /// Returns the value; nullopt without value or after a finding.
   std::optional<json> read(const json& tree) {
     if (!tree.is_object()) {
       return report("wrong_type", "InnerTree is no object with lists of values");
@@ -144,7 +144,7 @@ class InputReader {
       }
     }
     if (all.empty()) {
-      return std::nullopt;  // an input without a value, as one that is not there
+      return std::nullopt;  // no value counts as an absent input
     }
     if (!input_.list && all.size() > 1) {
       return report("too_many", "has " + std::to_string(all.size()) + " values: it takes one");
@@ -178,7 +178,7 @@ class InputReader {
     return value;
   }
 
-  /// For a sentence. @param text may be cut within a character: whoever writes it replaces that
+  /// Returns at most 80 bytes for a message; the writer of JSON replaces a character that is cut.
   static std::string shortened(const std::string& text) {
     constexpr std::size_t kLongest = 80;
     return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
@@ -188,12 +188,12 @@ class InputReader {
   std::vector<Finding>& findings_;
 };
 
-/// Writes the values of one output as a tree of Grasshopper.
+/// Writes the values of one output as a Grasshopper tree.
 class TreeWriter {
  public:
   explicit TreeWriter(PlugType type) : type_(type) {}
 
-  /// @param path of the branch that the value, or the values of a list, stand in
+  /// @param path path of the branch for the value or the items of a list
   void append(const json& value, const std::string& path) {
     ordered_json& branch = tree_.emplace("{" + path + "}", ordered_json::array()).first.value();
     const bool list = value.is_array() && (type_ != PlugType::text || all_are_texts(value));
@@ -232,7 +232,7 @@ class TreeWriter {
     return std::move(tree_);
   }
   [[nodiscard]] std::size_t items() const { return items_; }
-  /// Values that the result does not have: they are no items of the tree.
+  /// Returns the number of null values, which are not items of the tree.
   [[nodiscard]] std::size_t missing() const { return missing_; }
 
  private:
@@ -248,7 +248,7 @@ class TreeWriter {
     ++items_;
     const bool number = type_ == PlugType::number || type_ == PlugType::integer;
     const bool as_text = type_ == PlugType::text && !value.is_string();
-    const bool large = number && std::abs(value.get<double>()) > kAnyNumber;  // no System.Int32
+    const bool large = number && std::abs(value.get<double>()) > kAnyNumber;  // beyond System.Int32
     branch.push_back(
         item_of(large ? PlugType::number : type_, as_text ? text_of(text_of(value)) : text_of(value)));
   }
