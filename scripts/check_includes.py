@@ -110,7 +110,7 @@ GOOD = [
     ("api", "#include <nlohmann/json.hpp>\n#include \"api/api.h\"\n#include \"solver/solve.h\"\n"),
     ("api", "#include \"api/openapi/embedded.h\"\n#include \"api/names.h\"\n"),
     ("server", "#include <sqlite3.h>\n#include <thread>\n#include \"server/status.h\"\n#include \"api/plot/figure.h\"\n"),
-    ("server", "#include \"server/store/sqlite/rows.h\"\n#include \"server/store/store.h\"\n#include \"server/jobs/job.h\"\n"),
+    ("server", "#include \"server/store/sqlite/parts.h\"\n#include \"server/store/store.h\"\n#include \"server/jobs/job.h\"\n"),
 ]
 BAD = [("solver", f"#include <{name}>") for name in FORBIDDEN_SOLVER] + [
     ("solver", "#include <nlohmann/json.hpp>"),
@@ -130,7 +130,7 @@ BAD = [("solver", f"#include <{name}>") for name in FORBIDDEN_SOLVER] + [
     ("api", "#include <fstream>"),
     ("api", "#include \"server/status.h\""),
     ("api", "#include \"api/plot/figure.h\""),
-    ("server", "#include \"server/store/postgresql/rows.h\""),
+    ("server", "#include \"server/store/postgresql/parts.h\""),
     ("server", "#include \"server/store/open_store.h\""),
     ("server", "#include \"server/sweeps/sweep_work.h\""),
     ("server", "#include \"server/service.h\""),

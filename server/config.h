@@ -14,7 +14,7 @@
 #include "server/log/log.h"
 #include "server/queue/job_service.h"
 #include "server/resources/routes.h"
-#include "server/webhooks/webhook_times.h"
+#include "server/webhooks/webhooks.h"
 
 namespace snapthrough::server {
 

@@ -18,7 +18,6 @@
 
 #include "server/bell.h"
 #include "server/front/client.h"
-#include "server/front/library.h"
 #include "server/front/response_bytes.h"
 #include "server/front/sockets.h"
 #include "server/front/turns.h"

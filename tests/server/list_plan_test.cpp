@@ -4,7 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "server/store/sqlite/list.h"
-#include "server/store/sqlite/migrations.h"
+#include "server/store/sqlite/parts.h"
+#include "server/store/sqlite/sqlite_store.h"
 #include "tests/server/support/samples.h"
 #include "tests/server/support/temp_dir.h"
 

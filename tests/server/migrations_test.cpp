@@ -1,4 +1,4 @@
-#include "server/store/sqlite/migrations.h"
+#include "server/store/sqlite/parts.h"
 
 #include <gmock/gmock.h>
 #include <unistd.h>

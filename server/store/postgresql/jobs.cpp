@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "server/store/crashes.h"
 #include "server/store/postgresql/list.h"
 #include "server/store/postgresql/parts.h"
-#include "server/store/units.h"
 
 namespace snapthrough::server::postgresql {
 namespace {

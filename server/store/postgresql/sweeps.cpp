@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "server/store/crashes.h"
 #include "server/store/postgresql/list.h"
 #include "server/store/postgresql/parts.h"
 #include "server/store/postgresql/sweep_rows.h"

@@ -1,4 +1,4 @@
-#include "server/store/sqlite/migrations.h"
+#include "server/store/sqlite/parts.h"
 
 namespace snapthrough::server::sqlite {
 namespace {

@@ -3,6 +3,7 @@
 /// What the files of the driver give one another. Everything that takes a Connection throws Error.
 
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,12 @@ namespace snapthrough::server::sqlite {
 /// The deliveries of a database; triggers (migrations/sqlite/0007_deliveries.sql) fill their table. REQUIRES:
 /// the database outlives them.
 [[nodiscard]] std::unique_ptr<DeliveryStore> deliveries_in(Database& database);
+
+/// @brief Applies the steps that the database lacks in one transaction, and records each in
+/// schema_migrations.
+/// @return see check_applied(). Throws Error when a step fails, or the database can't be read or written: it
+/// is as before then.
+Status migrate(Connection& connection, std::span<const Migration> migrations, Time now);
 
 /// Counts what an owner hands in, or returns as check_quotas() which quota forbids it.
 [[nodiscard]] Status admit(Connection& connection, std::string_view owner, const Quotas& quotas,

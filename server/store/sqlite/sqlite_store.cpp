@@ -1,12 +1,19 @@
 #include "server/store/sqlite/sqlite_store.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
-#include "server/store/sqlite/file_lock.h"
+#include "server/descriptor.h"
+#include "server/store/crashes.h"
 #include "server/store/sqlite/list.h"
 #include "server/store/sqlite/parts.h"
-#include "server/store/units.h"
 
 namespace snapthrough::server::sqlite {
 namespace {
@@ -451,6 +458,23 @@ class SqliteStore final : public Store {
   std::unique_ptr<DeliveryStore> deliveries_;
 };
 
+/// @brief Takes an advisory lock on a file, which holds for every name of the file until the descriptor is
+/// closed or the process dies; creates the file if need be. `unavailable` when another process holds the
+/// lock.
+///
+/// SQLite's own locks (of another kind) end when their process closes any descriptor of the file: the result
+/// must outlive every connection.
+StatusOr<Descriptor> lock_file(const std::string& path) {
+  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
+  if (file.get() < 0) {
+    return Status(StatusCode::io_error, path + ": " + std::generic_category().message(errno));
+  }
+  if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
+    return Status(StatusCode::unavailable, path + ": the store is in use by another process");
+  }
+  return file;
+}
+
 }  // namespace
 
 StatusOr<std::unique_ptr<Store>> open_store(const std::string& path, Time now,
@@ -473,6 +497,22 @@ StatusOr<std::unique_ptr<Store>> open_store(const std::string& path, Time now,
 }
 
 namespace {
+
+bool sync_path(const std::string& path, int flags) {
+  const Descriptor file(::open(path.c_str(), flags | O_CLOEXEC));
+  return file.get() >= 0 && ::fsync(file.get()) == 0;
+}
+
+/// Writes a finished file to the disk and gives it its final name; an older file of that name goes.
+Status publish_file(const std::string& unfinished, const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : name.substr(0, slash + 1);
+  if (!sync_path(unfinished, O_RDWR) || ::rename(unfinished.c_str(), name.c_str()) != 0 ||
+      !sync_path(folder, O_RDONLY | O_DIRECTORY)) {
+    return {StatusCode::io_error, name + ": " + std::generic_category().message(errno)};
+  }
+  return {};
+}
 
 /// Removes an unfinished copy with the files that SQLite keeps beside it.
 void remove_unfinished(const std::string& path) {

@@ -5,12 +5,17 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "server/environment.h"
-#include "server/store/sqlite/migrations.h"
+#include "server/store/driver.h"
 #include "server/store/store.h"
 
 namespace snapthrough::server::sqlite {
+
+/// The steps that this program knows, in order. CMake generates the definition
+/// (store/embed_migrations.cmake).
+[[nodiscard]] const std::vector<Migration>& embedded_migrations();
 
 /// @brief Opens or creates the store, locks it for this process, and brings its schema up to date.
 ///

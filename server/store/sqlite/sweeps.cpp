@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "server/store/crashes.h"
 #include "server/store/sqlite/list.h"
 #include "server/store/sqlite/parts.h"
-#include "server/store/units.h"
 
 namespace snapthrough::server::sqlite {
 namespace {
