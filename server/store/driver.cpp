@@ -52,6 +52,14 @@ std::string status_in(std::span<const JobState> states) {
   return "status IN (" + list + ")";
 }
 
+std::string numbered(char mark, int first, int count) {
+  std::string list;
+  for (int number = first; number < first + count; ++number) {
+    list += (list.empty() ? "" : ", ") + std::string(1, mark) + std::to_string(number);
+  }
+  return list;
+}
+
 std::optional<std::int64_t> Row::optional_integer(int column) const {
   return is_null(column) ? std::nullopt : std::optional(integer(column));
 }

@@ -87,6 +87,9 @@ class Row {
   return text.empty() ? std::nullopt : std::optional(text);
 }
 
+/// Numbered parameters of a statement, e.g. "$2, $3". @param mark '?' (SQLite) or '$' (PostgreSQL)
+[[nodiscard]] std::string numbered(char mark, int first, int count);
+
 /// Columns of read_job() for SELECT from `jobs`, and their number.
 extern const char* const kJobColumns;
 inline constexpr int kJobColumnCount = 16;
@@ -101,11 +104,13 @@ inline constexpr int kSweepColumnCount = 12;
 /// @param row fingerprint of the document that came with the key; id of the job or sweep that was made of it
 [[nodiscard]] Submitted known_key(const Row& row, const IdempotencyKey& key);
 
-/// Columns of read_branch() and add_branch().
+/// Columns of read_branch() and add_branch(), and their number.
 extern const char* const kBranchColumns;
+inline constexpr int kBranchColumnCount = 6;
 [[nodiscard]] Branch read_branch(const Row& row);
-/// Columns of read_critical_point() and add_critical_point().
+/// Columns of read_critical_point() and add_critical_point(), and their number.
 extern const char* const kCriticalPointColumns;
+inline constexpr int kCriticalPointColumnCount = 9;
 [[nodiscard]] CriticalPoint read_critical_point(const Row& row);
 
 /// The values, NaN for those that are not known.

@@ -33,10 +33,11 @@ void add_series(std::vector<Statement>& statements, std::string_view job, int br
 void add_path(std::vector<Statement>& statements, std::string_view job, const std::vector<Branch>& branches,
               const std::vector<CriticalPoint>& critical_points) {
   static const std::string kBranch = "INSERT INTO branches (job, " + std::string(kBranchColumns) +
-                                     ") VALUES (" + std::string(kJobOf) + ", $2, $3, $4, $5, $6, $7)";
+                                     ") VALUES (" + std::string(kJobOf) + ", " +
+                                     numbered('$', 2, kBranchColumnCount) + ")";
   static const std::string kPoint = "INSERT INTO critical_points (job, number, " +
                                     std::string(kCriticalPointColumns) + ") VALUES (" + std::string(kJobOf) +
-                                    ", $2, $3, $4, $5, $6, $7, $8, $9, $10, $11)";
+                                    ", " + numbered('$', 2, 1 + kCriticalPointColumnCount) + ")";
   for (const Branch& branch : branches) {
     Parameters row = Parameters().add(job);
     add_branch(row, branch);

@@ -30,7 +30,7 @@ void insert_series(Connection& connection, std::int64_t job, int branch, std::st
 
 void insert_branch(Connection& connection, std::int64_t job, const Branch& branch) {
   static const std::string kSql = "INSERT INTO branches (job, points, " + std::string(kBranchColumns) +
-                                  ") VALUES (?, ?, ?, ?, ?, ?, ?, ?)";
+                                  ") VALUES (" + numbered('?', 1, 2 + kBranchColumnCount) + ")";
   Statement row = connection.query(kSql, job, static_cast<std::int64_t>(branch.load_factor.size()));
   add_branch(row, branch);
   row.run();
@@ -55,8 +55,8 @@ std::vector<NamedSeries> read_series(const Connection& connection, std::int64_t 
 void insert_path(Connection& connection, std::int64_t job, const std::vector<Branch>& branches,
                  const std::vector<CriticalPoint>& critical_points) {
   static const std::string kPoint = "INSERT INTO critical_points (job, number, " +
-                                    std::string(kCriticalPointColumns) +
-                                    ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)";
+                                    std::string(kCriticalPointColumns) + ") VALUES (" +
+                                    numbered('?', 1, 2 + kCriticalPointColumnCount) + ")";
   for (const Branch& branch : branches) {
     insert_branch(connection, job, branch);
   }
