@@ -34,16 +34,16 @@ struct KnownJob {
 class JobSubmission {
  public:
   explicit JobSubmission(const NewJob& job) : job_(job) {}
+  JobSubmission(const JobSubmission&) = delete;
+  JobSubmission& operator=(const JobSubmission&) = delete;
+  JobSubmission(JobSubmission&&) = delete;
+  JobSubmission& operator=(JobSubmission&&) = delete;
+  virtual ~JobSubmission() = default;
+
   /// Decides and stores; see Store::submit().
   [[nodiscard]] StatusOr<Submitted> run();
 
  protected:
-  ~JobSubmission() = default;
-  JobSubmission(const JobSubmission&) = default;
-  JobSubmission& operator=(const JobSubmission&) = delete;
-  JobSubmission(JobSubmission&&) = default;
-  JobSubmission& operator=(JobSubmission&&) = delete;
-
   /// What the idempotency key of the job was used for; empty for a new key.
   virtual std::optional<Submitted> find_key() = 0;
   /// The newest successful job of the same content and owner, of those with the same annotations if any.

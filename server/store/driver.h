@@ -50,6 +50,13 @@ template <class Event>
 /// the driver.
 class Row {
  public:
+  Row() = default;
+  Row(const Row&) = default;
+  Row& operator=(const Row&) = default;
+  Row(Row&&) = default;
+  Row& operator=(Row&&) = default;
+  virtual ~Row() = default;
+
   [[nodiscard]] virtual bool is_null(int column) const = 0;
   [[nodiscard]] virtual std::int64_t integer(int column) const = 0;
   [[nodiscard]] virtual double real(int column) const = 0;
@@ -70,14 +77,6 @@ class Row {
   [[nodiscard]] JobState state(int column) const;
   /// Label, metadata and callback in three columns.
   [[nodiscard]] Annotations annotations(int column) const;
-
- protected:
-  Row() = default;
-  Row(const Row&) = default;
-  Row& operator=(const Row&) = default;
-  Row(Row&&) = default;
-  Row& operator=(Row&&) = default;
-  ~Row() = default;
 };
 
 /// Microseconds since 1970: the stored form of a time.
