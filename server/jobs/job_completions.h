@@ -30,8 +30,9 @@ class JobCompletions {
     Ticket(Ticket&&) = delete;
     Ticket& operator=(Ticket&&) = delete;
 
-    /// @brief Calls `callback` once, on any thread, when the job has ended or close() was called; at once if
-    /// that has happened before. The callback must be quick, must not throw, and must not use JobCompletions.
+    /// @brief Calls `callback` once, on any thread, when the job has ended or close() was called; at once
+    /// if either has happened before. The callback must be quick, must not throw, and must not use
+    /// JobCompletions.
     void on_end(std::function<void()> callback);
 
    private:

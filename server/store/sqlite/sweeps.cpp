@@ -143,8 +143,8 @@ struct LateClaim {
   LostLease lost;
 };
 
-/// Ends claims whose lease ends before `ended_before`, by the decisions of lost_units(). Returns the number
-/// of units that are given out again.
+/// Ends claims whose lease ends before `ended_before`, by the decisions of lost_units(). Returns how many
+/// units are given out again.
 std::int64_t take_claims_back(Connection& connection, Time ended_before, std::string_view rescuer,
                               int max_crashes, Time now) {
   static const std::string kSql = "SELECT " + std::string(kHeldColumns) +
