@@ -378,7 +378,7 @@ bool CriticalNewton::balances() {
     residual_ += at_.unfolding[i] * column;
   }
   const double size = problem_.relative_residual(residual_, at_.y, at_.lambda);
-  const double rounding = std::max(Rounding::residual, problem_.residual_rounding(at_.y, at_.lambda));
+  const double rounding = std::max(Rounding::largest_residual, problem_.residual_rounding(at_.y, at_.lambda));
   if (problem_.one_sided() && size > std::max(options_.largest_residual, rounding)) return false;
   const bool falls = size <= 0.5 * left_;
   left_ = size;

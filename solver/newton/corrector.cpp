@@ -97,7 +97,7 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
     problem.residual(work.trial, lambda + dlambda, work.residual, options.regime);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
     const double rounding =
-        std::max(Rounding::residual, problem.residual_rounding(work.trial, lambda + dlambda));
+        std::max(Rounding::largest_residual, problem.residual_rounding(work.trial, lambda + dlambda));
     const double most = std::min(out.relative_residual, options.largest_residual);
     if (problem.one_sided() && size > std::max(most, rounding))
       return correction <= NewtonLimits::omitted && out.relative_residual <= options.stagnant_residual;
@@ -131,7 +131,7 @@ class Progress {
     stagnant_ = iteration >= NewtonLimits::stagnant_iterations && residual <= options_.stagnant_residual &&
                 residual > NewtonLimits::stagnant * last_residual_;
     last_residual_ = residual;
-    return iteration > 0 && (small || (rounding && (stagnant_ || residual <= Rounding::residual)));
+    return iteration > 0 && (small || (rounding && (stagnant_ || residual <= Rounding::largest_residual)));
   }
   /// Whether the first correction is only rounding, amplified by a nearly singular tangent.
   [[nodiscard]] bool is_rounding(int iteration, double size, double residual) const {
