@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "solver/element/element_set.h"
+#include "solver/numeric/rounding.h"
 
 namespace snapthrough {
 
@@ -144,7 +145,7 @@ void ElementData<P>::acting_parts(std::size_t contact, const ContactDisplacement
                                   std::vector<ElementPart>& out) const {
   const FoundationContact& part = contacts[contact];
   const Touch touch = contact_touch[contact];
-  if (touch != Touch::none && part.is_near(u.start, u.dx, u.dy, kTouchBand))
+  if (touch != Touch::none && part.is_near(u.start, u.dx, u.dy, Rounding::touching))
     out.assign(touch == Touch::acts ? 1 : 0, {part.range()[0], part.range()[1]});
   else
     part.contact_intervals(u.start, u.dx, u.dy, out);
@@ -154,7 +155,7 @@ template <int P>
 bool ElementData<P>::acts(const Functional& f, const ElementDofs& at, const double* y) const {
   if (!f.law.one_sided) return true;
   const double w = value(f, at, y) - f.law.gap;
-  return f.touch != Touch::none && std::abs(w) <= kTouchBand ? f.touch == Touch::acts : w > 0.0;
+  return f.touch != Touch::none && std::abs(w) <= Rounding::touching ? f.touch == Touch::acts : w > 0.0;
 }
 
 /// Functional of the penetration at xi of a contact, with zero stiffness and gap.
