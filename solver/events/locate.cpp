@@ -46,7 +46,7 @@ struct Search {
   const Segment& step;  ///< places are measured along its direction
   const LocateOptions& options;
   LocatedEvents& out;
-  double stiffness = 0.0;  ///< of the softest motion at the ends of the step
+  double stiffness = 0.0;  ///< stiffness of the softest motion at the ends of the step
   int guesses = 0;         ///< points that were corrected because of hidden_events.h alone
 };
 

@@ -11,12 +11,12 @@
 
 namespace snapthrough {
 
-/// @brief Reaction law of a support: the force against its direction (per length for foundations) as a function
-/// of the displacement w into the medium. The equilibrium, its tangent and the reports ask these functions; a law
-/// of another shape changes the three `_at` functions and scale().
+/// @brief Reaction law of a support: the force against its direction (per length for foundations) as a
+/// function of the displacement w into the medium. The equilibrium, its tangent and the reports ask these
+/// functions; a law of another shape changes the three `_at` functions and scale().
 ///
-/// A bilateral support reacts at every w, a one-sided one where w exceeds the gap; the penetration is w beyond
-/// the gap. Today's law is linear, with the modulus `stiffness`.
+/// A bilateral support reacts at every w, a one-sided one where w exceeds the gap; the penetration is w
+/// beyond the gap. Today's law is linear, with the modulus `stiffness`.
 struct Law {
   double stiffness = 0.0;  ///< force by penetration
   double gap = 0.0;        ///< zero for bilateral supports
@@ -26,7 +26,9 @@ struct Law {
   /// d force / d penetration.
   [[nodiscard]] double stiffness_at(double /*penetration*/) const { return stiffness; }
   /// Potential of the force; its derivative is force_at().
-  [[nodiscard]] double energy_at(double penetration) const { return 0.5 * stiffness * penetration * penetration; }
+  [[nodiscard]] double energy_at(double penetration) const {
+    return 0.5 * stiffness * penetration * penetration;
+  }
   /// Multiplies the force by a factor: a quadrature weight, a length, or a share of the support that acts.
   void scale(double factor) { stiffness *= factor; }
 

@@ -50,8 +50,8 @@ TEST(StepTest, AllowsSmallerAnglesWhereContactZonesChange) {
   EXPECT_EQ(verdict(measures), StepVerdict::too_long);
 }
 
-/// The next size brings the measure that is farthest from its target to it: the angle and the first correction
-/// grow with the step, the error of the forecast with its cube.
+/// The next size brings the measure that is farthest from its target to it: the angle and the first
+/// correction grow with the step, the error of the forecast with its cube.
 TEST(StepTest, ScalesTheNextStepByTheTightestTarget) {
   const StepLimits limits;
   const auto factor = [&](const StepMeasures& measures) {
@@ -81,8 +81,8 @@ TEST(StepTest, ShortensARejectedStep) {
   EXPECT_EQ(judge_step(measures, limits, {1.0, 1.0}, true).factor, limits.min_growth);
 }
 
-/// A step that fails at a thousandth of the last full step meets a kink, if supports act on one side only, and
-/// unless it is a smooth turn that a shorter step will follow.
+/// A step that fails at a thousandth of the last full step meets a kink, if supports act on one side only,
+/// and unless it is a smooth turn that a shorter step will follow.
 TEST(StepTest, TakesAStepThatFailsWhenTinyForAKink) {
   StepMeasures failed;
   EXPECT_EQ(verdict(failed, 1e-2), StepVerdict::too_long);
