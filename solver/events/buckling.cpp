@@ -30,8 +30,7 @@ struct BucklingLimits {
   static constexpr double converged = 1e-13;  ///< change of a load at which inverse iteration ends: rounding
   static constexpr int most_iterations = 60;  ///< inverse iterations at most
   static constexpr double beside = 1e-9;      ///< distance from a load of the counts that confirm it
-  /// Doublings of the first scale: beyond 1e13 times it the elastic stiffness is lost to rounding of the
-  /// geometric stiffness.
+  /// Doublings of the first scale; beyond 1e13 times it the elastic stiffness is lost to rounding.
   static constexpr int doublings = 43;
 };
 

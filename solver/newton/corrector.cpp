@@ -14,8 +14,7 @@ namespace {
 struct NewtonLimits {
   /// Largest residual, over the tangent tolerance, from which the last correction may start.
   static constexpr double near_residual = 10.0;
-  /// Largest ratio of the last correction to the one before it, for convergence to the tangent tolerance;
-  /// excludes cycles between contact states.
+  /// Largest ratio of the last correction to the one before it; excludes cycles between contact states.
   static constexpr double closing = 0.1;
   static constexpr int stagnant_iterations = 4;  ///< corrections before stagnation is tested
   static constexpr double stagnant = 0.5;        ///< ratio of successive residuals above which they stagnate
