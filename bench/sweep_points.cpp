@@ -10,7 +10,7 @@
 
 #include "api/sweep.h"
 #include "server/jobs/content_key.h"
-#include "server/sweeps/unit.h"
+#include "server/worker/unit.h"
 #include "solver/solve.h"
 
 namespace {

@@ -81,8 +81,9 @@ def growth_rate(runs):
 
 def precision_pages(by_group):
     """Tables and plots of error against time and unknowns, case by case."""
-    text = ["# Work and precision\n", "Error of the first critical load against CPU milliseconds, all in one run of "
-            "`scripts/bench.sh`. Asked: the accuracy asked for, nothing else set; order p: fixed meshes of that order, 4 to 128 elements.\n"]
+    text = ["# Work and precision\n", "Relative error of the first critical load against CPU milliseconds, all in one run of "
+            "`scripts/bench.sh`.\nCurves *asked*: the requested accuracy, nothing else set. *Order p*: fixed "
+            "meshes of that order, 4 to 128 elements.\n"]
     for case, title in TITLES.items():
         asked = by_group.get(("accuracy", case), [])
         meshes = by_group.get(("mesh", case), [])
@@ -113,8 +114,8 @@ def compared(rows, a, b, what):
 def summary_page(by_group):
     """Targets, growth, bases and what is skipped."""
     text = ["# Measured performance\n",
-            "Written by `scripts/bench.sh`; all numbers of one run, CPU milliseconds. What they mean is in "
-            "[performance.md](../performance.md); [work and precision](precision.md) has every case.\n"]
+            "`scripts/bench.sh` writes this page: all numbers are of one run, in CPU milliseconds.\n"
+            "[performance.md](../performance.md) explains them; [work and precision](precision.md) has every case.\n"]
     rows, ratios = [], []
     for case, title in TITLES.items():
         at = {r["parts"][2]: r for r in by_group.get(("accuracy", case), [])}

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that dependencies point one way: solver <- api <- server and clients, the folders of the solver from the ground up, and
-which libraries each layer sees.
+"""Checks that dependencies point one way: solver <- api <- server and clients, the folders of each of the first three from the
+ground up, and which libraries each layer sees.
 
   check_includes.py              exit status 1 names the includes that are not allowed
   check_includes.py --self-test  checks the checker
@@ -30,22 +30,38 @@ FORBIDDEN_SOLVER = ("thread", "chrono", "iostream", "fstream", "random", "mutex"
                     "cstdio", "ostream", "istream", "iomanip", "sstream", "condition_variable", "regex")
 API_STANDARD = SOLVER_STANDARD | {"sstream", "iosfwd", "cstdio", "regex"}
 
-# The folders of the solver, each above what it may include; files of solver/ itself by their names.
+# The folders of each layer, each above what it may include. Files beside the folders stand by their names, with their ending
+# or without; "." are those that are not named. A folder in a folder that is not named stands with the folder around it.
 SOLVER_ORDER = """
     numeric model result.h hooks.h geometry support mesh element member discrete check column problem newton path events
     trace report sensitivity accuracy analysis sweep solve.h solve.cpp
 """.split()
+API_ORDER = "openapi . plot".split()
+SERVER_ORDER = """
+    status environment authority digest descriptor bell metrics log jobs store store/sqlite store/postgresql store/open_store
+    worker sweeps queue neighbours maintenance resources front webhooks config settings service cli main pages_main
+""".split()
+ORDERS = {"solver": SOLVER_ORDER, "api": API_ORDER, "server": SERVER_ORDER}
 
 
 def place_of(path):
-    """Where a file of the solver stands in SOLVER_ORDER; -1: nowhere."""
-    room = path.split("/")[1]
-    return SOLVER_ORDER.index(room) if room in SOLVER_ORDER else -1
+    """Where a file stands in the order of its layer; -1: nowhere."""
+    layer, _, inside = path.partition("/")
+    file = pathlib.PurePosixPath(inside)
+    around = [folder.as_posix() for folder in file.parents]
+    names = [inside, inside.removesuffix(file.suffix), *(around if len(around) == 1 else around[:-1])]
+    return next((ORDERS[layer].index(name) for name in names if name in ORDERS[layer]), -1)
 
 
 def points_down(path, name):
-    """Whether a file of the solver includes its own folder or one below."""
-    return -1 < place_of(name) <= place_of(path)
+    """Whether a file includes its own folder or one below, or another layer."""
+    return path.split("/")[0] != name.split("/")[0] or -1 < place_of(name) <= place_of(path)
+
+
+def rows_of_readme(text):
+    """Names in the first column of the table of server/README.md, which draws SERVER_ORDER."""
+    rows = re.findall(r"^\| ((?:`[\w/.]+`(?:, )?)+) \|", text, re.MULTILINE)
+    return [name.strip("/") for row in rows for name in re.findall(r"`([\w/.]+)`", row)]
 
 
 def is_eigen(name):
@@ -72,7 +88,7 @@ def allowed(layer, quoted, name):
 
 
 def check_source(source, layer, path=""):
-    """Lines and words of what must not be there; `path` of a file of the solver, from the root."""
+    """Lines and words of what must not be there; `path` of the file from the root."""
     found = []
     text = strip_comments(source)
     for match in INCLUDE.finditer(text):
@@ -80,18 +96,21 @@ def check_source(source, layer, path=""):
         target = match[1] or ""
         if target[:1] not in ('"', "<") or not allowed(layer, target[0] == '"', target[1:-1]):
             found.append((line, f"{layer} must not include {target or 'this'}"))
-        elif layer == "solver" and target[0] == '"' and not points_down(path, target[1:-1]):
-            found.append((line, f"{target} stands above {path} (SOLVER_ORDER of scripts/check_includes.py)"))
+        elif layer in ORDERS and target[0] == '"' and not points_down(path, target[1:-1]):
+            found.append((line, f"{target} stands above {path} ({layer.upper()}_ORDER of scripts/check_includes.py)"))
     return found
 
 
-SNIPPET = "solver/path/x.cpp"  # where the snippets of the solver stand
+# where the snippets of each layer stand
+SNIPPETS = {"solver": "solver/path/x.cpp", "api": "api/value.cpp", "server": "server/store/sqlite/x.cpp", "clients": ""}
 GOOD = [
     ("solver", "#include <vector>\n#include <Eigen/Core>\n#include <stop_token>\n#include \"solver/model/model.h\"\n"),
     ("solver", "#include \"solver/path/x.h\"\n#include \"solver/newton/corrector.h\"\n#include \"solver/result.h\"\n"),
     ("solver", "// #include <thread>\n/* #include <iostream> */\n"),
     ("api", "#include <nlohmann/json.hpp>\n#include \"api/api.h\"\n#include \"solver/solve.h\"\n"),
-    ("server", "#include <sqlite3.h>\n#include <thread>\n#include \"server/x.h\"\n#include \"api/api.h\"\n"),
+    ("api", "#include \"api/openapi/embedded.h\"\n#include \"api/names.h\"\n"),
+    ("server", "#include <sqlite3.h>\n#include <thread>\n#include \"server/status.h\"\n#include \"api/plot/figure.h\"\n"),
+    ("server", "#include \"server/store/sqlite/parts.h\"\n#include \"server/store/store.h\"\n#include \"server/jobs/job.h\"\n"),
 ]
 BAD = [("solver", f"#include <{name}>") for name in FORBIDDEN_SOLVER] + [
     ("solver", "#include <nlohmann/json.hpp>"),
@@ -110,6 +129,13 @@ BAD = [("solver", f"#include <{name}>") for name in FORBIDDEN_SOLVER] + [
     ("api", "#include <Eigen/Core>"),
     ("api", "#include <fstream>"),
     ("api", "#include \"server/status.h\""),
+    ("api", "#include \"api/plot/figure.h\""),
+    ("server", "#include \"server/store/postgresql/parts.h\""),
+    ("server", "#include \"server/store/open_store.h\""),
+    ("server", "#include \"server/sweeps/sweep_work.h\""),
+    ("server", "#include \"server/service.h\""),
+    ("server", "#include \"server/nowhere/x.h\""),
+    ("server", "#include \"server/nowhere.h\""),
     ("clients", "#include \"server/status.h\""),
     ("clients", "#include <thread>"),
     ("server", "#include <Eigen/Dense>"),
@@ -118,8 +144,10 @@ BAD = [("solver", f"#include <{name}>") for name in FORBIDDEN_SOLVER] + [
 
 
 def self_test():
-    wrong = [f"not found: {layer}: {source}" for layer, source in BAD if not check_source(source, layer, SNIPPET)]
-    wrong += [f"{layer}: {text}" for layer, source in GOOD for _, text in check_source(source, layer, SNIPPET)]
+    wrong = [f"not found: {layer}: {source}" for layer, source in BAD if not check_source(source, layer, SNIPPETS[layer])]
+    wrong += [f"{layer}: {text}" for layer, source in GOOD for _, text in check_source(source, layer, SNIPPETS[layer])]
+    if rows_of_readme("| `a`, `b/` | text |\n| `c/d/` | `e` |\n") != ["a", "b", "c/d"]:
+        wrong.append("the table of a README is not read")
     print("\n".join(wrong) if wrong else f"check_includes: self-test of {len(BAD) + len(GOOD)} snippets passed")
     return 1 if wrong else 0
 
@@ -138,6 +166,9 @@ def main(arguments):
             for line, text in check_source(path.read_text(encoding="utf-8"), layer, place):
                 offenders += 1
                 print(f"{place}:{line}: {text}")
+    if rows_of_readme((ROOT / "server/README.md").read_text(encoding="utf-8")) != SERVER_ORDER:
+        offenders += 1
+        print("server/README.md: the rows of its table are not those of SERVER_ORDER")
     print(f"check_includes: {files} files, {offenders} includes that are not allowed")
     return 1 if offenders else 0
 

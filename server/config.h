@@ -11,10 +11,10 @@
 
 #include "server/front/keys.h"
 #include "server/front/listener.h"
-#include "server/jobs/job_service.h"
 #include "server/log/log.h"
+#include "server/queue/job_service.h"
 #include "server/resources/routes.h"
-#include "server/webhooks/webhook_times.h"
+#include "server/webhooks/webhooks.h"
 
 namespace snapthrough::server {
 

@@ -13,10 +13,9 @@
 #include "server/front/listener.h"
 #include "server/jobs/callback.h"
 #include "server/jobs/envelope.h"
-#include "server/jobs/job_service.h"
 #include "server/maintenance/upkeep.h"
-#include "server/metrics/request_metrics.h"
 #include "server/neighbours/neighbours.h"
+#include "server/queue/job_service.h"
 #include "server/resources/routes.h"
 #include "server/store/open_store.h"
 #include "server/webhooks/signature.h"
@@ -148,7 +147,7 @@ struct Service::Parts {
   Upkeep upkeep;
   RunnerCounters runner_counters;
   WorkerPool workers;
-  RequestMetrics metrics;
+  http::RequestMetrics metrics;
   http::Routes routes;
   http::KeyRing keys;
   http::Gateway gateway;

@@ -8,8 +8,8 @@
 #include "server/config.h"
 #include "server/environment.h"
 #include "server/log/log.h"
+#include "server/queue/pool.h"
 #include "server/status.h"
-#include "server/worker/pool.h"
 
 namespace snapthrough::server {
 

@@ -20,6 +20,14 @@ def _blank(text):
     return re.sub(r"[^\n]", " ", text)
 
 
+def comments(source):
+    """(line from 1, column from 0, text) of each comment, in order."""
+    for match in _TOKEN.finditer(source):
+        if match["line_comment"] or match["block_comment"]:
+            begin = match.start()
+            yield source.count("\n", 0, begin) + 1, begin - source.rfind("\n", 0, begin) - 1, match[0]
+
+
 def strip_comments(source):
     """Blanks comments only; literals stay."""
 

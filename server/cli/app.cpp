@@ -14,7 +14,6 @@
 #include <thread>
 
 #include "server/cli/commands.h"
-#include "server/cli/described_app.h"
 #include "server/cli/plot.h"
 #include "server/cli/remote_arguments.h"
 

@@ -3,6 +3,7 @@
 /// The commands, called with parsed arguments. Each function returns the exit status.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,15 @@
 #include "server/cli/part_file.h"
 #include "server/settings.h"
 
+namespace CLI {
+class App;
+}
+
 namespace snapthrough::server::cli {
+
+/// Returns all commands with options, help and defaults, as run() parses them, for manual pages and
+/// completion.
+[[nodiscard]] std::shared_ptr<const CLI::App> described_app();
 
 struct SolveOptions {
   bool csv = false;                       ///< write a table instead of the result

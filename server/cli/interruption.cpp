@@ -24,18 +24,18 @@ Interruption::Interruption() {
     }
   }
   pthread_sigmask(SIG_BLOCK, &signals_, &before_);
-  incoming_ = http::Descriptor(::signalfd(-1, &signals_, SFD_CLOEXEC));
+  incoming_ = Descriptor(::signalfd(-1, &signals_, SFD_CLOEXEC));
   watcher_ = std::thread([this] { watch(); });
 }
 
 Interruption::~Interruption() {
-  finished_.add();
+  finished_.ring();
   watcher_.join();
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
 void Interruption::watch() {
-  std::array<pollfd, 2> waited{{{finished_.get(), POLLIN, 0}, {incoming_.get(), POLLIN, 0}}};
+  std::array<pollfd, 2> waited{{{finished_.descriptor(), POLLIN, 0}, {incoming_.get(), POLLIN, 0}}};
   nfds_t count = waited.size();
   while (true) {
     ::poll(waited.data(), count, -1);

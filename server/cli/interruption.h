@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <thread>
 
-#include "server/front/sockets.h"
+#include "server/bell.h"
 
 namespace snapthrough::server::cli {
 
@@ -36,8 +36,8 @@ class Interruption {
 
   sigset_t signals_{};
   sigset_t before_{};
-  http::Descriptor incoming_;
-  http::Counter finished_{false};
+  Descriptor incoming_;
+  PollBell finished_;
   std::atomic<int> signal_ = 0;
   std::stop_source stop_;
   std::thread watcher_;

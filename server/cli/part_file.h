@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "api/sweep.h"
-#include "server/front/sockets.h"
+#include "server/descriptor.h"
 
 namespace snapthrough::server::cli {
 
@@ -94,7 +94,7 @@ class PartWriter {
   void take_over(const nlohmann::json& document, const api::Sweep& sweep, const SweepPart& part);
 
   std::string path_;
-  http::Descriptor file_;
+  Descriptor file_;
   std::uint64_t points_ = 0;
   std::uint64_t failed_ = 0;
 };

@@ -13,27 +13,10 @@
 #include <cstring>
 #include <functional>
 
+#include "server/descriptor.h"
+
 namespace snapthrough::server::cli {
 namespace {
-
-/// Owns a file descriptor.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) {
-      ::close(number_);
-    }
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  Descriptor(Descriptor&&) = delete;
-  Descriptor& operator=(Descriptor&&) = delete;
-  [[nodiscard]] int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 std::string reason(const std::string& what) { return what + ": " + std::strerror(errno); }
 
@@ -61,18 +44,17 @@ std::string replace(const std::string& file, const std::function<std::string(int
   struct stat status {};
   if (::stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
     const Descriptor target(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
-    return target.number() < 0 ? reason("cannot write " + file) : fill(target.number());
+    return target.get() < 0 ? reason("cannot write " + file) : fill(target.get());
   }
   std::string beside = file + ".XXXXXX";
   std::string problem;
   {
     const Descriptor target(::mkostemp(beside.data(), O_CLOEXEC));
-    if (target.number() < 0) {
+    if (target.get() < 0) {
       return reason("cannot write " + file);
     }
-    problem = fill(target.number());
-    if (problem.empty() &&
-        (::fchmod(target.number(), new_file_mode()) != 0 || ::fsync(target.number()) != 0)) {
+    problem = fill(target.get());
+    if (problem.empty() && (::fchmod(target.get(), new_file_mode()) != 0 || ::fsync(target.get()) != 0)) {
       problem = reason("cannot write " + file);
     }
   }
@@ -96,15 +78,15 @@ std::string first_line(int descriptor) {
 std::string convert(const std::string& svg, int output, double scale) {
   const Descriptor input(::memfd_create("figure", MFD_CLOEXEC));
   const Descriptor errors(::memfd_create("errors", MFD_CLOEXEC));
-  if (input.number() < 0 || errors.number() < 0 || !write_all(input.number(), svg) ||
-      ::lseek(input.number(), 0, SEEK_SET) != 0) {
+  if (input.get() < 0 || errors.get() < 0 || !write_all(input.get(), svg) ||
+      ::lseek(input.get(), 0, SEEK_SET) != 0) {
     return reason("cannot hand the figure to rsvg-convert");
   }
   posix_spawn_file_actions_t streams;
   ::posix_spawn_file_actions_init(&streams);
-  ::posix_spawn_file_actions_adddup2(&streams, input.number(), STDIN_FILENO);
+  ::posix_spawn_file_actions_adddup2(&streams, input.get(), STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&streams, output, STDOUT_FILENO);
-  ::posix_spawn_file_actions_adddup2(&streams, errors.number(), STDERR_FILENO);
+  ::posix_spawn_file_actions_adddup2(&streams, errors.get(), STDERR_FILENO);
   std::array<std::string, 5> words{"rsvg-convert", "--format", "png", "--zoom", std::to_string(scale)};
   std::array<char*, 6> argv{};
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -123,9 +105,8 @@ std::string convert(const std::string& svg, int output, double scale) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0
-             ? ""
-             : "rsvg-convert failed: " + first_line(errors.number());
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ""
+                                                       : "rsvg-convert failed: " + first_line(errors.get());
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "server/cli/input.h"
 #include "server/cli/interruption.h"
 #include "server/cli/remote_service.h"
+#include "server/jobs/state.h"
 
 namespace snapthrough::server::cli {
 namespace {
@@ -192,8 +193,8 @@ std::optional<Found> find(const std::string& id, RemoteService& service, const S
 }
 
 bool has_ended(const json& status) {
-  const std::string word = status.value("status", "");
-  return word != "accepted" && word != "running";
+  const std::optional<JobState> state = job_state_from(status.value("status", ""));
+  return !state || is_final(*state);
 }
 
 /// Reports on `err` why a job or sweep was not successful; returns the exit status. @pre it has ended

@@ -6,9 +6,9 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
+
+#include "server/bell.h"
 
 namespace snapthrough::server::cli {
 namespace {
@@ -39,14 +39,6 @@ std::optional<seconds> asked_pause(const Answer& answer) {
   return seconds(count);
 }
 
-/// Waits for a time, or until a stop is requested.
-void pause(std::chrono::milliseconds length, const std::stop_token& stop) {
-  std::mutex mutex;
-  std::condition_variable_any changed;
-  std::unique_lock lock(mutex);
-  changed.wait_for(lock, stop, length, [] { return false; });
-}
-
 /// @brief During its lifetime, a requested stop ends the client's request.
 ///
 /// The client is stopped repeatedly, because it ignores a stop before its connection is open.
@@ -58,7 +50,7 @@ class Cutter {
             if (stop.stop_requested()) {
               client.stop();
             }
-            pause(kBetweenCuts, done);
+            pause(done, kBetweenCuts);
           }
         }) {}
 
@@ -124,7 +116,7 @@ Answer RemoteService::send(const std::string& method, const std::string& path, c
       return answer;
     }
     on_pause_(answer.status == 0 ? answer.trouble : "HTTP status " + std::to_string(answer.status), length);
-    pause(length, stop_);
+    pause(stop_, length);
     own_pause = std::min(2 * own_pause, kLongestPause);
   }
 }

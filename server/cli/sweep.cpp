@@ -19,7 +19,7 @@
 #include "server/cli/interruption.h"
 #include "server/cli/part_file.h"
 #include "server/cli/progress_bar.h"
-#include "server/sweeps/unit.h"
+#include "server/worker/unit.h"
 #include "solver/solve.h"
 
 namespace snapthrough::server::cli {

@@ -18,16 +18,16 @@
 namespace snapthrough::server::cli {
 namespace {
 
-http::Descriptor connect_to(const std::string& host, int port) {
+Descriptor connect_to(const std::string& host, int port) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* list = nullptr;
   if (::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &list) != 0) {
-    return http::Descriptor();
+    return Descriptor();
   }
   const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owned(list, &::freeaddrinfo);
   for (const addrinfo* address = list; address != nullptr; address = address->ai_next) {
-    http::Descriptor socket(::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    Descriptor socket(::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const timeval patience{3, 0};
     ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     ::setsockopt(socket.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
@@ -35,7 +35,7 @@ http::Descriptor connect_to(const std::string& host, int port) {
       return socket;
     }
   }
-  return http::Descriptor();
+  return Descriptor();
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ int health_command(const std::string& address, bool ready, const Streams& stream
     return kOther;
   }
   const std::string host = parsed->first == "0.0.0.0" ? "127.0.0.1" : parsed->first;
-  const http::Descriptor socket = connect_to(host, parsed->second);
+  const Descriptor socket = connect_to(host, parsed->second);
   const std::string path = ready ? "/readyz" : "/livez";
   const std::string request = "GET " + path + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
   std::array<char, 64> reply{};

@@ -8,11 +8,23 @@
 #include "server/front/request_head.h"
 #include "server/front/response_bytes.h"
 #include "server/log/log.h"
-#include "server/metrics/request_metrics.h"
+#include "server/metrics/metrics.h"
 #include "server/resources/message.h"
 #include "server/resources/routes.h"
 
 namespace snapthrough::server::http {
+
+/// Counts and durations of answered requests. Thread-safe.
+struct RequestMetrics {
+  Counter answered{"snapthrough_requests_total", "Requests answered, by method, route template and status."};
+  Histogram seconds{"snapthrough_request_seconds",
+                    "From a complete request to its response, waits included, by route template."};
+
+  void write(std::string& text) const {
+    answered.write(text);
+    seconds.write(text);
+  }
+};
 
 /// Answered requests: all, or only those for the state of the process (/livez, /readyz, /metrics).
 enum class Answers { all, state };

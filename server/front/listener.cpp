@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "server/bell.h"
 #include "server/front/client.h"
-#include "server/front/library.h"
 #include "server/front/response_bytes.h"
 #include "server/front/sockets.h"
 #include "server/front/turns.h"
@@ -61,8 +61,8 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
         gateway_(gateway),
         turns_(options_.threads),
         epoll_(::epoll_create1(EPOLL_CLOEXEC)) {
-    watch(wakes_ready_.get(), kWakes, EPOLLIN, EPOLL_CTL_ADD);
-    watch(end_.get(), kEnd, EPOLLIN, EPOLL_CTL_ADD);
+    watch(wakes_ready_.descriptor(), kWakes, EPOLLIN, EPOLL_CTL_ADD);
+    watch(end_.descriptor(), kEnd, EPOLLIN, EPOLL_CTL_ADD);
   }
 
   Status start();
@@ -116,8 +116,8 @@ class Listener::Server final : public std::enable_shared_from_this<Listener::Ser
   Turns turns_;  ///< turns to compute responses
   Descriptor epoll_;
   Descriptor listening_;
-  Counter wakes_ready_{true};
-  Counter end_{false};
+  PollBell wakes_ready_{true};
+  PollBell end_;
   int port_ = 0;
   std::atomic<bool> stopping_ = false;
 
@@ -154,7 +154,7 @@ void Listener::Server::shut_down() {
   if (keeper_.joinable()) {
     keeper_.join();
   }
-  end_.add();
+  end_.ring();
   for (std::thread& thread : threads_) {
     thread.join();
   }
@@ -582,11 +582,11 @@ void Listener::Server::wake(const Wake& wake) {
     const std::lock_guard guard(wakes_mutex_);
     wakes_.push_back(wake);
   }
-  wakes_ready_.add();
+  wakes_ready_.ring();
 }
 
 void Listener::Server::take_wake() {
-  wakes_ready_.take();
+  wakes_ready_.silence();
   Wake wake;
   {
     const std::lock_guard guard(wakes_mutex_);

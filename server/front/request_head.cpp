@@ -1,5 +1,7 @@
 #include "server/front/request_head.h"
 
+#include <httplib.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -203,6 +205,20 @@ Head read_head(std::string_view head_text, const HeadLimits& limits) {
   }
   head.headers = *std::move(headers);
   return judge(std::move(head), limits);
+}
+
+Request request_of(Head head) {
+  Request request;
+  const std::size_t path_end = std::min(head.target.find('?'), head.target.size());
+  request.path = httplib::detail::decode_url(head.target.substr(0, path_end), false);
+  if (path_end < head.target.size()) {
+    httplib::Params parameters;
+    httplib::detail::parse_query_text(head.target.substr(path_end + 1), parameters);
+    request.query.assign(parameters.begin(), parameters.end());
+  }
+  request.method = std::move(head.method);
+  request.headers = std::move(head.headers);
+  return request;
 }
 
 }  // namespace snapthrough::server::http

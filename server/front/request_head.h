@@ -48,4 +48,8 @@ struct Head {
 /// Returns whether the service knows a method, including methods that it answers only with a refusal.
 [[nodiscard]] bool is_known_method(std::string_view method);
 
+/// @brief Returns the request of a head, without body, id and peer.
+/// @pre read_head() did not refuse the head
+[[nodiscard]] Request request_of(Head head);
+
 }  // namespace snapthrough::server::http

@@ -3,15 +3,12 @@
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
-#include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <memory>
-#include <system_error>
 #include <utility>
 
 namespace snapthrough::server::http {
@@ -24,19 +21,6 @@ Status cannot_listen(const std::string& host, int port, const std::string& cause
 }
 
 }  // namespace
-
-Descriptor::Descriptor(Descriptor&& other) noexcept : value_(std::exchange(other.value_, -1)) {}
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  std::swap(value_, other.value_);
-  return *this;
-}
-
-void Descriptor::reset() {
-  if (value_ >= 0) {
-    ::close(std::exchange(value_, -1));
-  }
-}
 
 StatusOr<Descriptor> listen_on(const std::string& host, int port) {
   addrinfo hints{};
@@ -92,24 +76,6 @@ int accept_from(int listener, std::string& remote) {
     remote = host.data();
   }
   return socket;
-}
-
-Counter::Counter(bool one_by_one)
-    : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK | (one_by_one ? EFD_SEMAPHORE : 0))) {
-  if (descriptor_.get() < 0) {
-    throw std::system_error(errno, std::generic_category(), "eventfd");
-  }
-}
-
-void Counter::add() const {
-  const std::uint64_t one = 1;
-  // A write fails only when the counter is full, and a full counter is readable, too.
-  [[maybe_unused]] const ssize_t written = ::write(descriptor_.get(), &one, sizeof one);
-}
-
-void Counter::take() const {
-  std::uint64_t value = 0;
-  [[maybe_unused]] const ssize_t count = ::read(descriptor_.get(), &value, sizeof value);
 }
 
 void raise_descriptor_limit() {

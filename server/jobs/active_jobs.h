@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The jobs that this process works on, and how they are asked to stop.
+/// Jobs that run in this process, and requests to stop them.
 
 #include <cstddef>
 #include <mutex>
@@ -17,10 +17,10 @@ namespace snapthrough::server {
 /// Why an analysis is asked to stop.
 enum class StopReason { none, shutdown, dismissed, lease_lost, time_limit };
 
-/// @brief The jobs that this process works on. Thread-safe.
+/// Register of the jobs that run in this process. Thread-safe.
 class ActiveJobs {
  public:
-  /// A job is worked on for as long as this exists.
+  /// Registers a job for as long as the entry exists.
   class Entry {
    public:
     Entry(ActiveJobs& active, const Claim& claim, Time since);
@@ -31,7 +31,7 @@ class ActiveJobs {
     Entry& operator=(Entry&&) = delete;
 
     [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
-    /// Asks the analysis to stop; the first reason counts.
+    /// Asks the analysis to stop. The first reason is kept.
     void stop(StopReason reason);
     [[nodiscard]] StopReason reason() const;
 
@@ -44,11 +44,11 @@ class ActiveJobs {
     std::stop_source stop_;
   };
 
-  /// Asks the analysis of that job to stop, if it runs here.
+  /// Asks the analysis of a job to stop if it runs in this process.
   void stop(const std::string& id, StopReason reason);
-  /// Asks those to stop that run since before that time.
+  /// Asks every analysis to stop that began before `since`.
   void stop_older(Time since, StopReason reason);
-  /// The claims that are held since before that time.
+  /// Claims, without documents, of the jobs that began before `since`.
   [[nodiscard]] std::vector<Claim> older(Time since) const;
   [[nodiscard]] std::size_t count() const;
   [[nodiscard]] bool has(const std::string& id) const;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Addresses that are told of the end of a job or sweep.
+/// Callbacks: addresses to which the service posts the end of a job or sweep.
 
 #include <optional>
 #include <string>
@@ -13,15 +13,15 @@ namespace snapthrough::server {
 
 inline constexpr std::size_t kLongestCallback = 2000;  ///< characters
 
-/// Whether it is an exact `host` or `host:port` in lower case (IPv6 in brackets), without "*".
+/// Whether a text is an exact `host` or `host:port` in lower case (IPv6 in brackets), without "*".
 [[nodiscard]] bool is_callback_host(const std::string& host);
 
-/// @brief What addresses at these hosts begin with: "https://host"; "http://host" too for loopback hosts.
+/// @brief Origins of the hosts: "https://host", and for a loopback host "http://host" too.
 /// @pre is_callback_host(each)
 [[nodiscard]] std::vector<std::string> callback_origins(const std::vector<std::string>& hosts);
 
-/// The rule that an address does not follow, or nothing: an origin of these hosts, a "/", printable ASCII
-/// without a fragment.
+/// Checks that an address is an origin of these hosts, "/", and printable ASCII without a fragment. Returns
+/// the first rule that the address breaks, or nothing.
 [[nodiscard]] std::optional<Finding> check_callback(std::string_view address,
                                                     const std::vector<std::string>& hosts);
 

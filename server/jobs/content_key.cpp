@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Integers that a double holds exactly are written like doubles.
+/// Integers up to 2^53, which a double holds exactly, are written like doubles.
 constexpr double kExact = 9007199254740992.0;
 
 void append_number(const json& value, std::string& text) {
@@ -30,7 +30,8 @@ void append_number(const json& value, std::string& text) {
 
 bool is_plain(char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; }
 
-/// As json(string).dump(), which costs more than all else here where nothing is escaped.
+/// Appends the string as JSON. json::dump() would take most of the time of content_key() for strings without
+/// escapes.
 void append_string(const std::string& string, std::string& text) {
   if (!std::all_of(string.begin(), string.end(), is_plain)) {
     text += json(string).dump();
@@ -41,7 +42,7 @@ void append_string(const std::string& string, std::string& text) {
   text += '"';
 }
 
-/// The nesting is bounded by whoever parsed the document.
+/// Appends a value and its members. The parser of the document has bounded the nesting.
 void append(const json& value, std::string& text) {
   if (value.is_object()) {
     text += '{';

@@ -15,7 +15,7 @@ using nlohmann::json;
 
 constexpr std::string_view kSpace = " \t\r\n";
 
-/// The end of the value that begins at `at`. @pre the text is valid JSON
+/// Index after the value that begins at `at`. @pre the text is valid JSON
 std::size_t end_of_value(std::string_view text, std::size_t at) {
   int depth = 0;
   bool in_string = false;
@@ -40,7 +40,7 @@ std::size_t end_of_value(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// The bytes of a member's value. @pre the text is a valid JSON object that has it
+/// Text of the value of a member. @pre the text is a valid JSON object that has the member
 std::string_view member_text(std::string_view text, std::string_view member) {
   std::size_t at = text.find('{') + 1;
   while (at < text.size()) {
@@ -51,7 +51,7 @@ std::string_view member_text(std::string_view text, std::string_view member) {
     }
     const std::size_t value = text.find_first_not_of(kSpace, text.find(':', name_end) + 1);
     const std::size_t end = end_of_value(text, value);
-    // A name may be written with escapes.
+    // Names may have escapes, so they are compared after parsing.
     if (json::parse(text.substr(name, name_end + 1 - name)).get_ref<const std::string&>() == member) {
       const std::string_view found = text.substr(value, end - value);
       return found.substr(0, found.find_last_not_of(kSpace) + 1);
@@ -106,7 +106,7 @@ void read_callback(const json& value, const std::vector<std::string>& hosts, Env
   }
 }
 
-/// Reads a member beside the document.
+/// Reads a member of an envelope other than the document.
 void read_member(const std::string& name, const json& value, std::string_view member,
                  const std::vector<std::string>& callback_hosts, Envelope& envelope) {
   if (name == "label") {

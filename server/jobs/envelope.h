@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// What a client hands in: a document by itself, or in an envelope with what it wants with it.
+/// Envelopes: what a client hands in is a document, or an object with a document, a label, metadata and a
+/// callback.
 
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -13,34 +14,34 @@
 
 namespace snapthrough::server {
 
-// Characters are code points of Unicode.
+// Bounds in code points of Unicode.
 inline constexpr std::size_t kLongestLabel = 200;
 inline constexpr std::size_t kMostMetadata = 16;           ///< members of metadata
 inline constexpr std::size_t kLongestMetadataName = 40;    ///< characters
 inline constexpr std::size_t kLongestMetadataValue = 200;  ///< characters
 
-/// What was handed in, taken apart. Without findings there is a document.
+/// What was handed in, in parts. `document` is set when `findings` is empty.
 struct Envelope {
   std::shared_ptr<const nlohmann::json> document;  ///< the request or sweep
-  std::string_view text;                           ///< of the document, byte for byte as it came
-  std::string pointer;  ///< of the document in what was handed in: "" or e.g. "/request"
+  std::string_view text;                           ///< text of the document, byte for byte
+  std::string pointer;  ///< JSON Pointer of the document in what was handed in: "" or e.g. "/request"
   Annotations annotations;
-  bool malformed = false;  ///< not acceptable as JSON
+  bool malformed = false;  ///< the text is not JSON that the service accepts
   std::vector<Finding> findings;
 };
 
-/// @brief Reads a text that is a document, or an envelope `{"<member>": document}` with `label`, `metadata`
-/// and `callback` where they are wanted. A document has no member of that name itself.
+/// @brief Reads a document, or an envelope `{"<member>": document}` with optional `label`, `metadata` and
+/// `callback`. An object with the member is an envelope: documents have no member of that name.
 /// @param member "request" or "sweep"
 /// @param callback_hosts see check_callback()
-/// @pre the text outlives the envelope
+/// REQUIRES: the text outlives the envelope.
 [[nodiscard]] Envelope open_envelope(std::string_view text, std::string_view member,
                                      const std::vector<std::string>& callback_hosts = {});
 
-/// Findings about the document, with the pointers that they have in what was handed in.
+/// Findings of the envelope and of the document, each with its pointer in what was handed in.
 [[nodiscard]] std::vector<Finding> in_envelope(const Envelope& envelope, std::vector<Finding> findings);
 
-/// How many characters a UTF-8 text has.
+/// Number of code points of a UTF-8 text.
 [[nodiscard]] std::size_t characters(std::string_view text);
 
 }  // namespace snapthrough::server

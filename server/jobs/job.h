@@ -1,13 +1,13 @@
 #pragma once
 /// @file
-/// A job and what is kept of it. Plain data.
+/// Jobs as data: what is handed in, stored, claimed and returned.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "server/environment.h"
-#include "server/jobs/quotas.h"
 #include "server/jobs/state.h"
 #include "solver/result.h"
 
@@ -20,83 +20,96 @@ struct JobFailure {
   std::string reached;  ///< result document (JSON text) of what was reached; empty: nothing
 };
 
-/// What a client wants with a job or sweep. It has no part in what is computed.
+/// @brief Bounds on what one owner has; 0: no bound. A submission that would exceed one is refused. Accepted
+/// work is computed, and its results are stored, whatever they add.
+struct Quotas {
+  std::int64_t jobs_waiting = 0;     ///< accepted jobs
+  std::int64_t points_waiting = 0;   ///< points of accepted and running sweeps that have no row yet
+  std::int64_t bytes_kept = 0;       ///< bytes of requests, results, sweeps and their rows
+  std::int64_t points_per_hour = 0;  ///< points of sweeps that are handed in or tried again in 60 minutes
+
+  [[nodiscard]] bool any() const {
+    return jobs_waiting > 0 || points_waiting > 0 || bytes_kept > 0 || points_per_hour > 0;
+  }
+};
+
+/// What a client adds to a job or sweep; annotations do not change what is computed.
 struct Annotations {
   std::string label;          ///< empty: none
   std::string metadata;       ///< JSON object of texts; empty: none
-  std::string callback = {};  ///< address that is told of the end (jobs/callback.h); empty: none
+  std::string callback = {};  ///< address to which the end is posted (jobs/callback.h); empty: none
 
   bool operator==(const Annotations&) const = default;
 };
 
-/// What is known of a job without its documents.
+/// A job without its documents.
 struct Job {
   std::string id;
   JobState state = JobState::accepted;
-  int attempt = 0;          ///< how often it was claimed
-  int crashes = 0;          ///< how many of these claims ended with the death of the process
-  std::string owner;        ///< name of the key that handed it in; empty: none was asked for
+  int attempt = 0;          ///< number of claims
+  int crashes = 0;          ///< number of claims that ended with the death of their process
+  std::string owner;        ///< name of the API key of the submission; empty: the service asks for no keys
   std::string content_key;  ///< see NewJob
   std::string title;
   std::string analysis_type;
   Time created;
-  std::optional<Time> started;        ///< of the latest claim
-  std::optional<Time> finished;       ///< exactly in a final state
-  std::optional<JobFailure> failure;  ///< exactly when failed; list() leaves out what was reached
+  std::optional<Time> started;        ///< time of the latest claim
+  std::optional<Time> finished;       ///< set exactly in a final state
+  std::optional<JobFailure> failure;  ///< set exactly when failed; list() leaves `reached` empty
   Annotations annotations;
 };
 
-/// What makes a repeated submission the same one.
+/// Idempotency key: a later submission with the same key and document is the same job or sweep.
 struct IdempotencyKey {
-  std::string key;          ///< as the client gave it
-  std::string fingerprint;  ///< of the document it came with
+  std::string key;          ///< text that the client gave
+  std::string fingerprint;  ///< SHA-256 of the document that came with the key
 };
 
-/// Who works on a job, and until when that holds unless it is renewed.
+/// Lease of a job or of units: after `until`, unless it is renewed, the work may be given to another worker.
 struct Lease {
-  std::string worker;  ///< the instance of the service
+  std::string worker;  ///< name of the instance of the service
   Time until;
 };
 
-/// A job as it is handed in.
+/// A job that is submitted to a store.
 struct NewJob {
   std::string id;             ///< from new_id()
-  std::string title;          ///< of the model, for lists
+  std::string title;          ///< title of the model, for lists
   std::string analysis_type;  ///< e.g. "path"
-  std::string document;       ///< the request, JSON text as received
+  std::string document;       ///< request as received, JSON text
   Time created;
   std::string owner = {};        ///< see Job
-  std::string content_key = {};  ///< equal for requests with equal results; empty: its result is not reused
+  std::string content_key = {};  ///< see content_key(); empty: its result is not reused
   std::optional<IdempotencyKey> idempotency = {};
-  bool patient = false;  ///< its outcome may come at once: the commit may wait a millisecond for it
-  bool reuse = false;    ///< the result of a successful job of the same owner and content will do
-  Quotas quotas = {};    ///< of the owner
-  std::optional<Lease> lease = {};  ///< set: a worker has it already, the job begins running in attempt 1
+  bool patient = false;  ///< the commit may wait a millisecond for the outcome, to store both at once
+  bool reuse = false;    ///< the result of a successful job of the same owner and content may be used
+  Quotas quotas = {};    ///< bounds of the owner
+  std::optional<Lease> lease = {};  ///< set: a worker has the job already, which begins running in attempt 1
   Annotations annotations = {};
 };
 
-/// What became of a submission.
+/// Outcome of a submission to a store.
 struct Submitted {
   enum class Kind {
     created,
-    reused,       ///< `id` is a successful job of the same content; its annotations are those that were given
-    copied,       ///< `id` is the new job: successful, with the result of one that was annotated otherwise
-    repeated,     ///< the idempotency key was used with the same document: `id` is that job
-    key_conflict  ///< the idempotency key was used with another document
+    reused,       ///< `id` is a successful job with the same content and annotations
+    copied,       ///< `id` is a new successful job with the result of a job that has other annotations
+    repeated,     ///< `id` is the job of an earlier submission with the same key and document
+    key_conflict  ///< the key was used with another document
   } kind = Kind::created;
   std::string id;
 };
 
-/// What a worker holds of a job it works on, and what proves that it still does: a job that was given to
-/// somebody else has a higher attempt.
+/// @brief Claim of a worker on a job. Stores refuse writes under a claim whose attempt is not the job's: the
+/// job was given to another worker since.
 struct Claim {
   std::string id;
   int attempt = 0;
   std::string document = {};  ///< the request
-  Time created = {};          ///< the job was handed in then
+  Time created = {};          ///< time of submission
 };
 
-/// What a finished job leaves: the document that is served, and its parts for queries.
+/// Result of a job: the document that is served, and its parts for queries.
 struct JobResult {
   std::string document;  ///< result document, JSON text
   double wall_time_s = 0.0;
@@ -105,7 +118,7 @@ struct JobResult {
   std::vector<CriticalPoint> critical_points;
 };
 
-/// The stored path of a job: series without loss, critical points without their monitor values and state.
+/// Stored path of a job: series without loss; critical points without monitor values and state.
 struct StoredPath {
   std::vector<Branch> branches;
   std::vector<CriticalPoint> critical_points;

@@ -5,7 +5,7 @@
 namespace snapthrough::server {
 namespace {
 
-/// Removes one entry of a multimap that holds pointers by id.
+/// Removes the entry of an id that holds that pointer.
 template <class Map, class Pointer>
 void erase_entry(Map& map, const std::string& id, Pointer pointer) {
   const auto [first, last] = map.equal_range(id);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// How threads of one process learn that a job has ended, without asking the store again and again.
+/// News of ends: threads of one process learn that a job or sweep has ended without asking the store.
 
 #include <functional>
 #include <mutex>
@@ -8,16 +8,17 @@
 #include <unordered_map>
 #include <vector>
 
-#include "server/jobs/bell.h"
+#include "server/bell.h"
 
 namespace snapthrough::server {
 
-/// @brief Tells those who wait that a job has ended. Thread-safe.
+/// @brief Calls back who waits for the end of a job or sweep. Thread-safe.
 ///
-/// A waiter makes its Ticket before it looks at the store, so that an end in between is not missed.
+/// REQUIRES: a waiter makes its Ticket before it reads the state from the store, so that no end is missed in
+/// between.
 class JobCompletions {
  public:
-  /// @param bell rung with each announcement
+  /// @param bell rung by announce()
   explicit JobCompletions(Bell& bell) : bell_(bell) {}
 
   class Ticket {
@@ -29,8 +30,9 @@ class JobCompletions {
     Ticket(Ticket&&) = delete;
     Ticket& operator=(Ticket&&) = delete;
 
-    /// @brief Calls it once when the job has ended or the service closes, on whatever thread; at once when
-    /// that is so already. It must be quick, must not throw, and must not use JobCompletions.
+    /// @brief Calls `callback` once, on any thread, when the job has ended or close() was called; at once
+    /// if either has happened before. The callback must be quick, must not throw, and must not use
+    /// JobCompletions.
     void on_end(std::function<void()> callback);
 
    private:
@@ -41,13 +43,14 @@ class JobCompletions {
     std::function<void()> callback_;
   };
 
-  /// The job is in a final state, or gone, and the store says so: for those who wait here and elsewhere.
+  /// Tells waiters in this process and, by the bell, other processes that the store has the job in a final
+  /// state, or has it no more.
   void announce(const std::string& id);
-  /// The same, as others know already.
+  /// Tells waiters in this process only: another process has announced the end.
   void end(const std::string& id);
-  /// What is waited for.
+  /// Ids of the jobs and sweeps that somebody waits for.
   [[nodiscard]] std::vector<std::string> waited();
-  /// Nobody shall wait any longer, now or later.
+  /// Ends every wait, now and later.
   void close();
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What is measured of jobs and of points of sweeps.
+/// Metrics of jobs and of points of sweeps.
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace snapthrough::server {
 
-/// What became of jobs and points in this process, and how long it took. Thread-safe.
+/// Outcomes and durations of jobs and points in this process. Thread-safe.
 struct JobMetrics {
   Counter jobs{"snapthrough_jobs_ended_total", "Jobs that ended: successful, dismissed, or why they failed."};
   Counter points{"snapthrough_sweep_points_ended_total",

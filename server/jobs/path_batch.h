@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Points of a path on their way to those who watch it grow.
+/// Points of a path that are sent while the path grows.
 
 #include <string>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace snapthrough::server {
 
-/// @brief Points that were traced since the latest were told. It has room for some 2 000 numbers: what comes
-/// when it is full is left out, and so are monitors after the first 100, since the result has every point.
+/// @brief Points that were traced since the last event. A batch has room for some 2 000 numbers; points that
+/// come when it is full, and monitors after the first 100, are left out: the result has them.
 class PathBatch {
  public:
   void add(const TracedPoint& point);
@@ -23,8 +23,8 @@ class PathBatch {
   std::size_t numbers_ = 0;
 };
 
-/// @brief The data of a `points` event (JSON text): what the points have, column by column. Monitors are
-/// those of the first point. @pre not empty
+/// @brief Data of a `points` event (JSON text): the numbers of the points, column by column, with the
+/// monitors of the first point. @pre the points are not empty
 [[nodiscard]] std::string path_points_document(const std::vector<TracedPoint>& points);
 
 }  // namespace snapthrough::server

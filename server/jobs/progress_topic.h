@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What running work tells, and who follows it.
+/// News of running work for those who follow it.
 
 #include <cstdint>
 #include <deque>
@@ -16,15 +16,15 @@
 
 namespace snapthrough::server {
 
-/// @brief The latest news of what this process works on, by id, and who follows it. Thread-safe.
+/// Latest news of the work in this process and its followers, by id. Thread-safe.
 template <class News>
 class ProgressTopic {
  public:
-  /// Follows one id for as long as it exists.
+  /// Follows one id for as long as the follower exists.
   class Follower {
    public:
-    /// Tells the latest news at once if there are any. The callback is called by one thread at a time; it
-    /// must be quick, must not throw, and must not use the topic.
+    /// Calls `callback` with the latest news if there are any, and then with each further news. One thread at
+    /// a time calls it; it must be quick, must not throw, and must not use the topic.
     Follower(ProgressTopic& topic, std::string id, std::function<void(const News&)> callback)
         : topic_(topic), id_(std::move(id)), callback_(std::move(callback)) {
       const std::lock_guard guard(topic_.mutex_);
@@ -55,8 +55,7 @@ class ProgressTopic {
     std::function<void(const News&)> callback_;
   };
 
-  /// Changes what is remembered (which begins empty) and tells the followers.
-  /// @param change called with News&
+  /// Changes the remembered news of an id, empty at first, by `change(News&)`; calls the followers.
   template <class Change>
   void update(const std::string& id, Change change) {
     const std::lock_guard guard(mutex_);
@@ -64,7 +63,7 @@ class ProgressTopic {
     change(news);
     tell(id, news);
   }
-  /// Only tells the followers.
+  /// Calls the followers with news that are not remembered.
   void pass_on(const std::string& id, const News& news) const {
     const std::lock_guard guard(mutex_);
     tell(id, news);
@@ -73,7 +72,7 @@ class ProgressTopic {
     const std::lock_guard guard(mutex_);
     latest_.erase(id);
   }
-  /// The ids that somebody follows.
+  /// Ids with a follower, one entry for each follower.
   [[nodiscard]] std::vector<std::string> followed() const {
     const std::lock_guard guard(mutex_);
     std::vector<std::string> ids;
@@ -82,7 +81,7 @@ class ProgressTopic {
     }
     return ids;
   }
-  /// One field of what is remembered.
+  /// One field of the remembered news.
   template <class Field>
   [[nodiscard]] std::optional<Field> get(const std::string& id, Field News::*field) const {
     const std::lock_guard guard(mutex_);
@@ -102,31 +101,31 @@ class ProgressTopic {
   std::unordered_multimap<std::string, Follower*> followers_;
 };
 
-/// A critical point that a running analysis has found.
+/// A critical point on the path's own mesh.
 struct FoundPoint {
   std::uint64_t number = 0;  ///< JobNews::number of the news that brought it
   CriticalPoint point;
 };
 
-/// Points of the path that a running analysis has traced.
+/// Points of the path in one `points` event.
 struct TracedPoints {
   std::uint64_t number = 0;  ///< JobNews::number of the news that brought them
   std::string document;      ///< see path_points_document()
 };
 
-/// What a running analysis has told so far.
+/// News of a running analysis.
 struct JobNews {
   int attempt = 0;
-  std::uint64_t number = 0;          ///< how often it told something in this attempt
+  std::uint64_t number = 0;          ///< number of news in this attempt
   std::optional<Progress> progress;  ///< the latest
-  std::vector<FoundPoint> found;     ///< all, in the order they were found
-  std::deque<TracedPoints> traced;   ///< the latest, in their order: some kTracedBytes of documents
+  std::vector<FoundPoint> found;     ///< all so far, in the order of discovery
+  std::deque<TracedPoints> traced;   ///< the latest, in their order; about kTracedBytes of documents
 };
 
-/// What is kept of the path of a running analysis for those who come to follow it later.
+/// Bytes of `points` documents that are kept for followers who come later.
 inline constexpr std::size_t kTracedBytes = 128 * 1024;
 
-/// Where the jobs are that run in this process.
+/// News of the jobs that run in this process.
 using JobProgress = ProgressTopic<JobNews>;
 
 }  // namespace snapthrough::server

@@ -1,8 +1,8 @@
 #include "server/maintenance/upkeep.h"
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
+
+#include "server/bell.h"
 
 namespace snapthrough::server {
 namespace {
@@ -153,12 +153,9 @@ void Upkeep::count_waiting() {
 
 UpkeepThread::UpkeepThread(Upkeep& upkeep, const Environment& environment)
     : thread_([&upkeep, &environment](const std::stop_token& stop) {
-        std::mutex mutex;
-        std::condition_variable_any never;
-        std::unique_lock lock(mutex);
         while (!stop.stop_requested()) {
           upkeep.run_once(environment.now());
-          never.wait_for(lock, stop, kPause, [] { return false; });
+          pause(stop, kPause);
         }
       }) {}
 

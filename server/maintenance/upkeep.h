@@ -6,9 +6,9 @@
 #include <thread>
 #include <utility>
 
-#include "server/jobs/worker_context.h"
 #include "server/log/log.h"
 #include "server/maintenance/disk_guard.h"
+#include "server/queue/worker_context.h"
 
 namespace snapthrough::server {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "server/pause.h"
+#include "server/bell.h"
 
 namespace snapthrough::server {
 namespace {
@@ -48,9 +48,12 @@ void Neighbours::watch(const std::stop_token& stop) {
 }
 
 void Neighbours::tell_others(const std::stop_token& stop) {
-  while (context_.bell.wait(stop)) {
-    (void)store_.ring().ok();  // a failed ring() only delays the others
-    pause(stop, kBetweenRings);
+  std::uint64_t seen = 0;
+  while (!stop.stop_requested()) {
+    if (context_.bell.wait(seen, stop, kLongest)) {
+      (void)store_.ring().ok();  // a failed ring() only delays the others
+      pause(stop, kBetweenRings);
+    }
   }
 }
 

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/jobs/worker_context.h"
+#include "server/queue/worker_context.h"
 #include "server/store/neighbour_store.h"
 
 namespace snapthrough::server {

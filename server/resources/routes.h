@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "api/result_table.h"
-#include "server/jobs/job_service.h"
+#include "server/queue/job_service.h"
 #include "server/resources/documents.h"
 #include "server/resources/hops/catalogue.h"
 #include "server/resources/message.h"

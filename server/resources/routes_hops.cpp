@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "api/json_text.h"
-#include "server/jobs/large_document.h"
+#include "server/jobs/memory.h"
 #include "server/resources/body_sources.h"
 #include "server/resources/hops/protocol.h"
 #include "server/resources/negotiation.h"

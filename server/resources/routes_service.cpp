@@ -7,8 +7,7 @@
 #include "api/openapi/document.h"
 #include "api/sweep.h"
 #include "server/jobs/envelope.h"
-#include "server/jobs/large_document.h"
-#include "server/jobs/least_memory.h"
+#include "server/jobs/memory.h"
 #include "server/resources/embedded.h"
 #include "server/resources/routes.h"
 

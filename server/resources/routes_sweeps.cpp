@@ -3,7 +3,7 @@
 
 #include "api/names.h"
 #include "api/sweep_table.h"
-#include "server/jobs/large_document.h"
+#include "server/jobs/memory.h"
 #include "server/resources/body_sources.h"
 #include "server/resources/events.h"
 #include "server/resources/negotiation.h"

@@ -4,7 +4,6 @@
 
 #include "server/resources/documents.h"
 #include "server/resources/events.h"
-#include "server/resources/following.h"
 
 namespace snapthrough::server::http {
 namespace {

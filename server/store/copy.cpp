@@ -13,19 +13,19 @@ namespace snapthrough::server {
 namespace {
 
 constexpr int kPage = 500;
-/// Units whose rows are stored at a time.
+/// Largest number of units whose rows are stored at a time.
 constexpr std::uint64_t kUnitsAtOnce = 4096;
-/// Of a copy, which is alone with its target: longer than it takes.
+/// Lease of a copy, which alone uses its target: longer than any copy takes.
 constexpr std::chrono::hours kLease{24 * 365 * 100};
 
-/// Something to copy, by its place in the order of arrival.
+/// Entry to copy and its place in the order of arrival.
 struct Entry {
   Time created;
   std::string id;
   bool sweep = false;
 };
 
-/// Every job (or sweep) of an owner, as `list` pages them.
+/// Every job (or sweep) of an owner, page by page.
 template <class List, class Items>
 Status add_all(const std::string& owner, bool sweep, const List& list, const Items& items,
                std::vector<Entry>& entries) {
@@ -88,7 +88,7 @@ StatusOr<std::string> whole_result(Store& store, const std::string& id) {
   }
 }
 
-/// What a result document says of itself.
+/// Summary and wall time in a result document.
 JobResult result_of(std::string document, StoredPath path) {
   const nlohmann::json read = nlohmann::json::parse(document, nullptr, false);
   const nlohmann::json summary =
@@ -115,7 +115,7 @@ JobResult result_of(std::string document, StoredPath path) {
   return result;
 }
 
-/// Ends a job in the target as it ended in the source.
+/// Ends a job in the target with the outcome that it has in the source.
 Status end_job(Store& from, Store& to, const Job& job, const Claim& claim) {
   StatusOr<StoredPath> path = from.path(job.id);
   if (!path.ok()) {
@@ -143,14 +143,14 @@ Status copy_job(Store& from, Store& to, const Job& job) {
   copy.annotations = job.annotations;
   const bool ended = is_final(job.state);
   if (ended) {
-    copy.annotations.callback.clear();  // it was told
+    copy.annotations.callback.clear();  // the source has told it
     copy.lease = Lease{"copy", job.created + kLease};
   }
   const StatusOr<Submitted> submitted = to.submit(copy);
   return submitted.ok() && ended ? end_job(from, to, job, {job.id, 1}) : submitted.status();
 }
 
-/// Puts the rows of a sweep that has ended; the last of them end it.
+/// Stores the rows of an ended sweep; the last ones end it in the target.
 Status copy_rows(Store& from, Store& to, const SweepRecord& sweep, std::uint64_t unit_points) {
   const Time started = sweep.started.value_or(sweep.created);
   const bool whole = sweep.done() == sweep.points;
@@ -204,7 +204,7 @@ Status copy_sweep(Store& from, Store& to, const SweepRecord& sweep) {
                                             : Status();
 }
 
-/// Whether the target's copy is as far as the source; one that is not is removed.
+/// Whether the target has the entry in the same state; an entry in another state is removed.
 template <class Record, class Remove>
 StatusOr<bool> is_there(const Record& source, const StatusOr<std::optional<Record>>& target,
                         const Remove& remove) {
@@ -221,7 +221,7 @@ StatusOr<bool> is_there(const Record& source, const StatusOr<std::optional<Recor
   return removed.ok() ? StatusOr<bool>(false) : removed.status();
 }
 
-/// Whether it was copied now: false when it was there.
+/// Copies an entry; returns false when the target had it.
 template <class Record, class AnyStore, class Copy>
 StatusOr<bool> copy_one(AnyStore& from, AnyStore& to, const std::string& id, const Copy& copy) {
   const StatusOr<std::optional<Record>> source = from.get(id);

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Copies what one store keeps to another, of whatever drivers.
+/// Copies a store to another store of any driver.
 
 #include <cstdint>
 #include <functional>
@@ -9,23 +9,22 @@
 
 namespace snapthrough::server {
 
-/// How far a copy is.
+/// Progress of a copy.
 struct CopyCounts {
-  std::int64_t jobs = 0;    ///< copied
-  std::int64_t sweeps = 0;  ///< copied
+  std::int64_t jobs = 0;    ///< jobs copied
+  std::int64_t sweeps = 0;  ///< sweeps copied
   std::int64_t there = 0;   ///< jobs and sweeps that the target had already
   std::int64_t all = 0;     ///< jobs and sweeps of the source
 };
 
-/// @brief Copies jobs and sweeps with their documents, results, paths and rows, in the order of arrival. What
-/// the target has already, under the same id and as far, is left alone: a copy that was cut short is run
-/// again.
+/// @brief Copies jobs and sweeps with their documents, results, paths and rows, in the order of arrival. An
+/// entry that the target has already in the same state stays, so a copy that was cut short can be run again.
 ///
-/// Not copied: attempts and crashes (a job that has ended has one attempt), idempotency keys, callbacks of
-/// what has ended, keys by which rows of sweeps are found for reuse. Work that has not ended is accepted in
-/// the target; a sweep that has not ended begins again.
-/// @param to goes by the time of its caller; nobody else uses it
-/// @param tell called now and then
+/// Not copied: attempts and crashes (an ended job has one attempt), idempotency keys, callbacks of ended
+/// work, keys by which rows of sweeps are reused. Unfinished work is accepted in the target; an unfinished
+/// sweep begins again.
+/// @param to REQUIRES: goes by the time of its caller; used by nobody else
+/// @param tell called now and then with the progress
 Status copy_store(Store& from, Store& to, CopyCounts& counts,
                   const std::function<void(const CopyCounts&)>& tell);
 

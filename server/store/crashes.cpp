@@ -9,8 +9,15 @@ std::uint64_t most_after_crashes(std::uint64_t most, std::int64_t crashes) {
   return std::max<std::uint64_t>(1, most >> std::min<std::int64_t>(63, kHalvings * crashes));
 }
 
-bool is_given_up(const UnitRun& claim, std::int64_t crashes, int max_crashes) {
-  return crashes >= max_crashes && claim.count == 1;
+LostLease lost_job(std::string_view holder, std::string_view rescuer, std::int64_t crashes, int max_crashes) {
+  const bool crashed = rescuer.empty() || holder != rescuer;
+  return {crashed, crashed && crashes + 1 >= max_crashes};
+}
+
+LostLease lost_units(std::string_view holder, std::string_view rescuer, int max_crashes, HeldUnits& held) {
+  const bool crashed = rescuer.empty() || holder != rescuer;
+  held.crashes += crashed ? 1 : 0;
+  return {crashed, crashed && held.crashes >= max_crashes && held.units.count == 1};
 }
 
 std::string crashed_detail(std::int64_t crashes, std::string_view what) {
@@ -18,11 +25,11 @@ std::string crashed_detail(std::int64_t crashes, std::string_view what) {
          std::string(what) + "; it is not tried again";
 }
 
-std::vector<PointRow> crashed_rows(const UnitRun& units, std::int64_t unit_points, std::int64_t crashes) {
-  const auto size = static_cast<std::uint64_t>(unit_points);
-  const std::string detail = crashed_detail(crashes, "point");
+std::vector<PointRow> crashed_rows(const HeldUnits& held) {
+  const std::string detail = crashed_detail(held.crashes, "point");
   std::vector<PointRow> rows;
-  for (std::uint64_t point = units.first * size; point < (units.first + units.count) * size; ++point) {
+  const auto first = static_cast<std::uint64_t>(held.first_point());
+  for (std::uint64_t point = first; point < first + static_cast<std::uint64_t>(held.points()); ++point) {
     rows.push_back({point, {"", "crashed", detail}});
   }
   return rows;

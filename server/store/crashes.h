@@ -1,29 +1,39 @@
 #pragma once
 /// @file
-/// What becomes of work during which processes died, for drivers of stores.
+/// Decisions of drivers of stores about work during which processes died.
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "server/sweeps/sweep.h"
+#include "server/store/units.h"
 
 namespace snapthrough::server {
 
-/// @brief How many units a claim has at most, of units during which a process has died that often: each death
-/// makes it 64 times smaller, so that one unit of thousands is found with three.
+/// @brief Largest claim of units during which a process has died that often. Each death makes it 64 times
+/// smaller, so that one harmful unit of thousands is found with three deaths.
 [[nodiscard]] std::uint64_t most_after_crashes(std::uint64_t most, std::int64_t crashes);
 
-/// Whether a claim during which a process has died, its units' `crashes`-th time, is not tried again: often
-/// enough, and it can't have been another unit's fault.
-[[nodiscard]] bool is_given_up(const UnitRun& claim, std::int64_t crashes, int max_crashes);
+/// Fate of work whose lease has run out. A worker that rescues its own lease is alive, only slow: that is no
+/// crash.
+struct LostLease {
+  bool crashed = false;  ///< the process that held the lease counts as dead
+  bool given_up = false;
+};
+/// @param holder the worker that held the lease
+/// @param rescuer the worker that takes the work back; empty: every holder is known to be dead
+/// @param crashes earlier crashes of the job
+[[nodiscard]] LostLease lost_job(std::string_view holder, std::string_view rescuer, std::int64_t crashes,
+                                 int max_crashes);
+/// Decides about units as lost_job() does about a job, and counts the crash in `held`. Several units are not
+/// given up: any of them may be the cause.
+[[nodiscard]] LostLease lost_units(std::string_view holder, std::string_view rescuer, int max_crashes,
+                                   HeldUnits& held);
 
-/// The detail of the code "crashed". @param what the "job" or "point"
+/// The detail of the failure "crashed". @param what "job" or "point"
 [[nodiscard]] std::string crashed_detail(std::int64_t crashes, std::string_view what);
-
-/// Rows of units that are given up.
-[[nodiscard]] std::vector<PointRow> crashed_rows(const UnitRun& units, std::int64_t unit_points,
-                                                 std::int64_t crashes);
+/// The rows of units that are given up.
+[[nodiscard]] std::vector<PointRow> crashed_rows(const HeldUnits& held);
 
 }  // namespace snapthrough::server

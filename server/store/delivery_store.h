@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What the service needs from a database to tell callbacks. Same promises as Store (server/store/store.h).
+/// Verbs of a store of deliveries to callbacks. Thread safety, atomicity and time: see Store (store/store.h).
 
 #include <chrono>
 #include <cstdint>
@@ -13,17 +13,17 @@
 
 namespace snapthrough::server {
 
-/// The end of a job or sweep that its callback has not been told.
+/// End of a job or sweep that has not been posted to its callback.
 struct Delivery {
-  std::int64_t number = 0;  ///< another for each end
-  std::string id;           ///< of the job or sweep
+  std::int64_t number = 0;  ///< unique for each end
+  std::string id;           ///< id of the job or sweep
   bool sweep = false;
   std::string address;
-  int attempts = 0;  ///< that failed
+  int attempts = 0;  ///< attempts that failed
 };
 
-/// @brief The deliveries that wait. Whatever verb ends a job or sweep with a callback adds one, which is due
-/// at once. It goes with its job or sweep when that is removed, and when a sweep is tried again.
+/// @brief Deliveries that wait. A verb that ends a job or sweep with a callback adds a delivery that is due
+/// at once. A delivery goes when its job or sweep is removed, or its sweep is tried again.
 class DeliveryStore {
  public:
   DeliveryStore() = default;
@@ -33,13 +33,13 @@ class DeliveryStore {
   DeliveryStore& operator=(DeliveryStore&&) = delete;
   virtual ~DeliveryStore() = default;
 
-  /// The delivery to addresses of an origin ("https://host") that is due for the longest time; empty when
-  /// none is. It is the caller's: nobody else is given it for as long as `hold`.
+  /// Delivery to an address of the origin ("https://host") that has been due for the longest time; empty when
+  /// none is due. No other caller gets it for as long as `hold`.
   virtual StatusOr<std::optional<Delivery>> next(std::string_view origin, std::chrono::milliseconds hold,
                                                  Time now) = 0;
-  /// Notes an attempt that failed; the next is due after that pause. Survives the death of the process.
+  /// Counts a failed attempt; the delivery is due again after `pause`. Survives the death of the process.
   virtual Status postpone(std::int64_t number, std::chrono::milliseconds pause, Time now) = 0;
-  /// Removes a delivery, done or given up. Survives the death of the process.
+  /// Removes a delivery that was made or given up. Survives the death of the process.
   virtual Status remove(std::int64_t number) = 0;
   virtual StatusOr<std::int64_t> waiting() = 0;
 };

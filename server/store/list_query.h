@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Which jobs or sweeps to list.
+/// Query of a list of jobs or sweeps.
 
 #include <cstdint>
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace snapthrough::server {
 
-/// An entry's place in a list, which is in the order of creation, newest first.
+/// Place of an entry in a list. Lists are in the order of creation, newest first.
 struct ListPlace {
   Time created;
-  std::int64_t number = 0;  ///< order of arrival, for those of the same microsecond
+  std::int64_t number = 0;  ///< order of arrival, for entries of the same microsecond
 };
 
-/// Which jobs or sweeps to list: those that meet every condition that is set.
+/// Selects the jobs or sweeps that meet every condition that is set.
 struct ListQuery {
   int limit = 20;                            ///< > 0
   std::optional<ListPlace> before = {};      ///< `next` of the page before; empty: from the newest
-  std::optional<JobState> state = {};        ///< only these
-  std::string owner = {};                    ///< only of this owner
-  std::optional<std::string> label = {};     ///< only with this label
-  std::optional<std::string> analysis = {};  ///< only of this type
-  std::optional<Time> created_after = {};    ///< later than this
-  std::optional<Time> created_before = {};   ///< earlier than this
+  std::optional<JobState> state = {};        ///< only entries in this state
+  std::string owner = {};                    ///< only entries of this owner
+  std::optional<std::string> label = {};     ///< only entries with this label
+  std::optional<std::string> analysis = {};  ///< only entries with this type of analysis
+  std::optional<Time> created_after = {};    ///< only entries created later
+  std::optional<Time> created_before = {};   ///< only entries created earlier
 };
 
 }  // namespace snapthrough::server

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What processes that share a store tell each other through it.
+/// Messages between processes that share a store.
 
 #include <chrono>
 #include <cstdint>
@@ -13,22 +13,22 @@
 
 namespace snapthrough::server {
 
-/// Where an analysis stands that runs in some process.
+/// Progress of an analysis in some process.
 struct ToldProgress {
-  std::string id;            ///< of the job
-  int attempt = 0;           ///< of the claim
-  std::uint64_t number = 0;  ///< how often it told something in this attempt
+  std::string id;            ///< id of the job
+  int attempt = 0;           ///< attempt of the claim
+  std::uint64_t number = 0;  ///< number of news in this attempt
   Progress progress;
 };
 
-/// What there is for workers without one.
+/// Work that no worker has.
 struct WaitingWork {
   std::int64_t jobs = 0;  ///< accepted jobs
-  bool units = false;     ///< of sweeps
+  bool units = false;     ///< whether a sweep has units that nobody has
 };
 
-/// @brief What processes that share a store tell each other. Thread-safe. Nothing here is needed for anything
-/// to be right: it is what makes it quick.
+/// @brief Messages between processes that share a store. Thread-safe. A lost message makes things slower, not
+/// wrong.
 class NeighbourStore {
  public:
   NeighbourStore() = default;
@@ -38,17 +38,17 @@ class NeighbourStore {
   NeighbourStore& operator=(NeighbourStore&&) = delete;
   virtual ~NeighbourStore() = default;
 
-  /// What waits. Jobs are counted up to `most`.
+  /// Work that waits; jobs are counted up to `most`.
   virtual StatusOr<WaitingWork> work(std::int64_t most) = 0;
-  /// Those of these jobs and sweeps that have ended, or are there no more.
+  /// The ids of jobs and sweeps that have ended or are not in the store.
   virtual StatusOr<std::vector<std::string>> ended(const std::vector<std::string>& ids) = 0;
-  /// Tells where analyses of this process stand. Lost when the database crashes.
+  /// Stores the progress of analyses of this process. Lost when the database crashes.
   virtual Status tell(const std::vector<ToldProgress>& progress) = 0;
-  /// What was told of those of these jobs that run.
+  /// The stored progress of those jobs that run.
   virtual StatusOr<std::vector<ToldProgress>> told(const std::vector<std::string>& ids) = 0;
-  /// Wakes those who wait() in other processes. It may be lost.
+  /// Wakes wait() in other processes. A ring may be lost.
   virtual Status ring() = 0;
-  /// Returns when another process rang, or after that time, or on stop; whether somebody rang.
+  /// Returns when another process rang (true), after `longest`, or on a stop.
   virtual bool wait(std::chrono::milliseconds longest, const std::stop_token& stop) = 0;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// What the service needs from a database, as verbs. Each database has a driver in its own folder, which
-/// holds all of its SQL; one conformance suite (tests/server/store_conformance.h) runs on every driver.
+/// Verbs of a store of jobs. Each database has a driver in its own folder, which holds all of its SQL; the
+/// tests in tests/server/store_conformance_test.cpp run on every driver.
 
 #include <chrono>
 #include <cstdint>
@@ -23,36 +23,36 @@ namespace snapthrough::server {
 /// One page of jobs, newest first.
 struct JobPage {
   std::vector<Job> jobs;
-  std::optional<ListPlace> next;  ///< where the next page starts; empty: this is the last
+  std::optional<ListPlace> next;  ///< start of the next page; empty: this is the last page
 };
 
-/// What was done about the jobs that a dead process left running.
+/// Ids of the jobs that were taken back from dead or late workers.
 struct Recovery {
   std::vector<std::string> requeued;
-  std::vector<std::string> failed;  ///< they had been left so too often
+  std::vector<std::string> failed;  ///< given up with the code "crashed"
 };
 
-/// What dismissing a job met.
+/// Outcome of dismissing a job.
 struct Dismissal {
   bool found = false;
-  JobState before = JobState::accepted;  ///< accepted and running jobs are dismissed now
+  JobState before = JobState::accepted;  ///< state before; see kJobTransitions
 };
 
-/// Part of a document.
+/// Piece of a document.
 struct DocumentPiece {
   std::string bytes;
-  std::size_t size = 0;  ///< of the whole document
+  std::size_t size = 0;  ///< bytes of the whole document
 };
 
-/// @brief The stored jobs.
+/// @brief Stored jobs.
 ///
-/// Thread safety: every verb may be called from any thread. Durability: a verb that returned ok survives the
-/// death of the process and of the machine. Atomicity: each verb happens wholly or not at all. A verb with a
-/// Claim is fenced: it returns `conflict` and changes nothing unless the job is running in that claim's
-/// attempt, and (finish and fail) its lease has not run out.
+/// Thread safety: every verb may be called from any thread. Durability: the effect of a verb that returned ok
+/// survives the death of the process and of the machine. Atomicity: each verb happens wholly or not at all. A
+/// verb with a Claim is fenced: it returns `conflict` and changes nothing unless the job is running in the
+/// attempt of the claim, and (finish and fail) its lease has not run out.
 ///
-/// Time: `now` is the caller's clock. A driver of a database that many hosts use goes by the database's clock
-/// instead, and takes from the caller's only how long something lasts.
+/// Time: `now` is the time of the caller. A driver of a database that many hosts use takes the time of the
+/// database instead, and only differences from the caller.
 class Store {
  public:
   Store() = default;
@@ -62,87 +62,86 @@ class Store {
   Store& operator=(Store&&) = delete;
   virtual ~Store() = default;
 
-  /// Adds a job in state accepted (running when it comes with a lease), unless its idempotency key is known
-  /// or there is a result that it may reuse (see Submitted); `waiting_quota` or `storage_quota` when its
-  /// owner would have more than its quotas then. `queued` is called when any verb that is called from then on
-  /// comes after this one; that may be before this one is durable.
+  /// Adds a job in state accepted (with a lease: running) unless its idempotency key is known or there is a
+  /// result that it may reuse (see Submitted). `waiting_quota` or `storage_quota` when the job would exceed a
+  /// quota of its owner. `queued` is called as soon as every later verb happens after this one, which may be
+  /// before this one is durable.
   virtual StatusOr<Submitted> submit(const NewJob& job, const std::function<void()>& queued) = 0;
   StatusOr<Submitted> submit(const NewJob& job) {
     return submit(job, [] {});
   }
 
-  /// What is known of an idempotency key of an owner; empty when it is new.
+  /// Outcome of an earlier submission of the owner with the key; empty for a new key.
   virtual StatusOr<std::optional<Submitted>> find_key(const IdempotencyKey& key, std::string_view owner) = 0;
 
-  /// Gives an accepted job to the caller and makes it running; empty when none waits. Owners take turns; of
-  /// one owner it is the oldest. It survives
-  /// the death of the process, not that of the machine: the job is accepted again then.
+  /// Gives an accepted job to the caller and makes it running; empty when none waits. Owners take turns; the
+  /// oldest job of an owner comes first. The claim survives the death of the process; after that of the
+  /// machine the job may be accepted again.
   virtual StatusOr<std::optional<Claim>> claim(const Lease& lease, Time now) = 0;
 
-  /// Renews the leases of claims that still hold; the ids of those that don't.
+  /// Renews the leases of claims that hold; returns the ids of the others.
   virtual StatusOr<std::vector<std::string>> renew(const std::vector<Claim>& claims, Time until,
                                                    Time now) = 0;
 
-  /// Stores the result, path and critical points and makes the job successful.
+  /// Stores the result with path and critical points, and makes the job successful.
   virtual Status finish(const Claim& claim, const JobResult& result, Time now) = 0;
 
-  /// Stores why, the path that was reached if any, and makes the job failed.
+  /// Stores the reason and the path that was reached, if any, and makes the job failed.
   virtual Status fail(const Claim& claim, const JobFailure& failure, const StoredPath& reached, Time now) = 0;
 
-  /// Gives a running job back, at its place in the queue; it does not count as a crash.
+  /// Gives a running job back to its place in the queue; that does not count as a crash.
   virtual Status requeue(const Claim& claim) = 0;
 
-  /// Deals with every job that is still running although its process is known to be gone: back to the queue,
-  /// or failed with code "crashed" when this was crash number `max_crashes`. To be called once, before the
-  /// first claim. Where other processes may use the store, none is known to be gone: rescue() finds them.
+  /// Takes back every running job, since its process is known to be gone: to the queue, or failed with the
+  /// code "crashed" at crash number `max_crashes`. REQUIRES: called once, before the first claim. In a store
+  /// that several processes use it does nothing: rescue() finds the jobs of dead processes.
   virtual StatusOr<Recovery> recover(int max_crashes, Time now) = 0;
 
-  /// Takes running jobs back whose lease has run out: to the queue, or failed like recover() when that
-  /// happened `max_crashes` times. Leases of `worker` itself cost nothing: it is alive, only slow.
+  /// Takes back running jobs whose lease has run out: to the queue, or failed with the code "crashed" at
+  /// crash number `max_crashes`. Leases of `worker`, which is alive, do not count as crashes.
   virtual StatusOr<Recovery> rescue(std::string_view worker, int max_crashes, Time now) = 0;
 
-  /// Makes an accepted or running job dismissed.
+  /// Dismisses an accepted or running job.
   virtual StatusOr<Dismissal> dismiss(std::string_view id, Time now) = 0;
-  /// Removes a job and all that belongs to it, in whatever state; false when there is none.
+  /// Removes a job in any state with all that belongs to it; false when there is none.
   virtual StatusOr<bool> remove(std::string_view id) = 0;
-  /// Removes at most `most` jobs that ended longer ago than that, the oldest first; how many.
+  /// Removes at most `most` jobs that ended longer than `age` ago, the oldest first; returns their number.
   virtual StatusOr<int> retire(std::chrono::seconds age, int most, Time now) = 0;
-  /// Forgets idempotency keys that were first used longer ago than that.
+  /// Removes idempotency keys that were first used longer than `age` ago.
   virtual Status forget_keys(std::chrono::seconds age, Time now) = 0;
-  /// Finds out whether writing works.
+  /// Ok when the store can be written.
   virtual Status probe(Time now) = 0;
 
-  /// A successful job of that owner and content, the newest (of those without annotations, if there are
-  /// any); empty when there is none.
+  /// Id of the newest successful job of that owner and content, without annotations if possible; or empty.
   virtual StatusOr<std::optional<std::string>> find_result(std::string_view content_key,
                                                            std::string_view owner) = 0;
-  /// How many jobs are accepted.
+  /// Number of accepted jobs.
   virtual StatusOr<std::int64_t> waiting() = 0;
-  /// When the oldest accepted job was handed in; empty when none waits.
+  /// Time of submission of the oldest accepted job; empty when none waits.
   virtual StatusOr<std::optional<Time>> oldest_waiting() = 0;
-  /// Appends what the driver measures of itself, in the text format of Prometheus.
+  /// Appends metrics of the driver in the text format of Prometheus.
   virtual void write_metrics(std::string& /*text*/) const {}
 
-  /// Who has jobs or sweeps, in order.
+  /// Owners with jobs or sweeps, sorted.
   virtual StatusOr<std::vector<std::string>> owners() = 0;
-  /// The job, or empty when there is none of that id.
+  /// The job of that id, or empty.
   virtual StatusOr<std::optional<Job>> get(std::string_view id) = 0;
   virtual StatusOr<JobPage> list(const ListQuery& query) = 0;
 
   /// The request document; empty when there is no such job.
   virtual StatusOr<std::optional<std::string>> request(std::string_view id) = 0;
-  /// At most `most` bytes of the result document from there on: nothing when there is no such document or it
-  /// is no longer than that. What is before them is not read into memory.
+  /// At most `most` bytes of the result document from `offset` on; none behind its end or without a document.
+  /// Bytes before `offset` are not read into memory.
   virtual StatusOr<DocumentPiece> result_piece(std::string_view id, std::size_t offset, std::size_t most) = 0;
   /// The path of a successful or failed job; empty lists when there is none.
   virtual StatusOr<StoredPath> path(std::string_view id) = 0;
 
-  /// What is kept of sweeps; lives as long as this.
+  /// The stored sweeps; they live as long as this store.
   virtual SweepStore& sweeps() = 0;
-  /// Who is still to be told of an end; lives as long as this.
+  /// The deliveries to callbacks; they live as long as this store.
   virtual DeliveryStore& deliveries() = 0;
-  /// What processes that share the store tell each other; lives as long as this. Null: one process at a time
-  /// owns the store.
+  /// Messages between processes that share the store; null: one process at a time owns the store. Lives as
+  /// long as this store.
   virtual NeighbourStore* neighbours() { return nullptr; }
 };
 

@@ -11,7 +11,7 @@ constexpr double kShortestChunk = 0.1;
 constexpr double kLongestChunk = 1.0;
 constexpr double kStoreShare = 0.05;
 constexpr std::uint64_t kFirstChunk = 2;
-constexpr std::uint64_t kLargestChunk = 8192;  // they are prepared before the first is computed
+constexpr std::uint64_t kLargestChunk = 8192;  // units; all are prepared before the first is computed
 
 }  // namespace
 
@@ -58,13 +58,13 @@ double SweepScheduler::chunk_seconds() const {
 void SweepScheduler::store_took(double seconds) {
   const double before = store_seconds_;
   store_seconds_ =
-      before > 0.0 ? 0.5 * (before + seconds) : seconds;  // which of two that meet counts is no matter
+      before > 0.0 ? 0.5 * (before + seconds) : seconds;  // a lost update between threads does not matter
 }
 
-/// How many units a chunk of so many seconds has at most.
+/// Largest number of units in a chunk that should take `seconds`.
 std::uint64_t SweepScheduler::most_units(const ActiveSweep& sweep, double seconds) {
   if (sweep.sweep.unit_size() > 1) {
-    return 1;  // it takes long: another worker may have the next
+    return 1;  // a curve takes long: another worker may have the next one
   }
   if (sweep.seconds_per_unit_ > 0.0) {
     return static_cast<std::uint64_t>(
@@ -140,7 +140,7 @@ void SweepScheduler::remove_if(Is is) {
     }
     look();
   }
-  removed->stop_.request_stop();  // calls those who work on it, who use this scheduler
+  removed->stop_.request_stop();  // without the lock: the callbacks of workers use this scheduler
 }
 
 void SweepScheduler::remove(const std::string& id) {

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The sweeps that this process works on, and whose turn it is. Which units (unit.h) a worker gets is the
-/// store's to say.
+/// Scheduler of the sweeps that this process works on. The store decides which units (worker/unit.h) a worker
+/// gets.
 
 #include <atomic>
 #include <cstdint>
@@ -16,85 +16,85 @@
 #include "api/sweep.h"
 #include "server/environment.h"
 #include "server/jobs/active_jobs.h"
-#include "server/sweeps/sweep.h"
+#include "server/jobs/sweep.h"
 
 namespace snapthrough::server {
 
-/// A sweep that is worked on. What changes belongs to the SweepScheduler.
+/// A sweep that this process works on. The SweepScheduler guards the private members.
 class ActiveSweep {
  public:
-  /// @param open what the store knows of it
+  /// @param open the stored sweep that `read` was read from
   ActiveSweep(std::string name, api::Sweep read, OpenSweep open);
 
   const std::string id;
-  const std::string document;  ///< that it was read from
+  const std::string document;  ///< text that `sweep` was read from
   const api::Sweep sweep;
   const std::string owner;
-  const std::string outputs;  ///< their pointers, for keys
+  const std::string outputs;  ///< pointers of the outputs, for keys of points
   const bool reuse;
-  /// Set when nothing of it is wanted any more.
+  /// Requested when the sweep was dismissed, removed or has ended.
   [[nodiscard]] std::stop_token stopped() const { return stop_.get_token(); }
 
  private:
   friend class SweepScheduler;
-  bool exhausted_ = false;         ///< others have all units that are left, as far as is known
-  std::uint64_t changes_ = 0;      ///< how often units may have come back
-  std::uint64_t served_ = 0;       ///< when it had its last turn, in turns
-  double seconds_per_unit_ = 0.0;  ///< 0: not known
+  bool exhausted_ = false;         ///< at the last look other workers had all units that are left
+  std::uint64_t changes_ = 0;      ///< number of times that units may have come back
+  std::uint64_t served_ = 0;       ///< number of its last turn
+  double seconds_per_unit_ = 0.0;  ///< mean of recent chunks; 0: not known
   std::stop_source stop_;
 };
 
-/// A sweep whose turn it is.
+/// Turn of a sweep.
 struct SweepTurn {
   std::shared_ptr<ActiveSweep> sweep;
-  std::uint64_t most = 1;     ///< units that a worker computes at a time
-  std::uint64_t changes = 0;  ///< for exhausted()
+  std::uint64_t most = 1;     ///< units that the worker should claim, at most
+  std::uint64_t changes = 0;  ///< changes of the sweep at this turn, see exhausted()
 };
 
-/// Units of one sweep that one worker computes.
+/// Units of one sweep that one worker computes before it stores their rows.
 struct Chunk {
   std::shared_ptr<ActiveSweep> sweep;
   UnitClaim claim;
-  double claim_seconds = 0.0;  ///< that the store took to give them
+  double claim_seconds = 0.0;  ///< time that the claim took in the store
 };
 
-/// @brief Gives turns to several sweeps: owners take turns, and of each owner its sweeps. Thread-safe.
+/// @brief Gives turns to sweeps: owners take turns, and the sweeps of an owner take turns. Thread-safe.
 ///
-/// What a unit comes to does not depend on it: each is computed alone.
+/// Results do not depend on the order: each unit is computed alone.
 class SweepScheduler {
  public:
-  /// So many sweeps are worked on in turn.
+  /// Most sweeps at a time.
   static constexpr std::size_t kMost = 8;
 
-  /// False when it is there already.
+  /// Adds a sweep; returns false when a sweep of that id is there.
   bool add(std::shared_ptr<ActiveSweep> sweep);
   [[nodiscard]] bool has(const std::string& id) const;
   [[nodiscard]] bool has_room() const;
-  /// Whether units may be left to take.
+  /// Whether a sweep may have units left.
   [[nodiscard]] bool has_units() const { return available_; }
   [[nodiscard]] std::size_t count() const;
 
-  /// The next sweep in turn of which units may be left, and as many as take about so long.
+  /// Turn of the next sweep that may have units left, for a chunk of about `seconds`.
   std::optional<SweepTurn> next(double seconds);
-  /// The store had no units for that turn.
+  /// Notes that the store had no units for that turn.
   void exhausted(const SweepTurn& turn);
-  /// Units of any sweep may have come back; sweeps of which none were left, and nobody here has any, leave.
+  /// Notes that units of any sweep may have come back; removes exhausted sweeps without a worker in this
+  /// process.
   void refresh();
-  /// @brief How long a worker computes before it stores rows and looks for jobs: a tenth of a second, up to a
-  /// second where the store takes more than a twentieth of that to give units out and to take rows: so
-  /// workers hardly wait for the store, and one that many work on is asked less often.
+  /// @brief Seconds that a worker computes before it stores rows and looks for jobs: 0.1, up to 1 where claim
+  /// and rows take the store more than a twentieth of that, so that workers hardly wait for a busy store.
   [[nodiscard]] double chunk_seconds() const;
-  /// What it took the store to give out the units of a chunk and to take its rows.
+  /// Notes how long the store took for the claim and the rows of a chunk.
   void store_took(double seconds);
-  /// Ends a chunk. @param computed units, in that many seconds
+  /// Ends a chunk of which `computed` units were computed in `seconds`.
   void give_back(const Chunk& chunk, std::uint64_t computed, double seconds);
-  /// Nothing of it is wanted any more: those who work on it are asked to stop.
+  /// Removes a sweep and asks its workers in this process to stop.
   void remove(const std::string& id);
-  /// The same for this one only, not for one of that id that was added since (dismissed and tried again).
+  /// Removes this object only, not a later one with its id (a sweep that was dismissed and tried again).
   void remove(const std::shared_ptr<ActiveSweep>& sweep);
 
-  /// A chunk is worked on for as long as this exists; upkeep sees when a unit takes too long, and renews the
-  /// lease.
+  /// Registers a chunk in work for as long as the watch exists, so that its lease is renewed and a unit that
+  /// takes too long is stopped.
   class Watch {
    public:
     Watch(SweepScheduler& scheduler, const UnitClaim& claim, Time since);
@@ -103,7 +103,7 @@ class SweepScheduler {
     Watch& operator=(const Watch&) = delete;
     Watch(Watch&&) = delete;
     Watch& operator=(Watch&&) = delete;
-    /// The next unit begins.
+    /// Notes when the next unit began.
     void begin(Time since);
     void stop(StopReason reason);
     [[nodiscard]] StopReason reason() const;
@@ -118,11 +118,11 @@ class SweepScheduler {
     StopReason reason_ = StopReason::none;
     std::stop_source stop_;
   };
-  /// Stops units that began before that time.
+  /// Stops chunks whose current unit began before `since`.
   void stop_older(Time since);
-  /// Stops those who work on that claim.
+  /// Stops the chunk of a claim.
   void stop_claim(std::int64_t number, StopReason reason);
-  /// The claims that are held since before that time.
+  /// Claims that are held since `since` or longer.
   [[nodiscard]] std::vector<UnitClaim> older(Time since) const;
 
  private:
@@ -135,12 +135,12 @@ class SweepScheduler {
   void look();
 
   mutable std::mutex mutex_;
-  std::vector<std::shared_ptr<ActiveSweep>> sweeps_;       ///< the oldest first
-  std::unordered_map<std::string, std::uint64_t> served_;  ///< by owner: its last turn
+  std::vector<std::shared_ptr<ActiveSweep>> sweeps_;       ///< in the order of add()
+  std::unordered_map<std::string, std::uint64_t> served_;  ///< number of the last turn of each owner
   std::uint64_t turns_ = 0;
   std::vector<Watch*> watches_;
   std::atomic<bool> available_ = false;
-  std::atomic<double> store_seconds_ = 0.0;  ///< of one chunk, about
+  std::atomic<double> store_seconds_ = 0.0;  ///< mean time that the store takes for a chunk
 };
 
 }  // namespace snapthrough::server

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "server/jobs/envelope.h"
-#include "server/jobs/large_document.h"
-#include "server/jobs/repetition.h"
+#include "server/jobs/memory.h"
+#include "server/jobs/submission.h"
 
 namespace snapthrough::server {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// What a caller can do with sweeps, whatever the protocol.
+/// Sweeps for any protocol: submit, get, dismiss, retry, remove.
 
 #include <optional>
 #include <string>
@@ -11,26 +11,27 @@
 
 namespace snapthrough::server {
 
-/// @brief Where sweeps are handed in and asked for. Thread-safe.
+/// Takes sweeps in and answers questions about them. Thread-safe.
 class SweepService {
  public:
   explicit SweepService(const SweepSurroundings& surroundings) : world_(surroundings), work_(surroundings) {}
 
-  /// @brief Reads and checks a sweep document and, when nothing is wrong, stores it.
-  /// The sweep is durable when this returns an id. `unavailable` when nothing can be stored at the moment.
+  /// @brief Checks a sweep document and stores it if it has no findings. The sweep is durable when an id is
+  /// returned.
+  /// @return `unavailable` or `stopping` while the service takes no work
   StatusOr<Submission> submit(const Order& order);
-  /// The sweep, if there is one and it is the owner's.
+  /// The sweep of that id and owner, or nothing.
   StatusOr<std::optional<SweepRecord>> get(const std::string& id, std::string_view owner);
-  /// Dismisses a sweep and stops work on it; its rows stay. @pre get() found it
+  /// Dismisses a sweep and stops its workers; its rows stay. @pre get() found the sweep
   StatusOr<SweepChange> dismiss(const std::string& id) { return work_.dismiss(id); }
-  /// Computes failed and missing points of a sweep that has ended again. `unavailable` or `stopping` when no
-  /// work is taken at the moment. @pre get() found it
+  /// Accepts a failed or dismissed sweep again, for its failed and missing points. `unavailable` or
+  /// `stopping` while the service takes no work. @pre get() found the sweep
   StatusOr<SweepChange> retry(const std::string& id);
-  /// Removes a sweep and its rows, after stopping work on it. @pre get() found it
+  /// Stops the workers of a sweep and removes it with its rows. @pre get() found the sweep
   Status remove(const std::string& id);
 
   [[nodiscard]] SweepStore& store() { return world_.store; }
-  /// For the workers, and for whoever follows what they do.
+  /// The part that workers and followers use.
   [[nodiscard]] SweepWork& work() { return work_; }
 
  private:

@@ -7,19 +7,19 @@
 #include <utility>
 
 #include "api/sweep_unit.h"
-#include "server/pause.h"
-#include "server/sweeps/unit.h"
+#include "server/bell.h"
+#include "server/worker/unit.h"
 
 namespace snapthrough::server {
 namespace {
 
-/// A chunk that takes so many times longer than it should ends after the unit it is at.
+/// A chunk ends after the current unit when it has taken this many times the seconds that it should take.
 constexpr double kLongest = 2.5;
-/// Seconds of a chunk while jobs wait.
+/// Length of a chunk in seconds while jobs wait.
 constexpr double kWhileJobsWait = 0.02;
 constexpr std::chrono::milliseconds kRetryPause{200};
 
-/// Rows that say that the store did not take them.
+/// The rows of the same points with the error that the store refused them.
 std::vector<PointRow> not_stored(std::vector<PointRow> rows, const Status& status) {
   for (PointRow& row : rows) {
     row = {row.point, {"", "not_stored", "the row could not be stored: " + status.message()}};
@@ -27,16 +27,16 @@ std::vector<PointRow> not_stored(std::vector<PointRow> rows, const Status& statu
   return rows;
 }
 
-/// A unit that is still to be computed.
+/// A unit without rows.
 struct Pending {
   std::uint64_t number = 0;
   SweepUnit unit;
-  std::vector<std::string> keys;  ///< of its points
+  std::vector<std::string> keys;  ///< keys of its points
 };
 
 struct Work {
-  std::vector<PointRow> rows;    ///< of units that are done
-  std::vector<Pending> pending;  ///< those that are not known already
+  std::vector<PointRow> rows;    ///< rows of units that are done
+  std::vector<Pending> pending;  ///< units that are neither computed nor found in the store
 };
 
 std::vector<Pending> pending_units(const Chunk& chunk) {
@@ -52,7 +52,7 @@ std::vector<Pending> pending_units(const Chunk& chunk) {
   return all;
 }
 
-/// Takes what is known already: units, of which every point is.
+/// Takes rows of earlier points with the same keys, for units whose points all have one.
 void look_up(const Chunk& chunk, const SweepSurroundings& world, Work& work) {
   if (!chunk.sweep->reuse) {
     return;
@@ -63,10 +63,10 @@ void look_up(const Chunk& chunk, const SweepSurroundings& world, Work& work) {
   }
   auto found = world.store.find_outputs(keys);
   if (!found.ok()) {
-    return;  // they are computed then
+    return;  // the units are computed
   }
   std::vector<Pending> unknown;
-  auto outputs = found->begin();  // of the unit's first point
+  auto outputs = found->begin();  // output of the first point of the unit
   for (Pending& pending : work.pending) {
     const auto end = outputs + static_cast<std::ptrdiff_t>(pending.keys.size());
     if (std::find(outputs, end, std::nullopt) != end) {
@@ -81,12 +81,12 @@ void look_up(const Chunk& chunk, const SweepSurroundings& world, Work& work) {
   work.pending = std::move(unknown);
 }
 
-/// @param chunk seconds that a chunk should take
+/// Whether a chunk that has run for `seconds` should end. @param chunk seconds that it should take
 bool is_late(double seconds, double chunk, const SweepSurroundings& world) {
   return seconds > kLongest * chunk || (seconds > kWhileJobsWait && world.waiting > 0);
 }
 
-/// The rows of a unit that was computed, or stopped for its time.
+/// Rows of a unit that was computed, or stopped at the time limit.
 void add_rows(Pending& pending, std::vector<api::PointOutcome> outcomes, const SweepSurroundings& world,
               std::vector<PointRow>& rows) {
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -97,8 +97,7 @@ void add_rows(Pending& pending, std::vector<api::PointOutcome> outcomes, const S
   }
 }
 
-/// Computes what is pending, as far as it comes.
-/// @param seconds that it should take
+/// Computes pending units until about `seconds` have passed, jobs wait, or a stop is requested.
 void compute(const Chunk& chunk, double seconds, const SweepSurroundings& world, Runner& runner,
              SweepScheduler::Watch& watch, Work& work) {
   const double start = world.environment.monotonic_seconds();
@@ -132,7 +131,7 @@ StatusOr<SweepChange> SweepWork::dismiss(const std::string& id) {
   StatusOr<SweepChange> change = world_.store.dismiss(id, world_.environment.now());
   if (change.ok() && change->changed) {
     scheduler_.remove(id);
-    unloaded_ = true;  // there is room now, and it may be tried again already
+    unloaded_ = true;  // the scheduler has room, and the sweep may have been tried again
     world_.completions.announce(id);
     log_sweep(world_.log, id, to_string(JobState::dismissed));
   }
@@ -169,11 +168,11 @@ void SweepWork::look_again() {
   world_.handoffs.ring();
 }
 
-/// Gives the scheduler the oldest sweeps that it does not have.
+/// Adds the oldest sweeps that the scheduler does not have, as many as it has room for.
 void SweepWork::load() {
   const std::unique_lock lock(loading_, std::try_to_lock);
   if (!lock.owns_lock() || !unloaded_.exchange(false)) {
-    return;  // somebody is at it
+    return;  // another thread loads
   }
   scheduler_.refresh();
   const StatusOr<std::vector<std::string>> ids = world_.store.with_units();
@@ -188,15 +187,15 @@ void SweepWork::load() {
     }
   }
   if (!all && scheduler_.has_room()) {
-    unloaded_ = true;  // the store failed: to be tried again
+    unloaded_ = true;  // the store failed: the next call tries again
   }
 }
 
-/// False when the store failed.
+/// Adds one sweep; returns false when the store failed.
 bool SweepWork::load_one(const std::string& id) {
   const StatusOr<std::optional<OpenSweep>> open = world_.store.open(id);
   if (!open.ok() || !open->has_value()) {
-    return open.ok();  // it has ended meanwhile
+    return open.ok();  // an empty answer: the sweep has ended
   }
   OpenSweep found = **open;
   const api::SweepOutcome read = api::read_sweep(found.document);
@@ -221,7 +220,7 @@ std::optional<Chunk> SweepWork::take() {
     StatusOr<std::optional<UnitClaim>> claim = world_.store.claim(id, turn->most, lease, now);
     if (claim.ok() && claim->has_value()) {
       if (scheduler_.has_units()) {
-        world_.handoffs.ring();  // the next worker
+        world_.handoffs.ring();  // wakes the next worker
       }
       return Chunk{turn->sweep, **std::move(claim), world_.environment.monotonic_seconds() - start};
     }
@@ -282,8 +281,8 @@ Status SweepWork::settle(const Chunk& chunk, const std::vector<PointRow>& rows, 
     world_.health.writable = false;
     return record.status();
   }
-  // Dismissed or removed meanwhile, or the store is broken: then the next start takes it up again. One that
-  // was tried again since is another.
+  // The sweep was dismissed or removed meanwhile, or the store is broken: the next start takes the sweep up
+  // again then. A sweep that was tried again since is another object in the scheduler.
   scheduler_.remove(chunk.sweep);
   return record.status();
 }
@@ -299,7 +298,7 @@ void SweepWork::stored(const SweepRecord& record, const std::vector<PointRow>& r
     return;
   }
   scheduler_.remove(record.id);
-  unloaded_ = true;  // there is room now
+  unloaded_ = true;  // the scheduler has room
   world_.completions.announce(record.id);
   world_.log.write(record.failed > 0 ? LogLevel::warning : LogLevel::info, "sweep",
                    {{"sweep", std::string_view(record.id)},

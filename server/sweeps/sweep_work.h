@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The work on sweeps: units are taken, looked up or computed, and the rows of their points stored.
+/// Work on sweeps: claims units, finds or computes their rows, and stores them.
 
 #include <atomic>
 #include <cstdint>
@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "server/bell.h"
 #include "server/environment.h"
-#include "server/jobs/bell.h"
 #include "server/jobs/handoff.h"
 #include "server/jobs/job_completions.h"
 #include "server/jobs/job_metrics.h"
@@ -25,53 +25,54 @@
 
 namespace snapthrough::server {
 
-/// What sweeps share with jobs.
+/// What sweeps share with jobs. All parts are thread-safe.
 struct SweepSurroundings {
   SweepStore& store;
   const Environment& environment;
   Log& log;
   const JobLimits& limits;
   StoreHealth& health;
-  const std::atomic<std::int64_t>& waiting;  ///< jobs that wait, about
+  const std::atomic<std::int64_t>& waiting;  ///< accepted jobs, about
   HandoffQueue& handoffs;
-  JobCompletions& completions;  ///< of sweeps, too
+  JobCompletions& completions;  ///< ends of jobs and sweeps
   JobMetrics& metrics;
   Bell& bell;
-  const std::string instance;  ///< of the service: the name that leases bear
+  const std::string instance;  ///< name of this instance of the service, in leases
 };
 
-/// A line about a sweep that began, was stopped or removed.
+/// Logs a change of a sweep.
 void log_sweep(Log& log, std::string_view id, std::string_view status, std::string_view detail = "");
 
-/// @brief What workers do with sweeps. Thread-safe.
+/// What workers and upkeep do with sweeps. Thread-safe.
 class SweepWork {
  public:
   explicit SweepWork(const SweepSurroundings& surroundings) : world_(surroundings) {}
 
-  /// @brief Works on units of the sweep that is next in turn, as many as take about a tenth of a second: a
-  /// chunk. False when there are none.
+  /// @brief Works on a chunk of the sweep that is next in turn: units that take about 0.1 s. Returns false
+  /// without units.
   ///
-  /// A unit whose points were all computed before is not computed again. A point that fails is a row like the
-  /// others. A chunk ends early when jobs wait, when it takes long, or when the service stops: what was not
-  /// computed is given out again. While the store can't be written, the rows are kept and tried again.
+  /// A unit whose points were all computed before is not computed again. The row of a point that fails has an
+  /// error. A chunk ends early when jobs wait, when it takes long, or when the service stops; units without
+  /// rows are given out again. While the store can't be written, the chunk waits and tries to store its rows
+  /// again.
   bool do_next(Runner& runner, const std::stop_token& stop);
   /// Whether do_next() may find something.
   [[nodiscard]] bool is_left() const { return scheduler_.has_units() || unloaded_; }
-  /// There is more: a worker that sleeps looks at the store, here and in other processes.
+  /// Announces new units: wakes a worker of this process and, by the bell, other processes.
   void wake();
-  /// There is more, as others know already.
+  /// Wakes a worker of this process; other processes know of the units.
   void look_again();
-  /// Stops the sweep; its rows stay. Who works on it is asked to stop.
+  /// Dismisses the sweep and asks its workers to stop; its rows stay.
   StatusOr<SweepChange> dismiss(const std::string& id);
-  /// Stops units that began before that time: they took longer than an analysis may.
+  /// Stops units that began before `since`, for the time limit.
   void stop_older(Time since) { scheduler_.stop_older(since); }
-  /// Renews leases that are held since before that time; who works on one that was lost is asked to stop.
+  /// Renews leases that are held since `since` or longer; asks workers whose lease was lost to stop.
   void renew_leases(Time since, Time now);
-  /// Takes units back whose lease has run out.
+  /// Gives units out again whose lease has run out.
   void rescue(Time now);
-  /// Sweeps that are worked on in turn.
+  /// Number of sweeps in the scheduler.
   [[nodiscard]] std::size_t count() const { return scheduler_.count(); }
-  /// Told each time that rows were stored.
+  /// News of unfinished sweeps, one each time that rows were stored.
   [[nodiscard]] ProgressTopic<SweepRecord>& news() { return news_; }
 
  private:

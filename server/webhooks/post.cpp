@@ -13,7 +13,7 @@ constexpr std::size_t kMostRead = 65536;  // bytes read of a response body; its 
 
 void Poster::watch(int socket) {
   const std::lock_guard guard(mutex_);
-  socket_ = http::Descriptor(::fcntl(socket, F_DUPFD_CLOEXEC, 0));
+  socket_ = Descriptor(::fcntl(socket, F_DUPFD_CLOEXEC, 0));
 }
 
 void Poster::cut_late(bool now) {

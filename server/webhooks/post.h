@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/front/sockets.h"
+#include "server/descriptor.h"
 
 namespace snapthrough::server {
 
@@ -44,7 +44,7 @@ class Poster {
   const std::chrono::milliseconds longest_;
   std::mutex mutex_;
   Clock::time_point deadline_;
-  http::Descriptor socket_;  ///< a duplicate, because the library may close its own at any time
+  Descriptor socket_;  ///< a duplicate, because the library may close its own at any time
 };
 
 }  // namespace snapthrough::server

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "server/pause.h"
+#include "server/bell.h"
 #include "server/resources/documents.h"
 #include "server/webhooks/signature.h"
 

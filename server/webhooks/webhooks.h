@@ -3,6 +3,7 @@
 /// Threads that send callbacks at the end of jobs and sweeps.
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -13,9 +14,18 @@
 #include "server/log/log.h"
 #include "server/store/store.h"
 #include "server/webhooks/post.h"
-#include "server/webhooks/webhook_times.h"
 
 namespace snapthrough::server {
+
+/// Time limits and repetition of callbacks.
+struct WebhookTimes {
+  std::chrono::milliseconds attempt{10'000};  ///< limit from connecting to the response's status
+  std::chrono::milliseconds poll{500};        ///< pause between queries for due deliveries
+  /// Pauses after failed attempts; a delivery ends with the attempt after the last one.
+  std::vector<std::chrono::milliseconds> pauses{std::chrono::seconds(5), std::chrono::seconds(30),
+                                                std::chrono::minutes(2), std::chrono::minutes(10),
+                                                std::chrono::hours(1),   std::chrono::hours(6)};
+};
 
 /// Counts of deliveries. Thread-safe.
 struct WebhookCounters {

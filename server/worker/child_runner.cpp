@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -69,7 +68,7 @@ struct ChildRunner::Watch {
 };
 
 ChildRunner::ChildRunner(ChildRunnerOptions options, RunnerCounters& counters)
-    : options_(std::move(options)), counters_(counters), alarm_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    : options_(std::move(options)), counters_(counters) {
   start();
 }
 
@@ -79,7 +78,6 @@ ChildRunner::~ChildRunner() {
     ::waitpid(process_, nullptr, 0);
     close_ends();
   }
-  ::close(alarm_);
 }
 
 void ChildRunner::close_ends() {
@@ -220,18 +218,12 @@ ChildRunner::End ChildRunner::attend(Watch& watch) {
     replace();
     return End::crashed;
   }
-  std::uint64_t count = 0;
-  // clears a stop request that arrived while a process ended
-  [[maybe_unused]] const ssize_t left = ::read(alarm_, &count, sizeof count);
-  const std::stop_callback on_stop(watch.stop, [this] {
-    const std::uint64_t one = 1;
-    // fails only for a full counter, which wakes poll(), too
-    [[maybe_unused]] const ssize_t written = ::write(alarm_, &one, sizeof one);
-  });
+  alarm_.silence();  // clears a stop request that arrived while a process ended
+  const std::stop_callback on_stop(watch.stop, [this] { alarm_.ring(); });
   std::optional<Clock::time_point> deadline;
   bool told_enough = false;
   for (;;) {
-    std::array<pollfd, 2> fds{pollfd{socket_, POLLIN, 0}, pollfd{alarm_, POLLIN, 0}};
+    std::array<pollfd, 2> fds{pollfd{socket_, POLLIN, 0}, pollfd{alarm_.descriptor(), POLLIN, 0}};
     std::optional<std::chrono::milliseconds> wait;
     if (deadline) {
       wait = std::max(std::chrono::milliseconds(0),

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "server/bell.h"
 #include "server/worker/frame.h"
 #include "server/worker/runner.h"
 
@@ -74,7 +75,7 @@ class ChildRunner final : public Runner {
   int control_ = -1;
   FrameReceiver received_;                       ///< bytes received from the current process
   std::uint64_t task_ = 0;                       ///< number of the process' current task, from 1
-  int alarm_ = -1;                               ///< eventfd that signals a stop request
+  PollBell alarm_;                               ///< rung when a stop is requested
   std::string ended_by_;                         ///< how the last crashed process ended
   std::map<std::string, std::uint64_t> sweeps_;  ///< numbers of sweeps known to the process, by id
   std::uint64_t next_sweep_ = 0;

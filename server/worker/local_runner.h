@@ -3,8 +3,10 @@
 /// A runner in this process, without limits, for tests with their own solver and for the inside of a runner
 /// process.
 
-#include "server/worker/runner.h"
-#include "server/worker/solve_job.h"
+#include <memory>
+#include <utility>
+
+#include "server/worker/unit.h"
 
 namespace snapthrough::server {
 
@@ -12,14 +14,18 @@ namespace snapthrough::server {
 class LocalRunner final : public Runner {
  public:
   explicit LocalRunner(SolveFunction solve) : solve_(std::move(solve)) {}
-  [[nodiscard]] JobRun run_job(std::string_view request, const Hooks& hooks) override;
-  void run_units(const UnitTask& task) override;
+  [[nodiscard]] JobRun run_job(std::string_view request, const Hooks& hooks) override {
+    return solve_job(request, solve_, hooks);
+  }
+  void run_units(const UnitTask& task) override { compute_units(task, solve_); }
 
  private:
   const SolveFunction solve_;
 };
 
 /// Returns a factory that creates a runner in this process for each worker.
-[[nodiscard]] RunnerFactory local_runners(SolveFunction solve);
+[[nodiscard]] inline RunnerFactory local_runners(SolveFunction solve) {
+  return [solve = std::move(solve)] { return std::make_unique<LocalRunner>(solve); };
+}
 
 }  // namespace snapthrough::server

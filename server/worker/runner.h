@@ -26,7 +26,7 @@ struct JobRun {
   std::int64_t peak_bytes = 0;  ///< largest memory use; 0: unknown
 };
 
-/// Units of a sweep (server/sweeps/unit.h) that are computed in sequence.
+/// Units of a sweep (server/worker/unit.h) that are computed in sequence.
 struct UnitTask {
   const std::string& id;        ///< id of the sweep
   const std::string& document;  ///< document of the sweep

@@ -16,10 +16,10 @@
 #include <utility>
 
 #include "server/jobs/path_batch.h"
-#include "server/sweeps/unit.h"
 #include "server/worker/confinement.h"
 #include "server/worker/frame.h"
 #include "server/worker/record.h"
+#include "server/worker/unit.h"
 
 namespace snapthrough::server {
 namespace {

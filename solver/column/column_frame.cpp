@@ -10,22 +10,24 @@
 namespace snapthrough {
 namespace {
 
-constexpr int kTerms = 13;  // terms of the power series
-/// Largest product of piece length and characteristic exponent: the series then lose one digit at most.
-constexpr double kLongest = 2.2;
+/// Power series of the fundamental solution. Source: their remainder, which is below rounding.
+struct FrameSeries {
+  static constexpr int terms = 13;  ///< terms of each series
+  /// Largest length of a piece times its characteristic exponent: the series then lose one digit at most.
+  static constexpr double longest = 2.2;
+};
 
 /// 1 / (2 k + i)! in row i, column k.
 constexpr auto inverse_factorials() {
-  std::array<std::array<double, kTerms>, 4> out{};
+  std::array<std::array<double, FrameSeries::terms>, 4> out{};
   double factorial = 1.0;
-  for (int n = 0; n < 2 * kTerms + 2; ++n) {
+  for (int n = 0; n < 2 * FrameSeries::terms + 2; ++n) {
     if (n > 0) factorial *= n;
     for (int i = n % 2; i < 4; i += 2)
-      if (const int k = (n - i) / 2; n >= i && k < kTerms) out[i][k] = 1.0 / factorial;
+      if (const int k = (n - i) / 2; n >= i && k < FrameSeries::terms) out[i][k] = 1.0 / factorial;
   }
   return out;
 }
-constexpr auto kInverseFactorials = inverse_factorials();
 
 /// Solution of w'''' + q w'' + r w = 0 with w = w' = w'' = 0, w''' = 1 at the start, and its derivatives.
 struct Fundamental {
@@ -36,11 +38,12 @@ struct Fundamental {
 Fundamental fundamental(double q, double r, double h) {
   const double Q = q * h * h;
   const double R = r * h * h * h * h;
+  static constexpr auto inverses = inverse_factorials();
   std::array<double, 4> sum{};
   double before = 0.0;
   double now = 1.0;
-  for (int k = 0; k < kTerms; ++k) {
-    for (int i = 0; i < 4; ++i) sum[i] += now * kInverseFactorials[i][k];
+  for (int k = 0; k < FrameSeries::terms; ++k) {
+    for (int i = 0; i < 4; ++i) sum[i] += now * inverses[i][k];
     const double next = -Q * now - R * before;
     before = now;
     now = next;
@@ -76,7 +79,8 @@ double largest_exponent(double q, double r) {
 }
 
 double pieces_of(const ColumnSpan& span, double q) {
-  return std::max(1.0, std::ceil(largest_exponent(q, span.foundation / span.EI) * span.length / kLongest));
+  return std::max(
+      1.0, std::ceil(largest_exponent(q, span.foundation / span.EI) * span.length / FrameSeries::longest));
 }
 
 double coefficient_q(const ColumnSpan& span, double lambda) {

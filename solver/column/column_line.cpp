@@ -10,6 +10,7 @@
 
 #include "solver/geometry/axes.h"
 #include "solver/model/id_index.h"
+#include "solver/numeric/rounding.h"
 #include "solver/support/joined_supports.h"
 
 namespace snapthrough {
@@ -17,9 +18,11 @@ namespace {
 
 using Vec2 = std::array<double, 2>;
 
-/// Sine of an angle to the line, or to its normal, that counts as zero; its effect is of second order.
-constexpr double kAligned = 1e-12;
-constexpr double kOnePlace = 1e-13;  ///< distance of fractions that counts as zero
+/// What counts as zero in the geometry of a line; ratios. Source: rounding of coordinates and angles.
+struct LineLimits {
+  static constexpr double aligned = 1e-12;    ///< sine of an angle to the line, or to its normal
+  static constexpr double one_place = 1e-13;  ///< distance of two places, over the member's length
+};
 
 double dot(const Vec2& a, const Vec2& b) { return a[0] * b[0] + a[1] * b[1]; }
 
@@ -114,7 +117,7 @@ bool LineReader::add_member(int member, int from, Vec2& direction) {
   if (links_.empty()) along_ = direction;
   line_.normal = {-along_[1], along_[0]};
   links_.push_back(std::move(link));
-  return dot(direction, along_) > 0.0 && std::abs(dot(direction, line_.normal)) <= kAligned;
+  return dot(direction, along_) > 0.0 && std::abs(dot(direction, line_.normal)) <= LineLimits::aligned;
 }
 
 bool LineReader::order_members() {
@@ -167,7 +170,7 @@ void LineReader::cut(Link& link) const {
     if (const auto* point = std::get_if<PointLoad>(&load); point && point->at.member == id)
       add(point->at.fraction);
   std::sort(cuts.begin(), cuts.end());
-  const auto same = [](double a, double b) { return b - a <= kOnePlace; };
+  const auto same = [](double a, double b) { return b - a <= LineLimits::one_place; };
   cuts.erase(std::unique(cuts.begin(), cuts.end(), same), cuts.end());
   cuts.back() = 1.0;
 }
@@ -215,8 +218,8 @@ void LineReader::add_spans() {
 
 Way LineReader::way_of(const Vec2& direction) const {
   const double size = std::hypot(direction[0], direction[1]);
-  if (std::abs(dot(direction, line_.normal)) <= kAligned * size) return Way::along;
-  return std::abs(dot(direction, along_)) <= kAligned * size ? Way::across : Way::neither;
+  if (std::abs(dot(direction, line_.normal)) <= LineLimits::aligned * size) return Way::along;
+  return std::abs(dot(direction, along_)) <= LineLimits::aligned * size ? Way::across : Way::neither;
 }
 
 const LineReader::Link& LineReader::link_of(const std::string& member) const {
@@ -259,7 +262,7 @@ bool LineReader::add_support(const Support& support, int joint) {
   const PrescribedDisplacement d = support.displacement.value_or(PrescribedDisplacement{});
   const Vec2 moved{d.x * axes[0][0] + d.y * axes[1][0], d.x * axes[0][1] + d.y * axes[1][1]};
   if (d.rotation != 0.0) return false;
-  if (std::abs(dot(moved, line_.normal)) > kAligned * std::hypot(moved[0], moved[1])) return false;
+  if (std::abs(dot(moved, line_.normal)) > LineLimits::aligned * std::hypot(moved[0], moved[1])) return false;
   bool along = support.x && support.y;
   bool across = along;
   if (!along && (support.x || support.y)) {
@@ -389,9 +392,8 @@ bool LineReader::add_prestress() {
     for (int i = n - 1; i >= holders.back().first; --i) compression(i) = sum -= axial_.forces[i + 1][pattern];
     for (std::size_t h = 0; h + 1 < holders.size(); ++h) add_forces_between(h, h + 1, pattern);
     for (const Vec2& force : axial_.forces) axial_.size += std::abs(force[pattern]);
-    constexpr double kRounding = 1e-14;  // remainder of cancelling actions over the sum of their magnitudes
     for (int i = 0; i < n; ++i)
-      if (std::abs(compression(i)) <= kRounding * axial_.size) compression(i) = 0.0;
+      if (std::abs(compression(i)) <= Rounding::cancelled_sum * axial_.size) compression(i) = 0.0;
   }
   return true;
 }

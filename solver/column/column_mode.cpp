@@ -9,6 +9,12 @@
 namespace snapthrough {
 namespace {
 
+/// Modes of equal loads. Source: docs/theory.md, Straight columns without a mesh.
+struct ModeLimits {
+  static constexpr double equal_loads = 1e-9;  ///< relative difference up to which loads are equal
+  static constexpr double own_part = 0.05;  ///< least squared distance from the span of modes of equal loads
+};
+
 using Pair = std::array<double, 2>;
 using ColumnState = std::array<double, 4>;
 
@@ -105,7 +111,7 @@ ColumnMode::Piece ModeSearch::series(const ColumnPiece& piece, const ColumnState
   c[1] = state[1];
   c[2] = state[3] / piece.EI / 2.0;
   c[3] = (-state[2] / piece.EI - piece.q * state[1]) / 6.0;
-  for (int k = 0; k + 4 < ColumnMode::kCoefficients; ++k)
+  for (int k = 0; k + 4 < ColumnMode::terms; ++k)
     c[k + 4] = -(piece.q * (k + 1) * (k + 2) * c[k + 2] + piece.r * c[k]) /
                static_cast<double>((k + 1) * (k + 2) * (k + 3) * (k + 4));
   return out;
@@ -169,12 +175,11 @@ double ModeSearch::independence(const ColumnMode& mode, const std::vector<Column
 }
 
 void ModeSearch::find(std::size_t count, std::vector<ColumnMode>& out) const {
-  constexpr double kIndependent = 0.05;  // least independent part of a mode among those of equal loads
   const std::size_t first = out.size();
   for (const Match& match : best_matches(count)) {
     if (out.size() == first + count) break;
     ColumnMode mode = mode_of(match);
-    if (count == 1 || independence(mode, out, first) > kIndependent) out.push_back(std::move(mode));
+    if (count == 1 || independence(mode, out, first) > ModeLimits::own_part) out.push_back(std::move(mode));
   }
 }
 
@@ -185,7 +190,7 @@ ColumnMode::Value ColumnMode::at(int span, double x) const {
   const Piece& piece = pieces_[first_[span] + k];
   const double y = piece.direction > 0.0 ? x - piece.from : piece.from + piece.length - x;
   Value out;
-  for (int i = kCoefficients - 1; i >= 0; --i) {
+  for (int i = terms - 1; i >= 0; --i) {
     out.slope = out.slope * y + out.w;
     out.w = out.w * y + piece.coefficients[i];
   }
@@ -194,12 +199,11 @@ ColumnMode::Value ColumnMode::at(int span, double x) const {
 }
 
 std::vector<ColumnMode> column_modes(const ColumnLine& line, const std::vector<double>& loads) {
-  constexpr double kEqual = 1e-9;  // relative difference up to which loads are equal
   const ColumnLine back = reversed(line);
   std::vector<ColumnMode> out;
   for (std::size_t i = 0; i < loads.size();) {
     std::size_t end = i + 1;
-    while (end < loads.size() && loads[end] - loads[end - 1] <= kEqual * loads[end]) ++end;
+    while (end < loads.size() && loads[end] - loads[end - 1] <= ModeLimits::equal_loads * loads[end]) ++end;
     ModeSearch(line, back, 0.5 * (loads[i] + loads[end - 1])).find(end - i, out);
     if (out.size() != end) break;
     i = end;

@@ -12,6 +12,18 @@
 namespace snapthrough {
 namespace {
 
+/// Limits of the search. Source: docs/theory.md, Straight columns without a mesh.
+struct LoadLimits {
+  static constexpr double most_pieces = 5e4;    ///< work limit; beyond, the exact solution is not attempted
+  static constexpr int doublings = 100;         ///< doublings of Euler's load until enough loads are below
+  static constexpr double equal_loads = 1e-14;  ///< relative difference up to which loads are equal
+  static constexpr double mechanism = 1e-25;    ///< load of a mechanism, over Euler's
+  static constexpr double bracket = 1e-15;      ///< relative width of the final bracket of a load
+  static constexpr int most_counts = 200;       ///< counts of eigenvalues to locate one load
+  static constexpr double least_error = 1e-13;  ///< smallest relative error that is tested
+  static constexpr double most_error = 1e-6;    ///< largest relative error that is accepted
+};
+
 /// Searches the buckling loads of one column.
 class LoadSearch {
  public:
@@ -38,8 +50,6 @@ class LoadSearch {
 
 /// Finds a load factor with enough loads below it; false when that needs too many pieces.
 bool LoadSearch::enclose(LoadBracket& bracket) {
-  constexpr double kMostPieces = 5e4;  // work limit; beyond, the exact solution is not attempted
-  constexpr int kDoublings = 100;
   double hi = std::numeric_limits<double>::infinity();
   double length = 0.0;
   for (const ColumnSpan& span : line_.spans) length += span.length;
@@ -52,8 +62,9 @@ bool LoadSearch::enclose(LoadBracket& bracket) {
   if (!std::isfinite(hi)) return true;  // nothing is compressed: no buckling load exists
   hi *= kOffMultiples;
   scale_ = hi;
-  for (int i = 0; i < kDoublings && bracket.below_hi - bracket.below_lo < wanted_; ++i, hi *= 2.0) {
-    if (piece_count(line_, hi) > kMostPieces) return false;
+  for (int i = 0; i < LoadLimits::doublings && bracket.below_hi - bracket.below_lo < wanted_;
+       ++i, hi *= 2.0) {
+    if (piece_count(line_, hi) > LoadLimits::most_pieces) return false;
     bracket.hi = hi;
     bracket.below_hi = count(hi).negative;
   }
@@ -62,12 +73,9 @@ bool LoadSearch::enclose(LoadBracket& bracket) {
 
 /// Accepts a bracket of one load or of equal loads; false: it must be divided further.
 bool LoadSearch::take(const LoadBracket& bracket) {
-  constexpr double kEqual = 1e-14;  // relative difference up to which loads are equal
-  // loads below Euler's by this factor are those of a mechanism
-  constexpr double kNone = 1e-25;
-  lost_ = lost_ || bracket.hi <= kNone * scale_;
+  lost_ = lost_ || bracket.hi <= LoadLimits::mechanism * scale_;
   if (lost_) return true;
-  const bool equal = bracket.hi - bracket.lo <= kEqual * bracket.hi;
+  const bool equal = bracket.hi - bracket.lo <= LoadLimits::equal_loads * bracket.hi;
   if (!bracket.is_single() && !equal) return false;
   const double load = bracket.is_single() ? root(bracket) : 0.5 * (bracket.lo + bracket.hi);
   for (int below = bracket.below_lo; below < bracket.below_hi; ++below) {
@@ -84,8 +92,6 @@ double ratio(const WideNumber& a, const WideNumber& b) {
 
 /// The single load in a bracket.
 double LoadSearch::root(const LoadBracket& bracket) {
-  constexpr double kDigits = 1e-15;  // relative width of the final bracket
-  constexpr int kMost = 200;
   const ColumnCount at_hi = count(bracket.hi);
   // magnitude from the determinant, sign from the count
   const auto value = [&](double lambda, bool& above) {
@@ -97,8 +103,8 @@ double LoadSearch::root(const LoadBracket& bracket) {
   };
   bool above = false;
   SignBracket at(bracket.hi, 1.0, bracket.lo, value(bracket.lo, above));
-  for (int i = 0; i < kMost; ++i) {
-    const double least = kDigits * at.largest();
+  for (int i = 0; i < LoadLimits::most_counts; ++i) {
+    const double least = LoadLimits::bracket * at.largest();
     if (at.width() <= least || at.is_exact()) return at.best();
     const double x = at.next(0.5 * least / at.width());
     at.take(x, value(x, above));
@@ -108,9 +114,7 @@ double LoadSearch::root(const LoadBracket& bracket) {
 
 /// Confirms a load by counts on both sides, with differently cut pieces, and records the distance as error.
 bool LoadSearch::confirm(double load, int below) {
-  constexpr double kLeast = 1e-13;  // smallest tested relative error
-  constexpr double kMost = 1e-6;    // largest accepted relative error
-  for (double beside = kLeast; beside <= kMost; beside *= 8.0) {
+  for (double beside = LoadLimits::least_error; beside <= LoadLimits::most_error; beside *= 8.0) {
     out_.counts += 2;
     if (count_below(line_, load * (1.0 - beside), true).negative <= below &&
         count_below(line_, load * (1.0 + beside), true).negative > below) {

@@ -41,13 +41,13 @@ class ColumnMode {
 
  private:
   friend class ModeSearch;
-  static constexpr int kCoefficients = 28;  // terms of the power series
+  static constexpr int terms = 28;  ///< of the power series
   /// Power series of the displacement about one end of a piece.
   struct Piece {
     double from = 0.0;
     double length = 0.0;
     double direction = 1.0;  ///< 1: series about the piece's start, -1: about the piece's end
-    std::array<double, kCoefficients> coefficients{};
+    std::array<double, terms> coefficients{};
   };
   std::vector<Piece> pieces_;
   std::vector<int> first_;  ///< index of each span's first piece; one entry more than spans

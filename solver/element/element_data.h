@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "solver/element/element_set.h"
+#include "solver/numeric/rounding.h"
 
 namespace snapthrough {
 
@@ -37,6 +38,7 @@ struct ElementData {
   /// Linear functional of an element's displacements, with the law of the support that it drives.
   struct Functional {
     Law law;
+    double tangent = 0.0;  ///< stiffness of the law at the state, where the support acts
     Touch touch = Touch::none;
     int spring = -1;
     std::array<double, 3> a{};
@@ -143,7 +145,7 @@ void ElementData<P>::acting_parts(std::size_t contact, const ContactDisplacement
                                   std::vector<ElementPart>& out) const {
   const FoundationContact& part = contacts[contact];
   const Touch touch = contact_touch[contact];
-  if (touch != Touch::none && part.is_near(u.start, u.dx, u.dy, kTouchBand))
+  if (touch != Touch::none && part.is_near(u.start, u.dx, u.dy, Rounding::touching))
     out.assign(touch == Touch::acts ? 1 : 0, {part.range()[0], part.range()[1]});
   else
     part.contact_intervals(u.start, u.dx, u.dy, out);
@@ -153,7 +155,7 @@ template <int P>
 bool ElementData<P>::acts(const Functional& f, const ElementDofs& at, const double* y) const {
   if (!f.law.one_sided) return true;
   const double w = value(f, at, y) - f.law.gap;
-  return f.touch != Touch::none && std::abs(w) <= kTouchBand ? f.touch == Touch::acts : w > 0.0;
+  return f.touch != Touch::none && std::abs(w) <= Rounding::touching ? f.touch == Touch::acts : w > 0.0;
 }
 
 /// Functional of the penetration at xi of a contact, with zero stiffness and gap.

@@ -52,11 +52,9 @@ struct ElementShape {
   std::vector<double> bending_compliance;  ///< curvature k per moment M
 };
 
-/// State of a one-sided support that touches without pressure, used while the support is within kTouchBand of
-/// touching: taken from the critical motion, because rounding hides it. `none`: not such a support.
+/// State of a one-sided support that touches without pressure, used within Rounding::touching of touching:
+/// taken from the critical motion, because rounding hides it. `none`: not such a support.
 enum class Touch : char { none, absent, acts };
-/// Distance from touching, over the structure's length, that rounding leaves next to a critical point.
-inline constexpr double kTouchBand = 1e-7;
 
 /// Spring on a linear functional of one element's displacements, w = a.u_a + sum_q v_q.(u'_q, b'_q).
 struct SupportSpring {

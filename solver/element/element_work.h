@@ -93,7 +93,7 @@ class ElementWorkOf final : public ElementWork {
   void add_support_residual(int element, const double* y, double* residual, bool keep);
   void collect_contact(std::size_t index, const double* y, const ElementDofs& dofs, const Shape& shape);
   void add_interval(std::size_t index, const Shape& shape, const FoundationContact::Interval& interval,
-                    double modulus, double gap);
+                    double share, double gap);
   void to_strain_row(const Functional& f, const Shape& shape, const Tangent& t, ZetaVector& row) const;
   template <int N>
   void add_end_columns(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const;
@@ -380,7 +380,7 @@ void ElementWorkOf<P>::collect_rows(int element, const Kinematics& kin, const do
   for (const Functional& f : acting_) {
     StrainRow& out = rows_.emplace_back();
     to_strain_row(f, shape, t, out.row);
-    out.stiffness = f.law.stiffness;
+    out.stiffness = f.tangent;
   }
 }
 
@@ -652,7 +652,7 @@ template <int P>
 void ElementWorkOf<P>::add_acting_product(const ElementDofs& dofs, const double* direction,
                                           double* out) const {
   for (const Functional& f : acting_) {
-    const double force = f.law.stiffness * data_.value(f, dofs, direction);
+    const double force = f.tangent * data_.value(f, dofs, direction);
     for (int k = 0; k < 3; ++k) {
       out[dofs.a[k]] += force * f.a[k];
       for (int q = 0; q < P; ++q) out[dofs.v + k * P + q] += force * f.v[k][q];

@@ -17,18 +17,16 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
   else
     data_.acting_parts(index, u, intervals_);
   for (const auto& interval : intervals_)
-    add_interval(index, shape, interval, regime_.softness * contact.law().stiffness,
-                 regime_.bilateral() ? 0.0 : contact.law().gap);
+    add_interval(index, shape, interval, regime_.softness, regime_.bilateral() ? 0.0 : contact.law().gap);
   if (regime_.grip > 0.0)
-    add_interval(index, shape, {contact.range()[0], contact.range()[1]},
-                 regime_.grip * contact.law().stiffness, 0.0);
+    add_interval(index, shape, {contact.range()[0], contact.range()[1]}, regime_.grip, 0.0);
 }
 
 /// Appends the Gauss points of an interval with a modulus and a gap. Functionals of the whole range, the most
 /// frequent case, are precomputed.
 template <int P>
 void ElementWorkOf<P>::add_interval(std::size_t index, const Shape& shape,
-                                    const FoundationContact::Interval& interval, double modulus, double gap) {
+                                    const FoundationContact::Interval& interval, double share, double gap) {
   const FoundationContact& contact = contacts_[index];
   const double width = interval.to - interval.from;
   const bool whole = interval.from == contact.range()[0] && interval.to == contact.range()[1];
@@ -38,7 +36,12 @@ void ElementWorkOf<P>::add_interval(std::size_t index, const Shape& shape,
     else
       acting_.push_back(
           data_.functional_at(contact, shape.h, interval.from + width * data_.contact_quadrature.points[i]));
-    acting_.back().law = {modulus * width * data_.contact_quadrature.weights[i], gap, true};
+    Law law = contact.law();
+    law.gap = gap;
+    law.scale(share);
+    law.scale(width);
+    law.scale(data_.contact_quadrature.weights[i]);
+    acting_.back().law = law;
   }
 }
 
@@ -60,12 +63,12 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
     const std::size_t support = shape.first_spring + i;
     if (regime_.grip > 0.0 && springs_[support].law.one_sided) {
       acting_.push_back(springs_[support]);
-      acting_.back().law.stiffness *= regime_.grip;
+      acting_.back().law.scale(regime_.grip);
       acting_.back().law.gap = 0.0;
     }
     if (!acts(springs_[support], support, dofs, y)) continue;
     acting_.push_back(springs_[support]);
-    if (springs_[support].law.one_sided) acting_.back().law.stiffness *= regime_.softness;
+    if (springs_[support].law.one_sided) acting_.back().law.scale(regime_.softness);
     if (regime_.bilateral()) acting_.back().law.gap = 0.0;
   }
   std::array<double, kStrains> v;  // local copy of y: lets the compiler reorder the loops
@@ -73,15 +76,16 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
   double at_start[3] = {0.0, 0.0, 0.0};
   for (int i = 0; i < kStrains; ++i) v[i] = y[dofs.v + i];
   double rounding = 0.0;
-  for (const Functional& f : acting_) {
+  for (Functional& f : acting_) {
     double size = f.law.gap;
     for (int c = 0; c < 3; ++c) size += std::abs(f.a[c] * y[dofs.a[c]]);
-    rounding += f.law.stiffness * size * std::numeric_limits<double>::epsilon();
     double w = -f.law.gap;
     for (int c = 0; c < 3; ++c) w += f.a[c] * y[dofs.a[c]];
     const double* row = f.v[0].data();
     for (int i = 0; i < kStrains; ++i) w += row[i] * v[i];
-    const double force = f.law.stiffness * w;
+    const double force = f.law.force_at(w);
+    f.tangent = f.law.stiffness_at(w);
+    rounding += f.tangent * size * std::numeric_limits<double>::epsilon();
     for (int c = 0; c < 3; ++c) at_start[c] += force * f.a[c];
     for (int i = 0; i < kStrains; ++i) forces[i] += force * row[i];
   }
@@ -156,7 +160,7 @@ void ElementWorkOf<P>::collect_pressure(const Shape& shape, double pressure) {
         f.a[c] = 1.0;
         for (int r = 0; r < P; ++r) f.v[c][r] = shape.h * a_[q][r];
         f.v[1 - c][q] = sign;
-        f.law.stiffness = (c == 0 ? -0.25 : 0.25) * sign * pressure * shape.hb[q];
+        f.tangent = (c == 0 ? -0.25 : 0.25) * sign * pressure * shape.hb[q];
         acting_.push_back(f);
       }
     }

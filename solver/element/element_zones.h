@@ -7,6 +7,13 @@
 
 namespace snapthrough {
 
+/// What counts as zero beside zones of contact. Source: docs/decisions/0016.
+struct ZoneTolerances {
+  /// Pressure over the largest: below it, gaps of decaying boundary layers alternate in sign by rounding.
+  static constexpr double pressed = 1e-6;
+  static constexpr double joined = 1e-9;  ///< distance between two zones that are one, in element lengths
+};
+
 namespace zones {
 
 /// Appends a zone, or extends the last one if both meet at an element boundary.
@@ -45,8 +52,6 @@ void for_each_difference(const std::vector<ElementPart>& a, const std::vector<El
 
 template <int P>
 double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen::VectorXd& y) const {
-  // pressure over the largest; below it, gaps of decaying boundary layers alternate in sign by rounding
-  constexpr double kCounts = 1e-6;
   struct Missed {
     double length, pressure;
   };
@@ -71,13 +76,12 @@ double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen:
   }
   double sum = 0.0;
   for (const Missed& one : missed)
-    if (one.pressure > kCounts * largest) sum += one.length;
+    if (one.pressure > ZoneTolerances::pressed * largest) sum += one.length;
   return sum;
 }
 
 template <int P>
 MovingZones ElementSetOf<P>::moving_zones(const Eigen::VectorXd& y, const Eigen::VectorXd& rate) const {
-  constexpr double kRounding = 1e-9;  // distance between zones that counts as zero, in element lengths
   MovingZones out;
   std::vector<ElementPart> parts;
   double start = 0.0;
@@ -99,7 +103,7 @@ MovingZones ElementSetOf<P>::moving_zones(const Eigen::VectorXd& y, const Eigen:
       for (const ElementPart& part : parts)
         zones::append({start + shape.h * part.from, start + shape.h * part.to,
                        moves(part.from, contact.range()[0]), moves(part.to, contact.range()[1])},
-                      kRounding * shape.h, out[index]);
+                      ZoneTolerances::joined * shape.h, out[index]);
     }
     start += shape.h;
   }

@@ -10,12 +10,18 @@
 #include "solver/numeric/chebyshev_series.h"
 #include "solver/numeric/cubic.h"
 #include "solver/numeric/max_order.h"
+#include "solver/numeric/rounding.h"
 
 namespace snapthrough {
 namespace {
 
-/// Least number of samples on a curved axis; resolves the rotation of the direction within one element.
-constexpr int kLeastSamples = 13;
+/// Search of zones of contact within one element. Source: docs/decisions/0022.
+struct ContactSearch {
+  static constexpr int least_samples = 13;  ///< samples on a curved axis at least: they resolve its rotation
+  static constexpr int parts = 4;           ///< parts of a cell between two samples
+  static constexpr int dip_trials = 20;     ///< points at most in the search of a minimum
+  static constexpr double zero = 1e-10;     ///< |g| that is rounding, over |g| at the other end of a part
+};
 
 }  // namespace
 
@@ -27,7 +33,7 @@ FoundationContact::FoundationContact(int order, const Direction& direction, Plac
       range_(range),
       law_(law),
       foundation_(foundation) {
-  count_ = std::max(2 * order + 3, direction_.turns ? kLeastSamples : 0);
+  count_ = std::max(2 * order + 3, direction_.turns ? ContactSearch::least_samples : 0);
   blocks_ = (count_ + kLanes - 1) / kLanes;
   samples_.assign(static_cast<std::size_t>(blocks_) * (2 + order), Lanes::Zero());
   for (int i = 0; i < count_; ++i) {
@@ -45,8 +51,7 @@ FoundationContact::FoundationContact(int order, const Direction& direction, Plac
 
 /// Whether the samples resolve products of the direction and displacements of the element's degree.
 bool FoundationContact::resolved() const {
-  constexpr double kRounding = 1e-14;  // error of interpolated direction components that counts as rounding
-  constexpr std::array<double, 5> kBetween{0.02, 0.19, 0.41, 0.68, 0.93};
+  constexpr std::array<double, 5> between{0.02, 0.19, 0.41, 0.68, 0.93};  // fractions of the range
   const double degree = rule_->order();
   for (int c = 0; c < 2; ++c) {
     std::array<double, ChebyshevSeries::kMostPoints> values{};
@@ -54,9 +59,9 @@ bool FoundationContact::resolved() const {
       values[i] = samples_[static_cast<std::size_t>(i / kLanes) * (2 + rule_->order()) + c][i % kLanes] *
                   std::pow(z_[i], degree);
     const ChebyshevSeries series(std::span<const double>(values).first(count_));
-    for (const double z : kBetween) {
+    for (const double z : between) {
       const double exact = direction_at(range_[0] + z * (range_[1] - range_[0]))[c] * std::pow(z, degree);
-      if (std::abs(series.value(z) - exact) > kRounding) return false;
+      if (std::abs(series.value(z) - exact) > Rounding::unit_component) return false;
     }
   }
   return true;
@@ -189,7 +194,6 @@ double root_between(const Gap& gap, Sample lo, Sample hi) {
 /// Position at which g has the opposite of `sign` between two positions with `sign`; empty if none exists.
 template <class Gap>
 std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, double sign) {
-  constexpr int kMostTrials = 20;
   double fall = sign * gap.slope(left.z);
   double rise = sign * gap.slope(right.z);
   const double whole = right.z - left.z;
@@ -198,7 +202,7 @@ std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, dou
     const double z = left.z + *t * whole;
     if (const Sample least{z, gap.value(z)}; sign * least.g < 0.0) return least;
   }
-  for (int n = 0; n < kMostTrials && fall < 0.0 && rise > 0.0; ++n) {
+  for (int n = 0; n < ContactSearch::dip_trials && fall < 0.0 && rise > 0.0; ++n) {
     // a convex function stays above both end tangents
     const double width = right.z - left.z;
     const double meet = (sign * (right.g - left.g) - rise * width) / (fall - rise);
@@ -218,9 +222,8 @@ std::optional<Sample> dip_between(const Gap& gap, Sample left, Sample right, dou
 /// is ignored: a sign change before the node is searched for.
 template <class Gap>
 double change_between(const Gap& gap, const Sample& left, const Sample& right) {
-  constexpr double kRounding = 1e-10;  // ratio of |g| at both ends below which the smaller one is zero
-  const bool to_zero = std::abs(right.g) < kRounding * std::abs(left.g);
-  const bool from_zero = std::abs(left.g) < kRounding * std::abs(right.g);
+  const bool to_zero = std::abs(right.g) < ContactSearch::zero * std::abs(left.g);
+  const bool from_zero = std::abs(left.g) < ContactSearch::zero * std::abs(right.g);
   if (!to_zero && !from_zero) return root_between(gap, left, right);
   const Sample& far = to_zero ? left : right;
   const auto dip = dip_between(gap, left, right, far.g > 0.0 ? 1.0 : -1.0);
@@ -252,17 +255,17 @@ bool may_cross(double left, double right, double change) {
 template <class Gap, class Cross>
 void search_cell(const Gap& gap, const Sample& left, const Sample& right, double before, double after,
                  const Cross& cross) {
-  constexpr int kParts = 4;  // parts of the cell
+  constexpr int parts = ContactSearch::parts;
   const double width = right.z - left.z;
   const Eigen::Array4d z =
-      left.z + width * Eigen::Array4d(1.0 / kParts, 2.0 / kParts, 3.0 / kParts, 4.0 / kParts);
+      left.z + width * Eigen::Array4d(1.0 / parts, 2.0 / parts, 3.0 / parts, 4.0 / parts);
   const Eigen::Array4d inner = gap.values(z);
-  std::array<Sample, kParts + 1> places{left, Sample{z[0], inner[0]}, Sample{z[1], inner[1]},
-                                        Sample{z[2], inner[2]}, right};
-  std::array<double, kParts + 2> moves{before};
-  for (int i = 0; i < kParts; ++i) moves[i + 1] = std::abs(places[i + 1].g - places[i].g);
-  moves[kParts + 1] = after;
-  for (int i = 0; i < kParts; ++i)
+  std::array<Sample, parts + 1> places{left, Sample{z[0], inner[0]}, Sample{z[1], inner[1]},
+                                       Sample{z[2], inner[2]}, right};
+  std::array<double, parts + 2> moves{before};
+  for (int i = 0; i < parts; ++i) moves[i + 1] = std::abs(places[i + 1].g - places[i].g);
+  moves[parts + 1] = after;
+  for (int i = 0; i < parts; ++i)
     if (may_cross(places[i].g, places[i + 1].g, std::max({moves[i], moves[i + 1], moves[i + 2]})))
       search_part(gap, places[i], places[i + 1], cross);
 }
@@ -296,7 +299,6 @@ bool FoundationContact::is_near(std::array<double, 2> ua, std::span<const double
 /// Finds the contact intervals from the penetration minus a depth, given its values g at the samples.
 template <class Gap>
 void FoundationContact::search(const Gap& gap, const Values& g, std::vector<Interval>& out) const {
-  constexpr double kParts = 4.0;  // parts of a cell in search_cell()
   const int n = count_;
   const double length = range_[1] - range_[0];
   double from = range_[0];
@@ -312,8 +314,8 @@ void FoundationContact::search(const Gap& gap, const Values& g, std::vector<Inte
   for (int i = 0; i + 1 < n; ++i) {
     const double width = z_[i + 1] - z_[i];
     if (!may_cross(g[i], g[i + 1], width * std::max({rate[i], rate[i + 1], rate[i + 2]}))) continue;
-    search_cell(gap, Sample{z_[i], g[i]}, Sample{z_[i + 1], g[i + 1]}, rate[i] * width / kParts,
-                rate[i + 2] * width / kParts, cross);
+    search_cell(gap, Sample{z_[i], g[i]}, Sample{z_[i + 1], g[i + 1]}, rate[i] * width / ContactSearch::parts,
+                rate[i + 2] * width / ContactSearch::parts, cross);
   }
   if (g[n - 1] > 0.0) out.push_back({from, range_[1]});
 }

@@ -12,6 +12,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+/// Solution with factors beside the critical point. Source: docs/decisions/0010; rounding.
+struct BorderedLimits {
+  static constexpr double beside = 1e-6;  ///< distance of the factors from the point, over its load factor
+  static constexpr int most_corrections = 6;  ///< iterative refinements at most
+  static constexpr double last = 1e-15;       ///< size of the last correction, over the solution's
+};
+}  // namespace
+
 BorderedPoint::BorderedPoint(EquilibriumProblem& problem, const PathMetric& metric,
                              const CriticalSolution& solution, bool solves)
     : problem_(problem), metric_(metric), at_(solution) {
@@ -46,8 +55,7 @@ VectorXd BorderedPoint::works(const VectorXd& forces) const {
 
 /// Factorises the tangent beside the critical point, where it is usually regular; false: singular there, too.
 bool BorderedPoint::factorise() {
-  constexpr double kBeside = 1e-6;  // distance from the critical point over its load factor
-  const double step = kBeside * at_.lambda;
+  const double step = BorderedLimits::beside * at_.lambda;
   VectorXd residual;
   problem_.linearise(at_.y + step * at_.response, at_.lambda + step, residual);
   VectorXd probe = metric_rows_.col(0);
@@ -57,13 +65,11 @@ bool BorderedPoint::factorise() {
 
 /// Solves with the factors beside the critical point and refines with the residual of the tangent at it.
 VectorXd BorderedPoint::response(const Held& to) const {
-  constexpr int kMostCorrections = 6;
-  constexpr double kSmall = 1e-15;  // relative size of the last correction
   const MatrixXd border = problem_.metric().asDiagonal() * at_.null;
   VectorXd out = VectorXd::Zero(to.forces.size());
   VectorXd left = to.forces;
   double before = std::numeric_limits<double>::infinity();
-  for (int it = 0; it < kMostCorrections; ++it) {
+  for (int it = 0; it < BorderedLimits::most_corrections; ++it) {
     left -= metric_rows_ * works(left);
     problem_.solve(left);
     left -= at_.null * (border.transpose() * left);
@@ -71,7 +77,7 @@ VectorXd BorderedPoint::response(const Held& to) const {
     if (!(size < before)) break;  // the residual is rounding
     before = size;
     out += left;
-    if (size <= kSmall * size_of(out)) break;
+    if (size <= BorderedLimits::last * size_of(out)) break;
     left = to.forces - problem_.tangent_product(at_.y, at_.lambda, out);
   }
   return to.moves ? VectorXd(out + to.motion) : out;

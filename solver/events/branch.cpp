@@ -11,8 +11,10 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Initial step onto a branch, in the path's norm (displacement gradient).
-constexpr double kFirstStep = 0.01;
+/// Source: docs/decisions/0022.
+struct BranchStart {
+  static constexpr double step = 0.01;  ///< first step, in the path's norm (displacement gradient)
+};
 
 /// Sign of the largest displacement of a motion.
 double sense_of(const PathNorm& norm, const VectorXd& motion) {
@@ -71,7 +73,7 @@ std::optional<PathPoint> first_point_of_branch(PathFollower& follower, const Cri
   from.tangent = sign * direction.y;
   from.tangent_lambda = sign * direction.lambda;
   from.arc_length = 0.0;
-  StepSize size{0.0, kFirstStep};
+  StepSize size{0.0, BranchStart::step};
   PathPoint to;
   if (follower.step(from, size, to) != StepOutcome::advanced) return std::nullopt;
   return to;

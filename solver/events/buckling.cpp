@@ -19,6 +19,22 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+/// Limits of the eigenvalue search; loads are relative. Source: digits of the counts, docs/decisions/0001.
+struct BucklingLimits {
+  static constexpr double idle = 1e-6;  ///< stiffness or displacement of a hold that counts as zero, scaled
+  static constexpr double short_bracket = 1e-2;   ///< width at which iterations gain two digits each
+  static constexpr double narrow_bracket = 1e-4;  ///< width at which several loads count as a cluster
+  static constexpr int tries = 3;                 ///< shifts that draw_up() tries
+  static constexpr int iterations_per_try = 3;    ///< inverse iterations on each shift of draw_up()
+  static constexpr double below = 2e-3;           ///< distance of the shift below the load, see refine()
+  static constexpr double converged = 1e-13;  ///< change of a load at which inverse iteration ends: rounding
+  static constexpr int most_iterations = 60;  ///< inverse iterations at most
+  static constexpr double beside = 1e-9;      ///< distance from a load of the counts that confirm it
+  /// Doublings of the first scale: beyond 1e13 times it the elastic stiffness is lost to rounding of the
+  /// geometric stiffness.
+  static constexpr int doublings = 43;
+};
+
 /// The pencil J(lambda) = J_0 + lambda G in the mixed unknowns at zero displacements and stresses s_c +
 /// lambda s_p (constant and proportional actions). For LoadSense::reversed, lambda multiplies the opposite of
 /// the proportional actions.
@@ -103,9 +119,8 @@ void Pencil::drop_rounding(double least, VectorXd& response) const {
 
 bool Pencil::holds_are_idle(double lambda) {
   if (!holds_) return true;
-  constexpr double kIdle = 1e-6;  // scaled stiffness or displacement that counts as zero
   ++factorizations_;
-  const double bound = kIdle * std::max(1.0, std::abs(lambda));
+  const double bound = BucklingLimits::idle * std::max(1.0, std::abs(lambda));
   const MotionStiffness held = motion_stiffness(problem_, holds_, stress(lambda), sense_ * lambda, regime());
   const VectorXd moved = holds_->motions.transpose() *
                          (constant_ + sense_ * lambda * proportional_).head(holds_->motions.rows());
@@ -172,18 +187,16 @@ int Pencil::count(double lambda) {
 
 VectorXd Pencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }
 
-/// Largest bracket width over its upper end at which inverse iteration gains two digits per iteration.
-constexpr double kShort = 1e-2;
-
 /// Short brackets of single eigenvalues and narrow brackets of clusters, ascending.
 std::vector<LoadBracket> isolated(Pencil& pencil, const LoadBracket& all, int wanted) {
-  constexpr double kNarrow = 1e-4;  // relative width of the bracket of a cluster
   std::vector<LoadBracket> out;
   const auto take = [&](const LoadBracket& bracket) {
     const bool single = bracket.is_single();
     // a single wanted load may have a wide bracket, because no other load in it can be confused with it
     const bool only = single && out.empty() && bracket.below_hi == wanted;
-    if (!only && bracket.hi - bracket.lo > (single ? kShort : kNarrow) * bracket.hi) return false;
+    if (!only && bracket.hi - bracket.lo >
+                     (single ? BucklingLimits::short_bracket : BucklingLimits::narrow_bracket) * bracket.hi)
+      return false;
     // eigenvalues in adjacent brackets form one cluster
     if (!out.empty() && out.back().hi == bracket.lo) {
       out.back().hi = bracket.hi;
@@ -248,15 +261,12 @@ double iterate(Pencil& pencil, double shift, std::vector<EigenPair>& pairs) {
 /// Raises the lower end of a wide bracket of one load to 0.2 % below an estimate by inverse iteration, and
 /// confirms the new end by an inertia count. True: confirmed, and the pencil is factorised there.
 bool draw_up(Pencil& pencil, LoadBracket& bracket, std::vector<EigenPair>& pairs) {
-  constexpr int kTries = 3;
-  constexpr int kIterations = 3;
-  constexpr double kBelow = 2e-3;  // relative distance of the shift below the estimate, see refine()
-  for (int i = 0; i < kTries; ++i) {
+  for (int i = 0; i < BucklingLimits::tries; ++i) {
     if (pencil.count(bracket.lo) != bracket.below_lo) return false;
-    for (int k = 0; k < kIterations; ++k) iterate(pencil, bracket.lo, pairs);
+    for (int k = 0; k < BucklingLimits::iterations_per_try; ++k) iterate(pencil, bracket.lo, pairs);
     const double load = pairs[0].load;
     if (!(load > bracket.lo && load < bracket.hi)) return false;  // another load is nearer to the shift
-    const double shift = load * (1.0 - kBelow);
+    const double shift = load * (1.0 - BucklingLimits::below);
     if (shift <= bracket.lo) return pencil.count(bracket.lo) == bracket.below_lo;
     if (pencil.count(shift) == bracket.below_lo) {
       bracket.lo = shift;
@@ -267,16 +277,13 @@ bool draw_up(Pencil& pencil, LoadBracket& bracket, std::vector<EigenPair>& pairs
   return false;
 }
 
-/// Bisects a bracket of one load until it is shorter than kShort.
+/// Bisects a bracket of one load until it is short enough for inverse iteration.
 void narrow(Pencil& pencil, LoadBracket& bracket) {
-  while (bracket.hi - bracket.lo > kShort * bracket.hi) {
+  while (bracket.hi - bracket.lo > BucklingLimits::short_bracket * bracket.hi) {
     const double middle = 0.5 * (bracket.lo + bracket.hi);
     (pencil.count(middle) > bracket.below_lo ? bracket.hi : bracket.lo) = middle;
   }
 }
-
-/// Relative change of a load at which inverse iteration has converged to rounding.
-constexpr double kTolerance = 1e-13;
 
 /// Number of vectors for the lowest `wanted` eigenvalues of a cluster: the whole cluster if small, else min(2
 /// wanted, wanted + 8) as usual for subspace iteration (Bathe, Finite Element Procedures, 11.6). Shear
@@ -289,14 +296,13 @@ int block_size(const LoadBracket& bracket, int wanted) {
 /// @param wanted number of eigenvalues asked for
 /// @return the lowest eigenvalues of the bracket, ascending, with their vectors
 std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, int wanted, Index size) {
-  constexpr int kMaxIterations = 60;
   const int m = block_size(bracket, wanted);
   std::vector<EigenPair> pairs(static_cast<std::size_t>(m));
   for (int i = 0; i < m; ++i) pairs[i] = {bracket.hi, pseudo_random(size, static_cast<unsigned>(i + 1))};
-  if (m == 1 && bracket.hi - bracket.lo > kShort * bracket.hi) {
+  if (m == 1 && bracket.hi - bracket.lo > BucklingLimits::short_bracket * bracket.hi) {
     if (draw_up(pencil, bracket, pairs)) {
-      for (int it = 0; it < kMaxIterations; ++it)
-        if (iterate(pencil, bracket.lo, pairs) <= kTolerance) break;
+      for (int it = 0; it < BucklingLimits::most_iterations; ++it)
+        if (iterate(pencil, bracket.lo, pairs) <= BucklingLimits::converged) break;
       return pairs;
     }
     narrow(pencil, bracket);
@@ -305,13 +311,13 @@ std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, int wanted, 
   // Shift below the bracket, where elimination is accurate even if parts of the structure buckle at the
   // bracket's load, if no other eigenvalue lies between; else a shift inside the bracket that bisection did
   // not use.
-  double shift = bracket.lo - 2e-3 * bracket.hi;
+  double shift = bracket.lo - BucklingLimits::below * bracket.hi;
   if (pencil.count(shift) != bracket.below_lo) {
     shift = bracket.lo + 0.381966 * (bracket.hi - bracket.lo);
     static_cast<void>(pencil.count(shift));  // factorises at the shift
   }
-  for (int it = 0; it < kMaxIterations; ++it)
-    if (iterate(pencil, shift, pairs) <= kTolerance && it > 0) break;
+  for (int it = 0; it < BucklingLimits::most_iterations; ++it)
+    if (iterate(pencil, shift, pairs) <= BucklingLimits::converged && it > 0) break;
   return pairs;
 }
 
@@ -319,32 +325,29 @@ std::vector<EigenPair> refine(Pencil& pencil, LoadBracket& bracket, int wanted, 
 /// the whole cluster was iterated and the Rayleigh quotient of its mode confirms it (counts lose digits next
 /// to a double load); otherwise the load is located by bisection of the counts.
 void confirm(Pencil& pencil, const LoadBracket& bracket, std::vector<EigenPair>& pairs) {
-  constexpr double kBeside = 1e-9;  // relative distance of the counts from the load
   const bool whole = static_cast<int>(pairs.size()) == bracket.below_hi - bracket.below_lo;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const int below = bracket.below_lo + static_cast<int>(i);
     const double load = pairs[i].load;
-    const bool right = load > 0.0 && pencil.count(load * (1.0 - kBeside)) <= below &&
-                       pencil.count(load * (1.0 + kBeside)) > below;
+    const bool right = load > 0.0 && pencil.count(load * (1.0 - BucklingLimits::beside)) <= below &&
+                       pencil.count(load * (1.0 + BucklingLimits::beside)) > below;
     const auto exact = [&] {
       return whole && load >= bracket.lo && load <= bracket.hi &&
-             std::abs(pencil.quotient(pairs[i].mode) - load) <= kBeside * load;
+             std::abs(pencil.quotient(pairs[i].mode) - load) <= BucklingLimits::beside * load;
     };
     if (!right && !exact())
-      pairs[i].load = bisect(bracket.lo, bracket.hi, kTolerance * bracket.hi,
+      pairs[i].load = bisect(bracket.lo, bracket.hi, BucklingLimits::converged * bracket.hi,
                              [&](double at) { return pencil.count(at) > below; });
   }
 }
 
 /// Bracket from zero to a load factor with at least `count` eigenvalues below it; empty when there is none.
 LoadBracket enclose(Pencil& pencil, int count, int at_start) {
-  // beyond 1e13 times the first scale the elastic stiffness is lost to rounding of the geometric stiffness
-  constexpr int kDoublings = 43;
   LoadBracket bracket{0.0, 0.0, at_start, at_start};
   double hi = pencil.scale();
   if (!std::isfinite(hi) || hi <= 0.0) hi = 1.0;
   hi *= kOffMultiples;
-  for (int i = 0; i < kDoublings && bracket.below_hi - at_start < count; ++i) {
+  for (int i = 0; i < BucklingLimits::doublings && bracket.below_hi - at_start < count; ++i) {
     bracket.hi = hi;
     bracket.below_hi = pencil.count(hi);
     hi *= 2.0;

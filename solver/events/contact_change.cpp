@@ -9,8 +9,15 @@
 namespace snapthrough {
 namespace {
 
-constexpr int kMostCorrections = 25;
-constexpr int kMostChanges = 200;  ///< largest number of contact changes located per step
+/// Fractions of the bracket where no unit is given. Source: rounding of penetrations, docs/decisions/0011.
+struct ChangeLimits {
+  static constexpr int corrections = 25;   ///< corrected points for each change
+  static constexpr int changes = 200;      ///< changes located per step
+  static constexpr double at_once = 1e-6;  ///< where new contact zones are deeper than rounding
+  static constexpr double beyond = 1.5;    ///< factor on a prediction's distance from the nearer end
+  static constexpr double margin = 1e-6;   ///< least distance of a trial from the ends
+  static constexpr double closed = 1e-3;   ///< distance of the ends of a closed bracket, in the path's norm
+};
 
 /// Two path points around a contact change: zone counts are unchanged at `before` and changed at `after`.
 struct Bracket {
@@ -33,35 +40,32 @@ double predicted_fraction(const Segment& bracket, const ZoneCounter& count, cons
 /// where the load begins, everything that touches touches from nothing. Sets the counts beyond.
 bool changes_at_start(const Segment& segment, const ZoneCounter& count, const std::vector<int>& old,
                       std::vector<int>& beyond) {
-  // fraction of the bracket at which new contact zones are deeper than rounding
-  constexpr double kAtOnce = 1e-6;
   PathPoint point;
-  segment.interpolate(kAtOnce, point);
+  segment.interpolate(ChangeLimits::at_once, point);
   count(point.y, beyond);
   return beyond != old;
 }
 
 /// Fraction slightly past the prediction, seen from the nearer end: the bracket shrinks from both sides.
 double next_fraction(double predicted) {
-  constexpr double kBeyond = 1.5;  // factor on the distance from the nearer end
-  constexpr double kLeast = 1e-6;  // distance from the bracket's ends, a fraction
-  const double beyond = predicted < 0.5 ? kBeyond * predicted : 1.0 - kBeyond * (1.0 - predicted);
-  return std::clamp(beyond, kLeast, 1.0 - kLeast);
+  const double beyond =
+      predicted < 0.5 ? ChangeLimits::beyond * predicted : 1.0 - ChangeLimits::beyond * (1.0 - predicted);
+  return std::clamp(beyond, ChangeLimits::margin, 1.0 - ChangeLimits::margin);
 }
 
 bool is_closed(const PathNorm& norm, const Bracket& bracket, double tolerance) {
-  constexpr double kNear = 1e-3;  // distance of the ends, in the path's norm
   const double size =
       std::max({std::abs(bracket.before.lambda), std::abs(bracket.after.lambda), norm.least_load()});
   return std::abs(bracket.after.lambda - bracket.before.lambda) <= tolerance * size &&
-         norm.distance(bracket.before, bracket.after) <= kNear;
+         norm.distance(bracket.before, bracket.after) <= ChangeLimits::closed;
 }
 
 /// Shrinks the bracket around its first change to the tolerance; false when no corrected point was found.
 bool close(const Segment& step, const ZoneCounter& count, const std::vector<int>& old, double tolerance,
            Bracket& bracket) {
   std::vector<int> zones;
-  for (int i = 0; i < kMostCorrections && !is_closed(step.solver().norm(), bracket, tolerance); ++i) {
+  for (int i = 0; i < ChangeLimits::corrections && !is_closed(step.solver().norm(), bracket, tolerance);
+       ++i) {
     const Segment piece = step.part(bracket.before, bracket.after);
     auto point = piece.point_at(next_fraction(predicted_fraction(piece, count, old)));
     if (!point) point = piece.point_at(0.5);
@@ -89,7 +93,7 @@ std::vector<ContactChange> locate_contact_changes(PointSolver& solver, const Pat
     out.push_back({a, old, beyond});
     old = std::move(beyond);
   }
-  while (old != last && out.size() < kMostChanges) {
+  while (old != last && out.size() < ChangeLimits::changes) {
     Bracket bracket{from, b};
     const bool closed = close(step, count, old, tolerance, bracket);
     ContactChange change;

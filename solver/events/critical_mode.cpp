@@ -10,10 +10,16 @@ namespace snapthrough {
 
 using Eigen::VectorXd;
 
+namespace {
+/// Inverse iteration. Source: rounding; stiff structures, whose lowest mode converges slowly.
+struct NullSearch {
+  static constexpr int least = 4;           ///< iterations at least
+  static constexpr int most = 60;           ///< iterations at most
+  static constexpr double settled = 1e-12;  ///< last change of the normalised vector
+};
+}  // namespace
+
 VectorXd null_vector(EquilibriumProblem& problem, const PathPoint& point, VectorXd start) {
-  constexpr int kLeastIterations = 4;
-  constexpr int kMostIterations = 60;  // limit for stiff structures, whose lowest mode converges slowly
-  constexpr double kSettled = 1e-12;   // change of the normalised vector per iteration
   const VectorXd& weights = problem.metric();
   const auto norm = [&weights](const VectorXd& x) {
     return std::sqrt((x.array().square() * weights.array()).sum());
@@ -23,7 +29,7 @@ VectorXd null_vector(EquilibriumProblem& problem, const PathPoint& point, Vector
   problem.linearise(point.y, point.lambda, residual);
   VectorXd x = std::move(start);
   double change = 1.0;
-  for (int it = 0; it < kLeastIterations || (it < kMostIterations && change > kSettled); ++it) {
+  for (int it = 0; it < NullSearch::least || (it < NullSearch::most && change > NullSearch::settled); ++it) {
     VectorXd next = weights.cwiseProduct(x);
     problem.solve(next);
     next /= norm(next);

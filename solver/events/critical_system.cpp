@@ -8,6 +8,7 @@
 
 #include "solver/numeric/dense.h"
 #include "solver/numeric/pseudo_random.h"
+#include "solver/numeric/rounding.h"
 #include "solver/problem/derivatives.h"
 
 namespace snapthrough {
@@ -17,6 +18,24 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
+
+/// Limits of Newton's method for critical points; ratios. Source: docs/decisions/0010 and 0022.
+struct CriticalLimits {
+  static constexpr int most_iterations = 8;       ///< Newton iterations on a critical point
+  static constexpr int amplitude_iterations = 5;  ///< Newton iterations on the amplitudes of a tangent
+  static constexpr double refinement = 0.1;       ///< largest refinement, relative to the null motions
+  /// Difference of the stiffnesses by factors and by quotients, above which solutions are refined.
+  static constexpr double sure = 0.1;
+  /// Largest sum of squared norms of the null motions, which start with norm one.
+  static constexpr double null_norm = 1e6;
+  /// Corrections that no longer fall count as rounding below this share of the reach and of the load factor.
+  static constexpr double stagnant = 1e-6;
+  static constexpr double aside = 1e-8;  ///< displacement off a singular tangent, over the reach
+  static constexpr int settling = 3;     ///< iterations until the unfolding force measures the imperfection
+  /// Largest distance in the load factor at which the stiffness of another motion counts as vanishing.
+  static constexpr double near = 1e-3;
+  static constexpr int null_iterations = 2;  ///< inverse iterations for another null motion
+};
 
 MatrixXd symmetric(const MatrixXd& m) { return 0.5 * (m + m.transpose()); }
 
@@ -71,8 +90,7 @@ std::vector<CriticalDirection> CriticalSolution::tangents(const PathMetric& metr
     return {direction(*this, C, big, metric), direction(*this, VectorXd::Constant(1, big), a, metric)};
   }
   VectorXd a = VectorXd::Zero(k);
-  constexpr int kIterations = 5;  // Newton iterations on the amplitudes
-  for (int it = 0; it < kIterations; ++it) {
+  for (int it = 0; it < CriticalLimits::amplitude_iterations; ++it) {
     MatrixXd change = B;
     for (Index j = 0; j < k; ++j) change.col(j) += A[static_cast<std::size_t>(j)] * a;
     const VectorXd value = B * a + change * a + C;
@@ -148,7 +166,6 @@ void CriticalNewton::solve(MatrixXd& x) {
 /// One step of iterative refinement. Elimination loses digits where the tangent is singular, or where a part
 /// of a member is at a buckling load of its own (for example each half of a column in its second mode).
 void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
-  constexpr double kLargest = 0.1;  // largest refinement relative to the null motions
   const Index k = v_.cols();
   MatrixXd all(rows.rows(), k + 2);
   all << v_, p_, q_;
@@ -159,7 +176,7 @@ void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
   solve(left);
   left -= v_ * (border.transpose() * left);
   // without refinement after a zero pivot
-  if (!(left.leftCols(k).norm() < kLargest * v_.norm())) return;
+  if (!(left.leftCols(k).norm() < CriticalLimits::refinement * v_.norm())) return;
   v_ += left.leftCols(k);
   p_ += left.col(k);
   q_ += left.col(k + 1);
@@ -167,10 +184,6 @@ void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
 
 /// Factorises the tangent and computes v, p and q; false when the factorisation is singular.
 bool CriticalNewton::factorise() {
-  // relative difference of the stiffnesses by factors and by quotients above which solutions are refined
-  constexpr double kSure = 0.1;
-  // largest sum of squared norms of the null motions, which start with norm one
-  constexpr double kLargest = 1e6;
   const TangentReport report = problem_.linearise(at_.y, at_.lambda, residual_);
   const Index k = at_.null.cols();
   MatrixXd rows(at_.y.size(), k + 2);
@@ -207,13 +220,13 @@ bool CriticalNewton::factorise() {
     least_doubt_ = doubt;
     at_.others = report.negative - static_cast<int>((factored.array() < 0.0).count());
   }
-  if (!(doubt < kSure)) {
+  if (!(doubt < CriticalLimits::sure)) {
     refine(rows, border);
     keep_better(rows, border);
     take_quotients(rows.rightCols(2));
   }
-  return (v_.transpose() * problem_.metric().asDiagonal() * v_).trace() < kLargest && p_.allFinite() &&
-         q_.allFinite();
+  return (v_.transpose() * problem_.metric().asDiagonal() * v_).trace() < CriticalLimits::null_norm &&
+         p_.allFinite() && q_.allFinite();
 }
 
 /// Keeps the null motions and the load response of the previous iteration where they have smaller residuals.
@@ -342,13 +355,12 @@ bool CriticalNewton::step() {
 /// Whether the next correction, predicted by quadratic convergence, is below the tolerances, or whether
 /// stagnating corrections are at rounding level.
 bool CriticalNewton::converged() {
-  // stagnating corrections count as rounding below this fraction of the reach and of the load factor
-  constexpr double kRounding = 1e-6;
   const bool falls = previous_ == 0.0 || moved_ < 0.5 * previous_;
   const double ratio = falls && previous_ > 0.0 ? moved_ / previous_ : 1.0;
   const double size = std::max(std::abs(at_.lambda), options_.least_load);
-  const bool stagnant = stalled_ && !falls && std::max(moved_, previous_) <= kRounding * options_.reach &&
-                        std::abs(dlambda_) <= kRounding * size;
+  const bool stagnant = stalled_ && !falls &&
+                        std::max(moved_, previous_) <= CriticalLimits::stagnant * options_.reach &&
+                        std::abs(dlambda_) <= CriticalLimits::stagnant * size;
   previous_ = moved_;
   stalled_ = stalled_ || !falls;
   return stagnant || (moved_ * ratio <= options_.place * options_.reach &&
@@ -366,7 +378,7 @@ bool CriticalNewton::balances() {
     residual_ += at_.unfolding[i] * column;
   }
   const double size = problem_.relative_residual(residual_, at_.y, at_.lambda);
-  const double rounding = std::max(kResidualFloor, problem_.residual_rounding(at_.y, at_.lambda));
+  const double rounding = std::max(Rounding::largest_residual, problem_.residual_rounding(at_.y, at_.lambda));
   if (problem_.one_sided() && size > std::max(options_.largest_residual, rounding)) return false;
   const bool falls = size <= 0.5 * left_;
   left_ = size;
@@ -376,22 +388,18 @@ bool CriticalNewton::balances() {
 }
 
 std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
-  constexpr int kMostIterations = 8;
-  constexpr double kAside = 1e-8;  // displacement off a singular tangent, over the reach
-  // iterations before the unfolding force is a reliable measure of the imperfection
-  constexpr int kSettling = 3;
-  for (int it = 1; it <= kMostIterations; ++it) {
+  for (int it = 1; it <= CriticalLimits::most_iterations; ++it) {
     ++factorisations;
     if (!factorise()) {
       // a tangent that is exactly singular can be factorised at a neighbouring state
-      at_.y += kAside * options_.reach * at_.null.col(0);
+      at_.y += CriticalLimits::aside * options_.reach * at_.null.col(0);
       ++factorisations;
       if (!factorise()) break;
     }
     differentiate();
     if (!step()) break;
     const bool broken = bifurcation_ && at_.imperfection() > options_.largest_imperfection;
-    if (broken && it >= kSettling) break;
+    if (broken && it >= CriticalLimits::settling) break;
     if (converged() && balances()) return std::move(at_);
   }
   return std::move(settled_);
@@ -400,15 +408,12 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
 /// Finds a further motion that loses its stiffness at the bifurcation, by inverse iteration with the last
 /// factors; empty when there is none.
 VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
-  // largest relative distance in the load factor at which a motion's stiffness counts as vanishing
-  constexpr double kBeside = 1e-3;
-  constexpr int kIterations = 2;
   const Index k = at.null.cols();
   if (k == (problem_.metric().array() > 0.0).count()) return {};
   const MatrixXd border = problem_.metric().asDiagonal() * at.null;
   VectorXd x = pseudo_random(at.y.size(), static_cast<unsigned>(k + 1));
   VectorXd force;
-  for (int it = 0; it < kIterations; ++it) {
+  for (int it = 0; it < CriticalLimits::null_iterations; ++it) {
     x -= at.null * (border.transpose() * x);
     problem_.metric_forces(x, force);
     problem_.solve(force);
@@ -422,7 +427,7 @@ VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
   // a motion that the load drives belongs to a limit point
   problem_.load(at.y, at.lambda, force);
   const bool driven = std::abs(problem_.work(force, x)) > options_.largest_imperfection * std::abs(rate);
-  return !driven && std::abs(stiffness) <= kBeside * std::abs(at.lambda * rate) ? x : VectorXd();
+  return !driven && std::abs(stiffness) <= CriticalLimits::near * std::abs(at.lambda * rate) ? x : VectorXd();
 }
 
 }  // namespace

@@ -11,6 +11,14 @@ using Eigen::Index;
 
 namespace {
 
+/// Suspicion of hidden events. Source: docs/decisions/0022.
+struct Suspicion {
+  /// Assumed curvature of a stiffness over the mismatch of its end slopes: they change within half a step.
+  static constexpr double curvature = 4.0;
+  static constexpr double margin = 1e-3;      ///< least distance of a dip from the ends, fraction of the step
+  static constexpr double same_motion = 0.7;  ///< least cosine of two points' modes that are one motion
+};
+
 /// Distance at which a value vanishes that has this rate and bends towards zero by `bend` times the squared
 /// distance.
 double bent_to_zero(double value, double rate, double bend) {
@@ -20,9 +28,9 @@ double bent_to_zero(double value, double rate, double bend) {
 /// Position where a stiffness could cross zero if its curvature were four times the mismatch of its end
 /// slopes: a change of slope that half of the way brings about.
 std::optional<double> bent_dip(const Cubic& stiffness) {
-  constexpr double kCurvature = 4.0;
   const double change = stiffness.f1 - stiffness.f0;
-  const double bend = kCurvature * std::max(std::abs(change - stiffness.m0), std::abs(change - stiffness.m1));
+  const double bend =
+      Suspicion::curvature * std::max(std::abs(change - stiffness.m0), std::abs(change - stiffness.m1));
   const double from = bent_to_zero(stiffness.f0, stiffness.m0, bend);
   const double to = 1.0 - bent_to_zero(stiffness.f1, -stiffness.m1, bend);
   return from < to ? std::optional(0.5 * (from + to)) : std::nullopt;
@@ -31,7 +39,6 @@ std::optional<double> bent_dip(const Cubic& stiffness) {
 }  // namespace
 
 std::optional<Dip> find_dip(const PathPoint& a, const PathPoint& b, double length) {
-  constexpr double kLeast = 1e-3;  // distance from the ends, a fraction
   if (!a.modes || !b.modes) return std::nullopt;
   const SoftModes& from = *a.modes;
   const SoftModes& to = *b.modes;
@@ -41,14 +48,13 @@ std::optional<Dip> find_dip(const PathPoint& a, const PathPoint& b, double lengt
       if (!(from.distance_to_zero(i, 1.0) + to.distance_to_zero(j, -1.0) < length)) continue;
       const double meet =
           (to.stiffness[j] - from.stiffness[i] - to.rate[j] * length) / (from.rate[i] - to.rate[j]);
-      return Dip{i, std::clamp(meet / length, kLeast, 1.0 - kLeast)};
+      return Dip{i, std::clamp(meet / length, Suspicion::margin, 1.0 - Suspicion::margin)};
     }
   }
   return std::nullopt;
 }
 
 std::optional<double> knee_fraction(const Segment& segment) {
-  constexpr double kSameMotion = 0.7;  // least cosine of two points' modes that are one motion
   const PathPoint& a = segment.from();
   const PathPoint& b = segment.to();
   if (!a.modes || !b.modes) return std::nullopt;
@@ -58,7 +64,8 @@ std::optional<double> knee_fraction(const Segment& segment) {
     const double sign = std::copysign(1.0, a.modes->stiffness[i]);
     for (Index j = 0; j < b.modes->count(); ++j) {
       if (sign * b.modes->stiffness[j] <= 0.0) continue;
-      if (std::abs(metric.inner(a.modes->motions.col(i), 0.0, b.modes->motions.col(j), 0.0)) < kSameMotion)
+      if (std::abs(metric.inner(a.modes->motions.col(i), 0.0, b.modes->motions.col(j), 0.0)) <
+          Suspicion::same_motion)
         continue;
       const auto fraction = bent_dip({sign * a.modes->stiffness[i], sign * length * a.modes->rate[i],
                                       sign * b.modes->stiffness[j], sign * length * b.modes->rate[j]});

@@ -12,7 +12,7 @@ namespace snapthrough {
 /// A fall and rise of a motion's stiffness between two points of a path.
 struct Dip {
   Eigen::Index mode = 0;  ///< index of the motion among the modes of the first point
-  double fraction = 0.5;  ///< of the way, where the tangents of the stiffness meet
+  double fraction = 0.5;  ///< fraction of the way where the tangents of the stiffness meet
 };
 
 /// @brief Whether the stiffness of a motion falls towards zero at a and rises at b, so that its tangents meet

@@ -2,19 +2,25 @@
 
 #include <cmath>
 
+#include "solver/numeric/rounding.h"
+
 namespace snapthrough {
 
 using Eigen::VectorXd;
 
 namespace {
 
+/// Second differences of tangent products. Source: errors of truncation, of rounding and of the mesh.
+struct KoiterLimits {
+  static constexpr double longest = 2e-2;    ///< largest step, displacement gradient
+  static constexpr double shorter = 0.25;    ///< ratio of successive steps
+  static constexpr int most_steps = 4;       ///< steps at most
+  static constexpr double settled = 1e-3;    ///< relative change between steps; the error is about its square
+  static constexpr double symmetric = 1e-5;  ///< slope per load factor that counts as zero
+};
+
 /// n.F'''[n, n, n] from second differences of tangent products, extrapolated; empty when not converged.
 std::optional<double> third_derivative(const BorderedPoint& point) {
-  constexpr double kLongest = 2e-2;  // largest step (displacement gradient) for accurate second differences
-  constexpr double kShorter = 0.25;  // ratio of successive steps
-  constexpr int kMostSteps = 4;
-  // relative change between steps; the error after extrapolation is about its square
-  constexpr double kSettled = 1e-3;
   const CriticalSolution& at = point.at();
   const VectorXd n = at.null.col(0);
   const auto product = [&](double e) {
@@ -22,12 +28,13 @@ std::optional<double> third_derivative(const BorderedPoint& point) {
   };
   const double here = product(0.0);
   const auto second = [&](double e) { return (product(e) - 2.0 * here + product(-e)) / (e * e); };
-  double e = kLongest;
-  for (int step = 0; step < kMostSteps; ++step, e *= kShorter) {
+  double e = KoiterLimits::longest;
+  for (int step = 0; step < KoiterLimits::most_steps; ++step, e *= KoiterLimits::shorter) {
     const double coarse = second(e);
     const double fine = second(0.5 * e);
-    const double rounding = 1e-14 * std::abs(at.lambda * at.B(0, 0)) / (e * e);
-    if (std::abs(fine - coarse) <= kSettled * std::abs(fine) + rounding) return (4.0 * fine - coarse) / 3.0;
+    const double rounding = Rounding::cancelled_sum * std::abs(at.lambda * at.B(0, 0)) / (e * e);
+    if (std::abs(fine - coarse) <= KoiterLimits::settled * std::abs(fine) + rounding)
+      return (4.0 * fine - coarse) / 3.0;
   }
   return std::nullopt;
 }
@@ -35,8 +42,6 @@ std::optional<double> third_derivative(const BorderedPoint& point) {
 }  // namespace
 
 std::optional<KoiterExpansion> koiter_expansion(const BorderedPoint& point, double along_path) {
-  // slope per load factor that counts as zero: error of differences and of the mesh
-  constexpr double kSymmetric = 1e-5;
   const CriticalSolution& at = point.at();
   const double A = at.A[0](0, 0);
   const double B = at.B(0, 0);
@@ -49,7 +54,7 @@ std::optional<KoiterExpansion> koiter_expansion(const BorderedPoint& point, doub
   if (A != 0.0 && std::abs(-big / A - along_path) < std::abs(along - along_path)) along = -big / A;
   const double rate = B + A * along;
   KoiterExpansion out{-A / (2.0 * rate), std::nullopt, 0.0};
-  if (std::abs(out.slope) > kSymmetric * std::abs(at.lambda)) return out;
+  if (std::abs(out.slope) > KoiterLimits::symmetric * std::abs(at.lambda)) return out;
   out.slope = 0.0;
   const auto third = third_derivative(point);
   if (!third) return out;

@@ -13,12 +13,16 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Displacement into a support, over the mode's largest displacement, that counts as zero.
-constexpr double kNoDisplacement = 1e-7;
-/// Relative difference of two loads of one piece that counts as rounding.
-constexpr double kSameLoad = 1e-9;
-constexpr int kMostPieces = 400;  ///< limit on visited pieces in over_springs()
-constexpr int kMostSprings = 30;  // limit for the search over springs, one bit each
+/// Search of the least piece. Source: docs/decisions/0009, Costs; rounding of modes and loads.
+struct PieceLimits {
+  /// Displacement into a support, over the mode's largest displacement, that counts as zero.
+  static constexpr double no_displacement = 1e-7;
+  static constexpr double same_load = 1e-9;  ///< relative difference of two loads of one piece
+  static constexpr int most_pieces = 400;    ///< visited pieces in over_springs()
+  static constexpr int most_springs = 30;    ///< springs in over_springs(), one bit each
+  static constexpr int most_steps = 40;      ///< steps of a descent
+  static constexpr int halvings = 8;         ///< step reductions per step of a descent
+};
 
 class Search {
  public:
@@ -84,8 +88,8 @@ bool Search::fits(const VectorXd& mode, unsigned springs) {
   bool other_way = true;
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
     const double into = (springs >> i) % 2 != 0 ? displacements_[i] : -displacements_[i];
-    one_way = one_way && into >= -kNoDisplacement;
-    other_way = other_way && into <= kNoDisplacement;
+    one_way = one_way && into >= -PieceLimits::no_displacement;
+    other_way = other_way && into <= PieceLimits::no_displacement;
   }
   return one_way || other_way;
 }
@@ -108,7 +112,7 @@ LeastPiece Search::over_springs() {
       set_springs(node.springs);
       return {true, true, node.load};
     }
-    if (pieces + static_cast<int>(count) > kMostPieces) break;
+    if (pieces + static_cast<int>(count) > PieceLimits::most_pieces) break;
     for (std::size_t i = node.next; i < count; ++i, ++pieces)
       queue.push(visit(node.springs | (1U << i), i + 1));
   }
@@ -121,19 +125,17 @@ double Search::quotient(const VectorXd& motion) {
 }
 
 void Search::descend(VectorXd motion) {
-  constexpr int kMostSteps = 40;
-  constexpr int kHalvings = 8;  // step reductions per descent step
   double load = quotient(motion);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < PieceLimits::most_steps; ++step) {
     set_cone_of(motion);
     std::optional<Piece> piece = solver_.lowest();
-    if (!piece || piece->load >= load * (1.0 - kSameLoad)) break;
+    if (!piece || piece->load >= load * (1.0 - PieceLimits::same_load)) break;
     if (motion.dot(problem_.metric().cwiseProduct(piece->mode)) < 0.0) piece->mode = -piece->mode;
     double share = 1.0;
     double lower = load;
     VectorXd trial;
     const auto falls = [&] { return lower > 0.0 && lower < load; };
-    for (int i = 0; i < kHalvings && !falls(); ++i, share *= 0.5) {
+    for (int i = 0; i < PieceLimits::halvings && !falls(); ++i, share *= 0.5) {
       trial = motion + share * (piece->mode - motion);
       lower = quotient(trial);
     }
@@ -158,14 +160,14 @@ LeastPiece Search::by_descent(const VectorXd& near) {
   if (near.size() > 0) starts = {near};
   for (const VectorXd& start : starts) {
     descend(start);
-    if (least_.load <= above * (1.0 + kSameLoad)) break;  // no lower load exists
+    if (least_.load <= above * (1.0 + PieceLimits::same_load)) break;  // no lower load exists
   }
   if (least_.mode.size() == 0) {
     set_all(true);
     return {};
   }
   set_cone_of(least_.mode);
-  return {true, least_.load <= above * (1.0 + kSameLoad), above, least_.mode};
+  return {true, least_.load <= above * (1.0 + PieceLimits::same_load), above, least_.mode};
 }
 
 }  // namespace
@@ -174,7 +176,7 @@ LeastPiece set_least_piece(const StructuralProblem& problem, const PieceSolver& 
                            const TouchingMarks& marks, const VectorXd& near, FrozenContact& contact) {
   Search search(problem, solver, marks, contact);
   const bool foundations = std::find(marks.contacts.begin(), marks.contacts.end(), 1) != marks.contacts.end();
-  if (!foundations && problem.touching_springs(marks) <= kMostSprings)
+  if (!foundations && problem.touching_springs(marks) <= PieceLimits::most_springs)
     if (const LeastPiece least = search.over_springs(); least.found) return least;
   return search.by_descent(near);
 }

@@ -14,7 +14,7 @@ namespace snapthrough {
 
 namespace {
 
-/// Numbers of the search on one step; ratios without unit.
+/// Numbers of the search on one step; ratios without unit. Source: docs/decisions/0010 and 0022.
 struct LocateLimits {
   static constexpr int depth = 48;  ///< bisections of a step at most
   /// Points that are corrected on a step because of hidden_events.h alone: on a plateau rounding asks for one
@@ -46,7 +46,7 @@ struct Search {
   const Segment& step;  ///< places are measured along its direction
   const LocateOptions& options;
   LocatedEvents& out;
-  double stiffness = 0.0;  ///< of the softest motion at the ends of the step
+  double stiffness = 0.0;  ///< stiffness of the softest motion at the ends of the step
   int guesses = 0;         ///< points that were corrected because of hidden_events.h alone
 };
 
@@ -130,7 +130,7 @@ void locate_limit(Search& search, const Segment& piece) {
                             const double size = std::max(std::abs(before.lambda), least_load);
                             return std::abs(value) * length <= LocateLimits::limit_share * tolerance * size &&
                                    loads_agree(before.lambda, after.lambda, tolerance, least_load) &&
-                                   length <= std::min(kSamePath, 10.0 * tolerance);
+                                   length <= std::min(LocatedPoints::same_path, 10.0 * tolerance);
                           }};
   const double from = rate.value(piece.from());
   const double to = rate.value(piece.to());
@@ -221,9 +221,9 @@ void search_cluster(Search& search, const Segment& piece, bool turns, int depth)
     search.out.same_path = false;
     return;
   }
-  const bool together =
-      piece.length() <= kSamePath && loads_agree(piece.from().lambda, piece.to().lambda,
-                                                 search.options.tolerance, search.solver.norm().least_load());
+  const bool together = piece.length() <= LocatedPoints::same_path &&
+                        loads_agree(piece.from().lambda, piece.to().lambda, search.options.tolerance,
+                                    search.solver.norm().least_load());
   std::optional<PathPoint> middle;
   if (!together && depth < LocateLimits::depth) middle = look(search, piece, 0.5);
   if (middle)

@@ -15,12 +15,21 @@ using Eigen::VectorXd;
 
 namespace {
 
+/// Events by Newton's method; ratios. Source: docs/decisions/0010 and 0022.
+struct NewtonEventLimits {
+  /// Displacement tolerance over the reach where only the load (error of second order) is reported.
+  static constexpr double place_without_state = 1e-3;
+  static constexpr double same_way = 0.5;  ///< least cosine of the path and its tangent at an event
+  static constexpr double exact = 1e-5;    ///< load distance whose square is negligible
+  static constexpr double close = 1e-2;    ///< load distance up to which bifurcations are neighbours
+  static constexpr double beside = 1e-2;   ///< distance of the inertia counts from an event, over the reach
+  static constexpr double same_motion = 0.9;  ///< least cosine of the motions of both ends that are one
+};
+
 CriticalOptions options_for(const PointSolver& solver, double tolerance, double reach) {
-  // displacement tolerance over the reach where only the load (error of second order) is reported
-  constexpr double kPlaceOfNoState = 1e-3;
   CriticalOptions options;
   if (solver.options().tangent_tolerance > 0.0) {
-    options.place = kPlaceOfNoState;
+    options.place = NewtonEventLimits::place_without_state;
     options.to_rounding = false;
   }
   options.tolerance = 0.1 * tolerance;
@@ -37,8 +46,6 @@ struct Tangents {
 
 std::optional<Tangents> tangents_along(const PathMetric& metric, const CriticalSolution& found,
                                        const PathDirection& way) {
-  // least cosine between the path's direction and its tangent at the bifurcation
-  constexpr double kSameWay = 0.5;
   const auto inner = [&](const CriticalDirection& d) {
     return metric.inner(d.y, d.lambda, way.y, way.lambda);
   };
@@ -46,7 +53,7 @@ std::optional<Tangents> tangents_along(const PathMetric& metric, const CriticalS
   if (all.empty()) return std::nullopt;
   if (all.size() == 2 && std::abs(inner(all[1])) > std::abs(inner(all[0]))) std::swap(all[0], all[1]);
   const double along = inner(all[0]);
-  if (!(std::abs(along) >= kSameWay * metric.norm(way.y, way.lambda))) return std::nullopt;
+  if (!(std::abs(along) >= NewtonEventLimits::same_way * metric.norm(way.y, way.lambda))) return std::nullopt;
   Tangents out{std::move(all[0]), all.size() == 2 ? std::move(all[1]) : CriticalDirection{}};
   if (along < 0.0) out.along = {-out.along.y, -out.along.lambda, -out.along.stiffness_rate};
   return out;
@@ -126,10 +133,6 @@ bool inertia_confirms(PointSolver& solver, const std::vector<CriticalEvent>& eve
 std::vector<CriticalEvent> bifurcations_near(PointSolver& solver, const CriticalGuess& guess,
                                              const PathDirection& way, int before,
                                              const CriticalOptions& options) {
-  constexpr double kExact = 1e-5;  // relative distance in the load factor whose square is negligible
-  // relative distance in the load factor up to which bifurcations are neighbours
-  constexpr double kClose = 1e-2;
-  constexpr double kBeside = 1e-2;  // step of the inertia counts over the reach
   const auto solved = solve_on_path(solver, guess, way, options);
   if (!solved) return {};
   const auto& [found, tangents, spectrum] = *solved;
@@ -142,9 +145,9 @@ std::vector<CriticalEvent> bifurcations_near(PointSolver& solver, const Critical
   for (int n = 0; n < count; ++n) {
     const Index i = tangents.along.lambda < 0.0 ? count - 1 - n : n;
     const double distance = count > 1 && i != guess.target ? spectrum.distances[i] : 0.0;
-    if (std::abs(distance) > kClose * size) break;
+    if (std::abs(distance) > NewtonEventLimits::close * size) break;
     CriticalEvent event = bifurcation_event(found, tangents, distance, spectrum.shares.col(i));
-    if (std::abs(distance) > kExact * size) event = settled(solver, event, i, way, options);
+    if (std::abs(distance) > NewtonEventLimits::exact * size) event = settled(solver, event, i, way, options);
     event.negative_before = first + change * n;
     event.negative_after = event.negative_before + change;
     event.point.negative = event.negative_before;
@@ -156,7 +159,7 @@ std::vector<CriticalEvent> bifurcations_near(PointSolver& solver, const Critical
       ++events.back().multiplicity;
     }
   }
-  if (!inertia_confirms(solver, events, kBeside * options.reach)) return {};
+  if (!inertia_confirms(solver, events, NewtonEventLimits::beside * options.reach)) return {};
   return events;
 }
 
@@ -205,10 +208,9 @@ Index crossing_mode(const SoftModes& modes, double sign, double sense) {
 /// if both ends have the same motion, else linearly from the nearer end.
 double predicted_share(const PathMetric& metric, const SoftModes& a, Index i, const SoftModes& b, Index j,
                        double length) {
-  constexpr double kSame = 0.9;  // least cosine between the motions of both ends
   const double from_a = a.distance_to_zero(i, 1.0) / length;
   const double from_b = b.distance_to_zero(j, -1.0) / length;
-  if (std::abs(metric.inner(a.motions.col(i), 0.0, b.motions.col(j), 0.0)) < kSame)
+  if (std::abs(metric.inner(a.motions.col(i), 0.0, b.motions.col(j), 0.0)) < NewtonEventLimits::same_motion)
     return from_a < from_b ? from_a : 1.0 - from_b;
   return Cubic{a.stiffness[i], length * a.rate[i], b.stiffness[j], length * b.rate[j]}.zero();
 }

@@ -10,7 +10,7 @@
 namespace snapthrough {
 namespace {
 
-/// Numbers of the bracketed secant; fractions of the bracket.
+/// Numbers of the bracketed secant; fractions of the bracket. Source: docs/decisions/0022.
 struct RootSearch {
   static constexpr int most_points = 100;         ///< points that are corrected at most
   static constexpr double least_fraction = 1e-5;  ///< least distance of a trial from the bracket's ends
@@ -32,7 +32,7 @@ double just_beyond(double place, double from, double to) {
 }  // namespace
 
 bool on_different_paths(const Segment& segment) {
-  return segment.distance() > RootSearch::steepest * segment.length() + kSamePath;
+  return segment.distance() > RootSearch::steepest * segment.length() + LocatedPoints::same_path;
 }
 
 LocatedRoot find_root(const Segment& segment, double value_from, double value_to,

@@ -38,10 +38,13 @@ struct RootFunction {
 /// are on two different paths.
 [[nodiscard]] bool on_different_paths(const Segment& segment);
 
-/// Distance of two points, a displacement gradient, within which they are on one path: rounding leaves about
-/// 1e-16 over the relative distance to a bifurcation, a broken bifurcation about the cube root of its
-/// imperfection.
-inline constexpr double kSamePath = 1e-5;
+/// Points located on a path. Source: docs/decisions/0010 and 0022.
+struct LocatedPoints {
+  /// Distance of two points, a displacement gradient, within which they are on one path: rounding leaves
+  /// about 1e-16 over the relative distance to a bifurcation, a broken bifurcation about the cube root of its
+  /// imperfection.
+  static constexpr double same_path = 1e-5;
+};
 
 /// Relative difference of two load factors that counts as none.
 inline constexpr double kSameLoadFactor = 1e-11;

@@ -14,8 +14,13 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Fraction of the critical load up to which supports must touch without pressure.
-constexpr double kOnTheWay = 0.5;
+/// Supports that touch without pressure; ratios. Source: docs/decisions/0009.
+struct TouchingLimits {
+  static constexpr double on_the_way = 0.5;  ///< share of the critical load up to which supports must touch
+  static constexpr double lost = 1e-6;       ///< loss of touching supports that is ignored, see amount()
+  /// Ratio of the start's response to that with bilateral supports: above it rounding alone holds contact.
+  static constexpr double loose = 1e3;
+};
 
 /// Number of springs plus the summed lengths of foundations (fractions of their members).
 double amount(const TouchingSupports& touching) {
@@ -27,7 +32,6 @@ double amount(const TouchingSupports& touching) {
 
 /// Whether all touching supports still touch in equilibrium under a load, starting from the state `from`.
 bool still_touch(const Structure& structure, const VectorXd& from, double lambda) {
-  constexpr double kAll = 1e-6;  // relative loss of touching supports that is ignored
   StructuralProblem problem(structure);
   const PathMetric metric{&structure.metric, 0.0};
   VectorXd displacement;
@@ -40,8 +44,8 @@ bool still_touch(const Structure& structure, const VectorXd& from, double lambda
       correct(problem, metric, {}, lambda * metric.norm(displacement, 0.0), {}, y, lambda, work);
   if (outcome.status != CorrectorStatus::converged) return false;
   const TouchingMarks marks = problem.marks_at(y);
-  return has_any(marks) &&
-         std::abs(amount(problem.touching(marks, nullptr)) - amount(structure.touching)) <= kAll;
+  return has_any(marks) && std::abs(amount(problem.touching(marks, nullptr)) - amount(structure.touching)) <=
+                               TouchingLimits::lost;
 }
 
 bool is_known(const TouchingSupports& touching) {
@@ -60,10 +64,6 @@ TouchingSupports least_piece(const Model& model, const Structure& structure, dou
   out.reference = reference;
   return out;
 }
-
-/// Ratio of the start's response to that with all supports bilateral, above which contact is held by rounding
-/// only.
-constexpr double kLoose = 1e3;
 
 /// Whether supports touch without pressure in the response of the structure with bilateral supports.
 bool glued_touches(const Structure& structure, StructuralProblem& problem) {
@@ -86,9 +86,10 @@ std::optional<Structure> with_least_piece(const Model& model, const Structure& s
                                           const PathStart& start, Result& result) {
   if (!structure.one_sided || is_known(structure.touching)) return std::nullopt;
   const std::optional<PathPoint>& point = start.point;
-  const bool is_loose = start.contact_flexibility_ratio > kLoose;
+  const bool is_loose = start.contact_flexibility_ratio > TouchingLimits::loose;
   if (point ? point->tangent_lambda <= 0.0 : structure.has_constant) return std::nullopt;
-  const double ahead = point && !is_loose ? kOnTheWay * norm.load_scale() : structure.scales.load;
+  const double ahead =
+      point && !is_loose ? TouchingLimits::on_the_way * norm.load_scale() : structure.scales.load;
   if (point) {
     const VectorXd linear = point->y + (ahead / point->tangent_lambda) * point->tangent;
     if (!has_any(problem.marks_at(linear)) && !(is_loose && glued_touches(structure, problem)))
@@ -100,7 +101,7 @@ std::optional<Structure> with_least_piece(const Model& model, const Structure& s
   if (!is_known(touching)) return std::nullopt;
   std::optional<Structure> out = with_touching(structure, model, std::move(touching));
   const VectorXd from = point ? point->y : VectorXd::Zero(structure.size);
-  if (!still_touch(*out, from, kOnTheWay * buckling.loads.front())) return std::nullopt;
+  if (!still_touch(*out, from, TouchingLimits::on_the_way * buckling.loads.front())) return std::nullopt;
   warn_of_touching(structure, buckling.piece, result);
   return out;
 }

@@ -14,6 +14,17 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+/// Certainty of pivots in joining elements; ratios. Source: docs/decisions/0001, Price; docs/decisions/0022.
+struct PivotLimits {
+  static constexpr double cancelled = 1e-3;     ///< pivot over its terms, below which its sign is uncertain
+  static constexpr double smallest = 1e-2;      ///< least certain pivot of the identity plus a matrix
+  static constexpr int balance_passes = 4;      ///< iterations of the scaling
+  static constexpr double large_gain = 1e3;     ///< error amplification above which alternatives are tried
+  static constexpr double poor_quality = 1e-3;  ///< reciprocal condition below which alternatives are tried
+  static constexpr double much_better = 10.0;   ///< factor by which an alternative pivot must improve
+  static constexpr int ahead = 4;               ///< elements joined to each other first, at most
+};
+
 /// F = L J L^T with J = diag(+-1); L has zero columns for rigid directions.
 struct SignedRoot {
   Matrix3d L = Matrix3d::Zero();
@@ -23,7 +34,6 @@ struct SignedRoot {
 
 /// Signed root of F; empty when F is not semidefinite and the sign of a pivot is uncertain.
 std::optional<SignedRoot> signed_root(const Matrix3d& F) {
-  constexpr double kCancelled = 1e-3;  // pivot over its terms below which its sign is uncertain
   SignedRoot out;
   Matrix3d& L = out.L;
   const double floor = 1e-13 * std::max({std::abs(F(0, 0)), std::abs(F(1, 1)), std::abs(F(2, 2))});
@@ -36,7 +46,7 @@ std::optional<SignedRoot> signed_root(const Matrix3d& F) {
       size += L(j, k) * L(j, k);
     }
     if (d >= -floor && d <= 1e-3 * floor) continue;  // a rigid direction
-    clear = clear && std::abs(d) > kCancelled * size;
+    clear = clear && std::abs(d) > PivotLimits::cancelled * size;
     if (d < 0.0) {
       out.J[j] = -1.0;
       ++out.minus;
@@ -55,8 +65,7 @@ std::optional<SignedRoot> signed_root(const Matrix3d& F) {
 /// Scales the largest entry of each row to about one by a diagonal congruence transformation.
 template <int N>
 void balance(Eigen::Matrix<double, N, N>& A) {
-  constexpr int kPasses = 4;  // iterations of the scaling
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < PivotLimits::balance_passes; ++pass) {
     std::array<double, N> d;
     for (int i = 0; i < N; ++i)
       d[i] = 1.0 / std::sqrt(std::max(A.col(i).cwiseAbs().maxCoeff(), std::numeric_limits<double>::min()));
@@ -119,12 +128,10 @@ int count_negative(Eigen::Matrix<double, N, N> A) {
 /// Number of negative pivots of C = L D L^T; empty if a pivot is near zero or results from cancellation, so
 /// that its sign is uncertain without balancing and pivoting.
 std::optional<int> clearly_negative(const Matrix3d& C) {
-  constexpr double kSmallest = 1e-2;   // least pivot; C is the identity plus the tested matrix
-  constexpr double kCancelled = 1e-3;  // pivot over the terms that it is the difference of
   int negative = 0;
   const auto clear = [&](double d, double size) {
     negative += d < 0.0 ? 1 : 0;
-    return std::abs(d) > std::max(kSmallest, kCancelled * size);
+    return std::abs(d) > std::max(PivotLimits::smallest, PivotLimits::cancelled * size);
   };
   const double d0 = C(0, 0);
   if (!clear(d0, 0.0)) return std::nullopt;
@@ -207,25 +214,22 @@ void Chain::join(Run& first, const Run& second, const Pivot& pivot) {
 /// Joins the next element, or several next elements at once if their pivot is much better: first by error
 /// amplification, then by certainty of sign.
 void Chain::join_next(Run& all, std::span<const CondensedElement> elements) {
-  constexpr double kLargeGain = 1e3;     // error amplification above which alternatives are tried
-  constexpr double kPoorQuality = 1e-3;  // reciprocal condition below which alternatives are tried
-  constexpr double kMuchBetter = 10.0;   // factor by which an alternative pivot must improve
-  constexpr int kMostAhead = 4;          // elements joined to each other first
   const auto run_of = [&elements](int i) { return Run{elements[i].K, elements[i].X, elements[i].F, i, i}; };
   const int next = all.last + 1;
   const Pivot pivot = pivot_of(all, run_of(next));
-  const bool grows = pivot.gain > kLargeGain;
-  if (grows || pivot.quality < kPoorQuality) {
+  const bool grows = pivot.gain > PivotLimits::large_gain;
+  if (grows || pivot.quality < PivotLimits::poor_quality) {
     const auto saved = ends_;
     const std::size_t joins = joins_.size();
     Run ahead = run_of(next);
-    const int last = std::min(next + (grows ? kMostAhead : 2), static_cast<int>(elements.size())) - 1;
+    const int last = std::min(next + (grows ? PivotLimits::ahead : 2), static_cast<int>(elements.size())) - 1;
     while (ahead.last < last) {
       const Run after = run_of(ahead.last + 1);
       join(ahead, after, pivot_of(ahead, after));
       const Pivot other = pivot_of(all, ahead);
-      const bool better = grows ? other.gain * kMuchBetter < pivot.gain
-                                : other.quality > kMuchBetter * pivot.quality && other.gain <= pivot.gain;
+      const bool better =
+          grows ? other.gain * PivotLimits::much_better < pivot.gain
+                : other.quality > PivotLimits::much_better * pivot.quality && other.gain <= pivot.gain;
       if (!better) continue;
       join(all, ahead, other);
       return;

@@ -10,13 +10,20 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Smallest grip (share of the supports' stiffness) that is tried before release_grip() gives up.
-constexpr double kLeastGrip = 1e-20;
-/// Smallest factor between successive grips, and the largest one before release_grip() gives up.
-constexpr double kFastestRelease = 0.1;
-constexpr double kSlowestRelease = 0.97;
-/// Grip below which equilibrium without grip is tried.
-constexpr double kTryFree = 1e-3;
+/// Search of the contact state; ratios. Source: docs/decisions/0011 (grip) and 0022.
+struct ContactStateLimits {
+  /// Smallest grip (share of the supports' stiffness) that is tried before release_grip() gives up.
+  static constexpr double least_grip = 1e-20;
+  static constexpr double fastest_release = 0.1;   ///< smallest factor between successive grips
+  static constexpr double slowest_release = 0.97;  ///< largest factor before release_grip() gives up
+  static constexpr double try_free = 1e-3;         ///< grip below which equilibrium without grip is tried
+  static constexpr double shrunk = 0.1;         ///< decrease of the displacement norm that requires a restart
+  static constexpr double least_scale = 1e-14;  ///< smallest displacement norm as scale
+  static constexpr double softest = 1e-12;  ///< smallest softness: factor on stiffness of one-sided supports
+  static constexpr double softer = 1e-3;    ///< softening per attempt
+  static constexpr double slowest_hardening = 1.3;  ///< smallest stiffening factor per step
+};
+
 /// Arguments common to all attempts at one load.
 struct Attempt {
   EquilibriumProblem& problem;
@@ -49,18 +56,16 @@ bool settle(Attempt& attempt, const Regime& regime, ContactState& state) {
   options.regime = regime;
   options.regime.small_displacements = attempt.small_displacements;
   double lambda = attempt.lambda;
-  constexpr double kSmaller = 0.1;       // decrease of the displacement norm that requires a restart
-  constexpr double kLeastScale = 1e-14;  // smallest displacement norm as scale
   // restarts with a smaller scale when the guess was far too large: the tolerance is relative to the scale
-  for (double scale = std::max(attempt.metric.norm(state.y, 0.0), kLeastScale);;) {
+  for (double scale = std::max(attempt.metric.norm(state.y, 0.0), ContactStateLimits::least_scale);;) {
     const auto outcome =
         correct(attempt.problem, attempt.metric, load_control, scale, options, state.y, lambda, attempt.work);
     attempt.factorisations += outcome.factorisations;
     state.tangent = outcome.tangent;
     state.relative_residual = outcome.relative_residual;
     if (outcome.status != CorrectorStatus::converged) return false;
-    const double size = std::max(attempt.metric.norm(state.y, 0.0), kLeastScale);
-    if (size > kSmaller * scale) return true;
+    const double size = std::max(attempt.metric.norm(state.y, 0.0), ContactStateLimits::least_scale);
+    if (size > ContactStateLimits::shrunk * scale) return true;
     scale = size;
   }
 }
@@ -78,10 +83,7 @@ bool settle_with(Attempt& attempt, double grip, ContactState& state) {
 /// Solves with supports so soft that contact is lost or kept as a whole, then stiffens them step by step. On
 /// stiff supports Newton's method moves the ends of contact by only a few decay lengths per iteration.
 bool harden(Attempt& attempt, ContactState& state) {
-  constexpr double kSoftest = 1e-12;  // factor on the stiffness of one-sided supports
-  constexpr double kSofter = 1e-3;    // softening per attempt
-  constexpr double kSlowest = 1.3;    // smallest stiffening factor per step
-  double softness = kSofter;
+  double softness = ContactStateLimits::softer;
   const auto settle_at = [&](double share, bool from_guess) {
     Regime regime;
     regime.softness = share;
@@ -92,11 +94,11 @@ bool harden(Attempt& attempt, ContactState& state) {
     return settled;
   };
   while (!settle_at(softness, true)) {
-    softness *= kSofter;
-    if (softness < kSoftest) return false;
+    softness *= ContactStateLimits::softer;
+    if (softness < ContactStateLimits::softest) return false;
   }
-  double harder = 1.0 / kSofter;
-  while (softness < 1.0 && harder > kSlowest) {
+  double harder = 1.0 / ContactStateLimits::softer;
+  while (softness < 1.0 && harder > ContactStateLimits::slowest_hardening) {
     const double next = std::min(1.0, softness * harder);
     if (settle_at(next, false)) {
       softness = next;
@@ -111,16 +113,16 @@ bool harden(Attempt& attempt, ContactState& state) {
 /// Solves with the full grip from the bilateral response, then reduces the grip step by step.
 bool release_grip(Attempt& attempt, ContactState& state) {
   double grip = 1.0;
-  double release = kFastestRelease;
+  double release = ContactStateLimits::fastest_release;
   if (!settle_with(attempt, grip, state)) return false;
-  while (grip > kLeastGrip && release < kSlowestRelease) {
+  while (grip > ContactStateLimits::least_grip && release < ContactStateLimits::slowest_release) {
     if (!settle_with(attempt, grip * release, state)) {
       release = std::sqrt(release);
       continue;
     }
     grip *= release;
-    release = std::max(kFastestRelease, release * release);
-    if (grip < kTryFree && settle_with(attempt, 0.0, state)) return true;
+    release = std::max(ContactStateLimits::fastest_release, release * release);
+    if (grip < ContactStateLimits::try_free && settle_with(attempt, 0.0, state)) return true;
   }
   return false;
 }

@@ -4,9 +4,32 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/numeric/rounding.h"
+
 namespace snapthrough {
 
 namespace {
+
+/// Limits of Newton's method; ratios where no unit is given. Source: docs/decisions/0011 and 0022.
+struct NewtonLimits {
+  /// Largest residual, over the tangent tolerance, from which the last correction may start.
+  static constexpr double near_residual = 10.0;
+  /// Largest ratio of the last correction to the one before it, for convergence to the tangent tolerance;
+  /// excludes cycles between contact states.
+  static constexpr double closing = 0.1;
+  static constexpr int stagnant_iterations = 4;  ///< corrections before stagnation is tested
+  static constexpr double stagnant = 0.5;        ///< ratio of successive residuals above which they stagnate
+  /// Largest correction (displacement gradient; share of the step) at which a residual counts as rounding.
+  /// Larger corrections with a small residual come from cycles between contact states.
+  static constexpr double rounding = 1e-6;
+  static constexpr double rounding_share = 1e-4;
+  static constexpr double omitted = 1e-8;  ///< largest correction, displacement gradient, that may be omitted
+  static constexpr int search_trials = 12;  ///< trials of a line search at most
+  static constexpr double work_left = 0.1;  ///< largest work after a line search, over that at its start
+  /// Opposite work at the end of a correction, over that at its start, that requires a shorter one.
+  static constexpr double overshoot = 0.5;
+  static constexpr double longest = 64.0;  ///< largest factor on a correction
+};
 
 /// Computes one bordered Newton correction with the current factors into work.correction; returns dlambda.
 double find_correction(EquilibriumProblem& problem, const SideCondition& side, const Eigen::VectorXd& y,
@@ -26,33 +49,11 @@ double find_correction(EquilibriumProblem& problem, const SideCondition& side, c
   return dlambda;
 }
 
-/// Largest residual, over the tangent tolerance, from which the last correction may start.
-constexpr double kNearResidual = 10.0;
-
-/// Largest ratio of the last correction to the one before it, for convergence to the tangent tolerance;
-/// excludes cycles between contact states.
-constexpr double kClosingShare = 0.1;
-
-/// Corrections before stagnation is tested, and the ratio of successive residuals above which they stagnate.
-constexpr int kStagnantIterations = 4;
-constexpr double kStagnantShare = 0.5;
-/// Largest correction (displacement gradient; share of the step) at which a residual counts as rounding.
-/// Larger corrections with a small residual come from cycles between contact states.
-constexpr double kLargestRounding = 1e-6;
-constexpr double kLargestRoundingShare = 1e-4;
-/// Largest norm of a correction (displacement gradient) that may be omitted.
-constexpr double kLargestLeft = 1e-8;
-
 /// Share of the correction at which the forces do no work along the correction. At fixed load and small
 /// displacements the energy of one-sided supports is convex and least there, so that Newton's method cannot
 /// cycle between contact states.
 double least_energy(EquilibriumProblem& problem, const Regime& regime, const Eigen::VectorXd& y,
                     double lambda, Workspace& work) {
-  constexpr int kMostTrials = 12;
-  constexpr double kWorkLeft = 0.1;  // largest work at the end of the line search over that at the start
-  // opposite work at the end over that at the start, above which the correction is shortened
-  constexpr double kEnough = 0.5;
-  constexpr double kLongest = 64.0;  // factor on the correction
   const double at_start = work.residual.dot(work.correction);
   if (!(at_start < 0.0)) return 1.0;
   const auto work_at = [&](double share) {
@@ -65,18 +66,18 @@ double least_energy(EquilibriumProblem& problem, const Regime& regime, const Eig
   double work_low = at_start;
   double work_high = work_at(1.0);
   // contact lost along the correction makes the structure softer than its tangent: longer correction
-  while (work_high < kWorkLeft * at_start && high < kLongest) {
+  while (work_high < NewtonLimits::work_left * at_start && high < NewtonLimits::longest) {
     low = high;
     work_low = work_high;
     high *= 2.0;
     work_high = work_at(high);
   }
-  if (!(work_high > -kEnough * at_start)) return high;
-  for (int i = 0; i < kMostTrials; ++i) {
+  if (!(work_high > -NewtonLimits::overshoot * at_start)) return high;
+  for (int i = 0; i < NewtonLimits::search_trials; ++i) {
     const double share = std::clamp(low - work_low * (high - low) / (work_high - work_low),
                                     low + 0.05 * (high - low), high - 0.05 * (high - low));
     const double at = work_at(share);
-    if (std::abs(at) <= -kWorkLeft * at_start) return share;
+    if (std::abs(at) <= -NewtonLimits::work_left * at_start) return share;
     (at < 0.0 ? low : high) = share;
     (at < 0.0 ? work_low : work_high) = at;
   }
@@ -95,12 +96,13 @@ bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, boo
   if (exact || problem.one_sided()) {
     problem.residual(work.trial, lambda + dlambda, work.residual, options.regime);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
-    const double rounding = std::max(kResidualFloor, problem.residual_rounding(work.trial, lambda + dlambda));
+    const double rounding =
+        std::max(Rounding::largest_residual, problem.residual_rounding(work.trial, lambda + dlambda));
     const double most = std::min(out.relative_residual, options.largest_residual);
     if (problem.one_sided() && size > std::max(most, rounding))
-      return correction <= kLargestLeft && out.relative_residual <= options.stagnant_residual;
+      return correction <= NewtonLimits::omitted && out.relative_residual <= options.stagnant_residual;
     // a larger remainder requires another correction, unless residuals are smooth and no longer fall
-    const bool falls = problem.one_sided() || size <= kStagnantShare * out.relative_residual;
+    const bool falls = problem.one_sided() || size <= NewtonLimits::stagnant * out.relative_residual;
     if (exact && falls && size > rounding) return false;
   }
   y.swap(work.trial);
@@ -123,19 +125,20 @@ class Progress {
     const bool small =
         std::max(expected_, size * ratio(size) * ratio(size)) <= options_.tolerance * displacement_ &&
         residual <= options_.largest_residual;
-    const bool rounding = residual <= kRoundingResidual ||
-                          size <= std::min(kLargestRounding, kLargestRoundingShare * displacement_);
-    stagnant_ = iteration >= kStagnantIterations && residual <= options_.stagnant_residual &&
-                residual > kStagnantShare * last_residual_;
+    const bool rounding =
+        residual <= kRoundingResidual ||
+        size <= std::min(NewtonLimits::rounding, NewtonLimits::rounding_share * displacement_);
+    stagnant_ = iteration >= NewtonLimits::stagnant_iterations && residual <= options_.stagnant_residual &&
+                residual > NewtonLimits::stagnant * last_residual_;
     last_residual_ = residual;
-    return iteration > 0 && (small || (rounding && (stagnant_ || residual <= kResidualFloor)));
+    return iteration > 0 && (small || (rounding && (stagnant_ || residual <= Rounding::largest_residual)));
   }
   /// Whether the first correction is only rounding, amplified by a nearly singular tangent.
   [[nodiscard]] bool is_rounding(int iteration, double size, double residual) const {
     return iteration == 0 && residual <= kRoundingResidual && size > options_.tangent_tolerance * scale_;
   }
   /// Whether the corrections contract fast enough for the tangent tolerance.
-  [[nodiscard]] bool closes_in(double size) const { return size <= kClosingShare * previous_; }
+  [[nodiscard]] bool closes_in(double size) const { return size <= NewtonLimits::closing * previous_; }
   /// Whether is_last() found that the residual no longer falls.
   [[nodiscard]] bool stagnant() const { return stagnant_; }
   /// Whether the first correction, or the growth of corrections, exceeds its bound.
@@ -145,7 +148,7 @@ class Progress {
   /// Records a correction that was applied by `share`; false after too many corrections that did not shrink.
   [[nodiscard]] bool goes_on(double size, double share, double residual) {
     // near rounding no correction shrinks
-    if (size > kStagnantShare * least_ && residual > options_.stagnant_residual) ++stalled_;
+    if (size > NewtonLimits::stagnant * least_ && residual > options_.stagnant_residual) ++stalled_;
     least_ = std::min(least_, size);
     expected_ = share < 1.0 ? size : size * ratio(size) * ratio(size);
     previous_ = size;
@@ -208,7 +211,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     }
     if (progress.runs_away(it, size) && residual > options.stagnant_residual) return out;
     const bool near = size <= options.tangent_tolerance * scale && progress.closes_in(size) &&
-                      residual <= kNearResidual * options.tangent_tolerance;
+                      residual <= NewtonLimits::near_residual * options.tangent_tolerance;
     const bool exact = options.tangent_tolerance == 0.0 && !progress.stagnant();
     if ((last || near) && take_last(problem, options, exact, y, lambda, dlambda, size, out, work)) {
       out.status = CorrectorStatus::converged;

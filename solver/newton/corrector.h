@@ -14,8 +14,6 @@ namespace snapthrough {
 inline constexpr double kSingularResponse = 1e13;
 /// Relative residual of a state that is exact to rounding; the corrector stops below it.
 inline constexpr double kRoundingResidual = 1e-14;
-/// Relative residual that rounding can leave; iterations for a reported state stop below it.
-inline constexpr double kResidualFloor = 2e-13;
 
 /// @brief Norm of a step (dy, dlambda): sqrt(dy.W dy + weight dlambda^2), W the problem's metric.
 struct PathMetric {

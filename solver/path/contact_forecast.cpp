@@ -8,8 +8,9 @@
 namespace snapthrough {
 namespace {
 
-/// How far a zone's end moves from a place that it reached at this rate, by way of `way` over `chord`: by the
-/// quadratic or, where it slows down, by the hyperbola, which does not turn back.
+/// Distance by which a zone's end moves on a step, by the quadratic through its last two places and its rate.
+/// Where the end slows down a hyperbola is taken instead, which does not turn back.
+/// @param way move of the end over the step before, whose length is `chord`
 double extrapolated_move(double way, double chord, double rate, double step) {
   const bool slows = way * rate > 0.0 && std::abs(way) > std::abs(rate) * chord;
   if (slows) return rate * step / (1.0 + (1.0 - rate * chord / way) * step / chord);
@@ -70,7 +71,7 @@ const FrozenContact* ContactForecast::at(const EquilibriumProblem& problem, doub
   const MovingZones next = problem.moving_zones(predicted, predicted);
   changes_ = false;
   for (std::size_t f = 0; f < zones.size(); ++f) {
-    // zones that are not those which are there already, grown: what lands on the foundation
+    // a predicted zone that meets none of the present ones is a part that lands on the foundation
     for (const MovingZone& zone : next[f])
       if (std::none_of(now_[f].begin(), now_[f].end(),
                        [&](const MovingZone& old) { return meet(old, zone); }))

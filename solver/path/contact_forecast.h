@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Where foundations of one side will act at the end of a step.
+/// Forecast of the zones on which one-sided foundations act at the end of a step.
 
 #include <Eigen/Core>
 #include <vector>
@@ -9,39 +9,38 @@
 
 namespace snapthrough {
 
-/// @brief Where one-sided foundations will act at the end of a step.
+/// @brief Forecasts the zones on which one-sided foundations act at the end of a step.
 ///
-/// A predicted displacement does not tell: next to the end of a zone of contact the gap is that of a boundary
-/// layer of length (4 EI / K)^(1/4), which moves along the member as the zone grows or shrinks. Its ends move
-/// smoothly, however stiff the foundation is; so they are extrapolated, by their rates at the start of the
-/// step and by where they were at the start of the step before.
+/// A predicted displacement does not give the zones: next to the end of a zone the gap is that of a boundary
+/// layer of length (4 EI / K)^(1/4), which moves along the member as the zone grows or shrinks. The ends of
+/// zones move smoothly, however stiff the foundation is. The forecast extrapolates each end by its rate at
+/// the start of the step and by its place at the start of the step before.
 class ContactForecast {
  public:
-  /// @brief A step begins at y with this tangent.
+  /// @brief Begins a step at y with a tangent.
   void begin(const EquilibriumProblem& problem, const Eigen::VectorXd& y, const Eigen::VectorXd& tangent);
-  /// @brief The step that was begun last ended where the next begins, at this distance.
+  /// @brief Ends the step that was begun last, at this distance from its start; the next one begins there.
   void follow(double chord);
-  /// @brief The next step has none before it.
+  /// @brief Forgets the step before: the next forecast goes by rates alone.
   void forget();
-  /// @brief From now on distances are this much larger.
+  /// @brief Scales distances to a new norm of the path, in which they are `factor` times as large.
   void scale(double factor) { chord_ *= factor; }
-  /// @brief Where supports act at the end of a step of this length; valid until the next call.
-  /// @param predicted displacements there by the path's tangent
+  /// @brief Forecasts where supports act at the end of a step of this length; valid until the next call.
+  /// @param predicted displacements at the end of the step; zones that begin are taken from them
   /// @return null when the problem has no foundation of one side
   [[nodiscard]] const FrozenContact* at(const EquilibriumProblem& problem, double step,
                                         const Eigen::VectorXd& predicted);
-  /// @brief Whether the last forecast has other zones than the step begins with: one begins, ends, or two
-  /// meet.
+  /// @brief Whether a zone begins or ends within the last forecast, or two zones meet.
   [[nodiscard]] bool changes() const { return changes_; }
-  /// @brief Elements on which foundations act at y against the last forecast, or do not though it said so.
+  /// @brief Length, in elements, on which contact at y differs from the last forecast.
   [[nodiscard]] double missed(const EquilibriumProblem& problem, const Eigen::VectorXd& y) const;
 
  private:
   [[nodiscard]] MovingZones extrapolated(double step) const;
 
-  MovingZones now_;     ///< at the start of the step
-  MovingZones last_;    ///< at the start of the one before; empty: there is none
-  double chord_ = 0.0;  ///< distance between them
+  MovingZones now_;     ///< zones at the start of the step
+  MovingZones last_;    ///< zones at the start of the step before; empty: there is none
+  double chord_ = 0.0;  ///< distance of the two starts in the path's norm
   FrozenContact ahead_;
   bool changes_ = false;  ///< ahead_ has other zones than now_
 };

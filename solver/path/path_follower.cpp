@@ -12,7 +12,7 @@ namespace {
 
 /// Numbers of the step control beside StepLimits; ratios without unit.
 struct FollowerFactors {
-  static constexpr double decay = 0.7;       ///< of the remembered full step, per accepted step
+  static constexpr double decay = 0.7;       ///< decay of the remembered full step, per accepted step
   static constexpr double taken_back = 0.3;  ///< next size over that of a step which was taken back
   /// Share of the load in a point's norm, over that of the displacement, at which the load is weighed anew.
   static constexpr double load_dominates = 3.0;

@@ -41,7 +41,7 @@ struct PathStatistics {
   int steps = 0;                       ///< accepted
   int rejected_steps = 0;              ///< tried and not accepted
   int iterations = 0;                  ///< Newton corrections
-  int factorizations = 0;              ///< of the tangent stiffness
+  int factorizations = 0;              ///< factorisations of the tangent stiffness
   double max_relative_residual = 0.0;  ///< over all accepted steps
   /// Entry i: accepted steps that took i corrections; the last entry counts steps with 31 or more.
   std::array<int, 32> corrections{};

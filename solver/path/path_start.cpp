@@ -18,9 +18,10 @@ struct StartSearch {
   /// moves sin(a + t) - sin(a), which they take for t cos(a). A chain of such members may need somewhat more.
   static constexpr double far = 3.0;
   static constexpr int corrections = 25;        ///< most Newton corrections of a state that is nearly at rest
-  static constexpr int touch_corrections = 60;  ///< the same where supports touch without pressure
+  static constexpr int touch_corrections = 60;  ///< most corrections where supports touch without pressure
   static constexpr double largest_fall = 1e-3;  ///< least factor from one small load to the next
-  static constexpr double fall_without_state = 0.01;  ///< that factor where no state was found
+  static constexpr double fall_without_state =
+      0.01;                                    ///< factor to the next small load where no state was found
   static constexpr double small = 10.0;        ///< displacement, over Gradients::tiny, that is small enough
   static constexpr double proportional = 0.5;  ///< share of the last displacement that did not fall with it
   /// Largest relative difference of two responses that are one.
@@ -60,7 +61,7 @@ class StartFinder {
   PointSolver& solver_;
   double direction_;
   double largest_first_load_;
-  SharedHolds holds_;  ///< of the states that are looked for
+  SharedHolds holds_;  ///< springs against free motions in the states that are looked for
   PathStart out_;
 };
 

@@ -15,9 +15,10 @@ namespace {
 
 /// Numbers of the search for the softest motions.
 struct ModeSearch {
-  static constexpr int ahead = 2;       ///< motions with stiffness that are wanted, the softest
-  static constexpr int most = 8;        ///< motions in all
-  static constexpr int iterations = 3;  ///< of the block iteration when no neighbour's motions are known
+  static constexpr int ahead = 2;  ///< motions with stiffness that are wanted, the softest
+  static constexpr int most = 8;   ///< motions in all
+  static constexpr int iterations =
+      3;  ///< steps of the block iteration when no neighbour's motions are known
 };
 
 /// The softest motions with the problem's factors; null where there are none.

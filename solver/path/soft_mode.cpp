@@ -105,7 +105,7 @@ SoftModes soft_modes(EquilibriumProblem& problem, const MatrixXd& start, Index c
       block.z.col(i) = z;
     }
     orthonormalise(weights, block);
-    if (block.z.cols() == 0) return {};  // of a tangent so singular that no norm is finite
+    if (block.z.cols() == 0) return {};  // the tangent stiffness is so singular that no norm is finite
     const Ritz pairs = ritz_pairs(weights, block);
     const Index wanted = it < iterations ? pairs.values.size() : std::min(count, pairs.values.size());
     out.stiffness = pairs.values.head(wanted);

@@ -38,7 +38,7 @@ struct StepMeasures {
 
 /// Sizes that the test compares, in the path's norm.
 struct StepSizes {
-  double size = 0.0;            ///< of the attempt
+  double size = 0.0;            ///< size of the attempt
   double last_full_step = 0.0;  ///< remembered size of steps that were accepted at their first size
 };
 

@@ -12,7 +12,7 @@ namespace {
 /// Bounds of the corrector on a step that was not shortened much yet: giving such a step up and trying a
 /// shorter one costs less than its corrections.
 struct FullStep {
-  static constexpr double largest_growth = 2.0;  ///< of one correction over the one before
+  static constexpr double largest_growth = 2.0;  ///< ratio of one correction to the one before
   static constexpr int most_stalled = 2;         ///< corrections that do not halve the least so far
 };
 

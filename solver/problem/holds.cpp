@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/numeric/dense.h"
+#include "solver/numeric/rounding.h"
 #include "solver/problem/equilibrium_problem.h"
 
 namespace snapthrough {
@@ -38,11 +39,13 @@ MotionStiffness motion_stiffness(EquilibriumProblem& problem, const SharedHolds&
 
 namespace {
 
-constexpr double kSoft = 1e-6;         // scaled stiffness of soft holds
-constexpr double kShareOfSoft = 1e-3;  // stiffness over kSoft that counts as zero
-constexpr double kFirm = 1e5;  // stiffness over kSoft at which soft springs change the state by 1e-5 at most
-constexpr double kShareOfLoad = 1e-6;       // spring force over the load that counts as zero
-constexpr double kRoundingOfForce = 1e-12;  // rounding of a spring force per unit of the actions
+/// Springs of held_softly(). Source: docs/theory.md, Motions without stiffness; docs/decisions/0022.
+struct SoftHolds {
+  static constexpr double stiffness = 1e-6;  ///< of the springs, scaled
+  static constexpr double zero = 1e-3;       ///< stiffness of a motion that counts as zero, over the spring's
+  static constexpr double firm = 1e5;        ///< stiffness of a motion that resists, over the spring's
+  static constexpr double no_force = 1e-6;   ///< force of a spring that counts as zero, over the load
+};
 
 SharedHolds neutral_of(const MotionStiffness& all, const VectorXd& y, const NeutralBounds& bounds) {
   std::vector<Index> neutral;
@@ -68,21 +71,21 @@ double no_force(EquilibriumProblem& problem, const Holds& holds, const VectorXd&
     problem.force_along(holds.motions.col(i), along);
     largest = std::max(largest, along.cwiseAbs().dot(load.cwiseAbs()));
   }
-  return std::max(kShareOfLoad * largest, kRoundingOfForce) * actions;
+  return std::max(SoftHolds::no_force * largest, Rounding::force) * actions;
 }
 
 SharedHolds held_softly(const EquilibriumProblem& problem) {
   const MatrixXd& motions = problem.free_motions();
   if (motions.cols() == 0) return nullptr;
-  return std::make_shared<const Holds>(Holds{motions, VectorXd::Zero(motions.cols()), kSoft});
+  return std::make_shared<const Holds>(Holds{motions, VectorXd::Zero(motions.cols()), SoftHolds::stiffness});
 }
 
 SoftlyHeld softly_held(EquilibriumProblem& problem, const SharedHolds& soft, const VectorXd& y, double lambda,
                        const Regime& regime) {
   const MotionStiffness met = motion_stiffness(problem, soft, y, lambda, regime);
-  const NeutralBounds bounds{kShareOfSoft * soft->stiffness,
+  const NeutralBounds bounds{SoftHolds::zero * soft->stiffness,
                              no_force(problem, *soft, y, lambda, std::abs(lambda))};
-  return {neutral_of(met, y, bounds), met.stiffness.minCoeff() >= kFirm * soft->stiffness};
+  return {neutral_of(met, y, bounds), met.stiffness.minCoeff() >= SoftHolds::firm * soft->stiffness};
 }
 
 SharedHolds neutral_part(EquilibriumProblem& problem, const SharedHolds& holds, const VectorXd& y,

@@ -9,6 +9,7 @@
 #include "solver/numeric/cancelled.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/number_text.h"
+#include "solver/numeric/rounding.h"
 
 namespace snapthrough {
 
@@ -18,6 +19,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
+
+/// What counts as zero in a state; ratios. Source: docs/decisions/0009 and 0022.
+struct ProblemTolerances {
+  static constexpr double touching = 1e-9;  ///< distance of supports, over the largest displacement
+  static constexpr double unloaded = 1e-6;  ///< force of touching supports, over the largest force
+  /// Axial force over the largest, below which largest_critical_load_scale() ignores a member.
+  static constexpr double small_axial_force = 1e-2;
+  static constexpr double most_rounding = 1e-7;  ///< residual_rounding() of supports too stiff for double
+};
 
 /// Displacement gradient of the initial strains and prescribed displacements of a load pattern: the largest
 /// of strain, curvature times member length, and displacement over the structure's length.
@@ -103,23 +113,25 @@ double StructuralProblem::penetration(const NodeSpring& spring, const VectorXd& 
 
 /// @param w displacement along the spring's row
 bool StructuralProblem::node_spring_acts(const NodeSpring& spring, double w) {
-  const bool known = spring.touch != Touch::none && std::abs(w - spring.law.gap) <= kTouchBand;
+  const bool known = spring.touch != Touch::none && std::abs(w - spring.law.gap) <= Rounding::touching;
   return !spring.law.one_sided || (known ? spring.touch == Touch::acts : w > spring.law.gap);
 }
 
 /// Returns the force of a node spring along its row and stores its tangent stiffness.
 double StructuralProblem::node_spring_force(std::size_t index, const VectorXd& y, const Regime& regime) {
   const NodeSpring& spring = structure_.node_springs[index];
-  const double stiffness = spring.law.stiffness;
   const double w = penetration(spring, y, 0.0);
   const double gap = regime.bilateral() ? 0.0 : spring.law.gap;
   bool acts = regime.bilateral() || node_spring_acts(spring, w);
   if (regime.is_frozen()) acts = regime.frozen->node_springs[index] != 0;
-  const double force = acts ? stiffness * (w - gap) : 0.0;
+  const double stiffness = spring.law.stiffness_at(w - gap);
+  const double force = acts ? spring.law.force_at(w - gap) : 0.0;
   spring_stiffness_[index] = acts ? stiffness : 0.0;
   if (!spring.law.one_sided) return force;
-  spring_stiffness_[index] = stiffness * ((acts ? regime.softness : 0.0) + regime.grip);
-  return force * regime.softness + regime.grip * stiffness * w;
+  // a share of the support acts at every displacement, without gap
+  spring_stiffness_[index] =
+      (acts ? regime.softness : 0.0) * stiffness + regime.grip * spring.law.stiffness_at(w);
+  return force * regime.softness + regime.grip * spring.law.force_at(w);
 }
 
 void StructuralProblem::add_node_springs(const VectorXd& y, const Regime& regime, VectorXd& f) {
@@ -412,13 +424,10 @@ void StructuralProblem::solve_symmetric(VectorXd& x) {
 
 /// Distances at which supports count as touching at y, from the largest displacement and force.
 TouchingDistance StructuralProblem::touching_distance(const VectorXd& y) const {
-  constexpr double kTouching = 1e-9;     // distance over the largest displacement
-  constexpr double kUnloaded = 1e-6;     // force over the largest force
-  constexpr double kSolution = 1e-13;    // relative rounding of displacements
-  constexpr double kCoordinate = 1e-14;  // rounding of coordinates over the structure's length
   const double largest = y.head(3 * structure_.nodes).lpNorm<Eigen::Infinity>();
-  return {kTouching * largest + kCoordinate, kUnloaded * largest_force(y, 0.0),
-          kSolution * largest + kCoordinate};
+  return {ProblemTolerances::touching * largest + Rounding::coordinate,
+          ProblemTolerances::unloaded * largest_force(y, 0.0),
+          Rounding::displacement * largest + Rounding::coordinate};
 }
 
 FrozenContact StructuralProblem::frozen_contact(const VectorXd& y) const {
@@ -513,12 +522,8 @@ double StructuralProblem::largest_axial_force(std::size_t member, const VectorXd
   return force;
 }
 
-/// Section force over imposed_force() below which the force is rounding. Rounding reaches 1e-14 in random
-/// statically determinate structures with EA l^2 / EI up to 1e10.
-constexpr double kLeastForce = 1e-12;
-
 double StructuralProblem::least_force() const {
-  return kLeastForce * (stage_ == Stage::proportional ? proportional_imposed_ : constant_imposed_);
+  return Rounding::force * (stage_ == Stage::proportional ? proportional_imposed_ : constant_imposed_);
 }
 
 double StructuralProblem::critical_load_scale(const VectorXd& unit_response) const {
@@ -531,14 +536,13 @@ double StructuralProblem::critical_load_scale(const VectorXd& unit_response) con
 }
 
 double StructuralProblem::largest_critical_load_scale(const VectorXd& unit_response) const {
-  constexpr double kCounts = 1e-2;  // axial force over the largest, below which a member is ignored
   double largest = 0.0;
   for (std::size_t m = 0; m < members_; ++m)
     largest = std::max(largest, largest_axial_force(m, unit_response));
   double scale = 0.0;
   for (std::size_t m = 0; m < members_; ++m) {
     const double force = largest_axial_force(m, unit_response);
-    if (force > std::max(kCounts * largest, least_force()))
+    if (force > std::max(ProblemTolerances::small_axial_force * largest, least_force()))
       scale = std::max(scale, (structure_.euler_loads[m] + structure_.foundation_loads[m]) / force);
   }
   return scale;
@@ -573,9 +577,8 @@ double StructuralProblem::force_scale(const VectorXd& y, double lambda) const {
   return std::max(largest_force(y, lambda), imposed_force(lambda));
 }
 
+/// Relative residual that half a unit in the last place of the displacements leaves at the stiffest support.
 double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) const {
-  constexpr double kRoundings = 0.5;      // half a unit in the last place
-  constexpr double kMostRounding = 1e-7;  // larger rounding: supports too stiff for double precision
   double largest = elements_->support_rounding();
   for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
     const NodeSpring& spring = structure_.node_springs[i];
@@ -586,7 +589,7 @@ double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) co
     largest = std::max(largest, stiffness * size * std::numeric_limits<double>::epsilon());
   }
   const double force = force_scale(y, lambda);
-  return force > 0.0 ? std::min(kRoundings * largest / force, kMostRounding) : 0.0;
+  return force > 0.0 ? std::min(0.5 * largest / force, ProblemTolerances::most_rounding) : 0.0;
 }
 
 double StructuralProblem::relative_residual(const VectorXd& f, const VectorXd& y, double lambda) {

@@ -45,7 +45,8 @@ SpringForce force_of(const Structure& structure, const Model& model, std::size_t
   out.closed = spring.law.acts(out.displacement);
   double size = spring.law.gap;
   for (const auto& [at, weight] : out.row.entries) size += std::abs(weight * y[at]);
-  if (out.force != 0.0) out.rounding = spring.law.stiffness * size * std::numeric_limits<double>::epsilon();
+  if (out.force != 0.0)
+    out.rounding = spring.law.tangent(out.displacement) * size * std::numeric_limits<double>::epsilon();
   return out;
 }
 
@@ -128,8 +129,9 @@ void add_springs_of(const std::vector<SupportSpring>& springs, const VectorXd& y
     const double w = value - support.law.gap;
     if (support.law.one_sided && w <= 0.0) continue;
     const Wrench unit = rigid.work(support);
-    for (int c = 0; c < 3; ++c) sum.wrench[c] -= support.law.stiffness * w * unit[c];
-    sum.rounding += support.law.stiffness * (size + support.law.gap) * std::numeric_limits<double>::epsilon();
+    for (int c = 0; c < 3; ++c) sum.wrench[c] -= support.law.force_at(w) * unit[c];
+    sum.rounding +=
+        support.law.stiffness_at(w) * (size + support.law.gap) * std::numeric_limits<double>::epsilon();
   }
 }
 

@@ -11,20 +11,35 @@
 
 namespace snapthrough {
 
-/// @brief Reaction to a displacement w into the medium: k w, or k max(w - gap, 0) for a one-sided support.
-/// Acts against the direction; for foundations per length.
+/// @brief Reaction law of a support: the force against its direction (per length for foundations) as a
+/// function of the displacement w into the medium. The equilibrium, its tangent and the reports ask these
+/// functions; a law of another shape changes the three `_at` functions and scale().
+///
+/// A bilateral support reacts at every w, a one-sided one where w exceeds the gap; the penetration is w
+/// beyond the gap. Today's law is linear, with the modulus `stiffness`.
 struct Law {
-  double stiffness = 0.0;
-  double gap = 0.0;  ///< zero for bilateral supports
+  double stiffness = 0.0;  ///< force by penetration
+  double gap = 0.0;        ///< zero for bilateral supports
   bool one_sided = false;
+
+  [[nodiscard]] double force_at(double penetration) const { return stiffness * penetration; }
+  /// d force / d penetration.
+  [[nodiscard]] double stiffness_at(double /*penetration*/) const { return stiffness; }
+  /// Potential of the force; its derivative is force_at().
+  [[nodiscard]] double energy_at(double penetration) const {
+    return 0.5 * stiffness * penetration * penetration;
+  }
+  /// Multiplies the force by a factor: a quadrature weight, a length, or a share of the support that acts.
+  void scale(double factor) { stiffness *= factor; }
 
   /// The part of w that is resisted.
   [[nodiscard]] double penetration(double w) const { return one_sided ? std::max(w - gap, 0.0) : w; }
-  [[nodiscard]] double reaction(double w) const { return stiffness * penetration(w); }
+  [[nodiscard]] double reaction(double w) const { return force_at(penetration(w)); }
   /// d reaction / dw; zero at the kink.
-  [[nodiscard]] double tangent(double w) const { return !one_sided || w > gap ? stiffness : 0.0; }
-  /// Potential of the reaction.
-  [[nodiscard]] double energy(double w) const { return 0.5 * stiffness * penetration(w) * penetration(w); }
+  [[nodiscard]] double tangent(double w) const {
+    return !one_sided || w > gap ? stiffness_at(penetration(w)) : 0.0;
+  }
+  [[nodiscard]] double energy(double w) const { return energy_at(penetration(w)); }
   /// Whether the reaction is active at w.
   [[nodiscard]] bool acts(double w) const { return stiffness > 0.0 && (!one_sided || w > gap); }
 };

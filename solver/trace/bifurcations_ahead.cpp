@@ -10,10 +10,11 @@ namespace {
 
 /// Numbers of the look ahead; ratios without unit.
 struct LookAhead {
-  static constexpr double steps = 1.5;       ///< distance of a bifurcation that is looked for, over the step
-  static constexpr double reach = 2.0;       ///< farthest from its prediction, over the step
-  static constexpr double close = 1.5;       ///< distance of others that are found with it, over its own
-  static constexpr double most_along = 0.5;  ///< of the tangent along the motion: at a limit point it is 1
+  static constexpr double steps = 1.5;  ///< distance of a bifurcation that is looked for, over the step
+  static constexpr double reach = 2.0;  ///< farthest from its prediction, over the step
+  static constexpr double close = 1.5;  ///< distance of others that are found with it, over its own
+  static constexpr double most_along =
+      0.5;  ///< cosine of the tangent and the motion: at a limit point it is 1
 };
 
 /// The bifurcations beyond a point where a motion loses (or regains) its stiffness, with all that do so close

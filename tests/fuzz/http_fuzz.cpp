@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "server/front/gateway.h"
-#include "server/front/library.h"
+#include "server/front/request_head.h"
 #include "server/front/request_reader.h"
 #include "tests/fuzz/one_of_each.h"
 

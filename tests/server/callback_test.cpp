@@ -312,10 +312,10 @@ TEST_F(Callback, AnAttemptEndsHoweverSlowlyTheReceiverAnswers) {
 
 /// The library holds a lock while it connects, so that its own stop() would wait for that.
 TEST(CallbackPost, OneThatCanNotConnectIsCut) {
-  const http::Descriptor full(::socket(AF_INET, SOCK_STREAM, 0));
+  const Descriptor full(::socket(AF_INET, SOCK_STREAM, 0));
   ASSERT_EQ(::listen(full.get(), 0), 0);
   const int port = http::port_of(full.get());
-  std::vector<http::Descriptor> queue;  // the kernel answers no more than these
+  std::vector<Descriptor> queue;  // the kernel answers no more than these
   for (int i = 0; i < 4; ++i) {
     queue.emplace_back(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0));
     sockaddr_in address{};

@@ -66,7 +66,7 @@ class TlsReceiver {
         pollfd poll{listener_.get(), POLLIN, 0};
         std::string remote;
         if (::poll(&poll, 1, 10) > 0) {
-          serve(http::Descriptor(http::accept_from(listener_.get(), remote)));
+          serve(Descriptor(http::accept_from(listener_.get(), remote)));
         }
       }
     });
@@ -77,7 +77,7 @@ class TlsReceiver {
   [[nodiscard]] int taken() const { return taken_; }
 
  private:
-  void serve(const http::Descriptor& socket) {
+  void serve(const Descriptor& socket) {
     ::fcntl(socket.get(), F_SETFL, 0);  // it may wait
     const Session session(::SSL_new(context_.get()));
     ::SSL_set_fd(session.get(), socket.get());
@@ -93,7 +93,7 @@ class TlsReceiver {
   Key key_;
   Certificate certificate_;
   Context context_{::SSL_CTX_new(::TLS_server_method())};
-  http::Descriptor listener_ = std::move(http::listen_on("127.0.0.1", 0)).value();
+  Descriptor listener_ = std::move(http::listen_on("127.0.0.1", 0)).value();
   std::atomic<int> taken_ = 0;
   std::jthread thread_;
 };

@@ -211,7 +211,7 @@ TEST(SharedStore, StatementsWhoseCommitFailsHaveFailed) {
     EXPECT_EQ(error.state(), "53100");
     EXPECT_THAT(error.what(), HasSubstr("at the commit"));
   }
-  EXPECT_EQ(connection.run("SELECT count(*) FROM things").integer(0, 0), 0);
+  EXPECT_EQ(connection.run("SELECT count(*) FROM things")[0].integer(0), 0);
 
   const std::vector<postgresql::Statement> end{{"SELECT pg_terminate_backend(pg_backend_pid())"}};
   EXPECT_THROW(connection.run_all(end), postgresql::Error);
@@ -224,7 +224,7 @@ TEST(SharedStore, AConnectionThatIsEndedWhileItWaitsIsLost) {
   const std::string location = postgresql_location(folder.name());
   postgresql::Connection connection(location);
   postgresql::Connection other(location);
-  const std::int64_t server = connection.run("SELECT pg_backend_pid()::bigint").integer(0, 0);
+  const std::int64_t server = connection.run("SELECT pg_backend_pid()::bigint")[0].integer(0);
   std::jthread ends([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     other.run("SELECT pg_terminate_backend(" + std::to_string(server) + ")");
@@ -290,7 +290,7 @@ TEST(SharedSweeps, WhoWaitsForItsShareOfASweepLooksAgain) {
   postgresql::Connection holder(location);
   postgresql::Connection waiter(location);
   postgresql::Connection other(location);
-  const std::string sweep = std::to_string(other.run("SELECT seq FROM sweeps").integer(0, 0));
+  const std::string sweep = std::to_string(other.run("SELECT seq FROM sweeps")[0].integer(0));
   holder.execute("BEGIN; SELECT pg_advisory_xact_lock(1, " + sweep + ")");
   std::string state;
   {
@@ -303,14 +303,14 @@ TEST(SharedSweeps, WhoWaitsForItsShareOfASweepLooksAgain) {
     });
     const std::string waiting =
         "SELECT count(*) FROM pg_locks WHERE locktype = 'advisory' AND NOT granted AND objid = " + sweep;
-    for (int i = 0; i < 500 && other.run(waiting).integer(0, 0) == 0; ++i) {
+    for (int i = 0; i < 500 && other.run(waiting)[0].integer(0) == 0; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     other.execute("DELETE FROM sweep_left");
     holder.execute("COMMIT");
   }
   EXPECT_EQ(state, "40001") << "it is tried again, and has the sweep alone then";
-  EXPECT_TRUE(waiter.run("SELECT hold_claims(" + sweep + ")").boolean(0, 0));
+  EXPECT_TRUE(waiter.run("SELECT hold_claims(" + sweep + ")")[0].boolean(0));
 }
 
 /// Keys are arrays that are stored apart from their rows, which the planner doesn't count: it would read them
@@ -330,7 +330,7 @@ TEST(SharedSweeps, WhatIsKnownIsFoundByItsIndex) {
   ASSERT_TRUE(sweeps.put(**claim, {{1, {"[1.5]", "", ""}, key}}, now).ok());
   postgresql::Connection other(location);
   const auto scans = [&](const std::string& what) {
-    return other.run("SELECT " + what + "::bigint").integer(0, 0);
+    return other.run("SELECT " + what + "::bigint")[0].integer(0);
   };
   const std::string by_index =
       "(SELECT idx_scan FROM pg_stat_user_indexes WHERE indexrelid = 'sweep_rows_by_key'::regclass)";

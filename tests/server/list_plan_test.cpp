@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "server/store/sqlite/list.h"
-#include "server/store/sqlite/migrations.h"
-#include "server/store/sqlite/sweeps.h"
+#include "server/store/sqlite/parts.h"
+#include "server/store/sqlite/sqlite_store.h"
 #include "tests/server/support/samples.h"
 #include "tests/server/support/temp_dir.h"
 
@@ -47,7 +47,8 @@ class ListPlan : public testing::Test {
 /// status=running among a million jobs walked all of them.
 TEST_F(ListPlan, EverySetOfFiltersIsFoundInAnIndexAndNothingIsSorted) {
   for (const ListedTable& table :
-       {ListedTable{"jobs", kJobColumns, ""}, ListedTable{"sweeps", kSweepColumns, " AND removed = 0"}}) {
+       {ListedTable{"jobs", kJobColumns, kJobColumnCount, ""},
+        ListedTable{"sweeps", kSweepColumns, kSweepColumnCount, " AND removed = 0"}}) {
     for (int filters = 0; filters < 8; ++filters) {
       SCOPED_TRACE(std::string(table.name) + " " + std::to_string(filters));
       ListQuery query;
@@ -63,7 +64,8 @@ TEST_F(ListPlan, AFilterWithoutAnIndexWouldBeNoticed) {
   connection_.execute("DROP INDEX jobs_by_label; DROP INDEX jobs_by_label_and_analysis");
   ListQuery query;
   query.label = "a";
-  Statement plan = connection_.prepare("EXPLAIN QUERY PLAN " + list_sql({"jobs", kJobColumns, ""}, query));
+  Statement plan = connection_.prepare("EXPLAIN QUERY PLAN " +
+                                       list_sql({"jobs", kJobColumns, kJobColumnCount, ""}, query));
   std::string text;
   while (plan.step()) {
     text += plan.text(3) + "\n";

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "api/api.h"
-#include "server/jobs/least_memory.h"
+#include "server/jobs/memory.h"
 #include "server/worker/child_runner.h"
 #include "tests/server/support/running_service.h"
 #include "tests/server/support/sanitizer.h"

@@ -1,4 +1,4 @@
-#include "server/store/sqlite/migrations.h"
+#include "server/store/sqlite/parts.h"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -218,12 +218,9 @@ TEST_F(Migrations, UnfinishedSweepsOfTheEighthVersionGoOnWhereTheyWere) {
           "INSERT INTO sweeps (id, seq, status, points, created_us, successful, finished_us) VALUES ('" +
           test::id_number(number) + "', " + std::to_string(number) + ", '" + state + "', " +
           std::to_string(points) + ", 1, 3, " + (state == "dismissed" ? "2" : "NULL") + ")");
-      old.prepare("INSERT INTO sweep_documents VALUES (?, ?)").bind(number).bind(document).run();
+      old.run("INSERT INTO sweep_documents VALUES (?, ?)", number, document);
       for (const int point : {0, 1, 3}) {
-        old.prepare("INSERT INTO sweep_points (sweep, point, outputs) VALUES (?, ?, '[1]')")
-            .bind(number)
-            .bind(point)
-            .run();
+        old.run("INSERT INTO sweep_points (sweep, point, outputs) VALUES (?, ?, '[1]')", number, point);
       }
     };
     add(1, "running", 6, "{}");

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "server/digest.h"
+#include "server/store/sqlite/parts.h"
 #include "server/store/sqlite/sqlite_store.h"
 #include "tests/server/support/running_service.h"
 #include "tests/server/support/store_driver.h"

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "server/front/library.h"
-
 namespace snapthrough::server::http {
 namespace {
 

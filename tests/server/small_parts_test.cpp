@@ -2,6 +2,7 @@
 /// Times, identifiers, the configuration, preferences, log lines.
 
 #include <gmock/gmock.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -11,10 +12,12 @@
 #include <thread>
 
 #include "server/authority.h"
+#include "server/bell.h"
 #include "server/config.h"
 #include "server/environment.h"
 #include "server/front/turns.h"
-#include "server/jobs/large_document.h"
+#include "server/jobs/handoff.h"
+#include "server/jobs/memory.h"
 #include "server/jobs/path_batch.h"
 #include "server/log/log.h"
 #include "server/resources/prefer.h"
@@ -119,6 +122,68 @@ TEST(Turns, GoToThoseWhoWaitInTheirOrder) {
   EXPECT_TRUE(turns.take(6));
   EXPECT_TRUE(turns.take(7));
   EXPECT_FALSE(turns.take(8));
+}
+
+TEST(Bell, ARingBeforeTheSleepIsNotMissedAndSeveralAreOne) {
+  using std::chrono_literals::operator""ms;
+  Bell bell;
+  std::uint64_t seen = 0;
+  bell.ring();
+  bell.ring();
+  EXPECT_TRUE(bell.wait(seen, {}, std::chrono::hours(1)));
+  EXPECT_FALSE(bell.wait(seen, {}, 1ms));
+  std::jthread other([&] { bell.ring(); });
+  EXPECT_TRUE(bell.wait(seen, {}, std::chrono::hours(1)));
+}
+
+TEST(Bell, AStopEndsASleep) {
+  Bell bell;
+  std::uint64_t seen = 0;
+  std::stop_source stop;
+  std::jthread other([&] { stop.request_stop(); });
+  EXPECT_FALSE(bell.wait(seen, stop.get_token(), std::chrono::hours(1)));
+  pause(stop.get_token(), std::chrono::hours(1));
+}
+
+TEST(Bell, ARingThatAJobOvertakesIsSeenByTheNextWait) {
+  using std::chrono_literals::operator""ms;
+  HandoffQueue queue;
+  Handoff job{{"a", 1, "{}", {}}, {}};
+  EXPECT_FALSE(queue.offer(job)) << "no worker is idle";
+  std::uint64_t seen = 0;
+  std::jthread other([&] {
+    while (!queue.offer(job)) {
+      std::this_thread::yield();
+    }
+    queue.ring();
+  });
+  const std::optional<Handoff> given = queue.wait(seen, {}, std::chrono::hours(1));
+  ASSERT_TRUE(given.has_value());
+  EXPECT_EQ(given->claim.id, "a");
+  other.join();
+  EXPECT_FALSE(queue.wait(seen, {}, std::chrono::hours(1)).has_value()) << "the ring ends the wait";
+  EXPECT_EQ(seen, 1U);
+  EXPECT_EQ(queue.idle(), 0U);
+}
+
+TEST(PollBell, IsReadableAfterARingUntilItIsSilenced) {
+  const auto readable = [](const PollBell& bell) {
+    pollfd waited{bell.descriptor(), POLLIN, 0};
+    return ::poll(&waited, 1, 0) == 1;
+  };
+  const PollBell all;
+  const PollBell one_by_one(true);
+  EXPECT_FALSE(readable(all));
+  for (const PollBell* bell : {&all, &one_by_one}) {
+    bell->ring();
+    bell->ring();
+    EXPECT_TRUE(readable(*bell));
+    bell->silence();
+  }
+  EXPECT_FALSE(readable(all));
+  EXPECT_TRUE(readable(one_by_one));
+  one_by_one.silence();
+  EXPECT_FALSE(readable(one_by_one));
 }
 
 TEST(LargeDocument, WaitsForAnotherThreadsButNotForItsOwnAndSmallOnesDoNot) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "server/cli/described_app.h"
+#include "server/cli/commands.h"
 
 namespace snapthrough::server::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 #include <system_error>
 
-#include "server/jobs/large_document.h"
+#include "server/jobs/memory.h"
 #include "server/resources/embedded.h"
 
 namespace snapthrough::server::hops {

@@ -35,7 +35,7 @@ std::uint64_t big_endian(std::string_view bytes) {
   return value;
 }
 
-/// The wire's form of an array of one dimension without NULLs.
+/// Array of one dimension without NULLs in the binary form of the protocol.
 std::string array_bytes(unsigned type, const std::vector<std::string>& elements) {
   std::string bytes;
   append_big_endian(bytes, std::uint32_t{elements.empty() ? 0U : 1U});
@@ -61,8 +61,8 @@ std::string series_bytes(std::span<const double> values) {
   return bytes;
 }
 
-/// A server that is gone is noticed within about 15 s; what it does with this connection then ends, too.
-/// What the location says, which comes last, wins.
+/// Defaults of a connection: a server that is gone is noticed within about 15 s. The location, which comes
+/// last, overrides them.
 constexpr std::array kKeywords{"application_name",    "connect_timeout",  "keepalives_idle",
                                "keepalives_interval", "keepalives_count", "tcp_user_timeout",
                                "client_encoding",     "dbname",           static_cast<const char*>(nullptr)};
@@ -130,15 +130,14 @@ std::int64_t Rows::changed() const {
   return text.empty() ? 0 : std::stoll(std::string(text));
 }
 
-bool Rows::is_null(int row, int column) const { return PQgetisnull(result_.get(), row, column) == 1; }
+bool ResultRow::is_null(int column) const { return PQgetisnull(result_, row_, column) == 1; }
 
-std::string_view Rows::bytes(int row, int column) const {
-  return {PQgetvalue(result_.get(), row, column),
-          static_cast<std::size_t>(PQgetlength(result_.get(), row, column))};
+std::string_view ResultRow::bytes(int column) const {
+  return {PQgetvalue(result_, row_, column), static_cast<std::size_t>(PQgetlength(result_, row_, column))};
 }
 
-std::int64_t Rows::integer(int row, int column) const {
-  const std::string_view value = bytes(row, column);
+std::int64_t ResultRow::integer(int column) const {
+  const std::string_view value = bytes(column);
   switch (value.size()) {
     case 2:
       return static_cast<std::int16_t>(big_endian(value));
@@ -147,20 +146,20 @@ std::int64_t Rows::integer(int row, int column) const {
     case 8:
       return static_cast<std::int64_t>(big_endian(value));
     default:
-      throw Error("XX001", "column " + std::to_string(column) + " of the store is no integer");
+      refuse("column " + std::to_string(column) + " of the store is no integer");
   }
 }
 
-double Rows::real(int row, int column) const {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(integer(row, column)));
+double ResultRow::real(int column) const {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(integer(column)));
 }
 
-bool Rows::boolean(int row, int column) const { return bytes(row, column) == std::string_view("\1", 1); }
+bool ResultRow::boolean(int column) const { return bytes(column) == std::string_view("\1", 1); }
 
-std::string Rows::text(int row, int column) const { return std::string(bytes(row, column)); }
+std::string ResultRow::text(int column) const { return std::string(bytes(column)); }
 
-std::vector<double> Rows::series(int row, int column) const {
-  const std::string_view value = bytes(row, column);
+std::vector<double> ResultRow::series(int column) const {
+  const std::string_view value = bytes(column);
   std::vector<double> values(value.size() / sizeof(double));
   if (!values.empty()) {
     std::memcpy(values.data(), value.data(), values.size() * sizeof(double));
@@ -168,13 +167,13 @@ std::vector<double> Rows::series(int row, int column) const {
   return values;
 }
 
-std::vector<std::int64_t> Rows::integers(int row, int column) const {
+std::vector<std::int64_t> ResultRow::integers(int column) const {
   constexpr std::size_t kHead = 20;  // dimensions, whether there are NULLs, type; length, lower bound
-  std::string_view value = bytes(row, column);
+  std::string_view value = bytes(column);
   std::vector<std::int64_t> all;
   for (value.remove_prefix(std::min(kHead, value.size())); value.size() >= 12; value.remove_prefix(12)) {
     if (big_endian(value.substr(0, 4)) != 8) {
-      throw Error("XX001", "an array of the store has another type, or NULLs");
+      refuse("an array of the store has another type, or NULLs");
     }
     all.push_back(static_cast<std::int64_t>(big_endian(value.substr(4, 8))));
   }
@@ -182,25 +181,19 @@ std::vector<std::int64_t> Rows::integers(int row, int column) const {
 }
 
 std::vector<std::string> Rows::texts(int column) const {
-  std::vector<std::string> all(static_cast<std::size_t>(count()));
+  std::vector<std::string> all;
   for (int row = 0; row < count(); ++row) {
-    all[static_cast<std::size_t>(row)] = text(row, column);
+    all.push_back((*this)[row].text(column));
   }
   return all;
 }
 
-std::optional<std::int64_t> Rows::optional_integer(int row, int column) const {
-  return is_null(row, column) ? std::nullopt : std::optional(integer(row, column));
-}
-
-std::optional<double> Rows::optional_real(int row, int column) const {
-  return is_null(row, column) ? std::nullopt : std::optional(real(row, column));
-}
+void ResultRow::refuse(const std::string& why) const { throw Error("XX001", why); }
 
 void Connection::Close::operator()(pg_conn* connection) const { PQfinish(connection); }
 
 Connection::Connection(const std::string& location) {
-  // What is wrong with it is not said: that would quote it, and it may have a password.
+  // The error does not quote the location, which may have a password.
   PQconninfoOption* const parsed = PQconninfoParse(location.c_str(), nullptr);
   if (parsed == nullptr) {
     throw Error("", "this is no connection URI of PostgreSQL");
@@ -276,19 +269,19 @@ std::vector<Rows> Connection::run_all(std::span<const Statement> statements) {
   return all;
 }
 
-/// @brief Reads what the statements of a pipeline gave until it is synchronised, which is after their commit:
-/// a commit that fails tells it then, and who does not hear of it does not know.
-/// @param failed the first error, if there is one; the caller's
-/// @return whether it came to that
+/// @brief Reads the results of a pipeline up to its synchronisation, which follows the commit: only then it
+/// is known that the commit did not fail.
+/// @param failed the first error, which the caller owns, or null
+/// @return false when the connection was lost before the synchronisation
 bool Connection::read_pipeline(std::vector<Rows>& all, PGresult*& failed) {
-  bool ended = false;  // of the results of a statement; none twice: the server has gone
+  bool ended = false;  // a null result ended a statement; a second one: the server is gone
   while (good()) {
     PGresult* result = PQgetResult(handle_.get());
     if (result == nullptr && ended) {
       return false;
     }
     ended = result == nullptr;
-    switch (PQresultStatus(result)) {  // of none: PGRES_FATAL_ERROR
+    switch (PQresultStatus(result)) {  // PGRES_FATAL_ERROR for a null result
       case PGRES_PIPELINE_SYNC:
         PQclear(result);
         return true;
@@ -319,17 +312,26 @@ void Connection::execute(const std::string& sql) {
   PQclear(result);
 }
 
-bool Connection::wait_for_notification(int milliseconds) {
-  pollfd waiting{PQsocket(handle_.get()), POLLIN, 0};
-  if (::poll(&waiting, 1, milliseconds) > 0 && PQconsumeInput(handle_.get()) != 1) {
-    throw Error("", PQerrorMessage(handle_.get()));
-  }
+bool Connection::take_notifications() {
   bool any = false;
   while (PGnotify* notification = PQnotifies(handle_.get())) {
     PQfreemem(notification);
     any = true;
   }
   return any;
+}
+
+bool Connection::wait_for_notification(std::chrono::milliseconds longest, const PollBell& bell) {
+  if (take_notifications()) {
+    return true;  // read with the answer to an earlier statement
+  }
+  std::array<pollfd, 2> waited{pollfd{PQsocket(handle_.get()), POLLIN, 0},
+                               pollfd{bell.descriptor(), POLLIN, 0}};
+  const int ready = ::poll(waited.data(), waited.size(), static_cast<int>(longest.count()));
+  if (ready > 0 && waited[0].revents != 0 && PQconsumeInput(handle_.get()) != 1) {
+    throw Error("", PQerrorMessage(handle_.get()));
+  }
+  return take_notifications();
 }
 
 Transaction::Transaction(Connection& connection, bool synced) : connection_(connection) {

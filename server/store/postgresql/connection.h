@@ -1,8 +1,9 @@
 #pragma once
 /// @file
-/// Thin owners of libpq's handles. Inside the driver an error is an exception; the store's verbs turn it into
-/// a Status. libpq-fe.h is not included here.
+/// Owners of libpq's handles. Errors are exceptions inside the driver; verbs of the store turn them into a
+/// Status. This header does not include libpq-fe.h.
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,26 +13,29 @@
 #include <string_view>
 #include <vector>
 
+#include "server/bell.h"
+#include "server/store/driver.h"
+
 struct pg_conn;
 struct pg_result;
 
 namespace snapthrough::server::postgresql {
 
-/// PostgreSQL refused something, or is not there.
+/// Error of PostgreSQL, or of a connection to it.
 class Error : public std::runtime_error {
  public:
   /// @param state SQLSTATE, five characters; empty: the connection is lost
   Error(std::string state, const std::string& message)
       : std::runtime_error(message), state_(std::move(state)) {}
   [[nodiscard]] const std::string& state() const { return state_; }
-  /// Nobody knows whether what was asked last was done.
+  /// Whether the connection is lost: the last statement may have been done or not.
   [[nodiscard]] bool lost() const { return state_.empty(); }
 
  private:
   std::string state_;
 };
 
-/// @brief Parameters of a statement, $1 first, in the wire's binary form, each with its type.
+/// Parameters of a statement, $1 first, with their types, in the binary form of the protocol.
 class Parameters {
  public:
   Parameters& add(std::int64_t value);
@@ -41,18 +45,18 @@ class Parameters {
   Parameters& add(std::string_view text);
   Parameters& add(const char* text) { return add(std::string_view(text)); }
   Parameters& add_bytes(std::string_view bytes);
-  /// NULL for an empty text.
+  /// Adds the bytes; NULL for an empty text.
   Parameters& add_bytes_or_null(std::string_view bytes);
   Parameters& add(std::span<const std::int64_t> values);
   Parameters& add(std::span<const std::string> texts);
-  /// Little-endian float64, one after the other.
+  /// Adds the numbers as little-endian float64.
   Parameters& add_series(std::span<const double> values);
   template <class T>
   Parameters& add(const std::optional<T>& value) {
     if (value) {
       return add(*value);
     }
-    add(T{});  // for its type
+    add(T{});  // gives the type
     values_.back().reset();
     return *this;
   }
@@ -65,44 +69,55 @@ class Parameters {
   std::vector<std::optional<std::string>> values_;
 };
 
-/// A statement that is to be run.
+/// A statement with its parameters.
 struct Statement {
   std::string_view sql;
   Parameters parameters = {};
 };
 
-/// @brief The rows that a statement gave. Columns and rows count from 0. Throws Error where a value is NULL
-/// or of another type.
+/// @brief One row of a result, which must outlive it. Throws Error where a value is NULL or of another type.
+class ResultRow final : public Row {
+ public:
+  ResultRow(const pg_result* result, int row) : result_(result), row_(row) {}
+
+  [[nodiscard]] bool is_null(int column) const override;
+  [[nodiscard]] std::int64_t integer(int column) const override;  ///< any integer type
+  [[nodiscard]] double real(int column) const override;
+  [[nodiscard]] std::string text(int column) const override;  ///< text or bytes
+  [[nodiscard]] std::vector<double> series(int column) const override;
+  [[noreturn]] void refuse(const std::string& why) const override;
+  [[nodiscard]] bool boolean(int column) const;
+  /// An array of bigint without NULLs.
+  [[nodiscard]] std::vector<std::int64_t> integers(int column) const;
+
+ private:
+  [[nodiscard]] std::string_view bytes(int column) const;
+  const pg_result* result_;
+  int row_;
+};
+
+/// The result of a statement. Rows count from 0.
 class Rows {
  public:
   explicit Rows(pg_result* result);
 
   [[nodiscard]] int count() const;
   [[nodiscard]] bool empty() const { return count() == 0; }
-  /// Rows that an insert, update or delete changed.
+  /// Number of rows that an insert, update or delete changed.
   [[nodiscard]] std::int64_t changed() const;
-  [[nodiscard]] bool is_null(int row, int column) const;
-  [[nodiscard]] std::int64_t integer(int row, int column) const;  ///< of any integer type
-  [[nodiscard]] double real(int row, int column) const;
-  [[nodiscard]] bool boolean(int row, int column) const;
-  [[nodiscard]] std::string text(int row, int column) const;  ///< text or bytes; empty for NULL
-  [[nodiscard]] std::vector<double> series(int row, int column) const;
-  [[nodiscard]] std::vector<std::int64_t> integers(int row, int column) const;  ///< of an array of bigint
+  [[nodiscard]] ResultRow operator[](int row) const { return {result_.get(), row}; }
   /// A column of all rows.
   [[nodiscard]] std::vector<std::string> texts(int column) const;
-  [[nodiscard]] std::optional<std::int64_t> optional_integer(int row, int column) const;
-  [[nodiscard]] std::optional<double> optional_real(int row, int column) const;
 
  private:
-  [[nodiscard]] std::string_view bytes(int row, int column) const;
   struct Clear {
     void operator()(pg_result* result) const;
   };
   std::unique_ptr<pg_result, Clear> result_;
 };
 
-/// @brief One connection. Not thread-safe. Members throw Error; after one that is lost() nothing works any
-/// more.
+/// @brief One connection. Not thread-safe. Members throw Error; after an error that is lost() the connection
+/// is of no use.
 class Connection {
  public:
   /// Connects. @param location a connection URI (postgresql://...)
@@ -110,17 +125,19 @@ class Connection {
 
   /// Runs one statement.
   Rows run(std::string_view sql, const Parameters& parameters = {});
-  /// @brief Runs statements one after the other in one round trip, as one transaction if none is open. When
-  /// one fails, those after it are not run, and its Error is thrown.
+  /// @brief Runs statements in order in one round trip, as one transaction if none is open. The first error
+  /// ends the run and is thrown.
   std::vector<Rows> run_all(std::span<const Statement> statements);
-  /// Runs statements that have no parameters and give nothing, with semicolons between.
+  /// Runs statements without parameters and results, with semicolons between them.
   void execute(const std::string& sql);
   [[nodiscard]] bool in_transaction() const;
   [[nodiscard]] bool good() const;
-  /// Waits for notifications, at most so long; whether any came. @pre it listens
-  bool wait_for_notification(int milliseconds);
+  /// Waits for a notification until that time is over or the bell is rung; returns whether one came.
+  /// @pre the connection has run LISTEN
+  bool wait_for_notification(std::chrono::milliseconds longest, const PollBell& bell);
 
  private:
+  bool take_notifications();
   void send(const Statement& statement);
   bool read_pipeline(std::vector<Rows>& all, pg_result*& failed);
   [[noreturn]] void fail(pg_result* result) const;

@@ -8,9 +8,9 @@
 namespace snapthrough::server::postgresql {
 namespace {
 
-/// Between two tries to reach a database that is gone.
+/// Pause between two tries to connect to a database that is gone.
 constexpr std::chrono::milliseconds kBetweenTries{500};
-/// For a connection that others use.
+/// Longest wait for a connection that other threads use.
 constexpr std::chrono::seconds kLongestWait{10};
 
 }  // namespace
@@ -67,7 +67,7 @@ void Pool::give_back(std::unique_ptr<Connection> connection) {
     if (connection->good() && !connection->in_transaction()) {
       idle_.push_back(std::move(connection));
     } else {
-      // the server is gone or was started anew: so are the others
+      // a lost connection means that the server is gone or was started anew: idle connections are lost too
       lost = std::exchange(idle_, {});
       lost.push_back(std::move(connection));
       open_ -= static_cast<int>(lost.size());
@@ -80,9 +80,9 @@ Status to_status(const Error& error) {
   if (error.state() == kLostClaim) {
     return {StatusCode::conflict, error.what()};
   }
-  // Classes and codes of PostgreSQL, appendix A: the connection (08), not enough resources (53), intervention
-  // of an operator (57), trouble of its system (58), a lock that did not come (55P03), a database that only
-  // reads (25006), an idle transaction that was ended (25P03), the two of again_if_in_the_way().
+  // Classes and codes in appendix A of PostgreSQL's manual: connection (08), insufficient resources (53),
+  // intervention of an operator (57), system error (58), lock not available (55P03), read-only database
+  // (25006), idle transaction ended (25P03), rollback of a transaction (40).
   constexpr std::array<std::string_view, 8> kMayWorkLater{"08",    "53",    "57",    "58",
                                                           "55P03", "25006", "25P03", "40"};
   const bool later =

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// A few connections to one database, for the parts of the driver.
+/// Pool of connections to one database, and transactions on them.
 
 #include <atomic>
 #include <chrono>
@@ -17,19 +17,19 @@
 
 namespace snapthrough::server::postgresql {
 
-/// @brief Connections that are shared by the threads of a process: one is opened when all are in use and
-/// there may be more; else a thread waits. Thread-safe.
+/// @brief Connections that threads of a process share. When all are in use and `most` are open, a thread
+/// waits, at most 10 s. Thread-safe.
 ///
-/// One thread at a time connects. While the database can't be reached, one tries now and then; the others are
-/// told at once. Nobody waits longer than 10 s.
+/// One thread at a time connects. While the database can't be reached, a thread tries every 0.5 s; others get
+/// an error at once.
 class Pool {
  public:
   Pool(std::string location, int most) : location_(std::move(location)), most_(most) {}
 
-  /// A connection of the caller's until it is destroyed. A lost one is not used again.
+  /// Lends a connection for as long as it exists. A lost connection is closed then.
   class Lent {
    public:
-    /// Throws Error.
+    /// Takes a connection. Throws Error.
     explicit Lent(Pool& pool) : pool_(pool), connection_(pool.take()) {}
     ~Lent() { pool_.give_back(std::move(connection_)); }
     Lent(const Lent&) = delete;
@@ -60,22 +60,19 @@ class Pool {
   std::chrono::steady_clock::time_point next_try_{};
 };
 
-/// Whether a write has to survive the death of the database's machine before its caller goes on.
-enum class Durability { synced, unsynced };
-
-/// SQLSTATE that held_job() and held_units() of the schema raise.
+/// SQLSTATE that held_job() of the schema raises for a claim that does not hold.
 inline constexpr std::string_view kLostClaim = "ST001";
 
-/// The status that an error of PostgreSQL amounts to.
+/// The status for an error of PostgreSQL.
 [[nodiscard]] Status to_status(const Error& error);
 
-/// @brief Pieces of work on one database. Thread-safe.
+/// Writes and reads of one database. Thread-safe.
 class Database {
  public:
   Database(std::string location, int connections) : pool_(std::move(location), connections) {}
 
-  /// @brief Runs `work(connection)`, which gives a StatusOr<T>, in a transaction; undone when its status is
-  /// not ok. Runs it again when another transaction stood in its way.
+  /// @brief Runs `work(connection)`, which returns a StatusOr<T>, in a transaction, which is undone when the
+  /// status is not ok. Runs the work again after a deadlock or a serialisation failure.
   template <class T, class Work>
   StatusOr<T> write(const Work& work, Durability durability = Durability::synced) {
     const Timed timed(commit_seconds_);
@@ -89,7 +86,7 @@ class Database {
     });
   }
 
-  /// Work that gives nothing but a status.
+  /// Runs work that returns a Status in a transaction.
   template <class Work>
   Status write_only(const Work& work, Durability durability = Durability::synced) {
     return write<bool>(
@@ -101,8 +98,8 @@ class Database {
         .status();
   }
 
-  /// @brief Runs statements as one transaction in one round trip, and gives `use(rows)`, a StatusOr<T>, of
-  /// what each of them gave. It is committed whatever that is.
+  /// @brief Runs statements as one transaction in one round trip, and returns `use(results)`, a StatusOr<T>.
+  /// The transaction is committed before `use` is called.
   template <class T, class Use>
   StatusOr<T> write_at_once(std::vector<Statement> statements, Durability durability, const Use& use) {
     const Timed timed(commit_seconds_);
@@ -116,19 +113,19 @@ class Database {
     });
   }
 
-  /// The same for statements of which nothing is wanted.
+  /// Runs statements without wanted results as one transaction in one round trip.
   Status write_at_once(std::vector<Statement> statements, Durability durability = Durability::synced) {
     return write_at_once<bool>(std::move(statements), durability, [](const auto&) { return true; }).status();
   }
 
-  /// Runs `work(connection)`, which gives a T; each of its statements is a transaction.
+  /// Runs `work(connection)`, which returns a T; each statement is a transaction.
   template <class T, class Work>
   StatusOr<T> read(const Work& work) {
     const Timed timed(read_seconds_);
     return again_if_in_the_way<T>([&](Connection& connection) -> StatusOr<T> { return work(connection); });
   }
 
-  /// Whether its disk was full when something was written, and nobody found room since.
+  /// Whether a write met a full disk, and found_room() was not called since.
   [[nodiscard]] bool is_full() const { return full_; }
   void found_room() { full_ = false; }
 
@@ -152,7 +149,7 @@ class Database {
         if (error.state() == kDiskFull) {
           full_ = true;
         }
-        // a deadlock, or two transactions that can't both come first; nothing was done
+        // a deadlock (40P01) or a serialisation failure (40001): the transaction was undone
         if ((error.state() != "40P01" && error.state() != "40001") || attempt == kTries) {
           return to_status(error);
         }

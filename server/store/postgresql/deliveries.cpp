@@ -1,48 +1,65 @@
-#include "server/store/postgresql/deliveries.h"
+#include "server/store/postgresql/parts.h"
 
 namespace snapthrough::server::postgresql {
+namespace {
 
-StatusOr<std::optional<Delivery>> PostgresqlDeliveryStore::next(std::string_view origin,
-                                                                std::chrono::milliseconds hold, Time now) {
-  // Nothing is written while nothing is due. Who takes one makes it due later for the others.
-  static constexpr std::string_view kSql =
-      "WITH clock AS (SELECT coalesce($2, snapthrough_now()) AS moment),"
-      " mine AS MATERIALIZED (SELECT number FROM deliveries WHERE origin = $1"
-      "  AND due_us <= (SELECT moment FROM clock) ORDER BY due_us, number LIMIT 1 FOR UPDATE SKIP LOCKED),"
-      " taken AS (UPDATE deliveries SET due_us = CASE WHEN $3 > 0 THEN (SELECT moment FROM clock) + $3"
-      "   ELSE due_us END WHERE number = (SELECT number FROM mine)"
-      "  RETURNING number, job, sweep, address, attempts)"
-      " SELECT number, coalesce(jobs.id, sweeps.id), sweep IS NOT NULL, address, attempts FROM taken"
-      " LEFT JOIN jobs ON jobs.seq = job LEFT JOIN sweeps ON sweeps.seq = sweep";
-  const auto use = [](std::span<const Rows> all) -> StatusOr<std::optional<Delivery>> {
-    const Rows& rows = all.front();
-    if (rows.empty()) {
-      return std::optional<Delivery>();
-    }
-    return std::optional(Delivery{rows.integer(0, 0), rows.text(0, 1), rows.boolean(0, 2), rows.text(0, 3),
-                                  static_cast<int>(rows.integer(0, 4))});
-  };
-  return database_.write_at_once<std::optional<Delivery>>(
-      {{kSql, Parameters().add(origin).add(clock_.at(now)).add(microseconds(hold))}}, Durability::unsynced,
-      use);
-}
+class PostgresqlDeliveryStore final : public DeliveryStore {
+ public:
+  PostgresqlDeliveryStore(Database& database, Clock clock) : database_(database), clock_(clock) {}
 
-Status PostgresqlDeliveryStore::postpone(std::int64_t number, std::chrono::milliseconds pause, Time now) {
-  return database_.write_at_once(
-      {{"UPDATE deliveries SET attempts = attempts + 1, due_us = coalesce($2, snapthrough_now()) + $3"
-        " WHERE number = $1",
-        Parameters().add(number).add(clock_.at(now)).add(microseconds(pause))}},
-      Durability::unsynced);
-}
+  StatusOr<std::optional<Delivery>> next(std::string_view origin, std::chrono::milliseconds hold,
+                                         Time now) override {
+    // Nothing is written while nothing is due. A delivery that is taken is due later for other processes.
+    static constexpr std::string_view kSql =
+        "WITH clock AS (SELECT coalesce($2, snapthrough_now()) AS moment),"
+        " mine AS MATERIALIZED (SELECT number FROM deliveries WHERE origin = $1"
+        "  AND due_us <= (SELECT moment FROM clock) ORDER BY due_us, number LIMIT 1 FOR UPDATE SKIP LOCKED),"
+        " taken AS (UPDATE deliveries SET due_us = CASE WHEN $3 > 0 THEN (SELECT moment FROM clock) + $3"
+        "   ELSE due_us END WHERE number = (SELECT number FROM mine)"
+        "  RETURNING number, job, sweep, address, attempts)"
+        " SELECT number, coalesce(jobs.id, sweeps.id), sweep IS NOT NULL, address, attempts FROM taken"
+        " LEFT JOIN jobs ON jobs.seq = job LEFT JOIN sweeps ON sweeps.seq = sweep";
+    const auto use = [](std::span<const Rows> all) -> StatusOr<std::optional<Delivery>> {
+      const Rows& rows = all.front();
+      if (rows.empty()) {
+        return std::optional<Delivery>();
+      }
+      return std::optional(Delivery{rows[0].integer(0), rows[0].text(1), rows[0].boolean(2), rows[0].text(3),
+                                    static_cast<int>(rows[0].integer(4))});
+    };
+    return database_.write_at_once<std::optional<Delivery>>(
+        {{kSql, Parameters().add(origin).add(clock_.at(now)).add(microseconds(hold))}}, Durability::unsynced,
+        use);
+  }
 
-Status PostgresqlDeliveryStore::remove(std::int64_t number) {
-  return database_.write_at_once({{"DELETE FROM deliveries WHERE number = $1", Parameters().add(number)}},
-                                 Durability::unsynced);
-}
+  Status postpone(std::int64_t number, std::chrono::milliseconds pause, Time now) override {
+    return database_.write_at_once(
+        {{"UPDATE deliveries SET attempts = attempts + 1, due_us = coalesce($2, snapthrough_now()) + $3"
+          " WHERE number = $1",
+          Parameters().add(number).add(clock_.at(now)).add(microseconds(pause))}},
+        Durability::unsynced);
+  }
 
-StatusOr<std::int64_t> PostgresqlDeliveryStore::waiting() {
-  return database_.read<std::int64_t>(
-      [](Connection& connection) { return connection.run("SELECT count(*) FROM deliveries").integer(0, 0); });
+  Status remove(std::int64_t number) override {
+    return database_.write_at_once({{"DELETE FROM deliveries WHERE number = $1", Parameters().add(number)}},
+                                   Durability::unsynced);
+  }
+
+  StatusOr<std::int64_t> waiting() override {
+    return database_.read<std::int64_t>([](Connection& connection) {
+      return connection.run("SELECT count(*) FROM deliveries")[0].integer(0);
+    });
+  }
+
+ private:
+  Database& database_;
+  const Clock clock_;
+};
+
+}  // namespace
+
+std::unique_ptr<DeliveryStore> deliveries_in(Database& database, Clock clock) {
+  return std::make_unique<PostgresqlDeliveryStore>(database, clock);
 }
 
 }  // namespace snapthrough::server::postgresql

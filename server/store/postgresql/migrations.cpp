@@ -1,28 +1,19 @@
-#include "server/store/postgresql/migrations.h"
-
 #include <string>
+
+#include "server/store/postgresql/parts.h"
 
 namespace snapthrough::server::postgresql {
 namespace {
 
-/// Of the lock that keeps two programs from bringing one database up to date at the same time.
+/// Key of the lock that keeps two programs from applying steps at the same time.
 constexpr std::int64_t kLock = 0x736e617074687275;
 
-/// How many steps the database has, or why it cannot be used.
+/// Number of steps that the database has, or why it cannot be used.
 StatusOr<std::size_t> applied_steps(Connection& connection, std::span<const Migration> migrations) {
   const Rows rows = connection.run("SELECT version, name, checksum FROM schema_migrations ORDER BY version");
   for (int row = 0; row < rows.count(); ++row) {
-    const std::string name = rows.text(row, 1);
-    const auto step = static_cast<std::size_t>(row);
-    if (step >= migrations.size()) {
-      return Status(StatusCode::unsupported,
-                    "the store was written by a newer version of the program: it has schema step " + name +
-                        ", this program knows " + std::to_string(migrations.size()) + " steps");
-    }
-    if (rows.integer(row, 0) != migrations[step].version || rows.text(row, 2) != migrations[step].checksum) {
-      return Status(StatusCode::unsupported, "the store's schema step " + name +
-                                                 " differs from this program's step " +
-                                                 std::string(migrations[step].name));
+    if (Status status = check_applied(rows[row], static_cast<std::size_t>(row), migrations); !status.ok()) {
+      return status;
     }
   }
   return static_cast<std::size_t>(rows.count());
@@ -32,7 +23,7 @@ StatusOr<std::size_t> applied_steps(Connection& connection, std::span<const Migr
 
 Status migrate(Connection& connection, std::span<const Migration> migrations) {
   Transaction transaction(connection, true);
-  connection.execute("SET LOCAL lock_timeout = '5min'");  // for who is at it
+  connection.execute("SET LOCAL lock_timeout = '5min'");  // another program may be applying steps
   connection.run("SELECT pg_advisory_xact_lock($1)", Parameters().add(kLock));
   connection.execute(
       "SET LOCAL client_min_messages = warning; CREATE TABLE IF NOT EXISTS schema_migrations ("

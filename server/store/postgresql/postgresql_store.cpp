@@ -3,8 +3,7 @@
 #include <regex>
 #include <utility>
 
-#include "server/store/postgresql/jobs.h"
-#include "server/store/postgresql/migrations.h"
+#include "server/store/postgresql/parts.h"
 
 namespace snapthrough::server::postgresql {
 
@@ -35,8 +34,7 @@ StatusOr<std::unique_ptr<Store>> open_store(const std::string& location, const O
   } catch (const Error& error) {
     return explained(to_status(error));
   }
-  return std::unique_ptr<Store>(
-      std::make_unique<PostgresqlStore>(location, options.connections, Clock(options.time_of_caller)));
+  return jobs_in(location, options.connections, Clock(options.time_of_caller));
 }
 
 }  // namespace snapthrough::server::postgresql

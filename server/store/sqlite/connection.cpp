@@ -9,7 +9,7 @@
 namespace snapthrough::server::sqlite {
 namespace {
 
-// Series are stored as little-endian float64; a big-endian machine would have to swap here.
+// Series are stored as little-endian float64 without conversion.
 static_assert(std::endian::native == std::endian::little);
 static_assert(sizeof(double) == 8);
 
@@ -59,36 +59,36 @@ void Statement::check(int code) const {
   }
 }
 
-Statement& Statement::bind(std::int64_t value) {
+Statement& Statement::add(std::int64_t value) {
   check(sqlite3_bind_int64(statement_.get(), ++bound_, value));
   return *this;
 }
 
-Statement& Statement::bind(double value) {
+Statement& Statement::add(double value) {
   check(sqlite3_bind_double(statement_.get(), ++bound_, value));
   return *this;
 }
 
-Statement& Statement::bind(std::string_view text) {
+Statement& Statement::add(std::string_view text) {
   // An empty view may hold a null pointer, which SQLite would take for NULL.
   const char* data = text.empty() ? "" : text.data();
   check(sqlite3_bind_text64(statement_.get(), ++bound_, data, text.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
   return *this;
 }
 
-Statement& Statement::bind_null() {
+Statement& Statement::add_null() {
   check(sqlite3_bind_null(statement_.get(), ++bound_));
   return *this;
 }
 
-Statement& Statement::bind_blob(std::string_view bytes) {
+Statement& Statement::add_blob(std::string_view bytes) {
   const void* data = bytes.empty() ? "" : bytes.data();
   check(sqlite3_bind_blob64(statement_.get(), ++bound_, data, bytes.size(), SQLITE_TRANSIENT));
   return *this;
 }
 
-Statement& Statement::bind_series(std::span<const double> values) {
-  return bind_blob({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+Statement& Statement::add_series(std::span<const double> values) {
+  return add_blob({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
 }
 
 bool Statement::step() {
@@ -129,13 +129,7 @@ std::vector<double> Statement::series(int column) const {
   return values;
 }
 
-std::optional<std::int64_t> Statement::optional_integer(int column) const {
-  return is_null(column) ? std::nullopt : std::optional(integer(column));
-}
-
-std::optional<double> Statement::optional_real(int column) const {
-  return is_null(column) ? std::nullopt : std::optional(real(column));
-}
+void Statement::refuse(const std::string& why) const { throw Error(0, why); }
 
 void Connection::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 
@@ -209,7 +203,7 @@ void Connection::copy_to(const std::string& path) const {
   if (backup == nullptr) {
     raise(target.handle_.get(), sqlite3_errcode(target.handle_.get()));
   }
-  sqlite3_backup_step(backup, -1);  // all at once: one state of the database, whatever is written meanwhile
+  sqlite3_backup_step(backup, -1);  // all pages at once: one state of the database although others write
   const int code = sqlite3_backup_finish(backup);
   if (code != SQLITE_OK) {
     raise(target.handle_.get(), code);
@@ -227,7 +221,7 @@ Transaction::~Transaction() {
   try {
     connection_.execute("ROLLBACK");
   } catch (const Error&) {
-    // SQLite has rolled back by itself already (disk full, I/O error): nothing is left to undo.
+    // After a full disk or an I/O error SQLite has rolled back already.
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// One writer and many readers of a database file, for the parts of the driver.
+/// One writer and many readers of a database file.
 
 #include <functional>
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace snapthrough::server::sqlite {
 
-/// Read-only connections that are not in use; one is opened when none is free. Thread-safe.
+/// Pool of read-only connections, which opens one when none is free. Thread-safe.
 class ReaderPool {
  public:
   explicit ReaderPool(std::string path) : path_(std::move(path)) {}
@@ -25,7 +25,7 @@ class ReaderPool {
     std::unique_ptr<Connection> reader = take();
     auto result = use(*reader);
     const std::lock_guard guard(mutex_);
-    idle_.push_back(std::move(reader));  // not after an exception: that connection is dropped
+    idle_.push_back(std::move(reader));  // a connection with an exception is dropped
     return result;
   }
 
@@ -47,13 +47,14 @@ class ReaderPool {
   std::vector<std::unique_ptr<Connection>> idle_;
 };
 
-/// @brief Transactions of both kinds on one database. Thread-safe.
+/// Writes and reads of one database. Thread-safe.
 class Database {
  public:
   Database(std::unique_ptr<Connection> writer, const std::string& path)
       : writer_(std::move(writer)), readers_(path) {}
 
-  /// Runs `work(connection)`, which gives a StatusOr<T>, in a write transaction.
+  /// Runs `work(connection)`, which returns a StatusOr<T>, in a write transaction; parameters as of
+  /// Writer::run().
   template <class T, class Work>
   StatusOr<T> write(const Work& work, Durability durability = Durability::synced,
                     const std::function<void()>& queued = {}, bool patient = false) {
@@ -70,12 +71,12 @@ class Database {
     return outcome;
   }
 
-  /// Runs work that gives nothing but a status in a write transaction.
+  /// Runs work that returns a Status in a write transaction.
   Status write_only(const Writer::Work& work, Durability durability = Durability::synced) {
     return writer_.run(work, durability);
   }
 
-  /// Runs `work(connection)`, which gives a T, on a reader.
+  /// Runs `work(connection)`, which returns a T, on a read-only connection.
   template <class T, class Work>
   StatusOr<T> read(const Work& work) {
     const Timed timed(read_seconds_);

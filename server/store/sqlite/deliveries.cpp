@@ -1,53 +1,64 @@
-#include "server/store/sqlite/deliveries.h"
-
-#include "server/store/sqlite/rows.h"
+#include "server/store/sqlite/parts.h"
 
 namespace snapthrough::server::sqlite {
+namespace {
 
-StatusOr<std::optional<Delivery>> SqliteDeliveryStore::next(std::string_view origin,
-                                                            std::chrono::milliseconds /*hold*/, Time now) {
-  return database_.read<std::optional<Delivery>>(
-      [&](const Connection& connection) -> std::optional<Delivery> {
-        Statement row = connection.prepare(
-            "SELECT number, ifnull(jobs.id, sweeps.id), sweep IS NOT NULL, address, attempts FROM deliveries"
-            " LEFT JOIN jobs ON jobs.seq = job LEFT JOIN sweeps ON sweeps.seq = sweep"
-            " WHERE origin = ? AND due_us <= ? ORDER BY due_us, number LIMIT 1");
-        row.bind(origin).bind(to_row(now));
-        if (!row.step()) {
-          return std::nullopt;
-        }
-        return Delivery{row.integer(0), row.text(1), row.integer(2) == 1, row.text(3),
-                        static_cast<int>(row.integer(4))};
-      });
-}
+class SqliteDeliveryStore final : public DeliveryStore {
+ public:
+  explicit SqliteDeliveryStore(Database& database) : database_(database) {}
 
-Status SqliteDeliveryStore::postpone(std::int64_t number, std::chrono::milliseconds pause, Time now) {
-  return database_.write_only(
-      [&](Connection& connection) {
-        connection.prepare("UPDATE deliveries SET attempts = attempts + 1, due_us = ? WHERE number = ?")
-            .bind(to_row(now + pause))
-            .bind(number)
-            .run();
-        return Status();
-      },
-      Durability::unsynced);
-}
+  StatusOr<std::optional<Delivery>> next(std::string_view origin, std::chrono::milliseconds /*hold*/,
+                                         Time now) override {
+    return database_.read<std::optional<Delivery>>([&](const Connection& connection)
+                                                       -> std::optional<Delivery> {
+      Statement row = connection.query(
+          "SELECT number, ifnull(jobs.id, sweeps.id), sweep IS NOT NULL, address, attempts FROM deliveries"
+          " LEFT JOIN jobs ON jobs.seq = job LEFT JOIN sweeps ON sweeps.seq = sweep"
+          " WHERE origin = ? AND due_us <= ? ORDER BY due_us, number LIMIT 1",
+          origin, to_row(now));
+      if (!row.step()) {
+        return std::nullopt;
+      }
+      return Delivery{row.integer(0), row.text(1), row.integer(2) == 1, row.text(3),
+                      static_cast<int>(row.integer(4))};
+    });
+  }
 
-Status SqliteDeliveryStore::remove(std::int64_t number) {
-  return database_.write_only(
-      [&](Connection& connection) {
-        connection.prepare("DELETE FROM deliveries WHERE number = ?").bind(number).run();
-        return Status();
-      },
-      Durability::unsynced);
-}
+  Status postpone(std::int64_t number, std::chrono::milliseconds pause, Time now) override {
+    return database_.write_only(
+        [&](Connection& connection) {
+          connection.run("UPDATE deliveries SET attempts = attempts + 1, due_us = ? WHERE number = ?",
+                         to_row(now + pause), number);
+          return Status();
+        },
+        Durability::unsynced);
+  }
 
-StatusOr<std::int64_t> SqliteDeliveryStore::waiting() {
-  return database_.read<std::int64_t>([](const Connection& connection) {
-    Statement row = connection.prepare("SELECT count(*) FROM deliveries");
-    row.step();
-    return row.integer(0);
-  });
+  Status remove(std::int64_t number) override {
+    return database_.write_only(
+        [&](Connection& connection) {
+          connection.run("DELETE FROM deliveries WHERE number = ?", number);
+          return Status();
+        },
+        Durability::unsynced);
+  }
+
+  StatusOr<std::int64_t> waiting() override {
+    return database_.read<std::int64_t>([](const Connection& connection) {
+      Statement row = connection.prepare("SELECT count(*) FROM deliveries");
+      row.step();
+      return row.integer(0);
+    });
+  }
+
+ private:
+  Database& database_;
+};
+
+}  // namespace
+
+std::unique_ptr<DeliveryStore> deliveries_in(Database& database) {
+  return std::make_unique<SqliteDeliveryStore>(database);
 }
 
 }  // namespace snapthrough::server::sqlite

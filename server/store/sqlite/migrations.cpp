@@ -1,4 +1,4 @@
-#include "server/store/sqlite/migrations.h"
+#include "server/store/sqlite/parts.h"
 
 namespace snapthrough::server::sqlite {
 namespace {
@@ -11,23 +11,14 @@ constexpr const char* kHistoryTable =
     " applied_us INTEGER NOT NULL"
     ") STRICT";
 
-/// How many steps the database has, or why it cannot be used.
+/// Number of steps that the database has, or why it cannot be used.
 StatusOr<std::size_t> applied_steps(Connection& connection, std::span<const Migration> migrations) {
   Statement rows =
       connection.prepare("SELECT version, name, checksum FROM schema_migrations ORDER BY version");
   std::size_t applied = 0;
   while (rows.step()) {
-    const std::string name = rows.text(1);
-    if (applied >= migrations.size()) {
-      return Status(StatusCode::unsupported,
-                    "the store was written by a newer version of the program: it has schema step " + name +
-                        ", this program knows " + std::to_string(migrations.size()) + " steps");
-    }
-    const Migration& known = migrations[applied];
-    if (rows.integer(0) != known.version || rows.text(2) != known.checksum) {
-      return Status(
-          StatusCode::unsupported,
-          "the store's schema step " + name + " differs from this program's step " + std::string(known.name));
+    if (Status status = check_applied(rows, applied, migrations); !status.ok()) {
+      return status;
     }
     ++applied;
   }
@@ -36,13 +27,8 @@ StatusOr<std::size_t> applied_steps(Connection& connection, std::span<const Migr
 
 void apply(Connection& connection, const Migration& migration, Time now) {
   connection.execute(std::string(migration.sql));
-  connection
-      .prepare("INSERT INTO schema_migrations (version, name, checksum, applied_us) VALUES (?, ?, ?, ?)")
-      .bind(migration.version)
-      .bind(migration.name)
-      .bind(migration.checksum)
-      .bind(static_cast<std::int64_t>(now.time_since_epoch().count()))
-      .run();
+  connection.run("INSERT INTO schema_migrations (version, name, checksum, applied_us) VALUES (?, ?, ?, ?)",
+                 migration.version, migration.name, migration.checksum, to_row(now));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "server/store/sqlite/quotas.h"
+#include "server/store/sqlite/parts.h"
 
 namespace snapthrough::server::sqlite {
 namespace {
@@ -8,25 +8,18 @@ std::int64_t minute_of(Time now) {
 }
 
 std::int64_t points_since(const Connection& connection, std::string_view owner, std::int64_t minute) {
-  Statement row =
-      connection.prepare("SELECT ifnull(sum(points), 0) FROM owner_points WHERE owner = ? AND minute > ?");
-  row.bind(owner).bind(minute).step();
+  Statement row = connection.query(
+      "SELECT ifnull(sum(points), 0) FROM owner_points WHERE owner = ? AND minute > ?", owner, minute);
+  row.step();
   return row.integer(0);
 }
 
 void add_points(Connection& connection, std::string_view owner, std::int64_t minute, std::int64_t points) {
-  connection.prepare("DELETE FROM owner_points WHERE owner = ? AND minute <= ?")
-      .bind(owner)
-      .bind(minute - 60)
-      .run();
-  connection
-      .prepare(
-          "INSERT INTO owner_points (owner, minute, points) VALUES (?, ?, ?)"
-          " ON CONFLICT (owner, minute) DO UPDATE SET points = points + excluded.points")
-      .bind(owner)
-      .bind(minute)
-      .bind(points)
-      .run();
+  connection.run("DELETE FROM owner_points WHERE owner = ? AND minute <= ?", owner, minute - 60);
+  connection.run(
+      "INSERT INTO owner_points (owner, minute, points) VALUES (?, ?, ?)"
+      " ON CONFLICT (owner, minute) DO UPDATE SET points = points + excluded.points",
+      owner, minute, points);
 }
 
 }  // namespace
@@ -37,8 +30,7 @@ Status admit(Connection& connection, std::string_view owner, const Quotas& quota
     return {};
   }
   Statement row =
-      connection.prepare("SELECT jobs_waiting, points_waiting, bytes_kept FROM owners WHERE owner = ?");
-  row.bind(owner);
+      connection.query("SELECT jobs_waiting, points_waiting, bytes_kept FROM owners WHERE owner = ?", owner);
   Usage has = row.step() ? Usage{row.integer(0), row.integer(1), row.integer(2)} : Usage{};
   const bool by_hour = quotas.points_per_hour > 0 && addition.points > 0;
   has.points_this_hour = by_hour ? points_since(connection, owner, minute_of(now) - 60) : 0;

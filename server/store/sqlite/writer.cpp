@@ -9,16 +9,17 @@
 namespace snapthrough::server::sqlite {
 namespace {
 
-/// More than this in one commit makes the first caller wait and gains nothing.
+/// Largest number of pieces in one commit: more gain nothing and make the first caller wait.
 constexpr std::size_t kLargestBatch = 128;
-/// A small job is solved within this; its submission and its outcome are one commit then.
+/// Time that a patient piece waits: a small job is solved within it, and its submission and outcome are one
+/// commit.
 constexpr std::chrono::milliseconds kPatience{1};
 
 void roll_back(Connection& connection) {
   try {
     connection.execute("ROLLBACK");
   } catch (const Error&) {
-    // SQLite has rolled back by itself already (disk full, I/O error): nothing is left to undo.
+    // After a full disk or an I/O error SQLite has rolled back already.
   }
 }
 
@@ -87,7 +88,7 @@ void Writer::loop() {
     lock.unlock();
     commit_batch(batch);
     for (Item* item : batch) {
-      item->done.release();  // the item is its caller's again, and may be gone
+      item->done.release();  // after this the caller may destroy the item
     }
     lock.lock();
   }
@@ -99,7 +100,7 @@ void Writer::commit_batch(std::deque<Item*>& batch) {
     begin(batch);
     for (Item* item : batch) {
       if (!run_item(*item, batch.size() == 1)) {
-        throw Error(SQLITE_IOERR, item->status.message());  // for those beside it, which are undone too
+        throw Error(SQLITE_IOERR, item->status.message());  // the whole batch is undone
       }
     }
     const bool undo = batch.size() == 1 && !batch.front()->status.ok();
@@ -117,14 +118,15 @@ void Writer::begin(const std::deque<Item*>& batch) {
                                   [](const Item* item) { return item->durability == Durability::synced; });
   const Durability wanted = synced ? Durability::synced : Durability::unsynced;
   if (wanted != level_) {
-    // In WAL mode NORMAL leaves out the sync of a commit; the next synced commit covers it too.
+    // In WAL mode NORMAL commits without a sync; the next synced commit covers such a commit too.
     connection_->execute(synced ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
     level_ = wanted;
   }
   connection_->execute("BEGIN IMMEDIATE");
 }
 
-/// False when the transaction of the whole batch is gone or has to go. One alone needs no savepoint.
+/// Runs one piece; a piece alone needs no savepoint. Returns false when the transaction of the batch has to
+/// be undone.
 bool Writer::run_item(Item& item, bool alone) {
   if (!alone) {
     connection_->execute("SAVEPOINT item");

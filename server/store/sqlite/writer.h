@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The one thread that writes to the database, many callers to a commit.
+/// Thread that writes to the database, with many callers to a commit.
 
 #include <condition_variable>
 #include <deque>
@@ -16,32 +16,28 @@
 
 namespace snapthrough::server::sqlite {
 
-/// Whether a write has to survive the death of the machine before its caller goes on. One that need not is
-/// in the log of the database all the same and survives the death of the process.
-enum class Durability { synced, unsynced };
-
-/// The status that an error of SQLite amounts to.
+/// The status for an error of SQLite.
 [[nodiscard]] Status to_status(const Error& error);
 
 /// @brief Runs pieces of work in transactions on a connection of its own. Thread-safe.
 ///
-/// What waits is done together in one transaction, each piece in a savepoint, so that one that is refused
-/// leaves the others alone; all are answered after the commit.
+/// All pieces that wait are done in one transaction, each in a savepoint, so that a refused piece does not
+/// undo the others. Their callers return after the commit.
 class Writer {
  public:
   using Work = std::function<Status(Connection&)>;
 
   explicit Writer(std::unique_ptr<Connection> connection);
-  /// Finishes what waits.
+  /// Runs the pieces that wait, then ends the thread.
   ~Writer();
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
   Writer(Writer&&) = delete;
   Writer& operator=(Writer&&) = delete;
 
-  /// @brief Runs the work on the writing thread and returns when it is committed, or why it is not.
-  /// Work that returns a status that is not ok is undone. It may run more than once.
-  /// @param queued called when work that is handed in from then on comes after this
+  /// @brief Runs the work on the writing thread and returns when it is committed or undone. Work is undone
+  /// when it returns a status other than ok. It may run more than once.
+  /// @param queued called as soon as later work is done after this work
   /// @param patient the commit may wait a millisecond for work that is not patient
   Status run(const Work& work, Durability durability, const std::function<void()>& queued = {},
              bool patient = false);

@@ -84,7 +84,7 @@ Receiver::~Receiver() {
 
 /// Ends when the other side does.
 void Receiver::serve(int accepted) {
-  const http::Descriptor socket(accepted);
+  const Descriptor socket(accepted);
   ::fcntl(accepted, F_SETFL, 0);  // it may wait
   const Told told = read_request(accepted);
   if (told.target.empty()) {

@@ -49,7 +49,7 @@ class Receiver {
   void serve(int socket);
 
   Answer answer_;
-  http::Descriptor listener_;
+  Descriptor listener_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::vector<Told> told_;

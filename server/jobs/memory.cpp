@@ -1,0 +1,58 @@
+#include "server/jobs/memory.h"
+
+#include <malloc.h>
+
+#include <string>
+
+namespace snapthrough::server {
+namespace {
+
+/// Largest text, in bytes, of a small document.
+constexpr std::size_t kSmall = 256 * 1024;
+
+/// Bytes for each unknown, a lower bound: measured peaks are 388 and more, which the test
+/// MemoryLimit.TheLeastIsBelowEveryPeak repeats.
+constexpr std::int64_t kLeastBytesByUnknown = 386;
+
+std::recursive_mutex& turn() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+}  // namespace
+
+LargeDocument::LargeDocument(std::size_t text_bytes)
+    : lock_(text_bytes > kSmall ? std::unique_lock(turn()) : std::unique_lock<std::recursive_mutex>()) {}
+
+LargeDocument::~LargeDocument() {
+  if (lock_.owns_lock()) {
+    ::malloc_trim(0);
+  }
+}
+
+std::int64_t least_memory(const Model& model, const Analysis& analysis) {
+  const Discretization& mesh = analysis.discretization;
+  if (!mesh.fixed_mesh) {
+    return 0;
+  }
+  std::int64_t elements = 0;
+  for (const auto& [member, count] : mesh.member_elements) {
+    elements += count;
+  }
+  const auto others = static_cast<std::int64_t>(model.members.size() - mesh.member_elements.size());
+  elements += others * mesh.elements;
+  // An element of order p adds p nodes with three unknowns each.
+  return 3 * elements * mesh.order * kLeastBytesByUnknown;
+}
+
+std::vector<Finding> check_memory(const Model& model, const Analysis& analysis, std::int64_t limit) {
+  const std::int64_t least = least_memory(model, analysis);
+  if (least <= limit) {
+    return {};
+  }
+  return {{"/analysis/discretization/elements", "memory_limit",
+           "a mesh of this size needs more than " + std::to_string(least) +
+               " bytes of memory, and an analysis may use " + std::to_string(limit)}};
+}
+
+}  // namespace snapthrough::server

@@ -1,0 +1,254 @@
+#include "server/queue/pool.h"
+
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "server/bell.h"
+#include "server/jobs/path_batch.h"
+#include "server/worker/solve_job.h"
+
+namespace snapthrough::server {
+namespace {
+
+using std::chrono::duration;
+
+/// Longest time for which an idle worker waits before it queries the store again without notice. For a shared
+/// store it is longer, because Neighbours polls for all workers of the process.
+constexpr duration<double> kLongestNap{1.0};
+constexpr duration<double> kLongestSharedNap{10.0};
+/// Pause before another attempt to store an outcome.
+constexpr std::chrono::milliseconds kRetryPause{200};
+
+/// Adds points of the path, and removes the oldest beyond kTracedBytes.
+void note_traced(JobNews& news, std::string document) {
+  news.traced.push_back({news.number, std::move(document)});
+  std::size_t bytes = 0;
+  for (const TracedPoints& points : news.traced) {
+    bytes += points.document.size();
+  }
+  for (; bytes > kTracedBytes && news.traced.size() > 1; news.traced.pop_front()) {
+    bytes -= news.traced.front().document.size();
+  }
+}
+
+/// Returns hooks that publish news of an analysis to the followers of its job.
+Hooks told_hooks(const Claim& claim, JobProgress& topic, const std::stop_token& stop) {
+  const auto tell = [&claim, &topic](auto change) {
+    topic.update(claim.id, [&](JobNews& news) {
+      news.attempt = claim.attempt;
+      ++news.number;
+      change(news);
+    });
+  };
+  const auto batch = std::make_shared<PathBatch>();
+  return {stop,
+          [tell, batch](const Progress& progress) {
+            if (!batch->empty()) {
+              tell([&](JobNews& news) { note_traced(news, path_points_document(batch->points())); });
+              batch->clear();
+            }
+            tell([&](JobNews& news) { news.progress = progress; });
+          },
+          [tell](const CriticalPoint& point) {
+            tell([&](JobNews& news) { news.found.push_back({news.number, point}); });
+          },
+          [batch](const TracedPoint& point) { batch->add(point); }};
+}
+
+/// Logs that a job begins or is requeued.
+void log_job(Log& log, const Claim& claim, JobState state) {
+  log.write(LogLevel::info, "job",
+            {{"job", std::string_view(claim.id)},
+             {"status", to_string(state)},
+             {"attempt", static_cast<std::int64_t>(claim.attempt)}});
+}
+
+/// Logs the end of a job with its termination or failure code and message.
+void log_job_end(Log& log, const Claim& claim, const JobRun& outcome) {
+  const bool failed = outcome.failure.has_value();
+  log.write(
+      failed ? LogLevel::warning : LogLevel::info, "job",
+      {{"job", std::string_view(claim.id)},
+       {"status", to_string(failed ? JobState::failed : JobState::successful)},
+       {"attempt", static_cast<std::int64_t>(claim.attempt)},
+       {"peak_bytes", outcome.peak_bytes},
+       {"code", std::string_view(failed ? outcome.failure->code : outcome.result->summary.termination)},
+       {"detail", std::string_view(failed ? outcome.failure->detail : outcome.result->summary.message)}});
+}
+
+void log_trouble(Log& log, const Claim& claim, const Status& status) {
+  log.write(LogLevel::error, "store",
+            {{"job", std::string_view(claim.id)},
+             {"attempt", static_cast<std::int64_t>(claim.attempt)},
+             {"detail", std::string_view(status.message())}});
+}
+
+Status store_once(const Claim& claim, JobRun& outcome, const WorkerContext& context) {
+  const Time now = context.environment.now();
+  if (!outcome.result) {
+    return context.store.fail(claim, *outcome.failure, outcome.reached, now);
+  }
+  Status status = context.store.finish(claim, *outcome.result, now);
+  if (status.code() != StatusCode::io_error) {
+    return status;
+  }
+  // A result with a number that is not finite cannot be stored; the job then fails instead of staying open.
+  outcome.result.reset();
+  outcome.failure = JobFailure{"not_stored", "the result could not be stored: " + status.message(), ""};
+  return context.store.fail(claim, *outcome.failure, {}, now);
+}
+
+/// Stores the outcome. Repeats while the store is not writable, until the claim is lost or the service stops;
+/// the next start then finds the job running.
+Status store_outcome(const Claim& claim, JobRun& outcome, const WorkerContext& context,
+                     const std::stop_token& stop) {
+  Status status = store_once(claim, outcome, context);
+  if (status.code() == StatusCode::unavailable) {
+    log_trouble(context.log, claim, status);
+  }
+  while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
+    context.health.writable = false;
+    pause(stop, kRetryPause);
+    status = store_once(claim, outcome, context);
+  }
+  return status;
+}
+
+void give_back(const Claim& claim, const WorkerContext& context) {
+  if (const Status status = context.store.requeue(claim); !status.ok()) {
+    return log_trouble(context.log, claim, status);
+  }
+  context.waiting += 1;
+  log_job(context.log, claim, JobState::accepted);
+}
+
+/// Handles the outcome of a stopped analysis; returns whether the outcome must be stored.
+bool settle_stop(const Claim& claim, StopReason reason, JobRun& outcome, const WorkerContext& context) {
+  const bool cancelled = outcome.failure && outcome.failure->code == kCancelled;
+  if (!cancelled) {
+    return true;  // the analysis ended before it noticed the stop request
+  }
+  switch (reason) {
+    case StopReason::shutdown:
+      give_back(claim, context);
+      return false;
+    case StopReason::dismissed:
+    case StopReason::lease_lost:
+      return false;
+    case StopReason::time_limit:
+      outcome.failure->code = "time_limit";
+      outcome.failure->detail =
+          "the analysis took longer than " + std::to_string(context.limits.longest_run.count()) + " s";
+      return true;
+    case StopReason::none:
+      return true;
+  }
+  return true;
+}
+
+/// @param stored becomes ready when the store contains the job; null: the store contains the job
+void run_job(const Claim& claim, const std::shared_future<bool>* stored, const WorkerContext& context,
+             Runner& runner, const std::stop_token& stop) {
+  log_job(context.log, claim, JobState::running);
+  if (claim.attempt == 1) {
+    context.metrics.waiting.observe(duration<double>(context.environment.now() - claim.created).count());
+  }
+  const double begun = context.environment.monotonic_seconds();
+  ActiveJobs::Entry entry(context.active, claim, context.environment.now());
+  const std::stop_callback on_shutdown(stop, [&] { entry.stop(StopReason::shutdown); });
+  JobRun outcome = runner.run_job(claim.document, told_hooks(claim, context.progress, entry.token()));
+  context.progress.erase(claim.id);
+  if (stored != nullptr && !stored->get()) {
+    return;
+  }
+  if (!settle_stop(claim, entry.reason(), outcome, context)) {
+    return;
+  }
+  if (const Status status = store_outcome(claim, outcome, context, stop); !status.ok()) {
+    if (status.code() != StatusCode::conflict) {  // a conflict: dismissed or deleted meanwhile
+      log_trouble(context.log, claim, status);
+    }
+    return;
+  }
+  context.metrics.running.observe(context.environment.monotonic_seconds() - begun);
+  context.metrics.job_ended(outcome.failure ? std::string_view(outcome.failure->code)
+                                            : to_string(JobState::successful));
+  context.completions.announce(claim.id);
+  log_job_end(context.log, claim, outcome);
+}
+
+}  // namespace
+
+void work_on(const Claim& claim, const WorkerContext& context, Runner& runner, const std::stop_token& stop) {
+  run_job(claim, nullptr, context, runner, stop);
+}
+
+void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runner,
+             const std::stop_token& stop) {
+  run_job(handoff.claim, &handoff.stored, context, runner, stop);
+}
+
+WorkerPool::WorkerPool(int threads, const WorkerContext& context, RunnerFactory make)
+    : context_(context), make_(std::move(make)) {
+  threads_.reserve(static_cast<std::size_t>(threads));
+  for (int i = 0; i < threads; ++i) {
+    threads_.emplace_back([this](const std::stop_token& stop) { run(stop); });
+  }
+}
+
+WorkerPool::~WorkerPool() { stop(); }
+
+void WorkerPool::stop() {
+  for (std::jthread& thread : threads_) {
+    thread.request_stop();
+  }
+  for (std::jthread& thread : threads_) {
+    if (thread.joinable()) {
+      thread.join();
+    }
+  }
+}
+
+bool WorkerPool::claim_and_work(Runner& runner, const std::stop_token& stop) {
+  const StatusOr<std::optional<Claim>> claim =
+      context_.store.claim(context_.new_lease(), context_.environment.now());
+  if (!claim.ok()) {
+    context_.log.write(LogLevel::error, "store", {{"detail", std::string_view(claim.status().message())}});
+    return false;
+  }
+  if (!claim->has_value()) {
+    return false;
+  }
+  context_.waiting -= 1;
+  work_on(**claim, context_, runner, stop);
+  return true;
+}
+
+void WorkerPool::run(const std::stop_token& stop) {
+  const std::unique_ptr<Runner> own = make_();
+  Runner& runner = *own;
+  std::uint64_t seen = 0;
+  const auto nap = context_.store.neighbours() == nullptr ? kLongestNap : kLongestSharedNap;
+  while (!stop.stop_requested()) {
+    // Jobs and sweeps alternate, so that neither waits for the end of the other. While sweeps run, the store
+    // is not queried for jobs unless some are known to wait.
+    const bool waited = context_.waiting > 0;
+    const bool worked = waited && claim_and_work(runner, stop);
+    if ((!stop.stop_requested() && context_.sweeps.do_next(runner, stop)) || worked ||
+        (!waited && claim_and_work(runner, stop))) {
+      continue;
+    }
+    // Jobs handed over directly have priority over stored ones, so that no worker idles while jobs wait.
+    std::optional<Handoff> handoff;
+    while ((handoff = context_.handoffs.wait(seen, stop, nap))) {
+      work_on(*handoff, context_, runner, stop);
+      if (context_.waiting > 0 || context_.sweeps.is_left() || stop.stop_requested()) {
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace snapthrough::server

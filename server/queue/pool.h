@@ -1,0 +1,49 @@
+#pragma once
+/// @file
+/// Worker threads, which claim, solve and complete jobs and points of sweeps.
+
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "server/queue/worker_context.h"
+#include "server/worker/runner.h"
+
+namespace snapthrough::server {
+
+/// @brief Solves a claimed job and stores its outcome.
+///
+/// A numerical failure or an exception fails the job; a stop of the service requeues it. A claim that was
+/// lost in the meantime changes nothing. While the store is not writable, the outcome is kept and storing is
+/// repeated as long as the lease may hold.
+void work_on(const Claim& claim, const WorkerContext& context, Runner& runner, const std::stop_token& stop);
+
+/// Solves a job that is still being stored, and stores its outcome.
+void work_on(const Handoff& handoff, const WorkerContext& context, Runner& runner,
+             const std::stop_token& stop);
+
+/// @brief A fixed number of worker threads. Thread-safe; the constructor's arguments must outlive the object.
+class WorkerPool {
+ public:
+  /// @param make makes the runner of a thread; called once on each
+  WorkerPool(int threads, const WorkerContext& context, RunnerFactory make);
+  /// Calls stop() if necessary.
+  ~WorkerPool();
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+  WorkerPool(WorkerPool&&) = delete;
+  WorkerPool& operator=(WorkerPool&&) = delete;
+
+  /// Stops running analyses, and returns when their jobs are requeued. May be called repeatedly.
+  void stop();
+
+ private:
+  void run(const std::stop_token& stop);
+  bool claim_and_work(Runner& runner, const std::stop_token& stop);
+
+  const WorkerContext& context_;
+  RunnerFactory make_;
+  std::vector<std::jthread> threads_;
+};
+
+}  // namespace snapthrough::server

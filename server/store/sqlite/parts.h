@@ -1,0 +1,48 @@
+#pragma once
+/// @file
+/// What the files of the driver give one another. Everything that takes a Connection throws Error.
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "server/store/admission.h"
+#include "server/store/sqlite/database.h"
+#include "server/store/store.h"
+
+namespace snapthrough::server::sqlite {
+
+/// The sweeps of a database. REQUIRES: the database outlives them.
+[[nodiscard]] std::unique_ptr<SweepStore> sweeps_in(Database& database);
+/// The deliveries of a database; triggers (migrations/sqlite/0007_deliveries.sql) fill their table. REQUIRES:
+/// the database outlives them.
+[[nodiscard]] std::unique_ptr<DeliveryStore> deliveries_in(Database& database);
+
+/// @brief Applies the steps that the database lacks in one transaction, and records each in
+/// schema_migrations.
+/// @return see check_applied(). Throws Error when a step fails, or the database can't be read or written: it
+/// is as before then.
+Status migrate(Connection& connection, std::span<const Migration> migrations, Time now);
+
+/// Counts what an owner hands in, or returns as check_quotas() which quota forbids it.
+[[nodiscard]] Status admit(Connection& connection, std::string_view owner, const Quotas& quotas,
+                           const Usage& addition, Time now);
+
+/// Inserts branches with their series, and critical points. @param job number of its row
+void insert_path(Connection& connection, std::int64_t job, const std::vector<Branch>& branches,
+                 const std::vector<CriticalPoint>& critical_points);
+[[nodiscard]] StoredPath read_path(const Connection& connection, std::int64_t job);
+
+// A result document of any length: its first megabyte lies in its row of `results`, the rest in rows of
+// `result_pieces`.
+
+/// The part of a document that its row of `results` holds.
+[[nodiscard]] std::string_view first_piece(std::string_view document);
+/// Inserts the rest. @param job number of its row
+void insert_document_rest(Connection& connection, std::int64_t job, std::string_view document);
+/// At most `most` bytes of the document from `offset` on. @pre the job has a result
+[[nodiscard]] DocumentPiece read_document_piece(const Connection& connection, std::int64_t job,
+                                                std::size_t offset, std::size_t most);
+
+}  // namespace snapthrough::server::sqlite

@@ -1,0 +1,55 @@
+#include "server/worker/unit.h"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "api/sweep_unit.h"
+#include "server/jobs/content_key.h"
+
+namespace snapthrough::server {
+
+std::vector<std::string> SweepUnit::keys(const std::string& outputs, std::string_view owner,
+                                         std::shared_ptr<nlohmann::json>& document) const {
+  const std::string beside = sweep_.follows() ? outputs + sweep_.curve_text(first()) : outputs;
+  std::vector<std::string> all;
+  for (std::uint64_t i = 0; i < count(); ++i) {
+    sweep_.write_document(first() + i, document);
+    all.push_back(point_key(*document, beside, owner));
+  }
+  return all;
+}
+
+std::vector<api::PointOutcome> SweepUnit::compute(const SolveFunction& solve, const Hooks& hooks,
+                                                  std::shared_ptr<nlohmann::json>& document) const {
+  const api::SolvePoint timed = [&solve](const Model& model, const Analysis& analysis, const Hooks& watched) {
+    const auto start = std::chrono::steady_clock::now();
+    Result result = solve(model, analysis, watched);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    return api::TimedResult{std::move(result), elapsed.count()};
+  };
+  return api::unit_outcomes(sweep_, number_, timed, hooks, document);
+}
+
+std::string SweepUnit::too_long(std::chrono::seconds longest) const {
+  return sweep_.follows() ? "the curve took longer than one analysis may take"
+                          : "the analysis took longer than " + std::to_string(longest.count()) + " s";
+}
+
+void compute_units(const UnitTask& task, const SolveFunction& solve) {
+  std::shared_ptr<nlohmann::json> document;
+  for (std::size_t i = 0; i < task.units.size(); ++i) {
+    if (task.stop.stop_requested() || (i > 0 && task.enough && task.enough())) {
+      return;
+    }
+    std::vector<api::PointOutcome> outcomes =
+        SweepUnit(task.sweep, task.units[i]).compute(solve, {task.stop}, document);
+    const bool stopped = api::is_cut_short(outcomes);
+    task.tell(std::move(outcomes));
+    if (stopped) {
+      return;
+    }
+  }
+}
+
+}  // namespace snapthrough::server

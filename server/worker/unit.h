@@ -1,0 +1,54 @@
+#pragma once
+/// @file
+/// Units of a sweep: points that are computed, stored and reused together.
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/sweep.h"
+#include "server/worker/runner.h"
+#include "server/worker/solve_job.h"
+
+namespace snapthrough::server {
+
+/// @brief One point, or one curve (all points along the parameter that is followed). Thread-safe. REQUIRES:
+/// the sweep outlives the unit.
+class SweepUnit {
+ public:
+  /// @param number counted from 0 @pre number < sweep.units()
+  SweepUnit(const api::Sweep& sweep, std::uint64_t number) : sweep_(sweep), number_(number) {}
+
+  /// Number of its first point; its other points follow.
+  [[nodiscard]] std::uint64_t first() const { return number_ * count(); }
+  [[nodiscard]] std::uint64_t count() const { return sweep_.unit_size(); }
+
+  /// @brief Keys of its points (point_key()), in their order. The key of a point of a curve includes the
+  /// curve: following gives other last digits than tracing.
+  /// @param outputs Sweep::outputs_text()
+  /// @param document document of any point of the sweep, overwritten; null: a new one is made
+  [[nodiscard]] std::vector<std::string> keys(const std::string& outputs, std::string_view owner,
+                                              std::shared_ptr<nlohmann::json>& document) const;
+
+  /// @brief Outcomes of its points, in their order (api::unit_outcomes()). Thread-safe if `solve` is.
+  /// @param document see keys()
+  [[nodiscard]] std::vector<api::PointOutcome> compute(const SolveFunction& solve, const Hooks& hooks,
+                                                       std::shared_ptr<nlohmann::json>& document) const;
+
+  /// Sentence for the error of points without outcome after more than `longest`.
+  [[nodiscard]] std::string too_long(std::chrono::seconds longest) const;
+
+ private:
+  const api::Sweep& sweep_;
+  std::uint64_t number_;
+};
+
+/// Computes the units of a task one after the other on this thread and tells the outcomes of each. Ends early
+/// when `enough` says so or a stop is requested.
+void compute_units(const UnitTask& task, const SolveFunction& solve);
+
+}  // namespace snapthrough::server
