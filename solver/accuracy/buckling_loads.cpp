@@ -54,7 +54,7 @@ BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const
     for (std::size_t i = 0; same_count && i < out.errors.size(); ++i)
       out.errors[i] = differences[i].add(now.buckling.loads[i], next.buckling.loads[i]);
     const bool enough = same_count && within(out.errors, analysis.discretization.accuracy);
-    if (fixed || enough || level + 1 == kMostLevels) break;
+    if (fixed || enough || level + 1 == Differences::most_levels) break;
     now = std::move(next);
   }
   return out;

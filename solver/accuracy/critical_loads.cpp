@@ -67,7 +67,7 @@ CriticalLoads::Answer CriticalLoads::answer_for(const Target& target) {
   FoundPoint at = answer.found;
   Differences differences;
   std::vector<MeshAnswer> meshes{said_by(structure_, &at)};
-  for (int number = 1; number <= (fixed ? 1 : kMostLevels); ++number) {
+  for (int number = 1; number <= (fixed ? 1 : Differences::most_levels); ++number) {
     FineMesh* mesh = level(number);
     if (mesh == nullptr) break;
     const auto next = mesh->find(structure_of(number - 1), at.event, structure_, target.before);

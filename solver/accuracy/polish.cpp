@@ -13,17 +13,9 @@
 namespace snapthrough {
 namespace {
 
-/// Search range on either side of a point, over the length of the path so far.
-constexpr double kReach = 0.02;
-/// Factor on kReach for the second search.
-constexpr double kWidening = 6.0;
-
-/// Newton iteration limit. Slow convergence occurs when a foundation is stiffer on the finer mesh.
-constexpr int kMostCorrections = 40;
-
 PathOptions patient(PathOptions options) {
-  options.corrector.max_iterations = kMostCorrections;
-  options.corrector.most_stalled = kMostCorrections;
+  options.corrector.max_iterations = PolishLimits::corrections;
+  options.corrector.most_stalled = PolishLimits::corrections;
   return options;
 }
 
@@ -87,12 +79,11 @@ std::optional<FoundPoint> FineMesh::near(const CriticalEvent& known, const PathP
 
 std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const PathPoint& before,
                                            double distance) {
-  constexpr int kMostSteps = 12;
   auto from = corrected(before, 0.0, distance);
   if (!from) return std::nullopt;
   StepSize size{0.0, distance};
   PathPoint to;
-  for (int n = 0; n < kMostSteps; ++n) {
+  for (int n = 0; n < PolishLimits::steps; ++n) {
     const StepOutcome outcome = follower_.step(*from, size, to);
     if (outcome == StepOutcome::step_underflow) return std::nullopt;
     const LocatedEvents located = outcome == StepOutcome::kinked
@@ -110,7 +101,7 @@ std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const Pat
 
 bool FineMesh::has(const Structure& from, const PathPoint& point) {
   const PathPoint at = transferred(from, point);
-  const double reach = kReach * follower_.norm().metric().norm(at.y, 0.0);
+  const double reach = PolishLimits::reach * follower_.norm().metric().norm(at.y, 0.0);
   if (!(reach > 0.0)) return true;  // no displacement yet
   const auto found = corrected(at, 0.0, reach);
   return found && found->negative == point.negative && follower_.norm().distance(*found, at) <= reach;
@@ -120,7 +111,7 @@ std::optional<CriticalEvent> FineMesh::by_newton(const Structure& from, const Cr
                                                  const PathPoint& at) {
   Eigen::MatrixXd null(structure_.size, known.null.cols());
   for (Eigen::Index i = 0; i < null.cols(); ++i) null.col(i) = transfer(from, known.null.col(i), structure_);
-  const double reach = kReach * kWidening * follower_.norm().search_scale(at);
+  const double reach = PolishLimits::reach * PolishLimits::widening * follower_.norm().search_scale(at);
   return critical_point_near(follower_.solver(), known, at, std::move(null), reach, tolerance_);
 }
 
@@ -136,7 +127,7 @@ std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEv
   if (known.null.size() > 0)
     if (const auto event = by_newton(from, known, at)) return FoundPoint{*event, event->point};
   if (known.type == CriticalType::broken_bifurcation) return std::nullopt;
-  for (const double reach : {kReach * path, kReach * kWidening * path})
+  for (const double reach : {PolishLimits::reach * path, PolishLimits::reach * PolishLimits::widening * path})
     if (auto found = near(known, at, reach)) return found;
   const PathPoint start = transferred(base, before);
   return follow(known, start, follower_.norm().distance(start, at));

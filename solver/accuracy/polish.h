@@ -11,6 +11,17 @@
 
 namespace snapthrough {
 
+/// Numbers of the search for a known critical point. Chosen; half and double of them change no answer
+/// (docs/theory.md).
+struct PolishLimits {
+  /// Range on either side of the point, over the length of the path so far (PathNorm::search_scale()).
+  static constexpr double reach = 0.02;
+  static constexpr double widening = 6.0;  ///< factor on the range for the second search
+  /// Most Newton iterations: they converge slowly where a foundation is stiffer on the finer mesh.
+  static constexpr int corrections = 40;
+  static constexpr int steps = 12;  ///< most steps along the path from the preceding point
+};
+
 /// Critical point on a mesh.
 struct FoundPoint {
   CriticalEvent event;

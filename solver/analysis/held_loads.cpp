@@ -73,12 +73,12 @@ void withdraw_load_not_held(const Model& model, const UnilateralBalance& balance
   if (!load || balance.is_proportional()) return;
   const std::optional<Escape> escape = balance.escape(*load);
   if (!escape) return;
-  constexpr int kDigits = 9;  // significant digits of the reported limit, which is exact to 1e-11
+  // exact to 1e-11, so that nine digits may be reported
   const double most = balance.largest_held(std::min(1.0, *load), *load);
   withdraw_critical_load(result);
   std::erase_if(result.warnings, [](const Warning& warning) { return warning.code == "contact_changes"; });
   fail(result, "not_held",
-       sentence("loads beyond load factor " + rounded(most, kDigits), model, balance, *escape) +
+       sentence("loads beyond load factor " + rounded(most, 9), model, balance, *escape) +
            "; the linearised load factor " + number(*load) + " is beyond it");
 }
 

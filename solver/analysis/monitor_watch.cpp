@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/numeric/rounding.h"
+
 namespace snapthrough {
 
 /// Largest displacement (over the length scale) or rotation (rad) of an element end since the start.
@@ -15,12 +17,11 @@ double MonitorWatch::largest_motion(const Eigen::VectorXd& y) const {
 }
 
 bool MonitorWatch::has_moved(const Eigen::VectorXd& y) const {
-  constexpr double kOfMotion = 1e-9;  // rounding, over the largest displacement
-  constexpr double kOfSize = 1e-12;   // rounding of positions, over the length scale or 1 rad
   if (row_ == nullptr) return false;
   double unit = 0.0;
   for (const auto& [index, weight] : row_->entries) unit = std::max(unit, std::abs(weight));
-  return std::abs(row_->dot(y) - row_->dot(start_)) > unit * std::max(kOfMotion * largest_motion(y), kOfSize);
+  return std::abs(row_->dot(y) - row_->dot(start_)) >
+         unit * std::max(Rounding::motion * largest_motion(y), Rounding::distance);
 }
 
 void MonitorWatch::on_point(const PathPoint& point) {

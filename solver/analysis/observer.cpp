@@ -9,12 +9,6 @@
 #include "solver/report/state.h"
 
 namespace snapthrough {
-namespace {
-
-/// Strain above which strain measures differ by some per cent and few materials are linear.
-constexpr double kSmallStrain = 0.05;
-
-}  // namespace
 
 void Observer::note_strain(const Eigen::VectorXd& y, double lambda, int branch) {
   if (!gauge_.raise(y, largest_)) return;
@@ -34,12 +28,12 @@ void Observer::finish(Result& result) {
       widen_extremes(state.members, state.branch, state.load_factor, extremes_);
     result.extremes = std::move(extremes_);
   }
-  if (largest_.strain <= kSmallStrain) return;
+  if (largest_.strain <= StrainLimits::small) return;
   result.warnings.push_back(
       {"large_strain", "the strain reaches " + rounded(largest_.strain) + " in member \"" +
                            model_.members[largest_.member].id + "\" at s = " + rounded(largest_.s) +
                            ", load factor " + number(strained_load_) + " on branch " +
-                           std::to_string(strained_branch_) + ": beyond " + rounded(kSmallStrain) +
+                           std::to_string(strained_branch_) + ": beyond " + rounded(StrainLimits::small) +
                            " the linear law of the sections does not hold"});
 }
 

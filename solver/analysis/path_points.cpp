@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "solver/numeric/rounding.h"
 #include "solver/path/segment.h"
 
 namespace snapthrough {
@@ -22,7 +23,6 @@ int negative_at(const PathPoint& from, const std::vector<CriticalEvent>& critica
 
 std::vector<PathPoint> PathPoints::spread(PointSolver& solver, int count, const std::stop_token& stop,
                                           int& missing) const {
-  constexpr double kSamePlace = 1e-12;  // distance over the branch's length that counts as zero
   std::vector<PathPoint> out;
   missing = 0;
   if (accepted_.empty()) return out;
@@ -35,7 +35,7 @@ std::vector<PathPoint> PathPoints::spread(PointSolver& solver, int count, const 
     const PathPoint& to = accepted_[i + 1].point;
     const auto first = static_cast<std::ptrdiff_t>(out.size());
     for (const CriticalEvent& event : accepted_[i].then) {
-      if (to.arc_length - event.point.arc_length <= kSamePlace * length) continue;
+      if (to.arc_length - event.point.arc_length <= Rounding::distance * length) continue;
       out.push_back(event.point);
       out.back().negative = event.negative_after;
     }

@@ -27,6 +27,12 @@ namespace {
 
 using Eigen::VectorXd;
 
+/// Shares of a foundation's range, ratios. Chosen: they decide what a message says, and no number.
+struct ContactShareLimits {
+  static constexpr double touching = 1e-6;  ///< share that is within the tolerance of touching
+  static constexpr double same = 0.01;      ///< difference of shares that is ignored
+};
+
 /// Bilateral part and total of a foundation's range, scaled lengths.
 struct GluedLength {
   double glued = 0.0;
@@ -66,10 +72,9 @@ ContactShares shares_of(const Structure& structure, const Model& laws, const Str
   return out;
 }
 
-/// Share in per cent; shares below 1e-6 are within the tolerance of touching and print as zero.
+/// Share in per cent; shares within the tolerance of touching print as zero.
 std::string percent(double share) {
-  constexpr double kNothing = 1e-6;  // share of a range that is within the tolerance of touching
-  return rounded(share > kNothing ? 100.0 * share : 0.0) + " %";
+  return rounded(share > ContactShareLimits::touching ? 100.0 * share : 0.0) + " %";
 }
 
 /// Message on the one-sided foundations that count as bilateral.
@@ -93,7 +98,6 @@ bool contact_depends_on_load(const Structure& structure, const Model& laws) {
 /// linearised analysis is based.
 void warn_of_changed_contact(const Structure& structure, const Model& laws, StructuralProblem& problem,
                              const LinearBuckling& buckling, Result& result) {
-  constexpr double kSameShare = 0.01;  // difference of a foundation's contact shares that is ignored
   if (!structure.one_sided || !result.summary.critical_load_factor ||
       !contact_depends_on_load(structure, laws))
     return;
@@ -104,7 +108,7 @@ void warn_of_changed_contact(const Structure& structure, const Model& laws, Stru
   std::string changes;
   for (const auto& [id, length] : reference.foundations) {
     const double then = critical.foundations.at(id).share();
-    if (std::abs(then - length.share()) <= kSameShare) continue;
+    if (std::abs(then - length.share()) <= ContactShareLimits::same) continue;
     changes += "; foundation " + id + " touches on " + percent(length.share()) +
                " of its range under the reference load and on " + percent(then) + " under the critical load";
   }

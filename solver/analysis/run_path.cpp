@@ -9,6 +9,7 @@
 
 #include "solver/accuracy/critical_loads.h"
 #include "solver/accuracy/layers.h"
+#include "solver/accuracy/polish.h"
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/monitor_watch.h"
 #include "solver/analysis/recorder.h"
@@ -17,6 +18,7 @@
 #include "solver/hooks.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/numeric/number_text.h"
+#include "solver/numeric/rounding.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/skipped.h"
 #include "solver/report/strain.h"
@@ -27,13 +29,18 @@
 namespace snapthrough {
 namespace {
 
-/// Step limit of a search for the loss of stability, which has no bounds in the request. Reached only by
-/// paths that do not progress or leave the range of the theory.
-constexpr int kMostStepsOfSearch = 20000;
-
-/// Negative eigenvalues that a path may gain when no rule of the request is certain to end it. A straight
-/// column under axial load meets a hundred bifurcations before the bound on its load.
-constexpr int kMostLosses = 10;
+/// Limits of a path where the request has none. Chosen; docs/requests.md and docs/theory.md tell them.
+struct PathLimits {
+  /// Steps of a search for the loss of stability: only paths that do not progress or leave the range of the
+  /// theory reach them.
+  static constexpr int search_steps = 20000;
+  /// Negative eigenvalues that a path may gain: a straight column under axial load meets a hundred
+  /// bifurcations before the bound on its load.
+  static constexpr int losses = 10;
+  static constexpr int branches = 20;  ///< branches that are followed
+  static constexpr int meshes = 4;     ///< successively finer meshes on which the path is followed
+  static constexpr double work = 1e7;  ///< elements times factorisations of a path: about ten seconds
+};
 
 const SparseRow* row_of(const Structure& structure, const std::string& monitor) {
   const auto found = std::find_if(structure.monitors.begin(), structure.monitors.end(),
@@ -46,7 +53,7 @@ TraceRules rules_of(const Model& model, const Analysis& analysis, const Structur
   rules.locate = locate_options(model, analysis);
   if (analysis.type == AnalysisType::critical) {
     rules.first_loss_of_stability = true;
-    rules.steps = kMostStepsOfSearch;
+    rules.steps = PathLimits::search_steps;
     rules.beyond_theory = [gauge = StrainGauge(structure, model)](const PathPoint& at) {
       return gauge.is_beyond_theory(at.y);
     };
@@ -78,15 +85,15 @@ const SparseRow* row_of_stop(const Structure& structure, const Analysis& analysi
 }
 
 /// @brief Limits the negative eigenvalues of a path: to the request's bound; else, without a bound on load
-/// factor or steps, to kMostLosses more than at the start plus one per requested limit point. The latter
-/// limit is suspended while the monitor of a stop rule moves.
+/// factor or steps, to PathLimits::losses more than at the start plus one per requested limit point. The
+/// latter limit is suspended while the monitor of a stop rule moves.
 /// @param watch must outlive `rules`
 void bound_negative(const Analysis& analysis, int at_start, const MonitorWatch& watch, TraceRules& rules) {
   const StopRules& stop = analysis.stop;
   if (analysis.type != AnalysisType::path) return;
   rules.most_negative = stop.negative_eigenvalues;
   if (rules.most_negative || stop.load_factor || stop.steps) return;
-  rules.most_negative = at_start + kMostLosses + stop.limit_points.value_or(0);
+  rules.most_negative = at_start + PathLimits::losses + stop.limit_points.value_or(0);
   rules.most_negative_waits = [&watch](const PathPoint& at) { return watch.has_moved(at.y); };
 }
 
@@ -169,21 +176,20 @@ void describe_end(const Analysis& analysis, const TraceOutcome& outcome, double 
   if (end->failure) fail(result, end->code, message);
 }
 
-/// Message on the critical points that meshes do not agree on; at most kMost points.
+/// Message on the critical points that meshes do not agree on; at most MessageLimits::items points.
 std::string disagreements(const Result& result) {
-  constexpr int kMost = 3;  // points that the message lists
   std::string text;
   int left = 0;
   for (const CriticalPoint& point : result.critical_points) {
     if (point.confirmed) continue;
-    if (++left > kMost) continue;
+    if (++left > MessageLimits::items) continue;
     text += "; " + std::string(name_of(point.type)) + " at " + number(point.load_factor) + ":";
     for (const MeshAnswer& mesh : point.meshes)
       text += " " + std::to_string(mesh.elements) + " elements of order " + std::to_string(mesh.order) + " " +
               (mesh.load_factor ? number(*mesh.load_factor) : std::string("nothing")) + ",";
     text.pop_back();
   }
-  if (left > kMost) text += "; and " + std::to_string(left - kMost) + " more";
+  if (left > MessageLimits::items) text += "; and " + std::to_string(left - MessageLimits::items) + " more";
   return text;
 }
 
@@ -247,8 +253,8 @@ class BranchFollower {
         loads_(loads),
         watch_(watch),
         hooks_(hooks) {
-    constexpr int kMostBranches = 20;  // branches followed unless the request has a limit
-    limit_ = analysis.branches.limit.value_or(analysis.branches.follow == Follow::first ? 2 : kMostBranches);
+    limit_ = analysis.branches.limit.value_or(
+        analysis.branches.follow == Follow::first ? 2 : PathLimits::branches);
   }
 
   void add(const TraceOutcome& outcome, int branch);
@@ -323,9 +329,8 @@ Complete completer(const Model& model, const Analysis& analysis, const PathNorm&
                    Result& result) {
   if (analysis.sensitivities.empty() && !analysis.koiter) return {};
   return [&](const Structure& structure, const CriticalEvent& event, CriticalPoint& point) {
-    constexpr double kReach = 0.02;  // reach over the path length
-    const LocatedPoint at{event, norm.metric().load_weight, kReach * norm.search_scale(event.point),
-                          norm.least_load()};
+    const LocatedPoint at{event, norm.metric().load_weight,
+                          PolishLimits::reach * norm.search_scale(event.point), norm.least_load()};
     int& factorisations = result.diagnostics.factorizations;
     const auto offsets = [&](const Model& changed) { return mode_offsets(changed, analysis, hooks.stop); };
     if (!analysis.sensitivities.empty())
@@ -418,10 +423,9 @@ std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
 }  // namespace
 
 LocateOptions locate_options(const Model& model, const Analysis& analysis) {
-  constexpr double kRounding = 1e-13;  // largest imperfection caused by rounding of nodal coordinates
   LocateOptions options;
   // an imperfection of the request breaks bifurcations, however small
-  if (!model.imperfections.empty()) options.perfect = kRounding;
+  if (!model.imperfections.empty()) options.perfect = Rounding::imperfection;
   if (analysis.discretization.fixed_mesh) return options;
   options.tolerance = std::min(1e-7, 1e-3 * analysis.discretization.accuracy);
   // a broken bifurcation has its limit point, if any, lower by about 10 e^(2/3)
@@ -441,9 +445,6 @@ bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) 
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
               Result& result) {
-  constexpr int kMostPaths = 4;  // paths on successively finer meshes
-  // limit on elements times factorisations of the next path, about ten seconds
-  constexpr double kMostWork = 1e7;
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
   std::vector<CriticalPoint> earlier;
@@ -457,10 +458,11 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     report_path_mesh(*mesh, paths, result);
     result.diagnostics.skipped = mesh->skipped;
     if (confirmed || analysis.discretization.fixed_mesh || hooks.stop.stop_requested()) return;
-    if (paths == kMostPaths) break;
+    if (paths == PathLimits::meshes) break;
     auto next = much_finer(*mesh, model, decays);
     if (!next) break;
-    if (static_cast<double>(factorizations) * static_cast<double>(next->elements.size()) > kMostWork) break;
+    if (static_cast<double>(factorizations) * static_cast<double>(next->elements.size()) > PathLimits::work)
+      break;
     earlier = result.critical_points;
     finer = on_mesh(structure, model, *std::move(next));
     mesh = &*finer;

@@ -18,9 +18,20 @@
 namespace snapthrough {
 namespace {
 
-/// Stiffness ratio below which a structure counts as nearly unstable: a small force along the softest motion
-/// then displaces the structure ten times as far as in the unloaded state.
-constexpr double kNearlyUnstable = 0.1;
+/// Numbers of the search for the least stiffness; ratios without unit. Source: docs/decisions/0019.
+struct SoftestSearch {
+  /// Stiffness over the unloaded structure's below which a structure counts as nearly unstable: a small force
+  /// along the softest motion then displaces it ten times as far as in the unloaded state.
+  static constexpr double nearly_unstable = 0.1;
+  static constexpr double least_share = 0.1;    ///< least distance of a trial from either end of the bracket
+  static constexpr int trials = 8;              ///< corrected points in a bracket of the minimum
+  static constexpr int trials_to_critical = 4;  ///< corrected points before a critical point
+  /// Zero of the tangent, over the distance to the critical point, below which the stiffness has an
+  /// inflection.
+  static constexpr double straight = 0.7;
+  static constexpr double same_load = 1e-3;       ///< relative width of the final bracket, in load
+  static constexpr double same_stiffness = 1e-2;  ///< relative uncertainty of the least stiffness
+};
 
 /// Index of the softest mode of a point; empty when modes are unknown or fewer than the negative eigenvalues.
 std::optional<Eigen::Index> least_mode(const PathPoint& point) {
@@ -51,10 +62,9 @@ double lower_bound(const Stiffness& a, const Stiffness& b, double length) {
 
 /// Position in [0, 1] of the minimum of the cubic Hermite interpolant between a and b.
 double place_of_minimum(const Stiffness& a, const Stiffness& b, double length) {
-  // least distance from either end, so that the bracket shrinks from both sides
-  constexpr double kLeastShare = 0.1;
   const Cubic cubic{a.value, length * a.rate, b.value, length * b.rate};
-  return std::clamp(cubic.minimum().value_or(0.5), kLeastShare, 1.0 - kLeastShare);
+  return std::clamp(cubic.minimum().value_or(0.5), SoftestSearch::least_share,
+                    1.0 - SoftestSearch::least_share);
 }
 
 std::string warning_text(const Softest& softest, const Summary& summary, const std::string& motion) {
@@ -92,7 +102,7 @@ void SoftestPoint::add_step(const PathPoint& from, const PathPoint& to) {
     return;
   }
   if (from.negative > 0 || to.negative > 0) return;
-  if (lowest_ && ratio(*lowest_).value_or(1.0) < kNearlyUnstable) return;
+  if (lowest_ && ratio(*lowest_).value_or(1.0) < SoftestSearch::nearly_unstable) return;
   const auto a = stiffness_of(from);
   const auto b = stiffness_of(to);
   if (!a || !b || !(a->rate < 0.0)) return;
@@ -120,15 +130,13 @@ void SoftestPoint::search_before_fall(const PathPoint& from, const PathPoint& to
 }
 
 void SoftestPoint::search_before_critical(PathPoint from) {
-  constexpr int kMostLooks = 4;      // corrected points per search
-  constexpr double kStraight = 0.7;  // tangent's zero before this fraction of the interval: inflection
-  for (int i = 0; i < kMostLooks; ++i) {
+  for (int i = 0; i < SoftestSearch::trials_to_critical; ++i) {
     const auto a = stiffness_of(from);
     if (!a || from.negative > 0 || !(a->rate < 0.0)) return;
-    if (lowest_ && ratio(*lowest_).value_or(1.0) < kNearlyUnstable) return;
+    if (lowest_ && ratio(*lowest_).value_or(1.0) < SoftestSearch::nearly_unstable) return;
     const double share = a->value / (-a->rate * solver_.norm().distance(from, *critical_));
-    if (!(share < kStraight)) return;
-    auto middle = Segment(solver_, from, *critical_).point_at(std::max(share, 0.1));
+    if (!(share < SoftestSearch::straight)) return;
+    auto middle = Segment(solver_, from, *critical_).point_at(std::max(share, SoftestSearch::least_share));
     if (!middle) return;
     solver_.find_modes(*middle, from.modes);
     const auto m = stiffness_of(*middle);
@@ -141,17 +149,14 @@ void SoftestPoint::search_before_critical(PathPoint from) {
 }
 
 void SoftestPoint::search(PathPoint low, PathPoint high) {
-  constexpr int kMostLooks = 8;            // corrected points per search
-  constexpr double kSameLoad = 1e-3;       // relative load factor difference at the minimum
-  constexpr double kSameStiffness = 1e-2;  // relative stiffness difference at the minimum
-  for (int i = 0; i < kMostLooks; ++i) {
+  for (int i = 0; i < SoftestSearch::trials; ++i) {
     const auto a = stiffness_of(low);
     const auto b = stiffness_of(high);
     const double length = solver_.norm().distance(low, high);
     const double least = std::min(a->value, b->value);
     const bool is_near = std::abs(high.lambda - low.lambda) <=
-                         kSameLoad * std::max(std::abs(low.lambda), std::abs(high.lambda));
-    if (is_near && lower_bound(*a, *b, length) >= (1.0 - kSameStiffness) * least) break;
+                         SoftestSearch::same_load * std::max(std::abs(low.lambda), std::abs(high.lambda));
+    if (is_near && lower_bound(*a, *b, length) >= (1.0 - SoftestSearch::same_stiffness) * least) break;
     auto middle = Segment(solver_, low, high).point_at(place_of_minimum(*a, *b, length));
     if (!middle) break;
     solver_.find_modes(*middle, low.modes);
@@ -183,7 +188,7 @@ void SoftestPoint::report(const Structure& structure, const Model& model, const 
                                  analysis.output.points_per_member);
   scale_to_largest(mode);
   Softest softest{lowest_->lambda / structure.scales.load, *least, {}};
-  if (*least < kNearlyUnstable) {
+  if (*least < SoftestSearch::nearly_unstable) {
     const std::string text = warning_text(softest, summary, motion_text(mode, model));
     result.warnings.push_back({"nearly_unstable", text});
     summary.message = text + "; " + summary.message;
@@ -193,7 +198,6 @@ void SoftestPoint::report(const Structure& structure, const Model& model, const 
 }
 
 AtCritical at_critical(const Structure& structure, const Model& model, const Eigen::VectorXd& y) {
-  constexpr std::array<double, 5> kPlaces{0.0, 0.25, 0.5, 0.75, 1.0};
   AtCritical out;
   std::array<double, 2> least{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
   std::array<double, 2> most{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
@@ -201,7 +205,7 @@ AtCritical at_critical(const Structure& structure, const Model& model, const Eig
     const MeshElement& cell = structure.mesh.elements[e];
     const AxisCurve& axis = *structure.axes[static_cast<std::size_t>(cell.member)];
     const ElementReader reader(structure, y, static_cast<int>(e));
-    for (const double xi : kPlaces) {
+    for (const double xi : {0.0, 0.25, 0.5, 0.75, 1.0}) {
       const auto u = reader.displacement(xi);
       out.displacement = std::max(out.displacement, structure.scales.length * std::hypot(u[0], u[1]));
       out.rotation = std::max(out.rotation, std::abs(u[2]));

@@ -15,6 +15,13 @@ namespace snapthrough {
 
 namespace {
 
+/// Limits of the first state of a path; ratios without unit. Chosen.
+struct StartLimits {
+  /// Distance of the equilibrium from the given state, over the norm of the given displacements.
+  static constexpr double given_state = 0.02;
+  static constexpr double first_load = 1e-2;  ///< first step of the constant actions, share of them
+};
+
 /// Explains why no equilibrium was found under the first small load.
 std::string nothing_found(const Model& model, const Structure& structure, const PathStart& start) {
   const Eigen::VectorXd& motion = start.free_motion;
@@ -70,8 +77,6 @@ PathPoint fully_loaded(PointSolver& solver, const PathPoint& end) {
 
 PathStart start_at_state(const Model& model, const Structure& structure, PointSolver& solver,
                          const Analysis& analysis, Result& result) {
-  // allowed distance of the equilibrium over the norm of the given displacements
-  constexpr double kNear = 0.02;
   const StartState& state = *analysis.start;
   Eigen::VectorXd given;
   try {
@@ -96,7 +101,7 @@ PathStart start_at_state(const Model& model, const Structure& structure, PointSo
   const PathMetric& metric = solver.norm().metric();
   const double moved = metric.norm(start.point->y - given, 0.0);
   const double size = metric.norm(given, 0.0);
-  if (moved <= kNear * size) return start;
+  if (moved <= StartLimits::given_state * size) return start;
   fail(result, "no_start",
        "the equilibrium that was found" + where + " differs from it by " + rounded(moved / size) +
            " of its displacement gradients (root mean square): it is a state of another model");
@@ -112,13 +117,12 @@ PathStart start_of_path(const Model& model, const Structure& structure, Structur
     return start;
   }
   problem.set_stage(StructuralProblem::Stage::constant);
-  constexpr double kLargestFirstLoad = 1e-2;  // share of the constant actions
   PathFollower loading(problem);
   TraceRules rules;
   rules.load = {{-1.0, 1.0}};
   rules.limit_points = 1;
   UnloadedPoint unloaded(on_unloaded);
-  const PathStart first = find_start(loading.solver(), 1.0, kLargestFirstLoad);
+  const PathStart first = find_start(loading.solver(), 1.0, StartLimits::first_load);
   const TraceOutcome outcome = trace(loading, first.point, rules, {}, {&unloaded}, hooks.stop);
   problem.set_stage(StructuralProblem::Stage::proportional);
   add_statistics(loading.statistics(), result);

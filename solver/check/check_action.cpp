@@ -7,6 +7,7 @@
 
 #include "solver/check/check_parts.h"
 #include "solver/model/limits.h"
+#include "solver/numeric/number_text.h"
 
 namespace snapthrough::checks {
 
@@ -107,14 +108,14 @@ std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
 
 /// Members at a node, with the verb: 'member "a" is', 'members "a", "b" and 7 more are'.
 std::string members_at(const Model& model, const std::string& node) {
-  constexpr int kMostNames = 5;  // ids that a message lists
   std::string text;
   int count = 0;
   for (const Member& member : model.members) {
     if (member.start != node && member.end != node) continue;
-    if (++count <= kMostNames) text += (count > 1 ? ", " : "") + in_quotes(member.id);
+    if (++count <= MessageLimits::members_at_node) text += (count > 1 ? ", " : "") + in_quotes(member.id);
   }
-  if (count > kMostNames) text += " and " + std::to_string(count - kMostNames) + " more";
+  if (count > MessageLimits::members_at_node)
+    text += " and " + std::to_string(count - MessageLimits::members_at_node) + " more";
   return count == 1 ? "member " + text + " is" : "members " + text + " are";
 }
 

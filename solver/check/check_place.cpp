@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/model/limits.h"
+#include "solver/numeric/number_text.h"
 
 namespace snapthrough::checks {
 
@@ -39,8 +40,7 @@ std::string text(double value) {
 }
 
 std::string in_quotes(std::string_view id) {
-  constexpr std::size_t kShown = 60;  // bytes of an id that a message shows
-  std::size_t length = std::min(id.size(), kShown);
+  std::size_t length = std::min(id.size(), MessageLimits::id_bytes);
   while (length < id.size() && length > 0 && (static_cast<unsigned char>(id[length]) & 0xC0U) == 0x80U) {
     --length;  // do not cut inside a UTF-8 sequence
   }

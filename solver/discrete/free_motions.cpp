@@ -6,6 +6,7 @@
 
 #include "solver/discrete/mechanism.h"
 #include "solver/numeric/dense.h"
+#include "solver/numeric/rounding.h"
 #include "solver/support/joined_supports.h"
 
 namespace snapthrough {
@@ -29,8 +30,7 @@ MatrixXd FreeMotions::of_nodes() const {
   for (Index i = 0; i < motions_.cols(); ++i) nodes.col(i) = mechanism_->of_nodes(motions_.col(i));
   const MatrixXd motions = orthonormal_columns(nodes);
   // remove rounding in rows of fixed nodes, which would couple independent parts
-  constexpr double kRounding = 1e-14;
-  return (motions.array().abs() > kRounding).select(motions, 0.0);
+  return (motions.array().abs() > Rounding::unit_component).select(motions, 0.0);
 }
 
 MatrixXd free_motions(const Model& model) { return FreeMotions(model).of_nodes(); }

@@ -19,7 +19,7 @@ class FreeMotions {
   explicit FreeMotions(const Model& model);
 
   [[nodiscard]] bool empty() const { return motions_.cols() == 0; }
-  /// Orthonormal columns over the unknowns of parts(); at most kMostMotions.
+  /// Orthonormal columns over the unknowns of parts(); at most MechanismLimits::motions.
   [[nodiscard]] const Eigen::MatrixXd& motions() const { return motions_; }
   /// @pre not empty
   [[nodiscard]] const RigidParts& parts() const { return mechanism_->parts(); }

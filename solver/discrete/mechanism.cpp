@@ -17,6 +17,14 @@
 namespace snapthrough {
 namespace {
 
+/// Limits of the fast test whether a structure is held; chosen far on the safe side of rounding, because a
+/// model beyond them is only tested in full.
+struct PlainlyHeldLimits {
+  static constexpr std::size_t members = 10;  ///< most members
+  static constexpr double stiffness = 1e-3;   ///< least stiffness over the largest
+  static constexpr double restraint = 1e-3;   ///< least restraint, see firmness()
+};
+
 /// Length of a straight member or an arc; empty for other curves.
 std::optional<double> length_of(const Model& model, const Member& member) {
   const Node& a = model.nodes[index_of(model.nodes, member.start)];
@@ -64,10 +72,7 @@ double firmness(const Model& model, double length) {
 }  // namespace
 
 bool is_plainly_held(const Model& model) {
-  constexpr std::size_t kFew = 10;      // largest number of members of the fast test
-  constexpr double kComparable = 1e-3;  // least ratio of stiffnesses
-  constexpr double kFirm = 1e-3;        // least restraint, see firmness()
-  if (model.members.size() > kFew || model.supports.empty()) return false;
+  if (model.members.size() > PlainlyHeldLimits::members || model.supports.empty()) return false;
   double length = 0.0;
   double least_EI = std::numeric_limits<double>::infinity();
   double largest_EI = 0.0;
@@ -81,9 +86,9 @@ bool is_plainly_held(const Model& model) {
     largest_EI = std::max(largest_EI, section.EI);
     least_force = std::min({least_force, section.EA, section.GA.value_or(section.EA)});
   }
-  return least_EI >= kComparable * largest_EI &&
-         least_force >= kComparable * largest_EI / (length * length) && is_connected(model) &&
-         firmness(model, length) >= kFirm;
+  return least_EI >= PlainlyHeldLimits::stiffness * largest_EI &&
+         least_force >= PlainlyHeldLimits::stiffness * largest_EI / (length * length) &&
+         is_connected(model) && firmness(model, length) >= PlainlyHeldLimits::restraint;
 }
 
 bool can_move(const Model& model) { return !RigidMechanism(model, true).motions().empty(); }
@@ -97,9 +102,9 @@ std::vector<Finding> find_mechanism(const Model& model) {
          "these members connect far nodes in so many ways that their equations fill up: neither whether the "
          "structure can move nor what it does under load can be computed in reasonable time"}};
   if (mechanism.motions().empty()) return {};
-  if (mechanism.motions().size() == kMostMotions)
+  if (mechanism.motions().size() == MechanismLimits::motions)
     return {{"/model/supports", "mechanism",
-             "supports and foundations leave at least " + std::to_string(kMostMotions) +
+             "supports and foundations leave at least " + std::to_string(MechanismLimits::motions) +
                  " motions without strain: more than an analysis can hold"}};
   std::optional<Eigen::VectorXd> motion = mechanism.driven_by(Pattern::proportional);
   if (!motion) motion = mechanism.driven_by(Pattern::constant);

@@ -8,13 +8,10 @@
 #include "solver/discrete/rigid_loads.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/null_space.h"
+#include "solver/numeric/rounding.h"
 
 namespace snapthrough {
 namespace {
-
-/// Sine of the angle below which two directions are parallel. Three hinges this close to a line can move, and
-/// so can a body whose supports' lines of action pass this close to one point.
-constexpr double kOneDirection = 1e-6;
 
 using Row = RigidParts::Row;
 
@@ -101,7 +98,7 @@ void Holding::add(const Spring& spring) {
 void Holding::add(const Foundation& foundation) {
   const int member = parts_.member(foundation.member);
   const bool straight = parts_.axes()[static_cast<std::size_t>(member)]->straight();
-  const Quadrature points = gauss_legendre(straight ? 2 : 6);
+  const Quadrature points = gauss_legendre(straight ? 2 : MechanismLimits::places_on_curve);
   for (const double point : points.points) {
     const AxisPoint at =
         parts_.place(member, foundation.range[0] + point * (foundation.range[1] - foundation.range[0]));
@@ -126,9 +123,10 @@ RigidMechanism::RigidMechanism(const Model& model, bool one_sided) : parts_(mode
   rows.insert(rows.end(), holding.held.begin(), holding.held.end());
   std::vector<Row> sizes = parts_.turns();
   sizes.insert(sizes.end(), holding.moved.begin(), holding.moved.end());
-  NullSpace space(matrix_of(rows, parts_.unknowns()), matrix_of(sizes, parts_.unknowns()), kOneDirection);
+  NullSpace space(matrix_of(rows, parts_.unknowns()), matrix_of(sizes, parts_.unknowns()),
+                  MechanismLimits::one_direction);
   unknown_ = space.too_dense();
-  while (motions_.size() < kMostMotions) {
+  while (motions_.size() < MechanismLimits::motions) {
     std::optional<Eigen::VectorXd> motion = space.next();
     if (!motion) break;
     motions_.push_back(std::move(*motion));
@@ -150,26 +148,24 @@ Eigen::VectorXd RigidMechanism::of_nodes(const Eigen::VectorXd& motion) const {
 }
 
 std::size_t RigidMechanism::node_of(const Eigen::VectorXd& motion) const {
-  // factor that prefers the first of several equal displacements despite rounding
-  constexpr double kMore = 1.0 + 1e-9;
   const Eigen::VectorXd moved = of_nodes(motion);
   Eigen::Index node = 0;
   for (Eigen::Index j = 1; 3 * j < moved.size(); ++j)
     if (moved.segment<3>(3 * j).lpNorm<Eigen::Infinity>() >
-        kMore * moved.segment<3>(3 * node).lpNorm<Eigen::Infinity>())
+        Rounding::first_of_equal * moved.segment<3>(3 * node).lpNorm<Eigen::Infinity>())
       node = j;
   return static_cast<std::size_t>(node);
 }
 
 std::optional<Eigen::VectorXd> RigidMechanism::driven_by(Pattern pattern) const {
-  constexpr double kRounding = 1e-9;  // work over forces times largest displacement that counts as zero
   const RigidLoads loading(parts_, pattern);
   Eigen::VectorXd driven = Eigen::VectorXd::Zero(parts_.unknowns());
   for (const Eigen::VectorXd& motion : motions_) driven += loading.forces().dot(motion) * motion;
   const double work = driven.norm();  // work on the motion normalised to length one
   if (work == 0.0) return std::nullopt;
   driven /= work;
-  if (!(work > kRounding * loading.size() * of_nodes(driven).lpNorm<Eigen::Infinity>())) return std::nullopt;
+  if (!(work > Rounding::motion * loading.size() * of_nodes(driven).lpNorm<Eigen::Infinity>()))
+    return std::nullopt;
   return driven;
 }
 

@@ -12,8 +12,15 @@
 
 namespace snapthrough {
 
-/// Largest number of motions searched for: those of eight unsupported bodies.
-inline constexpr std::size_t kMostMotions = 24;
+/// Limits of the search for motions of rigid parts.
+struct MechanismLimits {
+  static constexpr std::size_t motions = 24;  ///< motions searched for: those of eight unsupported bodies
+  /// Sine of the angle below which two directions are parallel. Three hinges this close to a line can move,
+  /// and so can a body whose supports' lines of action pass this close to one point.
+  static constexpr double one_direction = 1e-6;
+  /// Places of a foundation on a curved member whose displacements span those of all its places.
+  static constexpr int places_on_curve = 6;
+};
 
 /// @brief Strain-free motions that the supports of a model allow.
 class RigidMechanism {

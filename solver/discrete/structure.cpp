@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "solver/model/id_index.h"
 #include "solver/numeric/max_order.h"
 #include "solver/numeric/number_text.h"
+#include "solver/numeric/rounding.h"
 #include "solver/support/joined_supports.h"
 
 namespace snapthrough {
@@ -429,9 +429,8 @@ bool Builder::is_moved_by_constant_actions() const {
     free.segment<2>(3 * node) = along;
     if (support.fixed[2]) free[3 * node + 2] = 0.0;
   }
-  // force over the largest constant action that counts as zero
-  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
-  return free.lpNorm<Eigen::Infinity>() > kRounding * out_.constant_load.lpNorm<Eigen::Infinity>();
+  return free.lpNorm<Eigen::Infinity>() >
+         Rounding::last_places * out_.constant_load.lpNorm<Eigen::Infinity>();
 }
 
 /// Finds movable nodes where the pressures of the adjacent lines do not cancel.

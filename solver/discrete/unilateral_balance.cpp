@@ -11,6 +11,7 @@
 #include "solver/numeric/dense.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/nonnegative_least_squares.h"
+#include "solver/numeric/rounding.h"
 
 namespace snapthrough {
 namespace {
@@ -20,18 +21,27 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Row = RigidParts::Row;
 
-/// Least share of the loads on a group that each independent support must be able to carry; loads closer to
-/// the limit of equilibrium count as not held. Far above rounding, far below the accuracy of any load.
-constexpr double kMargin = 1e-8;
-/// Residual over the load below which pressures balance the load: some thousand roundings, far below kMargin.
-constexpr double kBalanced = 1e-12;
-/// Sum of forces on free motions over the sum of their magnitudes (or of a support row's entries) that counts
-/// as zero: rounding of coordinates.
-constexpr double kNothing = 1e-9;
-/// Cosine of the angle between two supports' rows below which the supports are uncoupled.
-constexpr double kUncoupled = 1e-9;
-/// Factor on the proportional actions, relative to the constant ones, that stands for a very small load.
-constexpr double kFirstLoad = 1e-6;
+/// Numbers of the balance of loads on one-sided supports. Source: docs/decisions/0018.
+struct BalanceLimits {
+  /// Least share of the loads on a group that each independent support must be able to carry; loads closer to
+  /// the limit of equilibrium count as not held. Far above rounding, far below the accuracy of any load.
+  static constexpr double margin = 1e-8;
+  /// Residual over the load below which pressures balance it: some thousand roundings, far below the margin.
+  static constexpr double residual = 1e-12;
+  static constexpr double uncoupled = 1e-9;    ///< cosine between two supports' rows that are uncoupled
+  static constexpr double first_load = 1e-6;   ///< proportional over constant actions: a very small load
+  static constexpr double load_width = 1e-11;  ///< relative width of the final bracket of the limit load
+  static constexpr int rounds = 100;           ///< times that places of curved supports are added, at most
+  /// Displacement into a support (a cosine) that is allowed: this share of the residual, within the bounds.
+  static constexpr double entered_share = 1e-3;
+  static constexpr double least_entered = 1e-13;  ///< lower bound: rounding
+  static constexpr double most_entered = 1e-8;    ///< upper bound
+  /// Samples of an axis per half turn, within which the displacement into a support has one or two maxima.
+  static constexpr double places_by_half_turn = 16.0;
+  static constexpr std::size_t places_by_knot = 4;  ///< samples per spline knot
+  /// Steps of a golden section search: to 1e-10 of the interval, where the maximum is exact to rounding.
+  static constexpr int golden_steps = 48;
+};
 
 void append(const VectorXd& column, MatrixXd& matrix) {
   matrix.conservativeResize(column.size(), matrix.cols() + 1);
@@ -40,14 +50,12 @@ void append(const VectorXd& column, MatrixXd& matrix) {
 /// Position of the maximum of a unimodal function on an interval (golden section search).
 template <class Function>
 double place_of_maximum(double lo, double hi, const Function& value) {
-  // interval reduced to 1e-10, at which the maximum value is exact to rounding
-  constexpr int kMostSteps = 48;
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
   double left = hi - golden * (hi - lo);
   double right = lo + golden * (hi - lo);
   double at_left = value(left);
   double at_right = value(right);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < BalanceLimits::golden_steps; ++step) {
     if (at_left > at_right) {
       hi = std::exchange(right, left);
       at_right = at_left;
@@ -65,7 +73,7 @@ double place_of_maximum(double lo, double hi, const Function& value) {
 
 }  // namespace
 
-bool UnilateralBalance::Forces::vanish() const { return sum.norm() <= kNothing * size; }
+bool UnilateralBalance::Forces::vanish() const { return sum.norm() <= Rounding::motion * size; }
 
 UnilateralBalance::UnilateralBalance(const FreeMotions& motions) : motions_(motions) {
   if (motions.empty()) return;
@@ -89,7 +97,7 @@ std::optional<VectorXd> UnilateralBalance::unit_row(const Row& row) const {
   for (const auto& [unknown, weight] : row) size += std::abs(weight);
   VectorXd out = on_motions(row);
   const double norm = out.norm();
-  if (!(norm > kNothing * size)) return std::nullopt;
+  if (!(norm > Rounding::motion * size)) return std::nullopt;
   return out / norm;
 }
 
@@ -126,9 +134,7 @@ void UnilateralBalance::add(const Foundation& foundation) {
     add_support(rows, nullptr);
     return;
   }
-  // enough rows to span those of all other positions
-  constexpr int kFirstPlaces = 6;
-  for (const double point : gauss_legendre(kFirstPlaces).points)
+  for (const double point : gauss_legendre(MechanismLimits::places_on_curve).points)
     rows.push_back(row_at(whole, from + point * (to - from)));
   add_support(rows, &whole);
 }
@@ -145,12 +151,13 @@ void UnilateralBalance::add_support(const std::vector<Row>& rows, const CurvedSu
   int absorbed = 0;
   for (auto group = groups_.begin(); group != groups_.end();) {
     const MatrixXd common = group->basis.transpose() * joined.rows;
-    if (common.lpNorm<Eigen::Infinity>() <= kUncoupled) {
+    if (common.lpNorm<Eigen::Infinity>() <= BalanceLimits::uncoupled) {
       ++group;
       continue;
     }
     ++absorbed;
-    const bool spans = (joined.rows - group->basis * common).lpNorm<Eigen::Infinity>() <= kUncoupled;
+    const bool spans =
+        (joined.rows - group->basis * common).lpNorm<Eigen::Infinity>() <= BalanceLimits::uncoupled;
     if (absorbed == 1 && spans) {  // the usual case: no other group is coupled
       MatrixXd both(joined.rows.rows(), group->rows.cols() + joined.rows.cols());
       both << group->rows, joined.rows;
@@ -167,14 +174,14 @@ void UnilateralBalance::add_support(const std::vector<Row>& rows, const CurvedSu
     joined.curved.insert(joined.curved.end(), group->curved.begin(), group->curved.end());
     group = groups_.erase(group);
   }
-  joined.basis = orthonormal_span(span, kUncoupled);
+  joined.basis = orthonormal_span(span, BalanceLimits::uncoupled);
   groups_.push_back(std::move(joined));
 }
 
 void UnilateralBalance::close_groups() {
   for (Group& group : groups_) {
     group.rows = (group.basis.transpose() * group.rows).colwise().normalized().eval();
-    const MatrixXd independent = independent_columns(group.rows, kUncoupled);
+    const MatrixXd independent = independent_columns(group.rows, BalanceLimits::uncoupled);
     group.inside = independent.rowwise().sum() / static_cast<double>(independent.cols());
   }
 }
@@ -183,7 +190,7 @@ void UnilateralBalance::add_loads() {
   const Index unknowns = motions_.motions().rows();
   for (Group& group : groups_) {
     MatrixXd seen = motions_.motions() * group.basis;  // work of unit forces per unknown
-    seen = (seen.array().abs() > kNothing).select(seen, 0.0).eval();
+    seen = (seen.array().abs() > Rounding::motion).select(seen, 0.0).eval();
     const VectorXd weights = seen.rowwise().norm();
     VectorXd constant = VectorXd::Zero(unknowns);
     VectorXd proportional = VectorXd::Zero(unknowns);
@@ -219,17 +226,14 @@ std::optional<VectorXd> UnilateralBalance::row_in(const Group& group, const Curv
 /// @return false when the motion enters no support
 bool UnilateralBalance::add_entered(const Group& group, const VectorXd& motion, double tolerance,
                                     MatrixXd& rows) const {
-  // sampling of the axis per half turn, within which the displacement into a support has one or two maxima
-  constexpr double kPlacesByHalfTurn = 16.0;
-  constexpr std::size_t kPlacesByKnot = 4;  // sampling per spline knot
   const Index before = rows.cols();
   for (const CurvedSupport& support : group.curved) {
     const AxisCurve& axis = *motions_.parts().axes()[static_cast<std::size_t>(support.member)];
     const double length = axis.length();
     const auto [from, to] = support.range;
     const double turns = axis.turning(from * length, to * length) / std::numbers::pi;
-    const auto places =
-        static_cast<std::size_t>(kPlacesByHalfTurn * (1.0 + turns)) + kPlacesByKnot * axis.knots().size();
+    const auto places = static_cast<std::size_t>(BalanceLimits::places_by_half_turn * (1.0 + turns)) +
+                        BalanceLimits::places_by_knot * axis.knots().size();
     const auto place = [&, from = from, to = to](std::size_t i) {
       return from + (to - from) * static_cast<double>(i) / static_cast<double>(places);
     };
@@ -271,20 +275,18 @@ VectorXd off_pressed(const MatrixXd& rows, const NonnegativeSolution& found) {
 /// @param margin share of the force that each independent support must be able to carry
 std::optional<VectorXd> UnilateralBalance::unbalanced(const Group& group, const VectorXd& force,
                                                       double margin) const {
-  constexpr int kMostRounds = 100;
-  constexpr double kShareOfResidual = 1e-3;  // allowed displacement into a support over the residual
-  constexpr double kEntered = 1e-8;          // upper limit of the allowed displacement
-  constexpr double kRounding = 1e-13;        // lower limit of the allowed displacement: rounding
   const double size = force.norm();
   const VectorXd wanted =
       size > 0.0 ? VectorXd(force / size - margin * group.inside) : VectorXd(-group.inside.normalized());
   MatrixXd rows = group.rows;
   NonnegativeSolution found;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < BalanceLimits::rounds; ++round) {
     found = nonnegative_least_squares(rows, wanted);
     const double left = found.residual.norm();
-    if (left <= (size > 0.0 ? kBalanced : kUncoupled)) return std::nullopt;
-    const double tolerance = std::max(std::min(kShareOfResidual * left, kEntered), kRounding);
+    if (left <= (size > 0.0 ? BalanceLimits::residual : BalanceLimits::uncoupled)) return std::nullopt;
+    const double tolerance =
+        std::max(std::min(BalanceLimits::entered_share * left, BalanceLimits::most_entered),
+                 BalanceLimits::least_entered);
     if (!add_entered(group, found.residual / left, tolerance, rows)) break;
   }
   return off_pressed(rows, found);
@@ -301,7 +303,7 @@ std::optional<Escape> UnilateralBalance::escape_of(const Group& group, const Act
   if (!direction) return std::nullopt;
   Escape out;
   out.motion = motions_.motions() * (group.basis * *direction);
-  out.driven = force.sum.dot(*direction) > kMargin * force.sum.norm();
+  out.driven = force.sum.dot(*direction) > BalanceLimits::margin * force.sum.norm();
   out.actions = actions;
   return out;
 }
@@ -317,7 +319,9 @@ std::optional<Escape> UnilateralBalance::escape_with(double factor, double margi
   return first;
 }
 
-std::optional<Escape> UnilateralBalance::escape(double factor) const { return escape_with(factor, kMargin); }
+std::optional<Escape> UnilateralBalance::escape(double factor) const {
+  return escape_with(factor, BalanceLimits::margin);
+}
 
 std::optional<Escape> UnilateralBalance::escape_at_start(double direction) const {
   std::optional<Escape> first;
@@ -325,19 +329,18 @@ std::optional<Escape> UnilateralBalance::escape_at_start(double direction) const
     ActionFactors actions{0.0, direction};
     if (!group.constant.vanish()) {
       const double proportional = group.proportional.vanish() ? 0.0 : group.proportional.sum.norm();
-      actions = {
-          1.0, proportional > 0.0 ? direction * kFirstLoad * group.constant.sum.norm() / proportional : 0.0};
+      actions = {1.0, proportional > 0.0
+                          ? direction * BalanceLimits::first_load * group.constant.sum.norm() / proportional
+                          : 0.0};
     }
-    auto found = escape_of(group, actions, kMargin);
+    auto found = escape_of(group, actions, BalanceLimits::margin);
     if (found && (!first || (found->driven && !first->driven))) first = std::move(found);
   }
   return first;
 }
 
 double UnilateralBalance::largest_held(double held, double beyond) const {
-  // relative width of the final bracket; balance is not determined more exactly
-  constexpr double kPrecision = 1e-11;
-  while (std::abs(beyond - held) > kPrecision * std::abs(beyond)) {
+  while (std::abs(beyond - held) > BalanceLimits::load_width * std::abs(beyond)) {
     const double middle = 0.5 * (held + beyond);
     if (middle == held || middle == beyond) break;
     (escape_with(middle, 0.0) ? beyond : held) = middle;

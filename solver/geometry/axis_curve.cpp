@@ -13,7 +13,12 @@
 namespace snapthrough {
 namespace {
 
-constexpr int kTableIntervals = 64;  // intervals of the arc length table
+/// Numbers of the table of arc lengths. Chosen for twelve Gauss points per interval.
+struct LengthTable {
+  static constexpr int intervals = 64;  ///< per half-wave or piece of a curve
+  /// Newton step, a parameter, at which the remaining error, about its square, is below rounding.
+  static constexpr double last_step = 1e-9;
+};
 
 /// Chord frame: point(xi, eta) = start + xi * chord + eta * left normal of the chord.
 struct Chord {
@@ -89,7 +94,7 @@ AxisCurve::AxisCurve(const Curve& curve, std::array<double, 2> start, std::array
                      -8.0 * rise * n[0],
                      -8.0 * rise * n[1]};
         },
-        kTableIntervals);
+        LengthTable::intervals);
   } else if (const auto* sine = std::get_if<SineCurve>(&curve)) {
     const double rise = sine->rise;
     const double w = sine->half_waves * std::numbers::pi;
@@ -106,7 +111,7 @@ AxisCurve::AxisCurve(const Curve& curve, std::array<double, 2> start, std::array
                      dd * n[0],
                      dd * n[1]};
         },
-        kTableIntervals * std::max(1, sine->half_waves));
+        LengthTable::intervals * std::max(1, sine->half_waves));
   } else if (const auto* points = std::get_if<PointsCurve>(&curve)) {
     set_spline(*points, start, end);
   }
@@ -120,7 +125,7 @@ void AxisCurve::set_spline(const PointsCurve& curve, std::array<double, 2> start
         const auto y = spline->y.at(t);
         return Jet{x[0], y[0], x[1], y[1], x[2], y[2]};
       },
-      kTableIntervals * static_cast<int>(spline->t.size()));
+      LengthTable::intervals * static_cast<int>(spline->t.size()));
   // not-a-knot: the first and the last interior point are no knots
   for (std::size_t i = 2; i + 2 < spline->t.size(); ++i) knots_.push_back(length_to(spline->t[i]));
 }
@@ -164,8 +169,6 @@ void AxisCurve::set_parametric(std::function<Jet(double)> jet, int intervals) {
 
 double AxisCurve::parameter_at(double s) const {
   static const Quadrature gauss = gauss_legendre(12);
-  // Newton step at which the remaining error, about the square of the step, is below rounding
-  constexpr double kOneStepMore = 1e-9;
   const auto upper = std::upper_bound(table_s_.begin() + 1, table_s_.end() - 1, s);
   const auto i = static_cast<std::size_t>(upper - table_s_.begin()) - 1;
   const double dt = 1.0 / static_cast<double>(table_s_.size() - 1);
@@ -182,7 +185,7 @@ double AxisCurve::parameter_at(double s) const {
     const Jet j = jet_(t);
     const double step = (length - rest) / speed_of(j);
     t -= step;
-    if (std::abs(step) < kOneStepMore) break;
+    if (std::abs(step) < LengthTable::last_step) break;
   }
   return t;
 }

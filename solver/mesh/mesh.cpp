@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "solver/model/id_index.h"
+#include "solver/numeric/rounding.h"
 #include "solver/support/law.h"
 
 namespace snapthrough {
@@ -49,7 +50,7 @@ std::vector<int> share(int n, const std::vector<double>& breaks) {
     double size = 0.0;
     for (std::size_t i = 0; i < pieces; ++i) {
       const double h = (breaks[i + 1] - breaks[i]) / counts[i];
-      if (h > size * (1.0 + 1e-9)) {
+      if (h > size * Rounding::first_of_equal) {
         size = h;
         longest = i;
       }
@@ -75,16 +76,21 @@ struct ChosenMesh {
   bool odd;              ///< odd numbers of elements per piece
 };
 
+/// Numbers of chosen meshes, a rule for each MeshUse. Source: work per digit; docs/theory.md, Stiff bases.
+///
 /// High orders on few elements need the least work per digit, also with contact ends inside elements.
 /// Elements of a piece are equal, so that a ring keeps its symmetry and its bifurcations. Their number is
 /// odd: an element of half a half-wave length buckles as a cantilever at the member's load, which costs most
 /// digits in its elimination; 2 n equal elements per member have this defect in the n-th mode.
-constexpr ChosenMesh kFirst{5, 60.0, 3.0, 3.0, true};
-constexpr ChosenMesh kPath{5, 60.0, 3.0, 5.0, true};
-constexpr ChosenMesh kFinal{4, 25.0, 1.0, 8.0, false};
-
-/// Largest number of elements of a chosen mesh, for each piece and for all refinements.
-constexpr double kMostElements = 4000;
+struct MeshRules {
+  static constexpr ChosenMesh first{5, 60.0, 3.0, 3.0, true};
+  static constexpr ChosenMesh path{5, 60.0, 3.0, 5.0, true};
+  static constexpr ChosenMesh final{4, 25.0, 1.0, 8.0, false};
+  static constexpr double elements = 4000;           ///< most elements of a piece, and of a refined mesh
+  static constexpr double elements_per_member = 16;  ///< most elements over members, of models with many
+  /// Least width of an element in a layer, fraction of a member: element ends then keep ten digits.
+  static constexpr double layer_width = 1e-6;
+};
 
 /// Number of elements of a piece of a member, by the rule of make_mesh().
 /// @param finest bound for one-sided foundations, as a multiple of the number for the axis
@@ -94,7 +100,7 @@ int default_count(const ChosenMesh& rule, const Model& model, int member, const 
   const double length = (to - from) * axis.length();
   const double turn = axis.turning(from * axis.length(), to * axis.length());
   const double turns = turn / (rule.turn * std::numbers::pi / 180.0);
-  const double enough = finest * std::max(kFirst.least * (to - from), turns);
+  const double enough = finest * std::max(MeshRules::first.least * (to - from), turns);
   double n = std::max(rule.least * (to - from), turns);
   const double EI = model.sections[index_of(model.sections, m.section)].EI;
   for (const Foundation& foundation : model.foundations) {
@@ -109,7 +115,7 @@ int default_count(const ChosenMesh& rule, const Model& model, int member, const 
     const auto* sine = std::get_if<SineImperfection>(&imperfection);
     if (sine != nullptr && sine->member == m.id) n = std::max(n, 2.0 * sine->half_waves * (to - from));
   }
-  const int count = std::max(1, static_cast<int>(std::ceil(std::min(n, kMostElements) - 1e-9)));
+  const int count = std::max(1, static_cast<int>(std::ceil(std::min(n, MeshRules::elements) - 1e-9)));
   return rule.odd && count % 2 == 0 ? count + 1 : count;
 }
 
@@ -147,7 +153,9 @@ std::array<double, 2> part_of(const MeshElement& element, std::array<double, 2> 
 }
 
 Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes, MeshUse use) {
-  const ChosenMesh& rule = use == MeshUse::first ? kFirst : use == MeshUse::path ? kPath : kFinal;
+  const ChosenMesh& rule = use == MeshUse::first  ? MeshRules::first
+                           : use == MeshUse::path ? MeshRules::path
+                                                  : MeshRules::final;
   Mesh mesh;
   mesh.order = discretization.fixed_mesh ? discretization.order : rule.order;
   mesh.foundation = discretization.fixed_mesh ? discretization.foundation : FoundationRule::consistent;
@@ -175,8 +183,8 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
 }
 
 std::optional<Mesh> finer_mesh(const Mesh& mesh) {
-  constexpr double kMostPerMember = 16.0;  // elements per member, for models with many members
-  const double most = std::max(kMostElements, kMostPerMember * static_cast<double>(mesh.first.size() - 1));
+  const double most = std::max(MeshRules::elements,
+                               MeshRules::elements_per_member * static_cast<double>(mesh.first.size() - 1));
   if (2.0 * static_cast<double>(mesh.elements.size()) > most) return std::nullopt;
   Mesh out = mesh;
   out.foundation = FoundationRule::consistent;
@@ -220,7 +228,6 @@ Mesh moved_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const Mo
 }
 
 Mesh layered_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const std::vector<double>& decays) {
-  constexpr double kLeastWidth = 1e-6;  // fraction of a member; element ends then keep ten digits
   Mesh out = mesh;
   out.elements.clear();
   for (std::size_t m = 0; m < axes.size(); ++m) {
@@ -229,7 +236,8 @@ Mesh layered_mesh(const Mesh& mesh, const Model& model, const Axes& axes, const 
       return std::any_of(breaks.begin(), breaks.end(),
                          [at](double b) { return std::abs(at - b) <= kOnePlace; });
     };
-    const double width = std::max(kLeastWidth, kFirst.decay_lengths * decays[m] / axes[m]->length());
+    const double width =
+        std::max(MeshRules::layer_width, MeshRules::first.decay_lengths * decays[m] / axes[m]->length());
     for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
       const MeshElement& element = mesh.elements[static_cast<std::size_t>(e)];
       add_layered(out.elements, element, is_break(element.from), is_break(element.to), width);

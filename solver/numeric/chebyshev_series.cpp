@@ -8,10 +8,8 @@
 namespace snapthrough {
 namespace {
 
-constexpr int kMost = ChebyshevSeries::kMostPoints;
-
 /// Row j: contribution of the value at point j to the coefficients.
-using Transform = std::array<std::array<double, kMost>, kMost>;
+using Transform = std::array<std::array<double, ChebyshevSeries::kMostPoints>, ChebyshevSeries::kMostPoints>;
 
 Transform make_transform(int n) {
   const int last = n - 1;
@@ -27,9 +25,10 @@ Transform make_transform(int n) {
 }
 
 const Transform& transform_of(int n) {
-  static const std::array<std::unique_ptr<Transform>, kMost + 1> transforms = []() {
-    std::array<std::unique_ptr<Transform>, kMost + 1> all;
-    for (int i = 2; i <= kMost; ++i) all[i] = std::make_unique<Transform>(make_transform(i));
+  static const std::array<std::unique_ptr<Transform>, ChebyshevSeries::kMostPoints + 1> transforms = []() {
+    std::array<std::unique_ptr<Transform>, ChebyshevSeries::kMostPoints + 1> all;
+    for (int i = 2; i <= ChebyshevSeries::kMostPoints; ++i)
+      all[i] = std::make_unique<Transform>(make_transform(i));
     return all;
   }();
   return *transforms[n];

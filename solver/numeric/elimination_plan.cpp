@@ -11,9 +11,6 @@
 namespace snapthrough {
 namespace {
 
-/// Number of unknowns up to which one dense front is faster than many small ones.
-constexpr int kOneFront = 64;
-
 /// Groups of unknowns that belong to the same blocks and are eliminated together.
 struct Groups {
   std::vector<std::vector<int>> unknowns;  ///< one list per group
@@ -143,7 +140,7 @@ std::vector<FrontPlan> over_unknowns(const std::vector<GroupFront>& fronts, cons
 }  // namespace
 
 std::vector<FrontPlan> plan_elimination(int size, std::span<const std::vector<int>> blocks) {
-  if (size <= kOneFront) {
+  if (size <= FrontPlan::one_dense) {
     FrontPlan all;
     all.pivots.resize(static_cast<std::size_t>(size));
     std::iota(all.pivots.begin(), all.pivots.end(), 0);

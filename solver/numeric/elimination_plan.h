@@ -9,6 +9,9 @@ namespace snapthrough {
 
 /// Unknowns that are eliminated together.
 struct FrontPlan {
+  /// Number of unknowns up to which one dense front is faster than many small ones (measured).
+  static constexpr int one_dense = 64;
+
   std::vector<int> pivots;    ///< unknowns that are eliminated in this front
   std::vector<int> rest;      ///< unknowns that are coupled with the pivots
   std::vector<int> blocks;    ///< blocks of the matrix that are assembled here

@@ -13,10 +13,11 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Bunch and Kaufman's threshold: diagonal over largest entry of its column.
-const double kShare = (1.0 + std::sqrt(17.0)) / 8.0;
-/// Threshold if the largest entry is in a row that cannot be a pivot; bounds factors by ten.
-constexpr double kLeastShare = 0.1;
+/// Least size of a pivot over the largest entry of its column.
+struct PivotLimits {
+  static inline const double share = (1.0 + std::sqrt(17.0)) / 8.0;  ///< Bunch and Kaufman's threshold
+  static constexpr double beyond = 0.1;  ///< if that entry's row cannot be a pivot; bounds factors by ten
+};
 
 }  // namespace
 
@@ -95,7 +96,7 @@ Index Front::choose_beside(Index row, double largest) const {
   const double other = largest_in_row(row, done_);
   const double first = std::abs(c) * largest + std::abs(b) * other;
   const double second = std::abs(b) * largest + std::abs(a) * other;
-  return std::max(first, second) * kLeastShare <= det ? row : 0;
+  return std::max(first, second) * PivotLimits::beyond <= det ? row : 0;
 }
 
 /// Eliminates row done_, alone or with another row; false: no good pivot.
@@ -109,20 +110,20 @@ bool Front::try_pivot(PivotSummary& pivots) {
   for (Index i = summed_; i < matrix.rows(); ++i) beyond = std::max(beyond, std::abs(matrix(i, k)));
   const double largest = std::max(within, beyond);
   const double diagonal = std::abs(matrix(k, k));
-  if (!(diagonal < kShare * largest)) {  // also for NaN, which then reaches the solution
+  if (!(diagonal < PivotLimits::share * largest)) {  // also for NaN, which then reaches the solution
     eliminate_one(pivots);
   } else if (within >= beyond) {
     const double sigma = std::max(within, largest_in_row(r, k));
-    if (diagonal * sigma >= kShare * within * within) {
+    if (diagonal * sigma >= PivotLimits::share * within * within) {
       eliminate_one(pivots);
-    } else if (std::abs(matrix(r, r)) >= kShare * sigma) {
+    } else if (std::abs(matrix(r, r)) >= PivotLimits::share * sigma) {
       swap_rows(k, r);
       eliminate_one(pivots);
     } else {
       swap_rows(k + 1, r);
       eliminate_two(pivots);
     }
-  } else if (diagonal >= kLeastShare * largest) {
+  } else if (diagonal >= PivotLimits::beyond * largest) {
     eliminate_one(pivots);
   } else if (const Index other = choose_beside(r, beyond); other != 0) {
     swap_rows(k + 1, other);

@@ -1,10 +1,10 @@
 #include "solver/numeric/nonnegative_least_squares.h"
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "solver/numeric/dense.h"
+#include "solver/numeric/rounding.h"
 
 namespace snapthrough {
 namespace {
@@ -16,6 +16,9 @@ using Eigen::VectorXd;
 /// State of the active set method: x is positive on `passive` and zero elsewhere.
 class ActiveSet {
  public:
+  /// Most steps over rows plus columns; about twice the number of rows is usual.
+  static constexpr Index most_steps = 10;
+
   ActiveSet(const MatrixXd& A, const VectorXd& b)
       : A_(A), b_(b), sizes_(A.colwise().norm()), x_(VectorXd::Zero(A.cols())), residual_(b) {}
 
@@ -38,8 +41,7 @@ class ActiveSet {
 
 /// Column with the largest component of the residual, above rounding; -1: none.
 Index ActiveSet::steepest(const std::vector<Index>& rejected) const {
-  constexpr double kRoundings = 16.0;  // rounding of the sums in the residual, in units in the last place
-  const double rounding = kRoundings * std::numeric_limits<double>::epsilon() * (b_.norm() + sizes_.dot(x_));
+  const double rounding = Rounding::inner_product * (b_.norm() + sizes_.dot(x_));
   Index best = -1;
   double largest = rounding;
   for (Index j = 0; j < A_.cols(); ++j) {
@@ -94,9 +96,8 @@ bool ActiveSet::advance() {
 }  // namespace
 
 NonnegativeSolution nonnegative_least_squares(const MatrixXd& A, const VectorXd& b) {
-  constexpr Index kMostSteps = 10;  // steps over rows plus columns; about twice the number of rows is usual
   ActiveSet set(A, b);
-  for (Index step = 0; step < kMostSteps * (A.cols() + A.rows()); ++step)
+  for (Index step = 0; step < ActiveSet::most_steps * (A.cols() + A.rows()); ++step)
     if (!set.advance()) break;
   return set.solution();
 }

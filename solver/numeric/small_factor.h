@@ -15,7 +15,7 @@ namespace snapthrough {
 class SmallFactor {
  public:
   SmallFactor() = default;
-  /// @brief Factorises `a`; pivots that are exactly zero become 1e-300.
+  /// @brief Factorises `a`; pivots that are exactly zero become `tiny`.
   explicit SmallFactor(const Eigen::Matrix3d& a) : lu_(a) {
     for (int k = 0; k < 2; ++k) {
       int best = k;
@@ -26,13 +26,13 @@ class SmallFactor {
         std::swap(row_[k], row_[best]);
         odd_ = !odd_;
       }
-      if (lu_(k, k) == 0.0) lu_(k, k) = kTiny;
+      if (lu_(k, k) == 0.0) lu_(k, k) = tiny;
       for (int i = k + 1; i < 3; ++i) {
         lu_(i, k) /= lu_(k, k);
         for (int j = k + 1; j < 3; ++j) lu_(i, j) -= lu_(i, k) * lu_(k, j);
       }
     }
-    if (lu_(2, 2) == 0.0) lu_(2, 2) = kTiny;
+    if (lu_(2, 2) == 0.0) lu_(2, 2) = tiny;
   }
 
   /// det A, replaced by a tiny number if zero.
@@ -78,7 +78,7 @@ class SmallFactor {
   [[nodiscard]] Eigen::Matrix3d inverse() const { return solve_columns(Eigen::Matrix3d::Identity()); }
 
  private:
-  static constexpr double kTiny = 1e-300;
+  static constexpr double tiny = 1e-300;  ///< far below every pivot; its square is zero
 
   Eigen::Matrix3d lu_ = Eigen::Matrix3d::Identity();  ///< U, and L below the unit diagonal
   std::array<std::uint8_t, 3> row_{0, 1, 2};          ///< row of A for each row of L U

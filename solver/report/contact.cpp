@@ -1,17 +1,14 @@
 #include "solver/report/contact.h"
 
 #include <cstddef>
-#include <limits>
 
 #include "solver/discrete/element_reader.h"
 #include "solver/model/id_index.h"
+#include "solver/numeric/rounding.h"
 #include "solver/report/support_state.h"
 
 namespace snapthrough {
 namespace {
-
-/// Penetration over the structure's length that counts as rounding of a position.
-constexpr double kNoDepth = 4.0 * std::numeric_limits<double>::epsilon();
 
 /// Contact intervals of one part of a foundation, in the element's coordinate.
 void local_intervals(const Structure& structure, const FoundationPart& part, const Eigen::VectorXd& y,
@@ -68,8 +65,10 @@ ContactZones::ContactZones(const Structure& structure, const Model& model)
 void ContactZones::count(const Eigen::VectorXd& y, std::vector<int>& zones) const {
   zones.clear();
   for (const int foundation : foundations_)
-    zones.push_back(static_cast<int>(contact_intervals(structure_, model_, y, foundation, kNoDepth).size()));
-  for (const SpringRow& spring : springs_) zones.push_back(spring.row.dot(y) > spring.gap + kNoDepth ? 1 : 0);
+    zones.push_back(
+        static_cast<int>(contact_intervals(structure_, model_, y, foundation, Rounding::last_places).size()));
+  for (const SpringRow& spring : springs_)
+    zones.push_back(spring.row.dot(y) > spring.gap + Rounding::last_places ? 1 : 0);
 }
 
 }  // namespace snapthrough

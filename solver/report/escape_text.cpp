@@ -10,6 +10,7 @@
 
 #include "solver/discrete/rigid_loads.h"
 #include "solver/numeric/number_text.h"
+#include "solver/numeric/rounding.h"
 
 namespace snapthrough {
 namespace {
@@ -17,12 +18,13 @@ namespace {
 using Eigen::VectorXd;
 using Point = RigidParts::Point;
 
-/// Difference, over the structure's extent or the largest displacement, that counts as rounding.
-constexpr double kSame = 1e-6;
-/// Distance of the centre of rotation, over the structure's extent, above which a shift is reported.
-constexpr double kFar = 1e3;
-/// Largest number of members that a message names.
-constexpr std::size_t kMostNamed = 3;
+/// What a message on an escape leaves out; ratios, chosen for three printed digits.
+struct EscapeTextLimits {
+  /// Difference, over the structure's extent or the largest displacement, that counts as zero.
+  static constexpr double same = 1e-6;
+  /// Distance of the centre of rotation, over the structure's extent, above which a shift is reported.
+  static constexpr double far = 1e3;
+};
 
 double value_of(const RigidParts::Row& row, const VectorXd& motion) {
   double sum = 0.0;
@@ -73,8 +75,6 @@ class MovingPart {
 
 MovingPart::MovingPart(const Model& model, const RigidParts& parts, const VectorXd& motion)
     : model_(model), parts_(parts) {
-  // factor that prefers the first of several equal displacements despite rounding
-  constexpr double kMore = 1.0 + 1e-9;
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-low[0], -low[1]};
   for (std::size_t j = 0; j < model.nodes.size(); ++j)
@@ -91,7 +91,7 @@ MovingPart::MovingPart(const Model& model, const RigidParts& parts, const Vector
                          value_of(parts.displacement(member, at, {0.0, 1.0}), motion)},
                         value_of(parts.rotation(member), motion)});
     const double size = size_of(m, motions_.back());
-    if (size <= kMore * size_) continue;
+    if (size <= Rounding::first_of_equal * size_) continue;
     largest_ = motions_.back();
     size_ = size;
   }
@@ -111,7 +111,8 @@ double MovingPart::size_of(std::size_t member, const BodyMotion& motion) const {
 bool MovingPart::moves_with(std::size_t member, const BodyMotion& motion) const {
   for (const bool start : {true, false}) {
     const Point at = end(member, start);
-    if (distance(motions_[member].displacement_of(at), motion.displacement_of(at)) > kSame * size_)
+    if (distance(motions_[member].displacement_of(at), motion.displacement_of(at)) >
+        EscapeTextLimits::same * size_)
       return false;
   }
   return true;
@@ -121,7 +122,8 @@ std::string MovingPart::members() const {
   if (members_.size() == model_.members.size()) return members_.size() == 1 ? "the member" : "all members";
   const auto id = [this](std::size_t i) { return "\"" + model_.members[members_[i]].id + "\""; };
   if (members_.size() == 1) return "member " + id(0);
-  const std::size_t named = members_.size() > kMostNamed + 1 ? kMostNamed : members_.size();
+  constexpr std::size_t most = MessageLimits::items;
+  const std::size_t named = members_.size() > most + 1 ? most : members_.size();
   std::string text = "members " + id(0);
   for (std::size_t i = 1; i < named; ++i) text += (i + 1 == members_.size() ? " and " : ", ") + id(i);
   if (named < members_.size()) text += " and " + std::to_string(members_.size() - named) + " more";
@@ -130,25 +132,25 @@ std::string MovingPart::members() const {
 
 std::string MovingPart::place_text(Point point) const {
   for (std::size_t j = 0; j < model_.nodes.size(); ++j)
-    if (distance(point, parts_.place(static_cast<int>(j))) <= kSame * extent_)
+    if (distance(point, parts_.place(static_cast<int>(j))) <= EscapeTextLimits::same * extent_)
       return "node \"" + model_.nodes[j].id + "\"";
   const Node& origin = model_.nodes.front();
   const std::array coordinates{origin.x + parts_.length() * point[0], origin.y + parts_.length() * point[1]};
   const auto cleaned = [this](double value) {
-    return std::abs(value) <= kSame * parts_.length() * extent_ ? 0.0 : value;
+    return std::abs(value) <= EscapeTextLimits::same * parts_.length() * extent_ ? 0.0 : value;
   };
   return "(" + rounded(cleaned(coordinates[0])) + ", " + rounded(cleaned(coordinates[1])) + ")";
 }
 
 std::string MovingPart::motion() const {
-  if (std::abs(largest_.rotation) * kFar * extent_ > size_) {
+  if (std::abs(largest_.rotation) * EscapeTextLimits::far * extent_ > size_) {
     const Point centre{largest_.at[0] - largest_.displacement[1] / largest_.rotation,
                        largest_.at[1] + largest_.displacement[0] / largest_.rotation};
     return std::string("turn ") + (largest_.rotation > 0.0 ? "counter-clockwise" : "clockwise") + " about " +
            place_text(centre);
   }
   const auto cleaned = [this](double value) {
-    return std::abs(value) <= kSame * size_ ? 0.0 : value / size_;
+    return std::abs(value) <= EscapeTextLimits::same * size_ ? 0.0 : value / size_;
   };
   return "shift in direction (" + rounded(cleaned(largest_.displacement[0])) + ", " +
          rounded(cleaned(largest_.displacement[1])) + ")";

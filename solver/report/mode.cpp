@@ -9,8 +9,22 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/model/id_index.h"
 #include "solver/numeric/number_text.h"
+#include "solver/numeric/rounding.h"
 
 namespace snapthrough {
+
+namespace {
+
+/// Numbers of the description of a mode, ratios. Chosen.
+struct ModeLimits {
+  /// Factor by which a later of several values must exceed the first to be taken for larger: symmetric modes
+  /// agree to six digits.
+  static constexpr double larger = 1.0 + 1e-6;
+  static constexpr double alone = 0.9;  ///< least share of strain energy of a member that buckles alone
+  static constexpr int points_per_element = 8;  ///< points of the spline through a mode
+};
+
+}  // namespace
 
 Mode mode_displacements(const Structure& structure, const Model& model, const Eigen::VectorXd& mode,
                         int points) {
@@ -34,10 +48,6 @@ Mode mode_displacements(const Structure& structure, const Model& model, const Ei
 }
 
 double scale_to_largest(Mode& mode) {
-  // displacement over largest rotation times member length, below which the mode has rotations only
-  constexpr double kNothing = 1e-12;
-  // factor that prefers the first of several equal values despite rounding
-  constexpr double kLarger = 1.0 + 1e-6;
   double largest = 0.0;
   double first_large = 0.0;
   double sign = 1.0;
@@ -46,16 +56,17 @@ double scale_to_largest(Mode& mode) {
   for (const MemberMode& member : mode.members) {
     length = std::max(length, member.s.back());
     for (std::size_t i = 0; i < member.s.size(); ++i) {
-      if (std::abs(member.rotation[i]) > std::abs(turned) * kLarger) turned = member.rotation[i];
+      if (std::abs(member.rotation[i]) > std::abs(turned) * ModeLimits::larger) turned = member.rotation[i];
       const double size = std::hypot(member.u[i], member.v[i]);
       largest = std::max(largest, size);
-      if (size <= first_large * kLarger) continue;
+      if (size <= first_large * ModeLimits::larger) continue;
       first_large = size;
       sign = std::abs(member.u[i]) > std::abs(member.v[i]) ? member.u[i] : member.v[i];
     }
   }
   double scale = 1.0;
-  if (largest > kNothing * std::abs(turned) * length)
+  // a mode without displacements is scaled by its largest rotation
+  if (largest > Rounding::distance * std::abs(turned) * length)
     scale = (sign < 0.0 ? -1.0 : 1.0) / largest;
   else if (turned != 0.0)
     scale = 1.0 / turned;
@@ -66,15 +77,13 @@ double scale_to_largest(Mode& mode) {
 }
 
 std::string motion_text(const Mode& mode, const Model& model) {
-  // factor that prefers the first of several equal displacements despite rounding
-  constexpr double kLarger = 1.0 + 1e-6;
   double largest = 0.0;
   std::size_t moved = 0;  // index of the member
   std::size_t place = 0;
   for (std::size_t m = 0; m < mode.members.size(); ++m)
     for (std::size_t i = 0; i < mode.members[m].s.size(); ++i) {
       const double size = std::hypot(mode.members[m].u[i], mode.members[m].v[i]);
-      if (size <= largest * kLarger) continue;
+      if (size <= largest * ModeLimits::larger) continue;
       largest = size;
       moved = m;
       place = i;
@@ -85,8 +94,7 @@ std::string motion_text(const Mode& mode, const Model& model) {
   if (place == 0) where = "node \"" + model.members[moved].start + "\"";
   if (place + 1 == along.s.size()) where = "node \"" + model.members[moved].end + "\"";
   const auto component = [largest](double value) {
-    constexpr double kRounding = 1e-9;  // component over the largest displacement that counts as zero
-    return rounded(std::abs(value) < kRounding * largest ? 0.0 : value);
+    return rounded(std::abs(value) < Rounding::motion * largest ? 0.0 : value);
   };
   return "is largest at " + where + ", along (" + component(along.u[place]) + ", " +
          component(along.v[place]) + ")";
@@ -94,7 +102,6 @@ std::string motion_text(const Mode& mode, const Model& model) {
 
 std::optional<std::size_t> member_that_buckles(const Structure& structure, const Model& model,
                                                const Eigen::VectorXd& mode) {
-  constexpr double kAlone = 0.9;  // least share of the strain energy
   const int p = structure.mesh.order;
   const CollocationRule& rule = CollocationRule::of(p);
   const double length = structure.scales.length;
@@ -114,25 +121,25 @@ std::optional<std::size_t> member_that_buckles(const Structure& structure, const
   }
   const auto most = std::max_element(energy.begin(), energy.end());
   const double sum = std::accumulate(energy.begin(), energy.end(), 0.0);
-  if (!(sum > 0.0) || *most < kAlone * sum) return std::nullopt;
+  if (!(sum > 0.0) || *most < ModeLimits::alone * sum) return std::nullopt;
   return static_cast<std::size_t>(most - energy.begin());
 }
 
 std::vector<CubicSpline> normal_offsets(const Structure& structure, const Model& model,
                                         const Eigen::VectorXd& mode, double amplitude) {
-  constexpr int kPointsPerElement = 8;
   std::vector<std::vector<double>> s(model.members.size());
   std::vector<std::vector<double>> w(model.members.size());
   double largest = 0.0;
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const int points = kPointsPerElement * (structure.mesh.first[m + 1] - structure.mesh.first[m]) + 1;
+    const int points =
+        ModeLimits::points_per_element * (structure.mesh.first[m + 1] - structure.mesh.first[m]) + 1;
     const AxisCurve& axis = *structure.axes[m];
     const MemberMode member = mode_displacements(structure, model, mode, points).members[m];
     for (std::size_t i = 0; i < member.s.size(); ++i) {
       const double angle = axis.at(member.s[i]).angle;
       s[m].push_back(member.s[i]);
       w[m].push_back(-std::sin(angle) * member.u[i] + std::cos(angle) * member.v[i]);
-      if (std::abs(w[m].back()) > std::abs(largest) * (1.0 + 1e-6)) largest = w[m].back();
+      if (std::abs(w[m].back()) > std::abs(largest) * ModeLimits::larger) largest = w[m].back();
     }
   }
   std::vector<CubicSpline> out;

@@ -6,14 +6,19 @@
 #include <cstddef>
 #include <utility>
 
+#include "solver/numeric/rounding.h"
+
 namespace snapthrough {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kNothing = 1e-9;  // component over the largest one that counts as zero
-constexpr double kLarge = 1e-3;    // component over the largest one that may define the sign or a pivot
+/// Limits of the normal form of neutral motions; chosen far above rounding.
+struct NeutralMotionLimits {
+  /// Least component, over the largest, that may be a pivot or give a motion its sign.
+  static constexpr double pivot = 1e-3;
+};
 
 /// Reduces the motions (columns) by Gauss-Jordan elimination in the order of the components.
 MatrixXd reduced(MatrixXd motions) {
@@ -23,7 +28,7 @@ MatrixXd reduced(MatrixXd motions) {
     for (Index c = done; c < motions.cols(); ++c)
       if (std::abs(motions(row, c)) > std::abs(motions(row, pivot))) pivot = c;
     // a small pivot would amplify rounding in the other motions
-    if (std::abs(motions(row, pivot)) < kLarge * motions.cwiseAbs().maxCoeff()) continue;
+    if (std::abs(motions(row, pivot)) < NeutralMotionLimits::pivot * motions.cwiseAbs().maxCoeff()) continue;
     motions.col(done).swap(motions.col(pivot));
     for (Index c = 0; c < motions.cols(); ++c)
       if (c != done) motions.col(c) -= motions(row, c) / motions(row, done) * motions.col(done);
@@ -37,18 +42,18 @@ NeutralMotion told(const Structure& structure, const Model& model, const Eigen::
   for (int j = 0; j < structure.nodes; ++j)
     displaced = std::max(displaced, std::hypot(motion[3 * j], motion[3 * j + 1]));
   const double turned = motion.lpNorm<Eigen::Infinity>();
-  const bool turns_only = displaced <= kNothing * turned;
+  const bool turns_only = displaced <= Rounding::motion * turned;
   // the first large component becomes positive
   double sign = 1.0;
   for (Index i = motion.size(); i-- > 0;)
-    if (std::abs(motion[i]) > kLarge * turned) sign = motion[i] < 0.0 ? -1.0 : 1.0;
+    if (std::abs(motion[i]) > NeutralMotionLimits::pivot * turned) sign = motion[i] < 0.0 ? -1.0 : 1.0;
   const double unit = sign * (turns_only ? turned : displaced);
   const double length = structure.scales.length;
   NeutralMotion out;
   for (int j = 0; j < structure.nodes; ++j) {
     const Eigen::Vector3d d = motion.segment<3>(3 * j) / unit;
-    if (d.lpNorm<Eigen::Infinity>() <= kNothing) continue;
-    const auto cleaned = [](double value) { return std::abs(value) <= kNothing ? 0.0 : value; };
+    if (d.lpNorm<Eigen::Infinity>() <= Rounding::motion) continue;
+    const auto cleaned = [](double value) { return std::abs(value) <= Rounding::motion ? 0.0 : value; };
     out.nodes.push_back({model.nodes[static_cast<std::size_t>(j)].id, turns_only ? 0.0 : cleaned(d[0]),
                          turns_only ? 0.0 : cleaned(d[1]), cleaned(d[2]) / (turns_only ? 1.0 : length)});
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 namespace snapthrough {
 
@@ -37,16 +36,14 @@ bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const 
 }
 
 bool StrainGauge::is_beyond_theory(const Eigen::VectorXd& y) const {
-  constexpr double kMostStrain = 1.0;                        // compression of a fibre to zero length
-  constexpr double kMostRotation = 10.0 * std::numbers::pi;  // five turns, rad
   const int p = structure_.mesh.order;
   for (std::size_t e = 0; e < structure_.dofs.size(); ++e) {
     const ElementDofs& dofs = structure_.dofs[e];
     const Compliance& by = compliances_[structure_.mesh.elements[e].member];
     const auto forces = y.segment(dofs.s, 3 * p);
-    if (std::abs(y[dofs.b[2]]) > kMostRotation ||
-        by.axial * forces.head(p).lpNorm<Eigen::Infinity>() > kMostStrain ||
-        by.bending * forces.tail(p).lpNorm<Eigen::Infinity>() > kMostStrain)
+    if (std::abs(y[dofs.b[2]]) > StrainLimits::largest_rotation ||
+        by.axial * forces.head(p).lpNorm<Eigen::Infinity>() > StrainLimits::largest ||
+        by.bending * forces.tail(p).lpNorm<Eigen::Infinity>() > StrainLimits::largest)
       return true;
   }
   return false;

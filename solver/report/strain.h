@@ -3,12 +3,21 @@
 /// Largest strains, for the limits of the small-strain constitutive law.
 
 #include <Eigen/Core>
+#include <numbers>
 #include <vector>
 
 #include "solver/discrete/structure.h"
 #include "solver/model/model.h"
 
 namespace snapthrough {
+
+/// Limits of the theory's range. Strains without unit, at the outer fibre; rotations in rad.
+struct StrainLimits {
+  /// Strain above which strain measures differ by some per cent and few materials are linear.
+  static constexpr double small = 0.05;
+  static constexpr double largest = 1.0;  ///< a fibre is compressed to zero length
+  static constexpr double largest_rotation = 10.0 * std::numbers::pi;  ///< rotation of an element: five turns
+};
 
 /// Largest strain of a state, with its member and position.
 struct LargestStrain {

@@ -11,6 +11,8 @@
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/foundation_springs.h"
 #include "solver/model/id_index.h"
+#include "solver/newton/corrector.h"
+#include "solver/numeric/rounding.h"
 #include "solver/report/resultant.h"
 
 namespace snapthrough {
@@ -161,8 +163,6 @@ double largest_force(const Structure& structure, const VectorXd& y, const Vector
 /// reactions equilibrium determines better than stiffness times penetration.
 /// @param largest largest other force; a residual above the corrector's tolerance and above rounding stays
 void balance(const Wrench& others, double largest, std::vector<Bearing>& bearings) {
-  constexpr double kResidual = 1e-8;  // share of the largest force, as CorrectorOptions::largest_residual
-  constexpr double kRoundings = 8.0;  // factor on the rounding, which is summed over an element
   Wrench left = others;
   double rounding = 0.0;
   for (const Bearing& bearing : bearings) {
@@ -173,7 +173,9 @@ void balance(const Wrench& others, double largest, std::vector<Bearing>& bearing
     rounding += bearing.rounding;
   }
   const double size = std::max({std::abs(left[0]), std::abs(left[1]), std::abs(left[2])});
-  if (rounding == 0.0 || size > std::max(kResidual * largest, kRoundings * rounding)) return;
+  if (rounding == 0.0 ||
+      size > std::max(CorrectorOptions{}.largest_residual * largest, Rounding::element_sum * rounding))
+    return;
   for (Bearing& bearing : bearings)
     for (int c = 0; c < 3; ++c) bearing.wrench[c] -= bearing.rounding / rounding * left[c];
 }

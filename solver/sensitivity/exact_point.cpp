@@ -23,13 +23,11 @@ Index nearest_target(const CriticalSolution& solution, double lambda) {
 
 std::optional<ExactPoint> exact_point(EquilibriumProblem& problem, const PathMetric& metric,
                                       const LocatedPoint& at, int& factorisations) {
-  constexpr double kPlace = 1e-9;  // displacement tolerance over the reach
-  constexpr int kTimes = 2;        // the second solution updates the derivatives, which lag by one iteration
   const CriticalEvent& event = at.event;
   const bool limit = is_limit(event.type);
   CriticalOptions options;
   options.tolerance = 1e-13;
-  options.place = kPlace;
+  options.place = 1e-9;
   options.reach = at.reach;
   options.least_load = at.least_load;
   CriticalGuess guess{event.point.y, event.point.lambda, {}};
@@ -41,7 +39,8 @@ std::optional<ExactPoint> exact_point(EquilibriumProblem& problem, const PathMet
         null_vector(problem, event.point, limit ? event.point.tangent : pseudo_random(problem.size(), 1U));
   }
   std::optional<ExactPoint> best;
-  for (int time = 0; time < kTimes; ++time) {
+  // the second solution updates the derivatives, which lag by one iteration
+  for (int time = 0; time < 2; ++time) {
     auto found = limit ? solve_limit_point(problem, metric, guess, options, factorisations)
                        : solve_bifurcation(problem, metric, guess, options, factorisations);
     if (!found) break;

@@ -16,6 +16,24 @@ namespace {
 using Eigen::MatrixXd;
 using Rate = CriticalSensitivity::Rate;
 
+/// Numbers of the differences for one rate. A "change" is that of the load factor over the load factor, when
+/// the varied number changes by its size. Source: error of a second-order difference, see docs/theory.md.
+struct DifferenceLimits {
+  static constexpr int steps = 6;               ///< most step lengths that are tried
+  static constexpr double first_step = 2.5e-4;  ///< first step over the variation's size
+  static constexpr double shorter = 0.125;      ///< ratio of successive steps
+  static constexpr double rounding = 1e-13;     ///< rounding of a load over the load
+  static constexpr double agreement = 1e-6;     ///< error over the rate; its square after extrapolation
+  static constexpr double no_change = 1e-8;     ///< error of the change that counts as zero
+  static constexpr double rate_error = 1e-3;    ///< largest accepted error over the rate
+  static constexpr double load_error = 1e-6;    ///< largest accepted error of the change
+  /// Factor by which one-sided differences come closer, when the step is halved, where there is no kink.
+  static constexpr double smooth_fall = 0.75;
+  static constexpr double kink = 1e-5;            ///< mismatch of one-sided changes that is ignored
+  static constexpr double breaking_share = 1e-5;  ///< work on the mode over its terms: rounding and mesh
+  static constexpr double imperfection = 1e-9;    ///< imperfection by the variation that counts as zero
+};
+
 /// Derivative of the equations with respect to one variation, and the resulting sensitivity.
 class VariationRate {
  public:
@@ -98,37 +116,29 @@ Rate VariationRate::difference(const Sides& at) const {
 }
 
 std::optional<Rate> VariationRate::best_difference(double lambda) {
-  constexpr double kFirst = 2.5e-4;   // first step over the variation's size
-  constexpr double kShorter = 0.125;  // ratio of successive steps
-  constexpr int kMostSteps = 6;
-  constexpr double kAgree = 1e-6;  // relative agreement; the error after extrapolation is about its square
-  // change of the load, per change by the variation's size, that counts as zero
-  constexpr double kNothing = 1e-8;
-  constexpr double kRounding = 1e-13;  // rounding of a difference over the load
-  constexpr double kDiffer = 1e-3;     // largest accepted error over the rate
-  // largest accepted error over the load, per change by the variation's size
-  constexpr double kCounts = 1e-6;
   const double size = variation_.size;
   std::optional<Rate> best;
   double least = std::numeric_limits<double>::infinity();
-  double step = kFirst * size;
-  for (int n = 0; n < kMostSteps; ++n, step *= kShorter) {
+  double step = DifferenceLimits::first_step * size;
+  for (int n = 0; n < DifferenceLimits::steps; ++n, step *= DifferenceLimits::shorter) {
     auto coarse = sides(step);
     auto fine = coarse ? sides(0.5 * step) : std::nullopt;
     if (!fine) break;
     const double first = difference(*coarse).lambda;
     Rate rate = difference(*fine);
-    const double error = std::abs(rate.lambda - first) + kRounding * std::abs(lambda) / step;
+    const double error = std::abs(rate.lambda - first) + DifferenceLimits::rounding * std::abs(lambda) / step;
     if (!(error < least)) continue;
     least = error;
     rate.lambda = (4.0 * rate.lambda - first) / 3.0;
     best = rate;
     coarse_ = *std::move(coarse);
     fine_ = *std::move(fine);
-    if (error <= kAgree * std::abs(rate.lambda) || error * size <= kNothing * std::abs(lambda)) break;
+    if (error <= DifferenceLimits::agreement * std::abs(rate.lambda) ||
+        error * size <= DifferenceLimits::no_change * std::abs(lambda))
+      break;
   }
-  const bool settled =
-      best && (least <= kDiffer * std::abs(best->lambda) || least * size <= kCounts * std::abs(lambda));
+  const bool settled = best && (least <= DifferenceLimits::rate_error * std::abs(best->lambda) ||
+                                least * size <= DifferenceLimits::load_error * std::abs(lambda));
   return settled ? best : std::nullopt;
 }
 
@@ -139,23 +149,18 @@ double VariationRate::mismatch(const Sides& at) const {
 
 /// Whether the one-sided rates differ, also over half the step: contact changes at the value.
 bool VariationRate::has_kink(double lambda) const {
-  // decrease of the difference of rates, when the step is halved, without a kink
-  constexpr double kFalls = 0.75;
-  constexpr double kCounts = 1e-5;  // relative change of the load by the kink that is ignored
   if (!structure_.one_sided || way_ != 0.0) return false;
   const double near = std::abs(mismatch(fine_));
-  return near * variation_.size > kCounts * std::abs(lambda) && near > kFalls * std::abs(mismatch(coarse_));
+  return near * variation_.size > DifferenceLimits::kink * std::abs(lambda) &&
+         near > DifferenceLimits::smooth_fall * std::abs(mismatch(coarse_));
 }
 
 Sensitivity VariationRate::find(double lambda) {
-  // work of forces on the mode relative to its terms, caused by rounding and mesh
-  constexpr double kShare = 1e-5;
-  // imperfection, per change by the variation's size, that counts as zero
-  constexpr double kImperfection = 1e-9;
   Sensitivity out{variation_.pointer, std::nullopt, std::nullopt};
   const auto rate = best_difference(lambda);
-  if (rate && event_.type == CriticalType::bifurcation && rate->breaking_share > kShare &&
-      rate->breaking * variation_.size > kImperfection) {
+  if (rate && event_.type == CriticalType::bifurcation &&
+      rate->breaking_share > DifferenceLimits::breaking_share &&
+      rate->breaking * variation_.size > DifferenceLimits::imperfection) {
     out.reason = NoDerivative::breaks_bifurcation;
   } else if (!rate || has_kink(lambda)) {
     out.reason = NoDerivative::not_differentiable;

@@ -12,6 +12,7 @@
 
 #include "solver/geometry/axes.h"
 #include "solver/model/id_index.h"
+#include "solver/numeric/rounding.h"
 #include "solver/support/law.h"
 
 namespace snapthrough {
@@ -19,13 +20,11 @@ namespace {
 
 using Vec2 = std::array<double, 2>;
 
-constexpr double kOneLine = 1e-12;  ///< sine of the angle below which two lines of action coincide
-
 /// 1: same direction; -1: opposite directions; 0: different lines of action.
 double agreement(const Direction& a, const Direction& b) {
   if (a.turns != b.turns) return 0.0;
   if (a.turns) return a.sign * b.sign;
-  if (std::abs(a.fixed[0] * b.fixed[1] - a.fixed[1] * b.fixed[0]) > kOneLine) return 0.0;
+  if (std::abs(a.fixed[0] * b.fixed[1] - a.fixed[1] * b.fixed[0]) > Rounding::parallel) return 0.0;
   return a.fixed[0] * b.fixed[0] + a.fixed[1] * b.fixed[1] > 0.0 ? 1.0 : -1.0;
 }
 
@@ -128,7 +127,7 @@ class Joiner {
  private:
   template <class Support>
   [[nodiscard]] bool touches(const Support& support, double unit) const {
-    return is_one_sided(support) && support.gap <= kNoGap * unit;
+    return is_one_sided(support) && support.gap <= Rounding::coordinate * unit;
   }
   void join_springs();
   void join_springs_at(const std::vector<Touching>& place);

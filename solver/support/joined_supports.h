@@ -8,9 +8,6 @@
 
 namespace snapthrough {
 
-/// Gap over the structure's longest chord that counts as rounding of the geometry: the support touches.
-inline constexpr double kNoGap = 1e-14;
-
 /// @brief Two one-sided supports without gap that push from opposite sides at one place react with
 ///
 ///   k_1 max(w, 0) - k_2 max(-w, 0)  =  k w + (k_1 - k_2) max(w, 0),    k = k_2 <= k_1:

@@ -24,11 +24,15 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kReach = 0.01;  // distance from the critical point to both equilibria, over the path length
-constexpr double kInterpolation = 1e-8;  // relative error of an interpolated load
-constexpr double kSameLoad = 1e-6;       // relative difference up to which loads agree
-constexpr int kMostHalvings = 7;
-constexpr std::size_t kHistory = 4;  // number of nodes: extrapolation is cubic
+/// Numbers of the curve of a critical load over a parameter; ratios without unit. Source: docs/sweeps.md.
+struct CurveLimits {
+  /// Distance from the critical point to both equilibria beside it, over the path length.
+  static constexpr double reach = 0.01;
+  static constexpr double interpolation = 1e-8;  ///< relative error of an interpolated load
+  static constexpr double same_load = 1e-6;      ///< relative difference up to which loads agree
+  static constexpr int halvings = 7;             ///< most halvings of a step from one value to the next
+  static constexpr std::size_t nodes = 4;        ///< values that are extrapolated from: the degree is three
+};
 
 /// Equilibrium state, or coefficient of a series of states.
 struct Place {
@@ -164,7 +168,7 @@ class Follower {
 void Follower::remember(std::optional<Expansion> node) {
   if (!node) return;
   nodes_.push_back(*std::move(node));
-  if (nodes_.size() > kHistory) nodes_.pop_front();
+  if (nodes_.size() > CurveLimits::nodes) nodes_.pop_front();
 }
 
 /// Normalised direction of the path at the critical point; at a limit point without the load.
@@ -221,7 +225,7 @@ Found bifurcation(const Segment& segment, const Cubic& path, const PathPoint& mi
   const double rate = slope - bend * x2;  // coefficient in d0 + rate s + bend s^2 at the first point
   const double s = -2.0 * d0 / (rate + std::copysign(std::sqrt(rate * rate - 4.0 * bend * d0), rate));
   if (!(line > 0.0 && line < x2 && s > 0.0 && s < x2)) return {};
-  return {s, kReach * std::abs(path.series(s)[0].lambda - path.series(line)[0].lambda)};
+  return {s, CurveLimits::reach * std::abs(path.series(s)[0].lambda - path.series(line)[0].lambda)};
 }
 
 /// Corrects a predicted critical point; empty when it is uncertain.
@@ -245,7 +249,8 @@ std::optional<Expansion> corrected(PointSolver& solver, const Expansion& guess, 
   Expansion node = guess;
   node.series = path.series(found.distance);
   // Adapts the distance of the equilibria so that the error stays well below the tolerance.
-  const double wanted = 0.1 * kInterpolation * std::abs(node.series[0].lambda) / kReach;
+  const double wanted =
+      0.1 * CurveLimits::interpolation * std::abs(node.series[0].lambda) / CurveLimits::reach;
   node.reach = guess.reach * std::clamp(std::cbrt(wanted / std::max(found.change, 1e-3 * wanted)), 0.3, 1.2);
   if (found.change <= 10.0 * wanted) return node;
   return attempts > 1 ? corrected(solver, node, attempts - 1) : std::nullopt;
@@ -288,7 +293,7 @@ bool Follower::follow_to(double value, int halvings) {
     remember(std::move(node));
     return true;
   }
-  if (halvings == kMostHalvings) return false;
+  if (halvings == CurveLimits::halvings) return false;
   const double middle = value_at(0.5 * (nodes_.back().t + t));
   if (!follow_to(middle, halvings + 1)) return false;
   ++curve_.inserted;
@@ -329,7 +334,7 @@ CriticalCurvePoint Follower::trace_at(double value) {
     if (!touching && event.cause == CriticalCause::smooth && event.multiplicity == 1 && !event.point.holds) {
       Expansion guess;
       guess.t = place_of(value);
-      guess.reach = kReach * member->follower.norm().search_scale(event.point);
+      guess.reach = CurveLimits::reach * member->follower.norm().search_scale(event.point);
       const VectorXd zero = VectorXd::Zero(event.point.y.size());
       guess.bifurcation = event.type == CriticalType::bifurcation;
       guess.series = {Place{event.point.y, event.point.lambda},
@@ -354,9 +359,9 @@ void Follower::check_from(std::size_t first, std::size_t last) {
   std::unique_ptr<Family> measure = std::move(measure_);
   const CriticalCurvePoint traced = trace_at(request_.values[last]);
   CriticalCurvePoint& followed = curve_.points[last];
-  const bool same =
-      traced.load_factor && traced.type == followed.type &&
-      std::abs(*traced.load_factor - *followed.load_factor) <= kSameLoad * std::abs(*traced.load_factor);
+  const bool same = traced.load_factor && traced.type == followed.type &&
+                    std::abs(*traced.load_factor - *followed.load_factor) <=
+                        CurveLimits::same_load * std::abs(*traced.load_factor);
   if (same) {
     measure_ = std::move(measure);
     nodes_ = nodes;
