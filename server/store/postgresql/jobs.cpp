@@ -87,14 +87,13 @@ void insert_copy(Connection& connection, const NewJob& job, const std::string& o
         "INSERT INTO result_pieces SELECT (SELECT seq FROM jobs WHERE id = $1), number, result_pieces.bytes"
         " FROM result_pieces JOIN jobs ON seq = job WHERE id = $2",
         "INSERT INTO branches SELECT (SELECT seq FROM jobs WHERE id = $1), branch, parent, load_factor,"
-        " arc_length, negative_eigenvalues, stiffness_ratio FROM branches JOIN jobs ON seq = job WHERE id = "
-        "$2",
+        " arc_length, negative_eigenvalues, stiffness_ratio, fields FROM branches JOIN jobs ON seq = job"
+        " WHERE id = $2",
         "INSERT INTO branch_series SELECT (SELECT seq FROM jobs WHERE id = $1), branch, kind, number,"
         " branch_series.id, samples FROM branch_series JOIN jobs ON seq = job WHERE jobs.id = $2",
         "INSERT INTO critical_points SELECT (SELECT seq FROM jobs WHERE id = $1), number, branch, type,"
-        " load_factor, error_estimate, arc_length, negative_before, negative_after, multiplicity, "
-        "imperfection"
-        " FROM critical_points JOIN jobs ON seq = job WHERE id = $2",
+        " load_factor, error_estimate, arc_length, negative_before, negative_after, multiplicity,"
+        " imperfection, fields FROM critical_points JOIN jobs ON seq = job WHERE id = $2",
         "UPDATE jobs SET status = 'successful', finished_us = started_us,"
         " bytes = bytes + (SELECT size FROM results JOIN jobs ON seq = job WHERE id = $2) WHERE id = $1",
         "DELETE FROM job_leases USING jobs WHERE job = seq AND id = $1 AND $2 <> ''"}) {

@@ -3,9 +3,11 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "api/names.h"
+#include "api/stored_fields.h"
 #include "server/store/known_values.h"
 
 namespace snapthrough::server::postgresql {
@@ -46,6 +48,19 @@ Annotations annotations_in(const Rows& rows, int row, int column) {
   return {rows.text(row, column), rows.text(row, column + 1), rows.text(row, column + 2)};
 }
 
+/// Fields without a column; none in rows that were stored before there were any.
+template <class T>
+void read_fields(const Rows& rows, int row, int column, T& object) {
+  if (rows.is_null(row, column)) {
+    return;
+  }
+  try {
+    api::read_stored_fields(rows.text(row, column), object);
+  } catch (const std::runtime_error& error) {
+    throw Error("XX001", error.what());
+  }
+}
+
 Branch read_branch(const Rows& rows, int row) {
   Branch branch;
   branch.id = static_cast<int>(rows.integer(row, 0));
@@ -56,6 +71,7 @@ Branch read_branch(const Rows& rows, int row) {
     branch.negative_eigenvalues.push_back(static_cast<int>(count));
   }
   branch.stiffness_ratio = without_nan(rows.series(row, 5), branch.load_factor.size());
+  read_fields(rows, row, 6, branch);
   return branch;
 }
 
@@ -70,6 +86,7 @@ CriticalPoint read_critical_point(const Rows& rows, int row) {
   point.negative_after = static_cast<int>(rows.integer(row, 6));
   point.multiplicity = static_cast<int>(rows.integer(row, 7));
   point.imperfection = rows.optional_real(row, 8);
+  read_fields(rows, row, 9, point);
   return point;
 }
 
@@ -163,18 +180,19 @@ void add_path(std::vector<Statement>& statements, std::string_view job, const st
               const std::vector<CriticalPoint>& critical_points) {
   static const std::string kBranch =
       "INSERT INTO branches (job, branch, parent, load_factor, arc_length, negative_eigenvalues,"
-      " stiffness_ratio) VALUES (" +
-      std::string(kJobOf) + ", $2, $3, $4, $5, $6, $7)";
+      " stiffness_ratio, fields) VALUES (" +
+      std::string(kJobOf) + ", $2, $3, $4, $5, $6, $7, $8)";
   static const std::string kPoint =
       "INSERT INTO critical_points (job, number, branch, type, load_factor, error_estimate, arc_length,"
-      " negative_before, negative_after, multiplicity, imperfection) VALUES (" +
-      std::string(kJobOf) + ", $2, $3, $4, $5, $6, $7, $8, $9, $10, $11)";
+      " negative_before, negative_after, multiplicity, imperfection, fields) VALUES (" +
+      std::string(kJobOf) + ", $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12)";
   for (const Branch& branch : branches) {
     const std::vector<double> negative(branch.negative_eigenvalues.begin(),
                                        branch.negative_eigenvalues.end());
     Parameters row;
     row.add(job).add(branch.id).add(branch.parent).add_series(branch.load_factor);
     row.add_series(branch.arc_length).add_series(negative).add_series(with_nan(branch.stiffness_ratio));
+    row.add(api::stored_fields(branch));
     statements.push_back({kBranch, std::move(row)});
     add_series(statements, job, branch.id, "monitor", branch.monitors);
     add_series(statements, job, branch.id, "contact_fraction", branch.contact_fraction);
@@ -185,6 +203,7 @@ void add_path(std::vector<Statement>& statements, std::string_view job, const st
     row.add(job).add(number++).add(point.branch).add(api::name_of(api::kCriticalTypes, point.type));
     row.add(point.load_factor).add(point.error_estimate).add(point.arc_length).add(point.negative_before);
     row.add(point.negative_after).add(point.multiplicity).add(point.imperfection);
+    row.add(api::stored_fields(point));
     statements.push_back({kPoint, std::move(row)});
   }
 }
@@ -192,15 +211,15 @@ void add_path(std::vector<Statement>& statements, std::string_view job, const st
 StoredPath read_path(Connection& connection, std::string_view job) {
   const Parameters id = Parameters().add(job);
   const std::vector<Rows> all = connection.run_all(std::vector<Statement>{
-      {"SELECT branch, parent, load_factor, arc_length, negative_eigenvalues, stiffness_ratio FROM branches"
-       " JOIN jobs ON seq = job WHERE id = $1 ORDER BY branch",
+      {"SELECT branch, parent, load_factor, arc_length, negative_eigenvalues, stiffness_ratio, fields"
+       " FROM branches JOIN jobs ON seq = job WHERE id = $1 ORDER BY branch",
        id},
       {"SELECT branch, kind, branch_series.id, samples FROM branch_series JOIN jobs ON seq = job"
        " WHERE jobs.id = $1 ORDER BY branch, kind, number",
        id},
       {"SELECT branch, type, load_factor, error_estimate, arc_length, negative_before, negative_after,"
-       " multiplicity, imperfection FROM critical_points JOIN jobs ON seq = job WHERE id = $1 ORDER BY "
-       "number",
+       " multiplicity, imperfection, fields FROM critical_points JOIN jobs ON seq = job WHERE id = $1"
+       " ORDER BY number",
        id}});
   StoredPath path;
   for (int row = 0; row < all[0].count(); ++row) {

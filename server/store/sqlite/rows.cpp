@@ -1,8 +1,10 @@
 #include "server/store/sqlite/rows.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "api/names.h"
+#include "api/stored_fields.h"
 #include "server/store/known_values.h"
 
 namespace snapthrough::server::sqlite {
@@ -42,7 +44,7 @@ void insert_branch(Connection& connection, std::int64_t job, const Branch& branc
   connection
       .prepare(
           "INSERT INTO branches (job, branch, parent, points, load_factor, arc_length, negative_eigenvalues,"
-          " stiffness_ratio) VALUES (?, ?, ?, ?, ?, ?, ?, ?)")
+          " stiffness_ratio, fields) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(job)
       .bind(branch.id)
       .bind(branch.parent)
@@ -51,6 +53,7 @@ void insert_branch(Connection& connection, std::int64_t job, const Branch& branc
       .bind_series(branch.arc_length)
       .bind_series(negative)
       .bind_series(with_nan(branch.stiffness_ratio))
+      .bind(api::stored_fields(branch))
       .run();
   insert_series(connection, job, branch.id, "monitor", branch.monitors);
   insert_series(connection, job, branch.id, "contact_fraction", branch.contact_fraction);
@@ -60,8 +63,8 @@ void insert_critical_point(Connection& connection, std::int64_t job, int number,
   connection
       .prepare(
           "INSERT INTO critical_points (job, number, branch, type, load_factor, error_estimate, arc_length,"
-          " negative_before, negative_after, multiplicity, imperfection)"
-          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+          " negative_before, negative_after, multiplicity, imperfection, fields)"
+          " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(job)
       .bind(number)
       .bind(point.branch)
@@ -73,7 +76,21 @@ void insert_critical_point(Connection& connection, std::int64_t job, int number,
       .bind(point.negative_after)
       .bind(point.multiplicity)
       .bind(point.imperfection)
+      .bind(api::stored_fields(point))
       .run();
+}
+
+/// Fields without a column; none in rows that were stored before there were any.
+template <class T>
+void read_fields(const Statement& row, int column, T& object) {
+  if (row.is_null(column)) {
+    return;
+  }
+  try {
+    api::read_stored_fields(row.text(column), object);
+  } catch (const std::runtime_error& error) {
+    throw Error(0, error.what());
+  }
 }
 
 std::vector<NamedSeries> read_series(const Connection& connection, std::int64_t job, int branch,
@@ -171,8 +188,8 @@ void insert_path(Connection& connection, std::int64_t job, const std::vector<Bra
 
 std::vector<Branch> read_branches(const Connection& connection, std::int64_t job) {
   Statement rows = connection.prepare(
-      "SELECT branch, parent, load_factor, arc_length, negative_eigenvalues, stiffness_ratio FROM branches"
-      " WHERE job = ? ORDER BY branch");
+      "SELECT branch, parent, load_factor, arc_length, negative_eigenvalues, stiffness_ratio, fields"
+      " FROM branches WHERE job = ? ORDER BY branch");
   rows.bind(job);
   std::vector<Branch> branches;
   while (rows.step()) {
@@ -185,6 +202,7 @@ std::vector<Branch> read_branches(const Connection& connection, std::int64_t job
       branch.negative_eigenvalues.push_back(static_cast<int>(count));
     }
     branch.stiffness_ratio = without_nan(rows.series(5), branch.load_factor.size());
+    read_fields(rows, 6, branch);
     branch.monitors = read_series(connection, job, branch.id, "monitor");
     branch.contact_fraction = read_series(connection, job, branch.id, "contact_fraction");
     branches.push_back(std::move(branch));
@@ -194,9 +212,8 @@ std::vector<Branch> read_branches(const Connection& connection, std::int64_t job
 
 std::vector<CriticalPoint> read_critical_points(const Connection& connection, std::int64_t job) {
   Statement rows = connection.prepare(
-      "SELECT branch, type, load_factor, error_estimate, arc_length, negative_before, negative_after, "
-      "multiplicity, imperfection"
-      " FROM critical_points WHERE job = ? ORDER BY number");
+      "SELECT branch, type, load_factor, error_estimate, arc_length, negative_before, negative_after,"
+      " multiplicity, imperfection, fields FROM critical_points WHERE job = ? ORDER BY number");
   rows.bind(job);
   std::vector<CriticalPoint> points;
   while (rows.step()) {
@@ -210,6 +227,7 @@ std::vector<CriticalPoint> read_critical_points(const Connection& connection, st
     point.negative_after = static_cast<int>(rows.integer(6));
     point.multiplicity = static_cast<int>(rows.integer(7));
     point.imperfection = rows.optional_real(8);
+    read_fields(rows, 9, point);
     points.push_back(std::move(point));
   }
   return points;

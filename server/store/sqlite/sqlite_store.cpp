@@ -203,11 +203,12 @@ std::int64_t insert_copy(Connection& connection, NewJob job, std::int64_t origin
         "INSERT INTO result_pieces (job, number, bytes) SELECT ?, number, bytes FROM result_pieces"
         " WHERE job = ?",
         "INSERT INTO branches SELECT ?, branch, parent, points, load_factor, arc_length,"
-        " negative_eigenvalues, stiffness_ratio FROM branches WHERE job = ?",
+        " negative_eigenvalues, stiffness_ratio, fields FROM branches WHERE job = ?",
         "INSERT INTO branch_series SELECT ?, branch, kind, number, id, samples FROM branch_series"
         " WHERE job = ?",
         "INSERT INTO critical_points SELECT ?, number, branch, type, load_factor, error_estimate, arc_length,"
-        " negative_before, negative_after, multiplicity, imperfection FROM critical_points WHERE job = ?"}) {
+        " negative_before, negative_after, multiplicity, imperfection, fields FROM critical_points WHERE job "
+        "= ?"}) {
     connection.prepare(sql).bind(row).bind(original).run();
   }
   end_job(connection, row, JobEvent::finish, job.created);
