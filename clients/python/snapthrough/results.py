@@ -2,11 +2,11 @@
 
 Made by clients/python/generate.py from the OpenAPI document; change that instead.
 """
-from typing import Any, Dict, List, Literal, Optional, Union, cast
+from typing import Any, Dict, List, Literal, Optional, Tuple, Union, cast
 
 from ._part import Part, PartList, PartMap
 
-__all__ = ["AtCritical", "Branch", "Buckling", "Check", "CheckSize", "ContactEvent", "CriticalPoint",
+__all__ = ["AtCritical", "Branch", "Buckling", "COLUMNS", "Check", "CheckSize", "ContactEvent", "CriticalPoint",
            "CriticalPointEvent", "Diagnostics", "DisplacementExtreme", "Extremes", "Failure", "Finding", "ForceExtreme",
            "FoundationState", "Job", "JobError", "JobList", "JobProgressEvent", "Koiter", "Limits", "Link",
            "MemberExtremes", "MemberExtremesAxialForce", "MemberExtremesBendingMoment", "MemberExtremesDisplacement",
@@ -15,6 +15,17 @@ __all__ = ["AtCritical", "Branch", "Buckling", "Check", "CheckSize", "ContactEve
            "PathPointsEventMonitorsItem", "Problem", "ResultFields", "ResultFieldsModel", "Resultant", "Sensitivity",
            "Softest", "SpringState", "State", "Static", "Summary", "SupportReaction", "Sweep", "SweepCounts",
            "SweepList", "SweepProgressEvent", "Warning"]
+
+#: Of the tables of a result: fields with a column, and fields with a column for each id.
+COLUMNS: Dict[str, Tuple[Tuple[str, ...], Tuple[str, ...]]] = {
+    "CriticalPoint": (('branch', 'type', 'cause', 'load_factor', 'error_estimate', 'confirmed', 'arc_length',
+        'negative_before', 'negative_after', 'multiplicity', 'state', 'member'), ('monitors',)),
+    "Branch": (('load_factor', 'arc_length', 'negative_eigenvalues', 'stiffness_ratio'), ('monitors',
+        'contact_fraction')),
+    "Static": (('load_factor', 'negative_eigenvalues', 'state'), ('monitors', 'contact_fraction')),
+    "MemberState": (('s', 'x0', 'y0', 'x', 'y', 'u', 'v', 'rotation', 'axial_force', 'shear_force', 'bending_moment'),
+        ()),
+}
 
 
 class ResultFieldsModel(Part):
