@@ -27,6 +27,18 @@ inline constexpr bool kIsVector<std::vector<T>> = true;
 template <class T>
 [[nodiscard]] nlohmann::json field_json(const T& value);
 
+/// Whether a document leaves a field out because it is kIfAny and empty.
+template <class AnyField, class T>
+[[nodiscard]] bool is_left_out(const AnyField& /*field*/, const T& value) {
+  if constexpr (!AnyField::is(kIfAny)) {
+    return false;
+  } else if constexpr (kIsVector<T>) {
+    return value.empty();
+  } else {
+    return !value.has_value();
+  }
+}
+
 /// Every field of an object.
 struct All {
   bool operator()(std::string_view /*name*/) const { return true; }
@@ -41,11 +53,7 @@ template <class T, class Wanted = All>
     if constexpr (!one.is(kInternal) && !one.is(kKey)) {
       if (!wanted(one.name)) return;
       const auto& value = std::invoke(one.get, object);
-      if constexpr (one.is(kIfAny) && kIsVector<ValueOf<T, std::remove_cvref_t<decltype(one)>>>) {
-        if (value.empty()) return;
-      } else if constexpr (one.is(kIfAny)) {
-        if (!value) return;
-      }
+      if (is_left_out(one, value)) return;
       if constexpr (one.is(kCount)) {
         json.emplace(one.name, value < 0 ? nlohmann::json(nullptr) : nlohmann::json(value));
       } else {

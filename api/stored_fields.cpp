@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "api/field_json.h"
@@ -18,14 +19,25 @@ template <class T>
 std::optional<std::string> write(const T& object) {
   Json json = Json::object();
   for_each_field<T>([&](const auto& one) {
-    if constexpr (one.is(kStored)) json.emplace(one.name, field_json(object.*one.get));
+    if constexpr (one.is(kStored)) {
+      if (!is_left_out(one, object.*one.get)) json.emplace(one.name, field_json(object.*one.get));
+    }
   });
   return json.empty() ? std::nullopt : std::optional(json.dump());
 }
 
-void read_by_id(const std::string& id, const Json& json, NamedValue& one) { one = {id, json.get<double>()}; }
-void read_by_id(const std::string& id, const Json& json, NamedSeries& one) {
-  one = {id, json.get<std::vector<double>>()};
+template <class T>
+void read(const Json& json, T& value);
+
+/// The inverse of value_of_id().
+template <class T>
+void read_by_id(const std::string& id, const Json& json, T& one) {
+  one.id = id;
+  if constexpr (std::is_same_v<T, NamedValue>) {
+    read(json, one.value);
+  } else {
+    read(json, one.values);
+  }
 }
 
 /// The inverse of field_json() for the types that stored fields have.
@@ -39,7 +51,7 @@ void read(const Json& json, T& value) {
   } else if constexpr (kIsVector<T>) {
     value.clear();
     for (const auto& item : json.items()) {
-      if constexpr (requires { read_by_id(item.key(), item.value(), value.emplace_back()); }) {
+      if constexpr (requires { value_of_id(value.front()); }) {
         read_by_id(item.key(), item.value(), value.emplace_back());
       } else {
         read(item.value(), value.emplace_back());

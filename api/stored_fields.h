@@ -11,7 +11,7 @@
 
 namespace snapthrough::api {
 
-/// A JSON object by name of field; nothing where no field is kStored.
+/// A JSON object by name of field; nothing where no stored field has a value.
 [[nodiscard]] std::optional<std::string> stored_fields(const CriticalPoint& point);
 [[nodiscard]] std::optional<std::string> stored_fields(const Branch& branch);
 
