@@ -71,6 +71,7 @@ inline constexpr auto kFields<CriticalPoint> =
                field("meshes", &CriticalPoint::meshes),
                field<kSent>("arc_length", &CriticalPoint::arc_length),
                field("monitors", &CriticalPoint::monitors),
+               field<kStored | kIfAny>("monitor_rate", &CriticalPoint::monitor_rate),
                field<kSent | kCount>("negative_before", &CriticalPoint::negative_before),
                field<kSent | kCount>("negative_after", &CriticalPoint::negative_after),
                field<kSent>("multiplicity", &CriticalPoint::multiplicity),

@@ -99,6 +99,9 @@ struct CriticalPoint {
   std::optional<KoiterCoefficients> koiter = {};
   /// Id of the member whose own buckling the point is: the motion lost there bends that member alone.
   std::optional<std::string> member = {};
+  /// d monitor / d load factor along the path, length or rad; empty: no finite rate is known (see the
+  /// schema).
+  std::vector<NamedValue> monitor_rate = {};
 };
 
 /// A displacement of a node.
