@@ -52,6 +52,18 @@ inline constexpr Named<BifurcationKind> kBifurcationKinds[] = {
 inline constexpr Named<StateOutput> kStateOutputs[] = {
     {"none", StateOutput::none}, {"critical", StateOutput::critical}, {"all", StateOutput::all}};
 
+/// Table of the names of an enumeration.
+template <class E>
+inline constexpr auto kNamesOf = nullptr;
+template <>
+inline constexpr const auto& kNamesOf<CriticalType> = kCriticalTypes;
+template <>
+inline constexpr const auto& kNamesOf<CriticalCause> = kCriticalCauses;
+template <>
+inline constexpr const auto& kNamesOf<NoDerivative> = kNoDerivatives;
+template <>
+inline constexpr const auto& kNamesOf<BifurcationKind> = kBifurcationKinds;
+
 /// Returns the name of a value. @throws std::invalid_argument when the table lacks the value
 template <class E, std::size_t n>
 [[nodiscard]] constexpr std::string_view name_of(const Named<E> (&table)[n], E value) {

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "api/csv_field.h"
+#include "api/field_json.h"
 #include "api/names.h"
+#include "api/result_fields.h"
 
 namespace snapthrough::api {
 
@@ -30,6 +34,13 @@ void append(std::string& text, double value) {
   text.append(digits.data(), end);
 }
 
+void append(std::string& text, int value) { text += std::to_string(value); }
+
+template <class T>
+void append(std::string& text, const std::optional<T>& value) {
+  if (value) append(text, *value);
+}
+
 void append(std::string& text, const Json& value) {
   if (value.is_number_float()) {
     append(text, value.get<double>());
@@ -37,6 +48,16 @@ void append(std::string& text, const Json& value) {
     append_csv_text(text, value.get<std::string>());
   } else if (!value.is_null()) {
     append_csv_field(text, value.dump());
+  }
+}
+
+/// The value of a series at a point; nothing where the branch has no such series.
+void append_value(std::string& text, const std::vector<NamedSeries>& all, const std::string& id,
+                  std::size_t point) {
+  const auto series =
+      std::find_if(all.begin(), all.end(), [&](const NamedSeries& one) { return one.id == id; });
+  if (series != all.end() && point < series->values.size()) {
+    append(text, series->values[point]);
   }
 }
 
@@ -53,28 +74,61 @@ const Json& element(const Json& list, std::size_t i) {
   return list.is_array() && i < list.size() ? list[i] : none;
 }
 
-/// The ids of all branches, each once, in the order they come.
-std::vector<std::string> ids_of(const std::vector<Branch>& branches,
-                                std::vector<NamedSeries> Branch::*series) {
-  std::vector<std::string> ids;
-  for (const Branch& branch : branches) {
-    for (const NamedSeries& one : branch.*series) {
-      if (std::find(ids.begin(), ids.end(), one.id) == ids.end()) {
-        ids.push_back(one.id);
-      }
+template <class T>
+inline constexpr bool kIsScalar =
+    std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, std::string>;
+template <class T>
+inline constexpr bool kIsScalar<std::optional<T>> = kIsScalar<T>;
+
+/// The type of one row's value: that of an element of a list.
+template <class T>
+struct InRow {
+  using Type = T;
+};
+template <class T>
+struct InRow<std::vector<T>> {
+  using Type = T;
+};
+
+template <class T>
+inline constexpr bool kIsById =
+    std::is_same_v<T, std::vector<NamedSeries>> || std::is_same_v<T, std::vector<NamedValue>> ||
+    std::is_same_v<T, std::optional<std::vector<NamedValue>>>;
+
+/// Calls visit(field) for the fields of T that tables have a column for: numbers and texts, or lists of them.
+template <class T, class Visit>
+void for_each_column(const Visit& visit) {
+  constexpr bool are_lists =
+      std::is_same_v<T, Branch> || std::is_same_v<T, StaticTable> || std::is_same_v<T, MemberState>;
+  for_each_field<T>([&](const auto& one) {
+    using Value = ValueOf<T, std::remove_cvref_t<decltype(one)>>;
+    if constexpr (!one.is(kInternal) && !one.is(kKey) && !one.is(kNoColumn) &&
+                  are_lists == kIsVector<Value> && kIsScalar<typename InRow<Value>::Type>) {
+      visit(one);
     }
-  }
-  return ids;
+  });
 }
 
-void append_value(std::string& text, const std::vector<NamedSeries>& series, const std::string& id,
-                  std::size_t point) {
-  text += ',';
-  const auto found =
-      std::find_if(series.begin(), series.end(), [&](const NamedSeries& one) { return one.id == id; });
-  if (found != series.end() && point < found->values.size()) {
-    append(text, found->values[point]);
-  }
+/// The same for the fields with a column for each id.
+template <class T, class Visit>
+void for_each_column_by_id(const Visit& visit) {
+  for_each_field<T>([&](const auto& one) {
+    if constexpr (!one.is(kInternal) && !one.is(kNoColumn) &&
+                  kIsById<ValueOf<T, std::remove_cvref_t<decltype(one)>>>)
+      visit(one);
+  });
+}
+
+template <class T>
+std::vector<std::string> columns_of() {
+  std::vector<std::string> names;
+  for_each_column<T>([&](const auto& one) { names.emplace_back(one.name); });
+  return names;
+}
+
+/// A column is named by the id alone where it is a monitor's displacement, else "field:id".
+std::string column_name(std::string_view field, const std::string& id) {
+  return field == "monitors" ? id : std::string(field) + ":" + id;
 }
 
 /// A header line and rows, each as many fields.
@@ -82,12 +136,7 @@ class Rows {
  public:
   explicit Rows(std::vector<std::string> columns) : columns_(std::move(columns)) {}
 
-  /// More columns, named by the keys of an object.
-  void add_columns(const Json& object, const std::string& prefix = "") {
-    for (const auto& item : object.items()) {
-      columns_.push_back(prefix + item.key());
-    }
-  }
+  void add_column(std::string name) { columns_.push_back(std::move(name)); }
   void begin() {
     for (const std::string& column : columns_) {
       text_ += text_.empty() ? "" : ",";
@@ -112,21 +161,39 @@ class Rows {
   std::size_t filled_ = 0;
 };
 
+/// Field and id of the columns by id of a table.
+using Columns = std::vector<std::pair<std::string, std::string>>;
+
+/// @param objects where ids are looked for: those of a field are the keys of the first object that has any
+template <class T>
+Columns columns_by_id(const Json& objects, Rows& rows) {
+  Columns columns;
+  for_each_column_by_id<T>([&](const auto& one) {
+    const std::string name(one.name);
+    for (const Json& object : objects) {
+      if (member(object, name).empty()) continue;
+      for (const auto& item : member(object, name).items()) {
+        rows.add_column(column_name(name, item.key()));
+        columns.emplace_back(name, item.key());
+      }
+      return;
+    }
+  });
+  return columns;
+}
+
 std::string critical_points_csv(const Json& result) {
-  const std::vector<std::string> fields{"branch",         "type",         "cause",      "load_factor",
-                                        "error_estimate", "confirmed",    "arc_length", "negative_before",
-                                        "negative_after", "multiplicity", "state",      "member"};
+  const std::vector<std::string> fields = columns_of<CriticalPoint>();
   const Json& points = member(result, "critical_points");
   Rows rows(fields);
-  const Json monitors = points.empty() ? Json() : member(points.front(), "monitors");
-  rows.add_columns(monitors);
+  const Columns columns = columns_by_id<CriticalPoint>(points, rows);
   rows.begin();
   for (const Json& point : points) {
     for (const std::string& field : fields) {
       rows.field(member(point, field));
     }
-    for (const auto& monitor : monitors.items()) {
-      rows.field(member(member(point, "monitors"), monitor.key()));
+    for (const auto& [field, id] : columns) {
+      rows.field(member(member(point, field), id));
     }
     rows.end_row();
   }
@@ -134,22 +201,17 @@ std::string critical_points_csv(const Json& result) {
 }
 
 std::string static_csv(const Json& result) {
-  const std::vector<std::string> fields{"load_factor", "negative_eigenvalues", "state"};
+  const std::vector<std::string> fields = columns_of<StaticTable>();
   const Json& table = member(result, "static");
-  const Json& monitors = member(table, "monitors");
-  const Json& contact = member(table, "contact_fraction");
   Rows rows(fields);
-  rows.add_columns(monitors);
-  rows.add_columns(contact, "contact_fraction:");
+  const Columns columns = columns_by_id<StaticTable>(Json::array({table}), rows);
   rows.begin();
   for (std::size_t i = 0; i < member(table, "load_factor").size(); ++i) {
     for (const std::string& field : fields) {
       rows.field(element(member(table, field), i));
     }
-    for (const Json* series : {&monitors, &contact}) {
-      for (const Json& one : *series) {
-        rows.field(element(one, i));
-      }
+    for (const auto& [field, id] : columns) {
+      rows.field(element(member(member(table, field), id), i));
     }
     rows.end_row();
   }
@@ -167,12 +229,14 @@ std::string buckling_csv(const Json& result) {
   return rows.take();
 }
 
-constexpr std::array kAlongMembers{
-    "s", "x0", "y0", "x", "y", "u", "v", "rotation", "axial_force", "shear_force", "bending_moment"};
+const std::vector<std::string>& columns_along_members() {
+  static const std::vector<std::string> kColumns = columns_of<MemberState>();
+  return kColumns;
+}
 
 Rows rows_of_states() {
   std::vector<std::string> columns{"state", "branch", "load_factor", "member"};
-  columns.insert(columns.end(), kAlongMembers.begin(), kAlongMembers.end());
+  columns.insert(columns.end(), columns_along_members().begin(), columns_along_members().end());
   return Rows(std::move(columns));
 }
 
@@ -180,7 +244,7 @@ void add_state(const Json& state, std::size_t number, Rows& rows) {
   for (const auto& [id, along] : member(state, "members").items()) {
     for (std::size_t place = 0; place < member(along, "s").size(); ++place) {
       rows.field(number).field(member(state, "branch")).field(member(state, "load_factor")).field(id);
-      for (const char* name : kAlongMembers) {
+      for (const std::string& name : columns_along_members()) {
         rows.field(element(member(along, name), place));
       }
       rows.end_row();
@@ -242,35 +306,44 @@ std::string table_names(std::span<const ResultTable> tables) {
   return names;
 }
 
-PointsTable::PointsTable(std::vector<Branch> branches)
-    : branches_(std::move(branches)),
-      monitors_(ids_of(branches_, &Branch::monitors)),
-      bases_(ids_of(branches_, &Branch::contact_fraction)) {}
+PointsTable::PointsTable(std::vector<Branch> branches) : branches_(std::move(branches)) {
+  for_each_column_by_id<Branch>([&](const auto& one) {
+    for (const Branch& branch : branches_) {
+      for (const NamedSeries& series : std::invoke(one.get, branch)) {
+        const std::pair column(std::string(one.name), series.id);
+        if (std::find(by_id_.begin(), by_id_.end(), column) == by_id_.end()) {
+          by_id_.push_back(column);
+        }
+      }
+    }
+  });
+}
 
 void PointsTable::append_head(std::string& csv) const {
-  csv += "branch,point,load_factor,arc_length,negative_eigenvalues,stiffness_ratio";
-  for (const std::string& id : monitors_) {
-    append_csv_text(csv += ',', id);
-  }
-  for (const std::string& id : bases_) {
-    append_csv_field(csv += ',', "contact_fraction:" + id);
+  csv += "branch,point";
+  for_each_column<Branch>([&](const auto& one) { csv.append(1, ',').append(one.name); });
+  for (const auto& [field, id] : by_id_) {
+    append_csv_text(csv += ',', column_name(field, id));
   }
   csv += kLineEnd;
 }
 
 void PointsTable::append_row(const Branch& branch, std::size_t point, std::string& csv) const {
-  csv += std::to_string(branch.id) + "," + std::to_string(point) + ",";
-  append(csv, branch.load_factor[point]);
-  append(csv += ',', branch.arc_length[point]);
-  csv += "," + std::to_string(branch.negative_eigenvalues[point]) + ",";
-  if (point < branch.stiffness_ratio.size() && branch.stiffness_ratio[point]) {
-    append(csv, *branch.stiffness_ratio[point]);
-  }
-  for (const std::string& id : monitors_) {
-    append_value(csv, branch.monitors, id, point);
-  }
-  for (const std::string& id : bases_) {
-    append_value(csv, branch.contact_fraction, id, point);
+  csv += std::to_string(branch.id) + "," + std::to_string(point);
+  for_each_column<Branch>([&](const auto& one) {
+    csv += ',';
+    const auto& values = std::invoke(one.get, branch);
+    if (point < values.size()) {
+      append(csv, values[point]);
+    }
+  });
+  for (const auto& [field, id] : by_id_) {
+    csv += ',';
+    for_each_column_by_id<Branch>([&, &field = field, &id = id](const auto& one) {
+      if (one.name == field) {
+        append_value(csv, std::invoke(one.get, branch), id, point);
+      }
+    });
   }
   csv += kLineEnd;
 }
@@ -294,7 +367,7 @@ bool PointsTable::append_rows(std::string& csv, std::size_t bytes) {
 std::size_t PointsTable::held_bytes() const {
   std::size_t numbers = 0;
   for (const Branch& branch : branches_) {
-    numbers += branch.load_factor.size() * (5 + branch.monitors.size() + branch.contact_fraction.size());
+    numbers += branch.load_factor.size() * (5 + by_id_.size());
   }
   return numbers * sizeof(double);
 }

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "api/json_pieces.h"
@@ -37,8 +38,8 @@ enum class ResultTable {
 
 /// @brief The points of all paths, one a row, under a header line.
 ///
-/// Columns: branch, point, load_factor, arc_length, negative_eigenvalues, one for each monitor (its id) and
-/// one for each base (contact_fraction:<id>).
+/// Columns: branch, point, the lists of a branch (api/result_fields.h), one for each monitor (its id), one
+/// for each id of its other series ("contact_fraction:<id>").
 class PointsTable {
  public:
   explicit PointsTable(std::vector<Branch> branches);
@@ -52,8 +53,7 @@ class PointsTable {
   void append_row(const Branch& branch, std::size_t point, std::string& csv) const;
 
   const std::vector<Branch> branches_;
-  const std::vector<std::string> monitors_;
-  const std::vector<std::string> bases_;
+  std::vector<std::pair<std::string, std::string>> by_id_;  ///< field and id of the columns by id
   bool begun_ = false;
   std::size_t branch_ = 0;  ///< of the next row
   std::size_t point_ = 0;
@@ -61,10 +61,10 @@ class PointsTable {
 
 /// @brief A table of a result document.
 ///
-/// critical_points: branch, type, cause, load_factor, error_estimate, confirmed, arc_length, negative_before,
-/// negative_after, multiplicity, state, monitors. static: load_factor, negative_eigenvalues, state, monitors,
-/// contact_fraction:<id>. buckling: mode (from 1), load_factor, error_estimate. states: state, branch,
-/// load_factor, member, s, x0, y0, x, y, u, v, rotation, axial_force, shear_force, bending_moment.
+/// Columns are the numbers and texts of the table of fields (api/result_fields.h) in its order, then one for
+/// each monitor (its id) and for each id of other fields ("field:<id>"). critical_points: CriticalPoint.
+/// static: StaticTable. buckling: mode (from 1), load_factor, error_estimate. states: state, branch,
+/// load_factor, member, then MemberState.
 /// @pre table is not points (see PointsTable)
 [[nodiscard]] std::string result_csv(const nlohmann::json& result, ResultTable table);
 

@@ -21,5 +21,5 @@ for file in snapthrough libsnapthrough.so.1; do
   fi
 done
 cd clients/python
-/usr/bin/python3 generate.py --check
+/usr/bin/python3 generate.py
 /usr/bin/python3 -W error::ResourceWarning -m unittest discover --start-directory tests --top-level-directory . "${@:2}"

@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source=scripts/lib/packages.sh
 source scripts/lib/packages.sh
-install_packages "${BUILD_PACKAGES[@]}" dpkg-dev lintian
+install_packages "${BUILD_PACKAGES[@]}" python3 dpkg-dev lintian
 
 # Packages of the same commit have the same dates inside.
 if [ -z "${SOURCE_DATE_EPOCH:-}" ]; then

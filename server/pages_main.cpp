@@ -1,11 +1,12 @@
 /// @file
-/// Program of the build that writes manual pages and shell completion.
+/// Program of the build that writes manual pages, shell completion and the documents with tables of fields.
 
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
 #include "server/cli/pages/description.h"
+#include "server/resources/page.h"
 
 namespace {
 
@@ -23,9 +24,9 @@ void write(const std::filesystem::path& path, const std::string& text) {
 int main(int argc, char** argv) {
   using namespace snapthrough::server::cli;
   if (argc != 3) {
-    std::cerr
-        << "usage: snapthrough_pages FOLDER DATE\n"
-           "Writes man1/*.1, bash/snapthrough, zsh/_snapthrough and fish/snapthrough.fish into FOLDER.\n";
+    std::cerr << "usage: snapthrough_pages FOLDER DATE\n"
+                 "Writes man1/*.1, bash/snapthrough, zsh/_snapthrough, fish/snapthrough.fish and docs/*.md "
+                 "into FOLDER.\n";
     return 1;
   }
   try {
@@ -37,6 +38,10 @@ int main(int argc, char** argv) {
     write(folder / "bash" / "snapthrough", bash_completion(program));
     write(folder / "zsh" / "_snapthrough", zsh_completion(program));
     write(folder / "fish" / "snapthrough.fish", fish_completion(program));
+    for (const snapthrough::server::http::FieldsDocument& document :
+         snapthrough::server::http::fields_documents()) {
+      write(folder / document.path.substr(1), document.text);
+    }
   } catch (const std::exception& error) {
     std::cerr << "snapthrough_pages: " << error.what() << '\n';
     return 1;

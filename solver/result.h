@@ -96,6 +96,9 @@ struct CriticalPoint {
   std::optional<KoiterCoefficients> koiter = {};
   /// Id of the member that buckles by itself: the mode bends that member alone.
   std::optional<std::string> member = {};
+  /// d monitor / d load factor along the path, length or rad; empty: no finite rate is known (see the
+  /// schema).
+  std::vector<NamedValue> monitor_rate = {};
 };
 
 /// Displacement of a node.

@@ -13,6 +13,9 @@ set(made ${CMAKE_CURRENT_BINARY_DIR}/debian)
 set(packages programs development)
 if(TARGET snapthrough_shared)
   list(APPEND packages library python)
+  if(NOT TARGET python_package)
+    message(FATAL_ERROR "SNAPTHROUGH_PACKAGE: python3 makes parts of the Python package, and is not there")
+  endif()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/clients/python/snapthrough DESTINATION lib/python3/dist-packages COMPONENT python
     PATTERN __pycache__ EXCLUDE)
 endif()
@@ -22,7 +25,10 @@ install(FILES ${debian}/snapthrough.service DESTINATION /lib/systemd/system COMP
 install(FILES ${debian}/config.toml DESTINATION /etc/snapthrough COMPONENT programs)
 
 # Documents: what a user of the package reads. Pictures of the page and reports of measurements stay with the sources.
+# Requests and results are those of the build, with their tables of fields.
 file(GLOB documents CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.svg)
+list(FILTER documents EXCLUDE REGEX "/(requests|results)\\.md$")
+install(DIRECTORY ${CMAKE_BINARY_DIR}/pages/docs/ DESTINATION share/doc/snapthrough/docs COMPONENT programs)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION share/doc/snapthrough COMPONENT programs)
 install(FILES ${documents} DESTINATION share/doc/snapthrough/docs COMPONENT programs)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/howto ${PROJECT_SOURCE_DIR}/docs/decisions

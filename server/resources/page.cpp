@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "api/openapi/field_table.h"
 #include "server/digest.h"
 #include "server/resources/negotiation.h"
 
@@ -78,7 +79,26 @@ Response not_modified(std::string_view path, const std::string& etag, bool chang
   return response;
 }
 
+std::optional<Response> fields_document(const Request& request) {
+  const std::vector<FieldsDocument>& all = fields_documents();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const FieldsDocument& one) { return one.path == request.path; });
+  if (found == all.end()) {
+    return std::nullopt;
+  }
+  if (matches_etag(request, found->etag)) {
+    return not_modified(found->path, found->etag, false);
+  }
+  Response response;
+  add_headers(response, found->path, found->etag, false);
+  response.body = found->text;
+  return response;
+}
+
 std::optional<Response> built_in(const Request& request) {
+  if (std::optional<Response> document = fields_document(request)) {
+    return document;
+  }
   const std::vector<PageFile>& files = embedded_page();
   const auto file =
       std::find_if(files.begin(), files.end(), [&](const PageFile& one) { return one.path == request.path; });
@@ -135,6 +155,24 @@ std::optional<Response> of_folder(const std::filesystem::path& folder, const Req
 }
 
 }  // namespace
+
+const std::vector<FieldsDocument>& fields_documents() {
+  static const std::vector<FieldsDocument> all = [] {
+    std::vector<FieldsDocument> found;
+    for (const PageFile& file : embedded_page()) {
+      if (!file.path.ends_with(".md")) {
+        continue;
+      }
+      const std::string text = unpacked(file.packed);
+      if (std::string made = api::with_field_tables(text); made != text) {
+        const std::string etag = "\"" + sha256_hex(made) + "\"";
+        found.push_back({file.path, std::move(made), etag});
+      }
+    }
+    return found;
+  }();
+  return all;
+}
 
 bool is_page_path(std::string_view path) {
   return path == "/" || path.starts_with(kAssets) || path.starts_with(kDocuments);

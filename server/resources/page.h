@@ -22,6 +22,16 @@ struct PageFile {
 
 [[nodiscard]] const std::vector<PageFile>& embedded_page();
 
+/// A document of docs/ with its tables of fields.
+struct FieldsDocument {
+  std::string_view path;  ///< in a request: "/docs/results.md"
+  std::string text;
+  std::string etag;
+};
+/// @brief The documents that have a table of fields, which docs/ has the place of
+/// (api/openapi/field_table.h). Thread-safe.
+[[nodiscard]] const std::vector<FieldsDocument>& fields_documents();
+
 /// Sources of the page other than a folder.
 inline constexpr std::string_view kEmbeddedPage = "built-in";
 inline constexpr std::string_view kNoPage = "none";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace snapthrough::server {
 
@@ -18,11 +19,11 @@ const char* const kSweepColumns =
     " sweeps.callback";
 
 const char* const kBranchColumns =
-    "branch, parent, load_factor, arc_length, negative_eigenvalues, stiffness_ratio";
+    "branch, parent, load_factor, arc_length, negative_eigenvalues, stiffness_ratio, fields";
 
 const char* const kCriticalPointColumns =
     "branch, type, load_factor, error_estimate, arc_length, negative_before, negative_after, multiplicity,"
-    " imperfection";
+    " imperfection, fields";
 
 namespace {
 
@@ -35,6 +36,19 @@ std::vector<std::optional<double>> without_nan(std::span<const double> values, s
     }
   }
   return known;
+}
+
+/// Reads the fields without a column of their own; rows of earlier versions have none.
+template <class T>
+void read_fields(const Row& row, int column, T& object) {
+  if (row.is_null(column)) {
+    return;
+  }
+  try {
+    api::read_stored_fields(row.text(column), object);
+  } catch (const std::runtime_error& error) {
+    row.refuse(error.what());
+  }
 }
 
 }  // namespace
@@ -134,6 +148,7 @@ Branch read_branch(const Row& row) {
     branch.negative_eigenvalues.push_back(static_cast<int>(count));
   }
   branch.stiffness_ratio = without_nan(row.series(5), branch.load_factor.size());
+  read_fields(row, 6, branch);
   return branch;
 }
 
@@ -152,6 +167,7 @@ CriticalPoint read_critical_point(const Row& row) {
   point.negative_after = row.whole(6);
   point.multiplicity = row.whole(7);
   point.imperfection = row.optional_real(8);
+  read_fields(row, 9, point);
   return point;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "api/names.h"
+#include "api/stored_fields.h"
 #include "server/jobs/job.h"
 #include "server/jobs/sweep.h"
 #include "server/status.h"
@@ -105,11 +106,11 @@ inline constexpr int kSweepColumnCount = 12;
 
 /// Columns of read_branch() and add_branch(), and their number.
 extern const char* const kBranchColumns;
-inline constexpr int kBranchColumnCount = 6;
+inline constexpr int kBranchColumnCount = 7;
 [[nodiscard]] Branch read_branch(const Row& row);
 /// Columns of read_critical_point() and add_critical_point(), and their number.
 extern const char* const kCriticalPointColumns;
-inline constexpr int kCriticalPointColumnCount = 9;
+inline constexpr int kCriticalPointColumnCount = 10;
 [[nodiscard]] CriticalPoint read_critical_point(const Row& row);
 
 /// The values, NaN for those that are not known.
@@ -121,6 +122,7 @@ void add_branch(Values& values, const Branch& branch) {
   const std::vector<double> negative(branch.negative_eigenvalues.begin(), branch.negative_eigenvalues.end());
   values.add(branch.id).add(branch.parent).add_series(branch.load_factor).add_series(branch.arc_length);
   values.add_series(negative).add_series(with_nan(branch.stiffness_ratio));
+  values.add(api::stored_fields(branch));
 }
 
 /// Adds the values of kCriticalPointColumns.
@@ -128,7 +130,7 @@ template <class Values>
 void add_critical_point(Values& values, const CriticalPoint& point) {
   values.add(point.branch).add(api::name_of(api::kCriticalTypes, point.type)).add(point.load_factor);
   values.add(point.error_estimate).add(point.arc_length).add(point.negative_before).add(point.negative_after);
-  values.add(point.multiplicity).add(point.imperfection);
+  values.add(point.multiplicity).add(point.imperfection).add(api::stored_fields(point));
 }
 
 /// A table whose rows are listed: it has the columns seq, owner, status, label, analysis_type, created_us.

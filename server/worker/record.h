@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "api/names.h"
+#include "api/result_fields.h"
 #include "api/sweep.h"
 #include "server/jobs/job.h"
 #include "server/worker/runner.h"
@@ -20,68 +21,59 @@
 
 namespace snapthrough::server {
 
-/// The members of a type that travel.
+/// The members of a type that are sent: all of them. Of the types in api/result_fields.h those that are
+/// kSent.
 template <class T>
-inline constexpr auto kFields = nullptr;
+inline constexpr auto kMembers = nullptr;
 
 template <>
-inline constexpr auto kFields<Summary> =
-    std::tuple{&Summary::critical_load_factor, &Summary::critical_type, &Summary::error_estimate,
-               &Summary::termination, &Summary::message};
+inline constexpr auto kMembers<NamedSeries> = std::tuple{&NamedSeries::id, &NamedSeries::values};
 template <>
-inline constexpr auto kFields<NamedSeries> = std::tuple{&NamedSeries::id, &NamedSeries::values};
-template <>
-inline constexpr auto kFields<Branch> = std::tuple{&Branch::id,
-                                                   &Branch::parent,
-                                                   &Branch::load_factor,
-                                                   &Branch::arc_length,
-                                                   &Branch::monitors,
-                                                   &Branch::negative_eigenvalues,
-                                                   &Branch::stiffness_ratio,
-                                                   &Branch::contact_fraction,
-                                                   &Branch::termination};
-/// As they are stored: without monitors, state, mode and meshes, which the result document has.
-template <>
-inline constexpr auto kFields<CriticalPoint> =
-    std::tuple{&CriticalPoint::branch,         &CriticalPoint::type,         &CriticalPoint::load_factor,
-               &CriticalPoint::error_estimate, &CriticalPoint::arc_length,   &CriticalPoint::negative_before,
-               &CriticalPoint::negative_after, &CriticalPoint::multiplicity, &CriticalPoint::cause,
-               &CriticalPoint::confirmed,      &CriticalPoint::imperfection};
-template <>
-inline constexpr auto kFields<Progress> =
+inline constexpr auto kMembers<Progress> =
     std::tuple{&Progress::branch, &Progress::step, &Progress::load_factor, &Progress::negative_eigenvalues};
 template <>
-inline constexpr auto kFields<NamedValue> = std::tuple{&NamedValue::id, &NamedValue::value};
+inline constexpr auto kMembers<NamedValue> = std::tuple{&NamedValue::id, &NamedValue::value};
 template <>
-inline constexpr auto kFields<TracedPoint> = std::tuple{&TracedPoint::branch,
-                                                        &TracedPoint::step,
-                                                        &TracedPoint::load_factor,
-                                                        &TracedPoint::arc_length,
-                                                        &TracedPoint::negative_eigenvalues,
-                                                        &TracedPoint::monitors};
+inline constexpr auto kMembers<TracedPoint> = std::tuple{&TracedPoint::branch,
+                                                         &TracedPoint::step,
+                                                         &TracedPoint::load_factor,
+                                                         &TracedPoint::arc_length,
+                                                         &TracedPoint::negative_eigenvalues,
+                                                         &TracedPoint::monitors};
 template <>
-inline constexpr auto kFields<JobResult> =
+inline constexpr auto kMembers<JobResult> =
     std::tuple{&JobResult::document, &JobResult::wall_time_s, &JobResult::summary, &JobResult::branches,
                &JobResult::critical_points};
 template <>
-inline constexpr auto kFields<JobFailure> =
+inline constexpr auto kMembers<JobFailure> =
     std::tuple{&JobFailure::code, &JobFailure::detail, &JobFailure::reached};
 template <>
-inline constexpr auto kFields<StoredPath> = std::tuple{&StoredPath::branches, &StoredPath::critical_points};
+inline constexpr auto kMembers<StoredPath> = std::tuple{&StoredPath::branches, &StoredPath::critical_points};
 template <>
-inline constexpr auto kFields<JobRun> =
+inline constexpr auto kMembers<JobRun> =
     std::tuple{&JobRun::result, &JobRun::failure, &JobRun::reached, &JobRun::peak_bytes};
 template <>
-inline constexpr auto kFields<api::PointOutcome> =
+inline constexpr auto kMembers<api::PointOutcome> =
     std::tuple{&api::PointOutcome::outputs, &api::PointOutcome::code, &api::PointOutcome::detail};
 
-/// The last value of an enumeration that travels.
-template <class T>
-inline constexpr T kLast{};
-template <>
-inline constexpr CriticalType kLast<CriticalType> = api::last_of(api::kCriticalTypes);
-template <>
-inline constexpr CriticalCause kLast<CriticalCause> = api::last_of(api::kCriticalCauses);
+template <class... Types>
+inline constexpr bool kAllAreSent =
+    ((std::tuple_size_v<decltype(kMembers<Types>)> == api::member_count<Types>()) && ...);
+static_assert(kAllAreSent<NamedSeries, Progress, NamedValue, TracedPoint, JobResult, JobFailure, StoredPath,
+                          JobRun, api::PointOutcome>,
+              "a member is missing in kMembers");
+
+/// Calls visit(pointer to member) for each member of T that is sent.
+template <class T, class Visit>
+void for_each_sent(const Visit& visit) {
+  if constexpr (api::kHasFields<T>) {
+    api::for_each_field<T>([&](const auto& field) {
+      if constexpr (field.is(api::kSent)) visit(field.get);
+    });
+  } else {
+    std::apply([&](auto... member) { (visit(member), ...); }, kMembers<T>);
+  }
+}
 
 template <class T>
 inline constexpr bool kIsPlain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -115,7 +107,7 @@ class RecordWriter {
   }
   template <class T>
   requires(!kIsPlain<T> && !std::is_convertible_v<const T&, std::string_view>) void put(const T& value) {
-    std::apply([&](auto... field) { (put(value.*field), ...); }, kFields<T>);
+    for_each_sent<T>([&](auto member) { put(value.*member); });
   }
 
  private:
@@ -140,7 +132,8 @@ class RecordReader {
     if constexpr (std::is_enum_v<T>) {
       std::underlying_type_t<T> number{};
       std::memcpy(&number, bytes.data(), sizeof number);
-      require(number >= 0 && number <= static_cast<std::underlying_type_t<T>>(kLast<T>));
+      require(number >= 0 &&
+              number <= static_cast<std::underlying_type_t<T>>(api::last_of(api::kNamesOf<T>)));
     }
     std::memcpy(&value, bytes.data(), sizeof value);
   }
@@ -171,7 +164,7 @@ class RecordReader {
   }
   template <class T>
   requires(!kIsPlain<T>) void get(T& value) {
-    std::apply([&](auto... field) { (get(value.*field), ...); }, kFields<T>);
+    for_each_sent<T>([&](auto member) { get(value.*member); });
   }
   template <class T>
   [[nodiscard]] T get() {

@@ -9,6 +9,7 @@
 #include "solver/events/touching.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/numeric/number_text.h"
+#include "solver/report/critical_point.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/state.h"
 
@@ -98,9 +99,7 @@ void CriticalLoads::report(const Target& target, const Answer& answer) {
                         *summary.critical_load_factor == point.load_factor;
   if (answer.level > 0) {
     const Structure& structure = structure_of(answer.level);
-    point.load_factor = answer.found.event.point.lambda / structure.scales.load;
-    for (std::size_t i = 0; i < point.monitors.size(); ++i)
-      point.monitors[i].value = structure.monitors[i].row.dot(answer.found.event.point.y);
+    set_values(structure, answer.found.event, point);
     if (point.state) {
       State& state = result_.states[*point.state];
       const int branch = state.branch;

@@ -10,6 +10,7 @@
 #include "solver/events/root_finder.h"
 #include "solver/hooks.h"
 #include "solver/numeric/number_text.h"
+#include "solver/report/critical_point.h"
 #include "solver/report/mode.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/state.h"
@@ -95,16 +96,8 @@ void Recorder::spread_points() {
 }
 
 void Recorder::add_critical(const CriticalEvent& event) {
-  CriticalPoint point;
+  CriticalPoint point = critical_point(structure_, event);
   point.branch = branch_;
-  point.type = event.type;
-  point.cause = event.cause;
-  point.load_factor = user_load(event.point);
-  point.arc_length = event.point.arc_length;
-  point.monitors = monitors(event.point);
-  point.negative_before = event.negative_before;
-  point.negative_after = event.negative_after;
-  point.multiplicity = event.multiplicity;
   if (event.null.size() > 0 && !is_limit(event.type)) point.imperfection = event.imperfection;
   // the bifurcation beside the path is no equilibrium of the imperfect structure
   const bool passed_by = event.type == CriticalType::broken_bifurcation;

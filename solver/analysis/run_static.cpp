@@ -17,6 +17,7 @@
 #include "solver/newton/contact_state.h"
 #include "solver/numeric/cancelled.h"
 #include "solver/numeric/number_text.h"
+#include "solver/report/critical_point.h"
 #include "solver/report/mode.h"
 #include "solver/report/neutral_motion.h"
 #include "solver/report/result_parts.h"
@@ -147,18 +148,9 @@ std::optional<ContactState> solve_linear(const Structure& structure, StructuralP
 }
 
 /// @brief Makes the result's entry for a critical point of a static path, without mesh confirmation.
-CriticalPoint critical_point(const Structure& structure, const Model& model, const CriticalEvent& event,
-                             const VectorXd& motion) {
-  CriticalPoint point;
-  point.type = event.type;
-  point.cause = event.cause;
-  point.load_factor = event.point.lambda / structure.scales.load;
-  point.arc_length = event.point.arc_length;
-  point.negative_before = event.negative_before;
-  point.negative_after = event.negative_after;
-  point.multiplicity = event.multiplicity;
-  for (const MonitorRow& monitor : structure.monitors)
-    point.monitors.push_back({monitor.id, monitor.row.dot(event.point.y)});
+CriticalPoint unconfirmed_point(const Structure& structure, const Model& model, const CriticalEvent& event,
+                                const VectorXd& motion) {
+  CriticalPoint point = critical_point(structure, event);
   if (point.multiplicity == 1)
     if (const auto member = member_that_buckles(structure, model, motion))
       point.member = model.members[*member].id;
@@ -171,7 +163,7 @@ void fail_at(const Model& model, const Analysis& analysis, const Structure& stru
   const VectorXd motion = mode_of(problem, event);
   Mode mode = mode_displacements(structure, model, motion, analysis.output.points_per_member);
   scale_to_largest(mode);
-  const CriticalPoint point = critical_point(structure, model, event, motion);
+  const CriticalPoint point = unconfirmed_point(structure, model, event, motion);
   result.critical_points.push_back(point);
   const bool is_turn = is_limit(event.type);
   const std::string what = is_turn         ? "the path has a limit point"

@@ -3,7 +3,6 @@ import assert from 'node:assert/strict';
 import {readFileSync, readdirSync} from 'node:fs';
 import {test} from 'node:test';
 
-import {pages} from './field_tables.mjs';
 import {root, schemas} from './support/document.mjs';
 
 const read = (name) => readFileSync(new URL(name, root), 'utf8');
@@ -34,11 +33,6 @@ const problems = all(server, /\b[45]\d\d,\s*"([a-z-]+)",/g);
 
 const missing = (codes, text) => [...codes].filter((code) => !text.includes(`\`${code}\``)).sort();
 const unlisted = (codes, list) => [...codes].filter((code) => !list.includes(code)).sort();
-
-test('tables of fields are those of the document', () => {
-  assert.deepEqual(pages().filter(({text, wanted}) => text !== wanted).map(({name}) => name), [],
-                   'node field_tables.mjs --write brings them up to date');
-});
 
 test('codes were found in the sources', () => {
   for (const [codes, some] of [[failures, ['beyond_limit_point', 'no_buckling_mode', 'step_underflow', 'loose_part', 'no_start']],
@@ -71,20 +65,6 @@ test('every problem is in docs/service.md and in the schema', () => {
   const kinds = schemas.Problem.properties.type.enum.map((type) => type.replace('urn:snapthrough:problem:', ''));
   assert.deepEqual(unlisted(problems, kinds), []);
   assert.deepEqual(missing(kinds, read('docs/service.md')), []);
-});
-
-test('every key that is written is a field of the schema', () => {
-  const written = all(read('api/write_result.cpp'), /(?:\{|add\()"([a-z_0-9]+)"/g);
-  assert.ok(written.size > 60, `${written.size} keys`);
-  const known = new Set();
-  const collect = (part) => {
-    if (part === null || typeof part !== 'object') return;
-    for (const key of Object.keys(part.properties ?? {})) known.add(key);
-    Object.values(part).forEach(collect);
-  };
-  collect(schemas);
-  const values = ['smooth', 'contact', 'opened', 'closed', 'pointer', 'code', 'detail'];
-  assert.deepEqual([...written].filter((key) => !known.has(key) && !values.includes(key)), []);
 });
 
 test('requests that are quoted in docs/ are of the schema', async () => {

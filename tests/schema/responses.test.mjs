@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {after, before, test} from 'node:test';
 
-import {dereferenced, document, schemas} from './support/document.mjs';
+import {dereferenced, document, fieldsOf, schemas} from './support/document.mjs';
 import {answerable, examples, failing, loose, sweeps, wrong} from './support/requests.mjs';
 import {startService} from './support/service.mjs';
 import {faults, validatorOf} from './support/validator.mjs';
@@ -265,6 +265,18 @@ test('lists and the service itself', async () => {
     for (const query of ['', '?limit=1', '?status=successful', '?status=failed&limit=2']) await call('GET', list, list + query);
   }
   for (const path of ['/v1/limits', '/v1/openapi.json', '/v1/examples', '/livez', '/readyz', '/metrics']) await call('GET', path, path);
+});
+
+test('documents have a row for every field', async () => {
+  for (const [page, schema] of [['requests', 'Request'], ['results', 'Result']]) {
+    const text = await (await fetch(`${service.address}/docs/${page}.md`)).text();
+    const rows = fieldsOf(schema).map(({path, forms, required}) => [`| \`${path}\`${required ? '' : ' ?'} | `, forms]);
+    assert.ok(rows.length > 120, `${rows.length} fields`);
+    const lines = text.split('\n').filter((line) => line.startsWith('| `'));
+    const missing = rows.filter(([start, forms]) => !lines.some(
+        (line) => line.startsWith(start) && forms.every(({description}) => line.includes(description))));
+    assert.deepEqual(missing.map(([start]) => start), [], page);
+  }
 });
 
 test('a service with keys', async () => {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include "api/stored_fields.h"
 #include "server/jobs/state.h"
 #include "server/store/sqlite/sqlite_store.h"
 #include "tests/server/support/samples.h"
@@ -120,6 +121,26 @@ TEST_F(Migrations, AStoreWithoutLabelsKeepsItsListsAndItsSweepsGetTheirAnalysis)
   const std::unique_ptr<Store> store = std::move(opened).value();
   EXPECT_EQ(store->list({})->jobs.at(0).annotations, Annotations{});
   EXPECT_EQ(store->sweeps().list({})->sweeps.at(0).analysis_type, "static");
+}
+
+TEST_F(Migrations, PathsOfAStoreWithoutStoredFieldsStayReadable) {
+  const std::string path = folder_.file("old.db");
+  {
+    Connection old(path, Access::read_write);
+    ASSERT_TRUE(migrate(old, std::span(embedded_migrations()).first(10), at_second(0)).ok());
+    old.execute("INSERT INTO jobs (id, analysis_type, created_us) VALUES ('" + test::id_number(1) +
+                "', 'path', 1)");
+    old.execute("INSERT INTO branches VALUES (1, 0, NULL, 0, x'', x'', x'', NULL)");
+    old.execute("INSERT INTO critical_points VALUES (1, 0, 0, 'limit_max', 2.5, NULL, 1.5, 0, 1, 1, NULL)");
+  }
+  auto opened = open_store(path, at_second(1));
+  ASSERT_TRUE(opened.ok()) << opened.status().message();
+  const auto stored = (*opened)->path(test::id_number(1));
+  ASSERT_TRUE(stored.ok()) << stored.status().message();
+  EXPECT_EQ(stored->branches.size(), 1U);
+  ASSERT_EQ(stored->critical_points.size(), 1U);
+  EXPECT_EQ(stored->critical_points[0].load_factor, 2.5);
+  EXPECT_EQ(api::stored_fields(stored->critical_points[0]), api::stored_fields(CriticalPoint{}));
 }
 
 TEST_F(Migrations, TheStoreReportsANewerSchema) {

@@ -11,44 +11,44 @@ from ._errors import SnapthroughWarning
 #: Names of columns, and their values: lists of equal length.
 Columns = Tuple[List[str], List[List[Any]]]
 
-_ALONG_MEMBERS = ("s", "x0", "y0", "x", "y", "u", "v", "rotation", "axial_force", "shear_force", "bending_moment")
-_OF_CRITICAL_POINTS = ("branch", "type", "cause", "load_factor", "error_estimate", "confirmed", "arc_length",
-                       "negative_before", "negative_after", "multiplicity", "state", "member")
-
 
 def _ids(objects: List[Dict[str, Any]], name: str) -> List[str]:
-    return list(dict.fromkeys(key for one in objects for key in one[name]))
+    return list(dict.fromkeys(key for one in objects for key in one.get(name) or {}))
+
+
+def _column(name: str, key: str) -> str:
+    return key if name == "monitors" else f"{name}:{key}"
 
 
 def _points(document: Dict[str, Any]) -> Columns:
     branches = document["branches"]
-    monitors, bases = _ids(branches, "monitors"), _ids(branches, "contact_fraction")
-    names = ["branch", "point", "load_factor", "arc_length", "negative_eigenvalues", "stiffness_ratio"]
-    columns: List[List[Any]] = [[] for _ in range(len(names) + len(monitors) + len(bases))]
+    names, by_id = results.COLUMNS["Branch"]
+    pairs = [(name, key) for name in by_id for key in _ids(branches, name)]
+    columns: List[List[Any]] = [[] for _ in range(2 + len(names) + len(pairs))]
     for branch in branches:
         count = len(branch["load_factor"])
-        series = [[branch["id"]] * count, list(range(count))] + [branch[name] for name in names[2:]]
-        series += [branch["monitors"].get(name) for name in monitors]
-        series += [branch["contact_fraction"].get(name) for name in bases]
+        series = [[branch["id"]] * count, list(range(count))] + [branch.get(name) for name in names]
+        series += [(branch.get(name) or {}).get(key) for name, key in pairs]
         for column, values in zip(columns, series):
             column.extend((list(values or []) + [None] * count)[:count])
-    return names + monitors + ["contact_fraction:" + name for name in bases], columns
+    return ["branch", "point", *names] + [_column(*pair) for pair in pairs], columns
 
 
 def _critical_points(document: Dict[str, Any]) -> Columns:
     points = document["critical_points"]
-    monitors = list(points[0]["monitors"]) if points else []
-    columns = [[point.get(name) for point in points] for name in _OF_CRITICAL_POINTS]
-    columns += [[point["monitors"].get(name) for point in points] for name in monitors]
-    return list(_OF_CRITICAL_POINTS) + monitors, columns
+    names, by_id = results.COLUMNS["CriticalPoint"]
+    pairs = [(name, key) for name in by_id for key in _ids(points, name)]
+    columns = [[point.get(name) for point in points] for name in names]
+    columns += [[(point.get(name) or {}).get(key) for point in points] for name, key in pairs]
+    return list(names) + [_column(*pair) for pair in pairs], columns
 
 
 def _static(document: Dict[str, Any]) -> Columns:
     table = document["static"]
-    names = ["load_factor", "negative_eigenvalues", "state"]
-    columns = [table[name] for name in names] + list(table["monitors"].values())
-    columns += list(table["contact_fraction"].values())
-    return names + list(table["monitors"]) + ["contact_fraction:" + name for name in table["contact_fraction"]], columns
+    names, by_id = results.COLUMNS["Static"]
+    pairs = [(name, key) for name in by_id for key in _ids([table], name)]
+    columns = [table.get(name) for name in names] + [table[name][key] for name, key in pairs]
+    return list(names) + [_column(*pair) for pair in pairs], columns
 
 
 def _buckling(document: Dict[str, Any]) -> Columns:
@@ -59,15 +59,16 @@ def _buckling(document: Dict[str, Any]) -> Columns:
 
 
 def _states(document: Dict[str, Any]) -> Columns:
+    along_members, _ = results.COLUMNS["MemberState"]
     names = ["state", "branch", "load_factor", "member"]
-    columns: List[List[Any]] = [[] for _ in range(len(names) + len(_ALONG_MEMBERS))]
+    columns: List[List[Any]] = [[] for _ in range(len(names) + len(along_members))]
     for number, state in enumerate(document["states"]):
         for name, along in state["members"].items():
             count = len(along["s"])
             fixed = [[value] * count for value in (number, state["branch"], state["load_factor"], name)]
-            for column, values in zip(columns, fixed + [along[field] for field in _ALONG_MEMBERS]):
+            for column, values in zip(columns, fixed + [along[field] for field in along_members]):
                 column.extend(values)
-    return names + list(_ALONG_MEMBERS), columns
+    return names + list(along_members), columns
 
 
 _TABLES = {"points": ("branches", _points), "critical_points": ("critical_points", _critical_points),

@@ -11,7 +11,7 @@ const ajv = new Ajv2020({
   allErrors: true,
   formats: {'date-time': /^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z$/},
 });
-for (const keyword of ['x-unit', 'x-ids', 'x-analysis']) ajv.addKeyword({keyword});
+for (const keyword of ['x-unit', 'x-ids', 'x-analysis', 'x-column']) ajv.addKeyword({keyword});
 ajv.addKeyword({keyword: 'components'});
 ajv.addSchema({$id: 'snapthrough', components: document.components});
 

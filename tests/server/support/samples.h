@@ -5,8 +5,12 @@
 #include <atomic>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "api/result_fields.h"
+#include "api/stored_fields.h"
 #include "server/environment.h"
 #include "server/jobs/job.h"
 #include "server/store/store.h"
@@ -60,6 +64,38 @@ inline std::string id_number(int number) {
   return "00000000-0000-7000-8000-" + std::string(12 - digits.size(), '0') + digits;
 }
 
+// Values that a text would lose, for whatever type a stored field has.
+inline void fill(double& value) { value = 1.0 / 3.0; }
+inline void fill(int& value) { value = 7; }
+inline void fill(bool& value) { value = true; }
+inline void fill(std::string& value) { value = "\"a\n\xc3\xa4"; }
+inline void fill(std::vector<NamedValue>& values) { values = {{"crown", -1e-310}, {"tip", 1.0 / 3.0}}; }
+inline void fill(std::vector<NamedSeries>& series) { series = {{"tip", {1.0 / 3.0, -1e300}}}; }
+template <class T>
+void fill(std::optional<T>& value) {
+  fill(value.emplace());
+}
+template <class T>
+void fill(std::vector<T>& values) {
+  fill(values.emplace_back());
+}
+/// Fills the fields that stores keep without a column (kStored in api/result_fields.h).
+template <class T>
+void fill_stored_fields(T& object) {
+  api::for_each_field<T>([&](const auto& field) {
+    if constexpr (field.is(api::kStored)) fill(object.*field.get);
+  });
+}
+
+/// The fields without a column of a whole path, a line for each branch and each critical point.
+inline std::string stored_fields_of(const StoredPath& path) {
+  std::string text;
+  for (const Branch& branch : path.branches) text += api::stored_fields(branch).value_or("none") + "\n";
+  for (const CriticalPoint& point : path.critical_points)
+    text += api::stored_fields(point).value_or("none") + "\n";
+  return text;
+}
+
 /// Two branches with every kind of series, numbers that a text would lose, three critical points.
 inline JobResult sample_result() {
   JobResult result;
@@ -90,6 +126,8 @@ inline JobResult sample_result() {
   result.critical_points[2].type = CriticalType::limit_min;
   result.critical_points[2].branch = 1;
   result.critical_points[2].multiplicity = 2;
+  fill_stored_fields(result.branches[0]);
+  fill_stored_fields(result.critical_points[1]);
   return result;
 }
 
