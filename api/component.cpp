@@ -134,7 +134,7 @@ PlugType type_of_place(std::vector<std::string> tokens) {
     types = types_at("Result", tokens);
   }
   if (types.object || types.list) {
-    return PlugType::text;  // as JSON text
+    return PlugType::text;  // JSON text
   }
   if (types.number || types.integer) {
     return types.number ? PlugType::number : PlugType::integer;

@@ -109,7 +109,7 @@ void for_each_column(const Visit& visit) {
   });
 }
 
-/// The same for the fields with a column for each id.
+/// Calls visit() for each field that has a column for each id.
 template <class T, class Visit>
 void for_each_column_by_id(const Visit& visit) {
   for_each_field<T>([&](const auto& one) {

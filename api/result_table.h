@@ -19,8 +19,8 @@
 namespace snapthrough::api {
 
 enum class ResultTable {
-  points,           ///< of all paths
-  critical_points,  ///< of all paths
+  points,           ///< points of all paths
+  critical_points,  ///< critical points of all paths
   static_rows,      ///< the load factors of a static analysis
   buckling,         ///< its load factors
   states            ///< places along the members, state by state
@@ -55,7 +55,7 @@ class PointsTable {
   const std::vector<Branch> branches_;
   std::vector<std::pair<std::string, std::string>> by_id_;  ///< field and id of the columns by id
   bool begun_ = false;
-  std::size_t branch_ = 0;  ///< of the next row
+  std::size_t branch_ = 0;  ///< index of the next row's branch
   std::size_t point_ = 0;
 };
 

@@ -29,13 +29,15 @@ trap tell_steps EXIT
 step "packages"
 install_packages "${BUILD_PACKAGES[@]}" "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 
-step "shape, includes, links, format"
+step "shape, includes, links, words, format"
 python3 scripts/check_shape.py --self-test
 python3 scripts/check_shape.py
 python3 scripts/check_includes.py --self-test
 python3 scripts/check_includes.py
 python3 scripts/check_links.py --self-test
 python3 scripts/check_links.py
+python3 scripts/check_words.py --self-test
+python3 scripts/check_words.py
 bash scripts/format.sh --check
 
 step "build ($preset)"

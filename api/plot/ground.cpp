@@ -117,7 +117,7 @@ void add_mirrored(std::vector<std::vector<Pixel>>& all, double twice) {
 /// Returns the reaction drawn as the ground's depth: the largest, but at least 2 % of the line loads and at
 /// least the rounding.
 double reference_reaction(const Scene& scene) {
-  constexpr double kRounding = 1e-6;  // of axial force / extent; smaller reactions are zero
+  constexpr double kRounding = 1e-6;  // share of axial force / extent below which a reaction is zero
   double largest = 0;
   if (scene.input.model != nullptr) {
     for (const ModelLoad& load : scene.input.model->loads) {

@@ -41,7 +41,7 @@ class ColumnMode {
 
  private:
   friend class ModeSearch;
-  static constexpr int terms = 28;  ///< of the power series
+  static constexpr int terms = 28;  ///< terms of the power series
   /// Power series of the displacement about one end of a piece.
   struct Piece {
     double from = 0.0;

@@ -41,7 +41,7 @@ namespace {
 
 /// Springs of held_softly(). Source: docs/theory.md, Motions without stiffness; docs/decisions/0022.
 struct SoftHolds {
-  static constexpr double stiffness = 1e-6;  ///< of the springs, scaled
+  static constexpr double stiffness = 1e-6;  ///< stiffness of the springs, scaled
   static constexpr double zero = 1e-3;       ///< stiffness of a motion that counts as zero, over the spring's
   static constexpr double firm = 1e5;        ///< stiffness of a motion that resists, over the spring's
   static constexpr double no_force = 1e-6;   ///< force of a spring that counts as zero, over the load
