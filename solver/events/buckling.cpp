@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "solver/events/buckling_pencil.h"
 #include "solver/newton/contact_state.h"
 #include "solver/newton/corrector.h"
 #include "solver/numeric/bracket.h"
@@ -21,7 +22,6 @@ using Eigen::VectorXd;
 
 /// Limits of the eigenvalue search; loads are relative. Source: digits of the counts, docs/decisions/0001.
 struct BucklingLimits {
-  static constexpr double idle = 1e-6;  ///< stiffness or displacement of a hold that counts as zero, scaled
   static constexpr double short_bracket = 1e-2;   ///< width at which iterations gain two digits each
   static constexpr double narrow_bracket = 1e-4;  ///< width at which several loads count as a cluster
   static constexpr int tries = 3;                 ///< shifts that draw_up() tries
@@ -34,157 +34,7 @@ struct BucklingLimits {
   static constexpr int doublings = 43;
 };
 
-/// The pencil J(lambda) = J_0 + lambda G in the mixed unknowns at zero displacements and stresses s_c +
-/// lambda s_p (constant and proportional actions). For LoadSense::reversed, lambda multiplies the opposite of
-/// the proportional actions.
-class Pencil {
- public:
-  Pencil(const Structure& structure, StructuralProblem& problem, LoadSense sense)
-      : structure_(structure), problem_(problem), sense_(sense == LoadSense::reversed ? -1.0 : 1.0) {}
-
-  /// Computes the linear stresses of both kinds of actions, with the contact under the reference load.
-  void set_prestress(double reference);
-  [[nodiscard]] int count(double lambda);
-  void solve(VectorXd& x) { problem_.solve(x); }
-  [[nodiscard]] VectorXd geometric(const VectorXd& x);
-  [[nodiscard]] VectorXd product(double lambda, const VectorXd& x) {
-    return problem_.tangent_product(stress(lambda), sense_ * lambda, x, regime());
-  }
-  /// Rayleigh quotient of a motion, evaluated with the tangent and not with its factors.
-  [[nodiscard]] double quotient(const VectorXd& x) { return -x.dot(product(0.0, x)) / x.dot(geometric(x)); }
-  [[nodiscard]] double scale() const { return problem_.critical_load_scale(proportional_); }
-  [[nodiscard]] int factorizations() const { return factorizations_; }
-  /// Whether the held motions have neither stiffness nor displacement at a load factor.
-  [[nodiscard]] bool holds_are_idle(double lambda);
-  [[nodiscard]] const SharedHolds& holds() const { return holds_; }
-  [[nodiscard]] const TouchingMarks& marks() const { return marks_; }
-  /// Contact in which the pencil is evaluated; changes apply to later calls.
-  [[nodiscard]] FrozenContact& contact() { return contact_; }
-
- private:
-  [[nodiscard]] Regime regime() const;
-  [[nodiscard]] VectorXd linear_response(StructuralProblem::Stage stage, double lambda, Regime regime);
-  void drop_rounding(double least, VectorXd& response) const;
-  void freeze_contact(double reference);
-  [[nodiscard]] VectorXd stress(double lambda) const;
-
-  const Structure& structure_;
-  StructuralProblem& problem_;
-  double sense_;  ///< sign of the problem's load factor for positive lambda
-  VectorXd constant_;
-  VectorXd proportional_;
-  SharedHolds holds_;  ///< motions without stiffness, held by artificial springs
-  TouchingMarks marks_;
-  FrozenContact contact_;
-  int factorizations_ = 0;
-};
-
-/// Frozen contact of the reference load; the default regime for structures without one-sided supports.
-Regime Pencil::regime() const {
-  Regime regime;
-  if (!structure_.one_sided) return regime;
-  regime.contact = Regime::Contact::frozen;
-  regime.frozen = &contact_;
-  return regime;
-}
-
-/// Linear response to the actions of a stage, from the unloaded state.
-VectorXd Pencil::linear_response(StructuralProblem::Stage stage, double lambda, Regime regime) {
-  regime.small_displacements = true;
-  problem_.set_stage(stage);
-  const VectorXd y = VectorXd::Zero(problem_.size());
-  VectorXd residual;
-  problem_.linearise(y, 0.0, residual, regime);
-  ++factorizations_;
-  VectorXd response;
-  problem_.load(y, 0.0, response);
-  response *= lambda;
-  problem_.solve(response);
-  drop_rounding(std::abs(lambda) * problem_.least_force(), response);
-  problem_.set_stage(StructuralProblem::Stage::proportional);
-  return response;
-}
-
-/// Sets all section forces to zero if none exceeds `least`. Actions that meet no resistance leave section
-/// forces of rounding size, which would give spurious buckling loads.
-void Pencil::drop_rounding(double least, VectorXd& response) const {
-  const int p = structure_.mesh.order;
-  double largest = 0.0;
-  for (const ElementDofs& dofs : structure_.dofs)
-    largest = std::max(largest, response.segment(dofs.s, 3 * p).lpNorm<Eigen::Infinity>());
-  if (largest > least) return;
-  for (const ElementDofs& dofs : structure_.dofs) response.segment(dofs.s, 3 * p).setZero();
-}
-
-bool Pencil::holds_are_idle(double lambda) {
-  if (!holds_) return true;
-  ++factorizations_;
-  const double bound = BucklingLimits::idle * std::max(1.0, std::abs(lambda));
-  const MotionStiffness held = motion_stiffness(problem_, holds_, stress(lambda), sense_ * lambda, regime());
-  const VectorXd moved = holds_->motions.transpose() *
-                         (constant_ + sense_ * lambda * proportional_).head(holds_->motions.rows());
-  return held.stiffness.lpNorm<Eigen::Infinity>() <= bound && moved.lpNorm<Eigen::Infinity>() <= bound;
-}
-
-/// Solves for the equilibrium under both kinds of actions with unilateral contact, from the bilateral
-/// response, and stores its contact.
-void Pencil::freeze_contact(double reference) {
-  Regime glued;
-  glued.contact = Regime::Contact::bilateral;
-  VectorXd y = linear_response(StructuralProblem::Stage::constant, 1.0, glued) +
-               linear_response(StructuralProblem::Stage::proportional, reference, glued);
-  const PathMetric metric{&structure_.metric, 0.0};
-  const double size = metric.norm(y, 0.0);
-  if (size > 0.0) {
-    CorrectorOptions options;
-    options.max_iterations = 60;
-    options.largest_correction = std::numeric_limits<double>::infinity();
-    options.regime.small_displacements = true;
-    Workspace work;
-    double lambda = reference;
-    const CorrectorOutcome outcome = correct(problem_, metric, {}, size, options, y, lambda, work);
-    factorizations_ += outcome.factorisations;
-    if (outcome.status != CorrectorStatus::converged) {
-      const auto state =
-          find_contact_state(problem_, metric, reference, work, factorizations_, nullptr, true);
-      if (state) y = state->y;
-    }
-  }
-  contact_ = problem_.frozen_contact(y);
-  marks_ = problem_.marks_at(y);
-}
-
-void Pencil::set_prestress(double reference) {
-  const SharedHolds soft = held_softly(problem_);
-  problem_.set_holds(soft);
-  if (structure_.one_sided) freeze_contact(reference);
-  if (soft) {
-    Regime small = regime();
-    small.small_displacements = true;
-    holds_ = softly_held(problem_, soft, VectorXd::Zero(problem_.size()), 0.0, small).neutral;
-    ++factorizations_;
-    problem_.set_holds(holds_);
-  }
-  constant_ = linear_response(StructuralProblem::Stage::constant, 1.0, regime());
-  proportional_ = linear_response(StructuralProblem::Stage::proportional, 1.0, regime());
-}
-
-VectorXd Pencil::stress(double lambda) const {
-  VectorXd y = VectorXd::Zero(problem_.size());
-  const int p = structure_.mesh.order;
-  for (const ElementDofs& dofs : structure_.dofs)
-    y.segment(dofs.s, 3 * p) =
-        constant_.segment(dofs.s, 3 * p) + sense_ * lambda * proportional_.segment(dofs.s, 3 * p);
-  return y;
-}
-
-int Pencil::count(double lambda) {
-  VectorXd residual;
-  ++factorizations_;
-  return problem_.linearise(stress(lambda), sense_ * lambda, residual, regime()).negative;
-}
-
-VectorXd Pencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }
+using Pencil = BucklingPencil;
 
 /// Short brackets of single eigenvalues and narrow brackets of clusters, ascending.
 std::vector<LoadBracket> isolated(Pencil& pencil, const LoadBracket& all, int wanted) {

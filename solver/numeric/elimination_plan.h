@@ -9,7 +9,7 @@ namespace snapthrough {
 
 /// Unknowns that are eliminated together.
 struct FrontPlan {
-  /// Number of unknowns up to which one dense front is faster than many small ones (measured).
+  /// Number of unknowns up to which one dense front is faster than many small ones.
   static constexpr int one_dense = 64;
 
   std::vector<int> pivots;    ///< unknowns that are eliminated in this front
