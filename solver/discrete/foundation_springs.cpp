@@ -24,8 +24,13 @@ std::vector<SupportSpring> penetration_springs(const Structure& structure, const
   const double width = range[1] - range[0];
   for (std::size_t i = 0; i < rule.points.size(); ++i) {
     out.push_back(penetration_spring(structure, foundation, element, range[0] + width * rule.points[i]));
-    out.back().law.stiffness =
-        foundation.law.stiffness * length_of_element(structure, element) * width * rule.weights[i];
+    Law& law = out.back().law;
+    law = foundation.law;
+    law.gap = 0.0;
+    law.one_sided = false;
+    law.scale(length_of_element(structure, element));
+    law.scale(width);
+    law.scale(rule.weights[i]);
   }
   return out;
 }
@@ -40,8 +45,8 @@ std::vector<SupportSpring> lumped_springs(const Structure& structure, const Foun
     if (xi < range[0] - kOnePlace || xi > range[1] + kOnePlace) continue;
     SupportSpring support = penetration_spring(structure, foundation, element, xi);
     support.law = foundation.law;
-    support.law.stiffness =
-        foundation.law.stiffness * length_of_element(structure, element) * lobatto.weights[i];
+    support.law.scale(length_of_element(structure, element));
+    support.law.scale(lobatto.weights[i]);
     out.push_back(support);
   }
   return out;

@@ -176,7 +176,7 @@ FoundationContact Builder::make_contact(int element, const FoundationLaw& founda
   const MeshElement& e = out_.mesh.elements[element];
   const std::shared_ptr<const AxisCurve>& axis = out_.axes[e.member];
   Law law = law_on(out_, foundation, element).law;
-  law.stiffness *= element_length(element);
+  law.scale(element_length(element));
   return FoundationContact(out_.mesh.order, foundation.direction,
                            {axis, e.from * axis->length(), (e.to - e.from) * axis->length()}, range, law,
                            index);

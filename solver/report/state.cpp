@@ -83,7 +83,7 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     double w = u[0] * d[0] + u[1] * d[1];
     const double reaction = law_on(structure, law, place.element).law.reaction(w);
     // displacement of the base's surface by its given stiffness, where the element has a bounded one
-    if (law.law.one_sided && law.law.acts(w)) w = law.law.gap + reaction / law.law.stiffness;
+    if (law.law.one_sided && law.law.acts(w)) w = law.law.gap + law.law.penetration_at(reaction);
     out.s.push_back(fraction * axis.length());
     out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * reaction));
     out.displacement.push_back(in_users_sense(law.sense, structure.scales.length * w));

@@ -12,11 +12,13 @@
 namespace snapthrough {
 
 /// @brief Reaction law of a support: the force against its direction (per length for foundations) as a
-/// function of the displacement w into the medium. The equilibrium, its tangent and the reports ask these
-/// functions; a law of another shape changes the three `_at` functions and scale().
+/// function of the penetration. Equilibrium, tangent and reports ask force_at(), stiffness_at() and
+/// penetration_at(); tests compare energy_at() with them. A law of another shape changes these four functions
+/// and scale().
 ///
-/// A bilateral support reacts at every w, a one-sided one where w exceeds the gap; the penetration is w
-/// beyond the gap. Today's law is linear, with the modulus `stiffness`.
+/// A bilateral support reacts at every displacement w into the medium, a one-sided one where w exceeds the
+/// gap. The penetration is w beyond the gap; that of a bilateral support may be negative. Today's law is
+/// linear.
 struct Law {
   double stiffness = 0.0;  ///< force by penetration
   double gap = 0.0;        ///< zero for bilateral supports
@@ -25,6 +27,8 @@ struct Law {
   [[nodiscard]] double force_at(double penetration) const { return stiffness * penetration; }
   /// d force / d penetration.
   [[nodiscard]] double stiffness_at(double /*penetration*/) const { return stiffness; }
+  /// Inverse of force_at(). @pre the force is not zero
+  [[nodiscard]] double penetration_at(double force) const { return force / stiffness; }
   /// Potential of the force; its derivative is force_at().
   [[nodiscard]] double energy_at(double penetration) const {
     return 0.5 * stiffness * penetration * penetration;

@@ -10,6 +10,11 @@ import { follow, type ServerEvent } from "./events.js";
 const kJson = { "Content-Type": "application/json" };
 const kLongestWait = 60;  // seconds that one request waits for the end of a job: the service's own limit by default
 
+/** Whether a job or a sweep with this status has not ended. */
+export function isActive(status: string): boolean {
+  return status === "accepted" || status === "running";
+}
+
 export interface ClientOptions {
   /** Address of the service, such as http://127.0.0.1:8080; without it that of the page the program runs in. */
   url?: string;
@@ -63,10 +68,6 @@ function init(method: string, body: unknown, headers: Record<string, string>, si
 function envelope(member: "request" | "sweep", document: unknown, { label, metadata }: SubmitOptions): unknown {
   if (label === undefined && metadata === undefined) return document;
   return { ...(label === undefined ? {} : { label }), ...(metadata === undefined ? {} : { metadata }), [member]: document };
-}
-
-function isActive(status: string): boolean {
-  return status === "accepted" || status === "running";
 }
 
 async function problemOf(response: Response): Promise<Problem> {

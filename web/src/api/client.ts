@@ -5,7 +5,7 @@ import { Refused, Unreachable } from "../../../clients/js/src/errors.js";
 import { makeStore } from "../store";
 import type { RequestDocument } from "./documents";
 
-export { type Answer } from "../../../clients/js/src/client.js";
+export { isActive, type Answer } from "../../../clients/js/src/client.js";
 export { idOf, isAbort, Refused, Unreachable } from "../../../clients/js/src/errors.js";
 
 const kKeyName = "snapthrough-key";

@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from "preact/hooks";
 import type { Branch, Job, PathPointsEvent, RequestDocument, Result } from "../api/documents";
-import { isAbort, Refused, service } from "../api/client";
+import { isActive, isAbort, Refused, service } from "../api/client";
 import { go } from "../app/router";
 import { badgeOf, duration } from "../app/words";
 import type { Choice } from "../model/gallery";
@@ -34,7 +34,7 @@ async function watch(id: string, signal: AbortSignal, show: (part: Partial<Shown
   let job = await service.job(id);
   const request = await service.jobRequest(id);
   show({ job, request });
-  if (job.status === "accepted" || job.status === "running") {
+  if (isActive(job.status)) {
     const branches: Branch[] = [];
     await service.follow(`/v1/jobs/${id}`, (event) => {
       if (event.type === "status") show({ job: event.data as Job });
@@ -82,7 +82,7 @@ function Facts({ job }: { job: Job }) {
 export function JobView({ id }: { id: string }) {
   const [{ job, request, run, growing, trouble }, again] = useJob(id);
   const [choice, setChoice] = useState<Choice>({ kind: "critical" });
-  const busy = job?.status === "accepted" || job?.status === "running";
+  const busy = job !== undefined && isActive(job.status);
   return (
     <main id="main" tabIndex={-1} class="studio">
       <Card title="Job" class="controls">

@@ -2,7 +2,7 @@
 
 import { useEffect, useState } from "preact/hooks";
 import type { Job } from "../api/documents";
-import { service } from "../api/client";
+import { isActive, service } from "../api/client";
 import { usePolled } from "../app/polled";
 import { ago, badgeOf, duration, kStatuses } from "../app/words";
 import { formatNumber } from "../figures";
@@ -66,7 +66,7 @@ function CriticalCells({ job }: { job: Job }) {
 }
 
 function Row({ job, onChanged }: { job: Job; onChanged: () => void }) {
-  const busy = job.status === "accepted" || job.status === "running";
+  const busy = isActive(job.status);
   const act = (work: Promise<unknown>): void => {
     void work.catch(() => undefined).then(onChanged);
   };

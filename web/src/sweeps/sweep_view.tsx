@@ -2,7 +2,7 @@
 
 import { useEffect, useMemo, useState } from "preact/hooks";
 import type { Sweep, SweepDocument, Table } from "../api/documents";
-import { isAbort, service } from "../api/client";
+import { isActive, isAbort, service } from "../api/client";
 import { go } from "../app/router";
 import { shapeNode } from "../app/shape_view";
 import { useSize } from "../app/size";
@@ -230,7 +230,7 @@ function ChartCard({ id, sweep, document, table }: { id: string; sweep: Sweep; d
 
 export function SweepView({ id }: { id: string }) {
   const [{ sweep, document, table, trouble }, again] = useSweep(id);
-  const busy = sweep?.status === "accepted" || sweep?.status === "running";
+  const busy = sweep !== undefined && isActive(sweep.status);
   return (
     <main id="main" tabIndex={-1} class="plain">
       <section class="card" aria-labelledby="sweep-title">

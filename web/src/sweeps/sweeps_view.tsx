@@ -2,7 +2,7 @@
 
 import { useState } from "preact/hooks";
 import type { Sweep } from "../api/documents";
-import { service } from "../api/client";
+import { isActive, service } from "../api/client";
 import { usePolled } from "../app/polled";
 import { ago, badgeOf, kStatuses } from "../app/words";
 import { formatNumber } from "../figures";
@@ -13,7 +13,7 @@ const kPage = 25;
 
 function Row({ sweep, onChanged }: { sweep: Sweep; onChanged: () => void }) {
   const { points, counts } = sweep;
-  const busy = sweep.status === "accepted" || sweep.status === "running";
+  const busy = isActive(sweep.status);
   const act = (work: Promise<unknown>): void => {
     void work.catch(() => undefined).then(onChanged);
   };
