@@ -44,8 +44,10 @@ std::optional<std::string> webhook_key(std::string_view text) {
   // The decoded length is a multiple of 3, with zeros for "=" in the text.
   const std::size_t padding = text.ends_with("==") ? 2 : (text.ends_with('=') ? 1 : 0);
   key.resize(static_cast<std::size_t>(size) - std::min(padding, static_cast<std::size_t>(size)));
-  const bool right = key.size() >= kLeastKey && key.size() <= kMostKey;
-  return right ? std::optional(std::move(key)) : std::nullopt;
+  if (key.size() < kLeastKey || key.size() > kMostKey) {
+    return std::nullopt;
+  }
+  return key;
 }
 
 std::string webhook_signature(std::string_view key, std::string_view id, std::int64_t timestamp,
