@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <vector>
 
 namespace snapthrough::server {
 namespace {
@@ -35,19 +35,20 @@ std::optional<std::string> webhook_key(std::string_view text) {
     return std::nullopt;
   }
   text.remove_prefix(kPrefix.size());
-  std::string key(text.size() / 4 * 3 + 3, '\0');
-  const int size = ::EVP_DecodeBlock(reinterpret_cast<unsigned char*>(key.data()), bytes_of(text),
+  std::vector<char> decoded(text.size() / 4 * 3 + 3);
+  const int size = ::EVP_DecodeBlock(reinterpret_cast<unsigned char*>(decoded.data()), bytes_of(text),
                                      static_cast<int>(text.size()));
   if (size < 0) {
     return std::nullopt;
   }
   // The decoded length is a multiple of 3, with zeros for "=" in the text.
   const std::size_t padding = text.ends_with("==") ? 2 : (text.ends_with('=') ? 1 : 0);
-  key.resize(static_cast<std::size_t>(size) - std::min(padding, static_cast<std::size_t>(size)));
-  if (key.size() < kLeastKey || key.size() > kMostKey) {
+  const std::size_t length =
+      static_cast<std::size_t>(size) - std::min(padding, static_cast<std::size_t>(size));
+  if (length < kLeastKey || length > kMostKey) {
     return std::nullopt;
   }
-  return key;
+  return std::string(decoded.data(), length);
 }
 
 std::string webhook_signature(std::string_view key, std::string_view id, std::int64_t timestamp,
