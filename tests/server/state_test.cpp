@@ -197,11 +197,17 @@ TEST_P(StateSchema, RefusesEveryOtherChangeOfAJob) {
       ASSERT_EQ(error_of(insertion("jobs", std::string(to_string(from)), number)), "");
       const bool legal = std::any_of(kJobTransitions.begin(), kJobTransitions.end(),
                                      [&](const auto& row) { return row.from == from && row.to == to; });
+      const std::string lease = is_postgresql() ? "" : ", worker = 'w', lease_until_us = 9";
       const std::string error =
-          error_of("UPDATE jobs SET status = " + literal(to) + " WHERE id = '" + id + "'");
-      // a legal change may be refused for what it lacks, e.g. a result
-      EXPECT_EQ(error.find("a job cannot change") == std::string::npos, legal)
-          << to_string(from) << " to " << to_string(to) << ": " << error;
+          error_of("UPDATE jobs SET status = " + literal(to) + lease + " WHERE id = '" + id + "'");
+      SCOPED_TRACE(std::string(to_string(from)) + " to " + std::string(to_string(to)) + ": " + error);
+      if (legal) {  // may be refused for what the change lacks, e.g. a result
+        EXPECT_EQ(error.find("a job cannot change"), std::string::npos);
+      } else if (to != JobState::successful) {
+        EXPECT_NE(error.find("a job cannot change"), std::string::npos);
+      } else {
+        EXPECT_NE(error, "");  // SQLite may miss the result before it looks at the transition
+      }
     }
   }
 }
