@@ -22,8 +22,8 @@ enum class ResultTable {
   points,           ///< points of all paths
   critical_points,  ///< critical points of all paths
   static_rows,      ///< the load factors of a static analysis
-  buckling,         ///< its load factors
-  states            ///< places along the members, state by state
+  buckling,         ///< buckling load factors
+  states            ///< one row for each output point of each member in each reported state
 };
 
 /// The table of that name ("points", "critical_points", "static", "buckling", "states"), or nothing.

@@ -50,7 +50,7 @@ class JobCompletions {
   void end(const std::string& id);
   /// Ids of the jobs and sweeps that somebody waits for.
   [[nodiscard]] std::vector<std::string> waited();
-  /// Ends every wait, now and later.
+  /// Calls the callback of every ticket now, and of every later on_end() at once, ended job or not.
   void close();
 
  private:

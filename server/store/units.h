@@ -29,7 +29,7 @@ struct HeldUnits {
   [[nodiscard]] std::int64_t points() const { return static_cast<std::int64_t>(units.count) * unit_points; }
 };
 
-/// What rows add to the counts of their sweep.
+/// Increments of a sweep's stored counters by rows that are added to it.
 struct RowCounts {
   std::int64_t successful = 0;
   std::int64_t failed = 0;

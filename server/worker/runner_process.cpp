@@ -28,6 +28,7 @@ namespace {
 class OutcomeBuffer {
  public:
   void add(const api::PointOutcome& outcome) { RecordWriter(bytes_).put(outcome); }
+  /// @brief Sends the outcomes to the service and clears the buffer.
   /// @return whether the service is still connected
   bool tell() {
     if (bytes_.empty()) {

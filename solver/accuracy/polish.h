@@ -16,7 +16,8 @@ namespace snapthrough {
 struct PolishLimits {
   /// Range on either side of the point, over the length of the path so far (PathNorm::search_scale()).
   static constexpr double reach = 0.02;
-  static constexpr double widening = 6.0;  ///< factor on the range for the second search
+  /// Factor on `reach` for Newton's method, and for the search that follows when that within `reach` fails.
+  static constexpr double widening = 6.0;
   /// Most Newton iterations: they converge slowly where a foundation is stiffer on the finer mesh.
   static constexpr int corrections = 40;
   static constexpr int steps = 12;  ///< most steps along the path from the preceding point

@@ -85,7 +85,7 @@ class FoundationContact {
   int blocks_ = 0;              ///< blocks of four samples
   bool exact_ = true;           ///< interpolating the samples is exact to rounding
   Values z_{};                  ///< sample positions on the range, scaled to [0, 1]
-  std::vector<Lanes> samples_;  ///< blocks of samples: direction x and y, then A_r for every r
+  std::vector<Lanes> samples_;  ///< in each block: direction x, y, then the A_r of CollocationRule
 };
 
 }  // namespace snapthrough

@@ -26,7 +26,8 @@ struct LocateLimits {
   /// Value of a function at a closed bracket, over that at the first bracket's ends, which only a jump of the
   /// tangent leaves.
   static constexpr double jump = 1e-3;
-  /// Factor over what a linear function leaves in a closed bracket, below which the function is smooth.
+  /// With one-sided supports: contact changes in a closed bracket where the function exceeds this factor
+  /// times the value that a linear function would have there.
   static constexpr double curved = 10.0;
   /// Determinant at a turn of the load, over that at the step's start, which is that of a crossing of paths.
   static constexpr double singular = 1e-3;

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Scaled units of the solver.
+/// Units of the solver's scaled quantities, and the conversion of model quantities to them.
 
 namespace snapthrough {
 

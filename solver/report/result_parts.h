@@ -19,7 +19,8 @@ namespace snapthrough {
 [[nodiscard]] Mode mode_at(const Structure& structure, const Model& model, EquilibriumProblem& problem,
                            const CriticalEvent& event, const Analysis& analysis);
 
-/// Adds the counts of a path to those of a result.
+/// Adds the steps, corrections and factorisations of a path to the diagnostics of a result, and keeps the
+/// larger of their largest residuals.
 void add_statistics(const PathStatistics& statistics, Result& result);
 /// Reports the mesh of the reported loads and its number of refinements.
 void report_mesh(const Structure& structure, int refinements, Result& result);

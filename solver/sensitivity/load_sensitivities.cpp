@@ -16,8 +16,9 @@ namespace {
 using Eigen::MatrixXd;
 using Rate = CriticalSensitivity::Rate;
 
-/// Numbers of the differences for one rate. A "change" is that of the load factor over the load factor, when
-/// the varied number changes by its size. Source: error of a second-order difference, see docs/theory.md.
+/// Limits of the finite differences that give one rate: the derivative of a critical load factor by a number
+/// of the model. A "change" is the rate times Variation::size, over the load factor. Source: error of a
+/// second-order difference, see docs/theory.md.
 struct DifferenceLimits {
   static constexpr int steps = 6;               ///< most step lengths that are tried
   static constexpr double first_step = 2.5e-4;  ///< first step over the variation's size

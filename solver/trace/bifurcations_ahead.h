@@ -11,8 +11,8 @@ namespace snapthrough {
 
 /// Bounds on bifurcations that are looked for.
 struct BifurcationBounds {
-  double tolerance = 1e-9;    ///< on the load factor, relative
-  double most_broken = 1e-3;  ///< largest imperfection of the first one
+  double tolerance = 1e-9;    ///< relative tolerance on the load factor of a located bifurcation
+  double most_broken = 1e-3;  ///< largest imperfection of the first bifurcation; else none is returned
 };
 
 /// @brief The bifurcations that the stiffnesses of motions at a point predict within the next step or the one

@@ -13,7 +13,7 @@ namespace snapthrough {
 namespace {
 
 api::Request example(const std::string& name) {
-  std::ifstream file(std::string(SNAPTHROUGH_SOURCE_DIR) + "/examples/" + name);
+  std::ifstream file(SNAPTHROUGH_SOURCE_DIR "/examples/" + name);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   api::ReadOutcome outcome = api::read_request(text);
   EXPECT_TRUE(outcome.request) << name;

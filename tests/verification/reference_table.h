@@ -46,7 +46,7 @@ class TableRow {
 class Table {
  public:
   explicit Table(const std::string& file) {
-    const std::string path = std::string(SNAPTHROUGH_SOURCE_DIR) + "/tests/verification/data/" + file;
+    const std::string path = SNAPTHROUGH_SOURCE_DIR "/tests/verification/data/" + file;
     std::ifstream in(path);
     if (!in) throw std::runtime_error("can't open " + path);
     for (std::string line; std::getline(in, line);) {
