@@ -1,5 +1,7 @@
 import type { Check, CriticalPointEvent, Description, Job, JobList, JobProgressEvent, Limits, PathPointsEvent, RequestDocument, Result, Sweep, SweepDocument, SweepList, SweepProgressEvent, Table, Warning } from "./documents.js";
 import { type ServerEvent } from "./events.js";
+/** Whether a job or a sweep with this status has not ended. */
+export declare function isActive(status: string): boolean;
 export interface ClientOptions {
     /** Address of the service, such as http://127.0.0.1:8080; without it that of the page the program runs in. */
     url?: string;

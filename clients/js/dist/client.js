@@ -3,6 +3,10 @@ import { idOf, isAbort, Refused, Unreachable } from "./errors.js";
 import { follow } from "./events.js";
 const kJson = { "Content-Type": "application/json" };
 const kLongestWait = 60; // seconds that one request waits for the end of a job: the service's own limit by default
+/** Whether a job or a sweep with this status has not ended. */
+export function isActive(status) {
+    return status === "accepted" || status === "running";
+}
 function init(method, body, headers, signal) {
     const text = typeof body === "string" ? body : JSON.stringify(body);
     return { method, headers: { ...kJson, ...headers }, body: text, ...(signal ? { signal } : {}) };
@@ -11,9 +15,6 @@ function envelope(member, document, { label, metadata }) {
     if (label === undefined && metadata === undefined)
         return document;
     return { ...(label === undefined ? {} : { label }), ...(metadata === undefined ? {} : { metadata }), [member]: document };
-}
-function isActive(status) {
-    return status === "accepted" || status === "running";
 }
 async function problemOf(response) {
     const text = await response.text();

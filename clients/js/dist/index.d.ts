@@ -1,4 +1,4 @@
-export { Client, type Answer, type ClientOptions, type Solution, type SolveOptions, type SubmitOptions, type SweepOptions, } from "./client.js";
+export { Client, isActive, type Answer, type ClientOptions, type Solution, type SolveOptions, type SubmitOptions, type SweepOptions, } from "./client.js";
 export { idOf, isAbort, Refused, Unreachable } from "./errors.js";
 export { type ServerEvent } from "./events.js";
 export type * from "./documents.js";

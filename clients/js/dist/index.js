@@ -1,3 +1,3 @@
-export { Client, } from "./client.js";
+export { Client, isActive, } from "./client.js";
 export { idOf, isAbort, Refused, Unreachable } from "./errors.js";
 export {} from "./events.js";

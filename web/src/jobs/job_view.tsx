@@ -82,7 +82,7 @@ function Facts({ job }: { job: Job }) {
 export function JobView({ id }: { id: string }) {
   const [{ job, request, run, growing, trouble }, again] = useJob(id);
   const [choice, setChoice] = useState<Choice>({ kind: "critical" });
-  const busy = job !== undefined && isActive(job.status);
+  const busy = job !== null && isActive(job.status);
   return (
     <main id="main" tabIndex={-1} class="studio">
       <Card title="Job" class="controls">

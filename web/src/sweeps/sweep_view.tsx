@@ -230,7 +230,7 @@ function ChartCard({ id, sweep, document, table }: { id: string; sweep: Sweep; d
 
 export function SweepView({ id }: { id: string }) {
   const [{ sweep, document, table, trouble }, again] = useSweep(id);
-  const busy = sweep !== undefined && isActive(sweep.status);
+  const busy = sweep !== null && isActive(sweep.status);
   return (
     <main id="main" tabIndex={-1} class="plain">
       <section class="card" aria-labelledby="sweep-title">
