@@ -5,6 +5,7 @@
 #include <charconv>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -72,6 +73,11 @@ const Json& member(const Json& object, const std::string& key) {
 const Json& element(const Json& list, std::size_t i) {
   static const Json none;
   return list.is_array() && i < list.size() ? list[i] : none;
+}
+
+/// Elements of a list; none where the value is no list.
+std::span<const Json> elements(const Json& list) {
+  return list.is_array() ? std::span(list.get_ref<const Json::array_t&>()) : std::span<const Json>();
 }
 
 template <class T>
@@ -164,9 +170,9 @@ class Rows {
 /// Field and id of the columns by id of a table.
 using Columns = std::vector<std::pair<std::string, std::string>>;
 
-/// @param objects where ids are looked for: those of a field are the keys of the first object that has any
+/// Adds the columns by id of a table; the ids of a field are the keys of the first object that has any.
 template <class T>
-Columns columns_by_id(const Json& objects, Rows& rows) {
+Columns columns_by_id(std::span<const Json> objects, Rows& rows) {
   Columns columns;
   for_each_column_by_id<T>([&](const auto& one) {
     const std::string name(one.name);
@@ -186,7 +192,7 @@ std::string critical_points_csv(const Json& result) {
   const std::vector<std::string> fields = columns_of<CriticalPoint>();
   const Json& points = member(result, "critical_points");
   Rows rows(fields);
-  const Columns columns = columns_by_id<CriticalPoint>(points, rows);
+  const Columns columns = columns_by_id<CriticalPoint>(elements(points), rows);
   rows.begin();
   for (const Json& point : points) {
     for (const std::string& field : fields) {
@@ -204,14 +210,15 @@ std::string static_csv(const Json& result) {
   const std::vector<std::string> fields = columns_of<StaticTable>();
   const Json& table = member(result, "static");
   Rows rows(fields);
-  const Columns columns = columns_by_id<StaticTable>(Json::array({table}), rows);
+  std::vector<const Json*> series;
+  for (const std::string& field : fields) series.push_back(&member(table, field));
+  for (const auto& [field, id] : columns_by_id<StaticTable>({&table, 1}, rows)) {
+    series.push_back(&member(member(table, field), id));
+  }
   rows.begin();
   for (std::size_t i = 0; i < member(table, "load_factor").size(); ++i) {
-    for (const std::string& field : fields) {
-      rows.field(element(member(table, field), i));
-    }
-    for (const auto& [field, id] : columns) {
-      rows.field(element(member(member(table, field), id), i));
+    for (const Json* one : series) {
+      rows.field(element(*one, i));
     }
     rows.end_row();
   }

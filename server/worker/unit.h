@@ -23,18 +23,19 @@ class SweepUnit {
   /// @param number counted from 0 @pre number < sweep.units()
   SweepUnit(const api::Sweep& sweep, std::uint64_t number) : sweep_(sweep), number_(number) {}
 
-  /// Number of its first point; its other points follow.
+  /// Number of the unit's first point; the other points follow it.
   [[nodiscard]] std::uint64_t first() const { return number_ * count(); }
   [[nodiscard]] std::uint64_t count() const { return sweep_.unit_size(); }
 
-  /// @brief Keys of its points (point_key()), in their order. The key of a point of a curve includes the
-  /// curve: following gives other last digits than tracing.
+  /// @brief Keys of the unit's points (point_key()), in the order of the points. The key of a point of a
+  /// curve includes the curve: following gives other last digits than tracing.
   /// @param outputs Sweep::outputs_text()
   /// @param document document of any point of the sweep, overwritten; null: a new one is made
   [[nodiscard]] std::vector<std::string> keys(const std::string& outputs, std::string_view owner,
                                               std::shared_ptr<nlohmann::json>& document) const;
 
-  /// @brief Outcomes of its points, in their order (api::unit_outcomes()). Thread-safe if `solve` is.
+  /// @brief Outcomes of the unit's points, in the order of the points (api::unit_outcomes()). Thread-safe if
+  /// `solve` is.
   /// @param document see keys()
   [[nodiscard]] std::vector<api::PointOutcome> compute(const SolveFunction& solve, const Hooks& hooks,
                                                        std::shared_ptr<nlohmann::json>& document) const;

@@ -11,8 +11,12 @@ namespace snapthrough {
 
 using Eigen::VectorXd;
 
+namespace {
+
 /// Stiffness or displacement of a pinned motion that counts as zero, scaled.
-static constexpr double kIdle = 1e-6;
+constexpr double kIdle = 1e-6;
+
+}  // namespace
 
 /// Frozen contact of the reference load; the default regime for structures without one-sided supports.
 Regime BucklingPencil::regime() const {

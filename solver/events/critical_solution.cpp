@@ -17,8 +17,6 @@ namespace {
 /// Newton iterations on the amplitudes of a tangent.
 constexpr int kAmplitudeIterations = 5;
 
-MatrixXd symmetric(const MatrixXd& m) { return 0.5 * (m + m.transpose()); }
-
 /// Direction n a + z b in (y, lambda), normalised, with the rate of the first null motion's stiffness.
 CriticalDirection direction(const CriticalSolution& at, const VectorXd& along_null, double along_load,
                             const PathMetric& metric) {
@@ -37,15 +35,16 @@ CriticalDirection direction(const CriticalSolution& at, const VectorXd& along_nu
 
 double CriticalSolution::imperfection() const {
   if (unfolding.size() == 0 || unfolding.isZero(0.0)) return 0.0;
-  return unfolding.norm() / (std::abs(lambda) * symmetric_eigenvalues(symmetric(B)).cwiseAbs().minCoeff());
+  return unfolding.norm() /
+         (std::abs(lambda) * symmetric_eigenvalues(symmetric_part(B)).cwiseAbs().minCoeff());
 }
 
 std::optional<CriticalSolution::Spectrum> CriticalSolution::spectrum() const {
   // eigenproblem (stiffness + d B) w = 0
   const double sign = B(0, 0) < 0.0 ? -1.0 : 1.0;
-  const MatrixXd definite = symmetric(-sign * B);
-  if ((symmetric_eigenvalues(symmetric(definite)).array() >= 0.0).any()) return std::nullopt;
-  const SymmetricEigen pairs = generalised_symmetric_eigen(symmetric(stiffness), -definite);
+  const MatrixXd definite = symmetric_part(-sign * B);
+  if ((symmetric_eigenvalues(symmetric_part(definite)).array() >= 0.0).any()) return std::nullopt;
+  const SymmetricEigen pairs = generalised_symmetric_eigen(symmetric_part(stiffness), -definite);
   const Index k = stiffness.cols();
   Spectrum out{-sign * pairs.values, pairs.vectors};
   if (sign > 0.0) {

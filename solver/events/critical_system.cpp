@@ -36,9 +36,7 @@ struct CriticalLimits {
   static constexpr int null_iterations = 2;  ///< inverse iterations for another null motion
 };
 
-MatrixXd symmetric(const MatrixXd& m) { return 0.5 * (m + m.transpose()); }
-
-VectorXd eigenvalues(const MatrixXd& m) { return symmetric_eigenvalues(symmetric(m)); }
+VectorXd eigenvalues(const MatrixXd& m) { return symmetric_eigenvalues(symmetric_part(m)); }
 
 /// Newton's method for a bifurcation or a limit point, with the bordered matrix [J, W n; n W, 0].
 class CriticalNewton {
@@ -150,7 +148,7 @@ bool CriticalNewton::factorise() {
   const VectorXd factored = eigenvalues(at_.stiffness);
   pi_ = shares.col(0) + at_.stiffness * along.col(0);
   rho_ = shares.col(1) + at_.stiffness * along.col(1);
-  at_.stiffness = symmetric(works(problem_.tangent_products(at_.y, at_.lambda, v_), v_));
+  at_.stiffness = symmetric_part(works(problem_.tangent_products(at_.y, at_.lambda, v_), v_));
   const VectorXd exact = eigenvalues(at_.stiffness);
   const double doubt = (factored - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().minCoeff();
   if (!(doubt > least_doubt_)) {
@@ -175,7 +173,7 @@ void CriticalNewton::keep_better(const MatrixXd& rows, const MatrixXd& border) {
   };
   const auto left = [&](const Eigen::Ref<const MatrixXd>& motions) {
     const MatrixXd forces = products(motions);
-    return (forces - rows.leftCols(k) * symmetric(works(forces, motions))).norm();
+    return (forces - rows.leftCols(k) * symmetric_part(works(forces, motions))).norm();
   };
   if (left(v_) > left(at_.null)) {
     v_ = at_.null;
@@ -198,7 +196,7 @@ void CriticalNewton::take_quotients(const MatrixXd& right) {
   all << v_, p_, q_;
   MatrixXd forces = problem_.tangent_products(at_.y, at_.lambda, all);
   forces.rightCols(2) = right - forces.rightCols(2);
-  at_.stiffness = symmetric(works(forces.leftCols(k), v_));
+  at_.stiffness = symmetric_part(works(forces.leftCols(k), v_));
   // v alone leaves the prescribed displacements of the load in place
   const MatrixXd multipliers = works(forces.rightCols(2), v_);
   pi_ = multipliers.col(0);

@@ -156,7 +156,7 @@ template <class Left, class Right>
   return out;
 }
 
-/// Symmetric part; the rest is rounding.
+/// Returns the symmetric part of a matrix that is symmetric but for rounding.
 Matrix3d symmetric(const Matrix3d& A) {
   Matrix3d out;
   for (int j = 0; j < 3; ++j)

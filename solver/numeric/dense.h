@@ -7,6 +7,9 @@
 
 namespace snapthrough {
 
+/// @brief (A + A^T) / 2.
+[[nodiscard]] Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A);
+
 /// Eigenvalues ascending, and an eigenvector for each in the columns.
 struct SymmetricEigen {
   Eigen::VectorXd values;

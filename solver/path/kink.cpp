@@ -41,19 +41,11 @@ std::optional<PathPoint> point_beyond(PointSolver& solver, const PathPoint& from
   return beyond;
 }
 
-/// The point of the path one step from a point beyond a kink: by Newton's method or, where it is stable, by
-/// corrections that lower the energy.
-bool step_from_beyond(PointSolver& solver, const StepLimits& limits, const PathPoint& from,
-                      const PathPoint& beyond, const StepSizes& sizes, PathPoint& to) {
-  Predictor by_tangent;
-  const StepMeasures measures = try_step(solver, by_tangent, limits, {beyond, sizes}, to);
-  to.arc_length = from.arc_length + solver.norm().arc(from, to);
-  if (is_acceptable(measures, limits) && to.negative == beyond.negative) return true;
-  return beyond.negative == 0 && step_along_least_energy(solver, from, beyond, sizes.size, to);
-}
-
-}  // namespace
-
+/// @brief The equilibrium at the load one step beyond a point, by corrections that lower the energy: where
+/// supports touch without pressure any increment of the load changes where they act, in proportion to itself;
+/// the last tangent says nothing there, and Newton's method cycles between contact patterns.
+/// @param beyond a stable point with the direction of the load and of the first guess
+/// @return whether `to` was set: a stable point that its own tangent joins to `from`
 bool step_along_least_energy(PointSolver& solver, const PathPoint& from, const PathPoint& beyond, double size,
                              PathPoint& to) {
   if (beyond.tangent_lambda == 0.0) return false;
@@ -77,6 +69,19 @@ bool step_along_least_energy(PointSolver& solver, const PathPoint& from, const P
   return metric.norm(missed, 0.0) <= KinkSearch::largest_mismatch * metric.norm(displacement, dlambda) &&
          (to.tangent_lambda > 0.0) == (dlambda > 0.0);
 }
+
+/// The point of the path one step from a point beyond a kink: by Newton's method or, where it is stable, by
+/// corrections that lower the energy.
+bool step_from_beyond(PointSolver& solver, const StepLimits& limits, const PathPoint& from,
+                      const PathPoint& beyond, const StepSizes& sizes, PathPoint& to) {
+  Predictor by_tangent;
+  const StepMeasures measures = try_step(solver, by_tangent, limits, {beyond, sizes}, to);
+  to.arc_length = from.arc_length + solver.norm().arc(from, to);
+  if (is_acceptable(measures, limits) && to.negative == beyond.negative) return true;
+  return beyond.negative == 0 && step_along_least_energy(solver, from, beyond, sizes.size, to);
+}
+
+}  // namespace
 
 bool step_around_kink(PointSolver& solver, const StepLimits& limits, const PathPoint& from,
                       const StepSizes& sizes, PathPoint& to) {

@@ -21,12 +21,4 @@ namespace snapthrough {
 [[nodiscard]] PathPoint last_point_before_kink(PointSolver& solver, const StepLimits& limits,
                                                const PathPoint& from, StepSizes sizes);
 
-/// @brief The equilibrium at the load one step beyond a point, by corrections that lower the energy: where
-/// supports touch without pressure any increment of the load changes where they act, in proportion to itself;
-/// the last tangent says nothing there, and Newton's method cycles between contact patterns.
-/// @param beyond a stable point with the direction of the load and of the first guess
-/// @return whether `to` was set: a stable point that its own tangent joins to `from`
-[[nodiscard]] bool step_along_least_energy(PointSolver& solver, const PathPoint& from,
-                                           const PathPoint& beyond, double size, PathPoint& to);
-
 }  // namespace snapthrough

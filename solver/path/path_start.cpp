@@ -13,9 +13,10 @@ namespace {
 
 /// Numbers of the search for a first state.
 struct StartSearch {
-  /// Displacement gradients of a first state over those of small displacements, beyond which it is another
-  /// state. A rotation that can just close a gap is twice that of small displacements: from an angle a it
-  /// moves sin(a + t) - sin(a), which they take for t cos(a). A chain of such members may need somewhat more.
+  /// Largest ratio of the displacement gradients of a first state to those of small displacements under the
+  /// same load: beyond it the structure has moved to another state. A rotation that can just close a gap is
+  /// twice that of small displacements: from an angle a it moves sin(a + t) - sin(a), which they take for t
+  /// cos(a). A chain of such members may need somewhat more.
   static constexpr double far = 3.0;
   static constexpr int corrections = 25;        ///< most Newton corrections of a state that is nearly at rest
   static constexpr int touch_corrections = 60;  ///< most corrections where supports touch without pressure

@@ -77,32 +77,28 @@ void PointSolver::set_tangent(PathPoint& point, const CorrectorOutcome& outcome,
   symmetric_ = !outcome.tangent.parity_only;
 }
 
-CorrectorOutcome PointSolver::correct_in_plane(const VectorXd& normal, double normal_lambda, double scale,
-                                               const CorrectorOptions& options, PathPoint& point) {
+CorrectorOutcome PointSolver::correct_with(const SideCondition& side, double scale,
+                                           const CorrectorOptions& options, PathPoint& point) {
   problem_.set_holds(point.holds);
-  side_.normal = norm_.metric().weights->cwiseProduct(normal);
-  side_.normal_lambda = norm_.metric().load_weight * normal_lambda;
-  const auto outcome = correct(problem_, norm_.metric(), side_, scale, options, point.y, point.lambda, work_);
+  const auto outcome = correct(problem_, norm_.metric(), side, scale, options, point.y, point.lambda, work_);
   statistics_.factorizations += outcome.factorisations;
   statistics_.iterations += outcome.factorisations;
   return outcome;
+}
+
+CorrectorOutcome PointSolver::correct_in_plane(const VectorXd& normal, double normal_lambda, double scale,
+                                               const CorrectorOptions& options, PathPoint& point) {
+  side_.normal = norm_.metric().weights->cwiseProduct(normal);
+  side_.normal_lambda = norm_.metric().load_weight * normal_lambda;
+  return correct_with(side_, scale, options, point);
 }
 
 bool PointSolver::correct_at_load(double scale, PathPoint& point) {
-  problem_.set_holds(point.holds);
-  const auto outcome = correct(problem_, norm_.metric(), {}, scale, options_, point.y, point.lambda, work_);
-  statistics_.factorizations += outcome.factorisations;
-  statistics_.iterations += outcome.factorisations;
-  return outcome.status == CorrectorStatus::converged;
+  return correct_with({}, scale, options_, point).status == CorrectorStatus::converged;
 }
 
 CorrectorOutcome PointSolver::correct_by_least_energy(double scale, int iterations, PathPoint& point) {
-  problem_.set_holds(point.holds);
-  const CorrectorOptions options = downhill(options_, iterations);
-  const auto outcome = correct(problem_, norm_.metric(), {}, scale, options, point.y, point.lambda, work_);
-  statistics_.factorizations += outcome.factorisations;
-  statistics_.iterations += outcome.factorisations;
-  return outcome;
+  return correct_with({}, scale, downhill(options_, iterations), point);
 }
 
 std::optional<ContactState> PointSolver::contact_state(double lambda, const SharedHolds& holds,

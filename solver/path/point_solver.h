@@ -78,6 +78,10 @@ class PointSolver {
   void find_first_modes(PathPoint& start);
 
  private:
+  /// Corrects a point under a side condition and counts the work.
+  [[nodiscard]] CorrectorOutcome correct_with(const SideCondition& side, double scale,
+                                              const CorrectorOptions& options, PathPoint& point);
+
   EquilibriumProblem& problem_;
   CorrectorOptions options_;
   PathNorm norm_;

@@ -81,7 +81,7 @@ Ritz ritz_pairs(const VectorXd& weights, const Block& block) {
   for (Index i = 0; i < k; ++i)
     for (Index j = 0; j < k; ++j)
       projected(i, j) = (block.z.col(i).array() * weights.array() * block.x.col(j).array()).sum();
-  const SymmetricEigen found = symmetric_eigen(0.5 * (projected + projected.transpose()));
+  const SymmetricEigen found = symmetric_eigen(symmetric_part(projected));
   std::vector<Index> order(static_cast<std::size_t>(k));
   std::iota(order.begin(), order.end(), Index{0});
   std::sort(order.begin(), order.end(),

@@ -28,7 +28,7 @@ MotionStiffness motion_stiffness(EquilibriumProblem& problem, const SharedHolds&
     S.col(i) = H.transpose() * x.head(H.rows());
   }
   const MatrixXd stiffness = inverse(S);
-  const SymmetricEigen principal = symmetric_eigen(0.5 * (stiffness + stiffness.transpose()));
+  const SymmetricEigen principal = symmetric_eigen(symmetric_part(stiffness));
   MotionStiffness out;
   out.motions = H * principal.vectors;
   out.stiffness = principal.values.array() - holds->stiffness;
