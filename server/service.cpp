@@ -178,7 +178,8 @@ std::string Service::Parts::metrics_text() {
   gauge("snapthrough_streams", "Open streams of events.", load.streams);
   gauge("snapthrough_buffered_bytes", "Of incomplete requests and responses that are being sent.",
         static_cast<double>(load.buffered_bytes));
-  gauge("snapthrough_jobs_waiting", "Accepted jobs, about.", static_cast<double>(jobs.context().waiting));
+  gauge("snapthrough_jobs_waiting", "Accepted jobs, about.",
+        static_cast<double>(jobs.context().waiting.value()));
   gauge("snapthrough_jobs_running", "Analyses of this process.",
         static_cast<double>(jobs.context().active.count()));
   const auto counter = [&](const char* name, const char* help, std::int64_t value) {
@@ -215,7 +216,7 @@ std::string Service::Parts::not_ready() const {
   if (!health.has_space) {
     return "The disk of the store is nearly full.";
   }
-  if (jobs.context().waiting >= jobs.limits().queue) {
+  if (jobs.context().waiting.value() >= jobs.limits().queue) {
     return "The queue is full.";
   }
   return store->get("").ok() ? "" : "The store can't be read.";

@@ -75,6 +75,7 @@ void Upkeep::renew_leases(Time since, Time now) {
 }
 
 void Upkeep::rescue(Time now) {
+  WaitingCount::Change change(context_.waiting);
   const StatusOr<Recovery> recovery =
       context_.store.rescue(context_.new_lease().worker, context_.limits.max_crashes, now);
   if (!recovery.ok()) {
@@ -86,7 +87,7 @@ void Upkeep::rescue(Time now) {
     context_.metrics.job_ended("crashed");
   }
   for (std::size_t i = 0; i < recovery->requeued.size(); ++i) {
-    context_.waiting += 1;
+    change.add(1);
     context_.handoffs.ring();
   }
 }
@@ -144,11 +145,7 @@ void Upkeep::retire_sweeps(Time now) {
 }
 
 void Upkeep::count_waiting() {
-  std::int64_t before = context_.waiting;
-  if (const StatusOr<std::int64_t> waiting = context_.store.waiting(); waiting.ok()) {
-    // The exchange fails if jobs were added or claimed in the meantime; the next count then decides.
-    context_.waiting.compare_exchange_strong(before, *waiting);
-  }
+  context_.waiting.recount([this] { return context_.store.waiting(); });
 }
 
 UpkeepThread::UpkeepThread(Upkeep& upkeep, const Environment& environment)

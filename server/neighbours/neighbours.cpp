@@ -84,13 +84,13 @@ bool Neighbours::look_for_ends() {
 }
 
 bool Neighbours::look_for_work() {
-  std::int64_t before = context_.waiting;
+  const std::int64_t before = context_.waiting.value();
   const StatusOr<WaitingWork> work = store_.work(kMany);
   if (!work.ok()) {
     return false;
   }
   // fails if jobs were added or claimed in the meantime; the next look then decides
-  context_.waiting.compare_exchange_strong(before, work->jobs < kMany ? work->jobs : std::max(before, kMany));
+  context_.waiting.replace(before, work->jobs < kMany ? work->jobs : std::max(before, kMany));
   const std::size_t idle = context_.handoffs.idle();
   for (std::size_t i = 0; i < std::min(idle, static_cast<std::size_t>(work->jobs)); ++i) {
     context_.handoffs.ring();

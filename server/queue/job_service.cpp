@@ -103,7 +103,7 @@ StatusOr<Submission> JobService::submit(const Order& order) {
       return Submission{Submission::Kind::reused, {}, **known};
     }
   }
-  if (waiting_ >= limits_.queue) {
+  if (waiting_.value() >= limits_.queue) {
     return known_or_full(store_, order);
   }
   return store_new(order, std::move(job));
@@ -121,6 +121,7 @@ StatusOr<Submission> JobService::store_new(const Order& order, NewJob job) {
     job.patient = order.waits;
   }
   bool queued = false;
+  WaitingCount::Change change(waiting_);
   const StatusOr<Submitted> submitted = store_.submit(job, [&] {
     queued = true;
     stored.set_value(true);
@@ -147,7 +148,7 @@ StatusOr<Submission> JobService::store_new(const Order& order, NewJob job) {
   }
   log_new(job, JobState::accepted, order.request_id);
   if (!job.lease) {
-    ++waiting_;
+    change.add(1);
     handoffs_.ring();
     bell_.ring();
   }
@@ -186,12 +187,13 @@ std::optional<Progress> JobService::progress(const Job& job) const {
 }
 
 StatusOr<Dismissal> JobService::dismiss(const std::string& id) {
+  WaitingCount::Change change(waiting_);
   StatusOr<Dismissal> dismissal = store_.dismiss(id, environment_.now());
   if (!dismissal.ok() || !dismissal->found || is_final(dismissal->before)) {
     return dismissal;
   }
   if (dismissal->before == JobState::accepted) {
-    --waiting_;
+    change.add(-1);
   }
   metrics_.job_ended(to_string(JobState::dismissed));
   active_.stop(id, StopReason::dismissed);

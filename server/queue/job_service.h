@@ -2,7 +2,6 @@
 /// @file
 /// Jobs for any protocol: submit, get, dismiss, remove.
 
-#include <atomic>
 #include <chrono>
 #include <optional>
 #include <set>
@@ -56,7 +55,7 @@ class JobService {
   Log& log_;
   const JobLimits limits_;
   StoreHealth health_;
-  std::atomic<std::int64_t> waiting_ = 0;
+  WaitingCount waiting_;
   std::mutex keys_mutex_;
   std::set<std::pair<std::string, std::string>> keys_in_use_;
   Bell bell_;

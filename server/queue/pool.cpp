@@ -117,10 +117,11 @@ Status store_outcome(const Claim& claim, JobRun& outcome, const WorkerContext& c
 }
 
 void give_back(const Claim& claim, const WorkerContext& context) {
+  WaitingCount::Change change(context.waiting);
   if (const Status status = context.store.requeue(claim); !status.ok()) {
     return log_trouble(context.log, claim, status);
   }
-  context.waiting += 1;
+  change.add(1);
   log_job(context.log, claim, JobState::accepted);
 }
 
@@ -179,6 +180,20 @@ void run_job(const Claim& claim, const std::shared_future<bool>* stored, const W
   log_job_end(context.log, claim, outcome);
 }
 
+/// Claims the oldest accepted job; nothing when there is none or the store fails.
+std::optional<Claim> claim_one(const WorkerContext& context) {
+  WaitingCount::Change change(context.waiting);
+  StatusOr<std::optional<Claim>> claim = context.store.claim(context.new_lease(), context.environment.now());
+  if (!claim.ok()) {
+    context.log.write(LogLevel::error, "store", {{"detail", std::string_view(claim.status().message())}});
+    return std::nullopt;
+  }
+  if (claim->has_value()) {
+    change.add(-1);
+  }
+  return *std::move(claim);
+}
+
 }  // namespace
 
 void work_on(const Claim& claim, const WorkerContext& context, Runner& runner, const std::stop_token& stop) {
@@ -212,18 +227,11 @@ void WorkerPool::stop() {
 }
 
 bool WorkerPool::claim_and_work(Runner& runner, const std::stop_token& stop) {
-  const StatusOr<std::optional<Claim>> claim =
-      context_.store.claim(context_.new_lease(), context_.environment.now());
-  if (!claim.ok()) {
-    context_.log.write(LogLevel::error, "store", {{"detail", std::string_view(claim.status().message())}});
-    return false;
+  const std::optional<Claim> claim = claim_one(context_);
+  if (claim) {
+    work_on(*claim, context_, runner, stop);
   }
-  if (!claim->has_value()) {
-    return false;
-  }
-  context_.waiting -= 1;
-  work_on(**claim, context_, runner, stop);
-  return true;
+  return claim.has_value();
 }
 
 void WorkerPool::run(const std::stop_token& stop) {
@@ -234,7 +242,7 @@ void WorkerPool::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     // Jobs and sweeps alternate, so that neither waits for the end of the other. While sweeps run, the store
     // is not queried for jobs unless some are known to wait.
-    const bool waited = context_.waiting > 0;
+    const bool waited = context_.waiting.value() > 0;
     const bool worked = waited && claim_and_work(runner, stop);
     if ((!stop.stop_requested() && context_.sweeps.do_next(runner, stop)) || worked ||
         (!waited && claim_and_work(runner, stop))) {
@@ -244,7 +252,7 @@ void WorkerPool::run(const std::stop_token& stop) {
     std::optional<Handoff> handoff;
     while ((handoff = context_.handoffs.wait(seen, stop, nap))) {
       work_on(*handoff, context_, runner, stop);
-      if (context_.waiting > 0 || context_.sweeps.is_left() || stop.stop_requested()) {
+      if (context_.waiting.value() > 0 || context_.sweeps.is_left() || stop.stop_requested()) {
         break;
       }
     }

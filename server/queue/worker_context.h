@@ -2,8 +2,6 @@
 /// @file
 /// Parts that workers, Upkeep and Neighbours share.
 
-#include <atomic>
-#include <cstdint>
 #include <string>
 
 #include "server/bell.h"
@@ -14,6 +12,7 @@
 #include "server/jobs/job_metrics.h"
 #include "server/jobs/limits.h"
 #include "server/jobs/progress_topic.h"
+#include "server/jobs/waiting_count.h"
 #include "server/log/log.h"
 #include "server/store/store.h"
 #include "server/sweeps/sweep_work.h"
@@ -27,7 +26,7 @@ struct WorkerContext {
   Log& log;
   const JobLimits& limits;
   StoreHealth& health;
-  std::atomic<std::int64_t>& waiting;  ///< accepted jobs, about
+  WaitingCount& waiting;  ///< accepted jobs
   JobCompletions& completions;
   HandoffQueue& handoffs;
   ActiveJobs& active;

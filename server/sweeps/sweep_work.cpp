@@ -83,7 +83,7 @@ void look_up(const Chunk& chunk, const SweepSurroundings& world, Work& work) {
 
 /// Whether a chunk that has run for `seconds` should end. @param chunk seconds that it should take
 bool is_late(double seconds, double chunk, const SweepSurroundings& world) {
-  return seconds > kLongest * chunk || (seconds > kWhileJobsWait && world.waiting > 0);
+  return seconds > kLongest * chunk || (seconds > kWhileJobsWait && world.waiting.value() > 0);
 }
 
 /// Rows of a unit that was computed, or stopped at the time limit.
@@ -211,7 +211,7 @@ std::optional<Chunk> SweepWork::take() {
   if (unloaded_) {
     load();
   }
-  const double seconds = world_.waiting > 0 ? kWhileJobsWait : scheduler_.chunk_seconds();
+  const double seconds = world_.waiting.value() > 0 ? kWhileJobsWait : scheduler_.chunk_seconds();
   while (const std::optional<SweepTurn> turn = scheduler_.next(seconds)) {
     const std::string& id = turn->sweep->id;
     const Time now = world_.environment.now();

@@ -18,6 +18,7 @@
 #include "server/jobs/job_metrics.h"
 #include "server/jobs/limits.h"
 #include "server/jobs/progress_topic.h"
+#include "server/jobs/waiting_count.h"
 #include "server/log/log.h"
 #include "server/store/sweep_store.h"
 #include "server/sweeps/scheduler.h"
@@ -32,7 +33,7 @@ struct SweepSurroundings {
   Log& log;
   const JobLimits& limits;
   StoreHealth& health;
-  const std::atomic<std::int64_t>& waiting;  ///< accepted jobs, about
+  const WaitingCount& waiting;  ///< accepted jobs
   HandoffQueue& handoffs;
   JobCompletions& completions;  ///< ends of jobs and sweeps
   JobMetrics& metrics;

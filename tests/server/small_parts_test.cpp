@@ -19,6 +19,7 @@
 #include "server/jobs/handoff.h"
 #include "server/jobs/memory.h"
 #include "server/jobs/path_batch.h"
+#include "server/jobs/waiting_count.h"
 #include "server/log/log.h"
 #include "server/resources/prefer.h"
 #include "tests/server/support/samples.h"
@@ -184,6 +185,32 @@ TEST(PollBell, IsReadableAfterARingUntilItIsSilenced) {
   EXPECT_TRUE(readable(one_by_one));
   one_by_one.silence();
   EXPECT_FALSE(readable(one_by_one));
+}
+
+TEST(WaitingCount, IsNotRecountedBetweenTheStoresChangeAndItsOwn) {
+  WaitingCount count;
+  {
+    WaitingCount::Change stored(count);
+    count.recount([] { return StatusOr<std::int64_t>(0); });
+    stored.add(1);
+  }
+  EXPECT_EQ(count.value(), 1);
+  {
+    WaitingCount::Change claimed(count);  // the store has claimed its only job, the count has not
+    count.recount([] { return StatusOr<std::int64_t>(0); });
+    claimed.add(-1);
+  }
+  EXPECT_EQ(count.value(), 0);
+  count.recount([&] {  // one job comes and goes during the query, which sees it
+    WaitingCount::Change(count).add(1);
+    WaitingCount::Change(count).add(-1);
+    return StatusOr<std::int64_t>(1);
+  });
+  EXPECT_EQ(count.value(), 0);
+  count.recount([] { return StatusOr<std::int64_t>(7); });
+  EXPECT_EQ(count.value(), 7);
+  count.recount([] { return StatusOr<std::int64_t>(Status(StatusCode::unavailable, "")); });
+  EXPECT_EQ(count.value(), 7);
 }
 
 TEST(LargeDocument, WaitsForAnotherThreadsButNotForItsOwnAndSmallOnesDoNot) {
