@@ -119,6 +119,17 @@ class ElementWork {
   virtual void add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors,
                                     const Regime& regime, const Eigen::Ref<const Eigen::MatrixXd>& directions,
                                     Eigen::MatrixXd& out) = 0;
+  /// @brief Adds the derivative of the tangent along a direction, times `directions`, column by column, to
+  /// `out`. Supports whose law is linear change the tangent only where an end of contact moves.
+  /// @param rates changes of the load factors of follower pressures along the direction
+  virtual void add_tangent_changes(const Eigen::VectorXd& y, const LoadFactors& rates, const Regime& regime,
+                                   const Eigen::VectorXd& along,
+                                   const Eigen::Ref<const Eigen::MatrixXd>& directions,
+                                   Eigen::MatrixXd& out) = 0;
+  /// @brief Adds the derivative of the follower forces along a direction to `out` (a load vector). @pre large
+  /// displacements
+  virtual void add_pressure_change(const LoadFactors& factors, const Eigen::VectorXd& along,
+                                   Eigen::VectorXd& out) = 0;
   /// @brief Adds the follower forces at y to `out` (a load vector, minus a residual).
   virtual void add_pressure_load(const Eigen::VectorXd& y, const LoadFactors& factors,
                                  bool small_displacements, Eigen::VectorXd& out) = 0;

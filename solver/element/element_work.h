@@ -49,6 +49,11 @@ class ElementWorkOf final : public ElementWork {
   void add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
                             const Eigen::Ref<const Eigen::MatrixXd>& directions,
                             Eigen::MatrixXd& out) override;
+  void add_tangent_changes(const Eigen::VectorXd& y, const LoadFactors& rates, const Regime& regime,
+                           const Eigen::VectorXd& along, const Eigen::Ref<const Eigen::MatrixXd>& directions,
+                           Eigen::MatrixXd& out) override;
+  void add_pressure_change(const LoadFactors& factors, const Eigen::VectorXd& along,
+                           Eigen::VectorXd& out) override;
 
  private:
   using Data = ElementData<P>;
@@ -65,6 +70,10 @@ class ElementWorkOf final : public ElementWork {
   struct Kinematics {
     Gauss c, s, xp, yp, E, G, px, py;
     Gauss e, g;  ///< strains: E and G minus their stress-free values, without cancellation
+  };
+  /// Changes of rotation, strains e and g, and section forces N and Q at the Gauss points.
+  struct StrainChange {
+    Gauss b, e, g, N, Q;
   };
   /// Factors of the last linearisation from which H is applied; H itself is not stored.
   struct Tangent {
@@ -90,6 +99,11 @@ class ElementWorkOf final : public ElementWork {
                            const double* y, double* residual) const;
   void add_strain_product(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
                           const double* direction, double* out) const;
+  [[nodiscard]] StrainChange strain_change(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
+                                           const double* along) const;
+  void add_strain_rate(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
+                       const StrainChange& change, const double* direction, double* out) const;
+  void collect_moving_ends(const Shape& shape, const ElementDofs& dofs, const double* y, const double* along);
   void add_support_residual(int element, const double* y, double* residual, bool keep);
   void collect_contact(std::size_t index, const double* y, const ElementDofs& dofs, const Shape& shape);
   void add_interval(std::size_t index, const Shape& shape, const FoundationContact::Interval& interval,
@@ -667,4 +681,5 @@ std::unique_ptr<ElementWork> ElementSetOf<P>::make_work() const {
 
 }  // namespace snapthrough
 
+#include "solver/element/element_work_rates.h"
 #include "solver/element/element_work_supports.h"

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "solver/problem/derivatives.h"
 
 namespace snapthrough {
 
@@ -90,9 +89,7 @@ double BorderedPoint::size_of(const VectorXd& motion) const {
 
 MatrixXd BorderedPoint::tangent_change_along(const VectorXd& motion,
                                              const Eigen::Ref<const MatrixXd>& b) const {
-  const double norm = size_of(motion);
-  if (!(norm > 0.0)) return MatrixXd::Zero(b.rows(), b.cols());
-  return tangent_change(problem_, at_.y, at_.lambda, {motion, 0.0, norm}, b);
+  return problem_.tangent_change(at_.y, at_.lambda, {motion, 0.0}, b);
 }
 
 /// Evaluates the second derivatives A, B and C of CriticalSolution with the response at this point.
@@ -104,10 +101,10 @@ void BorderedPoint::differentiate() {
   }
   MatrixXd all(at_.y.size(), k + 1);
   all << at_.null, at_.response;
-  const PathDirection z{at_.response, 1.0, metric_.norm(at_.response, 1.0)};
-  const MatrixXd change = tangent_change(problem_, at_.y, at_.lambda, z, all);
+  const PathDirection z{at_.response, 1.0};
+  const MatrixXd change = problem_.tangent_change(at_.y, at_.lambda, z, all);
   for (Index i = 0; i < k; ++i) at_.B.col(i) = works(change.col(i));
-  at_.C = works(change.col(k) - load_change(problem_, at_.y, at_.lambda, z));
+  at_.C = works(change.col(k) - problem_.load_change(at_.y, at_.lambda, z));
 }
 
 }  // namespace snapthrough

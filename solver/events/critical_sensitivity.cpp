@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "solver/numeric/dense.h"
-#include "solver/problem/derivatives.h"
 
 namespace snapthrough {
 
@@ -46,17 +45,16 @@ CriticalSensitivity::Rate CriticalSensitivity::rate(const MatrixXd& change) cons
   const Index k = at.null.cols();
   const MatrixXd share = share_of_target();
   const VectorXd moved = point_.response(force);
-  const double norm = point_.size_of(moved);
   MatrixXd stiffness(k, k);
   for (Index i = 0; i < k; ++i) stiffness.col(i) = point_.works(point_.held(change.col(1 + i)).forces);
   VectorXd crossing = point_.works(point_.held(change.col(k + 1)).forces);
-  if (norm > 0.0) {
+  if (!moved.isZero(0.0)) {
     MatrixXd all(at.y.size(), k + 1);
     all << at.null, at.response;
-    const PathDirection way{moved, 0.0, norm};
-    const MatrixXd by_motion = tangent_change(point_.problem(), at.y, at.lambda, way, all);
+    const PathDirection way{moved, 0.0};
+    const MatrixXd by_motion = point_.problem().tangent_change(at.y, at.lambda, way, all);
     for (Index i = 0; i < k; ++i) stiffness.col(i) += point_.works(by_motion.col(i));
-    crossing += point_.works(by_motion.col(k) - load_change(point_.problem(), at.y, at.lambda, way));
+    crossing += point_.works(by_motion.col(k) - point_.problem().load_change(at.y, at.lambda, way));
   }
   MatrixXd equations(k + 1, k + 1);
   VectorXd right(k + 1);

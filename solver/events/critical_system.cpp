@@ -9,7 +9,6 @@
 #include "solver/numeric/dense.h"
 #include "solver/numeric/pseudo_random.h"
 #include "solver/numeric/rounding.h"
-#include "solver/problem/derivatives.h"
 
 namespace snapthrough {
 
@@ -221,18 +220,18 @@ void CriticalNewton::differentiate() {
   along_zp_.resize(k);
   for (Index j = 0; j < k; ++j) {
     const MatrixXd z =
-        tangent_change(problem_, at_.y, at_.lambda, {v_.col(j), 0.0, metric_.norm(v_.col(j), 0.0)}, v_);
+        problem_.tangent_change(at_.y, at_.lambda, {v_.col(j), 0.0}, v_);
     for (Index i = 0; i < k; ++i) {
       for (Index l = 0; l < k; ++l)
         at_.A[static_cast<std::size_t>(j)](i, l) = problem_.work(z.col(i), v_.col(l));
       along_p_(i, j) = problem_.work(z.col(i), p_);
     }
   }
-  const PathDirection along_z{q_, 1.0, metric_.norm(q_, 1.0)};
+  const PathDirection along_z{q_, 1.0};
   MatrixXd all(q_.size(), k + 1);
   all << v_, q_;
-  const MatrixXd z = tangent_change(problem_, at_.y, at_.lambda, along_z, all);
-  const VectorXd of_load = load_change(problem_, at_.y, at_.lambda, along_z);
+  const MatrixXd z = problem_.tangent_change(at_.y, at_.lambda, along_z, all);
+  const VectorXd of_load = problem_.load_change(at_.y, at_.lambda, along_z);
   for (Index i = 0; i < k; ++i) {
     for (Index l = 0; l < k; ++l) at_.B(i, l) = problem_.work(z.col(i), v_.col(l));
     along_zp_[i] = problem_.work(z.col(i), p_);
@@ -357,8 +356,8 @@ VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
     x /= metric_.norm(x, 0.0);
   }
   if (!x.allFinite()) return {};
-  const PathDirection along_z{at.response, 1.0, metric_.norm(at.response, 1.0)};
-  const double rate = works(tangent_change(problem_, at.y, at.lambda, along_z, x), x)(0, 0);
+  const PathDirection along_z{at.response, 1.0};
+  const double rate = works(problem_.tangent_change(at.y, at.lambda, along_z, x), x)(0, 0);
   const double stiffness = works(problem_.tangent_products(at.y, at.lambda, x), x)(0, 0);
   // a motion that the load drives belongs to a limit point
   problem_.load(at.y, at.lambda, force);

@@ -76,7 +76,7 @@ struct CriticalOptions {
 ///
 /// Neighbouring null motions are bordered together, including motions that the guess does not have, because
 /// no single motion is determined at a multiple bifurcation. Each iteration costs one factorisation, two
-/// solves and one per null motion; derivatives of the tangent are differences of its products.
+/// solves and one per null motion.
 /// @param factorisations incremented by the number of factorisations
 /// @pre the tangent is symmetric
 /// @return empty when the iteration diverges or leaves `options.reach`

@@ -6,7 +6,6 @@
 
 #include "solver/events/critical_system.h"
 #include "solver/numeric/cubic.h"
-#include "solver/problem/derivatives.h"
 
 namespace snapthrough {
 

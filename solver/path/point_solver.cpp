@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "solver/numeric/pseudo_random.h"
-#include "solver/problem/derivatives.h"
 
 namespace snapthrough {
 
@@ -136,7 +135,7 @@ void PointSolver::find_modes(PathPoint& point, const SharedModes& start) {
   auto modes = modes_of_factors(problem_, point.negative, start);
   if (!modes) return;
   const Eigen::MatrixXd change =
-      tangent_change(problem_, point.y, point.lambda, {point.tangent, point.tangent_lambda}, modes->motions);
+      problem_.tangent_change(point.y, point.lambda, {point.tangent, point.tangent_lambda}, modes->motions);
   modes->rate.resize(modes->count());
   for (Eigen::Index i = 0; i < modes->count(); ++i)
     modes->rate[i] = problem_.work(change.col(i), modes->motions.col(i));

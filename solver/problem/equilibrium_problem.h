@@ -3,7 +3,6 @@
 /// Interface between the structural model and path following.
 
 #include <Eigen/Core>
-#include <limits>
 
 #include "solver/problem/holds.h"
 #include "solver/support/regime.h"
@@ -17,6 +16,12 @@ struct TangentReport {
   /// true: the tangent is not symmetric, and only the parity of `negative` is certain (sign of the
   /// determinant)
   bool parity_only = false;
+};
+
+/// A direction in (y, lambda), of any length.
+struct PathDirection {
+  const Eigen::VectorXd& y;
+  double lambda = 0.0;
 };
 
 /// @brief F(y, lambda) = 0 with a symmetric tangent J = dF/dy.
@@ -80,6 +85,14 @@ class EquilibriumProblem {
                                                 const Eigen::VectorXd& motion, const Regime& regime = {}) {
     return tangent_products(y, lambda, motion, regime);
   }
+  /// @brief d/de J(y + e a, lambda + e da) b at e = 0 along a direction (a, da), for each column b of
+  /// `motions`; keeps the factors. Central differences here, exact in StructuralProblem.
+  [[nodiscard]] virtual Eigen::MatrixXd tangent_change(const Eigen::VectorXd& y, double lambda,
+                                                       const PathDirection& along,
+                                                       const Eigen::Ref<const Eigen::MatrixXd>& motions);
+  /// @brief d/de load(y + e a, lambda + e da) at e = 0, likewise.
+  [[nodiscard]] virtual Eigen::VectorXd load_change(const Eigen::VectorXd& y, double lambda,
+                                                    const PathDirection& along);
   /// @brief Right-hand side of solve() for the forces W x (W: metric), zero in constrained rows; overwritten.
   virtual void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
     out = metric().cwiseProduct(x);
@@ -114,14 +127,5 @@ class EquilibriumProblem {
                                                       const Regime& regime,
                                                       const Eigen::Ref<const Eigen::MatrixXd>& motions) = 0;
 };
-
-inline const Eigen::MatrixXd& EquilibriumProblem::free_motions() const {
-  static const Eigen::MatrixXd kNone;
-  return kNone;
-}
-
-inline double EquilibriumProblem::critical_load_scale(const Eigen::VectorXd&) const {
-  return std::numeric_limits<double>::infinity();
-}
 
 }  // namespace snapthrough

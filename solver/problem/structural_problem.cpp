@@ -150,9 +150,7 @@ void StructuralProblem::force_along(const VectorXd& motion, VectorXd& out) const
 
 void StructuralProblem::metric_forces(const VectorXd& x, VectorXd& out) const {
   out = structure_.metric.cwiseProduct(x);
-  turn_to_supports(out);
-  for (const Index row : fixed_)
-    if (row < 3 * structure_.nodes) out[row] = 0.0;
+  release_rows(out);
 }
 
 VectorXd StructuralProblem::imposed_motion(const VectorXd& rows) const {
@@ -253,8 +251,7 @@ void StructuralProblem::find_residual(const VectorXd& y, double lambda, const Re
 void StructuralProblem::load(const VectorXd& y, double, VectorXd& out) {
   const bool constant = stage_ == Stage::constant;
   out = constant ? structure_.constant_load : structure_.proportional_load;
-  elements_->add_pressure_load(y, {constant ? 0.0 : 1.0, constant ? 1.0 : 0.0},
-                               structure_.geometry == Geometry::linear, out);
+  elements_->add_pressure_load(y, factor_rates(), structure_.geometry == Geometry::linear, out);
   turn_to_supports(out);
   for (int j = 0; j < structure_.nodes; ++j) {
     const NodeSupport& support = structure_.supports[j];
@@ -615,6 +612,38 @@ Eigen::MatrixXd StructuralProblem::find_products(const VectorXd& y, double lambd
     static_cast<void>(node_spring_force(i, y, regime));
   for (Index i = 0; i < directions.cols(); ++i) add_node_products(lambda, directions.col(i), products.col(i));
   return products;
+}
+
+/// Linear supports, dead loads and constraints have constant tangents; the ends of pressed lines follow the
+/// load factor.
+MatrixXd StructuralProblem::tangent_change(const VectorXd& y, double, const PathDirection& along,
+                                           const Eigen::Ref<const MatrixXd>& motions) {
+  end_if_asked(stop_);
+  MatrixXd change = MatrixXd::Zero(motions.rows(), motions.cols());
+  const auto [proportional, constant] = factor_rates();
+  const LoadFactors rates{along.lambda * proportional, along.lambda * constant};
+  elements_->add_tangent_changes(y, rates, regime_of({}), along.y, motions, change);
+  for (Index i = 0; i < change.cols(); ++i) {
+    follower_ends_.add_product(rates.proportional, rates.constant, motions.col(i), change.col(i));
+    release_rows(change.col(i));
+  }
+  return change;
+}
+
+VectorXd StructuralProblem::load_change(const VectorXd& y, double, const PathDirection& along) {
+  VectorXd change = VectorXd::Zero(y.size());
+  if (structure_.geometry == Geometry::linear) return change;
+  const auto [proportional, constant] = factor_rates();
+  elements_->add_pressure_change({proportional, constant}, along.y, change);
+  follower_ends_.add_product(-proportional, -constant, along.y, change);
+  release_rows(change);
+  return change;
+}
+
+void StructuralProblem::release_rows(Eigen::Ref<VectorXd> f) const {
+  turn_to_supports(f);
+  for (const Index row : fixed_)
+    if (row < 3 * structure_.nodes) f[row] = 0.0;
 }
 
 /// Adds the tangent times `direction`, without the elements' part, in the row order of linearise().

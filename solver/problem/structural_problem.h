@@ -53,6 +53,11 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] FrozenContact freeze(const MovingZones& zones, const Eigen::VectorXd& y) const override;
   [[nodiscard]] const Eigen::MatrixXd& free_motions() const override { return structure_.free_motions; }
   void set_holds(const SharedHolds& holds) override;
+  [[nodiscard]] Eigen::MatrixXd tangent_change(const Eigen::VectorXd& y, double lambda,
+                                               const PathDirection& along,
+                                               const Eigen::Ref<const Eigen::MatrixXd>& motions) override;
+  [[nodiscard]] Eigen::VectorXd load_change(const Eigen::VectorXd& y, double lambda,
+                                            const PathDirection& along) override;
   void force_along(const Eigen::VectorXd& motion, Eigen::VectorXd& out) const override;
   /// Euler load factor of the member that buckles first: min over members of pi^2 EI / (N l^2).
   [[nodiscard]] double critical_load_scale(const Eigen::VectorXd& unit_response) const override;
@@ -103,6 +108,12 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] LoadFactors factors(double lambda) const {
     return stage_ == Stage::proportional ? LoadFactors{lambda, 1.0} : LoadFactors{0.0, lambda};
   }
+  /// Derivative of factors() by the load factor.
+  [[nodiscard]] LoadFactors factor_rates() const {
+    return stage_ == Stage::proportional ? LoadFactors{1.0, 0.0} : LoadFactors{0.0, 1.0};
+  }
+  /// Sets the constrained rows to zero and turns the others to the axes of the supports.
+  void release_rows(Eigen::Ref<Eigen::VectorXd> f) const;
   [[nodiscard]] Regime regime_of(const Regime& asked) const;
   [[nodiscard]] TouchingDistance touching_distance(const Eigen::VectorXd& y) const;
   void start_residual(double lambda, Eigen::VectorXd& f) const;
