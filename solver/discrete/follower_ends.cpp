@@ -10,7 +10,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 /// Product A E^T x.
-VectorXd FollowerEnds::weighted(const VectorXd& x) const {
+VectorXd FollowerEnds::weighted(const Eigen::Ref<const VectorXd>& x) const {
   VectorXd out(2 * static_cast<Index>(ends_.size()));
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     const Index row = 2 * static_cast<Index>(i);
@@ -21,25 +21,21 @@ VectorXd FollowerEnds::weighted(const VectorXd& x) const {
 }
 
 double FollowerEnds::prepare(double proportional, double constant, Index size,
-                             const std::function<void(VectorXd&)>& solve) {
+                             const std::function<void(Eigen::Ref<Eigen::MatrixXd>)>& solve) {
   c_.clear();
   for (const FollowerEnd& end : ends_)
     c_.push_back(proportional * end.proportional + constant * end.constant);
   const Index n = 2 * static_cast<Index>(ends_.size());
-  W_.resize(size, n);
+  W_.setZero(size, n);
+  for (Index j = 0; j < n; ++j) W_(3 * ends_[static_cast<std::size_t>(j / 2)].node + j % 2, j) = 1.0;
+  solve(W_);
   Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n);
-  VectorXd column;
-  for (Index j = 0; j < n; ++j) {
-    column = VectorXd::Unit(size, 3 * ends_[static_cast<std::size_t>(j / 2)].node + j % 2);
-    solve(column);
-    W_.col(j) = column;
-    M.col(j) += weighted(column);
-  }
+  for (Index j = 0; j < n; ++j) M.col(j) += weighted(W_.col(j));
   inverse_ = inverse(M);
   return determinant(M);
 }
 
-void FollowerEnds::correct(VectorXd& x) const { x -= W_ * (inverse_ * weighted(x)); }
+void FollowerEnds::correct(Eigen::Ref<VectorXd> x) const { x -= W_ * (inverse_ * weighted(x)); }
 
 void FollowerEnds::add_product(double proportional, double constant,
                                const Eigen::Ref<const VectorXd>& direction, Eigen::Ref<VectorXd> out) const {

@@ -31,15 +31,15 @@ class FollowerEnds {
   /// @param solve x := S^-1 x
   /// @return det J / det S
   double prepare(double proportional, double constant, Eigen::Index size,
-                 const std::function<void(Eigen::VectorXd&)>& solve);
+                 const std::function<void(Eigen::Ref<Eigen::MatrixXd>)>& solve);
   /// x := J^-1 r from x = S^-1 r.
-  void correct(Eigen::VectorXd& x) const;
+  void correct(Eigen::Ref<Eigen::VectorXd> x) const;
   /// Adds E A E^T direction to `out`, for the given load factors.
   void add_product(double proportional, double constant, const Eigen::Ref<const Eigen::VectorXd>& direction,
                    Eigen::Ref<Eigen::VectorXd> out) const;
 
  private:
-  [[nodiscard]] Eigen::VectorXd weighted(const Eigen::VectorXd& x) const;
+  [[nodiscard]] Eigen::VectorXd weighted(const Eigen::Ref<const Eigen::VectorXd>& x) const;
 
   const std::vector<FollowerEnd>& ends_;
   std::vector<double> c_;

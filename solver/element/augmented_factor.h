@@ -8,32 +8,18 @@
 #include <cstddef>
 #include <utility>
 
+#include "solver/numeric/lanes.h"
+
 namespace snapthrough {
 
 /// Doubles per block; rows are padded to whole blocks, and loops run over whole blocks.
-inline constexpr int kBlock = 4;
+inline constexpr int kBlock = kLanes;
 [[nodiscard]] constexpr int padded(int n) { return (n + kBlock - 1) / kBlock * kBlock; }
 
-using Lanes = Eigen::Array<double, kBlock, 1>;
 using Block = Eigen::Map<Lanes, Eigen::Aligned32>;
 using ConstBlock = Eigen::Map<const Lanes, Eigen::Aligned32>;
 
 inline void store(const Lanes& lanes, double* to) { Block{to} = lanes; }
-
-/// y -= f x, from the block that contains index `first` to the end.
-/// @pre y and x aligned to 32 bytes, `Width` whole blocks
-template <int Width>
-inline void subtract_scaled(double* y, const double* x, double f, int first) {
-  for (int b = first / kBlock * kBlock; b < Width; b += kBlock) Block(y + b) -= f * ConstBlock(x + b);
-}
-
-/// x.y, from the block that contains index `first` to the end.
-template <int Width>
-[[nodiscard]] inline double dot_from(const double* x, const double* y, int first) {
-  Lanes sum = Lanes::Zero();
-  for (int b = first / kBlock * kBlock; b < Width; b += kBlock) sum += ConstBlock(x + b) * ConstBlock(y + b);
-  return sum.sum();
-}
 
 /// @brief Upper triangle of a symmetric matrix with N rows and six border rows, stored in whole blocks.
 ///
@@ -102,28 +88,35 @@ class AugmentedFactor {
     factorise_blocks(a, pivots, std::make_integer_sequence<int, kWidth / kBlock>());
   }
 
-  /// @brief x := L^-1 x in its first N entries; the six that follow become -B^T S^-1 x.
-  /// @pre x aligned, kWidth long, zero from entry N on
-  void forward(double* x) const {
-    for (int k = 0; k < N; ++k) subtract_scaled<kWidth>(x, rows_[k].data(), inverses_[k] * x[k], k + 1);
-  }
-  /// @brief y := S^-1 (r - B sides) from x = L^-1 r; on entry y holds `sides` in the six entries after the
-  /// first N.
-  /// @pre y aligned, kWidth long, zero except `sides`
-  void backward(const double* x, double* y) const {
+  /// Four vectors of length N with their six sides, one in each lane.
+  using Vectors = std::array<Lanes, Matrix::kRows>;
+
+  /// @brief x := L^-1 x in its first N entries; the six that follow become -B^T S^-1 x. @pre these are zero
+  void forward(Vectors& x) const { forward_rows(x, std::make_integer_sequence<int, N>()); }
+  /// @brief y := S^-1 (r - B sides) from x = L^-1 r; on entry y holds `sides` in its last six entries.
+  void backward(const Vectors& x, Vectors& y) const {
     backward_rows(x, y, std::make_integer_sequence<int, N>());
   }
 
  private:
+  // every loop is written out, so that the vectors stay in registers
   template <int... K>
-  void backward_rows(const double* x, double* y, std::integer_sequence<int, K...>) const {
+  void forward_rows(Vectors& x, std::integer_sequence<int, K...>) const {
+    (forward_row<K>(x, std::make_integer_sequence<int, Matrix::kRows - 1 - K>()), ...);
+  }
+  template <int K, int... J>
+  void forward_row(Vectors& x, std::integer_sequence<int, J...>) const {
+    const Lanes f = inverses_[K] * x[K];
+    ((x[K + 1 + J] -= rows_[K][K + 1 + J] * f), ...);
+  }
+  template <int... K>
+  void backward_rows(const Vectors& x, Vectors& y, std::integer_sequence<int, K...>) const {
     (backward_row<N - 1 - K>(x, y, std::make_integer_sequence<int, K + Matrix::kSides>()), ...);
   }
-  /// Substitutes entry by entry, the newest entry of y last: whole blocks of y would wait for entries just
-  /// written.
+  /// The newest entry of y enters last.
   template <int K, int... J>
-  void backward_row(const double* x, double* y, std::integer_sequence<int, J...>) const {
-    double sum = x[K];
+  void backward_row(const Vectors& x, Vectors& y, std::integer_sequence<int, J...>) const {
+    Lanes sum = x[K];
     ((sum -= rows_[K][Matrix::kRows - 1 - J] * y[Matrix::kRows - 1 - J]), ...);
     y[K] = sum * inverses_[K];
   }

@@ -68,8 +68,9 @@ struct ElementData {
   Quadrature contact_quadrature;
   std::vector<Shape> shapes;
   std::vector<ElementDofs> dofs;
-  int stiff = 0;      ///< number of unshearable elements
-  int shearable = 0;  ///< number of shearable elements
+  bool pressed = false;  ///< a follower pressure acts on some element
+  int stiff = 0;         ///< number of unshearable elements
+  int shearable = 0;     ///< number of shearable elements
   std::vector<Functional> springs;
   std::vector<FoundationContact> contacts;
   std::vector<Touch> contact_touch;
@@ -229,6 +230,7 @@ template <int P>
 void ElementSetOf<P>::set_pressure(int element, double proportional, double constant) {
   data_.shapes[element].pressure += proportional;
   data_.shapes[element].constant_pressure += constant;
+  data_.pressed = true;
 }
 
 template <int P>

@@ -27,6 +27,7 @@
 
 #include "solver/element/foundation_contact.h"
 #include "solver/numeric/gauss_rule.h"
+#include "solver/numeric/lanes.h"
 #include "solver/support/law.h"
 #include "solver/support/regime.h"
 
@@ -84,9 +85,13 @@ struct TouchingContact {
 ///   K u_a + X^T m = ra,    X u_a - F m + u_b = rm,    and  + m  in the row of u_b.
 struct CondensedElement {
   Eigen::Matrix3d K, X, F;
-  Eigen::Vector3d ra, rm;
   int negative = 0;      ///< negative pivots of the interior beyond those of every mixed element
   double log_det = 0.0;  ///< log |det| of the interior
+};
+
+/// Right-hand sides of CondensedElement, for four vectors at a time.
+struct CondensedForces {
+  Lanes3 ra, rm;
 };
 
 /// @brief Evaluates element forces, and their tangent condensed to the element ends.
@@ -110,11 +115,11 @@ class ElementWork {
   /// element) gets K, X, F, negative, log_det.
   virtual void linearise(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
                          Eigen::VectorXd& residual, std::span<CondensedElement> condensed) = 0;
-  /// @brief Reduces the interior part of a right-hand side: fills ra and rm of `condensed`.
-  virtual void reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) = 0;
-  /// @brief Replaces the interior rows of `x` (right-hand side on entry) by the solution, from the end
+  /// @brief Reduces the interior part of right-hand sides to the ends of each element.
+  virtual void reduce(const ColumnLanes& rhs, std::span<CondensedForces> condensed) = 0;
+  /// @brief Replaces the interior rows of `x` (right-hand sides on entry) by the solution, from the end
   /// displacements and multipliers already in `x`.
-  virtual void recover(Eigen::VectorXd& x) = 0;
+  virtual void recover(const ColumnLanes& x) = 0;
   /// Adds the second derivative of the energy times `directions`, column by column, to `out`.
   virtual void add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors,
                                     const Regime& regime, const Eigen::Ref<const Eigen::MatrixXd>& directions,

@@ -22,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <span>
@@ -30,6 +31,7 @@
 
 #include "solver/element/augmented_factor.h"
 #include "solver/element/element_data.h"
+#include "solver/numeric/sine_cosine.h"
 
 namespace snapthrough {
 
@@ -44,8 +46,8 @@ class ElementWorkOf final : public ElementWork {
                     Eigen::VectorXd& residual) override;
   void linearise(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
                  Eigen::VectorXd& residual, std::span<CondensedElement> condensed) override;
-  void reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) override;
-  void recover(Eigen::VectorXd& x) override;
+  void reduce(const ColumnLanes& rhs, std::span<CondensedForces> condensed) override;
+  void recover(const ColumnLanes& x) override;
   void add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
                             const Eigen::Ref<const Eigen::MatrixXd>& directions,
                             Eigen::MatrixXd& out) override;
@@ -65,6 +67,8 @@ class ElementWorkOf final : public ElementWork {
   using Gauss = typename Data::Gauss;
   static constexpr int kRow = padded(kZeta);  ///< padded to whole blocks; zero beyond kZeta
   using ZetaVector = Eigen::Matrix<double, kRow, 1>;
+  using ZetaLanes = std::array<Lanes, kZeta>;
+  using GaussLanes = std::array<Lanes, P>;
 
   /// Rotations, axis derivatives and strains at the Gauss points.
   struct Kinematics {
@@ -89,12 +93,14 @@ class ElementWorkOf final : public ElementWork {
   /// Factored interior of an element: N active strains in the order e, (g,) k, with columns of (u_a, m).
   template <int N>
   struct Interior {
-    AugmentedFactor<N> factor;  ///< factors of S
-    /// L^-1 times the last right-hand side.
-    alignas(32) std::array<double, AugmentedFactor<N>::kWidth> reduced{};
+    AugmentedFactor<N> factor;                    ///< factors of S
+    typename AugmentedFactor<N>::Vectors reduced;  ///< L^-1 times the last right-hand sides
   };
 
-  [[nodiscard]] Kinematics kinematics(const Shape& shape, const ElementDofs& dofs, const double* y) const;
+  void find_kinematics(const Eigen::VectorXd& y);
+  static void find_small_strains(const Shape& shape, const double* v, const double* b, Kinematics& kin);
+  static void find_strains(const Shape& shape, const double* v, const double* sb, const double* cb,
+                           Kinematics& kin);
   void add_strain_residual(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
                            const double* y, double* residual) const;
   void add_strain_product(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
@@ -131,11 +137,13 @@ class ElementWorkOf final : public ElementWork {
   void linearise_element(int element, const double* y, double* residual, Interior<N>& interior,
                          CondensedElement& out);
   template <int N>
-  void reduce_element(int element, const double* rhs, Interior<N>& interior, CondensedElement& out) const;
+  void reduce_element(int element, const ColumnLanes& rhs, Interior<N>& interior, CondensedForces& out) const;
   template <int N>
-  void recover_element(int element, const Interior<N>& interior, double* x) const;
-  void subtract_strains(const Shape& shape, const Tangent& t, const ZetaVector& d, ZetaVector& tau,
-                        Eigen::Vector3d& rm) const;
+  void recover_element(int element, const Interior<N>& interior, const ColumnLanes& x) const;
+  [[nodiscard]] ZetaLanes to_strains(const ColumnLanes& rhs, const ElementDofs& dofs, const Shape& shape,
+                                     const Tangent& t) const;
+  void subtract_strains(const Shape& shape, const Tangent& t, const ZetaLanes& d, ZetaLanes& tau,
+                        Lanes3& rm) const;
   /// Maps the active strain index i of S to its index in zeta.
   template <int N>
   [[nodiscard]] static constexpr int active(int i) {
@@ -155,6 +163,10 @@ class ElementWorkOf final : public ElementWork {
   bool linear_ = false;  ///< true: small displacements in the current call
   LoadFactors factors_;  ///< factors on the pressures in the current call
   double support_rounding_ = 0.0;
+  Angles turns_;                         ///< rotations of the elements' Gauss points, one after the other
+  std::vector<Kinematics> kinematics_;   ///< at kinematics_at_
+  Eigen::VectorXd kinematics_at_;        ///< unknowns of the last find_kinematics()
+  bool kinematics_linear_ = false;       ///< whether these were for small displacements
   std::vector<Tangent> tangents_;
   std::vector<StrainRow> rows_;         ///< rows of all elements from the last linearisation
   std::vector<Interior<2 * P>> stiff_;  ///< unshearable elements; allocated by the first linearisation
@@ -182,38 +194,60 @@ void ElementWorkOf<P>::begin(const LoadFactors& factors, const Regime& regime) {
   factors_ = factors;
 }
 
+/// Finds the kinematics of all elements at y, unless they are those of the last call.
 template <int P>
-auto ElementWorkOf<P>::kinematics(const Shape& shape, const ElementDofs& dofs, const double* y) const
-    -> Kinematics {
-  Kinematics kin;
-  const double* v = y + dofs.v;
-  Gauss b;
-  for (int q = 0; q < P; ++q) {
-    double sum = 0.0;
-    for (int r = 0; r < P; ++r) sum += a_[q][r] * v[2 * P + r];
-    b[q] = y[dofs.a[2]] + shape.h * sum;
-  }
-  if (linear_) {
+void ElementWorkOf<P>::find_kinematics(const Eigen::VectorXd& y) {
+  const auto bytes = sizeof(double) * static_cast<std::size_t>(y.size());
+  if (kinematics_linear_ == linear_ && kinematics_at_.size() == y.size() &&
+      std::memcmp(kinematics_at_.data(), y.data(), bytes) == 0)
+    return;
+  kinematics_at_ = y;
+  kinematics_linear_ = linear_;
+  const std::size_t count = lanes_for(shapes_.size() * P);
+  for (auto* list : {&turns_.angle, &turns_.sine, &turns_.cosine}) list->resize(count, Lanes::Zero());
+  kinematics_.resize(shapes_.size());
+  double* turn = turns_.angle.front().data();
+  for (int e = 0; e < size(); ++e) {
+    const double* curvature = y.data() + dofs_[e].v + 2 * P;
     for (int q = 0; q < P; ++q) {
-      kin.c[q] = shape.cos0[q];
-      kin.s[q] = shape.sin0[q];
-      kin.xp[q] = shape.tx[q];
-      kin.yp[q] = shape.ty[q];
-      kin.e[q] = shape.cos0[q] * v[q] + shape.sin0[q] * v[P + q] + shape.g0[q] * b[q];
-      kin.g[q] = -shape.sin0[q] * v[q] + shape.cos0[q] * v[P + q] - shape.e0[q] * b[q];
-      kin.E[q] = shape.e0[q] + kin.e[q];
-      kin.G[q] = shape.g0[q] + kin.g[q];
-      kin.px[q] = -shape.ty[q];
-      kin.py[q] = shape.tx[q];
+      double sum = 0.0;
+      for (int r = 0; r < P; ++r) sum += a_[q][r] * curvature[r];
+      *turn++ = y[dofs_[e].a[2]] + shapes_[e].h * sum;
     }
-    return kin;
   }
-  Gauss cb;
-  Gauss sb;
+  if (!linear_) find_sines(turns_);
+  for (int e = 0; e < size(); ++e) {
+    const std::size_t first = static_cast<std::size_t>(e) * P;
+    if (linear_)
+      find_small_strains(shapes_[e], y.data() + dofs_[e].v, turns_.angle.front().data() + first, kinematics_[e]);
+    else
+      find_strains(shapes_[e], y.data() + dofs_[e].v, turns_.sine.front().data() + first,
+                   turns_.cosine.front().data() + first, kinematics_[e]);
+  }
+}
+
+/// Linearised about the stress-free axis. @param v (u'_x, u'_y, b'), @param b rotations
+template <int P>
+void ElementWorkOf<P>::find_small_strains(const Shape& shape, const double* v, const double* b,
+                                          Kinematics& kin) {
   for (int q = 0; q < P; ++q) {
-    cb[q] = std::cos(b[q]);
-    sb[q] = std::sin(b[q]);
+    kin.c[q] = shape.cos0[q];
+    kin.s[q] = shape.sin0[q];
+    kin.xp[q] = shape.tx[q];
+    kin.yp[q] = shape.ty[q];
+    kin.e[q] = shape.cos0[q] * v[q] + shape.sin0[q] * v[P + q] + shape.g0[q] * b[q];
+    kin.g[q] = -shape.sin0[q] * v[q] + shape.cos0[q] * v[P + q] - shape.e0[q] * b[q];
+    kin.E[q] = shape.e0[q] + kin.e[q];
+    kin.G[q] = shape.g0[q] + kin.g[q];
+    kin.px[q] = -shape.ty[q];
+    kin.py[q] = shape.tx[q];
   }
+}
+
+/// @param v (u'_x, u'_y, b'), @param sb, cb sine and cosine of the rotations
+template <int P>
+void ElementWorkOf<P>::find_strains(const Shape& shape, const double* v, const double* sb, const double* cb,
+                                    Kinematics& kin) {
   for (int q = 0; q < P; ++q) {
     // cb - 1 without cancellation
     const double less = cb[q] > 0.0 ? -sb[q] * sb[q] / (1.0 + cb[q]) : cb[q] - 1.0;
@@ -228,7 +262,6 @@ auto ElementWorkOf<P>::kinematics(const Shape& shape, const ElementDofs& dofs, c
     kin.px[q] = -kin.yp[q];
     kin.py[q] = kin.xp[q];
   }
-  return kin;
 }
 
 template <int P>
@@ -404,7 +437,7 @@ void ElementWorkOf<P>::linearise_element(int element, const double* y, double* r
                                          Interior<N>& interior, CondensedElement& out) {
   const Shape& shape = shapes_[element];
   const ElementDofs& dofs = dofs_[element];
-  const Kinematics kin = kinematics(shape, dofs, y);
+  const Kinematics& kin = kinematics_[element];
   add_strain_residual(shape, dofs, kin, y, residual);
   Tangent& t = tangents_[element];
   t.c = kin.c;
@@ -445,8 +478,9 @@ void ElementWorkOf<P>::add_residual(const Eigen::VectorXd& y, const LoadFactors&
                                     const Regime& regime, Eigen::VectorXd& residual) {
   begin(factors, regime);
   support_rounding_ = 0.0;
+  find_kinematics(y);
   for (int e = 0; e < size(); ++e) {
-    const Kinematics kin = kinematics(shapes_[e], dofs_[e], y.data());
+    const Kinematics& kin = kinematics_[e];
     add_strain_residual(shapes_[e], dofs_[e], kin, y.data(), residual.data());
     if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
       add_pressure(shapes_[e], dofs_[e], kin, -pressure, y.data(), residual.data());
@@ -460,6 +494,7 @@ void ElementWorkOf<P>::linearise(const Eigen::VectorXd& y, const LoadFactors& fa
                                  Eigen::VectorXd& residual, std::span<CondensedElement> condensed) {
   begin(factors, regime);
   support_rounding_ = 0.0;
+  find_kinematics(y);
   tangents_.resize(shapes_.size());
   stiff_.resize(static_cast<std::size_t>(data_.stiff));
   shearable_.resize(static_cast<std::size_t>(data_.shearable));
@@ -470,125 +505,6 @@ void ElementWorkOf<P>::linearise(const Eigen::VectorXd& y, const LoadFactors& fa
       linearise_element<3 * P>(e, y.data(), residual.data(), shearable_[shape.factor], condensed[e]);
     else
       linearise_element<2 * P>(e, y.data(), residual.data(), stiff_[shape.factor], condensed[e]);
-  }
-}
-
-/// Subtracts the effect of given strains d from right-hand sides: tau - H d (strains) and rm + U d (m).
-template <int P>
-void ElementWorkOf<P>::subtract_strains(const Shape& shape, const Tangent& t, const ZetaVector& d,
-                                        ZetaVector& tau, Eigen::Vector3d& rm) const {
-  for (int q = 0; q < P; ++q) {
-    const double e = d[q];
-    const double g = d[P + q];
-    double b = 0.0;
-    for (int r = 0; r < P; ++r) b += a_[q][r] * d[2 * P + r];
-    b *= shape.h;
-    tau[q] += t.t[q] * b;
-    tau[P + q] -= t.n[q] * b;
-    const double turn = t.n[q] * g - t.t[q] * e + t.w[q] * b;
-    for (int r = 0; r < P; ++r) tau[2 * P + r] -= turn * shape.h * a_[q][r];
-    tau[kStrains + 2] -= turn;
-    rm[0] += shape.hb[q] * (t.c[q] * e - t.s[q] * g + t.px[q] * b);
-    rm[1] += shape.hb[q] * (t.s[q] * e + t.c[q] * g + t.py[q] * b);
-    rm[2] += shape.hb[q] * d[2 * P + q];
-  }
-  for (int k = t.first_row; k < t.first_row + t.row_count; ++k) {
-    const StrainRow& row = rows_[k];
-    subtract_scaled<kRow>(tau.data(), row.row.data(),
-                          row.stiffness * dot_from<kRow>(row.row.data(), d.data(), 0), 0);
-  }
-}
-
-template <int P>
-template <int N>
-void ElementWorkOf<P>::reduce_element(int element, const double* rhs, Interior<N>& interior,
-                                      CondensedElement& out) const {
-  const Shape& shape = shapes_[element];
-  const ElementDofs& dofs = dofs_[element];
-  Functional row;
-  ZetaVector d = ZetaVector::Zero();
-  bool strained = false;
-  for (int i = 0; i < kStrains; ++i) {
-    row.v[i / P][i % P] = rhs[dofs.v + i];
-    d[i] = rhs[dofs.s + i] / shape.hb[i % P];
-    strained = strained || d[i] != 0.0;
-  }
-  ZetaVector tau;  // interior rows in terms of strains, with the entries of the element start
-  to_strain_row(row, shape, tangents_[element], tau);
-  for (int c = 0; c < 3; ++c) out.rm[c] = rhs[dofs.m + c];
-  if (strained) subtract_strains(shape, tangents_[element], d, tau, out.rm);
-  interior.reduced.fill(0.0);
-  for (int i = 0; i < N; ++i) interior.reduced[i] = shape.root[active<N>(i)] * tau[active<N>(i)];
-  interior.factor.forward(interior.reduced.data());
-  for (int c = 0; c < 3; ++c) {
-    out.ra[c] = tau[kStrains + c] + interior.reduced[N + c];
-    out.rm[c] += interior.reduced[N + 3 + c];
-  }
-}
-
-template <int P>
-void ElementWorkOf<P>::reduce(const Eigen::VectorXd& rhs, std::span<CondensedElement> condensed) {
-  for (int e = 0; e < size(); ++e) {
-    const Shape& shape = shapes_[e];
-    if (shape.shearable)
-      reduce_element<3 * P>(e, rhs.data(), shearable_[shape.factor], condensed[e]);
-    else
-      reduce_element<2 * P>(e, rhs.data(), stiff_[shape.factor], condensed[e]);
-  }
-}
-
-template <int P>
-template <int N>
-void ElementWorkOf<P>::recover_element(int element, const Interior<N>& interior, double* x) const {
-  const Shape& shape = shapes_[element];
-  const ElementDofs& dofs = dofs_[element];
-  const Tangent& t = tangents_[element];
-  ZetaVector zeta = ZetaVector::Zero();
-  for (int i = 0; i < kStrains; ++i) zeta[i] = x[dofs.s + i] / shape.hb[i % P];
-  for (int c = 0; c < 3; ++c) zeta[kStrains + c] = x[dofs.a[c]];
-  alignas(32) std::array<double, AugmentedFactor<N>::kWidth> y{};
-  for (int c = 0; c < 3; ++c) {
-    y[N + c] = x[dofs.a[c]];
-    y[N + 3 + c] = x[dofs.m + c];
-  }
-  interior.factor.backward(interior.reduced.data(), y.data());
-  for (int i = 0; i < N; ++i) {
-    const int z = active<N>(i);
-    zeta[z] += shape.root[z] * y[i];
-    x[dofs.s + z] = y[i] / shape.root[z];
-  }
-  Gauss b;
-  for (int q = 0; q < P; ++q) {
-    b[q] = 0.0;
-    for (int r = 0; r < P; ++r) b[q] += a_[q][r] * zeta[2 * P + r];
-    b[q] = zeta[kStrains + 2] + shape.h * b[q];
-  }
-  if constexpr (N < kStrains) {  // unshearable: shear forces follow from their equilibrium rows
-    Gauss row;
-    for (int q = 0; q < P; ++q)
-      row[q] = t.c[q] * (x[dofs.v + P + q] + shape.hb[q] * x[dofs.m + 1]) -
-               t.s[q] * (x[dofs.v + q] + shape.hb[q] * x[dofs.m]) - t.n[q] * b[q];
-    for (int k = t.first_row; k < t.first_row + t.row_count; ++k) {
-      const double f = rows_[k].stiffness * dot_from<kRow>(rows_[k].row.data(), zeta.data(), 0);
-      for (int q = 0; q < P; ++q) row[q] -= f * rows_[k].row[P + q];
-    }
-    for (int q = 0; q < P; ++q) x[dofs.s + P + q] = row[q] / shape.hb[q];
-  }
-  for (int q = 0; q < P; ++q) {
-    x[dofs.v + q] = t.c[q] * zeta[q] - t.s[q] * zeta[P + q] + t.px[q] * b[q];
-    x[dofs.v + P + q] = t.s[q] * zeta[q] + t.c[q] * zeta[P + q] + t.py[q] * b[q];
-    x[dofs.v + 2 * P + q] = zeta[2 * P + q];
-  }
-}
-
-template <int P>
-void ElementWorkOf<P>::recover(Eigen::VectorXd& x) {
-  for (int e = 0; e < size(); ++e) {
-    const Shape& shape = shapes_[e];
-    if (shape.shearable)
-      recover_element<3 * P>(e, shearable_[shape.factor], x.data());
-    else
-      recover_element<2 * P>(e, stiff_[shape.factor], x.data());
   }
 }
 
@@ -645,9 +561,10 @@ void ElementWorkOf<P>::add_tangent_products(const Eigen::VectorXd& y, const Load
   begin(factors, regime);
   Eigen::VectorXd unused;  // support forces, not needed here
   if (!springs_.empty() || !contacts_.empty()) unused.setZero(y.size());
+  find_kinematics(y);
   for (int e = 0; e < size(); ++e) {
     const ElementDofs& dofs = dofs_[e];
-    const Kinematics kin = kinematics(shapes_[e], dofs, y.data());
+    const Kinematics& kin = kinematics_[e];
     const double pressure = linear_ ? 0.0 : pressure_of(shapes_[e]);
     acting_.clear();
     if (unused.size() > 0) add_support_residual(e, y.data(), unused.data(), true);
@@ -682,4 +599,5 @@ std::unique_ptr<ElementWork> ElementSetOf<P>::make_work() const {
 }  // namespace snapthrough
 
 #include "solver/element/element_work_rates.h"
+#include "solver/element/element_work_solve.h"
 #include "solver/element/element_work_supports.h"

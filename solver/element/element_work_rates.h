@@ -98,10 +98,11 @@ void ElementWorkOf<P>::add_tangent_changes(const Eigen::VectorXd& y, const LoadF
                                            Eigen::MatrixXd& out) {
   begin(rates, regime);
   if (linear_ && contacts_.empty()) return;
+  find_kinematics(y);
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
     const ElementDofs& dofs = dofs_[e];
-    const Kinematics kin = kinematics(shape, dofs, y.data());
+    const Kinematics& kin = kinematics_[e];
     const StrainChange change = strain_change(shape, dofs, kin, along.data());
     collect_moving_ends(shape, dofs, y.data(), along.data());
     const double pressure = linear_ ? 0.0 : pressure_of(shape);
@@ -119,6 +120,7 @@ template <int P>
 void ElementWorkOf<P>::add_pressure_change(const LoadFactors& factors, const Eigen::VectorXd& along,
                                            Eigen::VectorXd& out) {
   begin(factors, {});
+  if (!data_.pressed) return;
   for (int e = 0; e < size(); ++e)
     if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
       add_pressure_product(shapes_[e], dofs_[e], -pressure, along.data(), out.data());

@@ -142,10 +142,11 @@ void ElementWorkOf<P>::add_pressure_load(const Eigen::VectorXd& y, const LoadFac
   Regime regime;
   regime.small_displacements = small_displacements;
   begin(factors, regime);
+  if (!data_.pressed) return;
+  find_kinematics(y);
   for (int e = 0; e < size(); ++e)
     if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
-      add_pressure(shapes_[e], dofs_[e], kinematics(shapes_[e], dofs_[e], y.data()), pressure, y.data(),
-                   out.data());
+      add_pressure(shapes_[e], dofs_[e], kinematics_[e], pressure, y.data(), out.data());
 }
 
 /// Appends the symmetric part of the follower tangent, minus pressure times the second derivative of the area

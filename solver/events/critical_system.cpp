@@ -52,7 +52,6 @@ class CriticalNewton {
   [[nodiscard]] VectorXd another_null_motion(const CriticalSolution& at);
 
  private:
-  void solve(MatrixXd& x);
   void refine(const MatrixXd& rows, const MatrixXd& border);
   [[nodiscard]] bool factorise();
   void take_quotients(const MatrixXd& right);
@@ -88,16 +87,6 @@ class CriticalNewton {
   double least_doubt_ = std::numeric_limits<double>::infinity();
 };
 
-/// x := J^-1 x, column by column.
-void CriticalNewton::solve(MatrixXd& x) {
-  VectorXd column;
-  for (Index i = 0; i < x.cols(); ++i) {
-    column = x.col(i);
-    problem_.solve(column);
-    x.col(i) = column;
-  }
-}
-
 /// One step of iterative refinement. Elimination loses digits where the tangent is singular, or where a part
 /// of a member is at a buckling load of its own (for example each half of a column in its second mode).
 void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
@@ -108,7 +97,7 @@ void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
   multipliers << -at_.stiffness, pi_, rho_;
   MatrixXd left = -problem_.tangent_products(at_.y, at_.lambda, all) - rows.leftCols(k) * multipliers;
   left.rightCols(2) += rows.rightCols(2);
-  solve(left);
+  problem_.solve(left);
   left -= v_ * (border.transpose() * left);
   // without refinement after a zero pivot
   if (!(left.leftCols(k).norm() < CriticalLimits::refinement * v_.norm())) return;
@@ -136,7 +125,7 @@ bool CriticalNewton::factorise() {
   const MatrixXd shares = works(rows.rightCols(2), at_.null);
   MatrixXd x = rows;
   x.rightCols(2) -= rows.leftCols(k) * shares;
-  solve(x);
+  problem_.solve(x);
   at_.stiffness = inverse(border.transpose() * x.leftCols(k));
   v_ = x.leftCols(k) * at_.stiffness;
   // solution of [J, W n; n W, 0] [x; s] = [rows; 0] for the residual and the load

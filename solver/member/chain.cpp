@@ -256,38 +256,42 @@ void Chain::factorise(std::span<const CondensedElement> elements) {
   ends_.F = all.F;
 }
 
-void Chain::reduce(std::span<CondensedElement> elements, std::span<const ElementDofs> dofs,
-                   const Eigen::VectorXd& rhs) {
+CondensedForces Chain::reduce(std::span<CondensedForces> elements, std::span<const ElementDofs> dofs,
+                              const ColumnLanes& rhs) const {
   for (const Join& join : joins_) {
-    CondensedElement& first = elements[join.first_first];  // holds the data of its run so far
-    CondensedElement& second = elements[join.second_first];
-    const Vector3d c1 = first.rm;
-    Vector3d c2 = second.ra;
+    CondensedForces& first = elements[join.first_first];  // holds the data of its run so far
+    CondensedForces& second = elements[join.second_first];
+    const Lanes3 c1 = first.rm;
+    Lanes3 c2 = second.ra;
     for (int c = 0; c < 3; ++c) c2[c] += rhs[dofs[join.second_first].a[c]];
-    const Vector3d m = join.pivot.solve(c2 - join.K2 * c1);
-    first.ra -= join.X.transpose() * m;
-    first.rm = second.rm - join.X2 * (c1 + join.F * m);
+    const Lanes3 m = join.pivot.solve(difference(c2, times(join.K2, c1)));
+    first.ra = difference(first.ra, transposed_times(join.X, m));
+    first.rm = difference(second.rm, times(join.X2, sum(c1, times(join.F, m))));
     // the second run is not used again
     second.rm = c1;
     second.ra = c2;
   }
-  ends_.ra = elements[0].ra;
-  ends_.rm = elements[0].rm;
+  return elements[0];
 }
 
-void Chain::recover(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
-                    Eigen::VectorXd& x) const {
+void Chain::recover(std::span<const CondensedForces> elements, std::span<const ElementDofs> dofs,
+                    const ColumnLanes& x) const {
   for (auto join = joins_.rbegin(); join != joins_.rend(); ++join) {
     const auto& start = dofs[join->first_first].a;
-    const Vector3d us(x[start[0]], x[start[1]], x[start[2]]);
-    const Vector3d end = x.segment<3>(dofs[join->second_last].m);
-    const CondensedElement& second = elements[join->second_first];
-    const Vector3d free = second.rm - join->X * us;
-    const Vector3d m = join->pivot.solve(second.ra - join->X2.transpose() * end - join->K2 * free);
-    const Vector3d u = free + join->F * m;
+    const int last = dofs[join->second_last].m;
+    const Lanes3 us{x[start[0]], x[start[1]], x[start[2]]};
+    const Lanes3 end{x[last], x[last + 1], x[last + 2]};
+    const CondensedForces& second = elements[join->second_first];
+    const Lanes3 free = difference(second.rm, times(join->X, us));
+    const Lanes3 m = join->pivot.solve(
+        difference(second.ra, sum(transposed_times(join->X2, end), times(join->K2, free))));
+    const Lanes3 u = sum(free, times(join->F, m));
     const ElementDofs& node = dofs[join->second_first];
-    for (int c = 0; c < 3; ++c) x[node.a[c]] = u[c];
-    x.segment<3>(dofs[join->second_first - 1].m) = m;
+    const int force = dofs[join->second_first - 1].m;
+    for (int c = 0; c < 3; ++c) {
+      x.store(node.a[c], u[c]);
+      x.store(force + c, m[c]);
+    }
   }
 }
 

@@ -33,15 +33,15 @@ class Chain {
  public:
   /// @brief Eliminates all inner nodes of `elements` (those of one member, in order, not empty).
   void factorise(std::span<const CondensedElement> elements);
-  /// @brief Computes the right-hand side at the ends, ends().ra and ends().rm, from the elements' ra, rm and
-  /// the node rows of `rhs`. Overwrites the elements' ra, rm with the data of recover().
-  void reduce(std::span<CondensedElement> elements, std::span<const ElementDofs> dofs,
-              const Eigen::VectorXd& rhs);
+  /// @brief Returns the right-hand sides at the ends, from those of the elements and the node rows of `rhs`.
+  /// Overwrites those of the elements with the data of recover().
+  [[nodiscard]] CondensedForces reduce(std::span<CondensedForces> elements, std::span<const ElementDofs> dofs,
+                                       const ColumnLanes& rhs) const;
   /// @brief Writes the solution at the inner nodes and the multipliers into `x`, given the solution at the
   /// start (first element's a) and the last element's multiplier.
   /// @param elements as left by reduce()
-  void recover(std::span<const CondensedElement> elements, std::span<const ElementDofs> dofs,
-               Eigen::VectorXd& x) const;
+  void recover(std::span<const CondensedForces> elements, std::span<const ElementDofs> dofs,
+               const ColumnLanes& x) const;
 
   [[nodiscard]] const CondensedElement& ends() const { return ends_; }
 

@@ -33,10 +33,13 @@ struct NewtonLimits {
 /// Computes one bordered Newton correction with the current factors into work.correction; returns dlambda.
 double find_correction(EquilibriumProblem& problem, const SideCondition& side, const Eigen::VectorXd& y,
                        double lambda, Workspace& work) {
-  work.correction = -work.residual;
-  problem.solve(work.correction);
+  work.block.resize(y.size(), 2);
   problem.load(y, lambda, work.load_response);
-  problem.solve(work.load_response);
+  work.block.col(0) = -work.residual;
+  work.block.col(1) = work.load_response;
+  problem.solve(work.block);
+  work.correction = work.block.col(0);
+  work.load_response = work.block.col(1);
   double along = 0.0;
   double denominator = side.normal_lambda;
   if (side.normal.size() > 0) {

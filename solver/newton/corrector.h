@@ -86,6 +86,7 @@ struct CorrectorOutcome {
 /// @brief Scratch vectors of the corrector and the predictor.
 struct Workspace {
   Eigen::VectorXd residual, correction, load_response, trial;
+  Eigen::MatrixXd block;  ///< right-hand sides that are solved together
 };
 
 /// @brief Corrects (y, lambda) in place.

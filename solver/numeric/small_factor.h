@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace snapthrough {
@@ -41,15 +42,17 @@ class SmallFactor {
     if (product == 0.0) return std::numeric_limits<double>::min();
     return odd_ ? -product : product;
   }
-  /// Solution A^-1 b.
-  [[nodiscard]] Eigen::Vector3d solve(const Eigen::Vector3d& b) const {
-    const double y0 = b[row_[0]];
-    const double y1 = b[row_[1]] - lu_(1, 0) * y0;
-    const double y2 = b[row_[2]] - lu_(2, 0) * y0 - lu_(2, 1) * y1;
-    Eigen::Vector3d x;
+  /// @brief Solution A^-1 b.
+  /// @tparam Vector three numbers, or three Lanes for four right-hand sides
+  template <class Vector>
+  [[nodiscard]] Vector solve(const Vector& b) const {
+    using Number = std::remove_cvref_t<decltype(b[0])>;
+    const Number y1 = b[row_[1]] - lu_(1, 0) * b[row_[0]];
+    const Number y2 = b[row_[2]] - lu_(2, 0) * b[row_[0]] - lu_(2, 1) * y1;
+    Vector x;
     x[2] = y2 / lu_(2, 2);
     x[1] = (y1 - lu_(1, 2) * x[2]) / lu_(1, 1);
-    x[0] = (y0 - lu_(0, 1) * x[1] - lu_(0, 2) * x[2]) / lu_(0, 0);
+    x[0] = (b[row_[0]] - lu_(0, 1) * x[1] - lu_(0, 2) * x[2]) / lu_(0, 0);
     return x;
   }
   /// Solution A^-T b.

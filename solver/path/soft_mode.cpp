@@ -100,10 +100,10 @@ SoftModes soft_modes(EquilibriumProblem& problem, const MatrixXd& start, Index c
     block.z.resize(block.x.rows(), block.x.cols());
     for (Index i = 0; i < block.x.cols(); ++i) {
       problem.metric_forces(block.x.col(i), z);
-      problem.solve(z);
-      if (!z.allFinite()) return {};
       block.z.col(i) = z;
     }
+    problem.solve(block.z);
+    if (!block.z.allFinite()) return {};
     orthonormalise(weights, block);
     if (block.z.cols() == 0) return {};  // the tangent stiffness is so singular that no norm is finite
     const Ritz pairs = ritz_pairs(weights, block);

@@ -61,6 +61,12 @@ StructuralProblem::StructuralProblem(const Structure& structure)
       members_(structure.mesh.first.size() - 1),
       follower_ends_(structure.follower_ends) {
   condensed_.resize(structure.dofs.size());
+  condensed_forces_.resize(structure.dofs.size());
+  for (int j = 0; j < structure.nodes; ++j) {
+    const double angle = structure.supports[j].angle;
+    turns_.push_back({std::cos(angle), std::sin(angle)});
+    if (angle != 0.0) inclined_.push_back(j);
+  }
   chains_.resize(members_);
   elements_ = structure.elements->make_work();
   spring_stiffness_.assign(structure.node_springs.size(), 0.0);
@@ -89,9 +95,7 @@ bool StructuralProblem::is_fixed(Index scalar) const {
 
 /// Cosine and sine of the support angle at the node of a displacement unknown.
 std::array<double, 2> StructuralProblem::turn_of(int dof) const {
-  if (dof >= 3 * structure_.nodes) return {1.0, 0.0};
-  const double angle = structure_.supports[dof / 3].angle;
-  return {std::cos(angle), std::sin(angle)};
+  return dof < 3 * structure_.nodes ? turns_[static_cast<std::size_t>(dof / 3)] : std::array{1.0, 0.0};
 }
 
 /// Support axes as columns, in global components.
@@ -171,8 +175,7 @@ VectorXd StructuralProblem::imposed_motion(const VectorXd& rows) const {
 
 double StructuralProblem::work(const VectorXd& forces, const VectorXd& motion) const {
   double out = forces.dot(motion);
-  for (int j = 0; j < structure_.nodes; ++j) {
-    if (structure_.supports[j].angle == 0.0) continue;
+  for (const int j : inclined_) {
     const auto [c, s] = turn_of(3 * j);
     const double ux = motion[3 * j];
     const double uy = motion[3 * j + 1];
@@ -203,7 +206,7 @@ void StructuralProblem::add_holds(const VectorXd& y, VectorXd& f) const {
 
 /// Transforms the nodal rows of f into support axes.
 void StructuralProblem::turn_to_supports(Eigen::Ref<VectorXd> f) const {
-  for (int j = 0; j < structure_.nodes; ++j) {
+  for (const int j : inclined_) {
     const auto [c, s] = turn_of(3 * j);
     const double fx = f[3 * j];
     const double fy = f[3 * j + 1];
@@ -351,18 +354,20 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
 void StructuralProblem::add_follower_ends(double lambda, TangentReport& report) {
   const auto [proportional, constant] = factors(lambda);
   const double det =
-      follower_ends_.prepare(proportional, constant, size(), [this](VectorXd& x) { solve_symmetric(x); });
+      follower_ends_.prepare(proportional, constant, size(), [this](Eigen::Ref<MatrixXd> x) { solve_symmetric(x); });
   report.log_abs_det += std::log(std::max(std::abs(det), std::numeric_limits<double>::min()));
   if (det < 0.0) report.negative += report.negative > 0 ? -1 : 1;
   report.parity_only = true;
 }
 
-void StructuralProblem::solve(VectorXd& x) {
+void StructuralProblem::solve(Eigen::Ref<MatrixXd> x) {
   solve_symmetric(x);
-  if (!follower_ends_.empty()) follower_ends_.correct(x);
+  if (follower_ends_.empty()) return;
+  for (Index i = 0; i < x.cols(); ++i) follower_ends_.correct(x.col(i));
 }
 
-void StructuralProblem::subtract_fixed(const VectorXd& rhs, VectorXd& reduced) const {
+void StructuralProblem::subtract_fixed(const Eigen::Ref<const VectorXd>& rhs,
+                                       Eigen::Ref<VectorXd> reduced) const {
   const bool moved = std::any_of(fixed_.begin(), fixed_.end(), [&](Index row) { return rhs[row] != 0.0; });
   if (!moved) return;
   for (std::size_t b = 0; b < node_rows_.size(); ++b) {
@@ -378,45 +383,69 @@ void StructuralProblem::subtract_fixed(const VectorXd& rhs, VectorXd& reduced) c
   }
 }
 
-void StructuralProblem::solve_symmetric(VectorXd& x) {
-  elements_->reduce(x, condensed_);
-  VectorXd& rhs = node_rhs_;
-  rhs.setZero(multiplier(members_));
-  rhs.head(3 * structure_.nodes + structure_.releases) = x.head(3 * structure_.nodes + structure_.releases);
-  for (std::size_t m = 0; m < members_; ++m) {
-    const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
-    const auto count = static_cast<std::size_t>(structure_.mesh.first[m + 1]) - first;
-    chains_[m].reduce(std::span(condensed_).subspan(first, count),
-                      std::span(structure_.dofs).subspan(first, count), x);
-    const ElementDofs& element = structure_.dofs[first];
-    const Eigen::Vector3d ra = axes_of(element.a).transpose() * chains_[m].ends().ra;
-    for (int c = 0; c < 3; ++c) {
-      if (!is_fixed(element.a[c])) rhs[element.a[c]] += ra[c];
-      rhs[multiplier(m) + c] = chains_[m].ends().rm[c];
-    }
+void StructuralProblem::solve_symmetric(Eigen::Ref<MatrixXd> x) {
+  const Index displacements = 3 * structure_.nodes + structure_.releases;
+  node_rhs_.resize(multiplier(members_), kLanes);
+  free_rhs_.resize(factor_.size(), kLanes);
+  for (Index first = 0; first < x.cols(); first += kLanes) {
+    const ColumnLanes lanes(x, first);
+    const Index count = std::min<Index>(kLanes, x.cols() - first);
+    elements_->reduce(lanes, condensed_forces_);
+    node_rhs_.topRows(displacements).leftCols(count) = x.topRows(displacements).middleCols(first, count);
+    for (std::size_t m = 0; m < members_; ++m) reduce_member(m, lanes, count);
+    for (Index i = 0; i < count; ++i) solve_nodes(node_rhs_.col(i), free_rhs_.col(i));
+    x.topRows(displacements).middleCols(first, count) = node_rhs_.topRows(displacements).leftCols(count);
+    for (Index i = first; i < first + count; ++i) turn_from_supports(x.col(i));
+    for (std::size_t m = 0; m < members_; ++m) recover_member(m, lanes, x.middleCols(first, count));
+    elements_->recover(lanes);
   }
-  VectorXd& reduced = free_rhs_;
-  reduced.setZero(factor_.size());
+}
+
+/// Adds the right-hand sides at a member's ends to the node system.
+void StructuralProblem::reduce_member(std::size_t member, const ColumnLanes& lanes, Index count) {
+  const auto first = static_cast<std::size_t>(structure_.mesh.first[member]);
+  const auto elements = static_cast<std::size_t>(structure_.mesh.first[member + 1]) - first;
+  const CondensedForces ends =
+      chains_[member].reduce(std::span(condensed_forces_).subspan(first, elements),
+                             std::span(structure_.dofs).subspan(first, elements), lanes);
+  const std::array<int, 3>& start = structure_.dofs[first].a;
+  const Lanes3 ra = transposed_times(axes_of(start), ends.ra);
+  for (Index i = 0; i < count; ++i)
+    for (int c = 0; c < 3; ++c) {
+      if (!is_fixed(start[c])) node_rhs_(start[c], i) += ra[c][i];
+      node_rhs_(multiplier(member) + c, i) = ends.rm[c][i];
+    }
+}
+
+/// Solves the node system in place. @param reduced scratch, one entry per unknown of the system
+void StructuralProblem::solve_nodes(Eigen::Ref<VectorXd> rhs, Eigen::Ref<VectorXd> reduced) {
+  reduced.setZero();
   for (std::size_t i = 0; i < free_.size(); ++i) reduced[static_cast<Index>(i)] = rhs[free_[i]];
   subtract_fixed(rhs, reduced);
   factor_.solve(reduced);
   for (std::size_t i = 0; i < free_.size(); ++i) rhs[free_[i]] = reduced[static_cast<Index>(i)];
-  // support axes to global axes, then recovery of the member interiors
-  for (int j = 0; j < structure_.nodes; ++j) {
+}
+
+/// Writes a member's end forces and the solution at its inner nodes.
+void StructuralProblem::recover_member(std::size_t member, const ColumnLanes& lanes,
+                                       Eigen::Ref<MatrixXd> x) const {
+  const auto first = static_cast<std::size_t>(structure_.mesh.first[member]);
+  const auto elements = static_cast<std::size_t>(structure_.mesh.first[member + 1]) - first;
+  x.middleRows<3>(structure_.dofs[first + elements - 1].m) =
+      node_rhs_.middleRows<3>(multiplier(member)).leftCols(x.cols());
+  chains_[member].recover(std::span(condensed_forces_).subspan(first, elements),
+                          std::span(structure_.dofs).subspan(first, elements), lanes);
+}
+
+/// Transforms the nodal rows of x from support axes.
+void StructuralProblem::turn_from_supports(Eigen::Ref<VectorXd> x) const {
+  for (const int j : inclined_) {
     const auto [c, s] = turn_of(3 * j);
-    x[3 * j] = c * rhs[3 * j] - s * rhs[3 * j + 1];
-    x[3 * j + 1] = s * rhs[3 * j] + c * rhs[3 * j + 1];
-    x[3 * j + 2] = rhs[3 * j + 2];
+    const double ux = x[3 * j];
+    const double uy = x[3 * j + 1];
+    x[3 * j] = c * ux - s * uy;
+    x[3 * j + 1] = s * ux + c * uy;
   }
-  for (int r = 3 * structure_.nodes; r < 3 * structure_.nodes + structure_.releases; ++r) x[r] = rhs[r];
-  for (std::size_t m = 0; m < members_; ++m) {
-    const auto first = static_cast<std::size_t>(structure_.mesh.first[m]);
-    const auto count = static_cast<std::size_t>(structure_.mesh.first[m + 1]) - first;
-    x.segment<3>(structure_.dofs[first + count - 1].m) = rhs.segment<3>(multiplier(m));
-    chains_[m].recover(std::span(condensed_).subspan(first, count),
-                       std::span(structure_.dofs).subspan(first, count), x);
-  }
-  elements_->recover(x);
 }
 
 /// Distances at which supports count as touching at y, from the largest displacement and force.

@@ -41,7 +41,7 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] Eigen::Index size() const override { return structure_.size; }
   [[nodiscard]] const Eigen::VectorXd& metric() const override { return structure_.metric; }
   void load(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& out) override;
-  void solve(Eigen::VectorXd& x) override;
+  void solve(Eigen::Ref<Eigen::MatrixXd> x) override;
   [[nodiscard]] double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd& y,
                                          double lambda) override;
   [[nodiscard]] double residual_rounding(const Eigen::VectorXd& y, double lambda) const override;
@@ -102,7 +102,11 @@ class StructuralProblem final : public EquilibriumProblem {
  private:
   [[nodiscard]] double largest_axial_force(std::size_t member, const Eigen::VectorXd& response) const;
   /// x := S^-1 x with the symmetric part S of the tangent.
-  void solve_symmetric(Eigen::VectorXd& x);
+  void solve_symmetric(Eigen::Ref<Eigen::MatrixXd> x);
+  void reduce_member(std::size_t member, const ColumnLanes& lanes, Eigen::Index count);
+  void solve_nodes(Eigen::Ref<Eigen::VectorXd> rhs, Eigen::Ref<Eigen::VectorXd> reduced);
+  void recover_member(std::size_t member, const ColumnLanes& lanes, Eigen::Ref<Eigen::MatrixXd> x) const;
+  void turn_from_supports(Eigen::Ref<Eigen::VectorXd> x) const;
   void add_follower_ends(double lambda, TangentReport& report);
   /// Factors on the proportional and the constant actions at a load factor.
   [[nodiscard]] LoadFactors factors(double lambda) const {
@@ -135,7 +139,7 @@ class StructuralProblem final : public EquilibriumProblem {
   void assemble_nodes();
   void fill_member(std::size_t member, Eigen::MatrixXd& block) const;
   /// Moves the constrained displacements to the right-hand side.
-  void subtract_fixed(const Eigen::VectorXd& rhs, Eigen::VectorXd& reduced) const;
+  void subtract_fixed(const Eigen::Ref<const Eigen::VectorXd>& rhs, Eigen::Ref<Eigen::VectorXd> reduced) const;
   /// First row of a member's end forces in the node system; displacement unknowns keep their index.
   [[nodiscard]] Eigen::Index multiplier(std::size_t member) const {
     return 3 * structure_.nodes + structure_.releases + 3 * static_cast<Eigen::Index>(member);
@@ -148,6 +152,9 @@ class StructuralProblem final : public EquilibriumProblem {
   std::stop_token stop_;
   std::size_t members_;
   std::vector<CondensedElement> condensed_;
+  std::vector<CondensedForces> condensed_forces_;
+  std::vector<std::array<double, 2>> turns_;  ///< cosine and sine of the support angle at each node
+  std::vector<int> inclined_;                 ///< nodes with an inclined support
   std::vector<Chain> chains_;
   std::vector<Eigen::Index> free_;  ///< rows of the node system that are unknown
   std::vector<Eigen::Index> fixed_;
@@ -156,7 +163,7 @@ class StructuralProblem final : public EquilibriumProblem {
   std::vector<char> free_rotation_;  ///< node rotations without stiffness: all members are released there
   bool planned_ = false;             ///< node_rows_ and factor_ include the holds
   SymmetricIndefinite factor_;
-  Eigen::VectorXd node_rhs_, free_rhs_;  ///< scratch of solve()
+  Eigen::MatrixXd node_rhs_, free_rhs_;  ///< scratch of solve()
   FollowerEnds follower_ends_;
   std::unique_ptr<ElementWork> elements_;
   std::vector<double> spring_stiffness_;  ///< tangent stiffness of each node spring at the last evaluation

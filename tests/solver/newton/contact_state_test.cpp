@@ -33,7 +33,9 @@ class Bars final : public EquilibriumProblem {
   [[nodiscard]] const Eigen::VectorXd& metric() const override { return metric_; }
   [[nodiscard]] bool one_sided() const override { return true; }
   void load(const Eigen::VectorXd&, double, Eigen::VectorXd& out) override { out = forces_; }
-  void solve(Eigen::VectorXd& x) override { x = x.cwiseQuotient(tangent_).eval(); }
+  void solve(Eigen::Ref<Eigen::MatrixXd> x) override {
+    for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = x.col(i).cwiseQuotient(tangent_).eval();
+  }
   [[nodiscard]] double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd&,
                                          double lambda) override {
     return f.norm() / (std::abs(lambda) * forces_.norm());

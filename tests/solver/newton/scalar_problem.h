@@ -25,7 +25,7 @@ class ScalarProblem final : public EquilibriumProblem {
   [[nodiscard]] const Eigen::VectorXd& metric() const override { return metric_; }
   [[nodiscard]] bool one_sided() const override { return acts_on_one_side; }
   void load(const Eigen::VectorXd&, double, Eigen::VectorXd& out) override { out = Eigen::VectorXd::Ones(1); }
-  void solve(Eigen::VectorXd& x) override { x /= tangent_; }
+  void solve(Eigen::Ref<Eigen::MatrixXd> x) override { x /= tangent_; }
   [[nodiscard]] double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd&, double) override {
     return f.norm();
   }

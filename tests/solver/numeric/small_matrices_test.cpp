@@ -50,7 +50,7 @@ TEST(SmallFactor, SolvesWithItsMatrixAndTheTransposedOne) {
     const SmallFactor factor(a);
     const Eigen::Vector3d x = Eigen::Vector3d::Random();
     const double size = 1e-13 * a.norm() * a.inverse().norm() * x.norm();
-    EXPECT_NEAR((factor.solve(a * x) - x).norm(), 0.0, size);
+    EXPECT_NEAR((factor.solve(Eigen::Vector3d(a * x)) - x).norm(), 0.0, size);
     EXPECT_NEAR((factor.solve_transposed(a.transpose() * x) - x).norm(), 0.0, size);
     EXPECT_NEAR(factor.determinant(), a.determinant(), 1e-14);
     EXPECT_NEAR((factor.inverse() * a - Eigen::Matrix3d::Identity()).norm(), 0.0,

@@ -27,7 +27,7 @@ class Zones final : public EquilibriumProblem {
     return out;
   }
   void load(const Eigen::VectorXd&, double, Eigen::VectorXd&) override {}
-  void solve(Eigen::VectorXd&) override {}
+  void solve(Eigen::Ref<Eigen::MatrixXd>) override {}
   [[nodiscard]] double relative_residual(const Eigen::VectorXd&, const Eigen::VectorXd&, double) override {
     return 0.0;
   }

@@ -22,7 +22,7 @@ class FailingProblem final : public EquilibriumProblem {
   void load(const Eigen::VectorXd& y, double lambda, Eigen::VectorXd& out) override {
     inner_.load(y, lambda, out);
   }
-  void solve(Eigen::VectorXd& x) override { inner_.solve(x); }
+  void solve(Eigen::Ref<Eigen::MatrixXd> x) override { inner_.solve(x); }
   [[nodiscard]] double relative_residual(const Eigen::VectorXd& f, const Eigen::VectorXd& y,
                                          double lambda) override {
     return inner_.relative_residual(f, y, lambda);

@@ -30,7 +30,7 @@ class SmallProblem final : public EquilibriumProblem {
   [[nodiscard]] bool one_sided() const override { return one_sided_; }
   void load(const Eigen::VectorXd&, double, Eigen::VectorXd& out) override { out = load_; }
   /// A pivot of zero counts as rounding's, as it does in a structure's factors.
-  void solve(Eigen::VectorXd& x) override {
+  void solve(Eigen::Ref<Eigen::MatrixXd> x) override {
     constexpr double kTiny = 1e-16;
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(size(), size());
     Eigen::FullPivLU<Eigen::MatrixXd> factor(tangent_ + kTiny * unit);
