@@ -177,6 +177,11 @@ FoundationContact Builder::make_contact(int element, const FoundationLaw& founda
   const std::shared_ptr<const AxisCurve>& axis = out_.axes[e.member];
   Law law = law_on(out_, foundation, element).law;
   law.scale(element_length(element));
+  // the contact of the same foundation, made for results, has the same geometry
+  for (auto part = out_.foundation_parts.rbegin();
+       part != out_.foundation_parts.rend() && part->element == element; ++part)
+    if (part->contact && part->contact->is_on(foundation.direction, range))
+      return part->contact->with_law(law, index);
   return FoundationContact(out_.mesh.order, foundation.direction,
                            {axis, e.from * axis->length(), (e.to - e.from) * axis->length()}, range, law,
                            index);

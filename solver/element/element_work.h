@@ -93,7 +93,7 @@ class ElementWorkOf final : public ElementWork {
   /// Factored interior of an element: N active strains in the order e, (g,) k, with columns of (u_a, m).
   template <int N>
   struct Interior {
-    AugmentedFactor<N> factor;                    ///< factors of S
+    AugmentedFactor<N> factor;                     ///< factors of S
     typename AugmentedFactor<N>::Vectors reduced;  ///< L^-1 times the last right-hand sides
   };
 
@@ -112,6 +112,8 @@ class ElementWorkOf final : public ElementWork {
   void collect_moving_ends(const Shape& shape, const ElementDofs& dofs, const double* y, const double* along);
   void add_support_residual(int element, const double* y, double* residual, bool keep);
   void collect_contact(std::size_t index, const double* y, const ElementDofs& dofs, const Shape& shape);
+  [[nodiscard]] const std::vector<ElementPart>& parts_in_contact(std::size_t index, const Shape& shape,
+                                                                 const ElementDofs& dofs, const double* y);
   void add_interval(std::size_t index, const Shape& shape, const FoundationContact::Interval& interval,
                     double share, double gap);
   void to_strain_row(const Functional& f, const Shape& shape, const Tangent& t, ZetaVector& row) const;
@@ -163,10 +165,12 @@ class ElementWorkOf final : public ElementWork {
   bool linear_ = false;  ///< true: small displacements in the current call
   LoadFactors factors_;  ///< factors on the pressures in the current call
   double support_rounding_ = 0.0;
-  Angles turns_;                         ///< rotations of the elements' Gauss points, one after the other
-  std::vector<Kinematics> kinematics_;   ///< at kinematics_at_
-  Eigen::VectorXd kinematics_at_;        ///< unknowns of the last find_kinematics()
-  bool kinematics_linear_ = false;       ///< whether these were for small displacements
+  Angles turns_;                        ///< rotations of the elements' Gauss points, one after the other
+  std::vector<Kinematics> kinematics_;  ///< at kinematics_at_
+  Eigen::VectorXd kinematics_at_;       ///< unknowns of the last find_kinematics()
+  std::vector<std::vector<ElementPart>> parts_;  ///< in contact at kinematics_at_, where parts_known_
+  std::vector<char> parts_known_;
+  bool kinematics_linear_ = false;  ///< whether these were for small displacements
   std::vector<Tangent> tangents_;
   std::vector<StrainRow> rows_;         ///< rows of all elements from the last linearisation
   std::vector<Interior<2 * P>> stiff_;  ///< unshearable elements; allocated by the first linearisation
@@ -175,7 +179,6 @@ class ElementWorkOf final : public ElementWork {
   std::vector<Functional> acting_;  ///< functionals of the acting supports of the current element
   std::vector<typename AugmentedMatrix<2 * P>::Weighted> stiff_rows_;  ///< scaled rows of the current element
   std::vector<typename AugmentedMatrix<3 * P>::Weighted> shearable_rows_;
-  std::vector<FoundationContact::Interval> intervals_;
 };
 
 template <int P>
@@ -185,7 +188,8 @@ ElementWorkOf<P>::ElementWorkOf(const ElementData<P>& data)
       shapes_(data.shapes),
       dofs_(data.dofs),
       springs_(data.springs),
-      contacts_(data.contacts) {}
+      contacts_(data.contacts),
+      parts_(data.contacts.size()) {}
 
 template <int P>
 void ElementWorkOf<P>::begin(const LoadFactors& factors, const Regime& regime) {
@@ -202,6 +206,7 @@ void ElementWorkOf<P>::find_kinematics(const Eigen::VectorXd& y) {
       std::memcmp(kinematics_at_.data(), y.data(), bytes) == 0)
     return;
   kinematics_at_ = y;
+  parts_known_.assign(contacts_.size(), 0);
   kinematics_linear_ = linear_;
   const std::size_t count = lanes_for(shapes_.size() * P);
   for (auto* list : {&turns_.angle, &turns_.sine, &turns_.cosine}) list->resize(count, Lanes::Zero());
@@ -219,7 +224,8 @@ void ElementWorkOf<P>::find_kinematics(const Eigen::VectorXd& y) {
   for (int e = 0; e < size(); ++e) {
     const std::size_t first = static_cast<std::size_t>(e) * P;
     if (linear_)
-      find_small_strains(shapes_[e], y.data() + dofs_[e].v, turns_.angle.front().data() + first, kinematics_[e]);
+      find_small_strains(shapes_[e], y.data() + dofs_[e].v, turns_.angle.front().data() + first,
+                         kinematics_[e]);
     else
       find_strains(shapes_[e], y.data() + dofs_[e].v, turns_.sine.front().data() + first,
                    turns_.cosine.front().data() + first, kinematics_[e]);

@@ -77,14 +77,13 @@ void ElementWorkOf<P>::collect_moving_ends(const Shape& shape, const ElementDofs
   for (auto i = static_cast<std::size_t>(shape.first_contact); i < last; ++i) {
     const FoundationContact& contact = contacts_[i];
     const ContactDisplacement u = data_.displacement_of(shape, dofs, y);
-    data_.acting_parts(i, u, intervals_);
     const auto add_end = [&](double xi) {
       const double slope = std::abs(contact.penetration_slope(xi, u.start, u.dx, u.dy));
       Functional f = data_.functional_at(contact, shape.h, xi);
       f.tangent = regime_.softness * contact.law().stiffness_at(0.0) * data_.value(f, dofs, along) / slope;
       if (std::isfinite(f.tangent)) acting_.push_back(f);
     };
-    for (const ElementPart& part : intervals_) {
+    for (const ElementPart& part : parts_in_contact(i, shape, dofs, y)) {
       if (part.from != contact.range()[0]) add_end(part.from);
       if (part.to != contact.range()[1]) add_end(part.to);
     }

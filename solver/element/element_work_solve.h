@@ -1,10 +1,12 @@
 #pragma once
 /// @file
-/// Solutions with the factors of ElementWorkOf, four right-hand sides at a time. Included by element_work.h only.
+/// Solutions with the factors of ElementWorkOf, four right-hand sides at a time. Included by element_work.h
+/// only.
 
 namespace snapthrough {
 
-/// Right-hand sides of the displacement rows as forces on zeta. The rows of the element start are not included.
+/// Right-hand sides of the displacement rows as forces on zeta. The rows of the element start are not
+/// included.
 template <int P>
 auto ElementWorkOf<P>::to_strains(const ColumnLanes& rhs, const ElementDofs& dofs, const Shape& shape,
                                   const Tangent& t) const -> ZetaLanes {

@@ -4,22 +4,33 @@
 
 namespace snapthrough {
 
+/// Parts of an element on which a foundation acts at y, as they were found for the same y before.
+/// @pre find_kinematics() was called at y
+template <int P>
+auto ElementWorkOf<P>::parts_in_contact(std::size_t index, const Shape& shape, const ElementDofs& dofs,
+                                        const double* y) -> const std::vector<ElementPart>& {
+  if (parts_known_[index] == 0) {
+    data_.acting_parts(index, data_.displacement_of(shape, dofs, y), parts_[index]);
+    parts_known_[index] = 1;
+  }
+  return parts_[index];
+}
+
 /// Appends the Gauss points of the intervals on which a foundation acts to acting_.
 template <int P>
 void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const ElementDofs& dofs,
                                        const Shape& shape) {
   const FoundationContact& contact = contacts_[index];
-  const ContactDisplacement u = data_.displacement_of(shape, dofs, y);
-  if (regime_.is_frozen())
-    intervals_ = regime_.frozen->contacts[index];
-  else if (regime_.bilateral())
-    intervals_.assign(1, {contact.range()[0], contact.range()[1]});
-  else
-    data_.acting_parts(index, u, intervals_);
-  for (const auto& interval : intervals_)
-    add_interval(index, shape, interval, regime_.softness, regime_.bilateral() ? 0.0 : contact.law().gap);
-  if (regime_.grip > 0.0)
-    add_interval(index, shape, {contact.range()[0], contact.range()[1]}, regime_.grip, 0.0);
+  const ElementPart whole{contact.range()[0], contact.range()[1]};
+  if (regime_.bilateral()) {
+    add_interval(index, shape, whole, regime_.softness, 0.0);
+  } else {
+    const auto& parts =
+        regime_.is_frozen() ? regime_.frozen->contacts[index] : parts_in_contact(index, shape, dofs, y);
+    for (const ElementPart& part : parts)
+      add_interval(index, shape, part, regime_.softness, contact.law().gap);
+  }
+  if (regime_.grip > 0.0) add_interval(index, shape, whole, regime_.grip, 0.0);
 }
 
 /// Appends the Gauss points of an interval with a modulus and a gap. Functionals of the whole range, the most

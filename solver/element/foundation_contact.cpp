@@ -52,19 +52,32 @@ FoundationContact::FoundationContact(int order, const Direction& direction, Plac
 /// Whether the samples resolve products of the direction and displacements of the element's degree.
 bool FoundationContact::resolved() const {
   constexpr std::array<double, 5> between{0.02, 0.19, 0.41, 0.68, 0.93};  // fractions of the range
-  const double degree = rule_->order();
-  for (int c = 0; c < 2; ++c) {
-    std::array<double, ChebyshevSeries::kMostPoints> values{};
-    for (int i = 0; i < count_; ++i)
-      values[i] = samples_[static_cast<std::size_t>(i / kLanes) * (2 + rule_->order()) + c][i % kLanes] *
-                  std::pow(z_[i], degree);
-    const ChebyshevSeries series(std::span<const double>(values).first(count_));
-    for (const double z : between) {
-      const double exact = direction_at(range_[0] + z * (range_[1] - range_[0]))[c] * std::pow(z, degree);
-      if (std::abs(series.value(z) - exact) > Rounding::unit_component) return false;
-    }
-  }
-  return true;
+  const int degree = rule_->order();
+  const auto power = [degree](double z) {
+    double out = 1.0;
+    for (int i = 0; i < degree; ++i) out *= z;
+    return out;
+  };
+  std::array<std::array<double, ChebyshevSeries::kMostPoints>, 2> values{};
+  for (int i = 0; i < count_; ++i)
+    for (int c = 0; c < 2; ++c)
+      values[c][i] =
+          samples_[static_cast<std::size_t>(i / kLanes) * (2 + degree) + c][i % kLanes] * power(z_[i]);
+  const std::array<ChebyshevSeries, 2> series{
+      ChebyshevSeries(std::span<const double>(values[0]).first(count_)),
+      ChebyshevSeries(std::span<const double>(values[1]).first(count_))};
+  return std::all_of(between.begin(), between.end(), [&](double z) {
+    const auto exact = direction_at(range_[0] + z * (range_[1] - range_[0]));
+    const auto error = [&](int c) { return std::abs(series[c].value(z) - exact[c] * power(z)); };
+    return std::max(error(0), error(1)) <= Rounding::unit_component;
+  });
+}
+
+FoundationContact FoundationContact::with_law(const Law& law, int foundation) const {
+  FoundationContact other = *this;
+  other.law_ = law;
+  other.foundation_ = foundation;
+  return other;
 }
 
 FoundationContact FoundationContact::with_gap(double gap) const {
@@ -75,7 +88,7 @@ FoundationContact FoundationContact::with_gap(double gap) const {
 
 std::array<double, 2> FoundationContact::direction_at(double xi) const {
   if (!direction_.turns) return direction_.fixed;
-  return direction_.at(place_.axis->at(place_.s0 + xi * place_.ds).angle);
+  return direction_.at(place_.axis->angle_at(place_.s0 + xi * place_.ds));
 }
 
 namespace {

@@ -41,6 +41,12 @@ class FoundationContact {
 
   /// Quadrature on a contact interval, for elements of an order.
   [[nodiscard]] static Quadrature quadrature(int order) { return gauss_legendre(std::max(order + 2, 5)); }
+  /// Copy with another law, for the foundation of an index.
+  [[nodiscard]] FoundationContact with_law(const Law& law, int foundation) const;
+  /// Whether with_law() makes the contact of a direction on a part of the same element.
+  [[nodiscard]] bool is_on(const Direction& direction, std::array<double, 2> range) const {
+    return direction_ == direction && range_ == range;
+  }
   /// Copy with another gap.
   [[nodiscard]] FoundationContact with_gap(double gap) const;
   [[nodiscard]] const Law& law() const { return law_; }

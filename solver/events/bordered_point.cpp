@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <limits>
 
-
 namespace snapthrough {
 
 using Eigen::Index;
@@ -25,11 +24,8 @@ BorderedPoint::BorderedPoint(EquilibriumProblem& problem, const PathMetric& metr
     : problem_(problem), metric_(metric), at_(solution) {
   const Index k = at_.null.cols();
   metric_rows_.resize(at_.y.size(), k);
+  for (Index i = 0; i < k; ++i) problem_.metric_forces(at_.null.col(i), metric_rows_.col(i));
   VectorXd column;
-  for (Index i = 0; i < k; ++i) {
-    problem_.metric_forces(at_.null.col(i), column);
-    metric_rows_.col(i) = column;
-  }
   problem_.load(at_.y, at_.lambda, column);
   const Held load = held(column);
   load_along_ = works(load.forces);

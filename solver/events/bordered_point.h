@@ -40,8 +40,8 @@ class BorderedPoint {
   [[nodiscard]] Eigen::VectorXd works(const Eigen::VectorXd& forces) const;
   /// Solves J x = forces up to a multiple of W n, with x orthogonal to n; adds the prescribed motion.
   [[nodiscard]] Eigen::VectorXd response(const Held& to) const;
-  /// Norm of a motion: the larger of its metric norm and its largest entry over that of the state (for motions
-  /// of forces alone).
+  /// Norm of a motion: the larger of its metric norm and its largest entry over that of the state (for
+  /// motions of forces alone).
   [[nodiscard]] double size_of(const Eigen::VectorXd& motion) const;
   /// Directional derivative d/de J(y + e motion) b at e = 0.
   [[nodiscard]] Eigen::MatrixXd tangent_change_along(const Eigen::VectorXd& motion,

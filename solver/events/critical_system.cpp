@@ -77,6 +77,9 @@ class CriticalNewton {
   MatrixXd along_p_;   ///< second derivatives n_i.F''[n_j, p]
   VectorXd along_zp_;  ///< second derivatives n_i.F''[z, p]
   VectorXd residual_;
+  // scratch of factorise() and differentiate()
+  MatrixXd rows_, border_, solved_, motions_;
+  VectorXd load_;
   double dlambda_ = 0.0;
   double moved_ = 0.0;
   double previous_ = 0.0;                                  ///< norm of the last correction
@@ -110,29 +113,27 @@ void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
 bool CriticalNewton::factorise() {
   const TangentReport report = problem_.linearise(at_.y, at_.lambda, residual_);
   const Index k = at_.null.cols();
-  MatrixXd rows(at_.y.size(), k + 2);
-  VectorXd column;
-  for (Index i = 0; i < k; ++i) {
-    problem_.metric_forces(at_.null.col(i), column);
-    rows.col(i) = column;
-  }
+  MatrixXd& rows = rows_;
+  MatrixXd& border = border_;
+  MatrixXd& x = solved_;
+  rows.resize(at_.y.size(), k + 2);
+  for (Index i = 0; i < k; ++i) problem_.metric_forces(at_.null.col(i), rows.col(i));
   rows.col(k) = -residual_;
-  if (bifurcation_) rows.col(k) -= rows.leftCols(k) * at_.unfolding;
-  problem_.load(at_.y, at_.lambda, column);
-  rows.col(k + 1) = column;
-  const MatrixXd border = problem_.metric().asDiagonal() * at_.null;
+  if (bifurcation_) rows.col(k) -= rows.leftCols(k).lazyProduct(at_.unfolding);
+  problem_.load(at_.y, at_.lambda, load_);
+  rows.col(k + 1) = load_;
+  border = problem_.metric().asDiagonal() * at_.null;
   // remove load components along W n, for which the factors are inaccurate near the singular tangent
   const MatrixXd shares = works(rows.rightCols(2), at_.null);
-  MatrixXd x = rows;
-  x.rightCols(2) -= rows.leftCols(k) * shares;
+  x = rows;
+  x.rightCols(2) -= rows.leftCols(k).lazyProduct(shares);
   problem_.solve(x);
-  at_.stiffness = inverse(border.transpose() * x.leftCols(k));
-  v_ = x.leftCols(k) * at_.stiffness;
+  at_.stiffness = inverse(border.transpose().lazyProduct(x.leftCols(k)));
+  v_ = x.leftCols(k).lazyProduct(at_.stiffness);
   // solution of [J, W n; n W, 0] [x; s] = [rows; 0] for the residual and the load
-  const MatrixXd along = border.transpose() * x.rightCols(2);
-  p_ = x.col(k) - v_ * along.col(0);
-  q_ = x.col(k + 1) - v_ * along.col(1);
-  x.resize(0, 0);
+  const MatrixXd along = border.transpose().lazyProduct(x.rightCols(2));
+  p_ = x.col(k) - v_.lazyProduct(along.col(0));
+  q_ = x.col(k + 1) - v_.lazyProduct(along.col(1));
   const VectorXd factored = eigenvalues(at_.stiffness);
   pi_ = shares.col(0) + at_.stiffness * along.col(0);
   rho_ = shares.col(1) + at_.stiffness * along.col(1);
@@ -149,8 +150,9 @@ bool CriticalNewton::factorise() {
     keep_better(rows, border);
     take_quotients(rows.rightCols(2));
   }
-  return (v_.transpose() * problem_.metric().asDiagonal() * v_).trace() < CriticalLimits::null_norm &&
-         p_.allFinite() && q_.allFinite();
+  double null_norm = 0.0;
+  for (Index i = 0; i < k; ++i) null_norm += metric_.inner(v_.col(i), 0.0, v_.col(i), 0.0);
+  return null_norm < CriticalLimits::null_norm && p_.allFinite() && q_.allFinite();
 }
 
 /// Keeps the null motions and the load response of the previous iteration where they have smaller residuals.
@@ -208,8 +210,7 @@ void CriticalNewton::differentiate() {
   along_p_.resize(k, k);
   along_zp_.resize(k);
   for (Index j = 0; j < k; ++j) {
-    const MatrixXd z =
-        problem_.tangent_change(at_.y, at_.lambda, {v_.col(j), 0.0}, v_);
+    const MatrixXd z = problem_.tangent_change(at_.y, at_.lambda, {v_.col(j), 0.0}, v_);
     for (Index i = 0; i < k; ++i) {
       for (Index l = 0; l < k; ++l)
         at_.A[static_cast<std::size_t>(j)](i, l) = problem_.work(z.col(i), v_.col(l));
@@ -217,9 +218,9 @@ void CriticalNewton::differentiate() {
     }
   }
   const PathDirection along_z{q_, 1.0};
-  MatrixXd all(q_.size(), k + 1);
-  all << v_, q_;
-  const MatrixXd z = problem_.tangent_change(at_.y, at_.lambda, along_z, all);
+  motions_.resize(q_.size(), k + 1);
+  motions_ << v_, q_;
+  const MatrixXd z = problem_.tangent_change(at_.y, at_.lambda, along_z, motions_);
   const VectorXd of_load = problem_.load_change(at_.y, at_.lambda, along_z);
   for (Index i = 0; i < k; ++i) {
     for (Index l = 0; l < k; ++l) at_.B(i, l) = problem_.work(z.col(i), v_.col(l));
@@ -261,7 +262,8 @@ bool CriticalNewton::step() {
   if (!change.allFinite()) return false;
   dlambda_ = change[0];
   const VectorXd amplitudes = change.tail(v_.cols());
-  const VectorXd dy = p_ + dlambda_ * q_ + v_ * amplitudes;
+  VectorXd& dy = load_;
+  dy = p_ + dlambda_ * q_ + v_.lazyProduct(amplitudes);
   moved_ = metric_.norm(dy, dlambda_);
   if (!std::isfinite(moved_)) return false;
   at_.y += dy;
@@ -271,7 +273,8 @@ bool CriticalNewton::step() {
   for (Index j = 0; j < v_.cols(); ++j) at_.stiffness += amplitudes[j] * at_.A[static_cast<std::size_t>(j)];
   at_.response = q_;
   // orthonormalisation in the metric, span unchanged
-  const MatrixXd gram = v_.transpose() * problem_.metric().asDiagonal() * v_;
+  border_ = problem_.metric().asDiagonal() * v_;
+  const MatrixXd gram = v_.transpose().lazyProduct(border_);
   at_.null = orthonormal_by_gram(v_, gram);
   return metric_.norm(at_.y - guess_.y, at_.lambda - guess_.lambda) <= options_.reach;
 }
@@ -296,7 +299,7 @@ bool CriticalNewton::converged() {
 bool CriticalNewton::balances() {
   if (!problem_.one_sided() && !options_.to_rounding) return true;
   problem_.residual(at_.y, at_.lambda, residual_);
-  VectorXd column;
+  VectorXd column(at_.y.size());
   for (Index i = 0; i < at_.unfolding.size(); ++i) {
     problem_.metric_forces(at_.null.col(i), column);
     residual_ += at_.unfolding[i] * column;
@@ -336,7 +339,7 @@ VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
   if (k == (problem_.metric().array() > 0.0).count()) return {};
   const MatrixXd border = problem_.metric().asDiagonal() * at.null;
   VectorXd x = pseudo_random(at.y.size(), static_cast<unsigned>(k + 1));
-  VectorXd force;
+  VectorXd force(x.size());
   for (int it = 0; it < CriticalLimits::null_iterations; ++it) {
     x -= at.null * (border.transpose() * x);
     problem_.metric_forces(x, force);

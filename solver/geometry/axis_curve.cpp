@@ -204,6 +204,8 @@ double AxisCurve::turning(double from, double to) const {
   return sum;
 }
 
+double AxisCurve::angle_at(double s) const { return jet_ ? at(s).angle : start_angle_ + curvature_ * s; }
+
 AxisPoint AxisCurve::at(double s) const {
   if (jet_) {
     const double t = parameter_at(s);

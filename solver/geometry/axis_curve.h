@@ -30,6 +30,8 @@ class AxisCurve {
   [[nodiscard]] double length() const { return length_; }
   /// @pre 0 <= s <= length()
   [[nodiscard]] AxisPoint at(double s) const;
+  /// Angle of the tangent alone, rad; see AxisPoint.
+  [[nodiscard]] double angle_at(double s) const;
   /// @brief Total rotation of the tangent between two arc lengths, without sign, rad.
   /// @pre 0 <= from <= to <= length()
   [[nodiscard]] double turning(double from, double to) const;

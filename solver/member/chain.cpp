@@ -283,8 +283,8 @@ void Chain::recover(std::span<const CondensedForces> elements, std::span<const E
     const Lanes3 end{x[last], x[last + 1], x[last + 2]};
     const CondensedForces& second = elements[join->second_first];
     const Lanes3 free = difference(second.rm, times(join->X, us));
-    const Lanes3 m = join->pivot.solve(
-        difference(second.ra, sum(transposed_times(join->X2, end), times(join->K2, free))));
+    const Lanes3 m =
+        join->pivot.solve(difference(second.ra, sum(transposed_times(join->X2, end), times(join->K2, free))));
     const Lanes3 u = sum(free, times(join->F, m));
     const ElementDofs& node = dofs[join->second_first];
     const int force = dofs[join->second_first - 1].m;

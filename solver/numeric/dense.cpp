@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <cmath>
 
 namespace snapthrough {
 
@@ -14,15 +15,18 @@ using Eigen::VectorXd;
 MatrixXd symmetric_part(const MatrixXd& A) { return 0.5 * (A + A.transpose()); }
 
 SymmetricEigen symmetric_eigen(const MatrixXd& A) {
+  if (A.size() == 1) return {A.col(0), MatrixXd::Ones(1, 1)};
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 VectorXd symmetric_eigenvalues(const MatrixXd& A) {
+  if (A.size() == 1) return A.col(0);
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(A).eigenvalues();
 }
 
 SymmetricEigen generalised_symmetric_eigen(const MatrixXd& A, const MatrixXd& B) {
+  if (A.size() == 1) return {A.col(0) / B(0, 0), MatrixXd::Constant(1, 1, 1.0 / std::sqrt(B(0, 0)))};
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(A, B);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
@@ -32,7 +36,10 @@ RealEigen real_eigen(const MatrixXd& A) {
   return {solver.eigenvalues().real(), solver.eigenvectors().real()};
 }
 
-MatrixXd inverse(const MatrixXd& A) { return A.inverse(); }
+MatrixXd inverse(const MatrixXd& A) {
+  if (A.size() == 1) return A.cwiseInverse();
+  return A.inverse();
+}
 
 double determinant(const MatrixXd& A) { return A.determinant(); }
 
@@ -41,6 +48,7 @@ MatrixXd solve_row_pivoting(const MatrixXd& A, const MatrixXd& B) { return A.par
 VectorXd solve_full_pivoting(const MatrixXd& A, const VectorXd& b) { return A.fullPivLu().solve(b); }
 
 MatrixXd orthonormal_by_gram(const MatrixXd& V, const MatrixXd& gram) {
+  if (gram.size() == 1) return V / std::sqrt(gram(0, 0));
   const MatrixXd root = gram.llt().matrixU();
   return root.transpose().triangularView<Eigen::Lower>().solve(V.transpose()).transpose();
 }

@@ -30,31 +30,38 @@ struct Block {
 };
 
 /// Makes the motions orthonormal in the metric; columns that depend on earlier ones are dropped.
-void orthonormalise(const VectorXd& weights, Block& block) {
+/// @param weighted scratch
+void orthonormalise(const VectorXd& weights, Block& block, MatrixXd& weighted) {
   constexpr double kDependent = 1e-12;
   Index kept = 0;
+  weighted.resize(block.z.rows(), block.z.cols());  // W z of the columns that are kept
   for (Index i = 0; i < block.z.cols(); ++i) {
     auto z = block.z.col(i);
     auto x = block.x.col(i);
-    const auto norm = [&] { return std::sqrt((z.array().square() * weights.array()).sum()); };
+    const auto norm = [&] {
+      weighted.col(kept) = weights.cwiseProduct(z);
+      return std::sqrt(weighted.col(kept).dot(z));
+    };
     const double size = norm();
     double left = size;
     for (int pass = 0; pass < 2; ++pass) {  // twice is enough where the first cancelled most of the column
       for (Index j = 0; j < kept; ++j) {
-        const double along = (block.z.col(j).array() * weights.array() * z.array()).sum();
+        const double along = weighted.col(j).dot(z);
         z -= along * block.z.col(j);
         x -= along * block.x.col(j);
       }
-      left = norm();
+      if (kept > 0) left = norm();
       if (!(left > kDependent * size)) break;
     }
     if (!(left > kDependent * size)) continue;
     block.z.col(kept) = z / left;
     block.x.col(kept) = x / left;
+    weighted.col(kept) /= left;
     ++kept;
   }
   block.z.conservativeResize(Eigen::NoChange, kept);
   block.x.conservativeResize(Eigen::NoChange, kept);
+  weighted.conservativeResize(Eigen::NoChange, kept);
 }
 
 MatrixXd first_block(const VectorXd& weights, const MatrixXd& start, Index count) {
@@ -74,13 +81,13 @@ struct Ritz {
   MatrixXd vectors;  ///< columns, shares of the block's motions
 };
 
-Ritz ritz_pairs(const VectorXd& weights, const Block& block) {
+/// @param weighted W z
+Ritz ritz_pairs(const Block& block, const MatrixXd& weighted) {
   // z.J z = z.W x
   const Index k = block.z.cols();
   MatrixXd projected(k, k);
   for (Index i = 0; i < k; ++i)
-    for (Index j = 0; j < k; ++j)
-      projected(i, j) = (block.z.col(i).array() * weights.array() * block.x.col(j).array()).sum();
+    for (Index j = 0; j < k; ++j) projected(i, j) = weighted.col(i).dot(block.x.col(j));
   const SymmetricEigen found = symmetric_eigen(symmetric_part(projected));
   std::vector<Index> order(static_cast<std::size_t>(k));
   std::iota(order.begin(), order.end(), Index{0});
@@ -95,22 +102,20 @@ SoftModes soft_modes(EquilibriumProblem& problem, const MatrixXd& start, Index c
   const VectorXd& weights = problem.metric();
   Block block{MatrixXd(), first_block(weights, start, count)};
   SoftModes out;
-  VectorXd z;
+  MatrixXd weighted;
   for (int it = 1; it <= iterations; ++it) {
     block.z.resize(block.x.rows(), block.x.cols());
-    for (Index i = 0; i < block.x.cols(); ++i) {
-      problem.metric_forces(block.x.col(i), z);
-      block.z.col(i) = z;
-    }
+    for (Index i = 0; i < block.x.cols(); ++i) problem.metric_forces(block.x.col(i), block.z.col(i));
     problem.solve(block.z);
     if (!block.z.allFinite()) return {};
-    orthonormalise(weights, block);
+    orthonormalise(weights, block, weighted);
     if (block.z.cols() == 0) return {};  // the tangent stiffness is so singular that no norm is finite
-    const Ritz pairs = ritz_pairs(weights, block);
+    const Ritz pairs = ritz_pairs(block, weighted);
     const Index wanted = it < iterations ? pairs.values.size() : std::min(count, pairs.values.size());
     out.stiffness = pairs.values.head(wanted);
-    block.x.resize(block.z.rows(), wanted);
-    block.x = block.z.lazyProduct(pairs.vectors.leftCols(wanted));
+    block.x.setZero(block.z.rows(), wanted);
+    for (Index i = 0; i < wanted; ++i)
+      for (Index j = 0; j < block.z.cols(); ++j) block.x.col(i) += pairs.vectors(j, i) * block.z.col(j);
   }
   out.motions = std::move(block.x);
   return out;

@@ -94,8 +94,10 @@ class EquilibriumProblem {
   /// @brief d/de load(y + e a, lambda + e da) at e = 0, likewise.
   [[nodiscard]] virtual Eigen::VectorXd load_change(const Eigen::VectorXd& y, double lambda,
                                                     const PathDirection& along);
-  /// @brief Right-hand side of solve() for the forces W x (W: metric), zero in constrained rows; overwritten.
-  virtual void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const {
+  /// @brief Right-hand side of solve() for the forces W x (W: metric), zero in constrained rows.
+  /// @param out overwritten; as long as x
+  virtual void metric_forces(const Eigen::Ref<const Eigen::VectorXd>& x,
+                             Eigen::Ref<Eigen::VectorXd> out) const {
     out = metric().cwiseProduct(x);
   }
   /// @brief Extends the prescribed displacements in the constrained rows of `rows` by zeros.
@@ -103,7 +105,8 @@ class EquilibriumProblem {
     return Eigen::VectorXd::Zero(rows.size());
   }
   /// @brief Work of forces (row order of linearise()) on a motion that keeps constrained displacements fixed.
-  [[nodiscard]] virtual double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const {
+  [[nodiscard]] virtual double work(const Eigen::Ref<const Eigen::VectorXd>& forces,
+                                    const Eigen::Ref<const Eigen::VectorXd>& motion) const {
     return forces.dot(motion);
   }
   /// @brief Estimated first critical load factor from the response to a unit load; infinity without axial

@@ -152,7 +152,7 @@ void StructuralProblem::force_along(const VectorXd& motion, VectorXd& out) const
   turn_to_supports(out);
 }
 
-void StructuralProblem::metric_forces(const VectorXd& x, VectorXd& out) const {
+void StructuralProblem::metric_forces(const Eigen::Ref<const VectorXd>& x, Eigen::Ref<VectorXd> out) const {
   out = structure_.metric.cwiseProduct(x);
   release_rows(out);
 }
@@ -173,7 +173,8 @@ VectorXd StructuralProblem::imposed_motion(const VectorXd& rows) const {
   return out;
 }
 
-double StructuralProblem::work(const VectorXd& forces, const VectorXd& motion) const {
+double StructuralProblem::work(const Eigen::Ref<const VectorXd>& forces,
+                               const Eigen::Ref<const VectorXd>& motion) const {
   double out = forces.dot(motion);
   for (const int j : inclined_) {
     const auto [c, s] = turn_of(3 * j);
@@ -353,8 +354,8 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
 /// its divergence stability where its determinant changes sign; the count is changed to match that parity.
 void StructuralProblem::add_follower_ends(double lambda, TangentReport& report) {
   const auto [proportional, constant] = factors(lambda);
-  const double det =
-      follower_ends_.prepare(proportional, constant, size(), [this](Eigen::Ref<MatrixXd> x) { solve_symmetric(x); });
+  const double det = follower_ends_.prepare(proportional, constant, size(),
+                                            [this](Eigen::Ref<MatrixXd> x) { solve_symmetric(x); });
   report.log_abs_det += std::log(std::max(std::abs(det), std::numeric_limits<double>::min()));
   if (det < 0.0) report.negative += report.negative > 0 ? -1 : 1;
   report.parity_only = true;

@@ -70,9 +70,11 @@ class StructuralProblem final : public EquilibriumProblem {
   /// ones.
   enum class Stage { proportional, constant };
   void set_stage(Stage stage) { stage_ = stage; }
-  void metric_forces(const Eigen::VectorXd& x, Eigen::VectorXd& out) const override;
+  void metric_forces(const Eigen::Ref<const Eigen::VectorXd>& x,
+                     Eigen::Ref<Eigen::VectorXd> out) const override;
   [[nodiscard]] Eigen::VectorXd imposed_motion(const Eigen::VectorXd& rows) const override;
-  [[nodiscard]] double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const override;
+  [[nodiscard]] double work(const Eigen::Ref<const Eigen::VectorXd>& forces,
+                            const Eigen::Ref<const Eigen::VectorXd>& motion) const override;
   /// @brief Contact state at y: one-sided supports act where they touch, and are absent elsewhere.
   [[nodiscard]] FrozenContact frozen_contact(const Eigen::VectorXd& y) const;
   /// @brief Marks the one-sided supports that touch without pressure at y: distance below 1e-9 of the largest
@@ -139,7 +141,8 @@ class StructuralProblem final : public EquilibriumProblem {
   void assemble_nodes();
   void fill_member(std::size_t member, Eigen::MatrixXd& block) const;
   /// Moves the constrained displacements to the right-hand side.
-  void subtract_fixed(const Eigen::Ref<const Eigen::VectorXd>& rhs, Eigen::Ref<Eigen::VectorXd> reduced) const;
+  void subtract_fixed(const Eigen::Ref<const Eigen::VectorXd>& rhs,
+                      Eigen::Ref<Eigen::VectorXd> reduced) const;
   /// First row of a member's end forces in the node system; displacement unknowns keep their index.
   [[nodiscard]] Eigen::Index multiplier(std::size_t member) const {
     return 3 * structure_.nodes + structure_.releases + 3 * static_cast<Eigen::Index>(member);

@@ -55,6 +55,7 @@ struct Direction {
   std::array<double, 2> fixed{};
   double sign = 1.0;
 
+  bool operator==(const Direction&) const = default;
   /// @param angle angle of the axis tangent, rad
   [[nodiscard]] std::array<double, 2> at(double angle) const {
     return turns ? std::array{-sign * std::sin(angle), sign * std::cos(angle)} : fixed;

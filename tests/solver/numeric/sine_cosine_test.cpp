@@ -34,7 +34,8 @@ TEST(SineCosine, KeepsSmallAnglesAndWhatIsNotANumber) {
   EXPECT_EQ(angles.sine[0][0], 1e-300);
   EXPECT_EQ(angles.sine[0][1], -1e-20);
   EXPECT_EQ(angles.cosine[0][1], 1.0);
-  for (const int lane : {2, 3}) EXPECT_TRUE(std::isnan(angles.sine[0][lane]) && std::isnan(angles.cosine[0][lane]));
+  for (const int lane : {2, 3})
+    EXPECT_TRUE(std::isnan(angles.sine[0][lane]) && std::isnan(angles.cosine[0][lane]));
 }
 
 }  // namespace
