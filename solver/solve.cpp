@@ -26,14 +26,6 @@ void report_unchecked_mesh(const Analysis& analysis, const Structure& structure,
   if (chosen) result.summary.message += "; the mesh was chosen by rule, its error was not estimated";
 }
 
-MeshUse mesh_use(const Analysis& analysis) {
-  if (analysis.type == AnalysisType::critical) return MeshUse::first;
-  if (analysis.type == AnalysisType::path) return MeshUse::path;
-  // several buckling modes need many elements anyway
-  const bool one_mode = analysis.type == AnalysisType::buckling && analysis.modes == 1;
-  return one_mode ? MeshUse::first : MeshUse::final;
-}
-
 /// Reports a stop request that interrupted the check of loads on finer meshes.
 void report_stop(const Hooks& hooks, Result& result) {
   const bool unchecked = !result.failure || result.failure->code == "not_confirmed";

@@ -144,6 +144,14 @@ void add_layered(std::vector<MeshElement>& out, const MeshElement& element, bool
 
 }  // namespace
 
+MeshUse mesh_use(const Analysis& analysis) {
+  if (analysis.type == AnalysisType::critical) return MeshUse::first;
+  if (analysis.type == AnalysisType::path) return MeshUse::path;
+  // several buckling modes need many elements anyway
+  const bool one_mode = analysis.type == AnalysisType::buckling && analysis.modes == 1;
+  return one_mode ? MeshUse::first : MeshUse::final;
+}
+
 std::array<double, 2> part_of(const MeshElement& element, std::array<double, 2> range) {
   const double width = element.to - element.from;
   const double one = kOnePlace / width;

@@ -352,7 +352,7 @@ RodModel make_rod_model(const Model& model, const Analysis& analysis, const Mesh
   RodModel rod;
   Maker maker(model, rod);
   maker.scales();
-  const MeshUse use = analysis.type == AnalysisType::critical ? MeshUse::first : MeshUse::path;
+  const MeshUse use = mesh_use(analysis);
   rod.mesh = make_mesh(model, analysis.discretization, rod.axes, use);
   if (told.paths > 1) set_elements(told.ends, rod.mesh);
   rod.lagrange = Lagrange(rod.mesh.order);
