@@ -87,6 +87,11 @@ ElementShape shape_on(const Structure& out, const Model& model, int element, con
   const double L = out.scales.length;
   const double F = out.scales.force;
   ElementShape shape;
+  const auto points = static_cast<std::size_t>(rule.order());
+  shape.t.reserve(points);
+  for (auto* list :
+       {&shape.angle, &shape.axial_compliance, &shape.shear_compliance, &shape.bending_compliance})
+    list->reserve(points);
   shape.length = (e.to - e.from) * length / L;
   std::array<double, 2> chord{0.0, 0.0};
   for (int q = 0; q < rule.order(); ++q) {

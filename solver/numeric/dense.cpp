@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <cmath>
+#include <type_traits>
 
 namespace snapthrough {
 
@@ -14,15 +15,41 @@ using Eigen::VectorXd;
 
 MatrixXd symmetric_part(const MatrixXd& A) { return 0.5 * (A + A.transpose()); }
 
+namespace {
+
+/// Calls take(matrix) with a copy of A whose size is known at compile time if A has 1 to 4 rows, for which
+/// Eigen's decompositions need no memory from the heap; else with A.
+template <class Take>
+auto with_fixed_size(const MatrixXd& A, const Take& take) {
+  if (A.rows() == A.cols()) switch (A.rows()) {
+      case 1:
+        return take(Eigen::Matrix<double, 1, 1>(A));
+      case 2:
+        return take(Eigen::Matrix2d(A));
+      case 3:
+        return take(Eigen::Matrix3d(A));
+      case 4:
+        return take(Eigen::Matrix4d(A));
+      default:
+        break;
+    }
+  return take(A);
+}
+
+}  // namespace
+
 SymmetricEigen symmetric_eigen(const MatrixXd& A) {
-  if (A.size() == 1) return {A.col(0), MatrixXd::Ones(1, 1)};
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  return with_fixed_size(A, [](const auto& a) {
+    const Eigen::SelfAdjointEigenSolver<std::remove_cvref_t<decltype(a)>> solver(a);
+    return SymmetricEigen{solver.eigenvalues(), solver.eigenvectors()};
+  });
 }
 
 VectorXd symmetric_eigenvalues(const MatrixXd& A) {
-  if (A.size() == 1) return A.col(0);
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(A).eigenvalues();
+  return with_fixed_size(A, [](const auto& a) {
+    return VectorXd(Eigen::SelfAdjointEigenSolver<std::remove_cvref_t<decltype(a)>>(a, Eigen::EigenvaluesOnly)
+                        .eigenvalues());
+  });
 }
 
 SymmetricEigen generalised_symmetric_eigen(const MatrixXd& A, const MatrixXd& B) {
@@ -37,15 +64,16 @@ RealEigen real_eigen(const MatrixXd& A) {
 }
 
 MatrixXd inverse(const MatrixXd& A) {
-  if (A.size() == 1) return A.cwiseInverse();
-  return A.inverse();
+  return with_fixed_size(A, [](const auto& a) { return MatrixXd(a.inverse()); });
 }
 
 double determinant(const MatrixXd& A) { return A.determinant(); }
 
 MatrixXd solve_row_pivoting(const MatrixXd& A, const MatrixXd& B) { return A.partialPivLu().solve(B); }
 
-VectorXd solve_full_pivoting(const MatrixXd& A, const VectorXd& b) { return A.fullPivLu().solve(b); }
+VectorXd solve_full_pivoting(const MatrixXd& A, const VectorXd& b) {
+  return with_fixed_size(A, [&b](const auto& a) { return VectorXd(a.fullPivLu().solve(b)); });
+}
 
 MatrixXd orthonormal_by_gram(const MatrixXd& V, const MatrixXd& gram) {
   if (gram.size() == 1) return V / std::sqrt(gram(0, 0));
