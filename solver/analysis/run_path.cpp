@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "solver/accuracy/critical_loads.h"
@@ -420,16 +421,29 @@ std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
   return finer_mesh(next) ? std::optional(std::move(next)) : std::nullopt;
 }
 
+/// Whether an imperfection moves the axis of a member.
+bool has_offsets(const Model& model) {
+  const auto moves = [](const auto& one) {
+    if constexpr (requires { one.offsets; })
+      return std::ranges::any_of(one.offsets, [](const auto& pair) { return pair[1] != 0.0; });
+    else
+      return one.amplitude != 0.0;
+  };
+  return std::ranges::any_of(model.imperfections,
+                             [&](const Imperfection& one) { return std::visit(moves, one); });
+}
+
 }  // namespace
 
 LocateOptions locate_options(const Model& model, const Analysis& analysis) {
   LocateOptions options;
   // an imperfection of the request breaks bifurcations, however small
-  if (!model.imperfections.empty()) options.perfect = Rounding::imperfection;
+  const bool imperfect = has_offsets(model);
+  if (imperfect) options.perfect = Rounding::imperfection;
   if (analysis.discretization.fixed_mesh) return options;
   options.tolerance = std::min(1e-7, 1e-3 * analysis.discretization.accuracy);
   // a broken bifurcation has its limit point, if any, lower by about 10 e^(2/3)
-  if (model.imperfections.empty())
+  if (!imperfect)
     options.perfect = std::max(options.perfect, imperfection_of(analysis.discretization.accuracy));
   return options;
 }
