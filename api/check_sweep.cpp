@@ -225,6 +225,14 @@ void check_follow(const SweepData& data, const Value& follow) {
     follow.report("not_supported",
                   "a sweep that follows has an analysis of type critical on a mesh that is given (elements)");
   }
+  const Json model = data.base.value("model", none);
+  const Json imperfections = model.is_object() ? model.value("imperfections", none) : none;
+  const auto is_worst = [](const Json& one) {
+    return one.is_object() && one.value("type", Json()) == "worst";
+  };
+  if (std::any_of(imperfections.begin(), imperfections.end(), is_worst)) {
+    follow.report("not_supported", "a worst imperfection is sought at each point anew: nothing is followed");
+  }
   for (const SweepOutput& output : data.outputs) {
     if (output.pointer != "/summary/critical_load_factor" && output.pointer != "/summary/critical_type") {
       follow.report(

@@ -368,10 +368,23 @@ static Imperfection read_points_imperfection(Object& in) {
   return imperfection;
 }
 
+static void read(const Value& value, OffsetNorm& out) {
+  static constexpr Named<OffsetNorm> kNames[] = {{"rms", OffsetNorm::rms}, {"max", OffsetNorm::max}};
+  read_named(value, kNames, out);
+}
+
+static Imperfection read_worst_imperfection(Object& in) {
+  WorstImperfection imperfection;
+  in.required("norm", imperfection.norm);
+  in.required("amplitude", imperfection.amplitude);
+  return imperfection;
+}
+
 static void read(const Value& value, Imperfection& out) {
   static constexpr Named<Imperfection (*)(Object&)> kForms[] = {{"sine", read_sine_imperfection},
                                                                 {"mode", read_mode_imperfection},
-                                                                {"points", read_points_imperfection}};
+                                                                {"points", read_points_imperfection},
+                                                                {"worst", read_worst_imperfection}};
   read_tagged(value, kForms, out);
 }
 

@@ -244,6 +244,20 @@ inline constexpr auto kFields<Diagnostics> =
                internal(&Diagnostics::corrections)};
 
 template <>
+inline constexpr auto kFields<MemberOffsets> =
+    std::tuple{field("type", [](const MemberOffsets&) { return std::string_view("points"); }),
+               field("member", &MemberOffsets::member), field("offsets", &MemberOffsets::offsets)};
+
+template <>
+inline constexpr auto kFields<WorstOffset> =
+    std::tuple{field("perfect_load_factor", &WorstOffset::perfect_load_factor),
+               field("perfect_type", &WorstOffset::perfect_type),
+               field("first_order_load_factor", &WorstOffset::first_order_load_factor),
+               field("load_factor", &WorstOffset::load_factor),
+               field<kCount>("paths", &WorstOffset::paths),
+               field("imperfections", &WorstOffset::imperfections)};
+
+template <>
 inline constexpr auto kFields<Failure> =
     std::tuple{field("code", &Failure::code), field("detail", &Failure::detail)};
 
@@ -264,6 +278,7 @@ inline constexpr auto kFields<Result> = std::tuple{
                   [](const Result& result) {
                     return result.extremes ? std::optional(AllExtremes{*result.extremes}) : std::nullopt;
                   }),
+    field<kIfAny>("worst_imperfection", &Result::worst_imperfection),
     field("warnings", &Result::warnings),
     field("discretization", &Result::discretization),
     field("diagnostics", &Result::diagnostics),
@@ -277,7 +292,7 @@ static_assert(
                         KoiterCoefficients, CriticalPoint, NodeMotion, NeutralMotion, ContactEvent, Branch,
                         Resultant, MemberState, SupportState, SpringState, FoundationState, State,
                         StaticTable, BucklingResult, Extreme, ExtremeRange, MemberExtremes, Warning,
-                        MeshReport, Diagnostics, Failure, Result>,
+                        MeshReport, Diagnostics, MemberOffsets, WorstOffset, Failure, Result>,
     "A member of solver/result.h has no line in its table: add field(...), or internal(...) where documents "
     "do not have it.");
 

@@ -216,7 +216,7 @@ struct MemberExtremes {
 };
 
 /// Warning for the reader of a result. Codes: "large_strain", "path_points", "touching_supports",
-/// "touching_eigenvalue", "contact_changes".
+/// "touching_eigenvalue", "contact_changes", "worst_imperfection".
 struct Warning {
   std::string code;
   std::string detail;
@@ -279,6 +279,23 @@ struct Diagnostics {
   std::array<int, 32> corrections = {};  ///< entry i: steps with i Newton corrections, 31 for more
 };
 
+/// Stress-free offsets at fractions of a member, as in PointsImperfection.
+struct MemberOffsets {
+  std::string member;
+  std::vector<std::array<double, 2>> offsets;
+};
+
+/// Worst imperfection that was found, with the critical loads of the search for it.
+struct WorstOffset {
+  double perfect_load_factor = 0.0;  ///< critical load factor without it
+  CriticalType perfect_type = CriticalType::limit_max;
+  /// Critical load factor by the first-order law of limit points; empty where the law does not apply.
+  std::optional<double> first_order_load_factor;
+  std::optional<double> load_factor;         ///< critical load factor with it; empty: no stability is lost
+  int paths = -1;                            ///< paths that the search followed
+  std::vector<MemberOffsets> imperfections;  ///< one per member
+};
+
 /// Numerical failure. The rest of the result holds what was reached.
 struct Failure {
   std::string code;  ///< "no_convergence", "step_underflow", "cancelled", "no_start", "not_held", ...
@@ -296,6 +313,7 @@ struct Result {
   std::vector<double> not_reached;  ///< requested load factors
   std::optional<BucklingResult> buckling;
   std::optional<std::vector<MemberExtremes>> extremes;  ///< if requested; empty: no state was reached
+  std::optional<WorstOffset> worst_imperfection = {};   ///< if the model has a worst imperfection
   std::vector<Warning> warnings;
   MeshReport discretization;
   Diagnostics diagnostics;

@@ -8,8 +8,10 @@
 
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/held_loads.h"
+#include "solver/analysis/worst_offset.h"
 #include "solver/discrete/free_motions.h"
 #include "solver/numeric/cancelled.h"
+#include "solver/numeric/number_text.h"
 #include "solver/report/result_parts.h"
 #include "solver/report/skipped.h"
 #include "solver/support/law.h"
@@ -49,7 +51,8 @@ void report_refused(const HeldLoads& held, Result& result) {
 }
 
 /// @throws Cancelled when no result was reached
-void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, Result& result) {
+void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, const CriticalVisitor& visit,
+             Result& result) {
   // only one-sided supports need the equilibrium test of their loads
   std::optional<FreeMotions> motions;
   std::optional<UnilateralBalance> balance;
@@ -87,7 +90,7 @@ void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, R
   switch (analysis.type) {
     case AnalysisType::critical:
     case AnalysisType::path:
-      run_path(model, analysis, structure, hooks, result);
+      run_path(model, analysis, structure, hooks, result, visit);
       report_stop(hooks, result);
       break;
     case AnalysisType::static_:
@@ -104,6 +107,75 @@ void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, R
   report_unchecked_mesh(analysis, structure, result);
 }
 
+/// @param visit may be empty
+Result run(const Model& model, const Analysis& analysis, const Hooks& hooks, const CriticalVisitor& visit) {
+  Result result;
+  result.diagnostics = {0, 0, 0, 0, 0.0, {}, {}};
+  if (!unless_cancelled([&] { analyse(model, analysis, hooks, visit, result); })) {
+    fail(result, "cancelled",
+         result.branches.empty() ? "cancelled before anything was found"
+                                 : "cancelled before the critical loads were checked on finer meshes");
+    result.not_reached = asked_load_factors(analysis);
+  }
+  return result;
+}
+
+/// Sensitivities of the structure with the offsets that were found. Their shape is held, and their size
+/// follows the amplitude of the worst imperfection.
+std::vector<Variation> with_shape_held(std::vector<Variation> variations, const WorstOffset& found,
+                                       double amplitude) {
+  for (Variation& variation : variations)
+    variation.model_at = [inner = std::move(variation.model_at), offsets = found.imperfections,
+                          amplitude](double value) -> std::optional<Model> {
+      const std::optional<Model> changed = inner(value);
+      if (!changed) return std::nullopt;
+      return with_offsets(*changed, offsets, worst_imperfection(*changed)->amplitude / amplitude);
+    };
+  return variations;
+}
+
+/// Warns of a worst imperfection that does not lower the critical load.
+void warn_of_no_fall(const WorstOffset& found, Result& result) {
+  if (found.load_factor && *found.load_factor < found.perfect_load_factor) return;
+  result.warnings.push_back(
+      {"worst_imperfection",
+       "no offset that was tried lowers the critical load factor " + number(found.perfect_load_factor) +
+           ": states beyond it are stable, as those of a column after Euler's load, and the imperfect path " +
+           (found.load_factor ? "loses stability at load factor " + number(*found.load_factor)
+                              : std::string("loses no stability"))});
+}
+
+/// Warns of paths of the search that failed.
+void warn_of_failed_paths(const WorstSearch& search, Result& result) {
+  if (search.failed_paths == 0) return;
+  result.warnings.push_back(
+      {"worst_imperfection", std::to_string(search.failed_paths) + " of " +
+                                 std::to_string(search.found->paths) +
+                                 " paths of the search failed; their offsets were passed over, and one of "
+                                 "them may lower the load more"});
+}
+
+/// Finds the worst imperfection and runs the analysis on the structure with it.
+Result run_with_worst(const Model& model, const WorstImperfection& worst, const Analysis& analysis,
+                      const Hooks& hooks) {
+  const Hooks quiet{hooks.stop};
+  const auto run_critical = [&](const Model& with, const CriticalVisitor& visit) {
+    return run(with, search_analysis(analysis), quiet, visit);
+  };
+  WorstSearch search = find_worst_offset(model, analysis, run_critical, hooks.stop);
+  if (!search.found) {
+    search.failed.not_reached = asked_load_factors(analysis);
+    return std::move(search.failed);
+  }
+  Analysis final = analysis;
+  final.sensitivities = with_shape_held(analysis.sensitivities, *search.found, worst.amplitude);
+  Result result = run(with_offsets(model, search.found->imperfections), final, hooks, {});
+  warn_of_no_fall(*search.found, result);
+  warn_of_failed_paths(search, result);
+  result.worst_imperfection = std::move(search.found);
+  return result;
+}
+
 }  // namespace
 
 Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
@@ -113,15 +185,8 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
 }
 
 Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& hooks) {
-  Result result;
-  result.diagnostics = {0, 0, 0, 0, 0.0, {}, {}};
-  if (!unless_cancelled([&] { analyse(model, analysis, hooks, result); })) {
-    fail(result, "cancelled",
-         result.branches.empty() ? "cancelled before anything was found"
-                                 : "cancelled before the critical loads were checked on finer meshes");
-    result.not_reached = asked_load_factors(analysis);
-  }
-  return result;
+  const WorstImperfection* worst = worst_imperfection(model);
+  return worst != nullptr ? run_with_worst(model, *worst, analysis, hooks) : run(model, analysis, hooks, {});
 }
 
 }  // namespace snapthrough

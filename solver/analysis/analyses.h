@@ -15,12 +15,19 @@
 #include "solver/path/path_start.h"
 #include "solver/problem/structural_problem.h"
 #include "solver/result.h"
+#include "solver/sensitivity/exact_point.h"
 
 namespace snapthrough {
 
+/// Receives each critical point of a path, after its load was compared with finer meshes. The structure is
+/// that of the reported load.
+using CriticalVisitor = std::function<void(const Structure& structure, const LocatedPoint& at,
+                                           const CriticalPoint& point, int& factorisations)>;
+
 /// Runs the analyses `path` and `critical`: follows the equilibrium path.
+/// @param visit may be empty
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
-              Result& result);
+              Result& result, const CriticalVisitor& visit = {});
 /// Runs the analysis `static`: equilibrium at given load factors, with large or small displacements.
 /// @param held one entry per load factor: whether it is computed; the others are reported as not reached
 void run_static(const Model& model, const Analysis& analysis, const Structure& structure,

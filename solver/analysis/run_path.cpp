@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "solver/accuracy/critical_loads.h"
@@ -324,10 +325,11 @@ std::string BranchFollower::run() {
 
 namespace {
 
-/// Function that adds requested sensitivities and Koiter coefficients to a critical point; may be empty.
+/// Function that adds requested sensitivities and Koiter coefficients to a critical point, and shows it to
+/// the visitor; may be empty.
 Complete completer(const Model& model, const Analysis& analysis, const PathNorm& norm, const Hooks& hooks,
-                   Result& result) {
-  if (analysis.sensitivities.empty() && !analysis.koiter) return {};
+                   const CriticalVisitor& visit, Result& result) {
+  if (analysis.sensitivities.empty() && !analysis.koiter && !visit) return {};
   return [&](const Structure& structure, const CriticalEvent& event, CriticalPoint& point) {
     const LocatedPoint at{event, norm.metric().load_weight,
                           PolishLimits::reach * norm.search_scale(event.point), norm.least_load()};
@@ -339,6 +341,7 @@ Complete completer(const Model& model, const Analysis& analysis, const PathNorm&
     if (analysis.koiter)
       point.koiter =
           koiter_coefficients(model, structure, at, analysis.output.points_per_member, factorisations);
+    if (visit) visit(structure, at, point, factorisations);
   };
 }
 
@@ -347,8 +350,8 @@ Complete completer(const Model& model, const Analysis& analysis, const PathNorm&
 /// @param decays bending decay lengths at the path's end, for the next mesh
 /// @return whether finer meshes confirm the result, or nothing needs confirmation
 bool follow_on(const Model& model, const Analysis& analysis, const Structure& structure,
-               const std::vector<CriticalPoint>& earlier, const Hooks& hooks, Result& result,
-               std::vector<double>& decays) {
+               const std::vector<CriticalPoint>& earlier, const Hooks& hooks, const CriticalVisitor& visit,
+               Result& result, std::vector<double>& decays) {
   StructuralProblem problem(structure);
   PathFollower follower(problem, options_of(analysis));
   PointSolver& solver = follower.solver();
@@ -360,7 +363,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
                           [&softest](const PathPoint& unloaded) { softest.set_unloaded(unloaded); });
   if (const auto touching = with_least_piece(model, structure, problem, solver.norm(), start, result)) {
     result.failure.reset();
-    return follow_on(model, analysis, *touching, earlier, hooks, result, decays);
+    return follow_on(model, analysis, *touching, earlier, hooks, visit, result, decays);
   }
   if (!start) return true;
   Recorder recorder(model, analysis, structure, solver, softest, hooks, result);
@@ -391,7 +394,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
     if (confirmed && result.critical_points.empty())
       meshes = "; no critical point was met, and a finer mesh agrees at the path's end";
   }
-  const Complete complete = completer(model, analysis, solver.norm(), hooks, result);
+  const Complete complete = completer(model, analysis, solver.norm(), hooks, visit, result);
   confirmed = loads.confirm(hooks.stop, meshes, complete) && confirmed;
   const double at = outcome.on_critical ? result.critical_points[primary - 1].load_factor
                                         : outcome.last.lambda / structure.scales.load;
@@ -420,16 +423,29 @@ std::optional<Mesh> much_finer(const Structure& structure, const Model& model,
   return finer_mesh(next) ? std::optional(std::move(next)) : std::nullopt;
 }
 
+/// Whether an imperfection moves the axis of a member.
+bool has_offsets(const Model& model) {
+  const auto moves = [](const auto& one) {
+    if constexpr (requires { one.offsets; })
+      return std::ranges::any_of(one.offsets, [](const auto& pair) { return pair[1] != 0.0; });
+    else
+      return one.amplitude != 0.0;
+  };
+  return std::ranges::any_of(model.imperfections,
+                             [&](const Imperfection& one) { return std::visit(moves, one); });
+}
+
 }  // namespace
 
 LocateOptions locate_options(const Model& model, const Analysis& analysis) {
   LocateOptions options;
   // an imperfection of the request breaks bifurcations, however small
-  if (!model.imperfections.empty()) options.perfect = Rounding::imperfection;
+  const bool imperfect = has_offsets(model);
+  if (imperfect) options.perfect = Rounding::imperfection;
   if (analysis.discretization.fixed_mesh) return options;
   options.tolerance = std::min(1e-7, 1e-3 * analysis.discretization.accuracy);
   // a broken bifurcation has its limit point, if any, lower by about 10 e^(2/3)
-  if (model.imperfections.empty())
+  if (!imperfect)
     options.perfect = std::max(options.perfect, imperfection_of(analysis.discretization.accuracy));
   return options;
 }
@@ -444,7 +460,7 @@ bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) 
 }
 
 void run_path(const Model& model, const Analysis& analysis, const Structure& structure, const Hooks& hooks,
-              Result& result) {
+              Result& result, const CriticalVisitor& visit) {
   const Structure* mesh = &structure;
   std::optional<Structure> finer;
   std::vector<CriticalPoint> earlier;
@@ -452,7 +468,7 @@ void run_path(const Model& model, const Analysis& analysis, const Structure& str
     Result reached;
     reached.diagnostics = result.diagnostics;
     std::vector<double> decays;
-    const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, reached, decays);
+    const bool confirmed = follow_on(model, analysis, *mesh, earlier, hooks, visit, reached, decays);
     const int factorizations = reached.diagnostics.factorizations - result.diagnostics.factorizations;
     result = std::move(reached);
     report_path_mesh(*mesh, paths, result);

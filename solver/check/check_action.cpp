@@ -91,6 +91,10 @@ void check_imperfection(const Place& place, const PointsImperfection& imperfecti
   }
 }
 
+void check_imperfection(const Place& place, const WorstImperfection& imperfection, const Names&) {
+  require_positive(place / "amplitude", imperfection.amplitude);
+}
+
 /// Nodes whose rotation no member, support or spring resists.
 std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
   std::unordered_set<std::string> nodes;

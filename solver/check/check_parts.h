@@ -25,6 +25,8 @@ void check_springs(const Place& model, const Model& data, const Names& names);
 void check_foundations(const Place& model, const Model& data, const Names& names);
 void check_loads(const Place& model, const Model& data, const Names& names);
 void check_imperfections(const Place& model, const Model& data, const Names& names);
+/// Checks a worst imperfection against the rest of the request.
+void check_worst_imperfection(const Place& root, const Model& data, const Analysis& analysis);
 void check_monitors(const Place& model, const Model& data, Names& names);
 
 /// Requires a node of the model, or a member with a fraction in [0, 1].

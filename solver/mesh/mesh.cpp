@@ -108,6 +108,12 @@ ChosenMesh rule_for(MeshUse use, double accuracy) {
   return rule;
 }
 
+/// Intervals of the spline through the offsets and the ends of the member.
+double intervals_of(const PointsImperfection& points) {
+  const int ends = (points.offsets.front()[0] > 0.0 ? 1 : 0) + (points.offsets.back()[0] < 1.0 ? 1 : 0);
+  return static_cast<double>(points.offsets.size()) - 1.0 + ends;
+}
+
 /// Number of elements of a piece of a member, by the rule of make_mesh().
 /// @param finest bound for one-sided foundations, as a multiple of the number for the axis
 int default_count(const ChosenMesh& rule, const Model& model, int member, const AxisCurve& axis, double from,
@@ -130,6 +136,9 @@ int default_count(const ChosenMesh& rule, const Model& model, int member, const 
   for (const Imperfection& imperfection : model.imperfections) {
     const auto* sine = std::get_if<SineImperfection>(&imperfection);
     if (sine != nullptr && sine->member == m.id) n = std::max(n, 2.0 * sine->half_waves * (to - from));
+    // A mesh coarser than the intervals has another imperfection, and its path may turn to the other side.
+    const auto* points = std::get_if<PointsImperfection>(&imperfection);
+    if (points != nullptr && points->member == m.id) n = std::max(n, intervals_of(*points) * (to - from));
   }
   const int count = std::max(1, static_cast<int>(std::ceil(std::min(n, MeshRules::elements) - 1e-9)));
   return rule.odd && count % 2 == 0 ? count + 1 : count;

@@ -165,7 +165,15 @@ struct PointsImperfection {
   std::string member;
   std::vector<std::array<double, 2>> offsets;
 };
-using Imperfection = std::variant<SineImperfection, ModeImperfection, PointsImperfection>;
+/// Norm of the stress-free offsets w(s) of all members: root mean square over their length, or largest |w|.
+enum class OffsetNorm { rms, max };
+/// Offsets of a given norm that lower the first critical load most, among the splines of OffsetSpace; solve()
+/// replaces it by a PointsImperfection of each member. At most one per model.
+struct WorstImperfection {
+  OffsetNorm norm = OffsetNorm::rms;
+  double amplitude = 0.0;  ///< norm of the offsets, > 0
+};
+using Imperfection = std::variant<SineImperfection, ModeImperfection, PointsImperfection, WorstImperfection>;
 
 struct Monitor {
   std::string id;

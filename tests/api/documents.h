@@ -63,7 +63,8 @@ inline const char* full_model() {
               {"type": "initial_strain", "member": "m0", "axial": 0.001, "curvature": 0.002, "pattern": "constant"}],
     "imperfections": [{"type": "sine", "member": "m0", "half_waves": 2, "amplitude": 0.1},
                       {"type": "mode", "number": 3, "amplitude": 0.2},
-                      {"type": "points", "member": "m1", "offsets": [[0, 0.5], [1, 0.25]]}],
+                      {"type": "points", "member": "m1", "offsets": [[0, 0.5], [1, 0.25]]},
+                      {"type": "worst", "norm": "max", "amplitude": 0.3}],
     "monitors": [{"id": "d0", "at": {"member": "m0", "fraction": 0.75}, "component": "normal"},
                  {"id": "d1", "at": {"node": "a"}, "component": "rotation"}]
   })";

@@ -143,7 +143,7 @@ TEST_F(FullModel, Loads) {
 }
 
 TEST_F(FullModel, ImperfectionsAndMonitors) {
-  ASSERT_EQ(model_.imperfections.size(), 3U);
+  ASSERT_EQ(model_.imperfections.size(), 4U);
   const auto& sine = std::get<SineImperfection>(model_.imperfections[0]);
   EXPECT_EQ(sine.member, "m0");
   EXPECT_EQ(sine.half_waves, 2);
@@ -153,6 +153,8 @@ TEST_F(FullModel, ImperfectionsAndMonitors) {
   EXPECT_EQ(std::get<PointsImperfection>(model_.imperfections[2]).member, "m1");
   EXPECT_THAT(std::get<PointsImperfection>(model_.imperfections[2]).offsets,
               ElementsAre(ElementsAre(0.0, 0.5), ElementsAre(1.0, 0.25)));
+  EXPECT_EQ(std::get<WorstImperfection>(model_.imperfections[3]).norm, OffsetNorm::max);
+  EXPECT_EQ(std::get<WorstImperfection>(model_.imperfections[3]).amplitude, 0.3);
   ASSERT_EQ(model_.monitors.size(), 2U);
   EXPECT_EQ(model_.monitors[0].id, "d0");
   EXPECT_EQ(model_.monitors[0].at.fraction, 0.75);

@@ -396,6 +396,8 @@ TEST(Sweep, SaysWhatCannotBeFollowed) {
   EXPECT_THAT(with("/parameters/1/values", {1e-4, 3e-4, 2e-4}), ElementsAre("/follow not_supported"));
   EXPECT_THAT(with("/analysis/type", "path"), ElementsAre("/follow not_supported"));
   EXPECT_THAT(with("/outputs/0", "/summary/message"), ElementsAre("/follow not_supported"));
+  EXPECT_THAT(with("/model/imperfections/0", {{"type", "worst"}, {"norm", "max"}, {"amplitude", 1e-3}}),
+              ElementsAre("/follow not_supported"));
 }
 
 TEST(Sweep, CountsBeforeItExpands) {

@@ -119,6 +119,15 @@ TEST(Examples, PortalFrameSwaysAtItsBucklingLoad) {
   EXPECT_EQ(result.at("buckling").at("modes").size(), 2U);
 }
 
+// The result has imperfections that a request may contain, and with them the same critical load.
+TEST(Examples, WorstImperfectionOfAnArchIsGivenBack) {
+  const json worst = run_example("arch_worst_imperfection.json").at("worst_imperfection");
+  EXPECT_LT(worst.at("load_factor").get<double>(), worst.at("perfect_load_factor").get<double>());
+  json back = json::parse(read_text(examples_folder() / "arch_worst_imperfection.json"));
+  back["model"]["imperfections"] = worst.at("imperfections");
+  expect_relative(critical_load_factor(run(back.dump())), worst.at("load_factor"), 1e-9);
+}
+
 // Sway of a portal with pinned feet, columns of height h, and a beam of the same section and length L,
 // members that do not change their length: k h tan(k h) = 6 h / L = 4.8, P = k^2 EI. The columns' strain P /
 // EA is 7e-4, and the load is less by about that.

@@ -41,6 +41,7 @@ const kBetweenFieldsAt = [
   ['empty', /^\/model\/supports$/, 'supports, springs and foundations'],
   ['too_many', /\/points_per_member$/, 'times members'],
   ['too_many', /\/elements$/, 'of all members'],
+  ['too_many', /^\/model\/imperfections\/\d+$/, 'one of type worst'],
   ['missing_field', /\/elements$/, 'one for each member'],
 ];
 

@@ -114,6 +114,9 @@ Json written(const ModeImperfection& i) {
 Json written(const PointsImperfection& i) {
   return {{"type", "points"}, {"member", i.member}, {"offsets", i.offsets}};
 }
+Json written(const WorstImperfection& i) {
+  return {{"type", "worst"}, {"norm", i.norm == OffsetNorm::rms ? "rms" : "max"}, {"amplitude", i.amplitude}};
+}
 Json written(const Imperfection& imperfection) {
   return std::visit([](const auto& i) { return written(i); }, imperfection);
 }

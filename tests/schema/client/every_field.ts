@@ -47,6 +47,7 @@ const imperfections: Schemas['Imperfection'][] = [
   {type: 'sine', member: 'beam', half_waves: 1, amplitude: 1e-3},
   {type: 'mode', number: 1, amplitude: 1e-3},
   {type: 'points', member: 'beam', offsets: [[0, 0], [0.5, 1e-3], [1, 0]]},
+  {type: 'worst', norm: 'rms', amplitude: 1e-3},
 ];
 
 const model: Schemas['Model'] = {

@@ -147,6 +147,9 @@ export class Drawer {
     if (analysis.sensitivities) analysis.sensitivities = ['/model/nodes/0/x', '/model/loads/0/type'].slice(0, this.below(6) === 0 ? 2 : 1);
     if (analysis.geometry === 'linear') analysis.type = 'static';
     delete analysis.step;
+    const mayLower = analysis.type !== 'buckling' && analysis.geometry !== 'linear' && !analysis.start;
+    let worst = 0;
+    if (model.imperfections) model.imperfections = model.imperfections.filter((one) => one.type !== 'worst' || (mayLower && ++worst === 1));
     const monitor = this.pick(model.monitors?.map((one) => one.id) ?? []);
     if (typeof analysis.control === 'object') analysis.control = monitor ? {displacement: monitor} : 'load';
     const {stop} = analysis;

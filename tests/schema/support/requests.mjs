@@ -101,6 +101,7 @@ export function answerable() {
   add('path, bound on negative eigenvalues', arch(), {type: 'path', stop: {negative_eigenvalues: 0}});
   add('no buckling', {...column(), loads: [{type: 'point', at: {node: 'head'}, force: [0, 1]}]}, {type: 'buckling'});
   add('imperfect', {...column(), imperfections: [{type: 'mode', number: 1, amplitude: 1e-3}]}, {type: 'path', stop: {steps: 10}});
+  for (const norm of ['rms', 'max']) add(`worst imperfection, ${norm}`, {...arch(), imperfections: [{type: 'worst', norm, amplitude: 1e-2}]}, {type: 'critical'});
   return all;
 }
 
@@ -114,6 +115,7 @@ export function failing() {
     beyond_critical_point: {model: shallow, analysis: {type: 'static', load_factors: [1, 1e5]}},
     fewer_modes: {model: column(), analysis: {type: 'buckling', modes: 50, discretization: {elements: 2, order: 1}}},
     no_buckling_mode: {model: pressed, analysis: {type: 'critical'}},
+    no_worst_imperfection: {model: {...pressed, imperfections: [{type: 'worst', norm: 'rms', amplitude: 1e-3}]}, analysis: {type: 'critical'}},
     constant_actions_limit: {model: {...arch(), loads: [{...arch().loads[0], force: [0, -1e5], pattern: 'constant'}, arch().loads[0]]},
                              analysis: {type: 'critical'}},
   };

@@ -56,6 +56,23 @@ SineImperfection& sine_imperfection(Model& m) { return std::get<SineImperfection
 void use_curve(Model& m, Curve curve) { m.members[0].curve = std::move(curve); }
 void use_load(Model& m, Load load) { m.loads.push_back(std::move(load)); }
 
+void use_worst(Model& m) { m.imperfections[0] = WorstImperfection{OffsetNorm::rms, 1e-3}; }
+
+void start_with_a_state(const Model& m, Analysis& a) {
+  const std::vector<double> zeros{0.0, 0.0};
+  a.type = AnalysisType::path;
+  a.start.emplace();
+  for (const Member& member : m.members)
+    a.start->members.push_back({member.id, {0.0, 1.0}, zeros, zeros, zeros, zeros, zeros, zeros});
+}
+
+void add_members(Model& m, std::size_t count) {
+  while (m.members.size() < count) {
+    m.members.push_back(m.members[0]);
+    m.members.back().id = "more" + std::to_string(m.members.size());
+  }
+}
+
 void put_first_nodes_together_far_away(Model& m) {
   for (Node& node : m.nodes) {
     node.x += 1e6;
@@ -234,6 +251,22 @@ const Case kActionCases[] = {
      "/model/imperfections/0/offsets/1/0", "out_of_range"},
     {"OffsetsNan", SPOIL(m.imperfections[0] = PointsImperfection{"ab", {{0.5, kNan}, {1.0, 0.1}}}),
      "/model/imperfections/0/offsets/0/1", "out_of_range"},
+    {"WorstAmplitudeZero", SPOIL(m.imperfections[0] = WorstImperfection{OffsetNorm::rms, 0.0}),
+     "/model/imperfections/0/amplitude", "out_of_range"},
+    {"WorstAmplitudeNan", SPOIL(m.imperfections[0] = WorstImperfection{OffsetNorm::max, kNan}),
+     "/model/imperfections/0/amplitude", "out_of_range"},
+    {"WorstTwice", SPOIL(m.imperfections.assign(2, WorstImperfection{OffsetNorm::rms, 1e-3})),
+     "/model/imperfections/1", "too_many"},
+    {"WorstLinearised", SPOIL(use_worst(m); a.type = AnalysisType::buckling), "/model/imperfections/0/type",
+     "not_supported"},
+    {"WorstOfSmallDisplacements",
+     SPOIL(use_worst(m); a.type = AnalysisType::static_; a.geometry = Geometry::linear),
+     "/model/imperfections/0/type", "not_supported"},
+    {"WorstOfAFallingLoad", SPOIL(use_worst(m); a.type = AnalysisType::path; a.step.direction = -1.0),
+     "/analysis/step/direction", "not_supported"},
+    {"WorstOfAGivenState", SPOIL(use_worst(m); start_with_a_state(m, a)), "/analysis/start", "not_supported"},
+    {"WorstOfManyMembers", SPOIL(use_worst(m); add_members(m, kMaxWorstMembers + 1)), "/model/members",
+     "too_many"},
     {"MonitorIdTwice", SPOIL(m.monitors.push_back(m.monitors[0])), "/model/monitors/2/id", "duplicate_id"},
     {"MonitorMemberUnknown", SPOIL(m.monitors[0].at.member = "z"), "/model/monitors/0/at/member",
      "unknown_reference"},

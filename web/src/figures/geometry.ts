@@ -181,11 +181,11 @@ function intervalsOf(curve: Curve, straight: boolean): number {
   }
 }
 
-/** Offset of the axis along its left normal at a fraction of its length: imperfections, those by modes left out. */
+/** Offset of the axis along its left normal at a fraction of its length: imperfections, those by modes and the worst left out. */
 function offsetOf(imperfections: readonly Imperfection[], member: string): ((fraction: number) => number) | null {
   const parts: ((fraction: number) => number)[] = [];
   for (const item of imperfections) {
-    if (item.type === "mode" || item.member !== member) continue;
+    if (item.type === "mode" || item.type === "worst" || item.member !== member) continue;
     if (item.type === "sine") {
       parts.push((f) => item.amplitude * Math.sin(item.half_waves * Math.PI * f));
       continue;
