@@ -10,7 +10,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Second differences of tangent products. Source: errors of truncation, of rounding and of the mesh.
+/// Differences of second derivatives. Source: errors of truncation, of rounding and of the mesh.
 struct KoiterLimits {
   static constexpr double longest = 2e-2;    ///< largest step, displacement gradient
   static constexpr double shorter = 0.25;    ///< ratio of successive steps
@@ -19,20 +19,19 @@ struct KoiterLimits {
   static constexpr double symmetric = 1e-5;  ///< slope per load factor that counts as zero
 };
 
-/// n.F'''[n, n, n] from second differences of tangent products, extrapolated; empty when not converged.
+/// n.F'''[n, n, n] from differences of n.F''[n, n], extrapolated; empty when not converged.
 std::optional<double> third_derivative(const BorderedPoint& point) {
   const CriticalSolution& at = point.at();
   const VectorXd n = at.null.col(0);
-  const auto product = [&](double e) {
-    return point.works(point.problem().tangent_product(at.y + e * n, at.lambda, n))[0];
+  const auto second = [&](double e) {
+    return point.works(point.problem().tangent_change(at.y + e * n, at.lambda, {n, 0.0}, n))[0];
   };
-  const double here = product(0.0);
-  const auto second = [&](double e) { return (product(e) - 2.0 * here + product(-e)) / (e * e); };
+  const auto third = [&](double e) { return (second(e) - second(-e)) / (2.0 * e); };
   double e = KoiterLimits::longest;
   for (int step = 0; step < KoiterLimits::most_steps; ++step, e *= KoiterLimits::shorter) {
-    const double coarse = second(e);
-    const double fine = second(0.5 * e);
-    const double rounding = Rounding::cancelled_sum * std::abs(at.lambda * at.B(0, 0)) / (e * e);
+    const double coarse = third(e);
+    const double fine = third(0.5 * e);
+    const double rounding = Rounding::cancelled_sum * std::abs(at.lambda * at.B(0, 0)) / e;
     if (std::abs(fine - coarse) <= KoiterLimits::settled * std::abs(fine) + rounding)
       return (4.0 * fine - coarse) / 3.0;
   }
