@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -134,6 +135,27 @@ void check_value_types(const Sweep& sweep, const SweepData& data, std::vector<Fi
   }
 }
 
+bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Returns whether a row of a followed curve has an output. Rows of a locus have no single critical load.
+bool is_output_of_curve(const SweepOutput& output, bool locus) {
+  const std::vector<std::string>& tokens = output.tokens;
+  if (tokens.size() == 2 && tokens[0] == "summary") {
+    return !locus && is_one_of(tokens[1], {"critical_load_factor", "critical_type"});
+  }
+  if (tokens.empty() || tokens[0] != "curve" || tokens.size() > 4) {
+    return false;
+  }
+  if (tokens.size() <= 2) {
+    return tokens.size() == 1 || is_one_of(tokens[1], {"critical_points", "events", "none_up_to"});
+  }
+  const bool is_list = is_one_of(tokens[1], {"critical_points", "events"}) && array_index(tokens[2]);
+  return is_list && (tokens.size() == 3 || is_one_of(tokens[3], {"load_factor", "type"}) ||
+                     (tokens[1] == "events" && tokens[3] == "value"));
+}
+
 }  // namespace
 
 void check_name(const SweepParameter& parameter, const Value& name) {
@@ -216,6 +238,9 @@ void check_follow(const SweepData& data, const Value& follow) {
     follow.report("not_supported",
                   "the values of a parameter that is followed are numbers, rising or falling");
   }
+  if ((data.followed.locus || data.followed.point) && data.parameters.back().count() < 2) {
+    follow.report("not_supported", "a point or a locus is followed over at least two values");
+  }
   const Json none = Json::object();
   const Json analysis = data.base.value("analysis", none);
   const Json mesh = analysis.is_object() ? analysis.value("discretization", none) : none;
@@ -234,10 +259,14 @@ void check_follow(const SweepData& data, const Value& follow) {
     follow.report("not_supported", "a worst imperfection is sought at each point anew: nothing is followed");
   }
   for (const SweepOutput& output : data.outputs) {
-    if (output.pointer != "/summary/critical_load_factor" && output.pointer != "/summary/critical_type") {
+    if (!is_output_of_curve(output, data.followed.locus)) {
       follow.report(
           "not_supported",
-          "a curve has /summary/critical_load_factor and /summary/critical_type, not " + output.pointer);
+          std::string(data.followed.locus
+                          ? "a locus has parts of /curve"
+                          : "a curve has /summary/critical_load_factor, /summary/critical_type and parts "
+                            "of /curve") +
+              " (critical_points, events, none_up_to), not " + output.pointer);
     }
   }
 }

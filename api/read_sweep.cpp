@@ -236,13 +236,35 @@ void read_outputs(Object& root, SweepData& data) {
   }
 }
 
+/// Reads the name of the parameter, or an object with the name and which critical points are followed.
+void read_followed(const Value& follow, std::string& name, SweepFollow& followed) {
+  if (!follow.is_object()) {
+    read(follow, name);
+    return;
+  }
+  Object in(follow);
+  in.required("parameter", name);
+  if (const auto point = in.find("point")) {
+    followed.point = 0;
+    read(*point, *followed.point);
+    if (*followed.point < 0) {
+      point->report("out_of_range", "critical points are counted from 0");
+    }
+  }
+  in.optional("locus", followed.locus);
+  if (followed.point && followed.locus) {
+    follow.report("excess_field", "follow has a point or a locus, not both");
+  }
+  in.finish();
+}
+
 void read_follow(Object& root, SweepData& data) {
   const auto follow = root.find("follow");
   if (!follow) {
     return;
   }
   std::string name;
-  read(*follow, name);
+  read_followed(*follow, name, data.followed);
   if (!follow->document_report().findings().empty()) {
     return;  // the check needs fields that have findings
   }
@@ -251,7 +273,6 @@ void read_follow(Object& root, SweepData& data) {
     return;
   }
   check_follow(data, *follow);
-  data.follow = true;
   data.unit_size = data.parameters.back().count();
 }
 
@@ -273,6 +294,7 @@ SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document, st
   } else {
     static_cast<void>(root.find("parameters"));  // marks it as known; its rules need the design
   }
+  data->follow = document->is_object() && document->contains("follow");
   const bool targets_known = report.findings().empty();
   read_outputs(root, *data);
   if (targets_known) {

@@ -176,7 +176,11 @@ std::string Sweep::curve_text(std::uint64_t point) const {
   for (std::uint64_t i = 0; i < unit_size(); ++i) {
     values.push_back(design_values(*data_, point - point % unit_size() + i).back());
   }
-  return "follow" + values.dump();
+  const SweepFollow& followed = data_->followed;
+  const std::string which = followed.locus   ? " locus"
+                            : followed.point ? " point " + std::to_string(*followed.point)
+                                             : "";
+  return "follow" + which + values.dump();
 }
 
 bool Sweep::looks_into(std::string_view part, std::string_view list) const {

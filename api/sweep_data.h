@@ -56,6 +56,12 @@ struct SweepOutput {
 
 enum class SweepDesign { grid, zip, latin_hypercube };
 
+/// Which critical points are followed over the last parameter.
+struct SweepFollow {
+  std::optional<int> point;  ///< counted from 0 along the path of the first value; empty: the first of each
+  bool locus = false;        ///< all curves of critical points, with their special points
+};
+
 struct SweepData {
   nlohmann::json base;  ///< object with model and analysis
   std::vector<SweepParameter> parameters;
@@ -63,7 +69,8 @@ struct SweepData {
   int samples = 1;  ///< number of points of a Latin hypercube
   int seed = 0;     ///< seed of a Latin hypercube
   std::vector<SweepOutput> outputs;
-  bool follow = false;          ///< the critical point is followed over the last parameter
+  bool follow = false;          ///< critical points are followed over the last parameter
+  SweepFollow followed;         ///< which ones, where `follow` is set
   std::uint64_t unit_size = 1;  ///< number of points computed together
   std::uint64_t points = 0;
 };

@@ -26,7 +26,7 @@ using SolvePoint = std::function<TimedResult(const Model&, const Analysis&, cons
 ///
 /// An invalid request has the outcome "wrong_request", a failed analysis its failure code. After a request to
 /// stop, at least one outcome is "cancelled" unless all points are complete. `solve` solves a point;
-/// follow_critical_point() (solver/sweep/critical_curve.h) computes a curve.
+/// follow_critical_point() or follow_critical_locus() (solver/sweep/) computes a curve.
 /// @param unit number of the unit, less than sweep.units()
 /// @param document document of any point of the sweep, which is overwritten; null creates a document
 /// An exception does not leave the function: it becomes the outcome of every point (mishap_now()).

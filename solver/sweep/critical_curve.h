@@ -20,7 +20,7 @@ struct CriticalCurveRequest {
   Analysis analysis;                   ///< type `critical` with a fixed mesh (elements and order)
   std::vector<double> values;          ///< ascending or descending, not empty
   bool logarithmic = false;            ///< extrapolates over the logarithm of the values, which are positive
-  int check_every = 40;                ///< values between checks by a traced path, >= 1
+  int check_every = 100;               ///< values between checks by a traced path, >= 1
   std::stop_token stop = {};           ///< on a stop request the remaining values get the failure "cancelled"
 };
 
@@ -29,8 +29,10 @@ struct CriticalCurvePoint {
   double value = 0.0;
   std::optional<double> load_factor;  ///< empty: no critical point, or a failure
   CriticalType type = CriticalType::limit_max;
-  bool followed = false;  ///< extrapolated from neighbouring values; false: its path was traced
+  bool followed = false;  ///< solved from neighbouring values; false: its path was traced
   std::string failure;    ///< failure code; empty unless the path could not be traced
+  /// Load factor up to which the traced path has no critical point; empty where one was found, or a failure.
+  std::optional<double> none_up_to;
 };
 
 struct CriticalCurve {
@@ -44,16 +46,15 @@ struct CriticalCurve {
 
 /// @brief Follows the first critical point over the values instead of tracing a path for each value.
 ///
-/// The critical point is predicted at the next value by extrapolating two equilibria shortly before and after
-/// it. Both are corrected on the model of that value. A limit point is the maximum of the cubic through their
-/// loads and load rates, with an error of fourth order in their distance; a bifurcation is the zero of the
-/// determinant on a parabola. The point is accepted when both equilibria exist with the expected inertia and
-/// the interpolation error is below 1e-8 of the load. Otherwise the increment of the value is halved, at most
-/// seven times; then the path is traced.
+/// The critical point of a value is predicted by the polynomial through those of neighbouring values and
+/// solved for on the structure of that value by Newton's method on the extended equations (LocusSolver), to
+/// 1e-10 of its load. One value in up to eight is solved with factors of its own; its inertia must be that
+/// of the known points. Values between use these factors, or their own where these converge slowly. Where
+/// that fails the increment of the value is halved, at most seven times; then the path is traced.
 ///
-/// At every `check_every`-th value and at the last, a traced path verifies that no earlier critical point
-/// exists; if its load differs by more than 1e-6, all values since the previous check are traced. Always
-/// traced: multiple points, points caused by contact, paths with pinned motions or touching supports.
+/// After `check_every` values and at the last, a traced path verifies that no earlier critical point exists;
+/// if its load differs by more than 1e-6, all values since the previous check are traced. Always traced:
+/// multiple points, points caused by contact, paths with pinned motions or touching supports.
 /// @throws std::invalid_argument when the request violates a precondition
 [[nodiscard]] CriticalCurve follow_critical_point(const CriticalCurveRequest& request);
 

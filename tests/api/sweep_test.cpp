@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "api/sweep_data.h"
 #include "api/sweep_table.h"
 #include "tests/api/documents.h"
 
@@ -382,6 +383,48 @@ TEST(Sweep, FollowsTheLastParameter) {
   EXPECT_EQ(between->at("/model/imperfections/0/amplitude"_json_pointer), 1.5e-4);
   EXPECT_EQ(outcome.sweep->curve_text(3), outcome.sweep->curve_text(5));
   EXPECT_EQ(read(sound_sweep()).sweep->unit_size(), 1U);
+}
+
+TEST(Sweep, FollowsANamedPointOrTheWholeLocus) {
+  json document = followed();
+  document["follow"] = {{"parameter", "a"}, {"point", 1}};
+  document["outputs"] = {"/summary/critical_load_factor", "/curve/none_up_to", "/curve/events"};
+  const SweepOutcome named = read(document);
+  ASSERT_THAT(named.findings, IsEmpty());
+  EXPECT_TRUE(named.sweep->follows());
+  EXPECT_EQ(named.sweep->data().followed.point, 1);
+  document["follow"] = {{"parameter", "a"}, {"locus", true}};
+  document["outputs"] = {"/curve/critical_points/1/load_factor", "/curve/events/0/value"};
+  const SweepOutcome locus = read(document);
+  ASSERT_THAT(locus.findings, IsEmpty());
+  EXPECT_TRUE(locus.sweep->data().followed.locus);
+  // stored rows of one are not rows of the other
+  EXPECT_NE(named.sweep->curve_text(0), locus.sweep->curve_text(0));
+  EXPECT_NE(named.sweep->curve_text(0), read(followed()).sweep->curve_text(0));
+}
+
+TEST(Sweep, SaysWhatIsWrongWithAPointOrALocus) {
+  const auto with = [](const json& follow, const std::string& output) {
+    json document = followed();
+    document["follow"] = follow;
+    document["outputs"] = {output};
+    return mistakes(document);
+  };
+  const std::string load = "/summary/critical_load_factor";
+  EXPECT_THAT(with({{"point", 0}}, load), ElementsAre("/follow/parameter missing_field"));
+  EXPECT_THAT(with({{"parameter", "k"}, {"point", 0}}, load), ElementsAre("/follow unknown_reference"));
+  EXPECT_THAT(with({{"parameter", "a"}, {"point", -1}}, load), ElementsAre("/follow/point out_of_range"));
+  EXPECT_THAT(with({{"parameter", "a"}, {"point", "first"}}, load), ElementsAre("/follow/point wrong_type"));
+  EXPECT_THAT(with({{"parameter", "a"}, {"locus", 1}}, load), ElementsAre("/follow/locus wrong_type"));
+  EXPECT_THAT(with({{"parameter", "a"}, {"loci", true}}, load), ElementsAre("/follow/loci unknown_field"));
+  EXPECT_THAT(with({{"parameter", "a"}, {"locus", true}, {"point", 0}}, "/curve/events"),
+              ElementsAre("/follow excess_field"));
+  EXPECT_THAT(with({{"parameter", "a"}, {"locus", true}}, load), ElementsAre("/follow not_supported"));
+  EXPECT_THAT(with({{"parameter", "a"}, {"locus", true}}, "/curve/folds"),
+              ElementsAre("/follow not_supported"));
+  json alone = sound_sweep();
+  alone["outputs"] = {"/curve/events"};
+  EXPECT_THAT(mistakes(alone), ElementsAre("/outputs/0 unknown_field"));
 }
 
 TEST(Sweep, SaysWhatCannotBeFollowed) {

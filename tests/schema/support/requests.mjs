@@ -148,5 +148,9 @@ export function sweeps() {
     {...base, design: {latin_hypercube: {samples: 4, seed: 1}}, parameters: [{...stiffness, range: {from: 1, to: 10, spacing: 'log'}}]},
     {...base, analysis: {type: 'critical', discretization: fixed}, outputs: ['/summary/critical_load_factor'], design: 'grid',
      parameters: [{...stiffness, range: {from: 1, to: 10, count: 5}}], follow: 'k'},
+    {...base, analysis: {type: 'critical', discretization: fixed}, outputs: ['/curve/critical_points', '/curve/none_up_to'], design: 'grid',
+     parameters: [{...stiffness, range: {from: 1, to: 10, count: 3}}], follow: {parameter: 'k', locus: true}},
+    {...base, analysis: {type: 'critical', discretization: fixed}, outputs: ['/summary/critical_load_factor'], design: 'grid',
+     parameters: [{...stiffness, range: {from: 1, to: 10, count: 3}}], follow: {parameter: 'k', point: 0}},
   ];
 }

@@ -184,6 +184,52 @@ TEST(CriticalCurve, DoesNotDependOnHowOftenItIsChecked) {
     EXPECT_EQ(*seldom.points[i].load_factor, *often.points[i].load_factor) << "bits, at value " << i;
 }
 
+/// A pinned arch under a crown load: a maximum and a minimum of the load up to EI = 254, none beyond.
+Model shallow_arch(double EI) {
+  Model model;
+  model.sections = {{"s", 420.0, EI, {}}};
+  const double half_span = 100.0 * std::sin(std::acos(-1.0) / 18.0);
+  model.nodes = {{"0", -half_span, 0.0}, {"1", half_span, 0.0}};
+  model.members.push_back({"arch", "0", "1", "s", ArcCurve{-20.0}, false, false});
+  for (const char* end : {"0", "1"}) {
+    Support support;
+    support.node = end;
+    support.x = support.y = true;
+    model.supports.push_back(support);
+  }
+  PointLoad load;
+  load.at = Location{};
+  load.at.member = "arch";
+  load.at.fraction = 0.5;
+  load.force = {0.0, -1.0};
+  model.loads.push_back(load);
+  return model;
+}
+
+TEST(CriticalCurve, BifurcationsBetweenPointsWithOwnFactorsAreAsAccurate) {
+  // Failed once by 4e-6: the convergence at one value was taken for that at its neighbours.
+  const CriticalCurveRequest request = request_for(shallow_arch, 0.42, 4.2, 25);
+  const CriticalCurve curve = follow_critical_point(request);
+  EXPECT_EQ(curve.points.front().type, CriticalType::bifurcation);
+  expect_as_traced(request, curve);
+  EXPECT_GE(curve.followed, 20);
+}
+
+TEST(CriticalCurve, SaysUpToWhichLoadAPathHasNone) {
+  CriticalCurveRequest request = request_for(shallow_arch, 120.0, 300.0, 13);
+  request.logarithmic = false;
+  const CriticalCurve curve = follow_critical_point(request);
+  ASSERT_EQ(curve.points.size(), 13U);
+  for (const CriticalCurvePoint& point : curve.points) {
+    const bool is_below_cusp = point.value < 254.153;
+    EXPECT_EQ(point.failure, "");
+    EXPECT_EQ(point.load_factor.has_value(), is_below_cusp) << point.value;
+    EXPECT_EQ(point.none_up_to.has_value(), !is_below_cusp) << point.value;
+    EXPECT_GT(point.none_up_to.value_or(100.0), 10.0) << point.value;
+  }
+  EXPECT_GE(curve.followed, 5);
+}
+
 TEST(CriticalCurve, RefusesWhatItCannotFollow) {
   CriticalCurveRequest request = request_for(one_arch, 1e-3, 1.0, 3);
   request.analysis.type = AnalysisType::path;

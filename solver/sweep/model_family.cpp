@@ -1,0 +1,35 @@
+#include "solver/sweep/model_family.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/analysis/analyses.h"
+
+namespace snapthrough {
+
+ModelFamily::ModelFamily(std::function<Model(double)> model, Analysis analysis, bool logarithmic, double from,
+                         double to)
+    : model_(std::move(model)),
+      analysis_(std::move(analysis)),
+      logarithmic_(logarithmic),
+      lowest_(coordinate_of(std::min(from, to))),
+      highest_(coordinate_of(std::max(from, to))),
+      value_lowest_(std::min(from, to)),
+      value_highest_(std::max(from, to)) {}
+
+double ModelFamily::coordinate_of(double value) const { return logarithmic_ ? std::log(value) : value; }
+
+double ModelFamily::value_at(double t) const {
+  // the rounding of the logarithm does not lead out of the values
+  return std::clamp(logarithmic_ ? std::exp(t) : t, value_lowest_, value_highest_);
+}
+
+std::shared_ptr<FamilyMember> ModelFamily::at(double t) const {
+  Model model = model_(value_at(t));
+  Structure structure = with_changed_model(reference_->structure, reference_->model, model,
+                                           mode_offsets(model, analysis_, reference_->structure.stop));
+  if (structure.size != reference_->structure.size) return nullptr;
+  return std::make_shared<FamilyMember>(std::move(model), std::move(structure));
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,62 @@
+#include "solver/sweep/traced_path.h"
+
+#include <utility>
+
+#include "solver/analysis/analyses.h"
+#include "solver/analysis/held_loads.h"
+#include "solver/discrete/free_motions.h"
+#include "solver/events/touching.h"
+#include "solver/support/law.h"
+
+namespace snapthrough {
+
+bool loads_are_held(const Model& model) {
+  return !has_one_sided_supports(model) || !start_refusal(model, UnilateralBalance(FreeMotions(model)));
+}
+
+TracedPath::TracedPath(Model model, const Analysis& analysis, const std::stop_token& stop,
+                       const FamilyMember* like)
+    : steps_(analysis.step) {
+  const ModeOffsets modes = mode_offsets(model, analysis);
+  Structure structure = like != nullptr ? with_changed_model(like->structure, like->model, model, modes)
+                                        : make_structure(model, analysis.discretization, analysis.geometry,
+                                                         modes, MeshUse::first);
+  structure.free_motions = FreeMotions(model).of_nodes();
+  structure.stop = stop;
+  set(std::move(model), std::move(structure));
+}
+
+void TracedPath::set(Model model, Structure structure) {
+  member_ = std::make_shared<FamilyMember>(std::move(model), std::move(structure));
+  follower_ = std::make_unique<PathFollower>(member_->problem);
+}
+
+PathStart TracedPath::start(Result& result) {
+  return start_of_path(member_->model, member_->structure, member_->problem, follower_->solver(), 1.0, {},
+                       result);
+}
+
+TraceOutcome TracedPath::run(const TraceRules& rules) {
+  if (!loads_are_held(member_->model)) {
+    failure_ = "not_held";
+    return {};
+  }
+  Result result;
+  auto first = start(result);
+  auto touching = with_least_piece(member_->model, member_->structure, member_->problem, follower_->norm(),
+                                   first, result);
+  if (touching) {
+    touches_ = true;
+    set(Model(member_->model), std::move(*touching));
+    first = start(result);
+  }
+  if (!first) {
+    failure_ = result.failure ? result.failure->code : "no_start";
+    return {};
+  }
+  TraceOutcome outcome = trace(*follower_, first.point, rules, steps_, {}, {});
+  if (outcome.end == TraceEnd::step_underflow) failure_ = "step_underflow";
+  return outcome;
+}
+
+}  // namespace snapthrough
