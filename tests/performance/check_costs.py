@@ -16,13 +16,13 @@ ACCURACY = [("shallow_arch", 4.0), ("deep_arch", 4.0), ("frame", 4.0), ("shallow
             ("ring_k1200", 8.0)]
 # (case, other case, most instructions of the first over the second): what one-sided contact may cost, and a
 # column that needs no mesh
-RATIOS = [("shallow_arch_k1e7", "shallow_arch", 2.5), ("column_with_spring", "shallow_arch", 0.03)]
+RATIOS = [("shallow_arch_k1e7", "deep_arch", 2.0), ("column_with_spring", "deep_arch", 0.03)]
 GROWTH = (100, 3000)  # elements
 MOST_GROWTH = 1.1  # power of the unknowns
 MEMORY = (5000, 15000)  # elements
 # (case, most bytes by unknown): growing has three unknowns each element to share what an element costs
 # order 1 has two soft motions of four numbers an unknown at both ends of a step
-MOST_BYTES = [("growing", 1300.0), ("growing3", 1000.0), ("growing5", 1000.0)]
+MOST_BYTES = [("growing", 1350.0), ("growing3", 1000.0), ("growing5", 1000.0)]
 
 
 def run(probe, case, argument, times, counted):

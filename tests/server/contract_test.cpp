@@ -72,6 +72,7 @@ bool needs_several_fields(const Finding& finding) {
                                             "not_fixed",          // fixed and displacement of a support
                                             "no_load",           "mechanism",  // the model as a whole
                                             "unsupported",     // pairs of fields that do not go together
+                                            "not_supported",   // imperfections and the analysis
                                             "not_increasing",  // one fraction and the one before
                                             "too_many_findings"};
   if (kCodes.contains(finding.code)) {
@@ -91,7 +92,8 @@ bool needs_several_fields(const Finding& finding) {
   return (finding.code == "empty" && pointer == "/model/supports") ||     // or springs or foundations
          (finding.code == "too_many" && field == "points_per_member") ||  // times members
          (finding.code == "too_many" && field == "elements") ||           // of all members
-         finding.detail.starts_with("no number of elements for member");  // ids of members
+         (finding.code == "too_many" && pointer.starts_with("/model/imperfections/")) ||  // of one type
+         finding.detail.starts_with("no number of elements for member");                  // ids of members
 }
 
 /// Whether the schema and the reader agree about a document, as far as a schema can.
