@@ -10,9 +10,9 @@ namespace {
 /// Largest text, in bytes, of a small document.
 constexpr std::size_t kSmall = 256 * 1024;
 
-/// Bytes for each unknown, a lower bound: measured peaks are 388 and more, which the test
+/// Bytes for each unknown, a lower bound: measured peaks are 860 and more with 7200 unknowns, which the test
 /// MemoryLimit.TheLeastIsBelowEveryPeak repeats.
-constexpr std::int64_t kLeastBytesByUnknown = 386;
+constexpr std::int64_t kLeastBytesByUnknown = 420;
 
 std::recursive_mutex& turn() {
   static std::recursive_mutex mutex;

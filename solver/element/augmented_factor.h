@@ -94,7 +94,7 @@ class AugmentedFactor {
   /// @brief x := L^-1 x in its first N entries; the six that follow become -B^T S^-1 x. @pre these are zero
   void forward(Vectors& x) const { forward_rows(x, std::make_integer_sequence<int, N>()); }
   /// @brief y := S^-1 (r - B sides) from x = L^-1 r; on entry y holds `sides` in its last six entries.
-  void backward(const Vectors& x, Vectors& y) const {
+  void backward(const std::array<Lanes, N>& x, Vectors& y) const {
     backward_rows(x, y, std::make_integer_sequence<int, N>());
   }
 
@@ -110,12 +110,12 @@ class AugmentedFactor {
     ((x[K + 1 + J] -= rows_[K][K + 1 + J] * f), ...);
   }
   template <int... K>
-  void backward_rows(const Vectors& x, Vectors& y, std::integer_sequence<int, K...>) const {
+  void backward_rows(const std::array<Lanes, N>& x, Vectors& y, std::integer_sequence<int, K...>) const {
     (backward_row<N - 1 - K>(x, y, std::make_integer_sequence<int, K + Matrix::kSides>()), ...);
   }
   /// The newest entry of y enters last.
   template <int K, int... J>
-  void backward_row(const Vectors& x, Vectors& y, std::integer_sequence<int, J...>) const {
+  void backward_row(const std::array<Lanes, N>& x, Vectors& y, std::integer_sequence<int, J...>) const {
     Lanes sum = x[K];
     ((sum -= rows_[K][Matrix::kRows - 1 - J] * y[Matrix::kRows - 1 - J]), ...);
     y[K] = sum * inverses_[K];

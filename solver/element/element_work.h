@@ -70,9 +70,9 @@ class ElementWorkOf final : public ElementWork {
   using ZetaLanes = std::array<Lanes, kZeta>;
   using GaussLanes = std::array<Lanes, P>;
 
-  /// Rotations, axis derivatives and strains at the Gauss points.
+  /// Rotations and strains at the Gauss points.
   struct Kinematics {
-    Gauss c, s, xp, yp, E, G, px, py;
+    Gauss c, s, E, G;
     Gauss e, g;  ///< strains: E and G minus their stress-free values, without cancellation
   };
   /// Changes of rotation, strains e and g, and section forces N and Q at the Gauss points.
@@ -93,11 +93,12 @@ class ElementWorkOf final : public ElementWork {
   /// Factored interior of an element: N active strains in the order e, (g,) k, with columns of (u_a, m).
   template <int N>
   struct Interior {
-    AugmentedFactor<N> factor;                     ///< factors of S
-    typename AugmentedFactor<N>::Vectors reduced;  ///< L^-1 times the last right-hand sides
+    AugmentedFactor<N> factor;     ///< factors of S
+    std::array<Lanes, N> reduced;  ///< L^-1 times the last right-hand sides
   };
 
   void find_kinematics(const Eigen::VectorXd& y);
+  void find_kinematics(const double* y, int first, int last);
   static void find_small_strains(const Shape& shape, const double* v, const double* b, Kinematics& kin);
   static void find_strains(const Shape& shape, const double* v, const double* sb, const double* cb,
                            Kinematics& kin);
@@ -123,12 +124,12 @@ class ElementWorkOf final : public ElementWork {
   void add_geometric(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const;
   template <int N>
   void add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S);
-  void collect_rows(int element, const Kinematics& kin, const double* y, double* residual);
+  void collect_rows(int element, const double* y, double* residual);
   [[nodiscard]] double pressure_of(const Shape& shape) const {
     return factors_.proportional * shape.pressure + factors_.constant * shape.constant_pressure;
   }
-  void add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, double pressure,
-                    const double* y, double* load) const;
+  void add_pressure(const Shape& shape, const ElementDofs& dofs, double pressure, const double* y,
+                    double* load) const;
   void collect_pressure(const Shape& shape, double pressure);
   void add_acting_product(const ElementDofs& dofs, const double* direction, double* out) const;
   void add_pressure_product(const Shape& shape, const ElementDofs& dofs, double pressure,
@@ -165,7 +166,7 @@ class ElementWorkOf final : public ElementWork {
   bool linear_ = false;  ///< true: small displacements in the current call
   LoadFactors factors_;  ///< factors on the pressures in the current call
   double support_rounding_ = 0.0;
-  Angles turns_;                        ///< rotations of the elements' Gauss points, one after the other
+  Angles turns_;                        ///< rotations of some elements' Gauss points, one after the other
   std::vector<Kinematics> kinematics_;  ///< at kinematics_at_
   Eigen::VectorXd kinematics_at_;       ///< unknowns of the last find_kinematics()
   std::vector<std::vector<ElementPart>> parts_;  ///< in contact at kinematics_at_, where parts_known_
@@ -208,12 +209,20 @@ void ElementWorkOf<P>::find_kinematics(const Eigen::VectorXd& y) {
   kinematics_at_ = y;
   parts_known_.assign(contacts_.size(), 0);
   kinematics_linear_ = linear_;
-  const std::size_t count = lanes_for(shapes_.size() * P);
-  for (auto* list : {&turns_.angle, &turns_.sine, &turns_.cosine}) list->resize(count, Lanes::Zero());
   kinematics_.resize(shapes_.size());
+  constexpr int kAtOnce = 64;  // elements whose sines are found together
+  for (int first = 0; first < size(); first += kAtOnce)
+    find_kinematics(y.data(), first, std::min(first + kAtOnce, size()));
+}
+
+/// Finds the kinematics of the elements from `first` to before `last`.
+template <int P>
+void ElementWorkOf<P>::find_kinematics(const double* y, int first, int last) {
+  const std::size_t count = lanes_for(static_cast<std::size_t>(last - first) * P);
+  for (auto* list : {&turns_.angle, &turns_.sine, &turns_.cosine}) list->resize(count, Lanes::Zero());
   double* turn = turns_.angle.front().data();
-  for (int e = 0; e < size(); ++e) {
-    const double* curvature = y.data() + dofs_[e].v + 2 * P;
+  for (int e = first; e < last; ++e) {
+    const double* curvature = y + dofs_[e].v + 2 * P;
     for (int q = 0; q < P; ++q) {
       double sum = 0.0;
       for (int r = 0; r < P; ++r) sum += a_[q][r] * curvature[r];
@@ -221,14 +230,13 @@ void ElementWorkOf<P>::find_kinematics(const Eigen::VectorXd& y) {
     }
   }
   if (!linear_) find_sines(turns_);
-  for (int e = 0; e < size(); ++e) {
-    const std::size_t first = static_cast<std::size_t>(e) * P;
+  for (int e = first; e < last; ++e) {
+    const std::size_t at = static_cast<std::size_t>(e - first) * P;
     if (linear_)
-      find_small_strains(shapes_[e], y.data() + dofs_[e].v, turns_.angle.front().data() + first,
-                         kinematics_[e]);
+      find_small_strains(shapes_[e], y + dofs_[e].v, turns_.angle.front().data() + at, kinematics_[e]);
     else
-      find_strains(shapes_[e], y.data() + dofs_[e].v, turns_.sine.front().data() + first,
-                   turns_.cosine.front().data() + first, kinematics_[e]);
+      find_strains(shapes_[e], y + dofs_[e].v, turns_.sine.front().data() + at,
+                   turns_.cosine.front().data() + at, kinematics_[e]);
   }
 }
 
@@ -239,14 +247,10 @@ void ElementWorkOf<P>::find_small_strains(const Shape& shape, const double* v, c
   for (int q = 0; q < P; ++q) {
     kin.c[q] = shape.cos0[q];
     kin.s[q] = shape.sin0[q];
-    kin.xp[q] = shape.tx[q];
-    kin.yp[q] = shape.ty[q];
     kin.e[q] = shape.cos0[q] * v[q] + shape.sin0[q] * v[P + q] + shape.g0[q] * b[q];
     kin.g[q] = -shape.sin0[q] * v[q] + shape.cos0[q] * v[P + q] - shape.e0[q] * b[q];
     kin.E[q] = shape.e0[q] + kin.e[q];
     kin.G[q] = shape.g0[q] + kin.g[q];
-    kin.px[q] = -shape.ty[q];
-    kin.py[q] = shape.tx[q];
   }
 }
 
@@ -259,14 +263,10 @@ void ElementWorkOf<P>::find_strains(const Shape& shape, const double* v, const d
     const double less = cb[q] > 0.0 ? -sb[q] * sb[q] / (1.0 + cb[q]) : cb[q] - 1.0;
     kin.c[q] = shape.cos0[q] * cb[q] - shape.sin0[q] * sb[q];
     kin.s[q] = shape.sin0[q] * cb[q] + shape.cos0[q] * sb[q];
-    kin.xp[q] = shape.tx[q] + v[q];
-    kin.yp[q] = shape.ty[q] + v[P + q];
     kin.e[q] = v[q] * kin.c[q] + v[P + q] * kin.s[q] + less * shape.e0[q] + sb[q] * shape.g0[q];
     kin.g[q] = -v[q] * kin.s[q] + v[P + q] * kin.c[q] + less * shape.g0[q] - sb[q] * shape.e0[q];
     kin.E[q] = shape.e0[q] + kin.e[q];
     kin.G[q] = shape.g0[q] + kin.g[q];
-    kin.px[q] = -kin.yp[q];
-    kin.py[q] = kin.xp[q];
   }
 }
 
@@ -419,12 +419,12 @@ void ElementWorkOf<P>::add_rows(const Shape& shape, const Tangent& t, AugmentedM
 
 /// Collects acting supports and pressure at y as rows in strains, and adds their forces to the residual.
 template <int P>
-void ElementWorkOf<P>::collect_rows(int element, const Kinematics& kin, const double* y, double* residual) {
+void ElementWorkOf<P>::collect_rows(int element, const double* y, double* residual) {
   const Shape& shape = shapes_[element];
   acting_.clear();
   if (shape.spring_count > 0 || shape.contact_count > 0) add_support_residual(element, y, residual, true);
   if (const double pressure = pressure_of(shape); pressure != 0.0) {
-    add_pressure(shape, dofs_[element], kin, -pressure, y, residual);
+    add_pressure(shape, dofs_[element], -pressure, y, residual);
     if (!linear_) collect_pressure(shape, pressure);
   }
   Tangent& t = tangents_[element];
@@ -448,14 +448,15 @@ void ElementWorkOf<P>::linearise_element(int element, const double* y, double* r
   Tangent& t = tangents_[element];
   t.c = kin.c;
   t.s = kin.s;
-  t.px = kin.px;
-  t.py = kin.py;
   for (int q = 0; q < P; ++q) {
+    const double moves = linear_ ? 0.0 : 1.0;
+    t.px[q] = -(shape.ty[q] + moves * y[dofs.v + P + q]);
+    t.py[q] = shape.tx[q] + moves * y[dofs.v + q];
     t.n[q] = linear_ ? 0.0 : shape.hb[q] * y[dofs.s + q];
     t.t[q] = linear_ ? 0.0 : shape.hb[q] * y[dofs.s + P + q];
     t.w[q] = t.n[q] * kin.E[q] + t.t[q] * kin.G[q];
   }
-  collect_rows(element, kin, y, residual);
+  collect_rows(element, y, residual);
   AugmentedMatrix<N> S;
   S.set_zero();
   for (int i = 0; i < N; ++i) S(i, i) = shape.hb[i % P];
@@ -489,7 +490,7 @@ void ElementWorkOf<P>::add_residual(const Eigen::VectorXd& y, const LoadFactors&
     const Kinematics& kin = kinematics_[e];
     add_strain_residual(shapes_[e], dofs_[e], kin, y.data(), residual.data());
     if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
-      add_pressure(shapes_[e], dofs_[e], kin, -pressure, y.data(), residual.data());
+      add_pressure(shapes_[e], dofs_[e], -pressure, y.data(), residual.data());
     if (shapes_[e].spring_count > 0 || shapes_[e].contact_count > 0)
       add_support_residual(e, y.data(), residual.data(), false);
   }

@@ -70,13 +70,15 @@ void ElementWorkOf<P>::reduce_element(int element, const ColumnLanes& rhs, Inter
   }
   for (int c = 0; c < 3; ++c) out.rm[c] = rhs[dofs.m + c];
   if (strained) subtract_strains(shape, tangents_[element], d, tau, out.rm);
-  for (int i = 0; i < N; ++i) interior.reduced[i] = shape.root[active<N>(i)] * tau[active<N>(i)];
-  for (int i = N; i < N + 6; ++i) interior.reduced[i] = Lanes::Zero();
-  interior.factor.forward(interior.reduced);
+  typename AugmentedFactor<N>::Vectors x;
+  for (int i = 0; i < N; ++i) x[i] = shape.root[active<N>(i)] * tau[active<N>(i)];
+  for (int i = N; i < N + 6; ++i) x[i] = Lanes::Zero();
+  interior.factor.forward(x);
   for (int c = 0; c < 3; ++c) {
-    out.ra[c] = tau[kStrains + c] + interior.reduced[N + c];
-    out.rm[c] += interior.reduced[N + 3 + c];
+    out.ra[c] = tau[kStrains + c] + x[N + c];
+    out.rm[c] += x[N + 3 + c];
   }
+  std::copy_n(x.begin(), N, interior.reduced.begin());
 }
 
 template <int P>

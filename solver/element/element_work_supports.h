@@ -112,8 +112,14 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
 /// minus the surplus of that derivative at the element ends: nodal forces, which cancel between neighbours
 /// with equal pressure or are carried by supports. The symmetric tangent is therefore exact inside elements.
 template <int P>
-void ElementWorkOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin,
-                                    double pressure, const double* y, double* load) const {
+void ElementWorkOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs, double pressure,
+                                    const double* y, double* load) const {
+  Gauss xp;  // derivative of the axis
+  Gauss yp;
+  for (int q = 0; q < P; ++q) {
+    xp[q] = shape.tx[q] + (linear_ ? 0.0 : y[dofs.v + q]);
+    yp[q] = shape.ty[q] + (linear_ ? 0.0 : y[dofs.v + P + q]);
+  }
   double place[2][P];  // position relative to the element's stress-free start
   double chord[2] = {0.0, 0.0};
   for (int q = 0; q < P; ++q) {
@@ -121,14 +127,14 @@ void ElementWorkOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs,
     chord[1] += shape.hb[q] * shape.ty[q];
     for (int c = 0; c < 2; ++c) place[c][q] = linear_ ? 0.0 : y[dofs.a[c]];
     for (int r = 0; r < P; ++r) {
-      place[0][q] += shape.h * a_[q][r] * kin.xp[r];
-      place[1][q] += shape.h * a_[q][r] * kin.yp[r];
+      place[0][q] += shape.h * a_[q][r] * xp[r];
+      place[1][q] += shape.h * a_[q][r] * yp[r];
     }
   }
   for (int q = 0; q < P; ++q) {
     const double w = 0.5 * pressure * shape.hb[q];
-    const double fx = w * kin.yp[q];
-    const double fy = -w * kin.xp[q];
+    const double fx = w * yp[q];
+    const double fy = -w * xp[q];
     load[dofs.a[0]] += fx;
     load[dofs.a[1]] += fy;
     load[dofs.v + q] -= w * place[1][q];
@@ -154,10 +160,9 @@ void ElementWorkOf<P>::add_pressure_load(const Eigen::VectorXd& y, const LoadFac
   regime.small_displacements = small_displacements;
   begin(factors, regime);
   if (!data_.pressed) return;
-  find_kinematics(y);
   for (int e = 0; e < size(); ++e)
     if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
-      add_pressure(shapes_[e], dofs_[e], kinematics_[e], pressure, y.data(), out.data());
+      add_pressure(shapes_[e], dofs_[e], pressure, y.data(), out.data());
 }
 
 /// Appends the symmetric part of the follower tangent, minus pressure times the second derivative of the area

@@ -30,24 +30,22 @@ struct NewtonLimits {
   static constexpr double longest = 64.0;  ///< largest factor on a correction
 };
 
-/// Computes one bordered Newton correction with the current factors into work.correction; returns dlambda.
+/// Computes one bordered Newton correction with the current factors into work.correction(); returns dlambda.
 double find_correction(EquilibriumProblem& problem, const SideCondition& side, const Eigen::VectorXd& y,
                        double lambda, Workspace& work) {
   work.block.resize(y.size(), 2);
-  problem.load(y, lambda, work.load_response);
-  work.block.col(0) = -work.residual;
-  work.block.col(1) = work.load_response;
+  problem.load(y, lambda, work.trial);
+  work.correction() = -work.residual;
+  work.load_response() = work.trial;
   problem.solve(work.block);
-  work.correction = work.block.col(0);
-  work.load_response = work.block.col(1);
   double along = 0.0;
   double denominator = side.normal_lambda;
   if (side.normal.size() > 0) {
-    along = side.normal.dot(work.correction);
-    denominator += side.normal.dot(work.load_response);
+    along = side.normal.dot(work.correction());
+    denominator += side.normal.dot(work.load_response());
   }
   const double dlambda = -along / denominator;
-  work.correction += dlambda * work.load_response;
+  work.correction() += dlambda * work.load_response();
   return dlambda;
 }
 
@@ -56,12 +54,12 @@ double find_correction(EquilibriumProblem& problem, const SideCondition& side, c
 /// cycle between contact states.
 double least_energy(EquilibriumProblem& problem, const Regime& regime, const Eigen::VectorXd& y,
                     double lambda, Workspace& work) {
-  const double at_start = work.residual.dot(work.correction);
+  const double at_start = work.residual.dot(work.correction());
   if (!(at_start < 0.0)) return 1.0;
   const auto work_at = [&](double share) {
-    work.trial = y + share * work.correction;
+    work.trial = y + share * work.correction();
     problem.residual(work.trial, lambda, work.residual, regime);
-    return work.residual.dot(work.correction);
+    return work.residual.dot(work.correction());
   };
   double low = 0.0;
   double high = 1.0;
@@ -94,7 +92,7 @@ double least_energy(EquilibriumProblem& problem, const Regime& regime, const Eig
 bool take_last(EquilibriumProblem& problem, const CorrectorOptions& options, bool exact, Eigen::VectorXd& y,
                double& lambda, double dlambda, double correction, const CorrectorOutcome& out,
                Workspace& work) {
-  work.trial = y + work.correction;
+  work.trial = y + work.correction();
   if (exact || problem.one_sided()) {
     problem.residual(work.trial, lambda + dlambda, work.residual, options.regime);
     const double size = problem.relative_residual(work.residual, work.trial, lambda + dlambda);
@@ -200,7 +198,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
     out.relative_residual = residual;
     if (!std::isfinite(residual)) return out;
     const double dlambda = find_correction(problem, side, y, lambda, work);
-    const double size = metric.norm(work.correction, dlambda);
+    const double size = metric.norm(work.correction(), dlambda);
     if (!std::isfinite(size)) return out;
     const bool last = progress.is_last(it, size, residual);
     if (it == 0) {
@@ -220,7 +218,7 @@ CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric, 
       return out;
     }
     const double share = options.least_energy ? least_energy(problem, options.regime, y, lambda, work) : 1.0;
-    y += share * work.correction;
+    y += share * work.correction();
     lambda += share * dlambda;
     if (size > options.largest_correction * scale) return out;
     if (!progress.goes_on(size, share, residual)) break;

@@ -85,16 +85,19 @@ struct CorrectorOutcome {
 
 /// @brief Scratch vectors of the corrector and the predictor.
 struct Workspace {
-  Eigen::VectorXd residual, correction, load_response, trial;
-  Eigen::MatrixXd block;  ///< right-hand sides that are solved together
+  Eigen::VectorXd residual, trial;
+  Eigen::MatrixXd block;  ///< the correction, and J^-1 load: solved together
+
+  [[nodiscard]] auto correction() { return block.col(0); }
+  [[nodiscard]] auto load_response() { return block.col(1); }
 };
 
 /// @brief Corrects (y, lambda) in place.
 ///
 /// Each iteration factorises once and solves twice (bordering). The last correction uses the last factors, so
-/// that the point is more accurate than the tolerance; `work.load_response` is J^-1 load with these factors,
-/// for the tangent. With `least_energy` (fixed load, small displacements) each correction ends where the
-/// forces do no work along it; the energy of one-sided supports is convex and decreases monotonically.
+/// that the point is more accurate than the tolerance; `work.load_response()` is J^-1 load with these
+/// factors, for the tangent. With `least_energy` (fixed load, small displacements) each correction ends where
+/// the forces do no work along it; the energy of one-sided supports is convex and decreases monotonically.
 /// @param scale norm of the step that led to the starting point
 [[nodiscard]] CorrectorOutcome correct(EquilibriumProblem& problem, const PathMetric& metric,
                                        const SideCondition& side, double scale,

@@ -67,9 +67,10 @@ void PointSolver::set_tangent(PathPoint& point, const LoadResponse& response, do
 void PointSolver::set_tangent(PathPoint& point, const CorrectorOutcome& outcome, int before,
                               const VectorXd& direction, double direction_lambda) {
   const PathMetric& metric = norm_.metric();
-  const double norm = metric.norm(work_.load_response, 1.0);
-  const double sign = metric.inner(work_.load_response, 1.0, direction, direction_lambda) < 0.0 ? -1.0 : 1.0;
-  point.tangent = (sign / norm) * work_.load_response;
+  const double norm = metric.norm(work_.load_response(), 1.0);
+  const double sign =
+      metric.inner(work_.load_response(), 1.0, direction, direction_lambda) < 0.0 ? -1.0 : 1.0;
+  point.tangent = (sign / norm) * work_.load_response();
   point.tangent_lambda = sign / norm;
   point.negative = count_next_to(before, outcome.tangent);
   point.log_abs_det = outcome.tangent.log_abs_det;

@@ -29,24 +29,25 @@ struct Block {
   MatrixXd x;
 };
 
+/// a.W b with the diagonal W of the metric.
+template <class A, class B>
+double inner(const VectorXd& weights, const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
+  return (a.array() * weights.array() * b.array()).sum();
+}
+
 /// Makes the motions orthonormal in the metric; columns that depend on earlier ones are dropped.
-/// @param weighted scratch
-void orthonormalise(const VectorXd& weights, Block& block, MatrixXd& weighted) {
+void orthonormalise(const VectorXd& weights, Block& block) {
   constexpr double kDependent = 1e-12;
   Index kept = 0;
-  weighted.resize(block.z.rows(), block.z.cols());  // W z of the columns that are kept
   for (Index i = 0; i < block.z.cols(); ++i) {
     auto z = block.z.col(i);
     auto x = block.x.col(i);
-    const auto norm = [&] {
-      weighted.col(kept) = weights.cwiseProduct(z);
-      return std::sqrt(weighted.col(kept).dot(z));
-    };
+    const auto norm = [&] { return std::sqrt(inner(weights, z, z)); };
     const double size = norm();
     double left = size;
     for (int pass = 0; pass < 2; ++pass) {  // twice is enough where the first cancelled most of the column
       for (Index j = 0; j < kept; ++j) {
-        const double along = weighted.col(j).dot(z);
+        const double along = inner(weights, block.z.col(j), z);
         z -= along * block.z.col(j);
         x -= along * block.x.col(j);
       }
@@ -56,12 +57,10 @@ void orthonormalise(const VectorXd& weights, Block& block, MatrixXd& weighted) {
     if (!(left > kDependent * size)) continue;
     block.z.col(kept) = z / left;
     block.x.col(kept) = x / left;
-    weighted.col(kept) /= left;
     ++kept;
   }
   block.z.conservativeResize(Eigen::NoChange, kept);
   block.x.conservativeResize(Eigen::NoChange, kept);
-  weighted.conservativeResize(Eigen::NoChange, kept);
 }
 
 MatrixXd first_block(const VectorXd& weights, const MatrixXd& start, Index count) {
@@ -81,13 +80,12 @@ struct Ritz {
   MatrixXd vectors;  ///< columns, shares of the block's motions
 };
 
-/// @param weighted W z
-Ritz ritz_pairs(const Block& block, const MatrixXd& weighted) {
+Ritz ritz_pairs(const VectorXd& weights, const Block& block) {
   // z.J z = z.W x
   const Index k = block.z.cols();
   MatrixXd projected(k, k);
   for (Index i = 0; i < k; ++i)
-    for (Index j = 0; j < k; ++j) projected(i, j) = weighted.col(i).dot(block.x.col(j));
+    for (Index j = 0; j < k; ++j) projected(i, j) = inner(weights, block.z.col(i), block.x.col(j));
   const SymmetricEigen found = symmetric_eigen(symmetric_part(projected));
   std::vector<Index> order(static_cast<std::size_t>(k));
   std::iota(order.begin(), order.end(), Index{0});
@@ -102,15 +100,14 @@ SoftModes soft_modes(EquilibriumProblem& problem, const MatrixXd& start, Index c
   const VectorXd& weights = problem.metric();
   Block block{MatrixXd(), first_block(weights, start, count)};
   SoftModes out;
-  MatrixXd weighted;
   for (int it = 1; it <= iterations; ++it) {
     block.z.resize(block.x.rows(), block.x.cols());
     for (Index i = 0; i < block.x.cols(); ++i) problem.metric_forces(block.x.col(i), block.z.col(i));
     problem.solve(block.z);
     if (!std::isfinite(block.z.cwiseAbs().sum())) return {};
-    orthonormalise(weights, block, weighted);
+    orthonormalise(weights, block);
     if (block.z.cols() == 0) return {};  // the tangent stiffness is so singular that no norm is finite
-    const Ritz pairs = ritz_pairs(block, weighted);
+    const Ritz pairs = ritz_pairs(weights, block);
     const Index wanted = it < iterations ? pairs.values.size() : std::min(count, pairs.values.size());
     out.stiffness = pairs.values.head(wanted);
     block.x.setZero(block.z.rows(), wanted);

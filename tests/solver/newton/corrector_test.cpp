@@ -74,7 +74,7 @@ TEST(Corrector, EndsOnThePathAndOnTheSideCondition) {
   EXPECT_NEAR(y[1], 0.0, 1e-13);
   EXPECT_EQ(outcome.tangent.negative, 0);
   // J^-1 load with the last factors, which the path's tangent is made of: (1 / (1 - a), 0)
-  EXPECT_NEAR(work.load_response[0], 1.0 / (std::sqrt(3.0) - 1.0), 1e-6);
+  EXPECT_NEAR(work.load_response()[0], 1.0 / (std::sqrt(3.0) - 1.0), 1e-6);
 }
 
 /// 3, 2.17, 2.0064, 2.00001, 2 + 2.6e-11: the tolerance is met by the error that is left, and no correction
