@@ -33,6 +33,8 @@ struct CriticalLimits {
   /// Largest distance in the load factor at which the stiffness of another motion counts as vanishing.
   static constexpr double near = 1e-3;
   static constexpr int null_iterations = 2;  ///< inverse iterations for another null motion
+  /// Distance from the point of the factors that find another null motion, over the load factor.
+  static constexpr double beside = 1e-6;
 };
 
 VectorXd eigenvalues(const MatrixXd& m) { return symmetric_eigenvalues(symmetric_part(m)); }
@@ -332,11 +334,14 @@ std::optional<CriticalSolution> CriticalNewton::run(int& factorisations) {
   return std::move(settled_);
 }
 
-/// Finds a further motion that loses its stiffness at the bifurcation, by inverse iteration with the last
-/// factors; empty when there is none.
+/// Finds a further motion that loses its stiffness at the bifurcation, by inverse iteration with factors
+/// beside it on the path; empty when there is none. Factors at the bifurcation itself have no digits left
+/// once it is found to rounding.
 VectorXd CriticalNewton::another_null_motion(const CriticalSolution& at) {
   const Index k = at.null.cols();
   if (k == (problem_.metric().array() > 0.0).count()) return {};
+  const double step = CriticalLimits::beside * std::max(std::abs(at.lambda), options_.least_load);
+  problem_.linearise(at.y + step * at.response, at.lambda + step, residual_);
   const MatrixXd border = problem_.metric().asDiagonal() * at.null;
   VectorXd x = pseudo_random(at.y.size(), static_cast<unsigned>(k + 1));
   VectorXd force(x.size());
@@ -368,6 +373,7 @@ std::optional<CriticalSolution> solve_bifurcation(EquilibriumProblem& problem, c
     CriticalNewton newton(problem, metric, wider, options, true);
     auto found = newton.run(factorisations);
     if (!found) return best;
+    ++factorisations;
     const VectorXd another = newton.another_null_motion(*found);
     if (another.size() == 0) return found;
     // restart from the guess: at a multiple bifurcation the factors have no accurate digits
