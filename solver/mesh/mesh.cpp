@@ -82,31 +82,15 @@ struct ChosenMesh {
 /// Elements of a piece are equal, so that a ring keeps its symmetry and its bifurcations. Their number is
 /// odd: an element of half a half-wave length buckles as a cantilever at the member's load, which costs most
 /// digits in its elimination; 2 n equal elements per member have this defect in the n-th mode.
-///
-/// `first` has the least number of elements for the accuracy `for_accuracy`. For another accuracy this number
-/// grows by the ratio of both to the power 1 / (2 order), because errors are of order 2 order in the length.
 struct MeshRules {
-  static constexpr ChosenMesh first{5, 60.0, 3.0, 1.0, true};
+  static constexpr ChosenMesh first{5, 60.0, 3.0, 3.0, true};
   static constexpr ChosenMesh path{5, 60.0, 3.0, 5.0, true};
   static constexpr ChosenMesh final{4, 25.0, 1.0, 8.0, false};
-  static constexpr double for_accuracy = 1e-3;
-  static constexpr double least_accuracy = 1e-6;  ///< the number does not grow for finer ones
-  /// Elements per member whose multiple bounds the number of elements on a one-sided foundation.
-  static constexpr double bounded_least = 3.0;
   static constexpr double elements = 4000;           ///< most elements of a piece, and of a refined mesh
   static constexpr double elements_per_member = 16;  ///< most elements over members, of models with many
   /// Least width of an element in a layer, fraction of a member: element ends then keep ten digits.
   static constexpr double layer_width = 1e-6;
 };
-
-/// Rule of a purpose, for an accuracy.
-ChosenMesh rule_for(MeshUse use, double accuracy) {
-  if (use != MeshUse::first) return use == MeshUse::path ? MeshRules::path : MeshRules::final;
-  ChosenMesh rule = MeshRules::first;
-  const double ratio = MeshRules::for_accuracy / std::max(accuracy, MeshRules::least_accuracy);
-  rule.least *= std::pow(ratio, 1.0 / (2.0 * rule.order));
-  return rule;
-}
 
 /// Intervals of the spline through the offsets and the ends of the member.
 double intervals_of(const PointsImperfection& points) {
@@ -122,7 +106,7 @@ int default_count(const ChosenMesh& rule, const Model& model, int member, const 
   const double length = (to - from) * axis.length();
   const double turn = axis.turning(from * axis.length(), to * axis.length());
   const double turns = turn / (rule.turn * std::numbers::pi / 180.0);
-  const double enough = finest * std::max(MeshRules::bounded_least * (to - from), turns);
+  const double enough = finest * std::max(MeshRules::first.least * (to - from), turns);
   double n = std::max(rule.least * (to - from), turns);
   const double EI = model.sections[index_of(model.sections, m.section)].EI;
   for (const Foundation& foundation : model.foundations) {
@@ -171,9 +155,7 @@ void add_layered(std::vector<MeshElement>& out, const MeshElement& element, bool
 
 MeshUse mesh_use(const Analysis& analysis) {
   if (analysis.type == AnalysisType::critical) return MeshUse::first;
-  // a path to its first limit point is the search for one critical point, too
-  if (analysis.type == AnalysisType::path)
-    return analysis.stop.limit_points == 1 ? MeshUse::first : MeshUse::path;
+  if (analysis.type == AnalysisType::path) return MeshUse::path;
   // several buckling modes need many elements anyway
   const bool one_mode = analysis.type == AnalysisType::buckling && analysis.modes == 1;
   return one_mode ? MeshUse::first : MeshUse::final;
@@ -188,7 +170,9 @@ std::array<double, 2> part_of(const MeshElement& element, std::array<double, 2> 
 }
 
 Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes, MeshUse use) {
-  const ChosenMesh rule = rule_for(use, discretization.accuracy);
+  const ChosenMesh& rule = use == MeshUse::first  ? MeshRules::first
+                           : use == MeshUse::path ? MeshRules::path
+                                                  : MeshRules::final;
   Mesh mesh;
   mesh.order = discretization.fixed_mesh ? discretization.order : rule.order;
   mesh.foundation = discretization.fixed_mesh ? discretization.foundation : FoundationRule::consistent;

@@ -50,10 +50,10 @@ enum class MeshUse {
 /// Elements end at the places of loads and springs, at ends of ranges and at spline knots. A fixed number of
 /// elements is distributed over the pieces between these places by length, at least one each; if fewer
 /// elements than pieces are given, the elements are equal and actions lie inside elements. Otherwise the
-/// number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of foundations, the half
-/// waves or intervals of imperfections and, for MeshUse::first, the accuracy. If the mesh will be refined,
-/// one-sided foundations get no more elements than the accuracy needs and act with the stiffness that these
-/// resolve (`Mesh::decay_lengths`); the error in a load is of third order in their length.
+/// number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of foundations, and the
+/// half waves or intervals of imperfections. If the mesh will be refined, one-sided foundations get no more
+/// elements than the accuracy needs and act with the stiffness that these resolve (`Mesh::decay_lengths`);
+/// the error in a load is of third order in their length.
 /// @param use purpose of the mesh, unless it is fixed
 [[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
                              MeshUse use = MeshUse::final);
