@@ -41,39 +41,11 @@ Case shallow_arch(const std::string& name, double k, double load, double target)
 
 /// Half a ring in a medium outside, under its weight.
 Case ring(const std::string& name, double k, double load, double target) {
-  constexpr double kRadius = 10.0;
-  constexpr double kEI = 30e3;
-  Case out{name, {}, first_limit_point(), load, target};
-  Model& model = out.model;
-  model.nodes = {{"bottom", 0.0, -kRadius}, {"top", 0.0, kRadius}};
-  model.sections = {{"s", 36e6, kEI, {}}};
-  model.members = {{"m", "bottom", "top", "s", ArcCurve{180.0}, false, false}};
-  model.supports = {{"bottom", true, false, true, 0.0, {}}, {"top", true, false, true, 0.0, {}}};
-  Foundation soil;
-  soil.id = "soil";
-  soil.member = "m";
-  soil.stiffness = k * kEI / std::pow(kRadius, 4);
-  soil.reaction = Reaction::compression_only;
-  soil.side = Side::right;
-  model.foundations = {soil};
-  model.loads = {DistributedLoad{
-      "m", {0.0, -kEI / std::pow(kRadius, 3)}, {0.0, 1.0}, LoadMeasure::length, Pattern::proportional}};
-  return out;
+  return {name, testing::half_ring_in_medium(k, 36e6), first_limit_point(), load, target};
 }
 
 /// Lee's frame, inextensible.
-Case frame() {
-  constexpr double kLength = 120.0;
-  Case out{"frame", {}, first_limit_point(), 18.55874653948, 0.0};
-  Model& model = out.model;
-  model.nodes = {{"foot", 0.0, 0.0}, {"corner", 0.0, kLength}, {"end", kLength, kLength}};
-  model.sections = {{"s", 4.32e17, 1.44e7, {}}};
-  model.members = {{"column", "foot", "corner", "s", LineCurve{}, false, false},
-                   {"beam", "corner", "end", "s", LineCurve{}, false, false}};
-  model.supports = {{"foot", true, true, false, 0.0, {}}, {"end", true, true, false, 0.0, {}}};
-  model.loads = {PointLoad{{"", "beam", 0.2}, {0.0, -1000.0}, 0.0, Pattern::proportional}};
-  return out;
-}
+Case frame() { return {"frame", testing::lee_frame(4.32e17), first_limit_point(), 18.55874653948, 0.0}; }
 
 }  // namespace
 

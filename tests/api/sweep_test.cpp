@@ -398,7 +398,8 @@ TEST(Sweep, FollowsANamedPointOrTheWholeLocus) {
   const SweepOutcome locus = read(document);
   ASSERT_THAT(locus.findings, IsEmpty());
   EXPECT_TRUE(locus.sweep->data().followed.locus);
-  // stored rows of one are not rows of the other
+  // the store knows rows of a curve by this text: a named point, a locus and the first point have rows of
+  // their own
   EXPECT_NE(named.sweep->curve_text(0), locus.sweep->curve_text(0));
   EXPECT_NE(named.sweep->curve_text(0), read(followed()).sweep->curve_text(0));
 }

@@ -52,38 +52,24 @@ inline ReferenceProblem deep_arch(double degrees, double k, double limit, double
   return p;
 }
 
-/// Half a ring from its bottom to its top in a medium outside that alone holds it vertically (4.5): R = 10,
-/// dead vertical load by length.
+/// Half a ring in a medium outside (4.5).
+/// @param slenderness EA R^2 / EI
 inline ReferenceProblem ring_in_medium(double k, std::optional<double> limit, double digits,
                                        double slenderness = 1.2e5) {
-  constexpr double kRadius = 10.0;
-  constexpr double kEI = 30e3;
   ReferenceProblem p;
   p.name = "ring, k " + std::to_string(k);
-  Model& model = p.model;
-  model.nodes = {{"bottom", 0.0, -kRadius}, {"top", 0.0, kRadius}};
-  model.sections = {{"s", slenderness * kEI / (kRadius * kRadius), kEI, {}}};
-  model.members = {{"m", "bottom", "top", "s", ArcCurve{180.0}, false, false}};
-  model.supports = {support("bottom", "xr"), support("top", "xr")};
-  model.foundations = {one_sided("m", k * kEI / std::pow(kRadius, 4), Side::right)};
-  model.loads = {DistributedLoad{
-      "m", {0.0, -kEI / std::pow(kRadius, 3)}, {0.0, 1.0}, LoadMeasure::length, Pattern::proportional}};
+  p.model = half_ring_in_medium(k, slenderness * 300.0);
   p.analysis = default_path(1);
   p.first_limit = limit;
   p.digits = digits;
   return p;
 }
 
-/// Lee's frame, L = 120: through its snap-back to the limit point below zero (frames_limit_points.csv).
+/// Lee's frame: through its snap-back to the limit point below zero (frames_limit_points.csv).
 inline ReferenceProblem lee_frame_path(std::optional<double> limit, double slenderness = 43200.0) {
   ReferenceProblem p;
   p.name = "Lee's frame";
-  p.model.nodes = {{"a", 0.0, 0.0}, {"corner", 0.0, 120.0}, {"b", 120.0, 120.0}};
-  p.model.sections = {{"s", slenderness * 1000.0, 1.44e7, {}}};
-  p.model.members = {{"column", "a", "corner", "s", LineCurve{}, false, false},
-                     {"beam", "corner", "b", "s", LineCurve{}, false, false}};
-  p.model.supports = {support("a", "xy"), support("b", "xy")};
-  p.model.loads = {force_at(at_member("beam", 0.2), 0.0, -1.44e7 / 14400.0)};
+  p.model = lee_frame(slenderness * 1000.0);
   p.model.monitors = {{"v", at_member("beam", 0.2), Component::y}};
   p.analysis = default_path(2);
   p.first_limit = limit;

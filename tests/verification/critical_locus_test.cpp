@@ -14,38 +14,16 @@
 #include <vector>
 
 #include "reference_table.h"
+#include "tests/solver/sweep/arches.h"
 
 namespace snapthrough {
 namespace {
 
-using testing::Table;
-using testing::TableRow;
-
-/// Pinned circular arch, R = 100, half angle 10 degrees, EA = 420, with a unit load down at its crown.
-Model shallow_arch(double EI) {
-  Model model;
-  model.sections = {{"s", 420.0, EI, {}}};
-  const double half_span = 100.0 * std::sin(std::numbers::pi / 18.0);
-  model.nodes = {{"left", -half_span, 0.0}, {"right", half_span, 0.0}};
-  model.members.push_back({"arch", "left", "right", "s", ArcCurve{-20.0}, false, false});
-  for (const char* end : {"left", "right"}) {
-    Support support;
-    support.node = end;
-    support.x = support.y = true;
-    model.supports.push_back(support);
-  }
-  PointLoad load;
-  load.at = Location{};
-  load.at.member = "arch";
-  load.at.fraction = 0.5;
-  load.force = {0.0, -1.0};
-  model.loads.push_back(load);
-  return model;
-}
+using namespace testing;
 
 CriticalLocusRequest request_on(int elements, int order) {
   CriticalLocusRequest request;
-  request.model = shallow_arch;
+  request.model = pinned_shallow_arch;
   request.analysis.type = AnalysisType::critical;
   request.analysis.discretization.elements = elements;
   request.analysis.discretization.order = order;

@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(WorstOffset, RandomOffsetsBeatNone, ::testing::Range(0,
 /// A limit load changes linearly with small offsets, and the rest with their square.
 TEST(WorstOffset, OfALimitPointFollowsTheFirstOrderLaw) {
   const auto missing = [](OffsetNorm norm, double amplitude) {
-    const Result result = solve_worst(lee_frame(), norm, amplitude, 1e-9);
+    const Result result = solve_worst(lee_frame(4.32e9), norm, amplitude, 1e-9);
     const WorstOffset& found = *result.worst_imperfection;
     EXPECT_TRUE(is_limit(found.perfect_type));
     const double fall = found.perfect_load_factor - *found.first_order_load_factor;
@@ -113,7 +113,7 @@ TEST(WorstOffset, OfAStructureWithoutCriticalPointFails) {
 
 /// The offsets of a result, given back in a request, have the same critical load.
 TEST(WorstOffset, GivenBackHasTheSameLoad) {
-  const Model model = lee_frame();
+  const Model model = lee_frame(4.32e9);
   const Result result = solve_worst(model, OffsetNorm::max, 0.2);
   const Model back = with_offsets(model, result.worst_imperfection->imperfections);
   EXPECT_EQ(solve(back, critical_load(1e-5)).summary.critical_load_factor,
@@ -122,7 +122,7 @@ TEST(WorstOffset, GivenBackHasTheSameLoad) {
 
 /// The worst imperfection is the shape, whatever is asked of the structure with it.
 TEST(WorstOffset, OfAPathAndOfAStaticAnalysisIsTheSame) {
-  Model model = lee_frame();
+  Model model = lee_frame(4.32e9);
   model.imperfections = {WorstImperfection{OffsetNorm::rms, 0.2}};
   Analysis analysis = critical_load(1e-5);
   const auto offsets = [&] { return solve(model, analysis).worst_imperfection->imperfections[1].offsets; };
@@ -136,7 +136,7 @@ TEST(WorstOffset, OfAPathAndOfAStaticAnalysisIsTheSame) {
 
 /// The derivative of the worst load by the amplitude, with the shape held: differences of whole searches.
 TEST(WorstOffset, HasASensitivityToItsAmplitude) {
-  Model model = lee_frame();
+  Model model = lee_frame(4.32e9);
   model.imperfections = {WorstImperfection{OffsetNorm::rms, 0.2}};
   Analysis analysis = critical_load(1e-8);
   const auto model_at = [&model](double amplitude) {
@@ -150,7 +150,7 @@ TEST(WorstOffset, HasASensitivityToItsAmplitude) {
   const auto derivative = result.critical_points.front().sensitivities.at(0).derivative;
   ASSERT_TRUE(derivative);
   const auto load = [&](double amplitude) {
-    return *solve_worst(lee_frame(), OffsetNorm::rms, amplitude, 1e-8).worst_imperfection->load_factor;
+    return *solve_worst(lee_frame(4.32e9), OffsetNorm::rms, amplitude, 1e-8).worst_imperfection->load_factor;
   };
   const double difference = (load(0.21) - load(0.19)) / 0.02;
   EXPECT_NEAR(*derivative, difference, 1e-3 * std::abs(difference));

@@ -8,42 +8,12 @@
 #include <stdexcept>
 
 #include "solver/solve.h"
+#include "tests/solver/sweep/arches.h"
 
 namespace snapthrough {
 namespace {
 
-/// A clamped arch of 60 degrees with a load off its crown, which has a limit point; on a base of stiffness k.
-void add_arch(Model& model, const std::string& name, double height, double k, double force = 1.0) {
-  model.nodes.push_back({name + "0", 0.0, height});
-  model.nodes.push_back({name + "1", 10.0, height});
-  model.members.push_back({name, name + "0", name + "1", "s", ArcCurve{-60.0}, false, false});
-  for (const char* end : {"0", "1"}) {
-    Support support;
-    support.node = name + end;
-    support.x = support.y = support.rotation = true;
-    model.supports.push_back(support);
-  }
-  PointLoad load;
-  load.at = Location{};
-  load.at.member = name;
-  load.at.fraction = 0.45;
-  load.force = {0.0, -force};
-  model.loads.push_back(load);
-  if (k > 0.0) {
-    Foundation base;
-    base.id = "base of " + name;
-    base.member = name;
-    base.stiffness = k;
-    model.foundations.push_back(base);
-  }
-}
-
-Model one_arch(double k) {
-  Model model;
-  model.sections = {{"s", 1e5, 1.0, {}}};
-  add_arch(model, "arch", 0.0, k);
-  return model;
-}
+using namespace testing;
 
 /// Two arches that have nothing to do with each other: the base of the second decides which one goes first.
 Model two_arches(double k) {
@@ -184,31 +154,9 @@ TEST(CriticalCurve, DoesNotDependOnHowOftenItIsChecked) {
     EXPECT_EQ(*seldom.points[i].load_factor, *often.points[i].load_factor) << "bits, at value " << i;
 }
 
-/// A pinned arch under a crown load: a maximum and a minimum of the load up to EI = 254, none beyond.
-Model shallow_arch(double EI) {
-  Model model;
-  model.sections = {{"s", 420.0, EI, {}}};
-  const double half_span = 100.0 * std::sin(std::acos(-1.0) / 18.0);
-  model.nodes = {{"0", -half_span, 0.0}, {"1", half_span, 0.0}};
-  model.members.push_back({"arch", "0", "1", "s", ArcCurve{-20.0}, false, false});
-  for (const char* end : {"0", "1"}) {
-    Support support;
-    support.node = end;
-    support.x = support.y = true;
-    model.supports.push_back(support);
-  }
-  PointLoad load;
-  load.at = Location{};
-  load.at.member = "arch";
-  load.at.fraction = 0.5;
-  load.force = {0.0, -1.0};
-  model.loads.push_back(load);
-  return model;
-}
-
 TEST(CriticalCurve, BifurcationsBetweenPointsWithOwnFactorsAreAsAccurate) {
   // Failed once by 4e-6: the convergence at one value was taken for that at its neighbours.
-  const CriticalCurveRequest request = request_for(shallow_arch, 0.42, 4.2, 25);
+  const CriticalCurveRequest request = request_for(pinned_shallow_arch, 0.42, 4.2, 25);
   const CriticalCurve curve = follow_critical_point(request);
   EXPECT_EQ(curve.points.front().type, CriticalType::bifurcation);
   expect_as_traced(request, curve);
@@ -216,7 +164,7 @@ TEST(CriticalCurve, BifurcationsBetweenPointsWithOwnFactorsAreAsAccurate) {
 }
 
 TEST(CriticalCurve, SaysUpToWhichLoadAPathHasNone) {
-  CriticalCurveRequest request = request_for(shallow_arch, 120.0, 300.0, 13);
+  CriticalCurveRequest request = request_for(pinned_shallow_arch, 120.0, 300.0, 13);
   request.logarithmic = false;
   const CriticalCurve curve = follow_critical_point(request);
   ASSERT_EQ(curve.points.size(), 13U);

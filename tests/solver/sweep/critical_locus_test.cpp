@@ -11,45 +11,22 @@
 #include <vector>
 
 #include "solver/solve.h"
+#include "tests/solver/sweep/arches.h"
 
 namespace snapthrough {
 namespace {
 
-/// A clamped arch of 60 degrees on a foundation of stiffness k, with a load off its crown.
-Model arch(double k) {
-  Model model;
-  model.sections = {{"s", 1e5, 1.0, {}}};
-  model.nodes = {{"0", 0.0, 0.0}, {"1", 10.0, 0.0}};
-  model.members.push_back({"arch", "0", "1", "s", ArcCurve{-60.0}, false, false});
-  for (const char* end : {"0", "1"}) {
-    Support support;
-    support.node = end;
-    support.x = support.y = support.rotation = true;
-    model.supports.push_back(support);
-  }
-  PointLoad load;
-  load.at = Location{};
-  load.at.member = "arch";
-  load.at.fraction = 0.45;
-  load.force = {0.0, -1.0};
-  model.loads.push_back(load);
-  Foundation base;
-  base.id = "base";
-  base.member = "arch";
-  base.stiffness = k;
-  model.foundations.push_back(base);
-  return model;
-}
+using namespace testing;
 
 Model arch_of_angle(double degrees) {
-  Model model = arch(0.01);
+  Model model = one_arch(0.01);
   model.members[0].curve = ArcCurve{-degrees};
   return model;
 }
 
 /// The medium below the arch presses where the arch sinks into it, and does not pull.
 Model arch_on_medium(double k) {
-  Model model = arch(k);
+  Model model = one_arch(k);
   model.foundations[0].reaction = Reaction::compression_only;
   model.foundations[0].side = Side::right;
   return model;
@@ -57,7 +34,7 @@ Model arch_on_medium(double k) {
 
 CriticalLocusRequest request() {
   CriticalLocusRequest out;
-  out.model = arch;
+  out.model = one_arch;
   out.analysis.type = AnalysisType::critical;
   out.analysis.discretization.elements = 8;
   out.analysis.discretization.order = 4;
@@ -75,7 +52,7 @@ TEST(CriticalLocus, FirstPointIsThatOfTheTracedPaths) {
   ASSERT_EQ(locus.curves[0].loads.size(), asked.values.size());
   EXPECT_EQ(locus.curves[0].end, LocusEnd::last_value);
   for (const LocusLoad& load : locus.curves[0].loads) {
-    const Result traced = solve(arch(asked.values[load.value]), asked.analysis);
+    const Result traced = solve(one_arch(asked.values[load.value]), asked.analysis);
     // both are located to 1e-9 of the load
     EXPECT_NEAR(load.load_factor / *traced.summary.critical_load_factor, 1.0, 2e-9);
     EXPECT_EQ(load.type, *traced.summary.critical_type);
