@@ -20,7 +20,7 @@ struct CriticalCurveRequest {
   Analysis analysis;                   ///< type `critical` with a fixed mesh (elements and order)
   std::vector<double> values;          ///< ascending or descending, not empty
   bool logarithmic = false;            ///< extrapolates over the logarithm of the values, which are positive
-  int check_every = 100;               ///< values between checks by a traced path, >= 1
+  int check_every = 40;                ///< values between checks by a traced path, >= 1
   std::stop_token stop = {};           ///< on a stop request the remaining values get the failure "cancelled"
 };
 
