@@ -113,7 +113,7 @@ class AugmentedFactor {
   void backward_rows(const std::array<Lanes, N>& x, Vectors& y, std::integer_sequence<int, K...>) const {
     (backward_row<N - 1 - K>(x, y, std::make_integer_sequence<int, K + Matrix::kSides>()), ...);
   }
-  /// The newest entry of y enters last.
+  /// The entry of y that was found last is used last, so that the other products need not wait for it.
   template <int K, int... J>
   void backward_row(const std::array<Lanes, N>& x, Vectors& y, std::integer_sequence<int, J...>) const {
     Lanes sum = x[K];

@@ -65,8 +65,7 @@ class ElementWorkOf final : public ElementWork {
   static constexpr int kStrains = Data::kStrains;
   static constexpr int kZeta = 3 * P + 3;
   using Gauss = typename Data::Gauss;
-  static constexpr int kRow = padded(kZeta);  ///< padded to whole blocks; zero beyond kZeta
-  using ZetaVector = Eigen::Matrix<double, kRow, 1>;
+  using ZetaVector = std::array<double, kZeta>;
   using ZetaLanes = std::array<Lanes, kZeta>;
   using GaussLanes = std::array<Lanes, P>;
 
@@ -240,7 +239,9 @@ void ElementWorkOf<P>::find_kinematics(const double* y, int first, int last) {
   }
 }
 
-/// Linearised about the stress-free axis. @param v (u'_x, u'_y, b'), @param b rotations
+/// Strains linearised about the stress-free axis, and the directions of the stress-free section.
+/// @param v (u'_x, u'_y, b')
+/// @param b rotations
 template <int P>
 void ElementWorkOf<P>::find_small_strains(const Shape& shape, const double* v, const double* b,
                                           Kinematics& kin) {
@@ -254,7 +255,9 @@ void ElementWorkOf<P>::find_small_strains(const Shape& shape, const double* v, c
   }
 }
 
-/// @param v (u'_x, u'_y, b'), @param sb, cb sine and cosine of the rotations
+/// Strains of the exact theory, and the directions of the section.
+/// @param v (u'_x, u'_y, b')
+/// @param sb, cb sine and cosine of the rotations
 template <int P>
 void ElementWorkOf<P>::find_strains(const Shape& shape, const double* v, const double* sb, const double* cb,
                                     Kinematics& kin) {
@@ -327,7 +330,6 @@ void ElementWorkOf<P>::to_strain_row(const Functional& f, const Shape& shape, co
   row[3 * P] = f.a[0];
   row[3 * P + 1] = f.a[1];
   row[3 * P + 2] = turn_a;
-  for (int i = kZeta; i < kRow; ++i) row[i] = 0.0;
 }
 
 /// Adds the columns of m beside S and u_a: minus the rows of u_b.

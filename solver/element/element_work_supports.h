@@ -4,7 +4,7 @@
 
 namespace snapthrough {
 
-/// Parts of an element on which a foundation acts at y, as they were found for the same y before.
+/// Parts of an element on which a foundation acts at y. They are searched for once for each y.
 /// @pre find_kinematics() was called at y
 template <int P>
 auto ElementWorkOf<P>::parts_in_contact(std::size_t index, const Shape& shape, const ElementDofs& dofs,

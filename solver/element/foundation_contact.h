@@ -13,6 +13,7 @@
 #include "solver/geometry/axis_curve.h"
 #include "solver/numeric/chebyshev_series.h"
 #include "solver/numeric/gauss_rule.h"
+#include "solver/numeric/lanes.h"
 #include "solver/support/law.h"
 #include "solver/support/regime.h"
 
@@ -69,9 +70,7 @@ class FoundationContact {
                          std::vector<Interval>& out, double depth = 0.0) const;
 
  private:
-  /// Values at four samples; lanes beyond the last sample are zero.
-  using Lanes = Eigen::Array4d;
-  static constexpr int kLanes = 4;
+  // samples stand four to an entry of Lanes; lanes beyond the last sample are zero
   static constexpr int kMostBlocks = (ChebyshevSeries::kMostPoints + kLanes - 1) / kLanes;
   using Values = std::array<double, kLanes * kMostBlocks>;
 

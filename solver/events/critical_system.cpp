@@ -115,7 +115,7 @@ void CriticalNewton::refine(const MatrixXd& rows, const MatrixXd& border) {
 bool CriticalNewton::factorise() {
   const TangentReport report = problem_.linearise(at_.y, at_.lambda, residual_);
   const Index k = at_.null.cols();
-  MatrixXd& rows = rows_;
+  MatrixXd& rows = rows_;  // members keep their memory from one iteration to the next
   MatrixXd& border = border_;
   MatrixXd& x = solved_;
   rows.resize(at_.y.size(), k + 2);
@@ -264,8 +264,7 @@ bool CriticalNewton::step() {
   if (!change.allFinite()) return false;
   dlambda_ = change[0];
   const VectorXd amplitudes = change.tail(v_.cols());
-  VectorXd& dy = load_;
-  dy = p_ + dlambda_ * q_ + v_.lazyProduct(amplitudes);
+  const VectorXd dy = p_ + dlambda_ * q_ + v_.lazyProduct(amplitudes);
   moved_ = metric_.norm(dy, dlambda_);
   if (!std::isfinite(moved_)) return false;
   at_.y += dy;

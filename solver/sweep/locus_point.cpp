@@ -45,14 +45,20 @@ VectorXd LocusSolver::forces_of_residual() const {
   return out;
 }
 
-/// Solves the bordered equations [J, W n; n W, 0] [motion; multiplier] = [forces; 0].
+/// Solution of the bordered equations [J, W n; n W, 0] [motion; multiplier] = [forces; 0].
+/// @param share work of the forces on n
+/// @param x J^-1 (forces - share W n): the factors are inaccurate for forces along W n near the singular
+/// tangent
+LocusSolver::Response LocusSolver::bordered(double share, const Eigen::Ref<const VectorXd>& x) const {
+  const double along = border_.dot(x);
+  return {x - along * solved_, share + factored_stiffness_ * along};
+}
+
 LocusSolver::Response LocusSolver::response(const VectorXd& forces) const {
-  // forces along W n are left out: the factors are inaccurate for them near the singular tangent
   const double share = work(forces, bordering_);
   MatrixXd x = forces - share * metric_rows_;
   factored_->problem.solve(x);
-  const double along = border_.dot(x.col(0));
-  return {x.col(0) - along * solved_, share + factored_stiffness_ * along};
+  return bordered(share, x.col(0));
 }
 
 std::array<LocusSolver::Response, 2> LocusSolver::responses(const VectorXd& a, const VectorXd& b) const {
@@ -60,12 +66,7 @@ std::array<LocusSolver::Response, 2> LocusSolver::responses(const VectorXd& a, c
   MatrixXd x(a.size(), 2);
   x << a - share[0] * metric_rows_, b - share[1] * metric_rows_;
   factored_->problem.solve(x);
-  std::array<Response, 2> out;
-  for (int i = 0; i < 2; ++i) {
-    const double along = border_.dot(x.col(i));
-    out[i] = {x.col(i) - along * solved_, share[i] + factored_stiffness_ * along};
-  }
-  return out;
+  return {bordered(share[0], x.col(0)), bordered(share[1], x.col(1))};
 }
 
 /// Factorises the tangent and solves for the null motion, the residual and the load; false: the factors are
@@ -88,9 +89,8 @@ bool LocusSolver::factorise() {
   factored_stiffness_ = 1.0 / border_.dot(x.col(0));
   solved_ = x.col(0) * factored_stiffness_;
   negative_ = report.negative - (factored_stiffness_ < 0.0 ? 1 : 0);
-  const std::array<double, 2> along{border_.dot(x.col(1)), border_.dot(x.col(2))};
-  p_ = {x.col(1) - along[0] * solved_, share[0] + factored_stiffness_ * along[0]};
-  q_ = {x.col(2) - along[1] * solved_, share[1] + factored_stiffness_ * along[1]};
+  p_ = bordered(share[0], x.col(1));
+  q_ = bordered(share[1], x.col(2));
   return std::isfinite(factored_stiffness_) && solved_.allFinite() && p_.motion.allFinite() &&
          q_.motion.allFinite();
 }

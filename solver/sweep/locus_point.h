@@ -121,6 +121,7 @@ class LocusSolver {
   void differentiate();
   void find_parameter_rates();
   void differentiate_by_parameter();
+  [[nodiscard]] Response bordered(double share, const Eigen::Ref<const Eigen::VectorXd>& x) const;
   [[nodiscard]] Response response(const Eigen::VectorXd& forces) const;
   [[nodiscard]] std::array<Response, 2> responses(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
   [[nodiscard]] Eigen::VectorXd forces_of_residual() const;
