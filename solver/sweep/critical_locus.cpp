@@ -112,7 +112,8 @@ void Search::search_at(std::size_t index) {
   }
 }
 
-/// Traces the paths of the values at which no curve has a point.
+/// Traces the paths of the values at which no curve has a point. A critical point that is met there becomes a
+/// curve of its own that is not followed.
 void Search::search_empty_values() {
   std::vector<char> has_point(request_.values.size(), 0);
   for (const LocusCurve& curve : out_.curves)
@@ -121,8 +122,15 @@ void Search::search_empty_values() {
     if (has_point[i]) continue;
     const TraceOutcome outcome = trace_at(i);
     if (!out_.failure.empty()) return;
-    if (outcome.critical.empty())
-      out_.none_up_to[i] = outcome.last.lambda / reference_->structure.scales.load;
+    const double scale = reference_->structure.scales.load;
+    if (outcome.critical.empty()) {
+      out_.none_up_to[i] = outcome.last.lambda / scale;
+      continue;
+    }
+    const CriticalEvent& first = outcome.critical.front();
+    LocusCurve& curve = out_.curves.emplace_back();
+    curve.bifurcation = first.type == CriticalType::bifurcation;
+    curve.events.push_back({LocusEventType::not_followed, request_.values[i], first.point.lambda / scale});
   }
 }
 

@@ -82,7 +82,8 @@ struct CriticalLocus {
 /// fold_bifurcations zeros of n.load or of the stiffness of another motion, turns zeros of the parameter's
 /// rate; they are located to rounding. Each value that a curve passes is solved for.
 ///
-/// The path of each value without a point is traced, to say up to which load it has none.
+/// The path of each value without a point is traced, to say up to which load it has none, or that its first
+/// critical point lies on no followed curve: a curve without loads and with the event not_followed.
 /// Curves that no followed path meets at the first or the last value are not found.
 /// @throws std::invalid_argument when the request violates a precondition
 [[nodiscard]] CriticalLocus follow_critical_locus(const CriticalLocusRequest& request);

@@ -244,7 +244,7 @@ bool LocusSolver::step() {
 }
 
 /// Whether the next correction, which falls at least as the last one, is below the tolerances.
-bool LocusSolver::converged() {
+bool LocusSolver::converged() const {
   const double load = options_.load * std::max(std::abs(at_.lambda), options_.least_load);
   return moved_ * std::min(ratio_, 1.0) <= options_.place &&
          moved_load_ * std::min(std::max(ratio_, load_ratio_), 1.0) <= load;

@@ -130,7 +130,7 @@ class LocusSolver {
   [[nodiscard]] LocusDirection part(int i) const;
   [[nodiscard]] std::array<double, 3> sizes() const;
   [[nodiscard]] bool step();
-  [[nodiscard]] bool converged();
+  [[nodiscard]] bool converged() const;
   void find_direction();
   [[nodiscard]] bool finish();
   [[nodiscard]] double work(const Eigen::VectorXd& forces, const Eigen::VectorXd& motion) const {

@@ -114,6 +114,26 @@ TEST(CriticalLocus, FallingValuesGiveTheSameLoads) {
   }
 }
 
+/// Limit points that only values between the first and the last one have lie on a closed curve, which is not
+/// found.
+TEST(CriticalLocus, SaysWhereAPointLiesOnNoCurve) {
+  CriticalLocusRequest asked = request();
+  asked.model = [](double t) { return pinned_shallow_arch(200.0 + 100.0 * t * t); };
+  asked.logarithmic = false;
+  asked.values = {-1.0, 0.0, 1.0};
+  const CriticalLocus locus = follow_critical_locus(asked);
+  EXPECT_EQ(locus.failure, "");
+  EXPECT_TRUE(locus.none_up_to[0] && !locus.none_up_to[1] && locus.none_up_to[2]);
+  ASSERT_EQ(locus.curves.size(), 1U);
+  EXPECT_TRUE(locus.curves[0].loads.empty());
+  ASSERT_EQ(locus.curves[0].events.size(), 1U);
+  const LocusEvent& event = locus.curves[0].events[0];
+  EXPECT_EQ(event.type, LocusEventType::not_followed);
+  EXPECT_EQ(event.value, 0.0);
+  const Result traced = solve(asked.model(0.0), asked.analysis);
+  EXPECT_NEAR(event.load_factor / *traced.summary.critical_load_factor, 1.0, 2e-9);
+}
+
 TEST(CriticalLocus, RefusesWhatItCannotFollow) {
   CriticalLocusRequest asked = request();
   asked.values = {1.0};
