@@ -28,6 +28,7 @@ class Builder {
  public:
   /// @param laws model with opposite supports joined, for the equations
   Builder(const Model& model, const Model& laws, Structure& out) : model_(model), laws_(laws), out_(out) {}
+  Builder(const Builder&) = delete;
 
   /// @param known scales of another mesh or model; null: from the model
   void set_scales(const Scales* known);
@@ -74,6 +75,8 @@ class Builder {
   const Model& model_;
   const Model& laws_;
   Structure& out_;
+  std::vector<FoundationLaw> foundation_laws_;  ///< of `laws_`
+  std::vector<SpringLaw> spring_laws_;
   std::unique_ptr<ElementSet> elements_;
   std::vector<ElementPressure> pressures_;
   double strain_size_ = 0.0;  ///< magnitude of the forces that the proportional initial strains correspond to
@@ -125,6 +128,14 @@ void Builder::set_scales(const Scales* known) {
   for (const Foundation& foundation : model_.foundations)
     out_.foundation_laws.push_back(law_of(foundation, out_.scales));
   for (const Spring& spring : model_.springs) out_.spring_laws.push_back(law_of(spring, out_.scales));
+  for (const Foundation& foundation : laws_.foundations)
+    foundation_laws_.push_back(law_of(foundation, out_.scales));
+  for (const Spring& spring : laws_.springs) spring_laws_.push_back(law_of(spring, out_.scales));
+  const auto keep = [this](const auto& law) {
+    if (law.curve) out_.curves.push_back(law.curve);
+  };
+  std::for_each(foundation_laws_.begin(), foundation_laws_.end(), keep);
+  std::for_each(spring_laws_.begin(), spring_laws_.end(), keep);
 }
 
 void Builder::bound_stiffness() {
@@ -180,16 +191,16 @@ FoundationContact Builder::make_contact(int element, const FoundationLaw& founda
                                         std::array<double, 2> range) const {
   const MeshElement& e = out_.mesh.elements[element];
   const std::shared_ptr<const AxisCurve>& axis = out_.axes[e.member];
-  Law law = law_on(out_, foundation, element).law;
-  law.scale(element_length(element));
+  const FoundationLaw law = law_on(out_, foundation, element);
   // the contact of the same foundation, made for results, has the same geometry
   for (auto part = out_.foundation_parts.rbegin();
        part != out_.foundation_parts.rend() && part->element == element; ++part)
     if (part->contact && part->contact->is_on(foundation.direction, range))
       return part->contact->with_law(law, index);
-  return FoundationContact(out_.mesh.order, foundation.direction,
-                           {axis, e.from * axis->length(), (e.to - e.from) * axis->length()}, range, law,
-                           index);
+  return FoundationContact(out_.mesh.order, law,
+                           {axis, e.from * axis->length(), (e.to - e.from) * axis->length(), e.from, e.to,
+                            element_length(element)},
+                           range, index);
 }
 
 /// Adds the part of a foundation on an element, for results.
@@ -198,7 +209,7 @@ void Builder::add_foundation(int element, int index) {
   const auto range = part_of(out_.mesh.elements[element], foundation.range);
   if (range[1] <= range[0]) return;
   out_.foundation_parts.push_back({index, element, range, std::nullopt});
-  if (is_one_sided(foundation))
+  if (is_one_sided(foundation) || out_.foundation_laws[index].law.curve != nullptr)
     out_.foundation_parts.back().contact = make_contact(element, out_.foundation_laws[index], index, range);
 }
 
@@ -207,12 +218,13 @@ void Builder::add_foundation_law(int element, int index) {
   const Foundation& foundation = laws_.foundations[index];
   const auto range = part_of(out_.mesh.elements[element], foundation.range);
   if (range[1] <= range[0]) return;
-  const FoundationLaw law = law_of(foundation, out_.scales);
+  const FoundationLaw& law = foundation_laws_[static_cast<std::size_t>(index)];
   if (law.shear > 0.0)
     for (const SupportSpring& support : shear_layer_springs(out_, law, element, range))
       elements_->add_spring(support);
   if (law.law.stiffness == 0.0) return;
-  if (law.law.one_sided && out_.mesh.foundation == FoundationRule::consistent)
+  const bool has_pieces = law.law.one_sided || law.law.curve != nullptr;
+  if (has_pieces && out_.mesh.foundation == FoundationRule::consistent)
     add_contacts(element, index);
   else
     for (const SupportSpring& support : winkler_springs(out_, law, element, range))
@@ -222,7 +234,7 @@ void Builder::add_foundation_law(int element, int index) {
 /// Adds a one-sided foundation on an element, split into ranges with and without a known touching state.
 void Builder::add_contacts(int element, int index) {
   const Foundation& foundation = laws_.foundations[index];
-  const FoundationLaw law = law_of(foundation, out_.scales);
+  const FoundationLaw& law = foundation_laws_[static_cast<std::size_t>(index)];
   const auto add = [&](std::array<double, 2> fractions, Touch touch) {
     const auto range = part_of(out_.mesh.elements[element], fractions);
     if (range[1] > range[0]) elements_->add_contact(element, make_contact(element, law, index, range), touch);
@@ -246,8 +258,8 @@ Touch Builder::touch_of_spring(std::size_t index) const {
 void Builder::add_point_spring(int element, std::size_t index) {
   const Spring& spring = laws_.springs[index];
   const MeshPlace place = place_of(out_.mesh, out_.mesh.elements[element].member, spring.at.fraction);
-  if (place.element != element || spring.stiffness == 0.0) return;
-  const SpringLaw law = law_of(spring, out_.scales);
+  if (place.element != element || initial_stiffness(spring) == 0.0) return;
+  const SpringLaw& law = spring_laws_[index];
   SupportSpring support = support_at(out_, element, place.xi, law.row);
   support.law = law.law;
   support.touch = touch_of_spring(index);
@@ -309,8 +321,8 @@ void Builder::add_supports() {
   }
   for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
     const Spring& spring = laws_.springs[i];
-    if (spring.at.node.empty() || spring.stiffness == 0.0) continue;
-    const SpringLaw law = law_of(spring, out_.scales);
+    if (spring.at.node.empty() || initial_stiffness(spring) == 0.0) continue;
+    const SpringLaw& law = spring_laws_[i];
     NodeSpring js;
     js.node = index_of(model_.nodes, spring.at.node);
     js.row = law.row;
@@ -506,16 +518,18 @@ void Builder::add_monitors() {
 std::vector<std::string> without_stiffness(const Model& model) {
   std::vector<std::string> out;
   for (const Foundation& foundation : model.foundations)
-    if (foundation.stiffness == 0.0) out.push_back("foundation " + foundation.id + ": stiffness 0");
+    if (initial_stiffness(foundation) == 0.0) out.push_back("foundation " + foundation.id + ": stiffness 0");
   for (const Spring& spring : model.springs)
-    if (spring.stiffness == 0.0) out.push_back("spring " + spring.id + ": stiffness 0");
+    if (initial_stiffness(spring) == 0.0) out.push_back("spring " + spring.id + ": stiffness 0");
   return out;
 }
 
 FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element) {
   FoundationLaw law = foundation;
-  if (law.law.one_sided)
-    law.law.stiffness = std::min(law.law.stiffness, structure.stiffest[static_cast<std::size_t>(element)]);
+  if (law.law.one_sided) {
+    law.stiffest = structure.stiffest[static_cast<std::size_t>(element)];
+    law.law.bound_stiffness(law.stiffest);
+  }
   return law;
 }
 
@@ -587,6 +601,7 @@ void fill(const Model& model, const Scales* scales, Structure& out) {
   builder.add_monitors();
   builder.finish();
   const auto one_sided = [](const auto& support) { return is_one_sided(support); };
+  out.curved = !out.curves.empty();
   out.one_sided = std::any_of(laws.foundations.begin(), laws.foundations.end(), one_sided) ||
                   std::any_of(laws.springs.begin(), laws.springs.end(), one_sided);
   out.has_constant = builder.is_moved_by_constant_actions();
@@ -598,7 +613,7 @@ void fill(const Model& model, const Scales* scales, Structure& out) {
     double foundation_load = 0.0;
     for (const Foundation& foundation : model.foundations)
       if (foundation.member == model.members[m].id)
-        foundation_load += 2.0 * std::sqrt(foundation.stiffness * EI) + foundation.shear_stiffness;
+        foundation_load += 2.0 * std::sqrt(initial_stiffness(foundation) * EI) + foundation.shear_stiffness;
     out.foundation_loads.push_back(foundation_load / out.scales.force);
   }
   const int p = out.mesh.order;

@@ -31,6 +31,7 @@ struct ElementData {
     std::array<double, kStrains> root{};  ///< square root of the compliance
     int first_spring = 0, spring_count = 0;
     int first_contact = 0, contact_count = 0;
+    bool curved = false;  ///< some support has a law with a curve
     /// Force per deformed length along the deformed right normal.
     double pressure = 0.0, constant_pressure = 0.0;
     int factor = 0;  ///< index among the unshearable or among the shearable elements
@@ -159,7 +160,7 @@ bool ElementData<P>::acts(const Functional& f, const ElementDofs& at, const doub
   return f.touch != Touch::none && std::abs(w) <= Rounding::touching ? f.touch == Touch::acts : w > 0.0;
 }
 
-/// Functional of the penetration at xi of a contact, with zero stiffness and gap.
+/// Functional of the penetration at xi of a contact, with the law there.
 template <int P>
 auto ElementData<P>::functional_at(const FoundationContact& contact, double h, double xi) const
     -> Functional {
@@ -167,6 +168,7 @@ auto ElementData<P>::functional_at(const FoundationContact& contact, double h, d
   const auto d = contact.direction_at(xi);
   rule->integrals_at(xi, integrals);
   Functional f;
+  f.law = contact.law_at(xi);
   f.a = {d[0], d[1], 0.0};
   for (int q = 0; q < P; ++q) {
     f.v[0][q] = d[0] * h * integrals[q];
@@ -212,7 +214,9 @@ void ElementSetOf<P>::add_spring(const SupportSpring& support) {
   for (int q = 0; q < P; ++q)
     for (int c = 0; c < 3; ++c) f.v[c][q] = support.v[q][c];
   data_.springs.push_back(f);
-  ++data_.shapes[support.element].spring_count;
+  auto& shape = data_.shapes[support.element];
+  ++shape.spring_count;
+  shape.curved = shape.curved || f.law.curve != nullptr;
 }
 
 template <int P>
@@ -222,8 +226,10 @@ void ElementSetOf<P>::add_contact(int element, FoundationContact contact, Touch 
   const auto [from, to] = contact.range();
   for (const double point : data_.contact_quadrature.points)
     whole.push_back(data_.functional_at(contact, data_.shapes[element].h, from + (to - from) * point));
+  auto& shape = data_.shapes[element];
+  ++shape.contact_count;
+  shape.curved = shape.curved || contact.law().curve != nullptr;
   data_.contacts.push_back(std::move(contact));
-  ++data_.shapes[element].contact_count;
 }
 
 template <int P>

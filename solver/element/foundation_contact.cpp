@@ -25,15 +25,16 @@ struct ContactSearch {
 
 }  // namespace
 
-FoundationContact::FoundationContact(int order, const Direction& direction, Place place,
-                                     std::array<double, 2> range, const Law& law, int foundation)
+FoundationContact::FoundationContact(int order, const FoundationLaw& law, Place place,
+                                     std::array<double, 2> range, int foundation)
     : rule_(&CollocationRule::of(order)),
-      direction_(direction),
+      foundation_law_(law),
       place_(std::move(place)),
       range_(range),
-      law_(law),
+      law_(law.law),
       foundation_(foundation) {
-  count_ = std::max(2 * order + 3, direction_.turns ? ContactSearch::least_samples : 0);
+  law_.scale(place_.length);
+  count_ = std::max(2 * order + 3, direction().turns ? ContactSearch::least_samples : 0);
   blocks_ = (count_ + kLanes - 1) / kLanes;
   samples_.assign(static_cast<std::size_t>(blocks_) * (2 + order), Lanes::Zero());
   for (int i = 0; i < count_; ++i) {
@@ -46,7 +47,7 @@ FoundationContact::FoundationContact(int order, const Direction& direction, Plac
     for (int c = 0; c < 2; ++c) block[c][i % kLanes] = d[c];
     for (int r = 0; r < order; ++r) block[2 + r][i % kLanes] = a[r];
   }
-  exact_ = !direction_.turns || resolved();
+  exact_ = !direction().turns || resolved();
 }
 
 /// Whether the samples resolve products of the direction and displacements of the element's degree.
@@ -73,22 +74,25 @@ bool FoundationContact::resolved() const {
   });
 }
 
-FoundationContact FoundationContact::with_law(const Law& law, int foundation) const {
+FoundationContact FoundationContact::with_law(const FoundationLaw& law, int foundation) const {
   FoundationContact other = *this;
-  other.law_ = law;
+  other.foundation_law_ = law;
+  other.law_ = law.law;
+  other.law_.scale(place_.length);
   other.foundation_ = foundation;
   return other;
 }
 
-FoundationContact FoundationContact::with_gap(double gap) const {
-  FoundationContact other = *this;
-  other.law_.gap = gap;
-  return other;
+Law FoundationContact::law_at(double xi) const {
+  if (!foundation_law_.variation) return law_;
+  Law law = foundation_law_.at(place_.from + xi * (place_.to - place_.from));
+  law.scale(place_.length);
+  return law;
 }
 
 std::array<double, 2> FoundationContact::direction_at(double xi) const {
-  if (!direction_.turns) return direction_.fixed;
-  return direction_.at(place_.axis->angle_at(place_.s0 + xi * place_.ds));
+  if (!direction().turns) return direction().fixed;
+  return direction().at(place_.axis->angle_at(place_.s0 + xi * place_.ds));
 }
 
 namespace {
@@ -119,12 +123,12 @@ double FoundationContact::penetration_slope(double xi, std::array<double, 2> ua,
   std::array<double, kMaxOrder> l{};
   rule_->values_at(xi, std::span(l).first(dx.size()));
   const auto du = combined({0.0, 0.0}, l, dx, dy);
-  if (!direction_.turns) return du[0] * direction_.fixed[0] + du[1] * direction_.fixed[1];
+  if (!direction().turns) return du[0] * direction().fixed[0] + du[1] * direction().fixed[1];
   std::array<double, kMaxOrder> a{};
   rule_->integrals_at(xi, std::span(a).first(dx.size()));
   const auto u = combined(ua, a, dx, dy);
   const AxisPoint axis = place_.axis->at(place_.s0 + xi * place_.ds);
-  const auto d = direction_.at(axis.angle);
+  const auto d = direction().at(axis.angle);
   const double turn = place_.ds * axis.curvature;
   return du[0] * d[0] + du[1] * d[1] + turn * (u[1] * d[0] - u[0] * d[1]);
 }
@@ -304,6 +308,7 @@ void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const d
 
 bool FoundationContact::is_near(std::array<double, 2> ua, std::span<const double> dx,
                                 std::span<const double> dy, double distance) const {
+  if (!law_.one_sided) return false;
   Values g;
   penetrations(ua, dx, dy, law_.gap, g);
   return std::all_of(g.begin(), g.begin() + count_, [distance](double w) { return std::abs(w) <= distance; });
@@ -337,12 +342,67 @@ void FoundationContact::contact_intervals(std::array<double, 2> ua, std::span<co
                                           std::span<const double> dy, std::vector<Interval>& out,
                                           double depth) const {
   out.clear();
+  if (!law_.one_sided) {
+    out.push_back({range_[0], range_[1]});
+    return;
+  }
   Values g;
   penetrations(ua, dx, dy, law_.gap + depth, g);
   if (exact_)
     search(SampledGap(std::span<const double>(g).first(count_)), g, out);
   else
     search(ExactGap(*this, ua, dx, dy, depth), g, out);
+}
+
+void FoundationContact::kink_places(std::array<double, 2> ua, std::span<const double> dx,
+                                    std::span<const double> dy, std::vector<KinkPlace>& out) const {
+  out.clear();
+  if (law_.curve == nullptr) return;
+  Values g;
+  penetrations(ua, dx, dy, law_.gap, g);
+  std::array<Law, kLanes * kMostBlocks> laws;
+  for (int i = 0; i < count_; ++i) laws[i] = law_at(range_[0] + z_[i] * (range_[1] - range_[0]));
+  std::vector<Interval> above;
+  const int kinks = law_.curve->kink_count();
+  for (int k = 0; k < kinks; ++k)
+    for (const double sign : {1.0, -1.0}) {
+      if (sign < 0.0 && (law_.one_sided || law_.curve->kink(k, law_.shape).x == 0.0)) continue;
+      Values beyond;  // penetration minus that of the kink
+      double change = 0.0;
+      for (int i = 0; i < count_; ++i) {
+        const Law& law = laws[i];
+        const auto kink = law_.curve->kink(k, law.shape);
+        beyond[i] = law.stiffness > 0.0 ? g[i] - sign * kink.x * law.capacity / law.stiffness : -1.0;
+        change = sign * law.stiffness * kink.slope_change;
+      }
+      const auto [least, most] = std::minmax_element(beyond.begin(), beyond.begin() + count_);
+      if (*least > 0.0 || *most < 0.0) continue;
+      above.clear();
+      search(SampledGap(std::span<const double>(beyond).first(count_)), beyond, above);
+      for (const Interval& part : above)
+        for (const double xi : {part.from, part.to})
+          if (xi != range_[0] && xi != range_[1]) out.push_back({xi, change});
+    }
+}
+
+std::vector<FoundationContact::Interval> FoundationContact::smooth_pieces(std::array<double, 2> ua,
+                                                                          std::span<const double> dx,
+                                                                          std::span<const double> dy) const {
+  std::vector<Interval> parts;
+  contact_intervals(ua, dx, dy, parts);
+  std::vector<KinkPlace> kinks;
+  kink_places(ua, dx, dy, kinks);
+  std::sort(kinks.begin(), kinks.end(), [](const auto& a, const auto& b) { return a.xi < b.xi; });
+  std::vector<Interval> out;
+  for (Interval part : parts) {
+    for (const KinkPlace& kink : kinks) {
+      if (!(kink.xi > part.from && kink.xi < part.to)) continue;
+      out.push_back({part.from, kink.xi});
+      part.from = kink.xi;
+    }
+    out.push_back(part);
+  }
+  return out;
 }
 
 }  // namespace snapthrough

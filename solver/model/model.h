@@ -13,6 +13,8 @@
 #include <variant>
 #include <vector>
 
+#include "solver/model/along_member.h"
+
 namespace snapthrough {
 
 /// Multiplier of a load or prescribed displacement.
@@ -96,6 +98,28 @@ struct Support {
   std::optional<PrescribedDisplacement> displacement;
 };
 
+/// @brief Reaction p of an elastic support as a function of its penetration w >= 0; p(-w) = -p(w) for
+/// bilateral supports. Force for springs, force per undeformed length for foundations.
+///
+/// Unloading follows the curve back.
+struct ReactionLaw {
+  enum class Type {
+    linear,      ///< p = stiffness w
+    tanh,        ///< p = capacity tanh(stiffness w / capacity)
+    hyperbolic,  ///< p = w / (1 / stiffness + w / capacity)
+    power,       ///< p = min(stiffness w, capacity (w / reference)^exponent, capacity)
+    table        ///< p = factor times the monotone cubic through `points`, constant beyond the last
+  };
+  Type type = Type::linear;
+  AlongMember stiffness;   ///< slope at w = 0
+  AlongMember capacity;    ///< largest p
+  double reference = 0.0;  ///< w at which the power reaches the capacity
+  double exponent = 0.5;   ///< in (0, 1)
+  std::vector<std::array<double, 2>>
+      points;  ///< (w, p), both ascending from the origin, which may be left out
+  AlongMember factor{1.0, {}};
+};
+
 /// Discrete spring to ground. `direction` points into the medium; empty: rotational spring.
 struct Spring {
   std::string id;
@@ -104,6 +128,7 @@ struct Spring {
   double stiffness = 0.0;  ///< force per length, or moment per radian; >= 0
   Reaction reaction = Reaction::bilateral;
   double gap = 0.0;  ///< displacement at which a one-sided spring begins to react, >= 0
+  std::optional<ReactionLaw> law = std::nullopt;  ///< in place of `stiffness`; its numbers do not vary
 };
 
 /// Continuous foundation r = K w - G w'' per undeformed length, w the displacement along the initial normal
@@ -118,6 +143,8 @@ struct Foundation {
   std::array<double, 2> range{0.0, 1.0};
   double gap = 0.0;
   std::optional<std::array<double, 2>> direction;
+  std::optional<ReactionLaw> law = std::nullopt;  ///< in place of `stiffness`
+  bool tangential = false;  ///< w is the displacement along the initial tangent; bilateral, without G
 };
 
 struct PointLoad {
