@@ -72,7 +72,7 @@ Samples without_direction(int order, bool turns, std::array<double, 2> range) {
   return out;
 }
 
-/// The same on a whole element, made once for each order.
+/// Positions and A_r on a whole element, made once for each order.
 template <class Samples>
 const Samples& on_whole_element(int order, bool turns) {
   static const auto all = [] {

@@ -85,7 +85,7 @@ class FoundationContact {
     int blocks = 0;              ///< blocks of four samples
     Values z{};                  ///< sample positions on the range, scaled to [0, 1]
     std::vector<Lanes> rows;     ///< in each block: direction x, y, then the A_r of CollocationRule
-    std::vector<double> points;  ///< the same at each point of quadrature() on the range
+    std::vector<double> points;  ///< direction and A_r at each point of quadrature()
     bool exact = true;           ///< interpolating the samples is exact to rounding
   };
 
