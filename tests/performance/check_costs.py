@@ -22,7 +22,7 @@ MOST_GROWTH = 1.1  # power of the unknowns
 MEMORY = (5000, 15000)  # elements
 # (case, most bytes by unknown): growing has three unknowns each element to share what an element costs
 # order 1 has two soft motions of four numbers an unknown at both ends of a step
-MOST_BYTES = [("growing", 1350.0), ("growing3", 1000.0), ("growing5", 1000.0)]
+MOST_BYTES = [("grow:elements", 1350.0), ("grow:elements3", 1000.0), ("grow:elements5", 1000.0)]
 
 
 def run(probe, case, argument, times, counted):
@@ -68,8 +68,8 @@ def main():
             if one not in at_default:
                 at_default[one] = instructions(probe, one, 1e-3)
         judge(f"{case} over {other}", at_default[case] / at_default[other], bound)
-    counts = [instructions(probe, "growing", n) for n in GROWTH]
-    unknowns = [reported(run(probe, "growing", n, 1, False)[0], "unknowns") for n in GROWTH]
+    counts = [instructions(probe, "grow:elements", n) for n in GROWTH]
+    unknowns = [reported(run(probe, "grow:elements", n, 1, False)[0], "unknowns") for n in GROWTH]
     judge("growth, power of the unknowns", math.log(counts[1] / counts[0]) / math.log(unknowns[1] / unknowns[0]),
           MOST_GROWTH)
     for case, bound in MOST_BYTES:
