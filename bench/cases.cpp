@@ -60,7 +60,8 @@ Analysis four_steps(int elements, int order) {
 
 constexpr int kGrowingOrder = 3;
 
-/// Rigid frame with clamped feet, bays of 6 and storeys of 4, a load down and a smaller one along on each joint.
+/// Rigid frame with clamped feet, bays of 6 and storeys of 4, a load down and a smaller one along on each
+/// joint.
 Model rigid_frame(int bays, int storeys) {
   Model model;
   model.sections = {{"s", 1.5e6, 2e4, {}}};

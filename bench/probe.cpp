@@ -4,7 +4,8 @@
 ///   bench_probe CASE ACCURACY TIMES       a case of bench/cases.h
 ///   bench_probe grow:PART SIZE TIMES      four steps of growing_case(PART, SIZE) of bench/cases.h
 ///
-/// Prints the unknowns, the factorisations, the relative error (case) and the peak of the resident memory in kB.
+/// Prints the unknowns, the factorisations, the relative error (case) and the peak of the resident memory in
+/// kB.
 #include <sys/resource.h>
 
 #include <cmath>

@@ -231,8 +231,7 @@ void add_columns_on_supports(std::vector<KnownLoads>& out) {
     const auto bases = numbers_of(row.text("foundations"));  // from, to, stiffness, side
     for (std::size_t i = 0; i < bases.size(); i += 4) {
       const Side side = bases[i + 3] > 0.0 ? Side::left : Side::right;
-      Foundation base =
-          bases[i + 3] == 0.0 ? winkler("m", bases[i + 2]) : one_sided("m", bases[i + 2], side);
+      Foundation base = bases[i + 3] == 0.0 ? winkler("m", bases[i + 2]) : one_sided("m", bases[i + 2], side);
       base.id = "base" + std::to_string(i);
       base.range = {bases[i], bases[i + 1]};
       contact = contact || bases[i + 3] != 0.0;
@@ -301,17 +300,17 @@ void add_portals(std::vector<KnownLoads>& out) {
          root_between(1e-3, 0.5 * kPi, [r](double u) { return u * std::sin(u) - 6.0 * r * std::cos(u); })},
         {"swaying, clamped", "xyr", false,
          root_between(0.5 * kPi, kPi, [r](double u) { return u * std::cos(u) + 6.0 * r * std::sin(u); })},
-        {"braced, pinned", "xy", true, root_between(kPi, 1.4302966532 * kPi, [r](double u) {
-           return u * u * std::sin(u) + 2.0 * r * (std::sin(u) - u * std::cos(u));
-         })},
+        {"braced, pinned", "xy", true,
+         root_between(
+             kPi, 1.4302966532 * kPi,
+             [r](double u) { return u * u * std::sin(u) + 2.0 * r * (std::sin(u) - u * std::cos(u)); })},
         {"braced, clamped", "xyr", true, root_between(1.4302966532 * kPi, 2.0 * kPi, [r](double u) {
            return u * (std::sin(u) - u * std::cos(u)) + 2.0 * r * (2.0 - 2.0 * std::cos(u) - u * std::sin(u));
          })}};
     for (const auto& c : cases) {
       Model model;
       model.nodes = {{"a", 0.0, 0.0}, {"b", 0.0, kHeight}, {"c", kSpan, kHeight}, {"d", kSpan, 0.0}};
-      model.sections = {{"column", kInextensible, 1.0, {}},
-                        {"beam", kInextensible, r * kSpan / kHeight, {}}};
+      model.sections = {{"column", kInextensible, 1.0, {}}, {"beam", kInextensible, r * kSpan / kHeight, {}}};
       model.members = {{"left", "a", "b", "column", LineCurve{}, false, false},
                        {"beam", "b", "c", "beam", LineCurve{}, false, false},
                        {"right", "d", "c", "column", LineCurve{}, false, false}};
@@ -340,11 +339,12 @@ void add_pressed_arches(std::vector<KnownLoads>& out) {
     model.supports = {support("a", fixed), support("b", fixed)};
     if (row.number("k") > 0.0) model.foundations = {winkler("m", row.number("k"))};
     model.loads = {PressureLoad{"m", 1.0, Side::left, Pattern::proportional}};
-    out.push_back({"pressed arch " + row.text("half_angle") + ", " + row.text("ends") + ", k " + row.text("k"),
-                   model,
-                   first_loss(),
-                   false,
-                   {{false, 0, row.number("q")}}});
+    out.push_back(
+        {"pressed arch " + row.text("half_angle") + ", " + row.text("ends") + ", k " + row.text("k"),
+         model,
+         first_loss(),
+         false,
+         {{false, 0, row.number("q")}}});
   }
 }
 

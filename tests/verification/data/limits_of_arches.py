@@ -16,7 +16,7 @@ end of contact. The drop of the crown is prescribed. Load against drop is interp
   3. The value is taken again with another degree and window. The last column but one of what goes to standard error is
      the difference of both. The signs of p in all pieces are checked.
 
-The program shares no code with the solver. Needs numpy and scipy; takes two minutes.
+The program shares no code with the solver. Needs numpy and scipy; takes some minutes.
 Run: python3 limits_of_arches.py > arches_and_rings_limits.csv
 """
 import functools
@@ -210,9 +210,13 @@ def crude(structure, step):
     while len(found) < 3 or found[-2][1][-1] <= found[-1][1][-1]:
         if len(found) > 400:
             raise RuntimeError("no limit point")
-        guess = 2 * found[-1][1] - found[-2][1] if len(found) > 1 else z
         drop = step * (len(found) + 1)
-        found.append((drop, mesh.solve(guess, drop, 1e-8)))
+        last = found[-1][1] if found else z
+        try:
+            following = mesh.solve(2 * last - found[-2][1] if len(found) > 1 else last, drop, 1e-8)
+        except RuntimeError:
+            following = mesh.solve(last, drop, 1e-8)
+        found.append((drop, following))
     return mesh, found[-3:]
 
 
