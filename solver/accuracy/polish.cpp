@@ -43,10 +43,18 @@ FineMesh::FineMesh(Structure structure, const PathFollower& measure, double tole
   follower_.norm().adopt(measure.norm());
 }
 
-PathPoint FineMesh::transferred(const Structure& from, const PathPoint& point) const {
+PathPoint FineMesh::transferred(const Structure& from, const PathPoint& point,
+                                Eigen::MatrixXd& motions) const {
+  const Eigen::Index count = motions.cols();
+  Eigen::MatrixXd all(point.y.size(), 2 + count);
+  all.col(0) = point.y;
+  all.col(1) = point.tangent;
+  if (count > 0) all.rightCols(count) = motions;
+  all = transfer(from, all, structure_);
   PathPoint out = point;
-  out.y = transfer(from, point.y, structure_);
-  out.tangent = transfer(from, point.tangent, structure_);
+  out.y = all.col(0);
+  out.tangent = all.col(1);
+  motions = all.rightCols(count);
   const double norm = follower_.norm().metric().norm(out.tangent, out.tangent_lambda);
   out.tangent /= norm;
   out.tangent_lambda /= norm;
@@ -100,36 +108,39 @@ std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const Pat
 }
 
 bool FineMesh::has(const Structure& from, const PathPoint& point) {
-  const PathPoint at = transferred(from, point);
+  Eigen::MatrixXd none;
+  const PathPoint at = transferred(from, point, none);
   const double reach = PolishLimits::reach * follower_.norm().metric().norm(at.y, 0.0);
   if (!(reach > 0.0)) return true;  // no displacement yet
   const auto found = corrected(at, 0.0, reach);
   return found && found->negative == point.negative && follower_.norm().distance(*found, at) <= reach;
 }
 
-std::optional<CriticalEvent> FineMesh::by_newton(const Structure& from, const CriticalEvent& known,
-                                                 const PathPoint& at) {
-  Eigen::MatrixXd null(structure_.size, known.null.cols());
-  for (Eigen::Index i = 0; i < null.cols(); ++i) null.col(i) = transfer(from, known.null.col(i), structure_);
+std::optional<CriticalEvent> FineMesh::by_newton(const CriticalEvent& known, const PathPoint& at,
+                                                 Eigen::MatrixXd null) {
   const double reach = PolishLimits::reach * PolishLimits::widening * follower_.norm().search_scale(at);
   return critical_point_near(follower_.solver(), known, at, std::move(null), reach, tolerance_);
 }
 
 std::optional<CriticalEvent> FineMesh::bifurcation(const Structure& from, const CriticalEvent& known) {
-  return by_newton(from, known, transferred(from, known.point));
+  Eigen::MatrixXd null = known.null;
+  const PathPoint at = transferred(from, known.point, null);
+  return by_newton(known, at, std::move(null));
 }
 
 std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEvent& known,
                                          const Structure& base, const PathPoint& before) {
-  const PathPoint at = transferred(from, known.point);
+  Eigen::MatrixXd null = known.null;
+  const PathPoint at = transferred(from, known.point, null);
   const double path = follower_.norm().search_scale(at);
   if (!(path > 0.0)) return std::nullopt;
   if (known.null.size() > 0)
-    if (const auto event = by_newton(from, known, at)) return FoundPoint{*event, event->point};
+    if (const auto event = by_newton(known, at, null)) return FoundPoint{*event, event->point};
   if (known.type == CriticalType::broken_bifurcation) return std::nullopt;
   for (const double reach : {PolishLimits::reach * path, PolishLimits::reach * PolishLimits::widening * path})
     if (auto found = near(known, at, reach)) return found;
-  const PathPoint start = transferred(base, before);
+  Eigen::MatrixXd none;
+  const PathPoint start = transferred(base, before, none);
   return follow(known, start, follower_.norm().distance(start, at));
 }
 

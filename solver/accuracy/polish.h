@@ -58,10 +58,12 @@ class FineMesh {
   [[nodiscard]] bool has(const Structure& from, const PathPoint& point);
 
  private:
-  [[nodiscard]] PathPoint transferred(const Structure& from, const PathPoint& point) const;
+  /// @param[in,out] motions columns of the structure `from`, then of this one
+  [[nodiscard]] PathPoint transferred(const Structure& from, const PathPoint& point,
+                                      Eigen::MatrixXd& motions) const;
   [[nodiscard]] std::optional<PathPoint> corrected(const PathPoint& guess, double along, double reach);
-  [[nodiscard]] std::optional<CriticalEvent> by_newton(const Structure& from, const CriticalEvent& known,
-                                                       const PathPoint& at);
+  [[nodiscard]] std::optional<CriticalEvent> by_newton(const CriticalEvent& known, const PathPoint& at,
+                                                       Eigen::MatrixXd null);
   [[nodiscard]] std::optional<FoundPoint> near(const CriticalEvent& known, const PathPoint& at, double reach);
   [[nodiscard]] std::optional<FoundPoint> follow(const CriticalEvent& known, const PathPoint& before,
                                                  double distance);

@@ -530,8 +530,13 @@ double length_of_element(const Structure& structure, int element) {
 }
 
 MeshPlace place_of(const Mesh& mesh, int member, double fraction) {
-  int e = mesh.first[member];
-  while (e + 1 < mesh.first[member + 1] && mesh.elements[e + 1].from <= fraction + kOnePlace) ++e;
+  const auto first = mesh.elements.begin() + mesh.first[member];
+  const auto last = mesh.elements.begin() + mesh.first[member + 1];
+  // the last element that begins at or before the place
+  const auto next = std::partition_point(first + 1, last, [fraction](const MeshElement& element) {
+    return element.from <= fraction + kOnePlace;
+  });
+  const int e = static_cast<int>(next - mesh.elements.begin()) - 1;
   const MeshElement& cell = mesh.elements[e];
   const double width = cell.to - cell.from;
   const double one = kOnePlace / width;
