@@ -48,9 +48,10 @@ class SoilWriter {
  private:
   void write(const Sand& sand);
   void write(const SoftClay& clay);
-  void write_power(std::span<const Piece> resistance, double capacity, double y50);
-  void write_tables(const Piece& resistance, double transition, double y50);
-  json table_points(double resistance, double capacity, double y50);
+  void write_clay(std::span<const Piece> resistance, double capacity, double y50);
+  void write_shallow_cyclic(const Piece& resistance, double transition, double y50);
+  void write_power(std::span<const double> depths, const ByDepth& resistance, double capacity, double y50,
+                   std::size_t curve = 0);
 
   void add(double from, double to, json law, std::size_t curve = 0);
   json along(std::span<const double> depths, const ByDepth& value);
@@ -60,8 +61,10 @@ class SoilWriter {
   }
   void report_too_fine() {
     report(
-        "the resistance of this layer cannot be interpolated within the accuracy by break points that are " +
-        checks::text(kMinRelativeChord) + " of the pile's length apart");
+        "the resistance of this layer cannot be interpolated by depth within the accuracy: a layer has at "
+        "most " +
+        std::to_string(kMaxBreakPoints) + " break points, which are at least " +
+        checks::text(2.0 * kMinRelativeChord) + " of the pile's length apart");
   }
   [[nodiscard]] const Layer& layer() const { return document_.layers[index_]; }
   [[nodiscard]] double shortest() const { return 2.0 * kMinRelativeChord * document_.pile.length; }
@@ -116,56 +119,48 @@ void SoilWriter::write(const SoftClay& clay) {
   const double D = document_.pile.diameter;
   const double y50 = kStrainFactor * clay.eps50 * D;
   if (document_.loading == Loading::static_) {
-    return write_power(clay_resistance(clay, layer(), D, contact_, shortest()), 1.0, y50);
+    return write_clay(clay_resistance(clay, layer(), D, contact_, shortest()), 1.0, y50);
   }
   const double transition = transition_depth(clay, layer(), D, contact_.stress);
   const bool has_deep_part = transition < contact_.to - shortest();
   Contact shallow = contact_;
   shallow.to = has_deep_part ? std::max(transition, contact_.from) : contact_.to;
   if (shallow.to > shallow.from + shortest()) {
-    write_tables(clay_resistance(clay, layer(), D, shallow, shortest()).front(), transition, y50);
+    write_shallow_cyclic(clay_resistance(clay, layer(), D, shallow, shortest()).front(), transition, y50);
   }
   if (has_deep_part) {
     Contact deep = contact_;
     deep.from = shallow.to;
-    write_power(clay_resistance(clay, layer(), D, deep, shortest()), kCyclicCapacity, y50);
+    write_clay(clay_resistance(clay, layer(), D, deep, shortest()), kCyclicCapacity, y50);
   }
 }
 
 /// Writes p = Pmax min(0.5 (y/y50)^(1/3), capacity).
-void SoilWriter::write_power(std::span<const Piece> resistance, double capacity, double y50) {
-  const auto depths = break_depths(resistance, shortest(), document_.accuracy);
-  if (!depths) {
-    return report_too_fine();
+void SoilWriter::write_clay(std::span<const Piece> resistance, double capacity, double y50) {
+  if (const auto depths = break_depths(resistance, shortest(), document_.accuracy)) {
+    write_power(
+        *depths, [&](double X) { return value_at(resistance, X); }, capacity, y50);
+  } else {
+    report_too_fine();
   }
-  const auto times_resistance = [&](double factor) {
-    return along(*depths, [&resistance, factor](double X) { return factor * value_at(resistance, X); });
-  };
-  add(resistance.front().from, resistance.back().to,
-      {{"type", "power"},
-       {"capacity", times_resistance(capacity)},
-       {"reference", checked(clay_displacement(capacity) * y50)},
-       {"exponent", kExponent},
-       {"stiffness", times_resistance(clay_stiffness() / y50)}});
 }
 
 /// @brief Writes p = Pmax min(0.5 (y/y50)^(1/3), 0.72 X/X_R) as curves at depths X_0, X_1, ..., linear in X
 /// between.
 ///
-/// The reaction of each curve has a factor that falls linearly from 1 at its own depth to 0 at both
-/// neighbours. With m = min(0.5 t^(1/3), c) and c = 0.72 X/X_R, interpolation L of P m between a and b
-/// satisfies
+/// The resistance of each curve falls linearly from its own depth to zero at both neighbours.
+/// With m = min(0.5 (y/y50)^(1/3), c) and c = 0.72 X/X_R, interpolation L of P m between a and b satisfies
 ///   L[P m] - P m = (L[P] - P) L[m] + P (L[m] - m) + u (1 - u) dP dm,
 /// where u is the fraction of the interval and |L[m] - m| <= dc/4. All terms are bounded relative to P =
 /// Pmax.
 /// @param resistance above the transition depth X_R clay has one polynomial
-void SoilWriter::write_tables(const Piece& resistance, double transition, double y50) {
+void SoilWriter::write_shallow_cyclic(const Piece& resistance, double transition, double y50) {
   const auto capacity = [&](double X) { return kCyclicCapacity * std::min(1.0, X / transition); };
   const auto depths = divide_depth(resistance.from, resistance.to, shortest(), [&](double a, double b) {
     const double error = chord_error(resistance, a, b);
     const double step = capacity(b) - capacity(a);
-    const double root_a = std::sqrt(resistance.value(a));
-    const double root_b = std::sqrt(resistance.value(b));
+    const double root_a = std::sqrt(resistance_at(resistance, a));
+    const double root_b = std::sqrt(resistance_at(resistance, b));
     const double sum = error * capacity(b) + (1.0 + error) * step / 4.0 +
                        step * std::abs(root_b - root_a) / (root_a + root_b);
     return error < 1.0 && sum / (1.0 - error) <= document_.accuracy;
@@ -174,31 +169,30 @@ void SoilWriter::write_tables(const Piece& resistance, double transition, double
     return report_too_fine();
   }
   for (std::size_t i = 0; i < depths->size(); ++i) {
-    const double X = (*depths)[i];
+    const double own = (*depths)[i];
     const std::span neighbours(depths->begin() + (i > 0 ? i - 1 : 0),
                                depths->begin() + std::min(i + 2, depths->size()));
-    const double limit = resistance.value(X) * capacity(X);
-    if (limit > 0.0) {  // there is no resistance at the surface
-      add(neighbours.front(), neighbours.back(),
-          {{"type", "table"},
-           {"points", table_points(resistance.value(X), capacity(X), y50)},
-           {"factor", along(neighbours, [X](double depth) { return depth == X ? 1.0 : 0.0; })}},
-          i + 1);
+    const double peak = resistance_at(resistance, own);
+    if (peak * capacity(own) > 0.0) {  // there is no resistance at the surface
+      write_power(
+          neighbours, [&](double X) { return X == own ? peak : 0.0; }, capacity(own), y50, i + 1);
     }
   }
 }
 
-/// Returns points [y, p] of p = resistance min(0.5 (y/y50)^(1/3), capacity), four for each power of ten of y.
-json SoilWriter::table_points(double resistance, double capacity, double y50) {
-  constexpr double kRatio = 1.7782794100389228;  // 10^(1/4)
-  const bool is_line = capacity <= clay_curve(kFirstPoint);
-  const double end = is_line ? capacity / clay_stiffness() : clay_displacement(capacity);
-  json points = json::array({json::array({0.0, 0.0})});
-  for (double t = kFirstPoint; t * std::sqrt(kRatio) < end; t *= kRatio) {
-    points.push_back({checked(t * y50), checked(clay_curve(t) * resistance)});
-  }
-  points.push_back({checked(end * y50), checked(capacity * resistance)});
-  return points;
+/// Writes p = R min(0.5 (y/y50)^(1/3), capacity), where the resistance R is linear between depths.
+void SoilWriter::write_power(std::span<const double> depths, const ByDepth& resistance, double capacity,
+                             double y50, std::size_t curve) {
+  const auto times_resistance = [&](double factor) {
+    return along(depths, [&](double X) { return factor * resistance(X); });
+  };
+  add(depths.front(), depths.back(),
+      {{"type", "power"},
+       {"capacity", times_resistance(capacity)},
+       {"reference", checked(clay_displacement(capacity) * y50)},
+       {"exponent", kExponent},
+       {"stiffness", times_resistance(clay_stiffness() / y50)}},
+      curve);
 }
 
 void SoilWriter::add(double from, double to, json law, std::size_t curve) {

@@ -17,8 +17,7 @@ constexpr double kFullTurn = 360.0;
 
 // Flags of group code 70.
 constexpr int kClosed = 1;
-constexpr int kLineTypePattern = 128;    ///< has no influence on the geometry
-constexpr int kSplineControlPoint = 16;  ///< vertex that lies off the curve
+constexpr int kLineTypePattern = 128;  ///< has no influence on the geometry
 
 /// Vertex of a polyline.
 struct Vertex {
@@ -147,12 +146,10 @@ void SegmentReader::read_polyline(const Entity& entity, std::span<const Entity> 
   }
   std::vector<Vertex> vertices;
   for (const Entity& vertex : vertex_entities) {
-    if ((static_cast<int>(std::clamp(optional(vertex, 70, 0.0), 0.0, 65535.0)) & kSplineControlPoint) == 0) {
-      vertices.push_back({vertex.line,
-                          {number(vertex, 10), number(vertex, 20)},
-                          optional(vertex, 42, 0.0),
-                          std::abs(optional(vertex, 30, 0.0))});
-    }
+    vertices.push_back({vertex.line,
+                        {number(vertex, 10), number(vertex, 20)},
+                        optional(vertex, 42, 0.0),
+                        std::abs(optional(vertex, 30, 0.0))});
   }
   add(entity, vertices);
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/model/limits.h"
-
 namespace snapthrough::api::convert {
 
 namespace {
@@ -38,7 +36,7 @@ std::optional<std::vector<double>> divide_depth(double from, double to, double s
       depths.push_back(to);
       break;
     }
-    if (step < shortest || depths.size() >= kMaxCurvePoints) {
+    if (step < shortest || depths.size() >= kMaxBreakPoints) {
       return std::nullopt;
     }
     depths.push_back(start + std::min(step, 0.5 * rest));  // half leaves no last part that is short
@@ -46,8 +44,10 @@ std::optional<std::vector<double>> divide_depth(double from, double to, double s
   return depths;
 }
 
+double resistance_at(const Piece& piece, double depth) { return std::max(piece.value(depth), 0.0); }
+
 double chord_error(const Piece& piece, double a, double b) {
-  const double ends = std::sqrt(piece.value(a)) + std::sqrt(piece.value(b));
+  const double ends = std::sqrt(resistance_at(piece, a)) + std::sqrt(resistance_at(piece, b));
   const double curvature = piece.value.largest_curvature(a, b);
   return curvature > 0.0 ? curvature * (b - a) * (b - a) / (2.0 * ends * ends) : 0.0;
 }
@@ -58,7 +58,7 @@ std::optional<std::vector<double>> break_depths(std::span<const Piece> pieces, d
   for (const Piece& piece : pieces) {
     const auto part = divide_depth(piece.from, piece.to, shortest, [&](double a, double b) {
       const double error = chord_error(piece, a, b);
-      return error < 1.0 && error / (1.0 - error) <= accuracy;  // of f instead of L
+      return error < 1.0 && error / (1.0 - error) <= accuracy;  // relative to f instead of L
     });
     if (!part) {
       return std::nullopt;
@@ -71,7 +71,7 @@ std::optional<std::vector<double>> break_depths(std::span<const Piece> pieces, d
 double value_at(std::span<const Piece> pieces, double depth) {
   const auto found =
       std::find_if(pieces.begin(), pieces.end(), [&](const Piece& piece) { return depth <= piece.to; });
-  return (found == pieces.end() ? pieces.back() : *found).value(depth);
+  return resistance_at(found == pieces.end() ? pieces.back() : *found, depth);
 }
 
 }  // namespace snapthrough::api::convert

@@ -142,13 +142,13 @@ static void read(const Value& value, Layer& out) {
   read_tagged(value, kForms, out);
 }
 
-static void read_units(const Value& value, std::vector<std::pair<std::string, std::string>>& out) {
+static void read_units(const Value& value, std::map<std::string, std::string>& out) {
   if (!value.is_object()) {
     value.report_type("an object of strings");
     return;
   }
   for (const std::string& key : value.keys()) {
-    read(*value.member(key), out.emplace_back(key, "").second);
+    read(*value.member(key), out[key]);
   }
 }
 
@@ -168,7 +168,7 @@ static void require_order(const SoilDocument& document, Report& report) {
     report.add("/layers", "out_of_range",
                "there must be 1 to " + std::to_string(kMaxLayers) + " layers, got " +
                    std::to_string(document.layers.size()));
-  } else if (above < document.pile.tip_depth()) {
+  } else if (above < document.pile.tip_depth() - kMinRelativeChord * document.pile.length) {
     report.add("/layers/" + std::to_string(document.layers.size() - 1) + "/to", "out_of_range",
                "the layers must reach the tip of the pile at depth " +
                    checks::text(document.pile.tip_depth()) + ", got " + checks::text(above));

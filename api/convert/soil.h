@@ -3,9 +3,9 @@
 /// A pile in layered soil, as a soil document describes it.
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -16,6 +16,8 @@ namespace snapthrough::api::convert {
 /// Largest number of layers of a soil document.
 inline constexpr std::size_t kMaxLayers = 1'000;
 
+/// Largest number of depths of a layer between which its curves are linear.
+inline constexpr std::size_t kMaxBreakPoints = 1'000;
 /// Least and largest value of a soil document's `accuracy`.
 inline constexpr double kLeastAccuracy = 1e-4;
 inline constexpr double kLargestAccuracy = 0.1;
@@ -56,7 +58,7 @@ struct Layer {
 
 /// A valid soil document. Layers follow one another from the surface and reach the pile's tip.
 struct SoilDocument {
-  std::vector<std::pair<std::string, std::string>> units;
+  std::map<std::string, std::string> units;  ///< carried over, never interpreted
   Pile pile;
   std::vector<Layer> layers;
   Loading loading = Loading::static_;
