@@ -19,8 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-// Curve of soft clay, p/Pmax over t = y/y50: 0.5 t^(1/3), by the tables of API RP 2GEO a line up to their
-// first point.
+// Curve of soft clay, p/Pmax over t = y/y50: 0.5 t^(1/3), in place of which the tables of API RP 2GEO have a
+// line up to their first point.
 constexpr double kExponent = 1.0 / 3.0;
 constexpr double kFirstPoint = 0.1;       ///< t at the end of the line
 constexpr double kStaticEnd = 8.0;        ///< t at which p = Pmax
@@ -37,7 +37,7 @@ double clay_stiffness() { return clay_curve(kFirstPoint) / kFirstPoint; }
 /// A value that varies with depth.
 using ByDepth = std::function<double(double)>;
 
-/// Layer by layer, the foundations of a pile.
+/// Writes the foundations of a pile, layer by layer.
 class SoilWriter {
  public:
   SoilWriter(const SoilDocument& document, std::vector<Finding>& findings)
@@ -84,18 +84,17 @@ json SoilWriter::foundations() {
     contact_ = {std::max(layer().from, pile.head_depth), std::min(layer().to, pile.tip_depth()),
                 Cubic({stress - layer().gamma * layer().from, layer().gamma, 0.0, 0.0})};
     stress += layer().gamma * (layer().to - layer().from);
-    if (contact_.from >= contact_.to) {
-      continue;
-    }
     if (contact_.to - contact_.from < shortest()) {
-      report("the part of this layer along the pile is thinner than " +
-             checks::text(2.0 * kMinRelativeChord) + " of the pile's length");
-      continue;
+      continue;  // the layer does not touch the pile, but for rounding
     }
     is_finite_ = true;
     std::visit([this](const auto& soil) { write(soil); }, layer().soil);
     if (!is_finite_) {
       report("a resistance or stiffness of this layer is greater than " + checks::text(kMaxMagnitude));
+    }
+    if (foundations_.size() > kMaxFoundations) {
+      report("the layers up to this one need more than " + std::to_string(kMaxFoundations) + " foundations");
+      break;
     }
   }
   return std::move(foundations_);

@@ -39,7 +39,7 @@ class CsvSplitter {
  private:
   std::string plain() {
     const std::size_t end = std::min(text_.find_first_of(",\r\n", at_), text_.size());
-    const std::string field(trimmed(text_.substr(at_, end - at_)));
+    std::string field(trimmed(text_.substr(at_, end - at_)));
     wrong_quotes_ = field.find('"') != std::string::npos;
     at_ = end;
     return field;

@@ -140,18 +140,18 @@ void SegmentReader::read_light_polyline(const Entity& entity) {
   add(entity, vertices);
 }
 
-void SegmentReader::read_polyline(const Entity& entity, std::span<const Entity> vertex_entities) {
+void SegmentReader::read_polyline(const Entity& entity, std::span<const Entity> vertices) {
   if (flags(entity) != 0) {
     return report_unsupported(entity, "a POLYLINE in space, with a mesh or with a fitted curve");
   }
-  std::vector<Vertex> vertices;
-  for (const Entity& vertex : vertex_entities) {
-    vertices.push_back({vertex.line,
-                        {number(vertex, 10), number(vertex, 20)},
-                        optional(vertex, 42, 0.0),
-                        std::abs(optional(vertex, 30, 0.0))});
+  std::vector<Vertex> corners;
+  for (const Entity& vertex : vertices) {
+    corners.push_back({vertex.line,
+                       {number(vertex, 10), number(vertex, 20)},
+                       optional(vertex, 42, 0.0),
+                       std::abs(optional(vertex, 30, 0.0))});
   }
-  add(entity, vertices);
+  add(entity, corners);
 }
 
 /// Adds the segments between vertices.

@@ -65,7 +65,7 @@ std::optional<std::vector<double>> break_depths(std::span<const Piece> pieces, d
     }
     depths.insert(depths.end(), part->begin() + 1, part->end());
   }
-  return depths;
+  return depths.size() <= kMaxBreakPoints ? std::optional(depths) : std::nullopt;
 }
 
 double value_at(std::span<const Piece> pieces, double depth) {

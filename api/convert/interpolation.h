@@ -29,8 +29,7 @@ namespace snapthrough::api::convert {
 [[nodiscard]] double chord_error(const Piece& piece, double a, double b);
 
 /// @brief Returns break points of pieces whose linear interpolation L has |L - f| <= accuracy f everywhere.
-/// @return nullopt when break points would be nearer than `shortest`, and for more than kMaxBreakPoints in a
-/// piece
+/// @return nullopt when break points would be nearer than `shortest`, and for more than kMaxBreakPoints
 [[nodiscard]] std::optional<std::vector<double>> break_depths(std::span<const Piece> pieces, double shortest,
                                                               double accuracy);
 

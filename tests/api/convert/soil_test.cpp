@@ -379,11 +379,14 @@ TEST(ConvertSoil, RandomLayersKeepTheAccuracyEverywhere) {
   }
 }
 
-// 0.1 + 0.2 is greater than 0.3 by rounding.
+// 0.1 + 0.2 is greater than 0.3 by rounding, also where another layer begins there.
 TEST(ConvertSoil, LayersReachTheTipToRounding) {
   json document = sand_document();
   document["pile"].update({{"head_depth", 0.1}, {"length", 0.2}});
   document["layers"][0]["to"] = 0.3;
+  EXPECT_THAT(converted(document)["foundations"], SizeIs(1));
+  document["layers"].push_back(document["layers"][0]);
+  document["layers"][1].update({{"from", 0.3}, {"to", 5}});
   EXPECT_THAT(converted(document)["foundations"], SizeIs(1));
 }
 
