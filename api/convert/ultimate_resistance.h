@@ -14,7 +14,7 @@
 
 namespace snapthrough::api::convert {
 
-/// Friction angles in degrees for which API RP 2GEO gives coefficients lie between these, or little above.
+/// Accepted friction angles in degrees. The figure of API RP 2GEO covers 20 to 40.
 inline constexpr double kLeastPhi = 20.0;
 inline constexpr double kLargestPhi = 45.0;
 

@@ -98,18 +98,16 @@ TEST(SandCoefficients, AreThoseOfTheEquationsAtThirtyDegrees) {
   EXPECT_NEAR(found.C3, 28.745127636, 1e-8);
 }
 
-// Read from the figure of API RP 2GEO, which can be read to a few per cent.
-TEST(SandCoefficients, AgreeWithTheFigureOfTheStandard) {
-  struct Row {
-    double phi, C1, C2, C3;
-  };
-  for (const Row& row :
-       {Row{20, 0.75, 1.55, 8.6}, Row{25, 1.2, 2.05, 15.7}, Row{35, 3.0, 3.4, 54}, Row{40, 4.6, 4.4, 103}}) {
-    const convert::SandCoefficients found = convert::sand_coefficients(row.phi);
-    EXPECT_NEAR(found.C1, row.C1, 0.05 * row.C1) << row.phi;
-    EXPECT_NEAR(found.C2, row.C2, 0.05 * row.C2) << row.phi;
-    EXPECT_NEAR(found.C3, row.C3, 0.05 * row.C3) << row.phi;
-  }
+// phi = 20 degrees: a = 10, b = 55, b - phi = 35 degrees; tan^2 35 = 0.490291 = Ka, tan^2 55 = 2.039607.
+//   C1 = 0.4 x 0.363970 x 0.819152 / (0.700208 x 0.984808) + 2.039607 x 0.176327 / 0.700208
+//        + 0.4 x 1.428148 (0.363970 x 0.819152 - 0.176327) = 0.172946 + 0.513613 + 0.069591 = 0.756150
+//   C2 = 1.428148 / 0.700208 - 0.490291 = 1.549314
+//   C3 = 0.490291 (2.039607^4 - 1) + 0.4 x 0.363970 x 2.039607^2 = 7.994477 + 0.605646 = 8.600123
+TEST(SandCoefficients, AreThoseOfTheEquationsAtTwentyDegrees) {
+  const convert::SandCoefficients found = convert::sand_coefficients(20.0);
+  EXPECT_NEAR(found.C1, 0.756150, 1e-5);
+  EXPECT_NEAR(found.C2, 1.549314, 1e-5);
+  EXPECT_NEAR(found.C3, 8.600123, 5e-5);
 }
 
 struct Curve {
