@@ -23,11 +23,19 @@ namespace {
 
 using Vec3 = std::array<double, 3>;
 
+/// A structure with the same scales, whose parts are taken over where they do not differ, and its model.
+struct Neighbour {
+  const Structure& structure;
+  const Model& model;
+};
+
 /// Builds a Structure stage by stage; one object per structure.
 class Builder {
  public:
   /// @param laws model with opposite supports joined, for the equations
-  Builder(const Model& model, const Model& laws, Structure& out) : model_(model), laws_(laws), out_(out) {}
+  /// @param like null, or a structure with the same mesh and axes
+  Builder(const Model& model, const Model& laws, const Neighbour* like, Structure& out)
+      : model_(model), laws_(laws), like_(like), out_(out) {}
   Builder(const Builder&) = delete;
 
   /// @param known scales of another mesh or model; null: from the model
@@ -46,11 +54,14 @@ class Builder {
   void finish() { out_.elements = std::move(elements_); }
 
  private:
+  void add_shape(int element);
   void add_element_supports(int element);
   void add_foundation(int element, int index);
   void add_foundation_law(int element, int index);
   void add_contacts(int element, int index);
   [[nodiscard]] Touch touch_of_spring(std::size_t index) const;
+  [[nodiscard]] const FoundationContact* known_contact(int element, const Direction& direction,
+                                                       std::array<double, 2> range) const;
   [[nodiscard]] FoundationContact make_contact(int element, const FoundationLaw& foundation, int index,
                                                std::array<double, 2> range) const;
   void add_point_spring(int element, std::size_t index);
@@ -61,7 +72,9 @@ class Builder {
   }
   void add_pressure(const PressureLoad& load);
   void add_initial_strain(const InitialStrain& load);
-  void scale_loads(std::optional<double> load_scale);
+  void add_dead_load(const Load& load);
+  [[nodiscard]] double size_of_loads() const;
+  void scale_other_actions();
   void find_follower_ends(double load_scale);
   [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
 
@@ -74,6 +87,7 @@ class Builder {
 
   const Model& model_;
   const Model& laws_;
+  const Neighbour* like_;
   Structure& out_;
   std::vector<FoundationLaw> foundation_laws_;  ///< of `laws_`
   std::vector<SpringLaw> spring_laws_;
@@ -187,16 +201,33 @@ void Builder::number_unknowns() {
   out_.constant_load = Eigen::VectorXd::Zero(out_.size);
 }
 
+/// A contact on the same part of an element, in the same direction; null: there is none.
+const FoundationContact* contact_in(const std::vector<FoundationPart>& parts, int element,
+                                    const Direction& direction, std::array<double, 2> range) {
+  const auto before = [](const FoundationPart& part, int e) { return part.element < e; };
+  for (auto part = std::lower_bound(parts.begin(), parts.end(), element, before);
+       part != parts.end() && part->element == element; ++part)
+    if (part->contact && part->contact->is_on(direction, range)) return &*part->contact;
+  return nullptr;
+}
+
+/// A contact that differs by its law alone: that of the same foundation, made for results, or of the
+/// neighbour.
+const FoundationContact* Builder::known_contact(int element, const Direction& direction,
+                                                std::array<double, 2> range) const {
+  const FoundationContact* known = contact_in(out_.foundation_parts, element, direction, range);
+  if (known == nullptr && like_ != nullptr)
+    known = contact_in(like_->structure.foundation_parts, element, direction, range);
+  return known;
+}
+
 FoundationContact Builder::make_contact(int element, const FoundationLaw& foundation, int index,
                                         std::array<double, 2> range) const {
+  const FoundationLaw law = law_on(out_, foundation, element);
+  if (const auto* known = known_contact(element, foundation.direction, range))
+    return known->with_law(law, index);
   const MeshElement& e = out_.mesh.elements[element];
   const std::shared_ptr<const AxisCurve>& axis = out_.axes[e.member];
-  const FoundationLaw law = law_on(out_, foundation, element);
-  // the contact of the same foundation, made for results, has the same geometry
-  for (auto part = out_.foundation_parts.rbegin();
-       part != out_.foundation_parts.rend() && part->element == element; ++part)
-    if (part->contact && part->contact->is_on(foundation.direction, range))
-      return part->contact->with_law(law, index);
   return FoundationContact(out_.mesh.order, law,
                            {axis, e.from * axis->length(), (e.to - e.from) * axis->length(), e.from, e.to,
                             element_length(element)},
@@ -277,15 +308,28 @@ void Builder::add_element_supports(int element) {
     if (laws_.springs[i].at.member == member) add_point_spring(element, i);
 }
 
+/// Section of an element.
+const Section& section_of(const Model& model, const Mesh& mesh, int element) {
+  const Member& member = model.members[mesh.elements[static_cast<std::size_t>(element)].member];
+  return model.sections[index_of(model.sections, member.section)];
+}
+
+void Builder::add_shape(int element) {
+  const ElementDofs& dofs = out_.dofs[element];
+  if (like_ != nullptr &&
+      section_of(model_, out_.mesh, element) == section_of(like_->model, out_.mesh, element))
+    elements_->add_like(*like_->structure.elements, element, dofs);
+  else
+    elements_->add(shape_of_element(out_, model_, element), dofs);
+}
+
 void Builder::add_elements() {
   elements_ = make_element_set(out_.mesh.order);
-  elements_->reserve(static_cast<int>(out_.mesh.elements.size()));
-  for (std::size_t m = 0; m < model_.members.size(); ++m) {
-    const StressFreeAxis& axis = *out_.stress_free[m];
-    for (int e = out_.mesh.first[m]; e < out_.mesh.first[m + 1]; ++e) {
-      elements_->add(shape_on(out_, model_, e, axis), out_.dofs[e]);
-      add_element_supports(e);
-    }
+  const int count = static_cast<int>(out_.mesh.elements.size());
+  elements_->reserve(count);
+  for (int e = 0; e < count; ++e) {
+    add_shape(e);
+    add_element_supports(e);
   }
   out_.skipped = without_stiffness(model_);
   add_unresolved();
@@ -363,29 +407,39 @@ void Builder::add_distributed(const DistributedLoad& load) {
   }
 }
 
-void Builder::add_loads(std::optional<double> load_scale) {
+void Builder::add_dead_load(const Load& load) {
   const Scales& scales = out_.scales;
-  for (const Load& load : model_.loads) {
-    if (const auto* point = std::get_if<PointLoad>(&load)) {
-      const Vec3 action{scales.scaled_force(point->force[0]), scales.scaled_force(point->force[1]),
-                        scales.scaled_moment(point->moment)};
-      if (point->at.member.empty()) {
-        const int node = index_of(model_.nodes, point->at.node);
-        for (int c = 0; c < 3; ++c) pattern(point->pattern)[3 * node + c] += action[c];
-      } else {
-        const MeshPlace place =
-            place_of(out_.mesh, index_of(model_.members, point->at.member), point->at.fraction);
-        add_point_action(pattern(point->pattern), place.element, place.xi, action);
-      }
-    } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
-      add_distributed(*distributed);
-    } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
-      add_pressure(*pressure);
+  if (const auto* point = std::get_if<PointLoad>(&load)) {
+    const Vec3 action{scales.scaled_force(point->force[0]), scales.scaled_force(point->force[1]),
+                      scales.scaled_moment(point->moment)};
+    if (point->at.member.empty()) {
+      const int node = index_of(model_.nodes, point->at.node);
+      for (int c = 0; c < 3; ++c) pattern(point->pattern)[3 * node + c] += action[c];
     } else {
-      add_initial_strain(std::get<InitialStrain>(load));
+      const MeshPlace place =
+          place_of(out_.mesh, index_of(model_.members, point->at.member), point->at.fraction);
+      add_point_action(pattern(point->pattern), place.element, place.xi, action);
     }
+  } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
+    add_distributed(*distributed);
+  } else if (const auto* strain = std::get_if<InitialStrain>(&load)) {
+    add_initial_strain(*strain);
   }
-  scale_loads(load_scale);
+}
+
+void Builder::add_loads(std::optional<double> load_scale) {
+  for (const Load& load : model_.loads)
+    if (const auto* pressure = std::get_if<PressureLoad>(&load)) add_pressure(*pressure);
+  const bool known = like_ != nullptr && model_.loads == like_->model.loads;
+  if (known) {
+    out_.proportional_load = like_->structure.proportional_load;
+    out_.constant_load = like_->structure.constant_load;
+  } else {
+    for (const Load& load : model_.loads) add_dead_load(load);
+  }
+  out_.scales.load = load_scale ? *load_scale : size_of_loads();
+  if (!known) out_.proportional_load /= out_.scales.load;
+  scale_other_actions();
 }
 
 void Builder::add_pressure(const PressureLoad& load) {
@@ -416,8 +470,8 @@ void Builder::add_initial_strain(const InitialStrain& load) {
   }
 }
 
-/// Scales the load factor so that the magnitudes of all actions at unit scaled factor add up to one.
-void Builder::scale_loads(std::optional<double> load_scale) {
+/// Sum of the magnitudes of all actions at load factor one, by which the load factor is scaled.
+double Builder::size_of_loads() const {
   double total = strain_size_;
   for (int j = 0; j < 3 * out_.nodes + out_.releases; ++j) total += std::abs(out_.proportional_load[j]);
   for (const ElementDofs& dofs : out_.dofs)
@@ -426,10 +480,12 @@ void Builder::scale_loads(std::optional<double> load_scale) {
   for (const NodeSupport& support : out_.supports)
     for (const double value : support.proportional) total += std::abs(value);
   for (const ElementPressure& p : pressures_) total += std::abs(p.proportional) * element_length(p.element);
-  if (total == 0.0) total = 1.0;
-  if (load_scale) total = *load_scale;
-  out_.scales.load = total;
-  out_.proportional_load /= total;
+  return total == 0.0 ? 1.0 : total;
+}
+
+/// Scales prescribed displacements and pressures.
+void Builder::scale_other_actions() {
+  const double total = out_.scales.load;
   for (NodeSupport& support : out_.supports)
     for (double& value : support.proportional) value /= total;
   for (const ElementPressure& p : pressures_)
@@ -587,10 +643,11 @@ namespace {
 
 /// Fills all data that follow from the model, the axes, the geometry and the mesh, which are already set.
 /// @param scales null: computed from the model
-void fill(const Model& model, const Scales* scales, Structure& out) {
+/// @param like see Builder
+void fill(const Model& model, const Scales* scales, const Neighbour* like, Structure& out) {
   const std::optional<Model> joined = with_joined_supports(model);
   const Model& laws = joined ? *joined : model;
-  Builder builder(model, laws, out);
+  Builder builder(model, laws, like, out);
   builder.set_scales(scales);
   builder.bound_stiffness();
   builder.number_unknowns();
@@ -647,13 +704,15 @@ Structure make_structure(const Model& model, const Discretization& discretizatio
   out.geometry = geometry;
   set_axes(model, modes, out);
   out.mesh = make_mesh(model, discretization, out.axes, use);
-  fill(model, nullptr, out);
+  fill(model, nullptr, nullptr, out);
   return out;
 }
 
 namespace {
 
-Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, TouchingSupports touching) {
+/// Structure of a model on a mesh, with axes and scales of another one.
+Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, TouchingSupports touching,
+                     const Neighbour* like) {
   Structure out;
   out.geometry = structure.geometry;
   out.axes = structure.axes;
@@ -661,30 +720,42 @@ Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, 
   out.stress_free = structure.stress_free;
   out.mesh = std::move(mesh);
   out.touching = std::move(touching);
-  fill(model, &structure.scales, out);
+  fill(model, &structure.scales, like, out);
   out.free_motions = structure.free_motions;
   out.stop = structure.stop;
   return out;
 }
 
+/// Whether both models have the same axes, perfect and stress-free. @param modes see with_changed_model()
+bool has_same_axes(const Model& a, const Model& b, const ModeOffsets& modes) {
+  return modes.empty() && a.nodes == b.nodes && a.members == b.members && a.imperfections == b.imperfections;
+}
+
 }  // namespace
 
 Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh) {
-  return built_anew(structure, model, std::move(mesh), structure.touching);
+  return built_anew(structure, model, std::move(mesh), structure.touching, nullptr);
 }
 
 Structure with_touching(const Structure& structure, const Model& model, TouchingSupports touching) {
-  return built_anew(structure, model, structure.mesh, std::move(touching));
+  const Neighbour like{structure, model};
+  return built_anew(structure, model, structure.mesh, std::move(touching), &like);
 }
 
 Structure with_changed_model(const Structure& structure, const Model& model, const Model& changed,
                              const ModeOffsets& modes) {
+  if (has_same_axes(model, changed, modes)) {
+    Mesh mesh = moved_mesh(structure.mesh, model, structure.axes, changed, structure.axes);
+    const Neighbour like{structure, model};
+    const bool same = mesh.elements == structure.mesh.elements;
+    return built_anew(structure, changed, std::move(mesh), structure.touching, same ? &like : nullptr);
+  }
   Structure out;
   out.geometry = structure.geometry;
   set_axes(changed, modes, out);
   out.mesh = moved_mesh(structure.mesh, model, structure.axes, changed, out.axes);
   out.touching = structure.touching;
-  fill(changed, &structure.scales, out);
+  fill(changed, &structure.scales, nullptr, out);
   out.free_motions = structure.free_motions;
   out.stop = structure.stop;
   return out;

@@ -140,7 +140,8 @@ struct Structure {
                                       TouchingSupports touching);
 
 /// @brief Builds the structure of a changed model with the same members. Unknowns, elements and scales
-/// remain, so that a state vector has the same meaning in both.
+/// remain, so that a state vector has the same meaning in both. Axes, element shapes, contact samples and
+/// load vectors are taken over where what they follow from is the same in both models.
 /// @param model model of `structure`
 /// @param modes offsets of the changed model's mode imperfections
 /// @pre the changed model passed check()

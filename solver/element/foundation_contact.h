@@ -3,8 +3,8 @@
 /// One-sided foundation on one element.
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <utility>
@@ -42,9 +42,9 @@ class FoundationContact {
   FoundationContact(int order, const FoundationLaw& law, Place place, std::array<double, 2> range,
                     int foundation);
 
-  /// Quadrature on a contact interval, for elements of an order.
-  [[nodiscard]] static Quadrature quadrature(int order) { return gauss_legendre(std::max(order + 2, 5)); }
-  /// Copy with another law, for the foundation of an index.
+  /// Quadrature on a contact interval, for elements of an order; cached, thread safe.
+  [[nodiscard]] static const Quadrature& quadrature(int order);
+  /// Copy with another law, for the foundation of an index; both share the samples.
   [[nodiscard]] FoundationContact with_law(const FoundationLaw& law, int foundation) const;
   /// Whether with_law() makes the contact of a direction on a part of the same element.
   [[nodiscard]] bool is_on(const Direction& along, std::array<double, 2> range) const {
@@ -58,6 +58,11 @@ class FoundationContact {
   [[nodiscard]] int foundation() const { return foundation_; }
   [[nodiscard]] std::array<double, 2> range() const { return range_; }
   [[nodiscard]] std::array<double, 2> direction_at(double xi) const;
+  /// Direction x, y, then the A_r of CollocationRule, at point i of quadrature() on the whole range.
+  [[nodiscard]] std::span<const double> at_point(std::size_t i) const {
+    const auto width = static_cast<std::size_t>(2 + rule_->order());
+    return std::span<const double>(samples_->points).subspan(i * width, width);
+  }
 
   /// @brief Penetration at xi.
   /// @param ua displacement (x, y) at the element's start; dx, dy: h times u'_x, u'_y at the Gauss points
@@ -92,9 +97,20 @@ class FoundationContact {
   static constexpr int kMostBlocks = (ChebyshevSeries::kMostPoints + kLanes - 1) / kLanes;
   using Values = std::array<double, kLanes * kMostBlocks>;
 
+  /// What follows from the axis and the range alone.
+  struct Samples {
+    int count = 0;               ///< number of samples (Chebyshev points of the range)
+    int blocks = 0;              ///< blocks of four samples
+    Values z{};                  ///< sample positions on the range, scaled to [0, 1]
+    std::vector<Lanes> rows;     ///< in each block: direction x, y, then the A_r of CollocationRule
+    std::vector<double> points;  ///< direction and A_r at each point of quadrature()
+    bool exact = true;           ///< interpolating the samples is exact to rounding
+  };
+
+  [[nodiscard]] std::shared_ptr<const Samples> sampled() const;
   void penetrations(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                     double gap, Values& g) const;
-  [[nodiscard]] bool resolved() const;
+  [[nodiscard]] bool resolved(const Samples& samples) const;
   template <class Gap>
   void search(const Gap& gap, const Values& g, std::vector<Interval>& out) const;
 
@@ -106,11 +122,7 @@ class FoundationContact {
   std::array<double, 2> range_;
   Law law_;
   int foundation_;
-  int count_ = 0;               ///< number of samples (Chebyshev points of the range)
-  int blocks_ = 0;              ///< blocks of four samples
-  bool exact_ = true;           ///< interpolating the samples is exact to rounding
-  Values z_{};                  ///< sample positions on the range, scaled to [0, 1]
-  std::vector<Lanes> samples_;  ///< in each block: direction x, y, then the A_r of CollocationRule
+  std::shared_ptr<const Samples> samples_;
 };
 
 }  // namespace snapthrough

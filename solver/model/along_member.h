@@ -31,6 +31,7 @@ struct AlongMember {
     for (const auto& point : points) out = std::max(out, point[1]);
     return out;
   }
+  bool operator==(const AlongMember&) const = default;
 };
 
 }  // namespace snapthrough

@@ -36,12 +36,14 @@ struct Location {
   std::string node;
   std::string member;
   double fraction = 0.0;  ///< fraction of the undeformed length, in [0, 1]; used with `member`
+  bool operator==(const Location&) const = default;
 };
 
 struct Node {
   std::string id;
   double x = 0.0;
   double y = 0.0;
+  bool operator==(const Node&) const = default;
 };
 
 /// Elastic section. No GA means unshearable (the limit GA -> infinity is taken exactly).
@@ -50,25 +52,32 @@ struct Section {
   double EA = 0.0;           ///< axial stiffness, > 0
   double EI = 0.0;           ///< bending stiffness, > 0
   std::optional<double> GA;  ///< shear stiffness (shear area included), > 0
+  bool operator==(const Section&) const = default;
 };
 
-struct LineCurve {};
+struct LineCurve {
+  bool operator==(const LineCurve&) const = default;
+};
 /// Circular arc that turns by `sweep_degrees` from start to end, positive to the left; 0 < |sweep| < 360.
 struct ArcCurve {
   double sweep_degrees = 0.0;
+  bool operator==(const ArcCurve&) const = default;
 };
 /// Parabola over the chord, `rise` along the chord's left normal.
 struct ParabolaCurve {
   double rise = 0.0;
+  bool operator==(const ParabolaCurve&) const = default;
 };
 /// Offset rise * sin(half_waves * pi * xi) along the chord's left normal, xi in [0, 1] along the chord.
 struct SineCurve {
   double rise = 0.0;
   int half_waves = 1;
+  bool operator==(const SineCurve&) const = default;
 };
 /// C2 cubic spline from the start through interior points to the end.
 struct PointsCurve {
   std::vector<std::array<double, 2>> points;
+  bool operator==(const PointsCurve&) const = default;
 };
 using Curve = std::variant<LineCurve, ArcCurve, ParabolaCurve, SineCurve, PointsCurve>;
 
@@ -80,6 +89,7 @@ struct Member {
   Curve curve;
   bool release_start_rotation = false;
   bool release_end_rotation = false;
+  bool operator==(const Member&) const = default;
 };
 
 struct PrescribedDisplacement {
@@ -87,6 +97,7 @@ struct PrescribedDisplacement {
   double y = 0.0;
   double rotation = 0.0;
   Pattern pattern = Pattern::proportional;
+  bool operator==(const PrescribedDisplacement&) const = default;
 };
 
 struct Support {
@@ -96,6 +107,7 @@ struct Support {
   bool rotation = false;
   double angle_degrees = 0.0;  ///< turns the support's x and y axes
   std::optional<PrescribedDisplacement> displacement;
+  bool operator==(const Support&) const = default;
 };
 
 /// @brief Reaction p of an elastic support as a function of its penetration w >= 0; p(-w) = -p(w) for
@@ -118,6 +130,7 @@ struct ReactionLaw {
   std::vector<std::array<double, 2>>
       points;  ///< (w, p), both ascending from the origin, which may be left out
   AlongMember factor{1.0, {}};
+  bool operator==(const ReactionLaw&) const = default;
 };
 
 /// Discrete spring to ground. `direction` points into the medium; empty: rotational spring.
@@ -129,6 +142,7 @@ struct Spring {
   Reaction reaction = Reaction::bilateral;
   double gap = 0.0;  ///< displacement at which a one-sided spring begins to react, >= 0
   std::optional<ReactionLaw> law = std::nullopt;  ///< in place of `stiffness`; its numbers do not vary
+  bool operator==(const Spring&) const = default;
 };
 
 /// Continuous foundation r = K w - G w'' per undeformed length, w the displacement along the initial normal
@@ -145,6 +159,7 @@ struct Foundation {
   std::optional<std::array<double, 2>> direction;
   std::optional<ReactionLaw> law = std::nullopt;  ///< in place of `stiffness`
   bool tangential = false;  ///< w is the displacement along the initial tangent; bilateral, without G
+  bool operator==(const Foundation&) const = default;
 };
 
 struct PointLoad {
@@ -152,6 +167,7 @@ struct PointLoad {
   std::array<double, 2> force{0.0, 0.0};
   double moment = 0.0;
   Pattern pattern = Pattern::proportional;
+  bool operator==(const PointLoad&) const = default;
 };
 /// Dead load per undeformed or projected length.
 struct DistributedLoad {
@@ -160,6 +176,7 @@ struct DistributedLoad {
   std::array<double, 2> range{0.0, 1.0};
   LoadMeasure per = LoadMeasure::length;
   Pattern pattern = Pattern::proportional;
+  bool operator==(const DistributedLoad&) const = default;
 };
 /// Follower pressure per deformed length, pushing from `side`.
 struct PressureLoad {
@@ -167,12 +184,14 @@ struct PressureLoad {
   double value = 0.0;
   Side side = Side::left;
   Pattern pattern = Pattern::proportional;
+  bool operator==(const PressureLoad&) const = default;
 };
 struct InitialStrain {
   std::string member;
   double axial = 0.0;
   double curvature = 0.0;
   Pattern pattern = Pattern::proportional;
+  bool operator==(const InitialStrain&) const = default;
 };
 using Load = std::variant<PointLoad, DistributedLoad, PressureLoad, InitialStrain>;
 
@@ -181,16 +200,19 @@ struct SineImperfection {
   std::string member;
   int half_waves = 1;
   double amplitude = 0.0;
+  bool operator==(const SineImperfection&) const = default;
 };
 /// Linearised buckling mode (1 is the lowest) scaled to the largest offset `amplitude`.
 struct ModeImperfection {
   int number = 1;
   double amplitude = 0.0;
+  bool operator==(const ModeImperfection&) const = default;
 };
 /// Stress-free offsets at fractions of the length, interpolated by a C2 spline.
 struct PointsImperfection {
   std::string member;
   std::vector<std::array<double, 2>> offsets;
+  bool operator==(const PointsImperfection&) const = default;
 };
 /// Norm of the stress-free offsets w(s) of all members: root mean square over their length, or largest |w|.
 enum class OffsetNorm { rms, max };
@@ -199,6 +221,7 @@ enum class OffsetNorm { rms, max };
 struct WorstImperfection {
   OffsetNorm norm = OffsetNorm::rms;
   double amplitude = 0.0;  ///< norm of the offsets, > 0
+  bool operator==(const WorstImperfection&) const = default;
 };
 using Imperfection = std::variant<SineImperfection, ModeImperfection, PointsImperfection, WorstImperfection>;
 
@@ -206,6 +229,7 @@ struct Monitor {
   std::string id;
   Location at;
   Component component = Component::y;
+  bool operator==(const Monitor&) const = default;
 };
 
 struct Model {
@@ -220,6 +244,7 @@ struct Model {
   std::vector<Load> loads;
   std::vector<Imperfection> imperfections;
   std::vector<Monitor> monitors;
+  bool operator==(const Model&) const = default;
 };
 
 }  // namespace snapthrough
