@@ -55,6 +55,13 @@ class Builder {
 
  private:
   void add_shape(int element);
+  /// Supports of an element: indices of foundations of the model, and of foundations and springs of `laws_`.
+  struct Here {
+    std::vector<int> foundations, laws;
+    std::vector<std::size_t> springs;
+  };
+  void find_supports();
+  void add_foundations(const std::vector<Foundation>& foundations, std::vector<int> Here::*list);
   void add_element_supports(int element);
   void add_foundation(int element, int index);
   void add_foundation_law(int element, int index);
@@ -89,6 +96,7 @@ class Builder {
   const Model& laws_;
   const Neighbour* like_;
   Structure& out_;
+  std::vector<Here> here_;                      ///< one per element
   std::vector<FoundationLaw> foundation_laws_;  ///< of `laws_`
   std::vector<SpringLaw> spring_laws_;
   std::unique_ptr<ElementSet> elements_;
@@ -239,6 +247,8 @@ void Builder::add_foundation(int element, int index) {
   const Foundation& foundation = model_.foundations[index];
   const auto range = part_of(out_.mesh.elements[element], foundation.range);
   if (range[1] <= range[0]) return;
+  out_.parts_of_foundation[static_cast<std::size_t>(index)].push_back(
+      static_cast<int>(out_.foundation_parts.size()));
   out_.foundation_parts.push_back({index, element, range, std::nullopt});
   if (is_one_sided(foundation) || out_.foundation_laws[index].law.curve != nullptr)
     out_.foundation_parts.back().contact = make_contact(element, out_.foundation_laws[index], index, range);
@@ -289,7 +299,7 @@ Touch Builder::touch_of_spring(std::size_t index) const {
 void Builder::add_point_spring(int element, std::size_t index) {
   const Spring& spring = laws_.springs[index];
   const MeshPlace place = place_of(out_.mesh, out_.mesh.elements[element].member, spring.at.fraction);
-  if (place.element != element || initial_stiffness(spring) == 0.0) return;
+  if (initial_stiffness(spring) == 0.0) return;
   const SpringLaw& law = spring_laws_[index];
   SupportSpring support = support_at(out_, element, place.xi, law.row);
   support.law = law.law;
@@ -298,14 +308,34 @@ void Builder::add_point_spring(int element, std::size_t index) {
   elements_->add_spring(support);
 }
 
+/// Adds the indices of foundations to the elements on which they lie.
+void Builder::add_foundations(const std::vector<Foundation>& foundations, std::vector<int> Here::*list) {
+  for (std::size_t i = 0; i < foundations.size(); ++i) {
+    const int member = index_of(model_.members, foundations[i].member);
+    const int last = place_of(out_.mesh, member, foundations[i].range[1]).element;
+    for (int e = place_of(out_.mesh, member, foundations[i].range[0]).element; e <= last; ++e)
+      (here_[static_cast<std::size_t>(e)].*list).push_back(static_cast<int>(i));
+  }
+}
+
+void Builder::find_supports() {
+  here_.resize(out_.mesh.elements.size());
+  out_.parts_of_foundation.resize(model_.foundations.size());
+  add_foundations(model_.foundations, &Here::foundations);
+  add_foundations(laws_.foundations, &Here::laws);
+  for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
+    const Location& at = laws_.springs[i].at;
+    if (at.member.empty()) continue;
+    const MeshPlace place = place_of(out_.mesh, index_of(model_.members, at.member), at.fraction);
+    here_[static_cast<std::size_t>(place.element)].springs.push_back(i);
+  }
+}
+
 void Builder::add_element_supports(int element) {
-  const std::string& member = model_.members[out_.mesh.elements[element].member].id;
-  for (std::size_t i = 0; i < model_.foundations.size(); ++i)
-    if (model_.foundations[i].member == member) add_foundation(element, static_cast<int>(i));
-  for (std::size_t i = 0; i < laws_.foundations.size(); ++i)
-    if (laws_.foundations[i].member == member) add_foundation_law(element, static_cast<int>(i));
-  for (std::size_t i = 0; i < laws_.springs.size(); ++i)
-    if (laws_.springs[i].at.member == member) add_point_spring(element, i);
+  const Here& here = here_[static_cast<std::size_t>(element)];
+  for (const int i : here.foundations) add_foundation(element, i);
+  for (const int i : here.laws) add_foundation_law(element, i);
+  for (const std::size_t i : here.springs) add_point_spring(element, i);
 }
 
 /// Section of an element.
@@ -327,6 +357,7 @@ void Builder::add_elements() {
   elements_ = make_element_set(out_.mesh.order);
   const int count = static_cast<int>(out_.mesh.elements.size());
   elements_->reserve(count);
+  find_supports();
   for (int e = 0; e < count; ++e) {
     add_shape(e);
     add_element_supports(e);

@@ -109,7 +109,8 @@ struct Structure {
   Eigen::VectorXd constant_load;
   Eigen::VectorXd metric;
   std::vector<MonitorRow> monitors;
-  std::vector<FoundationPart> foundation_parts;
+  std::vector<FoundationPart> foundation_parts;       ///< in the order of the elements
+  std::vector<std::vector<int>> parts_of_foundation;  ///< indices of `foundation_parts`, per foundation
   std::vector<std::string> skipped;
   std::vector<FollowerEnd> follower_ends;
   std::vector<double> euler_loads;       ///< pi^2 EI / l^2 of each member

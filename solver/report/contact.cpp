@@ -29,8 +29,8 @@ std::vector<std::array<double, 2>> contact_intervals(const Structure& structure,
   const double length = structure.axes[member]->length();
   std::vector<std::array<double, 2>> joined;
   std::vector<FoundationContact::Interval> local;
-  for (const FoundationPart& part : structure.foundation_parts) {
-    if (part.foundation != foundation) continue;
+  for (const int index : structure.parts_of_foundation[static_cast<std::size_t>(foundation)]) {
+    const FoundationPart& part = structure.foundation_parts[static_cast<std::size_t>(index)];
     local_intervals(structure, part, y, depth, local);
     const MeshElement& cell = structure.mesh.elements[part.element];
     for (const auto& interval : local) {

@@ -77,8 +77,11 @@ void SectionForces::add_load(const Load& load, double factor) {
 }
 
 void SectionForces::add_foundations() {
-  for (const FoundationPart& part : structure_.foundation_parts) {
-    if (part.element != element_) continue;
+  const auto before = [](const FoundationPart& part, int element) { return part.element < element; };
+  const auto& parts = structure_.foundation_parts;
+  for (auto at = std::lower_bound(parts.begin(), parts.end(), element_, before);
+       at != parts.end() && at->element == element_; ++at) {
+    const FoundationPart& part = *at;
     const FoundationLaw law = law_on(structure_, structure_.foundation_laws[part.foundation], element_);
     const bool lumped = structure_.mesh.foundation == FoundationRule::lumped;
     if (lumped) add_lumped(law, part.range);
