@@ -92,20 +92,19 @@ void ElementWorkOf<P>::add_moving_ends(const Shape& shape, const ElementDofs& do
     const FoundationContact& contact = contacts_[i];
     const ContactDisplacement u = data_.displacement_of(shape, dofs, y);
     const double share = contact.law().one_sided ? regime_.softness : 1.0;
-    const auto add = [&](Functional f, double xi, double stiffness) {
-      const double slope = std::abs(contact.penetration_slope(xi, u.start, u.dx, u.dy));
-      f.tangent = share * stiffness * data_.value(f, dofs, along) / slope;
+    const auto add = [&](Functional f, double stiffness, double slope) {
+      f.tangent = share * stiffness * data_.value(f, dofs, along) / std::abs(slope);
       if (std::isfinite(f.tangent)) acting_.push_back(f);
     };
     const auto add_end = [&](double xi) {
       const Functional f = data_.functional_at(contact, shape.h, xi);
-      add(f, xi, f.law.stiffness);
+      add(f, f.law.stiffness, contact.penetration_slope(xi, u.start, u.dx, u.dy));
     };
     if (contact.law().curve != nullptr) {
       contact.kink_places(u.start, u.dx, u.dy, kinks_);
       for (const auto& kink : kinks_)
         if (kink.stiffness_change != 0.0)
-          add(data_.functional_at(contact, shape.h, kink.xi), kink.xi, kink.stiffness_change);
+          add(data_.functional_at(contact, shape.h, kink.xi), kink.stiffness_change, kink.slope);
     }
     if (!contact.law().one_sided) continue;
     for (const ElementPart& part : parts_in_contact(i, shape, dofs, y)) {

@@ -415,36 +415,49 @@ void FoundationContact::contact_intervals(std::array<double, 2> ua, std::span<co
     search(ExactGap(*this, ua, dx, dy, depth), g, out);
 }
 
+/// Appends the places at which the penetration is sign times that of a kink.
+/// @param g, laws penetrations and laws at the samples
+void FoundationContact::add_kink(int kink, double sign, const Values& g, const SampledLaws& laws,
+                                 std::vector<KinkPlace>& out) const {
+  const auto count = static_cast<std::ptrdiff_t>(samples_->count);
+  Values beyond;  // penetration minus that of the kink
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const Law& law = laws[i];
+    const double at =
+        law.stiffness > 0.0 ? law_.curve->kink(kink, law.shape).x * law.capacity / law.stiffness : 0.0;
+    beyond[i] = law.stiffness > 0.0 ? g[i] - sign * at : -1.0;
+  }
+  const auto [least, most] = std::minmax_element(beyond.begin(), beyond.begin() + count);
+  if (*least > 0.0 || *most < 0.0) return;
+  const SampledGap gap(std::span<const double>(beyond).first(count));
+  std::vector<Interval> above;
+  search(gap, beyond, above);
+  const double width = range_[1] - range_[0];
+  const auto add = [&](double xi) {
+    if (xi == range_[0] || xi == range_[1]) return;
+    const Law law = law_at(xi);
+    out.push_back({xi, sign * law.stiffness * law_.curve->kink(kink, law.shape).slope_change,
+                   gap.slope((xi - range_[0]) / width) / width});
+  };
+  for (const Interval& part : above) {
+    add(part.from);
+    add(part.to);
+  }
+}
+
 void FoundationContact::kink_places(std::array<double, 2> ua, std::span<const double> dx,
                                     std::span<const double> dy, std::vector<KinkPlace>& out) const {
   out.clear();
   if (law_.curve == nullptr) return;
   Values g;
   penetrations(ua, dx, dy, law_.gap, g);
-  const int count = samples_->count;
-  std::array<Law, kLanes * kMostBlocks> laws;
-  for (int i = 0; i < count; ++i) laws[i] = law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0]));
-  std::vector<Interval> above;
-  const int kinks = law_.curve->kink_count();
-  for (int k = 0; k < kinks; ++k)
-    for (const double sign : {1.0, -1.0}) {
-      if (sign < 0.0 && (law_.one_sided || law_.curve->kink(k, law_.shape).x == 0.0)) continue;
-      Values beyond;  // penetration minus that of the kink
-      double change = 0.0;
-      for (int i = 0; i < count; ++i) {
-        const Law& law = laws[i];
-        const auto kink = law_.curve->kink(k, law.shape);
-        beyond[i] = law.stiffness > 0.0 ? g[i] - sign * kink.x * law.capacity / law.stiffness : -1.0;
-        change = sign * law.stiffness * kink.slope_change;
-      }
-      const auto [least, most] = std::minmax_element(beyond.begin(), beyond.begin() + count);
-      if (*least > 0.0 || *most < 0.0) continue;
-      above.clear();
-      search(SampledGap(std::span<const double>(beyond).first(count)), beyond, above);
-      for (const Interval& part : above)
-        for (const double xi : {part.from, part.to})
-          if (xi != range_[0] && xi != range_[1]) out.push_back({xi, change});
-    }
+  SampledLaws laws;
+  for (int i = 0; i < samples_->count; ++i)
+    laws[i] = law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0]));
+  for (int k = 0; k < law_.curve->kink_count(); ++k) {
+    add_kink(k, 1.0, g, laws, out);
+    if (!law_.one_sided && law_.curve->kink(k, law_.shape).x != 0.0) add_kink(k, -1.0, g, laws, out);
+  }
 }
 
 std::vector<FoundationContact::Interval> FoundationContact::smooth_pieces(std::array<double, 2> ua,

@@ -83,6 +83,7 @@ class FoundationContact {
   struct KinkPlace {
     double xi = 0.0;
     double stiffness_change = 0.0;  ///< change of the stiffness from below to above the kink, per element
+    double slope = 0.0;             ///< d (penetration - that of the kink) / d xi
   };
   /// @brief Places inside the range at which the penetration passes a kink of the law, not sorted; `out` is
   /// overwritten. Contact ends are none.
@@ -96,6 +97,7 @@ class FoundationContact {
   // samples stand four to an entry of Lanes; lanes beyond the last sample are zero
   static constexpr int kMostBlocks = (ChebyshevSeries::kMostPoints + kLanes - 1) / kLanes;
   using Values = std::array<double, kLanes * kMostBlocks>;
+  using SampledLaws = std::array<Law, kLanes * kMostBlocks>;
 
   /// What follows from the axis and the range alone.
   struct Samples {
@@ -111,6 +113,8 @@ class FoundationContact {
   void penetrations(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                     double gap, Values& g) const;
   [[nodiscard]] bool resolved(const Samples& samples) const;
+  void add_kink(int kink, double sign, const Values& g, const SampledLaws& laws,
+                std::vector<KinkPlace>& out) const;
   template <class Gap>
   void search(const Gap& gap, const Values& g, std::vector<Interval>& out) const;
 

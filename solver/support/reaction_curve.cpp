@@ -55,7 +55,7 @@ class PowerCurve final : public ReactionCurve {
     if (a >= full) return {std::copysign(1.0, x), 0.0, 0.0};
     const double f = std::pow(a / shape, exponent_);
     const double slope = exponent_ * f / a;
-    return {std::copysign(f, x), slope, std::copysign((exponent_ - 1.0) * slope / a, x)};
+    return {std::copysign(f, x), slope, (exponent_ - 1.0) * slope / x};
   }
   [[nodiscard]] double energy(double x, double shape) const override {
     const double a = std::abs(x);
@@ -139,7 +139,7 @@ class TableCurve final : public ReactionCurve {
     const double t = a - points_[piece.index][0];
     const double force = points_[piece.index][1] + t * (piece.slope + t * (piece.second + t * piece.third));
     return {std::copysign(force, x), piece.slope + t * (2.0 * piece.second + 3.0 * t * piece.third),
-            std::copysign(2.0 * piece.second + 6.0 * t * piece.third, x)};
+            std::copysign(1.0, x) * (2.0 * piece.second + 6.0 * t * piece.third)};
   }
   [[nodiscard]] double energy(double x, double) const override {
     const double a = std::abs(x);

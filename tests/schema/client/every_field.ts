@@ -25,15 +25,35 @@ const supports: Schemas['Support'][] = [
   {node: 'b', fixed: ['y'], displacement: {y: 0.1}, pattern: 'proportional'},
 ];
 
+const springLaws: Schemas['SpringLaw'][] = [
+  {type: 'tanh', stiffness: 1e3, capacity: 20},
+  {type: 'hyperbolic', stiffness: 1e3, capacity: 20},
+  {type: 'power', stiffness: 1e4, capacity: 30, reference: 0.02, exponent: 0.4},
+  {type: 'table', points: [[0, 0], [0.01, 5], [0.02, 8]], factor: 2},
+];
+
 const springs: Schemas['Spring'][] = [
   {id: 'prop', at: {node: 'a'}, direction: [0, -1], stiffness: 1e3, reaction: 'compression_only', gap: 0.01},
   {id: 'turning', at: {member: 'beam', fraction: 1}, direction: 'rotation', stiffness: 5},
+  ...springLaws.map((law, i): Schemas['Spring'] => ({id: `law ${i}`, at: {node: 'a'}, direction: 'rotation', law})),
+];
+
+const varying: Schemas['Along'] = {along: [[0, 0], [0.4, 2e3], [1, 3e3]]};
+
+const foundationLaws: Schemas['FoundationLaw'][] = [
+  {type: 'tanh', stiffness: varying, capacity: 20},
+  {type: 'hyperbolic', stiffness: 1e3, capacity: varying},
+  {type: 'power', stiffness: 1e4, capacity: 30, reference: 0.02, exponent: 0.4},
+  {type: 'table', points: [[0.01, 5], [0.02, 8], [0.05, 8]], factor: varying},
 ];
 
 const foundations: Schemas['Foundation'][] = [
   {id: 'soil', member: 'beam', stiffness: 1e4, shear_stiffness: 0, reaction: 'tension_only', range: [0, 0.5], gap: 0,
    direction: 'normal', side: 'right'},
   {id: 'below', member: 'beam', stiffness: 1e4, direction: [0, -1]},
+  {id: 'deeper', member: 'beam', stiffness: varying, component: 'tangent'},
+  ...foundationLaws.map((law, i): Schemas['Foundation'] => ({
+    id: `law ${i}`, member: 'beam', law, reaction: 'compression_only', side: 'left', direction: 'normal', gap: 0.01})),
 ];
 
 const loads: Schemas['Load'][] = [

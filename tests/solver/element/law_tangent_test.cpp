@@ -1,0 +1,114 @@
+/// Tangent and its derivative where supports have laws that are not linear, against central differences.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "solver/problem/structural_problem.h"
+#include "tests/solver/structures.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::VectorXd;
+using testing::fixed_mesh;
+
+ReactionLaw law_of_type(ReactionLaw::Type type) {
+  ReactionLaw law;
+  law.type = type;
+  law.stiffness = {90.0, {}};
+  law.capacity = {0.0, {{0.0, 2.0}, {0.55, 5.0}, {1.0, 4.0}}};
+  law.reference = 0.3;
+  law.exponent = 0.4;
+  law.points = {{0.02, 0.6}, {0.06, 1.5}, {0.2, 2.2}, {0.5, 2.4}};
+  return law;
+}
+
+/// An arch of length 1.1 with a law under it, beside it and along it, and in springs.
+Model with_laws(ReactionLaw::Type type) {
+  const std::string id = "arch";
+  Model model;
+  model.nodes = {{"a", 0.0, 0.0}, {"b", 1.0, 0.0}};
+  model.sections = {{"s", 1e3, 1.0, {}}};
+  Member member{id, "a", "b", "s", ArcCurve{-80.0}, false, false};
+  model.members = {member};
+  model.supports = {{"a", true, true, false, 0.0, {}}};
+  model.loads = {PointLoad{{"b", "", 0.0}, {0.5, -1.0}, 0.0, Pattern::proportional}};
+  Foundation both;
+  both.id = "both";
+  both.member = id;
+  both.law = law_of_type(type);
+  both.range = {0.0, 0.7};
+  Foundation push = both;
+  push.id = "push";
+  push.range = {0.3, 1.0};
+  push.reaction = Reaction::compression_only;
+  push.gap = 0.02;
+  Foundation along = both;
+  along.id = "along";
+  along.tangential = true;
+  model.foundations = {both, push, along};
+  Spring spring;
+  spring.id = "inside";
+  spring.at = {"", id, 0.41};
+  spring.direction = {0.4, 1.0};
+  spring.law = law_of_type(type);
+  spring.law->capacity = {3.0, {}};
+  Spring turning = spring;
+  turning.id = "turning";
+  turning.at = {model.nodes[0].id, "", 0.0};
+  turning.direction = std::nullopt;
+  model.springs = {spring, turning};
+  return model;
+}
+
+class LawTangent : public ::testing::TestWithParam<ReactionLaw::Type> {};
+
+/// Displacements of the size of the law's kinks, so that all branches occur.
+VectorXd state_of(const StructuralProblem& problem) { return 0.1 * VectorXd::Random(problem.size()); }
+
+TEST_P(LawTangent, IsTheDerivativeOfTheResidual) {
+  std::srand(3u);
+  const Structure structure = make_structure(with_laws(GetParam()), fixed_mesh(4, 3), Geometry::nonlinear);
+  StructuralProblem problem(structure);
+  constexpr double kStep = 1e-6;
+  for (int draw = 0; draw < 5; ++draw) {
+    const VectorXd y = state_of(problem);
+    const VectorXd d = VectorXd::Random(problem.size());
+    VectorXd ahead;
+    VectorXd behind;
+    problem.residual(y + kStep * d, 0.3, ahead);
+    problem.residual(y - kStep * d, 0.3, behind);
+    const VectorXd difference = (ahead - behind) / (2.0 * kStep);
+    const VectorXd product = problem.tangent_product(y, 0.3, d);
+    // Where kinks move inside elements, the tangent differs from the derivative of the quadrature by the
+    // error of the quadrature, which is large on a random state of order 3.
+    const double quadrature = GetParam() == ReactionLaw::Type::tanh ? 1e-7 : 2e-3;
+    EXPECT_LT((product - difference).norm(), quadrature * difference.norm()) << draw;
+  }
+}
+
+TEST_P(LawTangent, ChangesByItsDerivative) {
+  std::srand(7u);
+  const Structure structure = make_structure(with_laws(GetParam()), fixed_mesh(4, 3), Geometry::nonlinear);
+  StructuralProblem problem(structure);
+  constexpr double kStep = 1e-6;
+  for (int draw = 0; draw < 5; ++draw) {
+    const VectorXd y = state_of(problem);
+    const VectorXd a = VectorXd::Random(problem.size());
+    const VectorXd d = VectorXd::Random(problem.size());
+    const VectorXd difference =
+        (problem.tangent_product(y + kStep * a, 0.3, d) - problem.tangent_product(y - kStep * a, 0.3, d)) /
+        (2.0 * kStep);
+    const VectorXd change = problem.tangent_change(y, 0.3, {a, 0.0}, d);
+    EXPECT_LT((change - difference).norm(), 1e-3 * difference.norm()) << draw;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, LawTangent,
+                         ::testing::Values(ReactionLaw::Type::tanh, ReactionLaw::Type::hyperbolic,
+                                           ReactionLaw::Type::power, ReactionLaw::Type::table));
+
+}  // namespace
+}  // namespace snapthrough
