@@ -97,7 +97,7 @@ class Builder {
   const Neighbour* like_;
   Structure& out_;
   std::vector<Here> here_;                      ///< one per element
-  std::vector<FoundationLaw> foundation_laws_;  ///< of `laws_`
+  std::vector<FoundationLaw> foundation_laws_;  ///< laws of `laws_`
   std::vector<SpringLaw> spring_laws_;
   std::unique_ptr<ElementSet> elements_;
   std::vector<ElementPressure> pressures_;

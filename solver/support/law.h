@@ -128,7 +128,7 @@ struct FoundationLaw {
   Law law;             ///< reaction per length, with the largest stiffness and capacity along the member
   double shear = 0.0;  ///< stiffness G of the shear layer
   double sense = 1.0;  ///< factor on results, see sense_of()
-  std::shared_ptr<const ReactionCurve> curve;                 ///< of `law`; null: linear
+  std::shared_ptr<const ReactionCurve> curve;                 ///< curve of `law`; null: linear
   std::shared_ptr<const LawVariation> variation{};            ///< null: constant along the member
   double stiffest = std::numeric_limits<double>::infinity();  ///< bound of the stiffness
 
@@ -140,7 +140,7 @@ struct SpringLaw {
   std::array<double, 3> row{};  ///< weights of x, y and rotation in the displacement
   Law law;
   double sense = 1.0;                          ///< factor on results, see sense_of()
-  std::shared_ptr<const ReactionCurve> curve;  ///< of `law`; null: linear
+  std::shared_ptr<const ReactionCurve> curve;  ///< curve of `law`; null: linear
 };
 
 [[nodiscard]] FoundationLaw law_of(const Foundation& foundation, const Scales& scales);
