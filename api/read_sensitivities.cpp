@@ -56,6 +56,10 @@ double largest_load(const Model& model) {
     } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
       take(distributed->force[0]);
       take(distributed->force[1]);
+      for (const auto& [fraction, force] : distributed->force_along) {
+        take(force[0]);
+        take(force[1]);
+      }
     } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
       take(pressure->value);
     }

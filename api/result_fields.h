@@ -21,7 +21,13 @@ inline constexpr auto kFields<MemberMode> =
                field("v", &MemberMode::v), field("rotation", &MemberMode::rotation)};
 
 template <>
-inline constexpr auto kFields<Mode> = std::tuple{field("members", &Mode::members)};
+inline constexpr auto kFields<EffectiveLength> =
+    std::tuple{field<kKey>("id", &EffectiveLength::id), field("length", &EffectiveLength::length),
+               field("ratio", &EffectiveLength::ratio)};
+
+template <>
+inline constexpr auto kFields<Mode> = std::tuple{
+    field("members", &Mode::members), field<kIfAny>("effective_lengths", &Mode::effective_lengths)};
 
 template <>
 inline constexpr auto kFields<Softest> =
@@ -288,11 +294,12 @@ template <class... Types>
 inline constexpr bool kAllHaveEveryMember = (has_every_member<Types>() && ...);
 
 static_assert(
-    kAllHaveEveryMember<MemberMode, Mode, Softest, AtCritical, Summary, MeshAnswer, Sensitivity,
-                        KoiterCoefficients, CriticalPoint, NodeMotion, NeutralMotion, ContactEvent, Branch,
-                        Resultant, MemberState, SupportState, SpringState, FoundationState, State,
-                        StaticTable, BucklingResult, Extreme, ExtremeRange, MemberExtremes, Warning,
-                        MeshReport, Diagnostics, MemberOffsets, WorstOffset, Failure, Result>,
+    kAllHaveEveryMember<MemberMode, EffectiveLength, Mode, Softest, AtCritical, Summary, MeshAnswer,
+                        Sensitivity, KoiterCoefficients, CriticalPoint, NodeMotion, NeutralMotion,
+                        ContactEvent, Branch, Resultant, MemberState, SupportState, SpringState,
+                        FoundationState, State, StaticTable, BucklingResult, Extreme, ExtremeRange,
+                        MemberExtremes, Warning, MeshReport, Diagnostics, MemberOffsets, WorstOffset, Failure,
+                        Result>,
     "A member of solver/result.h has no line in its table: add field(...), or internal(...) where documents "
     "do not have it.");
 

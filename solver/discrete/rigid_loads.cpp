@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <variant>
 
+#include "solver/model/member_loads.h"
 #include "solver/numeric/gauss_rule.h"
 
 namespace snapthrough {
@@ -18,6 +19,10 @@ class Summing {
   void add(const DistributedLoad& load);
   void add(const PressureLoad& load);
   void add(const InitialStrain&) {}
+  void add(const SelfWeight& load) {
+    for (const Member& member : parts_.model().members) add(weight_of(parts_.model(), member, load));
+  }
+  void add(const TemperatureLoad&) {}
   LoadWork work;
 
  private:
@@ -52,15 +57,17 @@ void Summing::add(const DistributedLoad& load) {
   const int member = parts_.member(load.member);
   const AxisCurve& axis = *parts_.axes()[static_cast<std::size_t>(member)];
   const Quadrature gauss = gauss_legendre(axis.straight() ? 2 : 8);
-  const int pieces = axis.straight() ? 1 : 4;
-  const double width = (load.range[1] - load.range[0]) / pieces;
-  for (int piece = 0; piece < pieces; ++piece) {
-    for (std::size_t i = 0; i < gauss.points.size(); ++i) {
-      const AxisPoint at = parts_.place(member, load.range[0] + width * (piece + gauss.points[i]));
-      double w = axis.length() * width * gauss.weights[i];
-      if (load.per == LoadMeasure::horizontal) w *= std::abs(std::cos(at.angle));
-      if (load.per == LoadMeasure::vertical) w *= std::abs(std::sin(at.angle));
-      add(member, {at.x, at.y}, w * load.force[0], w * load.force[1]);
+  const int intervals = axis.straight() ? 1 : 4;
+  for (const LinePiece& piece : pieces_of(load)) {
+    const double width = (piece.range[1] - piece.range[0]) / intervals;
+    for (std::size_t i = 0; i < gauss.points.size() * static_cast<std::size_t>(intervals); ++i) {
+      const std::size_t q = i % gauss.points.size();
+      const auto interval = static_cast<double>(i / gauss.points.size());
+      const double fraction = piece.range[0] + width * (interval + gauss.points[q]);
+      const AxisPoint at = parts_.place(member, fraction);
+      const double w = axis.length() * width * gauss.weights[q] * measure_of(load.per, at.angle);
+      const auto force = global_force(load.axes, piece.at(fraction), at.angle);
+      add(member, {at.x, at.y}, w * force[0], w * force[1]);
     }
   }
 }

@@ -13,6 +13,7 @@
 #include "solver/geometry/axes.h"
 #include "solver/geometry/stress_free_axis.h"
 #include "solver/model/id_index.h"
+#include "solver/model/member_loads.h"
 #include "solver/numeric/max_order.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/rounding.h"
@@ -22,6 +23,13 @@ namespace snapthrough {
 namespace {
 
 using Vec3 = std::array<double, 3>;
+
+/// Largest magnitude of a value that may vary along a member.
+double largest_of(double constant, const Along<double>& along) {
+  double largest = along.empty() ? std::abs(constant) : 0.0;
+  for (const auto& point : along) largest = std::max(largest, std::abs(point.second));
+  return largest;
+}
 
 /// Builds a Structure stage by stage; one object per structure.
 class Builder {
@@ -146,9 +154,17 @@ void Builder::number_unknowns() {
   out_.nodes = static_cast<int>(model_.nodes.size());
   int next = 3 * out_.nodes;
   std::vector<std::array<int, 2>> released(model_.members.size(), {-1, -1});
+  const auto release = [&](bool is_released, const std::string& node, double stiffness, int& end) {
+    if (!is_released) return;
+    end = next++;
+    if (stiffness > 0.0)
+      out_.joints.push_back(
+          {3 * index_of(model_.nodes, node) + 2, end, out_.scales.scaled_rotational(stiffness)});
+  };
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
-    if (model_.members[m].release_start_rotation) released[m][0] = next++;
-    if (model_.members[m].release_end_rotation) released[m][1] = next++;
+    const Member& member = model_.members[m];
+    release(member.release_start_rotation, member.start, member.release_start_stiffness, released[m][0]);
+    release(member.release_end_rotation, member.end, member.release_end_stiffness, released[m][1]);
   }
   out_.releases = next - 3 * out_.nodes;
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
@@ -335,18 +351,21 @@ void Builder::add_distributed(const DistributedLoad& load) {
   const int member = index_of(model_.members, load.member);
   const AxisCurve& axis = *out_.axes[member];
   const Quadrature gauss = gauss_legendre(out_.mesh.order + 1);
-  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
-    const MeshElement& cell = out_.mesh.elements[e];
-    const auto range = part_of(cell, load.range);
-    if (range[1] <= range[0]) continue;
-    const double width = range[1] - range[0];
-    for (std::size_t i = 0; i < gauss.points.size(); ++i) {
-      const double xi = range[0] + width * gauss.points[i];
-      double w = element_length(e) * width * out_.scales.scaled_line_load(gauss.weights[i]);
-      const double angle = axis.at(axis.length() * (cell.from + xi * (cell.to - cell.from))).angle;
-      if (load.per == LoadMeasure::horizontal) w *= std::abs(std::cos(angle));
-      if (load.per == LoadMeasure::vertical) w *= std::abs(std::sin(angle));
-      add_point_action(pattern(load.pattern), e, xi, {w * load.force[0], w * load.force[1], 0.0});
+  for (const LinePiece& piece : pieces_of(load)) {
+    for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
+      const MeshElement& cell = out_.mesh.elements[e];
+      const auto range = part_of(cell, piece.range);
+      if (range[1] <= range[0]) continue;
+      const double width = range[1] - range[0];
+      for (std::size_t i = 0; i < gauss.points.size(); ++i) {
+        const double xi = range[0] + width * gauss.points[i];
+        const double fraction = cell.from + xi * (cell.to - cell.from);
+        const double angle = axis.at(axis.length() * fraction).angle;
+        const double w = element_length(e) * width * out_.scales.scaled_line_load(gauss.weights[i]) *
+                         measure_of(load.per, angle);
+        const auto force = global_force(load.axes, piece.at(fraction), angle);
+        add_point_action(pattern(load.pattern), e, xi, {w * force[0], w * force[1], 0.0});
+      }
     }
   }
 }
@@ -369,8 +388,12 @@ void Builder::add_loads(std::optional<double> load_scale) {
       add_distributed(*distributed);
     } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
       add_pressure(*pressure);
+    } else if (const auto* strain = std::get_if<InitialStrain>(&load)) {
+      add_initial_strain(*strain);
+    } else if (const auto* weight = std::get_if<SelfWeight>(&load)) {
+      for (const Member& member : model_.members) add_distributed(weight_of(model_, member, *weight));
     } else {
-      add_initial_strain(std::get<InitialStrain>(load));
+      add_initial_strain(strain_of(model_, std::get<TemperatureLoad>(load)));
     }
   }
   scale_loads(load_scale);
@@ -388,18 +411,20 @@ void Builder::add_pressure(const PressureLoad& load) {
 void Builder::add_initial_strain(const InitialStrain& load) {
   const int member = index_of(model_.members, load.member);
   const int p = out_.mesh.order;
-  const double curvature = out_.scales.scaled_curvature(load.curvature);
   const Section& section = model_.sections[index_of(model_.sections, model_.members[member].section)];
   if (load.pattern == Pattern::proportional)
-    strain_size_ += out_.scales.scaled_force(std::abs(load.axial) * section.EA) +
-                    out_.scales.scaled_moment(std::abs(load.curvature) * section.EI);
+    strain_size_ += out_.scales.scaled_force(largest_of(load.axial, load.axial_along) * section.EA) +
+                    out_.scales.scaled_moment(largest_of(load.curvature, load.curvature_along) * section.EI);
   for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
     const CollocationRule& rule = CollocationRule::of(p);
     const ElementShape shape = shape_of_element(out_, model_, e);
     for (int q = 0; q < p; ++q) {
+      const MeshElement& cell = out_.mesh.elements[e];
+      const double fraction = cell.from + rule.point(q) * (cell.to - cell.from);
       const double length = shape.length * rule.weight(q) * std::hypot(shape.t[q][0], shape.t[q][1]);
-      pattern(load.pattern)[out_.dofs[e].s + q] += length * load.axial;
-      pattern(load.pattern)[out_.dofs[e].s + 2 * p + q] += length * curvature;
+      const double curvature = value_at(load.curvature, load.curvature_along, fraction);
+      pattern(load.pattern)[out_.dofs[e].s + q] += length * value_at(load.axial, load.axial_along, fraction);
+      pattern(load.pattern)[out_.dofs[e].s + 2 * p + q] += length * out_.scales.scaled_curvature(curvature);
     }
   }
 }
@@ -510,6 +535,15 @@ std::vector<std::string> without_stiffness(const Model& model) {
   for (const Spring& spring : model.springs)
     if (spring.stiffness == 0.0) out.push_back("spring " + spring.id + ": stiffness 0");
   return out;
+}
+
+void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen::VectorXd>& y,
+                       Eigen::Ref<Eigen::VectorXd> f) {
+  for (const JointSpring& joint : structure.joints) {
+    const double moment = joint.stiffness * (y[joint.node_rotation] - y[joint.end_rotation]);
+    f[joint.node_rotation] += moment;
+    f[joint.end_rotation] -= moment;
+  }
 }
 
 FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element) {

@@ -64,16 +64,20 @@ void SectionForces::add_load(const Load& load, double factor) {
            {scales.scaled_force(factor * point->force[0]), scales.scaled_force(factor * point->force[1]),
             scales.scaled_moment(factor * point->moment)}});
   }
-  if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == member) {
-    const Vec2 range = part_of(cell_, d->range);
-    if (range[1] > range[0])
-      dead_.push_back(
-          {{scales.scaled_line_load(factor * d->force[0]), scales.scaled_line_load(factor * d->force[1])},
-           d->per,
-           range});
-  }
+  if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == member)
+    add_dead(*d, factor);
+  if (const auto* weight = std::get_if<SelfWeight>(&load))
+    add_dead(weight_of(model_, model_.members[cell_.member], *weight), factor);
   if (const auto* p = std::get_if<PressureLoad>(&load); p != nullptr && p->member == member)
     pressure_ += (p->side == Side::left ? 1.0 : -1.0) * scales.scaled_line_load(factor * p->value);
+}
+
+void SectionForces::add_dead(const DistributedLoad& load, double factor) {
+  for (const LinePiece& piece : pieces_of(load)) {
+    const Vec2 range = part_of(cell_, piece.range);
+    if (range[1] > range[0])
+      dead_.push_back({piece, structure_.scales.scaled_line_load(factor), load.per, load.axes, range});
+  }
 }
 
 void SectionForces::add_foundations() {
@@ -145,10 +149,12 @@ Vec2 SectionForces::density(double xi) const {
   Vec2 f{0.0, 0.0};
   for (const DeadLoad& load : dead_) {
     if (xi < load.range[0] || xi > load.range[1]) continue;
-    double measure = 1.0;
-    if (load.per == LoadMeasure::horizontal) measure = std::abs(std::cos(axis_at(xi).angle));
-    if (load.per == LoadMeasure::vertical) measure = std::abs(std::sin(axis_at(xi).angle));
-    for (int c = 0; c < 2; ++c) f[c] += measure * load.force[c];
+    const bool is_plain = load.per == LoadMeasure::length && load.axes == LoadAxes::global;
+    const double angle = is_plain ? 0.0 : axis_at(xi).angle;
+    const double measure = load.factor * measure_of(load.per, angle);
+    const Vec2 force =
+        global_force(load.axes, load.piece.at(cell_.from + xi * (cell_.to - cell_.from)), angle);
+    for (int c = 0; c < 2; ++c) f[c] += measure * force[c];
   }
   for (const FoundationHere& foundation : foundations_) {
     if (foundation.lumped || xi < foundation.range[0] || xi > foundation.range[1]) continue;

@@ -8,6 +8,7 @@
 
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/structure.h"
+#include "solver/model/member_loads.h"
 #include "solver/model/model.h"
 
 namespace snapthrough {
@@ -32,8 +33,10 @@ class SectionForces {
  private:
   using Vec2 = std::array<double, 2>;
   struct DeadLoad {
-    Vec2 force;
+    LinePiece piece;
+    double factor;  ///< from forces of the piece to scaled forces of the state
     LoadMeasure per;
+    LoadAxes axes;
     Vec2 range;  ///< part of the element, in [0, 1]
   };
   struct FoundationHere {
@@ -49,6 +52,7 @@ class SectionForces {
 
   void add_loads(double proportional, double constant);
   void add_load(const Load& load, double factor);
+  void add_dead(const DistributedLoad& load, double factor);
   void release_end_of_pressure(const Eigen::VectorXd& y);
   void add_foundations();
   void add_springs();
