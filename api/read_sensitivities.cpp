@@ -81,12 +81,15 @@ double size_of_nothing(const std::vector<std::string>& tokens, const Model& mode
   if (names("angle_degrees") || names("sweep_degrees")) {
     return kRadian;
   }
+  double bending = 0.0;
+  for (const Section& section : model.sections) {
+    bending = std::max(bending, section.EI);
+  }
   if (names("stiffness") || names("shear_stiffness")) {
-    double bending = 0.0;
-    for (const Section& section : model.sections) {
-      bending = std::max(bending, section.EI);
-    }
     return bending / (extent * extent * extent);
+  }
+  if (names("release")) {
+    return bending / extent;
   }
   if (names("curvature")) {
     return 1.0 / extent;

@@ -221,6 +221,47 @@ TEST(SectionData, IsMissingWhereALoadNeedsIt) {
   EXPECT_EQ(outcome.findings[1].pointer, "/model/sections/0/expansion");
 }
 
+/// Derivatives by a dimension of a shape, the factor of a load case and the stiffness of a joint, against
+/// differences of whole analyses.
+TEST(Sensitivities, KnowTheNewFields) {
+  json document = frame_with({});
+  document["model"]["sections"][0] = {
+      {"id", "s"}, {"E", 1e4}, {"shape", {{"type", "rectangle"}, {"width", 0.3}, {"depth", 0.1}}}};
+  document["model"]["members"][0]["release"] = {{"start", {{"rotation", 2.0}}}};
+  document["model"]["loads"] = {{{"type", "point"}, {"at", {{"node", "b"}}}, {"force", {-1, 0}}}};
+  document["model"]["load_cases"] = {
+      {{"id", "more"},
+       {"factor", 0.5},
+       {"grows", true},
+       {"loads", {{{"type", "point"}, {"at", {{"node", "b"}}}, {"force", {-1, 0}}}}}}};
+  const json analysis = {{"type", "critical"}, {"discretization", {{"elements", 4}, {"order", 5}}}};
+  document["analysis"] = analysis;
+  const std::string pointers[] = {"/model/sections/0/shape/depth", "/model/load_cases/0/factor",
+                                  "/model/members/0/release/start/rotation"};
+  document["analysis"]["sensitivities"] = pointers;
+  const auto result_of = [](const json& request) {
+    const ReadOutcome outcome = read_request(request.dump());
+    EXPECT_TRUE(outcome.request) << write_findings(outcome.findings).dump();
+    return solve(outcome.request->model, outcome.request->analysis);
+  };
+  const Result result = result_of(document);
+  ASSERT_EQ(result.critical_points.size(), 1u);
+  document["analysis"] = analysis;
+  for (std::size_t i = 0; i < std::size(pointers); ++i) {
+    const json::json_pointer at(pointers[i]);
+    const double value = document.at(at);
+    const auto load_at = [&](double other) {
+      json changed = document;
+      changed[at] = other;
+      return *result_of(changed).summary.critical_load_factor;
+    };
+    const double expected = (load_at(1.001 * value) - load_at(0.999 * value)) / (0.002 * value);
+    EXPECT_NEAR(result.critical_points[0].sensitivities.at(i).derivative.value(), expected,
+                1e-5 * std::abs(expected))
+        << pointers[i];
+  }
+}
+
 TEST(Releases, MayBeStiff) {
   json document = document_with({{"EA", 1e6}, {"EI", 1.0}});
   document["model"]["members"][0]["release"] = {{"start", {{"rotation", 5.0}}}, {"end", {"rotation"}}};

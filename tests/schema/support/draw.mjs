@@ -141,9 +141,9 @@ export class Drawer {
     for (const one of model.sections) {
       if ('mass' in one) delete one.density;
       if ('nu' in one) delete one.G;
-      if (one.shape?.type === 'tube') one.shape.thickness = one.shape.diameter / 4;
+      if (one.shape?.type === 'tube') one.shape.thickness = one.shape.diameter / 4 || one.shape.diameter;
       if (one.shape?.type === 'i_section') {
-        Object.assign(one.shape, {web: one.shape.width / 4, flange: one.shape.depth / 4});
+        Object.assign(one.shape, {web: one.shape.width / 4 || one.shape.width, flange: one.shape.depth / 4 || one.shape.depth});
         delete one.shape.root_radius;
       }
       if (!('density' in one)) one.mass ??= 1;
