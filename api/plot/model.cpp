@@ -187,6 +187,25 @@ ModelLoad read_load(const Field& field) {
   return load;
 }
 
+/// Appends the loads of a load case, with its factor.
+void read_load_case(const Field& field, Model& model) {
+  const double factor = number_or(field, "factor", 1);
+  const std::optional<Field> grows = field.find("grows");
+  const bool constant = !(grows && grows->flag());
+  for_each(field, "loads", [&](const Field& one) {
+    ModelLoad& load = model.loads.emplace_back(read_load(one));
+    load.constant = constant;
+    for (double* amount :
+         {&load.force.x, &load.force.y, &load.moment, &load.value, &load.axial, &load.curvature}) {
+      *amount *= factor;
+    }
+    for (auto& point : load.force_along) {
+      point[1] *= factor;
+      point[2] *= factor;
+    }
+  });
+}
+
 }  // namespace
 
 const ModelMonitor* Model::monitor(const std::string& id) const {
@@ -225,6 +244,7 @@ Model read_model(const nlohmann::json& request) {
   for_each(field, "foundations",
            [&](const Field& one) { model.foundations.push_back(read_foundation(one)); });
   for_each(field, "loads", [&](const Field& one) { model.loads.push_back(read_load(one)); });
+  for_each(field, "load_cases", [&](const Field& one) { read_load_case(one, model); });
   for_each(field, "monitors", [&](const Field& one) {
     model.monitors.push_back({one.at("id").text(), read_location(one.at("at")), one.at("component").text()});
   });

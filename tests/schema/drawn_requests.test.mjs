@@ -41,6 +41,7 @@ const kBetweenFieldsAt = [
   ['out_of_range', /\/shape\/(thickness|web|flange|root_radius)$/, 'dimensions of a shape'],
   ['out_of_range', /\/curve\/direction$/, 'direction and positions of two nodes'],
   ['ambiguous', /^\/model\/sections\/\d+\/(density|nu)$/, 'mass and density; nu and G'],
+  ['out_of_range', /^\/model\/load_cases\/\d+\/loads\/\d+\/(force|moment|value|axial|curvature|gravity|change|gradient)(\/|$)/, 'amount and factor of the case'],
   ['ambiguous', /^\/model\/load_cases\/\d+\/loads\/\d+\/pattern$/, 'grows of the case and pattern of a load'],
   ['missing_field', /^\/model\/sections\/\d+\/(mass|expansion)$/, 'sections and types of loads'],
   ['empty', /^\/model\/supports$/, 'supports, springs and foundations'],
