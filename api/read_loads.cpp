@@ -88,7 +88,9 @@ static Load read_distributed_load(Object& in) {
 static Load read_pressure_load(Object& in) {
   PressureLoad load;
   in.required("member", load.member);
-  in.required("value", load.value);
+  if (const auto amount = in.find_required("value")) {
+    read_along(*amount, load.value, load.value_along);
+  }
   in.optional("side", load.side);
   in.optional("pattern", load.pattern);
   return load;
@@ -150,7 +152,7 @@ struct Scaling {
   }
   void operator()(PointLoad& l) const { all(l.force, l.moment); }
   void operator()(DistributedLoad& l) const { all(l.force, l.force_along); }
-  void operator()(PressureLoad& l) const { all(l.value); }
+  void operator()(PressureLoad& l) const { all(l.value, l.value_along); }
   void operator()(InitialStrain& l) const { all(l.axial, l.curvature, l.axial_along, l.curvature_along); }
   void operator()(SelfWeight& l) const { all(l.gravity); }
   void operator()(TemperatureLoad& l) const { all(l.change, l.gradient, l.change_along, l.gradient_along); }

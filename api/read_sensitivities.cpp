@@ -62,6 +62,9 @@ double largest_load(const Model& model) {
       }
     } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
       take(pressure->value);
+      for (const auto& [fraction, value] : pressure->value_along) {
+        take(value);
+      }
     }
   }
   return largest > 0.0 ? largest : 1.0;

@@ -165,8 +165,9 @@ void pressure_arrows(const ModelLoad& load, const LoadScene& all, Arrows& arrows
   // a pressure on the left side pushes along the right normal (ty, -tx)
   const double scale = load.side * all.sense(load) * (load.value < 0 ? -1 : 1) *
                        std::max(0.5, std::abs(load.value) / all.largest_line);
-  const auto pull = [&](const Place& place, double) {
-    return Point{scale * place.tangent.y, -scale * place.tangent.x};
+  const auto pull = [&](const Place& place, double fraction) {
+    const double share = load.force_along.empty() ? 1 : force_at(load, fraction).x / load.value;
+    return Point{share * scale * place.tangent.y, -share * scale * place.tangent.x};
   };
   if (const std::optional<Pixel> top = line_arrows(*member, {0, 1}, all, pull, arrows)) {
     arrows.notes.push_back(

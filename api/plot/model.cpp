@@ -141,6 +141,22 @@ void read_force(const Field& field, ModelLoad& load) {
   }
 }
 
+/// Reads a pressure: one for the whole member, or [fraction, pressure] pairs.
+void read_pressure(const Field& field, ModelLoad& load) {
+  const std::optional<Field> along = field.json().is_object() ? field.find("along") : std::nullopt;
+  if (!along) {
+    load.value = field.number();
+    return;
+  }
+  for (std::size_t i = 0; i < along->size(); ++i) {
+    const std::vector<double> point = along->item(i).numbers(2);
+    load.force_along.push_back({point[0], point[1], 0});
+    if (std::abs(point[1]) > std::abs(load.value)) {
+      load.value = point[1];
+    }
+  }
+}
+
 /// Returns a number, NaN for one that varies along the member.
 double amount_or_zero(const Field& field, std::string_view key) {
   const std::optional<Field> value = field.find(key);
@@ -171,7 +187,7 @@ ModelLoad read_load(const Field& field) {
     load.member_axes = text_or(field, "axes", "global") == "member";
   } else if (type == "pressure") {
     load.type = ModelLoad::Type::pressure;
-    load.value = field.at("value").number();
+    read_pressure(field.at("value"), load);
     load.side = text_or(field, "side", "left") == "right" ? -1 : 1;
   } else if (type == "initial_strain") {
     load.type = ModelLoad::Type::initial_strain;

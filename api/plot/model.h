@@ -64,7 +64,8 @@ struct ModelLoad {
   double side = 1;   ///< pressure acts on the left (1) or right (-1) side
   std::pair<double, double> range = {0, 1};
   std::string per;  ///< reference length of a distributed load: "length", "horizontal", "vertical"
-  /// [fraction, x component, y component] of a force that varies; empty: `force` everywhere
+  /// [fraction, x component, y component] of a force, [fraction, pressure, 0] of a pressure that varies;
+  /// empty: the same everywhere. `force` or `value` is then the largest.
   std::vector<std::array<double, 3>> force_along;
   bool member_axes = false;  ///< a distributed load in axes of its member
   double axial = 0;          ///< strain, or change of temperature; NaN: varies along the member

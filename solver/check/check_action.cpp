@@ -55,6 +55,7 @@ void check_load(const Place& place, const DistributedLoad& load, const Names& na
 void check_load(const Place& place, const PressureLoad& load, const Names& names) {
   names.members.require(place / "member", load.member);
   require_finite(place / "value", load.value);
+  check_along(place / "value", load.value_along);
 }
 
 void check_load(const Place& place, const InitialStrain& load, const Names& names) {
@@ -87,7 +88,7 @@ bool is_amount(const Along<T>& along) {
 
 bool has_amount(const PointLoad& load) { return is_amount(load.force) || is_amount(load.moment); }
 bool has_amount(const DistributedLoad& load) { return is_amount(load.force) || is_amount(load.force_along); }
-bool has_amount(const PressureLoad& load) { return is_amount(load.value); }
+bool has_amount(const PressureLoad& load) { return is_amount(load.value) || is_amount(load.value_along); }
 bool has_amount(const InitialStrain& load) {
   return is_amount(load.axial) || is_amount(load.curvature) || is_amount(load.axial_along) ||
          is_amount(load.curvature_along);

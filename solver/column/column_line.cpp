@@ -357,7 +357,7 @@ bool LineReader::add_loads() {
     } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
       if (distributed->force != Vec2{0.0, 0.0} || !distributed->force_along.empty()) return false;
     } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
-      if (pressure->value != 0.0) return false;
+      if (pressure->value != 0.0 || !pressure->value_along.empty()) return false;
     } else if (const auto* strain = std::get_if<InitialStrain>(&load)) {
       if (!add_strain(*strain)) return false;
     } else if (const auto* temperature = std::get_if<TemperatureLoad>(&load)) {

@@ -10,6 +10,17 @@
 namespace snapthrough {
 namespace {
 
+/// Varying pressure as a load across the undeformed axis.
+DistributedLoad across(const PressureLoad& load) {
+  DistributedLoad out;
+  out.member = load.member;
+  out.axes = LoadAxes::member;
+  const double sense = load.side == Side::left ? -1.0 : 1.0;
+  for (const auto& [fraction, value] : load.value_along)
+    out.force_along.emplace_back(fraction, std::array{0.0, sense * value});
+  return out;
+}
+
 /// Sums the work of one load.
 class Summing {
  public:
@@ -72,9 +83,14 @@ void Summing::add(const DistributedLoad& load) {
   }
 }
 
-/// Replaces pressure by pressure on the chord: with the right normal n = (t_y, -t_x), int n ds is the chord
-/// turned by -90 degrees, and the moment about the start is int (x - x_a) x n ds = -|x_b - x_a|^2 / 2.
+/// Replaces a constant pressure by pressure on the chord: with the right normal n = (t_y, -t_x), int n ds is
+/// the chord turned by -90 degrees, and the moment about the start is int (x - x_a) x n ds = -|x_b - x_a|^2
+/// / 2.
 void Summing::add(const PressureLoad& load) {
+  if (!load.value_along.empty()) {
+    add(across(load));
+    return;
+  }
   const int member = parts_.member(load.member);
   const AxisPoint a = parts_.place(member, 0.0);
   const AxisPoint b = parts_.place(member, 1.0);

@@ -53,6 +53,13 @@ class Builder {
   void finish() { out_.elements = std::move(elements_); }
 
  private:
+  /// Scaled follower pressure of an element, proportional and constant part; needs the load scale.
+  struct ElementPressure {
+    int element;
+    LinePressure proportional;
+    LinePressure constant;
+  };
+
   void add_element_supports(int element);
   void add_foundation(int element, int index);
   void add_foundation_law(int element, int index);
@@ -70,14 +77,8 @@ class Builder {
   void add_initial_strain(const InitialStrain& load);
   void scale_loads(std::optional<double> load_scale);
   void find_follower_ends(double load_scale);
+  void add_follower_changes(const ElementPressure& pressure, double load_scale);
   [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
-
-  /// Scaled follower pressure of an element, proportional and constant part; needs the load scale.
-  struct ElementPressure {
-    int element;
-    double proportional;
-    double constant;
-  };
 
   const Model& model_;
   const Model& laws_;
@@ -402,10 +403,18 @@ void Builder::add_loads(std::optional<double> load_scale) {
 void Builder::add_pressure(const PressureLoad& load) {
   const int member = index_of(model_.members, load.member);
   // a medium on the left pushes along the right normal
-  const double value = (load.side == Side::left ? 1.0 : -1.0) * out_.scales.scaled_line_load(load.value);
+  const double sense = load.side == Side::left ? 1.0 : -1.0;
   const bool proportional = load.pattern == Pattern::proportional;
-  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e)
-    pressures_.push_back({e, proportional ? value : 0.0, proportional ? 0.0 : value});
+  const auto at = [&](double fraction) {
+    return sense * out_.scales.scaled_line_load(value_at(load.value, load.value_along, fraction));
+  };
+  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
+    const double from = at(out_.mesh.elements[e].from);
+    const double to = load.value_along.empty() ? from : at(out_.mesh.elements[e].to);
+    const LinePressure pressure{load.value_along.empty() ? from : 0.5 * (from + to), to - from};
+    pressures_.push_back(
+        {e, proportional ? pressure : LinePressure{}, proportional ? LinePressure{} : pressure});
+  }
 }
 
 void Builder::add_initial_strain(const InitialStrain& load) {
@@ -438,7 +447,9 @@ void Builder::scale_loads(std::optional<double> load_scale) {
       for (const int i : dofs.a) total += std::abs(out_.proportional_load[i]);
   for (const NodeSupport& support : out_.supports)
     for (const double value : support.proportional) total += std::abs(value);
-  for (const ElementPressure& p : pressures_) total += std::abs(p.proportional) * element_length(p.element);
+  for (const ElementPressure& p : pressures_)
+    total += std::max(std::abs(p.proportional.at(0.0)), std::abs(p.proportional.at(1.0))) *
+             element_length(p.element);
   if (total == 0.0) total = 1.0;
   if (load_scale) total = *load_scale;
   out_.scales.load = total;
@@ -446,14 +457,14 @@ void Builder::scale_loads(std::optional<double> load_scale) {
   for (NodeSupport& support : out_.supports)
     for (double& value : support.proportional) value /= total;
   for (const ElementPressure& p : pressures_)
-    elements_->set_pressure(p.element, p.proportional / total, p.constant);
+    elements_->set_pressure(p.element, p.proportional.times(1.0 / total), p.constant);
   find_follower_ends(total);
 }
 
 /// Whether constant actions cause displacements, and not only reactions of rigid supports.
 bool Builder::is_moved_by_constant_actions() const {
   for (const ElementPressure& p : pressures_)
-    if (p.constant != 0.0) return true;
+    if (p.constant.acts()) return true;
   Eigen::VectorXd free = out_.constant_load;
   for (int node = 0; node < out_.nodes; ++node) {
     const NodeSupport& support = out_.supports[static_cast<std::size_t>(node)];
@@ -468,6 +479,24 @@ bool Builder::is_moved_by_constant_actions() const {
          Rounding::last_places * out_.constant_load.lpNorm<Eigen::Infinity>();
 }
 
+/// Adds the Gauss points of an element whose pressure changes.
+void Builder::add_follower_changes(const ElementPressure& pressure, double load_scale) {
+  if (pressure.proportional.change == 0.0 && pressure.constant.change == 0.0) return;
+  const ElementDofs& dofs = out_.dofs[pressure.element];
+  const CollocationRule& rule = CollocationRule::of(out_.mesh.order);
+  const int p = rule.order();
+  for (int q = 0; q < p; ++q) {
+    FollowerEnd& point = out_.follower_ends.emplace_back();
+    point.terms.push_back({dofs.a[0], dofs.a[1]});
+    for (int r = 0; r < p; ++r)
+      point.terms.push_back(
+          {dofs.v + r, dofs.v + p + r, element_length(pressure.element) * rule.integral(q, r)});
+    const double weight = -0.5 * rule.weight(q);
+    point.proportional = weight * pressure.proportional.change / load_scale;
+    point.constant = weight * pressure.constant.change;
+  }
+}
+
 /// Finds movable nodes where the pressures of the adjacent lines do not cancel.
 void Builder::find_follower_ends(double load_scale) {
   std::vector<FollowerEnd> sums(static_cast<std::size_t>(out_.nodes));
@@ -476,13 +505,14 @@ void Builder::find_follower_ends(double load_scale) {
     for (const auto& [node, half] : {std::pair{dofs.a, -0.5}, std::pair{dofs.b, 0.5}}) {
       if (node[0] >= 3 * out_.nodes) continue;
       FollowerEnd& end = sums[node[0] / 3];
-      end.proportional += half * p.proportional / load_scale;
-      end.constant += half * p.constant;
+      end.proportional += half * p.proportional.at(0.5 + half) / load_scale;
+      end.constant += half * p.constant.at(0.5 + half);
     }
+    if (out_.geometry == Geometry::nonlinear) add_follower_changes(p, load_scale);
   }
   for (int j = 0; j < out_.nodes && out_.geometry == Geometry::nonlinear; ++j) {
     const NodeSupport& support = out_.supports[j];
-    sums[j].node = j;
+    sums[j].terms = {{3 * j, 3 * j + 1}};
     if (!support.fixed[0] && !support.fixed[1] && (sums[j].proportional != 0.0 || sums[j].constant != 0.0))
       out_.follower_ends.push_back(sums[j]);
   }

@@ -32,7 +32,7 @@ struct ElementData {
     int first_spring = 0, spring_count = 0;
     int first_contact = 0, contact_count = 0;
     /// Force per deformed length along the deformed right normal.
-    double pressure = 0.0, constant_pressure = 0.0;
+    LinePressure pressure, constant_pressure;
     int factor = 0;  ///< index among the unshearable or among the shearable elements
   };
   /// Linear functional of an element's displacements, with the law of the support that it drives.
@@ -89,7 +89,7 @@ class ElementSetOf final : public ElementSet {
   void add(const ElementShape& shape, const ElementDofs& dofs) override;
   void add_spring(const SupportSpring& support) override;
   void add_contact(int element, FoundationContact contact, Touch touch) override;
-  void set_pressure(int element, double proportional, double constant) override;
+  void set_pressure(int element, const LinePressure& proportional, const LinePressure& constant) override;
   [[nodiscard]] std::unique_ptr<ElementWork> make_work() const override;
   void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const override;
   [[nodiscard]] MovingZones moving_zones(const Eigen::VectorXd& y,
@@ -227,9 +227,13 @@ void ElementSetOf<P>::add_contact(int element, FoundationContact contact, Touch 
 }
 
 template <int P>
-void ElementSetOf<P>::set_pressure(int element, double proportional, double constant) {
-  data_.shapes[element].pressure += proportional;
-  data_.shapes[element].constant_pressure += constant;
+void ElementSetOf<P>::set_pressure(int element, const LinePressure& proportional,
+                                   const LinePressure& constant) {
+  auto& shape = data_.shapes[element];
+  shape.pressure.middle += proportional.middle;
+  shape.pressure.change += proportional.change;
+  shape.constant_pressure.middle += constant.middle;
+  shape.constant_pressure.change += constant.change;
   data_.pressed = true;
 }
 

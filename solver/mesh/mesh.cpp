@@ -35,6 +35,8 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
       at.insert(at.end(), distributed->range.begin(), distributed->range.end());
       add_kinks(distributed->force_along);
     }
+    const auto* pressure = std::get_if<PressureLoad>(&load);
+    if (pressure != nullptr && pressure->member == id) add_kinks(pressure->value_along);
     const auto* strain = std::get_if<InitialStrain>(&load);
     if (strain != nullptr && strain->member == id) {
       add_kinks(strain->axial_along);

@@ -164,6 +164,7 @@ struct PressureLoad {
   double value = 0.0;
   Side side = Side::left;
   Pattern pattern = Pattern::proportional;
+  Along<double> value_along = {};
 };
 struct InitialStrain {
   std::string member;

@@ -363,8 +363,10 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
 /// its divergence stability where its determinant changes sign; the count is changed to match that parity.
 void StructuralProblem::add_follower_ends(double lambda, TangentReport& report) {
   const auto [proportional, constant] = factors(lambda);
-  const double det = follower_ends_.prepare(proportional, constant, size(),
-                                            [this](Eigen::Ref<MatrixXd> x) { solve_symmetric(x); });
+  const double det = follower_ends_.prepare(proportional, constant, size(), [this](Eigen::Ref<MatrixXd> x) {
+    for (Index i = 0; i < x.cols(); ++i) release_rows(x.col(i));
+    solve_symmetric(x);
+  });
   report.log_abs_det += std::log(std::max(std::abs(det), std::numeric_limits<double>::min()));
   if (det < 0.0) report.negative += report.negative > 0 ? -1 : 1;
   report.parity_only = true;

@@ -60,6 +60,8 @@ class SectionForces {
   /// Perfect axis at xi; the last value is cached.
   [[nodiscard]] const AxisPoint& axis_at(double xi) const;
   [[nodiscard]] Vec2 position(double xi) const;
+  /// Derivative of the position by the scaled arc length of the perfect axis.
+  [[nodiscard]] Vec2 slope(double xi) const;
   /// Unit direction into the foundation's medium, and its derivative with respect to s.
   [[nodiscard]] Vec2 normal_into(const FoundationLaw& foundation, double xi) const {
     return foundation.direction.at(axis_at(xi).angle);
@@ -88,7 +90,7 @@ class SectionForces {
   std::vector<DeadLoad> dead_;
   std::vector<FoundationHere> foundations_;
   std::vector<PointAction> points_;
-  double pressure_ = 0.0;  ///< pressure along the deformed right normal
+  LinePressure pressure_;  ///< pressure along the deformed right normal
 };
 
 }  // namespace snapthrough

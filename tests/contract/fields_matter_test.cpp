@@ -139,6 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"/model/loads/1/member", R"("m")"}, Field{"/model/loads/1/force", "[0.01, -0.04]"},
         Field{"/model/loads/1/range", "[0.3, 0.8]"}, Field{"/model/loads/1/per", R"("length")"},
         Field{"/model/loads/1/per", R"("vertical")"}, Field{"/model/loads/2/value", "0.02"},
+        Field{"/model/loads/2/value", R"({"along": [[0, 0.01], [1, 0.02]]})"},
         Field{"/model/loads/2/side", R"("right")"}, Field{"/model/loads/2/member", R"("n")"},
         Field{"/model/loads/1/force", R"({"along": [[0.2, [0.01, -0.03]], [0.8, [0.01, -0.04]]]})"},
         Field{"/model/loads/1/axes", R"("member")"}, Field{"/model/loads/3/axial", "2e-4"},

@@ -199,6 +199,14 @@ Vec2 force_at(const DistributedLoad& load, const Body::Place& at, double fractio
   return {q[0] * at.dX[0] - q[1] * at.dX[1], q[0] * at.dX[1] + q[1] * at.dX[0]};
 }
 
+/// Pressure at a fraction of the member, of two places where it varies.
+double pressure_at(const PressureLoad& load, double fraction) {
+  if (load.value_along.empty()) return load.value;
+  const auto& [from, before] = load.value_along.front();
+  const auto& [to, after] = load.value_along.back();
+  return before + (after - before) * std::clamp((fraction - from) / (to - from), 0.0, 1.0);
+}
+
 void add_load(const Load& load, const std::vector<Section>& sections, const Member& member, const Body& body,
               double lambda, Wrench& sum) {
   const auto factor = [lambda](Pattern pattern) { return pattern == Pattern::constant ? 1.0 : lambda; };
@@ -228,9 +236,9 @@ void add_load(const Load& load, const std::vector<Section>& sections, const Memb
     body.integrate(0.0, body.length(), add);
   }
   if (const auto* pressure = std::get_if<PressureLoad>(&load); pressure && pressure->member == member.id) {
-    const double p =
-        factor(pressure->pattern) * pressure->value * (pressure->side == Side::left ? 1.0 : -1.0);
+    const double sense = factor(pressure->pattern) * (pressure->side == Side::left ? 1.0 : -1.0);
     const auto add = [&](const Body::Place& at, double ds) {
+      const double p = sense * pressure_at(*pressure, at.s / body.length());
       sum.add(at.x, {p * ds * at.dx[1], -p * ds * at.dx[0]});
     };
     body.integrate(0.0, body.length(), add);

@@ -51,6 +51,7 @@ const loads: Schemas['Load'][] = [
   {type: 'pressure', member: 'beam', value: 1, side: 'left', pattern: 'proportional'},
   {type: 'distributed', member: 'beam', force: {along: [[0, [0, 0]], [1, [0, -2]]]}, axes: 'member'},
   {type: 'initial_strain', member: 'beam', axial: 1e-4, curvature: 0, pattern: 'constant'},
+  {type: 'pressure', member: 'beam', value: {along: [[0, 0], [1, 10]]}, side: 'right'},
   {type: 'initial_strain', member: 'beam', axial: {along: [[0, 0], [1, 1e-4]]}, curvature: {along: [[0, 0], [1, 1e-3]]}},
   {type: 'self_weight', gravity: [0, -9.81], pattern: 'constant'},
   {type: 'temperature', member: 'beam', change: 30, gradient: {along: [[0, 5], [1, 10]]}, pattern: 'proportional'},

@@ -126,15 +126,32 @@ export function largestForce({ force }: Distributed): number {
   return "along" in force ? Math.max(...force.along.map(([, value]) => Math.hypot(...value))) : Math.hypot(...force);
 }
 
+/** The pressure of largest size, with its sign. */
+export function largestPressure({ value }: Pressure): number {
+  if (typeof value === "number") return value;
+  return value.along.reduce((most, [, one]) => Math.abs(one) > Math.abs(most) ? one : most, 0);
+}
+
+/** Two neighbours of a fraction among places that ascend, and its share of the way between them. */
+function between<T>(along: readonly (readonly [number, T])[], fraction: number): [T, T, number] | null {
+  const next = along.findIndex(([at]) => at > fraction);
+  const after = along[next < 0 ? along.length - 1 : next];
+  const before = along[next < 0 ? along.length - 1 : Math.max(0, next - 1)];
+  if (!before || !after) return null;
+  return [before[1], after[1], after[0] > before[0] ? (fraction - before[0]) / (after[0] - before[0]) : 0];
+}
+
+function pressureAt({ value }: Pressure, fraction: number): number {
+  if (typeof value === "number") return value;
+  const [before, after, share] = between(value.along, fraction) ?? [0, 0, 0];
+  return before + share * (after - before);
+}
+
 /** Force per length at a fraction of the member, in the axes of the load. */
 function forceAt({ force }: Distributed, fraction: number): readonly [number, number] {
   if (!("along" in force)) return force;
-  const next = force.along.findIndex(([at]) => at > fraction);
-  const after = force.along[next < 0 ? force.along.length - 1 : next];
-  const before = force.along[next < 0 ? force.along.length - 1 : Math.max(0, next - 1)];
-  if (!before || !after) return [0, 0];
-  const share = after[0] > before[0] ? (fraction - before[0]) / (after[0] - before[0]) : 0;
-  return [before[1][0] + share * (after[1][0] - before[1][0]), before[1][1] + share * (after[1][1] - before[1][1])];
+  const [before, after, share] = between(force.along, fraction) ?? [[0, 0], [0, 0], 0];
+  return [before[0] + share * (after[0] - before[0]), before[1] + share * (after[1] - before[1])];
 }
 
 function distributedArrows(load: Distributed, scene: Scene, view: View, largest: number, arrows: Arrows): void {
@@ -161,18 +178,20 @@ function distributedArrows(load: Distributed, scene: Scene, view: View, largest:
 
 function pressureArrows(load: Pressure, scene: Scene, view: View, largest: number, arrows: Arrows): void {
   const drawn = scene.members.get(load.member);
-  if (!drawn || load.value === 0) return;
+  const most = largestPressure(load);
+  if (!drawn || most === 0) return;
   const factor = factorOf(load, scene);
   const side = load.side === "right" ? 1 : -1;
-  const scale = side * Math.sign(senseOf(factor) * load.value) * Math.max(0.5, Math.abs(load.value) / largest);
+  const scale = side * Math.sign(senseOf(factor) * most) * Math.max(0.5, Math.abs(most) / largest);
   const pull = (s: number) => {
     const { tangent } = placeOn(drawn, s);
-    return { x: -scale * tangent.y, y: scale * tangent.x };
+    const share = pressureAt(load, s / last(drawn.s)) / most;
+    return { x: -share * scale * tangent.y, y: share * scale * tangent.x };
   };
   const top = lineArrows([0, 1], load.member, scene, view, pull, arrows);
   const unit = unitOf(scene.input.model.units, "line_load");
-  const text = formatWithUnit(Math.abs(factor * load.value), unit);
-  if (top) arrows.notes.push({ at: top, text, size: Math.abs(load.value) });
+  const text = formatWithUnit(Math.abs(factor * most), unit);
+  if (top) arrows.notes.push({ at: top, text, size: Math.abs(most) });
 }
 
 function strainNote(load: Strain, scene: Scene, view: View, arrows: Arrows): void {
@@ -199,7 +218,7 @@ function largestOf(loads: readonly Load[], type: "point" | "line"): number {
   const sizes = loads.map((load) => {
     if (load.type === "point") return type === "point" ? Math.hypot(...load.force) : 0;
     if (load.type === "distributed") return type === "line" ? largestForce(load) : 0;
-    return load.type === "pressure" && type === "line" ? Math.abs(load.value) : 0;
+    return load.type === "pressure" && type === "line" ? Math.abs(largestPressure(load)) : 0;
   });
   return sizes.reduce((most, size) => Math.max(most, size), 0) || 1;
 }
