@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "api/read_law.h"
 #include "api/read_parts.h"
 #include "solver/model/limits.h"
 
@@ -219,17 +220,30 @@ static void read(const Value& value, Spring& out) {
   if (const auto direction = in.find_required("direction")) {
     read_direction(*direction, "rotation", out.direction);
   }
-  in.required("stiffness", out.stiffness);
+  read_law(in, out);
   in.optional("reaction", out.reaction);
   in.optional("gap", out.gap);
   in.finish();
+}
+
+/// Reads whether a foundation acts along the normal or along the tangent.
+static void read_component(Object& in, Foundation& out) {
+  static constexpr Named<bool> kNames[] = {{"normal", false}, {"tangent", true}};
+  const auto component = in.find("component");
+  if (!component) {
+    return;
+  }
+  read_named(*component, kNames, out.tangential);
+  if (out.tangential && (out.direction || in.find("side"))) {
+    component->report("ambiguous", "a foundation along the tangent has neither direction nor side");
+  }
 }
 
 static void read(const Value& value, Foundation& out) {
   Object in(value);
   in.required("id", out.id);
   in.required("member", out.member);
-  in.required("stiffness", out.stiffness);
+  read_law(in, out);
   in.optional("shear_stiffness", out.shear_stiffness);
   in.optional("reaction", out.reaction);
   in.optional("range", out.range);
@@ -243,6 +257,7 @@ static void read(const Value& value, Foundation& out) {
       side->report("ambiguous", "a fixed direction points into the medium already: leave side out");
     }
   }
+  read_component(in, out);
   in.finish();
 }
 

@@ -10,6 +10,7 @@ namespace snapthrough::bench {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kShallowLength = 100.0 * 20.0 * kPi / 180.0;  // of the shallow arch's axis
 
 Analysis first_limit_point() {
   Analysis analysis;
@@ -44,6 +45,53 @@ Case ring(const std::string& name, double k, double load, double target) {
   return {name, testing::half_ring_in_medium(k, 36e6), first_limit_point(), load, target};
 }
 
+/// Four short steps: the path ends far below the first critical load.
+Analysis four_steps(int elements, int order) {
+  constexpr int kSteps = 4;
+  constexpr double kLargestStep = 0.02;  // of the scale of the first critical load
+  Analysis analysis;
+  analysis.type = AnalysisType::path;
+  analysis.stop.steps = kSteps;
+  analysis.step.max = kLargestStep;
+  analysis.output.states = StateOutput::none;
+  analysis.discretization = testing::fixed_mesh(elements, order);
+  return analysis;
+}
+
+constexpr int kGrowingOrder = 3;
+
+/// Rigid frame with clamped feet, bays of 6 and storeys of 4, a load down and a smaller one along on each
+/// joint.
+Model rigid_frame(int bays, int storeys) {
+  Model model;
+  model.sections = {{"s", 1.5e6, 2e4, {}}};
+  const auto name = [](int column, int floor) {
+    return "n" + std::to_string(column) + "_" + std::to_string(floor);
+  };
+  const auto add_member = [&model](const std::string& id, const std::string& start, const std::string& end) {
+    Member member;
+    member.id = id;
+    member.start = start;
+    member.end = end;
+    member.section = "s";
+    model.members.push_back(member);
+  };
+  for (int floor = 0; floor <= storeys; ++floor) {
+    for (int column = 0; column <= bays; ++column) {
+      const std::string joint = name(column, floor);
+      model.nodes.push_back({joint, 6.0 * column, 4.0 * floor});
+      if (floor == 0) {
+        model.supports.push_back({joint, true, true, true, 0.0, {}});
+        continue;
+      }
+      add_member("c" + joint, name(column, floor - 1), joint);
+      if (column > 0) add_member("b" + joint, name(column - 1, floor), joint);
+      model.loads.emplace_back(PointLoad{{joint, "", 0.0}, {1.0, -100.0}, 0.0, Pattern::proportional});
+    }
+  }
+  return model;
+}
+
 /// Lee's frame, inextensible.
 Case frame() { return {"frame", testing::lee_frame(4.32e17), first_limit_point(), 18.55874653948, 0.0}; }
 
@@ -68,14 +116,56 @@ Case case_named(const std::string& name) {
 }
 
 Case growing_arch(int elements, int order) {
-  constexpr int kSteps = 4;
-  constexpr double kLargestStep = 0.02;  // of the load's scale: it ends far below the first critical load
   Case out = shallow_arch("growing_arch", 0.0, 0.0, 0.0);
-  out.analysis.stop = {};
-  out.analysis.stop.steps = kSteps;
-  out.analysis.step.max = kLargestStep;
-  out.analysis.discretization = testing::fixed_mesh(elements, order);
+  out.analysis = four_steps(elements, order);
   return out;
+}
+
+Case growing_bays(int members) {
+  constexpr int kStoreys = 2;
+  int bays = 1;
+  while (kStoreys * (2 * bays + 1) < members) ++bays;
+  return {"growing_bays", rigid_frame(bays, kStoreys), four_steps(1, kGrowingOrder), 0.0, 0.0};
+}
+
+Case growing_square(int members) {
+  int bays = 1;
+  while (bays * (2 * bays + 1) < members) ++bays;
+  return {"growing_square", rigid_frame(bays, bays), four_steps(1, kGrowingOrder), 0.0, 0.0};
+}
+
+Case growing_bases(int bases) {
+  Case out = arch_on_pieces(bases);
+  out.name = "growing_bases";
+  out.analysis = four_steps(bases, kGrowingOrder);
+  return out;
+}
+
+Case growing_springs(int springs) {
+  Case out = growing_bases(springs);
+  out.name = "growing_springs";
+  const double whole = out.model.foundations.front().stiffness * kShallowLength;
+  for (int i = 0; i < springs; ++i) {
+    Spring spring;
+    spring.id = "spring" + std::to_string(i);
+    spring.at = {"", "arch", (i + 0.5) / springs};
+    spring.direction = std::array<double, 2>{0.0, 1.0};
+    spring.stiffness = whole / springs;
+    spring.reaction = Reaction::compression_only;
+    out.model.springs.push_back(spring);
+  }
+  out.model.foundations.clear();
+  return out;
+}
+
+Case growing_case(const std::string& name, int size) {
+  if (name == "bays") return growing_bays(size);
+  if (name == "square") return growing_square(size);
+  if (name == "bases") return growing_bases(size);
+  if (name == "springs") return growing_springs(size);
+  const std::string elements = "elements";
+  if (name.rfind(elements, 0) != 0) throw std::invalid_argument("nothing grows by " + name);
+  return growing_arch(size, name == elements ? 1 : std::stoi(name.substr(elements.size())));
 }
 
 Case arch_on_pieces(int pieces) {

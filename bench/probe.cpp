@@ -2,29 +2,31 @@
 /// outside.
 ///
 ///   bench_probe CASE ACCURACY TIMES       a case of bench/cases.h
-///   bench_probe growing ELEMENTS TIMES    four steps of an arch on that many elements of order 1
-///   bench_probe growing3 ELEMENTS TIMES   of order 3; so to 8
+///   bench_probe grow:PART SIZE TIMES      four steps of growing_case(PART, SIZE) of bench/cases.h
 ///
-/// Prints the unknowns, the relative error (case) and the peak of the resident memory in kB.
+/// Prints the unknowns, the factorisations, the relative error (case) and the peak of the resident memory in
+/// kB.
 #include <sys/resource.h>
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <string>
 
 #include "bench/cases.h"
 #include "solver/solve.h"
 
 int main(int argc, char** argv) {
   using namespace snapthrough;
-  const bool growing = argc == 4 && std::strncmp(argv[1], "growing", 7) == 0;
   if (argc != 4) {
-    std::fprintf(stderr, "usage: bench_probe CASE ACCURACY TIMES | growing ELEMENTS TIMES\n");
+    std::fprintf(stderr, "usage: bench_probe CASE ACCURACY TIMES | grow:PART SIZE TIMES\n");
     return 2;
   }
-  bench::Case c = growing ? bench::growing_arch(std::atoi(argv[2]), argv[1][7] == 0 ? 1 : argv[1][7] - '0')
-                          : bench::case_named(argv[1]);
+  const std::string name = argv[1];
+  const std::string grow = "grow:";
+  const bool growing = name.rfind(grow, 0) == 0;
+  bench::Case c =
+      growing ? bench::growing_case(name.substr(grow.size()), std::atoi(argv[2])) : bench::case_named(name);
   if (!growing) c.analysis.discretization.accuracy = std::atof(argv[2]);
   Result result;
   for (int i = 0; i < std::atoi(argv[3]); ++i) result = solve(c.model, c.analysis);
@@ -33,7 +35,7 @@ int main(int argc, char** argv) {
                            : result.critical_points.back().load_factor / c.load - 1.0;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  std::printf("unknowns %d error %.2e peak_kb %ld\n", result.discretization.unknowns, std::abs(error),
-              usage.ru_maxrss);
+  std::printf("unknowns %d factorizations %d error %.2e peak_kb %ld\n", result.discretization.unknowns,
+              result.diagnostics.factorizations, std::abs(error), usage.ru_maxrss);
   return 0;
 }

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "server/cli/commands.h"
+#include "server/cli/convert.h"
 #include "server/cli/plot.h"
 #include "server/cli/remote_arguments.h"
 
@@ -203,6 +204,9 @@ void add_solving_commands(CLI::App& app, Arguments& arguments) {
   const std::shared_ptr<PlotArguments> plot = add_plot_command(app);
   on(app.get_subcommand("plot"), arguments,
      [plot](const Streams& streams) { return plot_command(*plot, streams); });
+  const std::shared_ptr<ConvertArguments> conversion = add_convert_command(app);
+  on(app.get_subcommand("convert"), arguments,
+     [conversion](const Streams& streams) { return convert_command(*conversion, streams); });
 }
 
 /// Adds the commands that run the service or maintain its store.

@@ -8,6 +8,7 @@
 #include "solver/check/check_parts.h"
 #include "solver/model/limits.h"
 #include "solver/numeric/number_text.h"
+#include "solver/support/law.h"
 
 namespace snapthrough::checks {
 
@@ -155,7 +156,7 @@ std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
   for (const Support& support : model.supports)
     if (support.rotation) nodes.erase(support.node);
   for (const Spring& spring : model.springs)
-    if (!spring.direction && spring.stiffness > 0.0) nodes.erase(spring.at.node);
+    if (!spring.direction && initial_stiffness(spring) > 0.0) nodes.erase(spring.at.node);
   return nodes;
 }
 

@@ -15,6 +15,102 @@ void check_gap(const Place& place, double gap, Reaction reaction) {
   }
 }
 
+/// Checks a number along a member: not negative, with at least one positive value.
+void check_along(const Place& place, const AlongMember& value) {
+  if (!value.varies()) {
+    require_positive(place, value.constant);
+    return;
+  }
+  const Place along = place / "along";
+  require_count(along, value.points.size(), kMaxPointsAlong);
+  double last = -1.0;
+  for (std::size_t i = 0; i < value.points.size(); ++i) {
+    const Place fraction = along / i / std::size_t{0};
+    require_between(fraction, value.points[i][0], 0.0, 1.0);
+    if (!(value.points[i][0] - last > kOnePlace)) {
+      fraction.report("not_ascending", "fractions must ascend");
+    }
+    last = value.points[i][0];
+    require_not_negative(along / i / std::size_t{1}, value.points[i][1]);
+  }
+  if (!(value.largest() > 0.0)) {
+    along.report("out_of_range", place.name() + " must be positive somewhere");
+  }
+}
+
+/// Checks points (w, p) of a law: both ascend from the origin, w strictly.
+void check_points(const Place& place, const std::vector<std::array<double, 2>>& points) {
+  require_count(place, points.size(), kMaxPointsAlong);
+  const bool has_origin = !points.empty() && points.front()[0] == 0.0 && points.front()[1] == 0.0;
+  const std::size_t first = has_origin ? 1 : 0;
+  if (points.size() <= first) {
+    place.report("empty", "a table needs a point beside the origin");
+    return;
+  }
+  std::array<double, 2> last{0.0, 0.0};
+  for (std::size_t i = first; i < points.size(); ++i) {
+    const auto [w, p] = points[i];
+    if (!require_finite(place / i / std::size_t{0}, w) || !require_finite(place / i / std::size_t{1}, p)) {
+      return;
+    }
+    if (!(w > last[0])) {
+      (place / i / std::size_t{0})
+          .report("not_ascending", "displacements must ascend from the origin (0, 0)");
+    }
+    if (!(p >= last[1])) {
+      (place / i / std::size_t{1}).report("not_ascending", "forces must not fall");
+    }
+    if (i == first && !(p > 0.0)) {
+      (place / i / std::size_t{1})
+          .report("out_of_range", "the first force beside the origin must be positive");
+    }
+    last = {w, p};
+  }
+}
+
+void check_law(const Place& support, const ReactionLaw& law) {
+  if (law.type == ReactionLaw::Type::linear) {
+    check_along(support / "stiffness", law.stiffness);
+    return;
+  }
+  const Place place = support / "law";
+  if (law.type == ReactionLaw::Type::table) {
+    check_points(place / "points", law.points);
+    check_along(place / "factor", law.factor);
+    return;
+  }
+  check_along(place / "stiffness", law.stiffness);
+  check_along(place / "capacity", law.capacity);
+  if (law.type == ReactionLaw::Type::power) {
+    require_positive(place / "reference", law.reference);
+    if (!(law.exponent > 0.0 && law.exponent < 1.0)) {
+      (place / "exponent").report("out_of_range", "exponent must be above 0 and below 1");
+    }
+  }
+}
+
+/// Requires the numbers of a spring's law to be constant, since a spring has one place.
+void check_constant(const Place& support, const ReactionLaw& law) {
+  const auto require_constant = [](const Place& place, const AlongMember& value) {
+    if (value.varies()) {
+      place.report("not_supported", "a spring acts at one place: " + place.name() + " must be a number");
+    }
+  };
+  const Place place = support / "law";
+  require_constant(place / "stiffness", law.stiffness);
+  require_constant(place / "capacity", law.capacity);
+  require_constant(place / "factor", law.factor);
+}
+
+void check_tangential(const Place& place, const Foundation& foundation) {
+  if (foundation.reaction != Reaction::bilateral) {
+    (place / "reaction").report("not_supported", "a foundation along the tangent must be bilateral");
+  }
+  if (foundation.shear_stiffness > 0.0) {
+    (place / "shear_stiffness").report("not_supported", "a foundation along the tangent has no shear layer");
+  }
+}
+
 void check_prescribed(const Place& place, double value, bool fixed) {
   if (require_finite(place, value) && std::abs(value) > 0.0 && !fixed) {
     place.report("not_fixed", place.name() + " is prescribed but is not among the fixed components");
@@ -73,7 +169,12 @@ void check_springs(const Place& model, const Model& data, const Names& names) {
     if (spring.direction) {
       require_direction(place / "direction", *spring.direction);
     }
-    require_not_negative(place / "stiffness", spring.stiffness);
+    if (spring.law) {
+      check_law(place, *spring.law);
+      check_constant(place, *spring.law);
+    } else {
+      require_not_negative(place / "stiffness", spring.stiffness);
+    }
     check_gap(place / "gap", spring.gap, spring.reaction);
   }
 }
@@ -87,7 +188,14 @@ void check_foundations(const Place& model, const Model& data, const Names& names
     const Foundation& foundation = data.foundations[i];
     ids.add(place / "id", foundation.id);
     names.members.require(place / "member", foundation.member);
-    require_not_negative(place / "stiffness", foundation.stiffness);
+    if (foundation.law) {
+      check_law(place, *foundation.law);
+    } else {
+      require_not_negative(place / "stiffness", foundation.stiffness);
+    }
+    if (foundation.tangential) {
+      check_tangential(place, foundation);
+    }
     require_not_negative(place / "shear_stiffness", foundation.shear_stiffness);
     require_fractions(place / "range", foundation.range);
     check_gap(place / "gap", foundation.gap, foundation.reaction);

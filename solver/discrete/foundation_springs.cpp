@@ -15,6 +15,12 @@ SupportSpring penetration_spring(const Structure& structure, const FoundationLaw
   return support_at(structure, element, xi, {d[0], d[1], 0.0});
 }
 
+/// Fraction of the member's length at a place of an element.
+double fraction_at(const Structure& structure, int element, double xi) {
+  const MeshElement& e = structure.mesh.elements[element];
+  return e.from + xi * (e.to - e.from);
+}
+
 /// Bilateral springs at the points of a quadrature rule on part of an element.
 std::vector<SupportSpring> penetration_springs(const Structure& structure, const FoundationLaw& foundation,
                                                int element, std::array<double, 2> range,
@@ -25,7 +31,7 @@ std::vector<SupportSpring> penetration_springs(const Structure& structure, const
   for (std::size_t i = 0; i < rule.points.size(); ++i) {
     out.push_back(penetration_spring(structure, foundation, element, range[0] + width * rule.points[i]));
     Law& law = out.back().law;
-    law = foundation.law;
+    law = foundation.at(fraction_at(structure, element, range[0] + width * rule.points[i]));
     law.gap = 0.0;
     law.one_sided = false;
     law.scale(length_of_element(structure, element));
@@ -44,7 +50,7 @@ std::vector<SupportSpring> lumped_springs(const Structure& structure, const Foun
     const double xi = lobatto.points[i];
     if (xi < range[0] - kOnePlace || xi > range[1] + kOnePlace) continue;
     SupportSpring support = penetration_spring(structure, foundation, element, xi);
-    support.law = foundation.law;
+    support.law = foundation.at(fraction_at(structure, element, xi));
     support.law.scale(length_of_element(structure, element));
     support.law.scale(lobatto.weights[i]);
     out.push_back(support);

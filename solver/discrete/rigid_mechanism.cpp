@@ -9,6 +9,7 @@
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/null_space.h"
 #include "solver/numeric/rounding.h"
+#include "solver/support/law.h"
 
 namespace snapthrough {
 namespace {
@@ -36,7 +37,7 @@ class Holding {
  private:
   template <class Support>
   [[nodiscard]] bool is_there(const Support& support) const {
-    return support.stiffness > 0.0 && (one_sided_ || support.reaction == Reaction::bilateral);
+    return initial_stiffness(support) > 0.0 && (one_sided_ || support.reaction == Reaction::bilateral);
   }
   void add(const Support& support);
   void add(const Spring& spring);
@@ -104,7 +105,9 @@ void Holding::add(const Foundation& foundation) {
         parts_.place(member, foundation.range[0] + point * (foundation.range[1] - foundation.range[0]));
     const double c = std::cos(at.angle);
     const double s = std::sin(at.angle);
-    const auto [x, y] = foundation.direction.value_or(RigidParts::Point{-s, c});
+    const RigidParts::Point along =
+        foundation.tangential ? RigidParts::Point{c, s} : RigidParts::Point{-s, c};
+    const auto [x, y] = foundation.direction.value_or(along);
     hold(member, {at.x, at.y}, x, y);
     if (!(foundation.shear_stiffness > 0.0)) continue;
     const double turn = foundation.direction ? 0.0 : -at.curvature;

@@ -31,11 +31,20 @@ double largest_of(double constant, const Along<double>& along) {
   return largest;
 }
 
+/// A structure with the same scales, whose parts are taken over where they do not differ, and its model.
+struct Neighbour {
+  const Structure& structure;
+  const Model& model;
+};
+
 /// Builds a Structure stage by stage; one object per structure.
 class Builder {
  public:
   /// @param laws model with opposite supports joined, for the equations
-  Builder(const Model& model, const Model& laws, Structure& out) : model_(model), laws_(laws), out_(out) {}
+  /// @param like null, or a structure with the same mesh and axes
+  Builder(const Model& model, const Model& laws, const Neighbour* like, Structure& out)
+      : model_(model), laws_(laws), like_(like), out_(out) {}
+  Builder(const Builder&) = delete;
 
   /// @param known scales of another mesh or model; null: from the model
   void set_scales(const Scales* known);
@@ -60,11 +69,14 @@ class Builder {
     LinePressure constant;
   };
 
+  void add_shape(int element);
   void add_element_supports(int element);
   void add_foundation(int element, int index);
   void add_foundation_law(int element, int index);
   void add_contacts(int element, int index);
   [[nodiscard]] Touch touch_of_spring(std::size_t index) const;
+  [[nodiscard]] const FoundationContact* known_contact(int element, const Direction& direction,
+                                                       std::array<double, 2> range) const;
   [[nodiscard]] FoundationContact make_contact(int element, const FoundationLaw& foundation, int index,
                                                std::array<double, 2> range) const;
   void add_point_spring(int element, std::size_t index);
@@ -75,14 +87,19 @@ class Builder {
   }
   void add_pressure(const PressureLoad& load);
   void add_initial_strain(const InitialStrain& load);
-  void scale_loads(std::optional<double> load_scale);
+  void add_dead_load(const Load& load);
+  [[nodiscard]] double size_of_loads() const;
+  void scale_other_actions();
   void find_follower_ends(double load_scale);
   void add_follower_changes(const ElementPressure& pressure, double load_scale);
   [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
 
   const Model& model_;
   const Model& laws_;
+  const Neighbour* like_;
   Structure& out_;
+  std::vector<FoundationLaw> foundation_laws_;  ///< of `laws_`
+  std::vector<SpringLaw> spring_laws_;
   std::unique_ptr<ElementSet> elements_;
   std::vector<ElementPressure> pressures_;
   double strain_size_ = 0.0;  ///< magnitude of the forces that the proportional initial strains correspond to
@@ -134,6 +151,14 @@ void Builder::set_scales(const Scales* known) {
   for (const Foundation& foundation : model_.foundations)
     out_.foundation_laws.push_back(law_of(foundation, out_.scales));
   for (const Spring& spring : model_.springs) out_.spring_laws.push_back(law_of(spring, out_.scales));
+  for (const Foundation& foundation : laws_.foundations)
+    foundation_laws_.push_back(law_of(foundation, out_.scales));
+  for (const Spring& spring : laws_.springs) spring_laws_.push_back(law_of(spring, out_.scales));
+  const auto keep = [this](const auto& law) {
+    if (law.curve) out_.curves.push_back(law.curve);
+  };
+  std::for_each(foundation_laws_.begin(), foundation_laws_.end(), keep);
+  std::for_each(spring_laws_.begin(), spring_laws_.end(), keep);
 }
 
 void Builder::bound_stiffness() {
@@ -193,20 +218,37 @@ void Builder::number_unknowns() {
   out_.constant_load = Eigen::VectorXd::Zero(out_.size);
 }
 
+/// A contact on the same part of an element, in the same direction; null: there is none.
+const FoundationContact* contact_in(const std::vector<FoundationPart>& parts, int element,
+                                    const Direction& direction, std::array<double, 2> range) {
+  const auto before = [](const FoundationPart& part, int e) { return part.element < e; };
+  for (auto part = std::lower_bound(parts.begin(), parts.end(), element, before);
+       part != parts.end() && part->element == element; ++part)
+    if (part->contact && part->contact->is_on(direction, range)) return &*part->contact;
+  return nullptr;
+}
+
+/// A contact that differs by its law alone: that of the same foundation, made for results, or of the
+/// neighbour.
+const FoundationContact* Builder::known_contact(int element, const Direction& direction,
+                                                std::array<double, 2> range) const {
+  const FoundationContact* known = contact_in(out_.foundation_parts, element, direction, range);
+  if (known == nullptr && like_ != nullptr)
+    known = contact_in(like_->structure.foundation_parts, element, direction, range);
+  return known;
+}
+
 FoundationContact Builder::make_contact(int element, const FoundationLaw& foundation, int index,
                                         std::array<double, 2> range) const {
+  const FoundationLaw law = law_on(out_, foundation, element);
+  if (const auto* known = known_contact(element, foundation.direction, range))
+    return known->with_law(law, index);
   const MeshElement& e = out_.mesh.elements[element];
   const std::shared_ptr<const AxisCurve>& axis = out_.axes[e.member];
-  Law law = law_on(out_, foundation, element).law;
-  law.scale(element_length(element));
-  // the contact of the same foundation, made for results, has the same geometry
-  for (auto part = out_.foundation_parts.rbegin();
-       part != out_.foundation_parts.rend() && part->element == element; ++part)
-    if (part->contact && part->contact->is_on(foundation.direction, range))
-      return part->contact->with_law(law, index);
-  return FoundationContact(out_.mesh.order, foundation.direction,
-                           {axis, e.from * axis->length(), (e.to - e.from) * axis->length()}, range, law,
-                           index);
+  return FoundationContact(out_.mesh.order, law,
+                           {axis, e.from * axis->length(), (e.to - e.from) * axis->length(), e.from, e.to,
+                            element_length(element)},
+                           range, index);
 }
 
 /// Adds the part of a foundation on an element, for results.
@@ -215,7 +257,7 @@ void Builder::add_foundation(int element, int index) {
   const auto range = part_of(out_.mesh.elements[element], foundation.range);
   if (range[1] <= range[0]) return;
   out_.foundation_parts.push_back({index, element, range, std::nullopt});
-  if (is_one_sided(foundation))
+  if (is_one_sided(foundation) || out_.foundation_laws[index].law.curve != nullptr)
     out_.foundation_parts.back().contact = make_contact(element, out_.foundation_laws[index], index, range);
 }
 
@@ -224,12 +266,13 @@ void Builder::add_foundation_law(int element, int index) {
   const Foundation& foundation = laws_.foundations[index];
   const auto range = part_of(out_.mesh.elements[element], foundation.range);
   if (range[1] <= range[0]) return;
-  const FoundationLaw law = law_of(foundation, out_.scales);
+  const FoundationLaw& law = foundation_laws_[static_cast<std::size_t>(index)];
   if (law.shear > 0.0)
     for (const SupportSpring& support : shear_layer_springs(out_, law, element, range))
       elements_->add_spring(support);
   if (law.law.stiffness == 0.0) return;
-  if (law.law.one_sided && out_.mesh.foundation == FoundationRule::consistent)
+  const bool has_pieces = law.law.one_sided || law.law.curve != nullptr;
+  if (has_pieces && out_.mesh.foundation == FoundationRule::consistent)
     add_contacts(element, index);
   else
     for (const SupportSpring& support : winkler_springs(out_, law, element, range))
@@ -239,7 +282,7 @@ void Builder::add_foundation_law(int element, int index) {
 /// Adds a one-sided foundation on an element, split into ranges with and without a known touching state.
 void Builder::add_contacts(int element, int index) {
   const Foundation& foundation = laws_.foundations[index];
-  const FoundationLaw law = law_of(foundation, out_.scales);
+  const FoundationLaw& law = foundation_laws_[static_cast<std::size_t>(index)];
   const auto add = [&](std::array<double, 2> fractions, Touch touch) {
     const auto range = part_of(out_.mesh.elements[element], fractions);
     if (range[1] > range[0]) elements_->add_contact(element, make_contact(element, law, index, range), touch);
@@ -263,8 +306,8 @@ Touch Builder::touch_of_spring(std::size_t index) const {
 void Builder::add_point_spring(int element, std::size_t index) {
   const Spring& spring = laws_.springs[index];
   const MeshPlace place = place_of(out_.mesh, out_.mesh.elements[element].member, spring.at.fraction);
-  if (place.element != element || spring.stiffness == 0.0) return;
-  const SpringLaw law = law_of(spring, out_.scales);
+  if (place.element != element || initial_stiffness(spring) == 0.0) return;
+  const SpringLaw& law = spring_laws_[index];
   SupportSpring support = support_at(out_, element, place.xi, law.row);
   support.law = law.law;
   support.touch = touch_of_spring(index);
@@ -282,15 +325,28 @@ void Builder::add_element_supports(int element) {
     if (laws_.springs[i].at.member == member) add_point_spring(element, i);
 }
 
+/// Section of an element.
+const Section& section_of(const Model& model, const Mesh& mesh, int element) {
+  const Member& member = model.members[mesh.elements[static_cast<std::size_t>(element)].member];
+  return model.sections[index_of(model.sections, member.section)];
+}
+
+void Builder::add_shape(int element) {
+  const ElementDofs& dofs = out_.dofs[element];
+  if (like_ != nullptr &&
+      section_of(model_, out_.mesh, element) == section_of(like_->model, out_.mesh, element))
+    elements_->add_like(*like_->structure.elements, element, dofs);
+  else
+    elements_->add(shape_of_element(out_, model_, element), dofs);
+}
+
 void Builder::add_elements() {
   elements_ = make_element_set(out_.mesh.order);
-  elements_->reserve(static_cast<int>(out_.mesh.elements.size()));
-  for (std::size_t m = 0; m < model_.members.size(); ++m) {
-    const StressFreeAxis& axis = *out_.stress_free[m];
-    for (int e = out_.mesh.first[m]; e < out_.mesh.first[m + 1]; ++e) {
-      elements_->add(shape_on(out_, model_, e, axis), out_.dofs[e]);
-      add_element_supports(e);
-    }
+  const int count = static_cast<int>(out_.mesh.elements.size());
+  elements_->reserve(count);
+  for (int e = 0; e < count; ++e) {
+    add_shape(e);
+    add_element_supports(e);
   }
   out_.skipped = without_stiffness(model_);
   add_unresolved();
@@ -326,8 +382,8 @@ void Builder::add_supports() {
   }
   for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
     const Spring& spring = laws_.springs[i];
-    if (spring.at.node.empty() || spring.stiffness == 0.0) continue;
-    const SpringLaw law = law_of(spring, out_.scales);
+    if (spring.at.node.empty() || initial_stiffness(spring) == 0.0) continue;
+    const SpringLaw& law = spring_laws_[i];
     NodeSpring js;
     js.node = index_of(model_.nodes, spring.at.node);
     js.row = law.row;
@@ -371,33 +427,52 @@ void Builder::add_distributed(const DistributedLoad& load) {
   }
 }
 
-void Builder::add_loads(std::optional<double> load_scale) {
+void Builder::add_dead_load(const Load& load) {
   const Scales& scales = out_.scales;
-  for (const Load& load : model_.loads) {
-    if (const auto* point = std::get_if<PointLoad>(&load)) {
-      const Vec3 action{scales.scaled_force(point->force[0]), scales.scaled_force(point->force[1]),
-                        scales.scaled_moment(point->moment)};
-      if (point->at.member.empty()) {
-        const int node = index_of(model_.nodes, point->at.node);
-        for (int c = 0; c < 3; ++c) pattern(point->pattern)[3 * node + c] += action[c];
-      } else {
-        const MeshPlace place =
-            place_of(out_.mesh, index_of(model_.members, point->at.member), point->at.fraction);
-        add_point_action(pattern(point->pattern), place.element, place.xi, action);
-      }
-    } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
-      add_distributed(*distributed);
-    } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
-      add_pressure(*pressure);
-    } else if (const auto* strain = std::get_if<InitialStrain>(&load)) {
-      add_initial_strain(*strain);
-    } else if (const auto* weight = std::get_if<SelfWeight>(&load)) {
-      for (const Member& member : model_.members) add_distributed(weight_of(model_, member, *weight));
+  if (const auto* point = std::get_if<PointLoad>(&load)) {
+    const Vec3 action{scales.scaled_force(point->force[0]), scales.scaled_force(point->force[1]),
+                      scales.scaled_moment(point->moment)};
+    if (point->at.member.empty()) {
+      const int node = index_of(model_.nodes, point->at.node);
+      for (int c = 0; c < 3; ++c) pattern(point->pattern)[3 * node + c] += action[c];
     } else {
-      add_initial_strain(strain_of(model_, std::get<TemperatureLoad>(load)));
+      const MeshPlace place =
+          place_of(out_.mesh, index_of(model_.members, point->at.member), point->at.fraction);
+      add_point_action(pattern(point->pattern), place.element, place.xi, action);
     }
+  } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
+    add_distributed(*distributed);
+  } else if (const auto* strain = std::get_if<InitialStrain>(&load)) {
+    add_initial_strain(*strain);
+  } else if (const auto* weight = std::get_if<SelfWeight>(&load)) {
+    for (const Member& member : model_.members) add_distributed(weight_of(model_, member, *weight));
+  } else if (const auto* temperature = std::get_if<TemperatureLoad>(&load)) {
+    add_initial_strain(strain_of(model_, *temperature));
   }
-  scale_loads(load_scale);
+}
+
+/// Whether the load vector of a model is that of another with the same mesh.
+bool has_same_loads(const Model& a, const Model& b) {
+  const auto follows_sections = [](const Load& load) {
+    return std::holds_alternative<SelfWeight>(load) || std::holds_alternative<TemperatureLoad>(load);
+  };
+  return a.loads == b.loads &&
+         (a.sections == b.sections || std::none_of(a.loads.begin(), a.loads.end(), follows_sections));
+}
+
+void Builder::add_loads(std::optional<double> load_scale) {
+  for (const Load& load : model_.loads)
+    if (const auto* pressure = std::get_if<PressureLoad>(&load)) add_pressure(*pressure);
+  const bool known = like_ != nullptr && has_same_loads(model_, like_->model);
+  if (known) {
+    out_.proportional_load = like_->structure.proportional_load;
+    out_.constant_load = like_->structure.constant_load;
+  } else {
+    for (const Load& load : model_.loads) add_dead_load(load);
+  }
+  out_.scales.load = load_scale ? *load_scale : size_of_loads();
+  if (!known) out_.proportional_load /= out_.scales.load;
+  scale_other_actions();
 }
 
 void Builder::add_pressure(const PressureLoad& load) {
@@ -438,8 +513,8 @@ void Builder::add_initial_strain(const InitialStrain& load) {
   }
 }
 
-/// Scales the load factor so that the magnitudes of all actions at unit scaled factor add up to one.
-void Builder::scale_loads(std::optional<double> load_scale) {
+/// Sum of the magnitudes of all actions at load factor one, by which the load factor is scaled.
+double Builder::size_of_loads() const {
   double total = strain_size_;
   for (int j = 0; j < 3 * out_.nodes + out_.releases; ++j) total += std::abs(out_.proportional_load[j]);
   for (const ElementDofs& dofs : out_.dofs)
@@ -450,10 +525,12 @@ void Builder::scale_loads(std::optional<double> load_scale) {
   for (const ElementPressure& p : pressures_)
     total += std::max(std::abs(p.proportional.at(0.0)), std::abs(p.proportional.at(1.0))) *
              element_length(p.element);
-  if (total == 0.0) total = 1.0;
-  if (load_scale) total = *load_scale;
-  out_.scales.load = total;
-  out_.proportional_load /= total;
+  return total == 0.0 ? 1.0 : total;
+}
+
+/// Scales prescribed displacements and pressures.
+void Builder::scale_other_actions() {
+  const double total = out_.scales.load;
   for (NodeSupport& support : out_.supports)
     for (double& value : support.proportional) value /= total;
   for (const ElementPressure& p : pressures_)
@@ -561,9 +638,9 @@ void Builder::add_monitors() {
 std::vector<std::string> without_stiffness(const Model& model) {
   std::vector<std::string> out;
   for (const Foundation& foundation : model.foundations)
-    if (foundation.stiffness == 0.0) out.push_back("foundation " + foundation.id + ": stiffness 0");
+    if (initial_stiffness(foundation) == 0.0) out.push_back("foundation " + foundation.id + ": stiffness 0");
   for (const Spring& spring : model.springs)
-    if (spring.stiffness == 0.0) out.push_back("spring " + spring.id + ": stiffness 0");
+    if (initial_stiffness(spring) == 0.0) out.push_back("spring " + spring.id + ": stiffness 0");
   return out;
 }
 
@@ -578,8 +655,10 @@ void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen:
 
 FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element) {
   FoundationLaw law = foundation;
-  if (law.law.one_sided)
-    law.law.stiffness = std::min(law.law.stiffness, structure.stiffest[static_cast<std::size_t>(element)]);
+  if (law.law.one_sided) {
+    law.stiffest = structure.stiffest[static_cast<std::size_t>(element)];
+    law.law.bound_stiffness(law.stiffest);
+  }
   return law;
 }
 
@@ -637,10 +716,11 @@ namespace {
 
 /// Fills all data that follow from the model, the axes, the geometry and the mesh, which are already set.
 /// @param scales null: computed from the model
-void fill(const Model& model, const Scales* scales, Structure& out) {
+/// @param like see Builder
+void fill(const Model& model, const Scales* scales, const Neighbour* like, Structure& out) {
   const std::optional<Model> joined = with_joined_supports(model);
   const Model& laws = joined ? *joined : model;
-  Builder builder(model, laws, out);
+  Builder builder(model, laws, like, out);
   builder.set_scales(scales);
   builder.bound_stiffness();
   builder.number_unknowns();
@@ -651,6 +731,7 @@ void fill(const Model& model, const Scales* scales, Structure& out) {
   builder.add_monitors();
   builder.finish();
   const auto one_sided = [](const auto& support) { return is_one_sided(support); };
+  out.curved = !out.curves.empty();
   out.one_sided = std::any_of(laws.foundations.begin(), laws.foundations.end(), one_sided) ||
                   std::any_of(laws.springs.begin(), laws.springs.end(), one_sided);
   out.has_constant = builder.is_moved_by_constant_actions();
@@ -662,7 +743,7 @@ void fill(const Model& model, const Scales* scales, Structure& out) {
     double foundation_load = 0.0;
     for (const Foundation& foundation : model.foundations)
       if (foundation.member == model.members[m].id)
-        foundation_load += 2.0 * std::sqrt(foundation.stiffness * EI) + foundation.shear_stiffness;
+        foundation_load += 2.0 * std::sqrt(initial_stiffness(foundation) * EI) + foundation.shear_stiffness;
     out.foundation_loads.push_back(foundation_load / out.scales.force);
   }
   const int p = out.mesh.order;
@@ -696,13 +777,15 @@ Structure make_structure(const Model& model, const Discretization& discretizatio
   out.geometry = geometry;
   set_axes(model, modes, out);
   out.mesh = make_mesh(model, discretization, out.axes, use);
-  fill(model, nullptr, out);
+  fill(model, nullptr, nullptr, out);
   return out;
 }
 
 namespace {
 
-Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, TouchingSupports touching) {
+/// Structure of a model on a mesh, with axes and scales of another one.
+Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, TouchingSupports touching,
+                     const Neighbour* like) {
   Structure out;
   out.geometry = structure.geometry;
   out.axes = structure.axes;
@@ -710,30 +793,42 @@ Structure built_anew(const Structure& structure, const Model& model, Mesh mesh, 
   out.stress_free = structure.stress_free;
   out.mesh = std::move(mesh);
   out.touching = std::move(touching);
-  fill(model, &structure.scales, out);
+  fill(model, &structure.scales, like, out);
   out.free_motions = structure.free_motions;
   out.stop = structure.stop;
   return out;
 }
 
+/// Whether both models have the same axes, perfect and stress-free. @param modes see with_changed_model()
+bool has_same_axes(const Model& a, const Model& b, const ModeOffsets& modes) {
+  return modes.empty() && a.nodes == b.nodes && a.members == b.members && a.imperfections == b.imperfections;
+}
+
 }  // namespace
 
 Structure on_mesh(const Structure& structure, const Model& model, Mesh mesh) {
-  return built_anew(structure, model, std::move(mesh), structure.touching);
+  return built_anew(structure, model, std::move(mesh), structure.touching, nullptr);
 }
 
 Structure with_touching(const Structure& structure, const Model& model, TouchingSupports touching) {
-  return built_anew(structure, model, structure.mesh, std::move(touching));
+  const Neighbour like{structure, model};
+  return built_anew(structure, model, structure.mesh, std::move(touching), &like);
 }
 
 Structure with_changed_model(const Structure& structure, const Model& model, const Model& changed,
                              const ModeOffsets& modes) {
+  if (has_same_axes(model, changed, modes)) {
+    Mesh mesh = moved_mesh(structure.mesh, model, structure.axes, changed, structure.axes);
+    const Neighbour like{structure, model};
+    const bool same = mesh.elements == structure.mesh.elements;
+    return built_anew(structure, changed, std::move(mesh), structure.touching, same ? &like : nullptr);
+  }
   Structure out;
   out.geometry = structure.geometry;
   set_axes(changed, modes, out);
   out.mesh = moved_mesh(structure.mesh, model, structure.axes, changed, out.axes);
   out.touching = structure.touching;
-  fill(changed, &structure.scales, out);
+  fill(changed, &structure.scales, nullptr, out);
   out.free_motions = structure.free_motions;
   out.stop = structure.stop;
   return out;

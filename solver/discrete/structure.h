@@ -124,8 +124,11 @@ struct Structure {
   std::vector<double> foundation_loads;  ///< increase of euler_loads by foundations: 2 sqrt(K EI) + G
   TouchingSupports touching;             ///< empty unless touching supports were searched for
   bool one_sided = false;                ///< some foundation or spring is not bilateral
-  bool has_constant = false;             ///< constant actions cause displacements
-  std::stop_token stop;                  ///< cancels computations on the structure
+  /// Curves to which the laws of the elements and nodes refer.
+  std::vector<std::shared_ptr<const ReactionCurve>> curves;
+  bool curved = false;        ///< some foundation or spring has a law with a curve
+  bool has_constant = false;  ///< constant actions cause displacements
+  std::stop_token stop;       ///< cancels computations on the structure
   /// Node motions (x, y, rotation each, scaled) that only one-sided supports can resist; orthonormal columns.
   Eigen::MatrixXd free_motions;
 };
@@ -149,7 +152,8 @@ void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen:
                                       TouchingSupports touching);
 
 /// @brief Builds the structure of a changed model with the same members. Unknowns, elements and scales
-/// remain, so that a state vector has the same meaning in both.
+/// remain, so that a state vector has the same meaning in both. Axes, element shapes, contact samples and
+/// load vectors are taken over where what they follow from is the same in both models.
 /// @param model model of `structure`
 /// @param modes offsets of the changed model's mode imperfections
 /// @pre the changed model passed check()

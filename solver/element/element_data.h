@@ -31,6 +31,7 @@ struct ElementData {
     std::array<double, kStrains> root{};  ///< square root of the compliance
     int first_spring = 0, spring_count = 0;
     int first_contact = 0, contact_count = 0;
+    bool curved = false;  ///< some support has a law with a curve
     /// Force per deformed length along the deformed right normal.
     LinePressure pressure, constant_pressure;
     int factor = 0;  ///< index among the unshearable or among the shearable elements
@@ -55,6 +56,9 @@ struct ElementData {
                                                     const double* y) const;
   [[nodiscard]] double value(const Functional& f, const ElementDofs& at, const double* y) const;
   [[nodiscard]] Functional functional_at(const FoundationContact& contact, double h, double xi) const;
+  /// Functional of the penetration along d, with zero stiffness and gap. @param integrals the A_r there
+  [[nodiscard]] static Functional penetration(std::array<double, 2> d, double h,
+                                              std::span<const double> integrals);
   /// Parts of the element on which a contact acts at displacements u; `out` is overwritten.
   void acting_parts(std::size_t contact, const ContactDisplacement& u, std::vector<ElementPart>& out) const;
   /// Whether a spring acts at the unknowns y.
@@ -87,6 +91,7 @@ class ElementSetOf final : public ElementSet {
     data_.dofs.reserve(elements);
   }
   void add(const ElementShape& shape, const ElementDofs& dofs) override;
+  void add_like(const ElementSet& other, int element, const ElementDofs& dofs) override;
   void add_spring(const SupportSpring& support) override;
   void add_contact(int element, FoundationContact contact, Touch touch) override;
   void set_pressure(int element, const LinePressure& proportional, const LinePressure& constant) override;
@@ -109,6 +114,8 @@ class ElementSetOf final : public ElementSet {
   [[nodiscard]] double frozen_share(const FrozenContact& frozen, int element, int foundation) const override;
 
  private:
+  void append(typename ElementData<P>::Shape shape, const ElementDofs& dofs);
+
   ElementData<P> data_;
 };
 
@@ -159,13 +166,20 @@ bool ElementData<P>::acts(const Functional& f, const ElementDofs& at, const doub
   return f.touch != Touch::none && std::abs(w) <= Rounding::touching ? f.touch == Touch::acts : w > 0.0;
 }
 
-/// Functional of the penetration at xi of a contact, with zero stiffness and gap.
+/// Functional of the penetration at xi of a contact, with the law there.
 template <int P>
 auto ElementData<P>::functional_at(const FoundationContact& contact, double h, double xi) const
     -> Functional {
   Gauss integrals;
-  const auto d = contact.direction_at(xi);
   rule->integrals_at(xi, integrals);
+  Functional f = penetration(contact.direction_at(xi), h, integrals);
+  f.law = contact.law_at(xi);
+  return f;
+}
+
+template <int P>
+auto ElementData<P>::penetration(std::array<double, 2> d, double h, std::span<const double> integrals)
+    -> Functional {
   Functional f;
   f.a = {d[0], d[1], 0.0};
   for (int q = 0; q < P; ++q) {
@@ -194,8 +208,21 @@ void ElementSetOf<P>::add(const ElementShape& in, const ElementDofs& dofs) {
     shape.shearable = shape.shearable || in.shear_compliance[q] > 0.0;
   }
   for (int i = 0; i < ElementData<P>::kStrains; ++i) shape.root[i] = std::sqrt(shape.compliance[i]);
+  append(shape, dofs);
+}
+
+template <int P>
+void ElementSetOf<P>::add_like(const ElementSet& other, int element, const ElementDofs& dofs) {
+  append(static_cast<const ElementSetOf&>(other).data_.shapes[element], dofs);
+}
+
+/// Adds a shape without supports and pressure.
+template <int P>
+void ElementSetOf<P>::append(typename ElementData<P>::Shape shape, const ElementDofs& dofs) {
   shape.first_spring = static_cast<int>(data_.springs.size());
   shape.first_contact = static_cast<int>(data_.contacts.size());
+  shape.spring_count = shape.contact_count = 0;
+  shape.pressure = shape.constant_pressure = 0.0;
   shape.factor = shape.shearable ? data_.shearable++ : data_.stiff++;
   data_.shapes.push_back(shape);
   data_.dofs.push_back(dofs);
@@ -212,18 +239,26 @@ void ElementSetOf<P>::add_spring(const SupportSpring& support) {
   for (int q = 0; q < P; ++q)
     for (int c = 0; c < 3; ++c) f.v[c][q] = support.v[q][c];
   data_.springs.push_back(f);
-  ++data_.shapes[support.element].spring_count;
+  auto& shape = data_.shapes[support.element];
+  ++shape.spring_count;
+  shape.curved = shape.curved || f.law.curve != nullptr;
 }
 
 template <int P>
 void ElementSetOf<P>::add_contact(int element, FoundationContact contact, Touch touch) {
   data_.contact_touch.push_back(touch);
   auto& whole = data_.whole_contacts.emplace_back();
-  const auto [from, to] = contact.range();
-  for (const double point : data_.contact_quadrature.points)
-    whole.push_back(data_.functional_at(contact, data_.shapes[element].h, from + (to - from) * point));
+  whole.reserve(data_.contact_quadrature.points.size());
+  for (std::size_t i = 0; i < data_.contact_quadrature.points.size(); ++i) {
+    const auto at = contact.at_point(i);
+    whole.push_back(data_.penetration({at[0], at[1]}, data_.shapes[element].h, at.subspan(2)));
+    whole.back().law = contact.law_at(contact.range()[0] + (contact.range()[1] - contact.range()[0]) *
+                                                               data_.contact_quadrature.points[i]);
+  }
+  auto& shape = data_.shapes[element];
+  ++shape.contact_count;
+  shape.curved = shape.curved || contact.law().curve != nullptr;
   data_.contacts.push_back(std::move(contact));
-  ++data_.shapes[element].contact_count;
 }
 
 template <int P>

@@ -168,6 +168,9 @@ class ElementSet {
   virtual void reserve(int elements) = 0;
   /// @brief Adds an element; element indices follow the order of calls.
   virtual void add(const ElementShape& shape, const ElementDofs& dofs) = 0;
+  /// @brief Adds an element with the shape of one of another set, without its supports and pressure.
+  /// @pre both sets have the same order
+  virtual void add_like(const ElementSet& other, int element, const ElementDofs& dofs) = 0;
   virtual void add_spring(const SupportSpring& support) = 0;
   virtual void add_contact(int element, FoundationContact contact, Touch touch) = 0;
   /// @brief Sets the follower pressure of an element, force per deformed length along its deformed right

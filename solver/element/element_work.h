@@ -109,11 +109,17 @@ class ElementWorkOf final : public ElementWork {
                                            const double* along) const;
   void add_strain_rate(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
                        const StrainChange& change, const double* direction, double* out) const;
-  void collect_moving_ends(const Shape& shape, const ElementDofs& dofs, const double* y, const double* along);
+  void collect_support_rates(int element, const double* y, const double* along);
+  void add_moving_ends(const Shape& shape, const ElementDofs& dofs, const double* y, const double* along);
+  void collect_supports(int element, const double* y);
+  [[nodiscard]] double penetration(const Functional& f, const ElementDofs& dofs, const double* y) const;
+  [[nodiscard]] Law::Response curved_response(const Functional& f, const ElementDofs& dofs, double w) const;
   void add_support_residual(int element, const double* y, double* residual, bool keep);
   void collect_contact(std::size_t index, const double* y, const ElementDofs& dofs, const Shape& shape);
   [[nodiscard]] const std::vector<ElementPart>& parts_in_contact(std::size_t index, const Shape& shape,
                                                                  const ElementDofs& dofs, const double* y);
+  void add_pieces(std::size_t index, const Shape& shape, const ElementPart& interval, double share,
+                  double gap);
   void add_interval(std::size_t index, const Shape& shape, const FoundationContact::Interval& interval,
                     double share, double gap);
   void to_strain_row(const Functional& f, const Shape& shape, const Tangent& t, ZetaVector& row) const;
@@ -179,6 +185,7 @@ class ElementWorkOf final : public ElementWork {
   std::vector<Interior<2 * P>> stiff_;  ///< unshearable elements; allocated by the first linearisation
   std::vector<Interior<3 * P>> shearable_;
   // scratch
+  std::vector<FoundationContact::KinkPlace> kinks_;  ///< of the law of the current contact
   std::vector<Functional> acting_;  ///< functionals of the acting supports of the current element
   std::vector<typename AugmentedMatrix<2 * P>::Weighted> stiff_rows_;  ///< scaled rows of the current element
   std::vector<typename AugmentedMatrix<3 * P>::Weighted> shearable_rows_;

@@ -65,24 +65,49 @@ auto ElementWorkOf<P>::strain_change(const Shape& shape, const ElementDofs& dofs
   return out;
 }
 
-/// Collects the derivative of the foundations' tangent as functionals in acting_: with K the stiffness of the
-/// law, n the functional of the penetration g at an end of contact, that end moves by n(along) / |g'|, and
-/// the tangent changes by K n n^T n(along) / |g'|. Ends of a foundation do not move.
+/// Collects the derivative of the supports' tangent along `along` as functionals in acting_: n n^T p''(w)
+/// n(along) for laws with a curve, and what moving ends of contact change.
 template <int P>
-void ElementWorkOf<P>::collect_moving_ends(const Shape& shape, const ElementDofs& dofs, const double* y,
-                                           const double* along) {
+void ElementWorkOf<P>::collect_support_rates(int element, const double* y, const double* along) {
+  const Shape& shape = shapes_[element];
+  const ElementDofs& dofs = dofs_[element];
   acting_.clear();
-  if (regime_.is_frozen() || regime_.bilateral()) return;
+  if (shape.curved && regime_.linearised_at() == nullptr) {
+    collect_supports(element, y);
+    std::erase_if(acting_, [](const Functional& f) { return f.law.curve == nullptr; });
+    for (Functional& f : acting_)
+      f.tangent = f.law.response_at(penetration(f, dofs, y)).rate * data_.value(f, dofs, along);
+  }
+  if (!regime_.is_frozen() && !regime_.bilateral()) add_moving_ends(shape, dofs, y, along);
+}
+
+/// Adds the change of the tangent by moving ends of contact and kinks of laws to acting_: with K the change
+/// of stiffness there and n the functional of the penetration g, the place moves by n(along) / |g'|, and the
+/// tangent changes by K n n^T n(along) / |g'|. Ends of a foundation do not move.
+template <int P>
+void ElementWorkOf<P>::add_moving_ends(const Shape& shape, const ElementDofs& dofs, const double* y,
+                                       const double* along) {
   const auto last = static_cast<std::size_t>(shape.first_contact + shape.contact_count);
   for (auto i = static_cast<std::size_t>(shape.first_contact); i < last; ++i) {
     const FoundationContact& contact = contacts_[i];
     const ContactDisplacement u = data_.displacement_of(shape, dofs, y);
-    const auto add_end = [&](double xi) {
+    const double share = contact.law().one_sided ? regime_.softness : 1.0;
+    const auto add = [&](Functional f, double xi, double stiffness) {
       const double slope = std::abs(contact.penetration_slope(xi, u.start, u.dx, u.dy));
-      Functional f = data_.functional_at(contact, shape.h, xi);
-      f.tangent = regime_.softness * contact.law().stiffness_at(0.0) * data_.value(f, dofs, along) / slope;
+      f.tangent = share * stiffness * data_.value(f, dofs, along) / slope;
       if (std::isfinite(f.tangent)) acting_.push_back(f);
     };
+    const auto add_end = [&](double xi) {
+      const Functional f = data_.functional_at(contact, shape.h, xi);
+      add(f, xi, f.law.stiffness);
+    };
+    if (contact.law().curve != nullptr) {
+      contact.kink_places(u.start, u.dx, u.dy, kinks_);
+      for (const auto& kink : kinks_)
+        if (kink.stiffness_change != 0.0)
+          add(data_.functional_at(contact, shape.h, kink.xi), kink.xi, kink.stiffness_change);
+    }
+    if (!contact.law().one_sided) continue;
     for (const ElementPart& part : parts_in_contact(i, shape, dofs, y)) {
       if (part.from != contact.range()[0]) add_end(part.from);
       if (part.to != contact.range()[1]) add_end(part.to);
@@ -96,14 +121,14 @@ void ElementWorkOf<P>::add_tangent_changes(const Eigen::VectorXd& y, const LoadF
                                            const Eigen::Ref<const Eigen::MatrixXd>& directions,
                                            Eigen::MatrixXd& out) {
   begin(rates, regime);
-  if (linear_ && contacts_.empty()) return;
+  if (linear_ && contacts_.empty() && springs_.empty()) return;
   find_kinematics(y);
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
     const ElementDofs& dofs = dofs_[e];
     const Kinematics& kin = kinematics_[e];
     const StrainChange change = strain_change(shape, dofs, kin, along.data());
-    collect_moving_ends(shape, dofs, y.data(), along.data());
+    collect_support_rates(e, y.data(), along.data());
     const LinePressure pressure = linear_ ? LinePressure{} : pressure_of(shape);
     for (Eigen::Index i = 0; i < directions.cols(); ++i) {
       const double* direction = directions.col(i).data();

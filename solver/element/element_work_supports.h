@@ -22,15 +22,38 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
                                        const Shape& shape) {
   const FoundationContact& contact = contacts_[index];
   const ElementPart whole{contact.range()[0], contact.range()[1]};
-  if (regime_.bilateral()) {
-    add_interval(index, shape, whole, regime_.softness, 0.0);
+  const bool one_sided = contact.law().one_sided;
+  const double share = one_sided ? regime_.softness : 1.0;
+  kinks_.clear();
+  if (contact.law().curve != nullptr) {
+    const auto* at = regime_.linearised_at();
+    const auto u = data_.displacement_of(shape, dofs, at != nullptr ? at->data() : y);
+    contact.kink_places(u.start, u.dx, u.dy, kinks_);
+  }
+  if (regime_.bilateral() || !one_sided) {
+    add_pieces(index, shape, whole, share, 0.0);
   } else {
     const auto& parts =
         regime_.is_frozen() ? regime_.frozen->contacts[index] : parts_in_contact(index, shape, dofs, y);
-    for (const ElementPart& part : parts)
-      add_interval(index, shape, part, regime_.softness, contact.law().gap);
+    for (const ElementPart& part : parts) add_pieces(index, shape, part, share, contact.law().gap);
   }
-  if (regime_.grip > 0.0) add_interval(index, shape, whole, regime_.grip, 0.0);
+  if (regime_.grip > 0.0 && one_sided) add_interval(index, shape, whole, regime_.grip, 0.0);
+}
+
+/// Appends the Gauss points of the pieces of an interval between the kinks of its law, in kinks_.
+template <int P>
+void ElementWorkOf<P>::add_pieces(std::size_t index, const Shape& shape, const ElementPart& interval,
+                                  double share, double gap) {
+  double from = interval.from;
+  if (!kinks_.empty()) {
+    std::sort(kinks_.begin(), kinks_.end(), [](const auto& a, const auto& b) { return a.xi < b.xi; });
+    for (const auto& kink : kinks_) {
+      if (!(kink.xi > from && kink.xi < interval.to)) continue;
+      add_interval(index, shape, {from, kink.xi}, share, gap);
+      from = kink.xi;
+    }
+  }
+  add_interval(index, shape, {from, interval.to}, share, gap);
 }
 
 /// Appends the Gauss points of an interval with a modulus and a gap. Functionals of the whole range, the most
@@ -47,12 +70,11 @@ void ElementWorkOf<P>::add_interval(std::size_t index, const Shape& shape,
     else
       acting_.push_back(
           data_.functional_at(contact, shape.h, interval.from + width * data_.contact_quadrature.points[i]));
-    Law law = contact.law();
+    Law& law = acting_.back().law;
     law.gap = gap;
     law.scale(share);
     law.scale(width);
     law.scale(data_.contact_quadrature.weights[i]);
-    acting_.back().law = law;
   }
 }
 
@@ -64,8 +86,9 @@ bool ElementWorkOf<P>::acts(const Functional& f, std::size_t support, const Elem
   return data_.acts(f, dofs, y);
 }
 
+/// Collects the functionals of the supports that act on an element in acting_.
 template <int P>
-void ElementWorkOf<P>::add_support_residual(int element, const double* y, double* residual, bool keep) {
+void ElementWorkOf<P>::collect_supports(int element, const double* y) {
   const Shape& shape = shapes_[element];
   const ElementDofs& dofs = dofs_[element];
   acting_.clear();
@@ -82,6 +105,28 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
     if (springs_[support].law.one_sided) acting_.back().law.scale(regime_.softness);
     if (regime_.bilateral()) acting_.back().law.gap = 0.0;
   }
+}
+
+/// Penetration of a functional at the unknowns y.
+template <int P>
+double ElementWorkOf<P>::penetration(const Functional& f, const ElementDofs& dofs, const double* y) const {
+  return data_.value(f, dofs, y) - f.law.gap;
+}
+
+/// Force and stiffness of a law with a curve at a penetration w.
+template <int P>
+Law::Response ElementWorkOf<P>::curved_response(const Functional& f, const ElementDofs& dofs,
+                                                double w) const {
+  const auto* at = regime_.linearised_at();
+  if (at == nullptr) return f.law.response_at(w);
+  const double stiffness = f.law.stiffness_at(penetration(f, dofs, at->data()));
+  return {stiffness * w, stiffness, 0.0};
+}
+
+template <int P>
+void ElementWorkOf<P>::add_support_residual(int element, const double* y, double* residual, bool keep) {
+  collect_supports(element, y);
+  const ElementDofs& dofs = dofs_[element];
   std::array<double, kStrains> v;  // local copy of y: lets the compiler reorder the loops
   std::array<double, kStrains> forces{};
   double at_start[3] = {0.0, 0.0, 0.0};
@@ -94,8 +139,13 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
     for (int c = 0; c < 3; ++c) w += f.a[c] * y[dofs.a[c]];
     const double* row = f.v[0].data();
     for (int i = 0; i < kStrains; ++i) w += row[i] * v[i];
-    const double force = f.law.force_at(w);
-    f.tangent = f.law.stiffness_at(w);
+    double force = f.law.stiffness * w;
+    f.tangent = f.law.stiffness;
+    if (f.law.curve != nullptr) {
+      const Law::Response response = curved_response(f, dofs, w);
+      force = response.force;
+      f.tangent = response.stiffness;
+    }
     rounding += f.tangent * size * std::numeric_limits<double>::epsilon();
     for (int c = 0; c < 3; ++c) at_start[c] += force * f.a[c];
     for (int i = 0; i < kStrains; ++i) forces[i] += force * row[i];

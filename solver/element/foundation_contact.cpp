@@ -25,32 +25,92 @@ struct ContactSearch {
 
 }  // namespace
 
-FoundationContact::FoundationContact(int order, const Direction& direction, Place place,
-                                     std::array<double, 2> range, const Law& law, int foundation)
+FoundationContact::FoundationContact(int order, const FoundationLaw& law, Place place,
+                                     std::array<double, 2> range, int foundation)
     : rule_(&CollocationRule::of(order)),
-      direction_(direction),
+      foundation_law_(law),
       place_(std::move(place)),
       range_(range),
-      law_(law),
-      foundation_(foundation) {
-  count_ = std::max(2 * order + 3, direction_.turns ? ContactSearch::least_samples : 0);
-  blocks_ = (count_ + kLanes - 1) / kLanes;
-  samples_.assign(static_cast<std::size_t>(blocks_) * (2 + order), Lanes::Zero());
-  for (int i = 0; i < count_; ++i) {
-    z_[i] = i + 1 == count_ ? 1.0 : 0.5 - 0.5 * std::cos(std::numbers::pi * i / (count_ - 1));
-    const double xi = i + 1 == count_ ? range_[1] : range_[0] + z_[i] * (range_[1] - range_[0]);
-    std::array<double, kMaxOrder> a{};
-    rule_->integrals_at(xi, std::span(a).first(order));
-    Lanes* block = &samples_[static_cast<std::size_t>(i / kLanes) * (2 + order)];
-    const auto d = direction_at(xi);
-    for (int c = 0; c < 2; ++c) block[c][i % kLanes] = d[c];
+      law_(law.law),
+      foundation_(foundation),
+      samples_(sampled()) {
+  law_.scale(place_.length);
+}
+
+const Quadrature& FoundationContact::quadrature(int order) {
+  static const std::vector<Quadrature> rules = [] {
+    std::vector<Quadrature> all;
+    for (int p = 1; p <= kMaxOrder; ++p) all.push_back(gauss_legendre(std::max(p + 2, 5)));
+    return all;
+  }();
+  return rules[static_cast<std::size_t>(order - 1)];
+}
+
+namespace {
+
+/// Positions of the samples on a range, and the A_r there and at the points of the quadrature.
+/// @param turns whether the direction varies along the axis
+template <class Samples>
+Samples without_direction(int order, bool turns, std::array<double, 2> range) {
+  const CollocationRule& rule = CollocationRule::of(order);
+  Samples out;
+  out.count = std::max(2 * order + 3, turns ? ContactSearch::least_samples : 0);
+  out.blocks = (out.count + kLanes - 1) / kLanes;
+  out.rows.assign(static_cast<std::size_t>(out.blocks) * (2 + order), Lanes::Zero());
+  std::array<double, kMaxOrder> a{};
+  for (int i = 0; i < out.count; ++i) {
+    const bool last = i + 1 == out.count;
+    out.z[i] = last ? 1.0 : 0.5 - 0.5 * std::cos(std::numbers::pi * i / (out.count - 1));
+    rule.integrals_at(last ? range[1] : range[0] + out.z[i] * (range[1] - range[0]),
+                      std::span(a).first(order));
+    Lanes* block = &out.rows[static_cast<std::size_t>(i / kLanes) * (2 + order)];
     for (int r = 0; r < order; ++r) block[2 + r][i % kLanes] = a[r];
   }
-  exact_ = !direction_.turns || resolved();
+  for (const double point : FoundationContact::quadrature(order).points) {
+    rule.integrals_at(range[0] + (range[1] - range[0]) * point, std::span(a).first(order));
+    out.points.insert(out.points.end(), {0.0, 0.0});
+    out.points.insert(out.points.end(), a.begin(), a.begin() + order);
+  }
+  return out;
+}
+
+/// Positions and A_r on a whole element, made once for each order.
+template <class Samples>
+const Samples& on_whole_element(int order, bool turns) {
+  static const auto all = [] {
+    std::vector<std::array<Samples, 2>> out;
+    for (int p = 1; p <= kMaxOrder; ++p)
+      out.push_back({without_direction<Samples>(p, false, {0.0, 1.0}),
+                     without_direction<Samples>(p, true, {0.0, 1.0})});
+    return out;
+  }();
+  return all[static_cast<std::size_t>(order - 1)][turns ? 1 : 0];
+}
+
+}  // namespace
+
+std::shared_ptr<const FoundationContact::Samples> FoundationContact::sampled() const {
+  const auto width = static_cast<std::size_t>(2 + rule_->order());
+  const bool whole = range_ == std::array{0.0, 1.0};
+  auto out = std::make_shared<Samples>(
+      whole ? on_whole_element<Samples>(rule_->order(), direction().turns)
+            : without_direction<Samples>(rule_->order(), direction().turns, range_));
+  const auto towards = [this](double z) { return direction_at(range_[0] + z * (range_[1] - range_[0])); };
+  for (int i = 0; i < out->count; ++i) {
+    const auto d = i + 1 == out->count ? direction_at(range_[1]) : towards(out->z[i]);
+    for (int c = 0; c < 2; ++c)
+      out->rows[static_cast<std::size_t>(i / kLanes) * width + c][i % kLanes] = d[c];
+  }
+  for (std::size_t i = 0; i * width < out->points.size(); ++i) {
+    const auto d = towards(quadrature(rule_->order()).points[i]);
+    std::copy(d.begin(), d.end(), out->points.begin() + static_cast<std::ptrdiff_t>(i * width));
+  }
+  out->exact = !direction().turns || resolved(*out);
+  return out;
 }
 
 /// Whether the samples resolve products of the direction and displacements of the element's degree.
-bool FoundationContact::resolved() const {
+bool FoundationContact::resolved(const Samples& samples) const {
   constexpr std::array<double, 5> between{0.02, 0.19, 0.41, 0.68, 0.93};  // fractions of the range
   const int degree = rule_->order();
   const auto power = [degree](double z) {
@@ -59,13 +119,13 @@ bool FoundationContact::resolved() const {
     return out;
   };
   std::array<std::array<double, ChebyshevSeries::kMostPoints>, 2> values{};
-  for (int i = 0; i < count_; ++i)
+  for (int i = 0; i < samples.count; ++i)
     for (int c = 0; c < 2; ++c)
-      values[c][i] =
-          samples_[static_cast<std::size_t>(i / kLanes) * (2 + degree) + c][i % kLanes] * power(z_[i]);
+      values[c][i] = samples.rows[static_cast<std::size_t>(i / kLanes) * (2 + degree) + c][i % kLanes] *
+                     power(samples.z[i]);
   const std::array<ChebyshevSeries, 2> series{
-      ChebyshevSeries(std::span<const double>(values[0]).first(count_)),
-      ChebyshevSeries(std::span<const double>(values[1]).first(count_))};
+      ChebyshevSeries(std::span<const double>(values[0]).first(samples.count)),
+      ChebyshevSeries(std::span<const double>(values[1]).first(samples.count))};
   return std::all_of(between.begin(), between.end(), [&](double z) {
     const auto exact = direction_at(range_[0] + z * (range_[1] - range_[0]));
     const auto error = [&](int c) { return std::abs(series[c].value(z) - exact[c] * power(z)); };
@@ -73,22 +133,25 @@ bool FoundationContact::resolved() const {
   });
 }
 
-FoundationContact FoundationContact::with_law(const Law& law, int foundation) const {
+FoundationContact FoundationContact::with_law(const FoundationLaw& law, int foundation) const {
   FoundationContact other = *this;
-  other.law_ = law;
+  other.foundation_law_ = law;
+  other.law_ = law.law;
+  other.law_.scale(place_.length);
   other.foundation_ = foundation;
   return other;
 }
 
-FoundationContact FoundationContact::with_gap(double gap) const {
-  FoundationContact other = *this;
-  other.law_.gap = gap;
-  return other;
+Law FoundationContact::law_at(double xi) const {
+  if (!foundation_law_.variation) return law_;
+  Law law = foundation_law_.at(place_.from + xi * (place_.to - place_.from));
+  law.scale(place_.length);
+  return law;
 }
 
 std::array<double, 2> FoundationContact::direction_at(double xi) const {
-  if (!direction_.turns) return direction_.fixed;
-  return direction_.at(place_.axis->angle_at(place_.s0 + xi * place_.ds));
+  if (!direction().turns) return direction().fixed;
+  return direction().at(place_.axis->angle_at(place_.s0 + xi * place_.ds));
 }
 
 namespace {
@@ -119,12 +182,12 @@ double FoundationContact::penetration_slope(double xi, std::array<double, 2> ua,
   std::array<double, kMaxOrder> l{};
   rule_->values_at(xi, std::span(l).first(dx.size()));
   const auto du = combined({0.0, 0.0}, l, dx, dy);
-  if (!direction_.turns) return du[0] * direction_.fixed[0] + du[1] * direction_.fixed[1];
+  if (!direction().turns) return du[0] * direction().fixed[0] + du[1] * direction().fixed[1];
   std::array<double, kMaxOrder> a{};
   rule_->integrals_at(xi, std::span(a).first(dx.size()));
   const auto u = combined(ua, a, dx, dy);
   const AxisPoint axis = place_.axis->at(place_.s0 + xi * place_.ds);
-  const auto d = direction_.at(axis.angle);
+  const auto d = direction().at(axis.angle);
   const double turn = place_.ds * axis.curvature;
   return du[0] * d[0] + du[1] * d[1] + turn * (u[1] * d[0] - u[0] * d[1]);
 }
@@ -289,8 +352,8 @@ void search_cell(const Gap& gap, const Sample& left, const Sample& right, double
 void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const double> dx,
                                      std::span<const double> dy, double gap, Values& g) const {
   const std::size_t p = dx.size();
-  for (int b = 0; b < blocks_; ++b) {
-    const Lanes* block = &samples_[static_cast<std::size_t>(b) * (2 + p)];
+  for (int b = 0; b < samples_->blocks; ++b) {
+    const Lanes* block = &samples_->rows[static_cast<std::size_t>(b) * (2 + p)];
     Lanes ux = Lanes::Constant(ua[0]);
     Lanes uy = Lanes::Constant(ua[1]);
     for (std::size_t r = 0; r < p; ++r) {
@@ -304,30 +367,33 @@ void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const d
 
 bool FoundationContact::is_near(std::array<double, 2> ua, std::span<const double> dx,
                                 std::span<const double> dy, double distance) const {
+  if (!law_.one_sided) return false;
   Values g;
   penetrations(ua, dx, dy, law_.gap, g);
-  return std::all_of(g.begin(), g.begin() + count_, [distance](double w) { return std::abs(w) <= distance; });
+  return std::all_of(g.begin(), g.begin() + samples_->count,
+                     [distance](double w) { return std::abs(w) <= distance; });
 }
 
 /// Finds the contact intervals from the penetration minus a depth, given its values g at the samples.
 template <class Gap>
 void FoundationContact::search(const Gap& gap, const Values& g, std::vector<Interval>& out) const {
-  const int n = count_;
+  const int n = samples_->count;
+  const Values& z = samples_->z;
   const double length = range_[1] - range_[0];
   double from = range_[0];
-  const auto cross = [&](double z, bool entering) {
-    const double at = range_[0] + length * z;
+  const auto cross = [&](double place, bool entering) {
+    const double at = range_[0] + length * place;
     if (entering) from = at;
     if (!entering && at > from) out.push_back({from, at});
   };
   Values rate;  // slope of g in the cell before sample i
   rate[0] = 0.0;
-  for (int i = 1; i < n; ++i) rate[i] = std::abs(g[i] - g[i - 1]) / (z_[i] - z_[i - 1]);
+  for (int i = 1; i < n; ++i) rate[i] = std::abs(g[i] - g[i - 1]) / (z[i] - z[i - 1]);
   rate[n] = 0.0;
   for (int i = 0; i + 1 < n; ++i) {
-    const double width = z_[i + 1] - z_[i];
+    const double width = z[i + 1] - z[i];
     if (!may_cross(g[i], g[i + 1], width * std::max({rate[i], rate[i + 1], rate[i + 2]}))) continue;
-    search_cell(gap, Sample{z_[i], g[i]}, Sample{z_[i + 1], g[i + 1]}, rate[i] * width / ContactSearch::parts,
+    search_cell(gap, Sample{z[i], g[i]}, Sample{z[i + 1], g[i + 1]}, rate[i] * width / ContactSearch::parts,
                 rate[i + 2] * width / ContactSearch::parts, cross);
   }
   if (g[n - 1] > 0.0) out.push_back({from, range_[1]});
@@ -337,12 +403,68 @@ void FoundationContact::contact_intervals(std::array<double, 2> ua, std::span<co
                                           std::span<const double> dy, std::vector<Interval>& out,
                                           double depth) const {
   out.clear();
+  if (!law_.one_sided) {
+    out.push_back({range_[0], range_[1]});
+    return;
+  }
   Values g;
   penetrations(ua, dx, dy, law_.gap + depth, g);
-  if (exact_)
-    search(SampledGap(std::span<const double>(g).first(count_)), g, out);
+  if (samples_->exact)
+    search(SampledGap(std::span<const double>(g).first(samples_->count)), g, out);
   else
     search(ExactGap(*this, ua, dx, dy, depth), g, out);
+}
+
+void FoundationContact::kink_places(std::array<double, 2> ua, std::span<const double> dx,
+                                    std::span<const double> dy, std::vector<KinkPlace>& out) const {
+  out.clear();
+  if (law_.curve == nullptr) return;
+  Values g;
+  penetrations(ua, dx, dy, law_.gap, g);
+  const int count = samples_->count;
+  std::array<Law, kLanes * kMostBlocks> laws;
+  for (int i = 0; i < count; ++i) laws[i] = law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0]));
+  std::vector<Interval> above;
+  const int kinks = law_.curve->kink_count();
+  for (int k = 0; k < kinks; ++k)
+    for (const double sign : {1.0, -1.0}) {
+      if (sign < 0.0 && (law_.one_sided || law_.curve->kink(k, law_.shape).x == 0.0)) continue;
+      Values beyond;  // penetration minus that of the kink
+      double change = 0.0;
+      for (int i = 0; i < count; ++i) {
+        const Law& law = laws[i];
+        const auto kink = law_.curve->kink(k, law.shape);
+        beyond[i] = law.stiffness > 0.0 ? g[i] - sign * kink.x * law.capacity / law.stiffness : -1.0;
+        change = sign * law.stiffness * kink.slope_change;
+      }
+      const auto [least, most] = std::minmax_element(beyond.begin(), beyond.begin() + count);
+      if (*least > 0.0 || *most < 0.0) continue;
+      above.clear();
+      search(SampledGap(std::span<const double>(beyond).first(count)), beyond, above);
+      for (const Interval& part : above)
+        for (const double xi : {part.from, part.to})
+          if (xi != range_[0] && xi != range_[1]) out.push_back({xi, change});
+    }
+}
+
+std::vector<FoundationContact::Interval> FoundationContact::smooth_pieces(std::array<double, 2> ua,
+                                                                          std::span<const double> dx,
+                                                                          std::span<const double> dy) const {
+  std::vector<Interval> parts;
+  contact_intervals(ua, dx, dy, parts);
+  std::vector<KinkPlace> kinks;
+  kink_places(ua, dx, dy, kinks);
+  std::sort(kinks.begin(), kinks.end(), [](const auto& a, const auto& b) { return a.xi < b.xi; });
+  std::vector<Interval> out;
+  for (Interval part : parts) {
+    for (const KinkPlace& kink : kinks) {
+      if (!(kink.xi > part.from && kink.xi < part.to)) continue;
+      out.push_back({part.from, kink.xi});
+      part.from = kink.xi;
+    }
+    out.push_back(part);
+  }
+  return out;
 }
 
 }  // namespace snapthrough

@@ -3,8 +3,8 @@
 /// One-sided foundation on one element.
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <utility>
@@ -19,11 +19,11 @@
 
 namespace snapthrough {
 
-/// @brief One-sided Winkler foundation on part of an element: reaction K max(g, 0) per undeformed length
-/// along -d, with penetration g = u.d - gap and unit direction d into the medium.
+/// @brief Winkler foundation on part of an element that is one-sided or has a law with a curve: reaction
+/// p(g) per undeformed length along -d, with penetration g = u.d - gap and unit direction d into the medium.
 ///
-/// Integrals are split where g changes sign inside the element, so that they are C1 in the displacements: a
-/// moving contact end is no event and gives no spurious limit point. Immutable, thread safe.
+/// Integrals are split where g changes sign and where p is not smooth, so that they are C1 in the
+/// displacements: a moving contact end is no event and gives no spurious limit point. Immutable, thread safe.
 class FoundationContact {
  public:
   /// Position of the element on its member's initial axis.
@@ -31,29 +31,38 @@ class FoundationContact {
     std::shared_ptr<const AxisCurve> axis;  ///< empty when the direction is constant
     double s0 = 0.0;                        ///< arc length of the element's start, in the axis' units
     double ds = 0.0;                        ///< arc length of the element, in the axis' units
+    double from = 0.0;                      ///< the element, in fractions of the member
+    double to = 1.0;
+    double length = 1.0;  ///< scaled length of the element
   };
   using Interval = ElementPart;
 
   /// @param range part of the element, in [0, 1]
-  /// @param law stiffness is K times the element's length, so that weights on [0, 1] integrate K ds
   /// @pre place.axis is set when the direction turns
-  FoundationContact(int order, const Direction& direction, Place place, std::array<double, 2> range,
-                    const Law& law, int foundation);
+  FoundationContact(int order, const FoundationLaw& law, Place place, std::array<double, 2> range,
+                    int foundation);
 
-  /// Quadrature on a contact interval, for elements of an order.
-  [[nodiscard]] static Quadrature quadrature(int order) { return gauss_legendre(std::max(order + 2, 5)); }
-  /// Copy with another law, for the foundation of an index.
-  [[nodiscard]] FoundationContact with_law(const Law& law, int foundation) const;
+  /// Quadrature on a contact interval, for elements of an order; cached, thread safe.
+  [[nodiscard]] static const Quadrature& quadrature(int order);
+  /// Copy with another law, for the foundation of an index; both share the samples.
+  [[nodiscard]] FoundationContact with_law(const FoundationLaw& law, int foundation) const;
   /// Whether with_law() makes the contact of a direction on a part of the same element.
-  [[nodiscard]] bool is_on(const Direction& direction, std::array<double, 2> range) const {
-    return direction_ == direction && range_ == range;
+  [[nodiscard]] bool is_on(const Direction& along, std::array<double, 2> range) const {
+    return direction() == along && range_ == range;
   }
-  /// Copy with another gap.
-  [[nodiscard]] FoundationContact with_gap(double gap) const;
+  /// @brief Law with the largest stiffness along the member, times the element's length, so that weights on
+  /// [0, 1] integrate forces.
   [[nodiscard]] const Law& law() const { return law_; }
+  /// Law at xi, times the element's length.
+  [[nodiscard]] Law law_at(double xi) const;
   [[nodiscard]] int foundation() const { return foundation_; }
   [[nodiscard]] std::array<double, 2> range() const { return range_; }
   [[nodiscard]] std::array<double, 2> direction_at(double xi) const;
+  /// Direction x, y, then the A_r of CollocationRule, at point i of quadrature() on the whole range.
+  [[nodiscard]] std::span<const double> at_point(std::size_t i) const {
+    const auto width = static_cast<std::size_t>(2 + rule_->order());
+    return std::span<const double>(samples_->points).subspan(i * width, width);
+  }
 
   /// @brief Penetration at xi.
   /// @param ua displacement (x, y) at the element's start; dx, dy: h times u'_x, u'_y at the Gauss points
@@ -65,32 +74,55 @@ class FoundationContact {
   /// @brief Whether the distance from touching is at most `distance` on the whole range.
   [[nodiscard]] bool is_near(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                              double distance) const;
-  /// @brief Intervals of the range in contact (g > depth), ascending; `out` is overwritten.
+  /// @brief Intervals of the range in contact (g > depth), ascending; `out` is overwritten. The whole range
+  /// for a bilateral law.
   void contact_intervals(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                          std::vector<Interval>& out, double depth = 0.0) const;
+
+  /// Place at which the law has a kink.
+  struct KinkPlace {
+    double xi = 0.0;
+    double stiffness_change = 0.0;  ///< change of the stiffness from below to above the kink, per element
+  };
+  /// @brief Places inside the range at which the penetration passes a kink of the law, not sorted; `out` is
+  /// overwritten. Contact ends are none.
+  void kink_places(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                   std::vector<KinkPlace>& out) const;
+  /// @brief Intervals in contact, cut at the kinks of the law; ascending.
+  [[nodiscard]] std::vector<Interval> smooth_pieces(std::array<double, 2> ua, std::span<const double> dx,
+                                                    std::span<const double> dy) const;
 
  private:
   // samples stand four to an entry of Lanes; lanes beyond the last sample are zero
   static constexpr int kMostBlocks = (ChebyshevSeries::kMostPoints + kLanes - 1) / kLanes;
   using Values = std::array<double, kLanes * kMostBlocks>;
 
+  /// What follows from the axis and the range alone.
+  struct Samples {
+    int count = 0;               ///< number of samples (Chebyshev points of the range)
+    int blocks = 0;              ///< blocks of four samples
+    Values z{};                  ///< sample positions on the range, scaled to [0, 1]
+    std::vector<Lanes> rows;     ///< in each block: direction x, y, then the A_r of CollocationRule
+    std::vector<double> points;  ///< direction and A_r at each point of quadrature()
+    bool exact = true;           ///< interpolating the samples is exact to rounding
+  };
+
+  [[nodiscard]] std::shared_ptr<const Samples> sampled() const;
   void penetrations(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                     double gap, Values& g) const;
-  [[nodiscard]] bool resolved() const;
+  [[nodiscard]] bool resolved(const Samples& samples) const;
   template <class Gap>
   void search(const Gap& gap, const Values& g, std::vector<Interval>& out) const;
 
+  [[nodiscard]] const Direction& direction() const { return foundation_law_.direction; }
+
   const CollocationRule* rule_;
-  Direction direction_;  ///< unit vector into the medium
+  FoundationLaw foundation_law_;
   Place place_;
   std::array<double, 2> range_;
   Law law_;
   int foundation_;
-  int count_ = 0;               ///< number of samples (Chebyshev points of the range)
-  int blocks_ = 0;              ///< blocks of four samples
-  bool exact_ = true;           ///< interpolating the samples is exact to rounding
-  Values z_{};                  ///< sample positions on the range, scaled to [0, 1]
-  std::vector<Lanes> samples_;  ///< in each block: direction x, y, then the A_r of CollocationRule
+  std::shared_ptr<const Samples> samples_;
 };
 
 }  // namespace snapthrough

@@ -18,10 +18,11 @@ constexpr double kIdle = 1e-6;
 
 }  // namespace
 
-/// Frozen contact of the reference load; the default regime for structures without one-sided supports.
+/// Frozen contact of the reference load, with laws linearised there; the default regime for structures with
+/// linear, bilateral supports only.
 Regime BucklingPencil::regime() const {
   Regime regime;
-  if (!structure_.one_sided) return regime;
+  if (!structure_.one_sided && !structure_.curved) return regime;
   regime.contact = Regime::Contact::frozen;
   regime.frozen = &contact_;
   return regime;
@@ -90,13 +91,14 @@ void BucklingPencil::freeze_contact(double reference) {
     }
   }
   contact_ = problem_.frozen_contact(y);
+  if (structure_.curved) contact_.linearised_at = y;
   marks_ = problem_.marks_at(y);
 }
 
 void BucklingPencil::set_prestress(double reference) {
   const SharedHolds soft = held_softly(problem_);
   problem_.set_holds(soft);
-  if (structure_.one_sided) freeze_contact(reference);
+  if (structure_.one_sided || structure_.curved) freeze_contact(reference);
   if (soft) {
     Regime small = regime();
     small.small_displacements = true;

@@ -15,6 +15,13 @@
 namespace snapthrough {
 namespace {
 
+/// Adds the fractions inside a range at which a number of a law bends.
+void add_breaks(const ReactionLaw& law, std::array<double, 2> range, std::vector<double>& at) {
+  for (const AlongMember* value : {&law.stiffness, &law.capacity, &law.factor})
+    for (const auto& [fraction, unused] : value->points)
+      if (fraction > range[0] && fraction < range[1]) at.push_back(fraction);
+}
+
 /// Fractions at which elements must end, ascending, with 0 and 1.
 std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& axis) {
   const std::string& id = model.members[member].id;
@@ -26,8 +33,11 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
     for (const auto& point : along) at.push_back(point.first);
   };
   for (const Spring& spring : model.springs) add_location(spring.at);
-  for (const Foundation& foundation : model.foundations)
-    if (foundation.member == id) at.insert(at.end(), foundation.range.begin(), foundation.range.end());
+  for (const Foundation& foundation : model.foundations) {
+    if (foundation.member != id) continue;
+    at.insert(at.end(), foundation.range.begin(), foundation.range.end());
+    if (foundation.law) add_breaks(*foundation.law, foundation.range, at);
+  }
   for (const Load& load : model.loads) {
     if (const auto* point = std::get_if<PointLoad>(&load)) add_location(point->at);
     const auto* distributed = std::get_if<DistributedLoad>(&load);
@@ -127,11 +137,12 @@ int default_count(const ChosenMesh& rule, const Model& model, int member, const 
   double n = std::max(rule.least * (to - from), turns);
   const double EI = model.sections[index_of(model.sections, m.section)].EI;
   for (const Foundation& foundation : model.foundations) {
-    if (foundation.member != m.id || foundation.stiffness <= 0.0 || foundation.range[1] <= from ||
+    if (foundation.member != m.id || initial_stiffness(foundation) <= 0.0 || foundation.range[1] <= from ||
         foundation.range[0] >= to)
       continue;
-    const double layers = length / (rule.decay_lengths * std::pow(4.0 * EI / foundation.stiffness, 0.25));
-    const bool is_bounded = is_one_sided(foundation) && !foundation.direction;
+    const double layers =
+        length / (rule.decay_lengths * std::pow(4.0 * EI / initial_stiffness(foundation), 0.25));
+    const bool is_bounded = is_one_sided(foundation) && !foundation.direction && !foundation.law;
     n = std::max(n, is_bounded ? std::min(layers, enough) : layers);
   }
   for (const Imperfection& imperfection : model.imperfections) {

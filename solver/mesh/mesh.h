@@ -18,6 +18,7 @@ struct MeshElement {
   int member = 0;
   double from = 0.0;
   double to = 1.0;
+  bool operator==(const MeshElement&) const = default;
 };
 
 /// Elements in the order of members, along each member from start to end.

@@ -22,6 +22,8 @@ inline constexpr std::size_t kMaxLoadFactors =
 inline constexpr std::size_t kMaxSensitivities = 10'000;
 inline constexpr std::size_t kMaxIdLength = 200;     ///< characters (code points) of an id
 inline constexpr std::size_t kMaxWorstMembers = 32;  ///< members of a model with a worst imperfection
+inline constexpr std::size_t kMaxPointsAlong =
+    1'000;  ///< points of a table of a law, or of a number along a member
 inline constexpr int kMaxHalfWaves = 1'000;
 inline constexpr int kMaxModes = 1'000;  ///< number of buckling modes, and of a mode imperfection
 inline constexpr int kMaxElementsPerMember = 100'000;

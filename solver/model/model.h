@@ -14,6 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include "solver/model/along_member.h"
+
 namespace snapthrough {
 
 /// Multiplier of a load or prescribed displacement.
@@ -42,12 +44,14 @@ struct Location {
   std::string node;
   std::string member;
   double fraction = 0.0;  ///< fraction of the undeformed length, in [0, 1]; used with `member`
+  bool operator==(const Location&) const = default;
 };
 
 struct Node {
   std::string id;
   double x = 0.0;
   double y = 0.0;
+  bool operator==(const Node&) const = default;
 };
 
 /// Elastic section. No GA means unshearable (the limit GA -> infinity is taken exactly).
@@ -58,27 +62,34 @@ struct Section {
   std::optional<double> GA;              ///< shear stiffness (shear area included), > 0
   std::optional<double> mass = {};       ///< mass per undeformed length, >= 0; needed by self weight
   std::optional<double> expansion = {};  ///< thermal strain per degree; needed by temperature loads
+  bool operator==(const Section&) const = default;
 };
 
-struct LineCurve {};
+struct LineCurve {
+  bool operator==(const LineCurve&) const = default;
+};
 /// Circular arc that turns by `sweep_degrees` from start to end, positive to the left; 0 < |sweep| < 360.
 struct ArcCurve {
   double sweep_degrees = 0.0;
+  bool operator==(const ArcCurve&) const = default;
 };
 /// Offset 4 rise xi (1 - xi) from the chord along `direction`, xi in [0, 1] along the chord. Every piece of a
 /// parabola has this form with the direction of the parabola's axis.
 struct ParabolaCurve {
   double rise = 0.0;
   std::optional<std::array<double, 2>> direction = {};  ///< empty: left normal of the chord
+  bool operator==(const ParabolaCurve&) const = default;
 };
 /// Offset rise * sin(half_waves * pi * xi) along the chord's left normal, xi in [0, 1] along the chord.
 struct SineCurve {
   double rise = 0.0;
   int half_waves = 1;
+  bool operator==(const SineCurve&) const = default;
 };
 /// C2 cubic spline from the start through interior points to the end.
 struct PointsCurve {
   std::vector<std::array<double, 2>> points;
+  bool operator==(const PointsCurve&) const = default;
 };
 using Curve = std::variant<LineCurve, ArcCurve, ParabolaCurve, SineCurve, PointsCurve>;
 
@@ -93,6 +104,7 @@ struct Member {
   /// Moment per radian of relative rotation of a released end and its node, >= 0; 0: hinge.
   double release_start_stiffness = 0.0;
   double release_end_stiffness = 0.0;
+  bool operator==(const Member&) const = default;
 };
 /// Whether the start of a member turns without resistance of its node.
 [[nodiscard]] inline bool is_hinged_at_start(const Member& member) {
@@ -107,6 +119,7 @@ struct PrescribedDisplacement {
   double y = 0.0;
   double rotation = 0.0;
   Pattern pattern = Pattern::proportional;
+  bool operator==(const PrescribedDisplacement&) const = default;
 };
 
 struct Support {
@@ -116,6 +129,30 @@ struct Support {
   bool rotation = false;
   double angle_degrees = 0.0;  ///< turns the support's x and y axes
   std::optional<PrescribedDisplacement> displacement;
+  bool operator==(const Support&) const = default;
+};
+
+/// @brief Reaction p of an elastic support as a function of its penetration w >= 0; p(-w) = -p(w) for
+/// bilateral supports. Force for springs, force per undeformed length for foundations.
+///
+/// Unloading follows the curve back.
+struct ReactionLaw {
+  enum class Type {
+    linear,      ///< p = stiffness w
+    tanh,        ///< p = capacity tanh(stiffness w / capacity)
+    hyperbolic,  ///< p = w / (1 / stiffness + w / capacity)
+    power,       ///< p = min(stiffness w, capacity (w / reference)^exponent, capacity)
+    table        ///< p = factor times the monotone cubic through `points`, constant beyond the last
+  };
+  Type type = Type::linear;
+  AlongMember stiffness;   ///< slope at w = 0
+  AlongMember capacity;    ///< largest p
+  double reference = 0.0;  ///< w at which the power reaches the capacity
+  double exponent = 0.5;   ///< in (0, 1)
+  std::vector<std::array<double, 2>>
+      points;  ///< (w, p), both ascending from the origin, which may be left out
+  AlongMember factor{1.0, {}};
+  bool operator==(const ReactionLaw&) const = default;
 };
 
 /// Discrete spring to ground. `direction` points into the medium; empty: rotational spring.
@@ -126,6 +163,8 @@ struct Spring {
   double stiffness = 0.0;  ///< force per length, or moment per radian; >= 0
   Reaction reaction = Reaction::bilateral;
   double gap = 0.0;  ///< displacement at which a one-sided spring begins to react, >= 0
+  std::optional<ReactionLaw> law = std::nullopt;  ///< in place of `stiffness`; its numbers do not vary
+  bool operator==(const Spring&) const = default;
 };
 
 /// Continuous foundation r = K w - G w'' per undeformed length, w the displacement along the initial normal
@@ -140,6 +179,9 @@ struct Foundation {
   std::array<double, 2> range{0.0, 1.0};
   double gap = 0.0;
   std::optional<std::array<double, 2>> direction;
+  std::optional<ReactionLaw> law = std::nullopt;  ///< in place of `stiffness`
+  bool tangential = false;  ///< w is the displacement along the initial tangent; bilateral, without G
+  bool operator==(const Foundation&) const = default;
 };
 
 struct PointLoad {
@@ -147,6 +189,7 @@ struct PointLoad {
   std::array<double, 2> force{0.0, 0.0};
   double moment = 0.0;
   Pattern pattern = Pattern::proportional;
+  bool operator==(const PointLoad&) const = default;
 };
 /// Dead load per undeformed or projected length.
 struct DistributedLoad {
@@ -157,6 +200,7 @@ struct DistributedLoad {
   Pattern pattern = Pattern::proportional;
   LoadAxes axes = LoadAxes::global;
   Along<std::array<double, 2>> force_along = {};
+  bool operator==(const DistributedLoad&) const = default;
 };
 /// Follower pressure per deformed length, pushing from `side`.
 struct PressureLoad {
@@ -165,6 +209,7 @@ struct PressureLoad {
   Side side = Side::left;
   Pattern pattern = Pattern::proportional;
   Along<double> value_along = {};
+  bool operator==(const PressureLoad&) const = default;
 };
 struct InitialStrain {
   std::string member;
@@ -173,11 +218,13 @@ struct InitialStrain {
   Pattern pattern = Pattern::proportional;
   Along<double> axial_along = {};
   Along<double> curvature_along = {};
+  bool operator==(const InitialStrain&) const = default;
 };
 /// Weight of all members: `Section::mass` times `gravity`, a dead load per undeformed length.
 struct SelfWeight {
   std::array<double, 2> gravity{0.0, 0.0};  ///< acceleration in global axes
   Pattern pattern = Pattern::proportional;
+  bool operator==(const SelfWeight&) const = default;
 };
 /// Strain by temperature: axial expansion * change, curvature -expansion * gradient.
 struct TemperatureLoad {
@@ -187,6 +234,7 @@ struct TemperatureLoad {
   Pattern pattern = Pattern::proportional;
   Along<double> change_along = {};
   Along<double> gradient_along = {};
+  bool operator==(const TemperatureLoad&) const = default;
 };
 using Load =
     std::variant<PointLoad, DistributedLoad, PressureLoad, InitialStrain, SelfWeight, TemperatureLoad>;
@@ -194,6 +242,7 @@ using Load =
 struct LoadCase {
   std::string id;
   std::size_t loads = 0;  ///< number of its loads
+  bool operator==(const LoadCase&) const = default;
 };
 
 /// Stress-free offset amplitude * sin(half_waves pi s / L) along the left normal.
@@ -201,16 +250,19 @@ struct SineImperfection {
   std::string member;
   int half_waves = 1;
   double amplitude = 0.0;
+  bool operator==(const SineImperfection&) const = default;
 };
 /// Linearised buckling mode (1 is the lowest) scaled to the largest offset `amplitude`.
 struct ModeImperfection {
   int number = 1;
   double amplitude = 0.0;
+  bool operator==(const ModeImperfection&) const = default;
 };
 /// Stress-free offsets at fractions of the length, interpolated by a C2 spline.
 struct PointsImperfection {
   std::string member;
   std::vector<std::array<double, 2>> offsets;
+  bool operator==(const PointsImperfection&) const = default;
 };
 /// Norm of the stress-free offsets w(s) of all members: root mean square over their length, or largest |w|.
 enum class OffsetNorm { rms, max };
@@ -219,6 +271,7 @@ enum class OffsetNorm { rms, max };
 struct WorstImperfection {
   OffsetNorm norm = OffsetNorm::rms;
   double amplitude = 0.0;  ///< norm of the offsets, > 0
+  bool operator==(const WorstImperfection&) const = default;
 };
 using Imperfection = std::variant<SineImperfection, ModeImperfection, PointsImperfection, WorstImperfection>;
 
@@ -226,6 +279,7 @@ struct Monitor {
   std::string id;
   Location at;
   Component component = Component::y;
+  bool operator==(const Monitor&) const = default;
 };
 
 struct Model {
@@ -241,6 +295,7 @@ struct Model {
   std::vector<LoadCase> load_cases;
   std::vector<Imperfection> imperfections;
   std::vector<Monitor> monitors;
+  bool operator==(const Model&) const = default;
 };
 
 }  // namespace snapthrough

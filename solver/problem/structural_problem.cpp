@@ -129,8 +129,13 @@ double StructuralProblem::node_spring_force(std::size_t index, const VectorXd& y
   const double gap = regime.bilateral() ? 0.0 : spring.law.gap;
   bool acts = regime.bilateral() || node_spring_acts(spring, w);
   if (regime.is_frozen()) acts = regime.frozen->node_springs[index] != 0;
-  const double stiffness = spring.law.stiffness_at(w - gap);
-  const double force = acts ? spring.law.force_at(w - gap) : 0.0;
+  Law::Response law = spring.law.response_at(w - gap);
+  if (const auto* at = regime.linearised_at(); at != nullptr && spring.law.curve != nullptr) {
+    law.stiffness = spring.law.stiffness_at(penetration(spring, *at, gap));
+    law.force = law.stiffness * (w - gap);
+  }
+  const double stiffness = law.stiffness;
+  const double force = acts ? law.force : 0.0;
   spring_stiffness_[index] = acts ? stiffness : 0.0;
   if (!spring.law.one_sided) return force;
   // a share of the support acts at every displacement, without gap
@@ -659,8 +664,25 @@ Eigen::MatrixXd StructuralProblem::find_products(const VectorXd& y, double lambd
   return products;
 }
 
-/// Linear supports, dead loads and constraints have constant tangents; the ends of pressed lines follow the
-/// load factor.
+/// Adds the change along `along` of the tangent of springs at nodes whose law has a curve, times `direction`.
+void StructuralProblem::add_spring_rates(const VectorXd& y, const VectorXd& along,
+                                         const Eigen::Ref<const VectorXd>& direction,
+                                         Eigen::Ref<VectorXd> out) const {
+  if (!structure_.curved) return;
+  for (const NodeSpring& spring : structure_.node_springs) {
+    if (spring.law.curve == nullptr || !node_spring_acts(spring, penetration(spring, y, 0.0))) continue;
+    double moved = 0.0;
+    double w = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      moved += spring.row[c] * along[3 * spring.node + c];
+      w += spring.row[c] * direction[3 * spring.node + c];
+    }
+    const double rate = spring.law.response_at(penetration(spring, y, spring.law.gap)).rate;
+    for (int c = 0; c < 3; ++c) out[3 * spring.node + c] += rate * moved * w * spring.row[c];
+  }
+}
+
+/// Dead loads and constraints have constant tangents; the ends of pressed lines follow the load factor.
 MatrixXd StructuralProblem::tangent_change(const VectorXd& y, double, const PathDirection& along,
                                            const Eigen::Ref<const MatrixXd>& motions) {
   end_if_asked(stop_);
@@ -669,6 +691,7 @@ MatrixXd StructuralProblem::tangent_change(const VectorXd& y, double, const Path
   const LoadFactors rates{along.lambda * proportional, along.lambda * constant};
   elements_->add_tangent_changes(y, rates, regime_of({}), along.y, motions, change);
   for (Index i = 0; i < change.cols(); ++i) {
+    add_spring_rates(y, along.y, motions.col(i), change.col(i));
     follower_ends_.add_product(rates.proportional, rates.constant, motions.col(i), change.col(i));
     release_rows(change.col(i));
   }

@@ -124,6 +124,9 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] TouchingDistance touching_distance(const Eigen::VectorXd& y) const;
   void start_residual(double lambda, Eigen::VectorXd& f) const;
   void turn_to_supports(Eigen::Ref<Eigen::VectorXd> f) const;
+  void add_spring_rates(const Eigen::VectorXd& y, const Eigen::VectorXd& along,
+                        const Eigen::Ref<const Eigen::VectorXd>& direction,
+                        Eigen::Ref<Eigen::VectorXd> out) const;
   void add_node_products(double lambda, const Eigen::Ref<const Eigen::VectorXd>& direction,
                          Eigen::Ref<Eigen::VectorXd> out) const;
   [[nodiscard]] double penetration(const NodeSpring& spring, const Eigen::VectorXd& y, double gap) const;

@@ -93,8 +93,8 @@ void SectionForces::add_foundations() {
     if (lumped) add_lumped(law, part.range);
     FoundationHere out{law, lumped, part.range, {{part.range[0], part.range[1]}}};
     if (part.contact)
-      part.contact->contact_intervals({reader_.start()[0], reader_.start()[1]}, reader_.gradient(0),
-                                      reader_.gradient(1), out.contact);
+      out.contact = part.contact->smooth_pieces({reader_.start()[0], reader_.start()[1]}, reader_.gradient(0),
+                                                reader_.gradient(1));
     foundations_.push_back(out);
   }
 }
@@ -106,7 +106,7 @@ void SectionForces::add_lumped(const FoundationLaw& foundation, Vec2 range) {
     if (xi < range[0] - kOnePlace || xi > range[1] + kOnePlace) continue;
     const Vec2 n = normal_into(foundation, xi);
     const double force =
-        -reader_.length() * lobatto.weights[i] * foundation.law.reaction(penetration(foundation, xi));
+        -reader_.length() * lobatto.weights[i] * law_at(foundation, xi).reaction(penetration(foundation, xi));
     points_.push_back({xi, {force * n[0], force * n[1], 0.0}});
   }
 }
@@ -154,6 +154,10 @@ Vec2 SectionForces::slope(double xi) const {
   return {t[0] + du[0], t[1] + du[1]};
 }
 
+Law SectionForces::law_at(const FoundationLaw& foundation, double xi) const {
+  return foundation.at(cell_.from + xi * (cell_.to - cell_.from));
+}
+
 double SectionForces::penetration(const FoundationLaw& foundation, double xi) const {
   const Vec2 n = normal_into(foundation, xi);
   const auto u = reader_.displacement(xi);
@@ -180,7 +184,7 @@ Vec2 SectionForces::density(double xi) const {
   for (const FoundationHere& foundation : foundations_) {
     if (foundation.lumped || xi < foundation.range[0] || xi > foundation.range[1]) continue;
     const Vec2 n = normal_into(foundation.law, xi);
-    const double reaction = foundation.law.law.reaction(penetration(foundation.law, xi));
+    const double reaction = law_at(foundation.law, xi).reaction(penetration(foundation.law, xi));
     for (int c = 0; c < 2; ++c) f[c] -= reaction * n[c];
   }
   return f;

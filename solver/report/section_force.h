@@ -71,6 +71,7 @@ class SectionForces {
                                      structure_.scales.scaled_curvature(axis_at(xi).curvature));
   }
   /// Displacement into the foundation's medium.
+  [[nodiscard]] Law law_at(const FoundationLaw& foundation, double xi) const;
   [[nodiscard]] double penetration(const FoundationLaw& foundation, double xi) const;
   /// Force per length at a section, without shear layers.
   [[nodiscard]] Vec2 density(double xi) const;

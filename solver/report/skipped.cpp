@@ -1,5 +1,7 @@
 #include "solver/report/skipped.h"
 
+#include "solver/support/law.h"
+
 namespace snapthrough {
 namespace {
 
@@ -7,7 +9,7 @@ namespace {
 template <class Support>
 void add_bilateral(const char* kind, const std::vector<Support>& supports, std::vector<std::string>& out) {
   for (const Support& support : supports)
-    if (support.reaction == Reaction::bilateral && support.stiffness > 0.0)
+    if (support.reaction == Reaction::bilateral && initial_stiffness(support) > 0.0)
       out.push_back(std::string(kind) + " " + support.id + ": contact search, bilateral");
 }
 

@@ -81,9 +81,11 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     // results use the user's sign: a pushing medium has a positive reaction, a pulling one a negative
     const auto d = law.direction.at(angle);
     double w = u[0] * d[0] + u[1] * d[1];
-    const double reaction = law_on(structure, law, place.element).law.reaction(w);
+    const Law acting = law_on(structure, law, place.element).at(fraction);
+    const double reaction = acting.reaction(w);
     // displacement of the base's surface by its given stiffness, where the element has a bounded one
-    if (law.law.one_sided && law.law.acts(w)) w = law.law.gap + law.law.penetration_at(reaction);
+    if (law.law.one_sided && acting.acts(w))
+      w = acting.gap + (w - acting.gap) * (acting.stiffness / law.at(fraction).stiffness);
     out.s.push_back(fraction * axis.length());
     out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * reaction));
     out.displacement.push_back(in_users_sense(law.sense, structure.scales.length * w));

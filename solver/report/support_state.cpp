@@ -113,9 +113,8 @@ std::vector<SupportSpring> acting_springs(const Structure& structure, const Foun
   if (!part.contact || structure.mesh.foundation == FoundationRule::lumped)
     return winkler_springs(structure, foundation, part.element, part.range);
   const ElementReader reader(structure, y, part.element);
-  std::vector<FoundationContact::Interval> intervals;
-  part.contact->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
-                                  reader.gradient(1), intervals);
+  const auto intervals = part.contact->smooth_pieces({reader.start()[0], reader.start()[1]},
+                                                     reader.gradient(0), reader.gradient(1));
   std::vector<SupportSpring> out;
   for (const auto& interval : intervals)
     for (SupportSpring& support : contact_springs(structure, foundation, part.element, interval))

@@ -127,7 +127,7 @@ class Joiner {
  private:
   template <class Support>
   [[nodiscard]] bool touches(const Support& support, double unit) const {
-    return is_one_sided(support) && support.gap <= Rounding::coordinate * unit;
+    return is_one_sided(support) && !support.law && support.gap <= Rounding::coordinate * unit;
   }
   void join_springs();
   void join_springs_at(const std::vector<Touching>& place);

@@ -10,28 +10,108 @@ Direction fixed_direction(const std::array<double, 2>& along, double sign) {
 Direction direction_of(const Foundation& foundation) {
   const double sense = sense_of(foundation.reaction);
   if (foundation.direction) return fixed_direction(*foundation.direction, sense);
+  if (foundation.tangential) return {true, {}, 1.0, true};
   return {true, {}, foundation.side == Side::left ? sense : -sense};
+}
+
+namespace {
+
+/// Largest stiffness at penetration zero and largest force of a law.
+std::array<double, 2> largest_of(const ReactionLaw& law) {
+  if (law.type != ReactionLaw::Type::table) return {law.stiffness.largest(), law.capacity.largest()};
+  const double factor = law.factor.largest();
+  return {factor * initial_slope(law.points), factor * law.points.back()[1]};
+}
+
+AlongMember over_largest(AlongMember value) {
+  const double largest = value.largest();
+  value.constant = 1.0;
+  for (auto& point : value.points) point[1] = largest > 0.0 ? point[1] / largest : 0.0;
+  return value;
+}
+
+/// Variation of a law along its member; null when the law is constant.
+std::shared_ptr<const LawVariation> variation_of(const ReactionLaw& law) {
+  if (law.type == ReactionLaw::Type::table) {
+    if (!law.factor.varies()) return nullptr;
+    return std::make_shared<LawVariation>(LawVariation{over_largest(law.factor), over_largest(law.factor)});
+  }
+  if (!law.stiffness.varies() && !law.capacity.varies()) return nullptr;
+  return std::make_shared<LawVariation>(
+      LawVariation{over_largest(law.stiffness), over_largest(law.capacity)});
+}
+
+/// Sets capacity, shape and curve of a law.
+/// @param unit scaled capacity of the capacity 1
+void set_curve(const ReactionLaw& given, const ReactionCurve* curve, double unit, Law& law) {
+  if (curve == nullptr) return;
+  const auto [stiffness, capacity] = largest_of(given);
+  law.capacity = unit * capacity;
+  law.shape = stiffness * given.reference / capacity;
+  law.curve = curve;
+}
+
+template <class Support>
+double stiffness_of(const Support& support) {
+  return support.law ? largest_of(*support.law)[0] : support.stiffness;
+}
+
+}  // namespace
+
+double initial_stiffness(const Foundation& foundation) { return stiffness_of(foundation); }
+double initial_stiffness(const Spring& spring) { return stiffness_of(spring); }
+
+Law FoundationLaw::at(double fraction) const {
+  Law out = law;
+  if (variation) {
+    const double share = variation->stiffness.at(fraction);
+    out.stiffness *= share;
+    if (out.curve != nullptr) {
+      const double capacity = variation->capacity.at(fraction);
+      out.capacity *= capacity;
+      out.shape *= share / capacity;
+      if (!(out.stiffness > 0.0 && out.capacity > 0.0)) out = {0.0, law.gap, law.one_sided};
+    }
+  }
+  out.bound_stiffness(stiffest);
+  return out;
 }
 
 FoundationLaw law_of(const Foundation& foundation, const Scales& scales) {
   const bool one_sided = foundation.reaction != Reaction::bilateral;
-  const double gap = one_sided ? scales.scaled_length(foundation.gap) : 0.0;
-  return {direction_of(foundation),
-          {scales.scaled_modulus(foundation.stiffness), gap, one_sided},
-          scales.scaled_force(foundation.shear_stiffness),
-          sense_of(foundation.reaction)};
+  FoundationLaw out;
+  out.direction = direction_of(foundation);
+  out.law = {scales.scaled_modulus(initial_stiffness(foundation)),
+             one_sided ? scales.scaled_length(foundation.gap) : 0.0, one_sided};
+  out.shear = scales.scaled_force(foundation.shear_stiffness);
+  out.sense = sense_of(foundation.reaction);
+  if (!foundation.law) return out;
+  out.curve = curve_of(*foundation.law);
+  out.variation = variation_of(*foundation.law);
+  set_curve(*foundation.law, out.curve.get(), scales.scaled_line_load(1.0), out.law);
+  return out;
 }
 
 SpringLaw law_of(const Spring& spring, const Scales& scales) {
   const bool one_sided = spring.reaction != Reaction::bilateral;
   const double gap = one_sided ? spring.gap : 0.0;
-  const double sense = sense_of(spring.reaction);
-  if (!spring.direction)
-    return {{0.0, 0.0, sense}, {scales.scaled_rotational(spring.stiffness), gap, one_sided}, sense};
-  const Direction direction = fixed_direction(*spring.direction, sense);
-  return {{direction.fixed[0], direction.fixed[1], 0.0},
-          {scales.scaled_stiffness(spring.stiffness), scales.scaled_length(gap), one_sided},
-          sense};
+  const double stiffness = initial_stiffness(spring);
+  SpringLaw out;
+  out.sense = sense_of(spring.reaction);
+  double unit = scales.scaled_moment(1.0);
+  if (spring.direction) {
+    const Direction direction = fixed_direction(*spring.direction, out.sense);
+    out.row = {direction.fixed[0], direction.fixed[1], 0.0};
+    out.law = {scales.scaled_stiffness(stiffness), scales.scaled_length(gap), one_sided};
+    unit = scales.scaled_force(1.0);
+  } else {
+    out.row = {0.0, 0.0, out.sense};
+    out.law = {scales.scaled_rotational(stiffness), gap, one_sided};
+  }
+  if (!spring.law) return out;
+  out.curve = curve_of(*spring.law);
+  set_curve(*spring.law, out.curve.get(), unit, out.law);
+  return out;
 }
 
 bool has_one_sided_supports(const Model& model) {

@@ -5,36 +5,58 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
 
 #include "solver/model/model.h"
 #include "solver/model/scales.h"
+#include "solver/support/reaction_curve.h"
 
 namespace snapthrough {
 
 /// @brief Reaction law of a support: the force against its direction (per length for foundations) as a
-/// function of the penetration. Equilibrium, tangent and reports ask force_at(), stiffness_at() and
-/// penetration_at(); tests compare energy_at() with them. A law of another shape changes these four functions
-/// and scale().
+/// function of the penetration: linear, or capacity * f(stiffness * penetration / capacity) with a curve f.
 ///
 /// A bilateral support reacts at every displacement w into the medium, a one-sided one where w exceeds the
-/// gap. The penetration is w beyond the gap; that of a bilateral support may be negative. Today's law is
-/// linear.
+/// gap. The penetration is w beyond the gap; that of a bilateral support may be negative.
 struct Law {
-  double stiffness = 0.0;  ///< force by penetration
+  double stiffness = 0.0;  ///< force by penetration, at penetration zero
   double gap = 0.0;        ///< zero for bilateral supports
   bool one_sided = false;
+  double capacity = 0.0;                 ///< unused without a curve
+  double shape = 0.0;                    ///< second argument of the curve
+  const ReactionCurve* curve = nullptr;  ///< null: linear; owned by the FoundationLaw or SpringLaw
 
-  [[nodiscard]] double force_at(double penetration) const { return stiffness * penetration; }
+  /// Force with its first and second derivative with respect to the penetration.
+  struct Response {
+    double force = 0.0;
+    double stiffness = 0.0;
+    double rate = 0.0;
+  };
+  [[nodiscard]] Response response_at(double penetration) const {
+    if (curve == nullptr) return {stiffness * penetration, stiffness, 0.0};
+    const auto f = curve->at(stiffness * penetration / capacity, shape);
+    return {capacity * f.force, stiffness * f.slope, stiffness * stiffness / capacity * f.curvature};
+  }
+  [[nodiscard]] double force_at(double penetration) const { return response_at(penetration).force; }
   /// d force / d penetration.
-  [[nodiscard]] double stiffness_at(double /*penetration*/) const { return stiffness; }
-  /// Inverse of force_at(). @pre the force is not zero
-  [[nodiscard]] double penetration_at(double force) const { return force / stiffness; }
+  [[nodiscard]] double stiffness_at(double penetration) const { return response_at(penetration).stiffness; }
   /// Potential of the force; its derivative is force_at().
   [[nodiscard]] double energy_at(double penetration) const {
-    return 0.5 * stiffness * penetration * penetration;
+    if (curve == nullptr) return 0.5 * stiffness * penetration * penetration;
+    return capacity * capacity / stiffness * curve->energy(stiffness * penetration / capacity, shape);
   }
   /// Multiplies the force by a factor: a quadrature weight, a length, or a share of the support that acts.
-  void scale(double factor) { stiffness *= factor; }
+  void scale(double factor) {
+    stiffness *= factor;
+    capacity *= factor;
+  }
+  /// Lowers the stiffness at penetration zero, not the capacity.
+  void bound_stiffness(double most) {
+    if (!(stiffness > most)) return;
+    shape *= most / stiffness;
+    stiffness = most;
+  }
 
   /// The part of w that is resisted.
   [[nodiscard]] double penetration(double w) const { return one_sided ? std::max(w - gap, 0.0) : w; }
@@ -48,19 +70,22 @@ struct Law {
   [[nodiscard]] bool acts(double w) const { return stiffness > 0.0 && (!one_sided || w > gap); }
 };
 
-/// Unit direction in the plane: fixed in space, or sign times the left normal of a member's initial axis,
-/// which varies along the member.
+/// Unit direction in the plane: fixed in space, or sign times the left normal or the tangent of a member's
+/// initial axis, which vary along the member.
 struct Direction {
   bool turns = false;
   std::array<double, 2> fixed{};
   double sign = 1.0;
+  bool tangential = false;
 
   bool operator==(const Direction&) const = default;
   /// @param angle angle of the axis tangent, rad
   [[nodiscard]] std::array<double, 2> at(double angle) const {
-    return turns ? std::array{-sign * std::sin(angle), sign * std::cos(angle)} : fixed;
+    if (!turns) return fixed;
+    const std::array<double, 2> tangent{sign * std::cos(angle), sign * std::sin(angle)};
+    return tangential ? tangent : std::array{-tangent[1], tangent[0]};
   }
-  /// Derivative with respect to arc length.
+  /// Derivative with respect to arc length. @pre not tangential
   [[nodiscard]] std::array<double, 2> rate(double angle, double curvature) const {
     const double turn = turns ? -sign * curvature : 0.0;
     return {turn * std::cos(angle), turn * std::sin(angle)};
@@ -75,29 +100,47 @@ struct Direction {
 /// Value of a law in the user's sense; never negative zero.
 [[nodiscard]] inline double in_users_sense(double sense, double value) { return sense * value + 0.0; }
 
+/// @brief Largest stiffness of a foundation or spring at penetration zero: the modulus K, or the slope of its
+/// law.
+[[nodiscard]] double initial_stiffness(const Foundation& foundation);
+[[nodiscard]] double initial_stiffness(const Spring& spring);
+
 /// @param along any length except zero
 [[nodiscard]] Direction fixed_direction(const std::array<double, 2>& along, double sign);
 /// Direction into the resisting medium.
 [[nodiscard]] Direction direction_of(const Foundation& foundation);
 template <class Support>
 [[nodiscard]] bool is_one_sided(const Support& support) {
-  return support.reaction != Reaction::bilateral && support.stiffness > 0.0;
+  return support.reaction != Reaction::bilateral && initial_stiffness(support) > 0.0;
 }
 
 [[nodiscard]] bool has_one_sided_supports(const Model& model);
 
+/// Numbers of a foundation's law along its member, over their largest values.
+struct LawVariation {
+  AlongMember stiffness;
+  AlongMember capacity;
+};
+
 /// Reaction law of a foundation, scaled.
 struct FoundationLaw {
   Direction direction;
-  Law law;             ///< reaction per length
+  Law law;             ///< reaction per length, with the largest stiffness and capacity along the member
   double shear = 0.0;  ///< stiffness G of the shear layer
   double sense = 1.0;  ///< factor on results, see sense_of()
+  std::shared_ptr<const ReactionCurve> curve;                 ///< of `law`; null: linear
+  std::shared_ptr<const LawVariation> variation{};            ///< null: constant along the member
+  double stiffest = std::numeric_limits<double>::infinity();  ///< bound of the stiffness
+
+  /// Law at a fraction of the member's length.
+  [[nodiscard]] Law at(double fraction) const;
 };
 /// Reaction law of a spring, scaled.
 struct SpringLaw {
   std::array<double, 3> row{};  ///< weights of x, y and rotation in the displacement
   Law law;
-  double sense = 1.0;  ///< factor on results, see sense_of()
+  double sense = 1.0;                          ///< factor on results, see sense_of()
+  std::shared_ptr<const ReactionCurve> curve;  ///< of `law`; null: linear
 };
 
 [[nodiscard]] FoundationLaw law_of(const Foundation& foundation, const Scales& scales);

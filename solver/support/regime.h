@@ -2,6 +2,7 @@
 /// @file
 /// States of supports for which the equations are evaluated.
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct FrozenContact {
   std::vector<std::vector<ElementPart>> contacts;
   std::vector<char> element_springs;  ///< whether each spring on an element acts
   std::vector<char> node_springs;     ///< whether each spring at a node acts
+  /// Unknowns at whose displacements laws with a curve are linearised through the origin; empty: they are
+  /// not.
+  Eigen::VectorXd linearised_at;
 };
 
 /// Contact zone of a one-sided foundation, with the rates of its ends along a path.
@@ -78,6 +82,10 @@ struct Regime {
 
   [[nodiscard]] bool bilateral() const { return contact == Contact::bilateral; }
   [[nodiscard]] bool is_frozen() const { return contact == Contact::frozen; }
+  /// Unknowns at which laws with a curve are linearised; null: laws act as they are.
+  [[nodiscard]] const Eigen::VectorXd* linearised_at() const {
+    return is_frozen() && frozen->linearised_at.size() > 0 ? &frozen->linearised_at : nullptr;
+  }
 };
 
 }  // namespace snapthrough

@@ -54,6 +54,10 @@ class Follower {
 
  private:
   [[nodiscard]] CriticalCurvePoint trace_at(double value);
+  [[nodiscard]] CriticalCurvePoint point_of(const TraceOutcome& outcome, const TracedPath& traced,
+                                            double value);
+  [[nodiscard]] TraceOutcome trace_first(TracedPath& traced);
+  [[nodiscard]] bool is_held(double value);
   void begin_at(const CriticalEvent& event, const TracedPath& traced, double value);
   [[nodiscard]] bool follow_to(double value, int halvings);
   [[nodiscard]] bool solve_node(double value);
@@ -118,7 +122,7 @@ bool Follower::solve_node(double value) {
 
 /// Follows the critical point to a value in one step or, where that fails, in steps of half the length.
 bool Follower::follow_to(double value, int halvings) {
-  if (!loads_are_held(request_.model(value))) return false;
+  if (!is_held(value)) return false;
   if (solve_node(value)) return true;
   if (halvings == CurveLimits::halvings) return false;
   const double t = family_.coordinate_of(value);
@@ -132,7 +136,7 @@ bool Follower::follow_to(double value, int halvings) {
 bool Follower::solve_between(std::size_t first, std::size_t last) {
   std::vector<double> loads;
   for (std::size_t i = first; i < last; ++i) {
-    if (!loads_are_held(request_.model(request_.values[i]))) return false;
+    if (!is_held(request_.values[i])) return false;
     LocusPoint point = predicted(family_.coordinate_of(request_.values[i]));
     if (!solver_->solve_with_last_factors(known_.options, point)) return false;
     loads.push_back(point.lambda);
@@ -145,17 +149,26 @@ void Follower::add_followed(double value, double lambda) {
   curve_.points.push_back({value, lambda / known_.load_scale, known_.type, true, "", std::nullopt});
 }
 
-/// Traces the path of a value; its critical point becomes the only known one if it can be followed.
-CriticalCurvePoint Follower::trace_at(double value) {
+/// Whether one-sided supports hold the loads at the start of the path of a value.
+bool Follower::is_held(double value) {
+  const auto member = solver_->member_at(family_.coordinate_of(value));
+  return member &&
+         (are_held_alike(member->model, family_.reference().model) || loads_are_held(member->model));
+}
+
+/// Traces the path of a value to its first loss of stability.
+TraceOutcome Follower::trace_first(TracedPath& traced) {
   ++curve_.traced;
-  known_ = {};
-  solver_ = nullptr;
-  CriticalCurvePoint point{value, std::nullopt, CriticalType::limit_max, false, "", std::nullopt};
-  TracedPath traced(request_.model(value), request_.analysis, request_.stop);
   TraceRules rules;
   rules.first_loss_of_stability = true;
-  const TraceOutcome outcome = traced.run(rules);
+  TraceOutcome outcome = traced.run(rules);
   curve_.factorizations += traced.factorizations();
+  return outcome;
+}
+
+/// First critical point of a traced path.
+CriticalCurvePoint Follower::point_of(const TraceOutcome& outcome, const TracedPath& traced, double value) {
+  CriticalCurvePoint point{value, std::nullopt, CriticalType::limit_max, false, "", std::nullopt};
   point.failure = traced.failure();
   if (!point.failure.empty()) return point;
   const double scale = traced.member()->structure.scales.load;
@@ -166,6 +179,18 @@ CriticalCurvePoint Follower::trace_at(double value) {
   const CriticalEvent& event = outcome.critical.back();
   point.load_factor = event.point.lambda / scale;
   point.type = event.type;
+  return point;
+}
+
+/// Traces the path of a value; its critical point becomes the only known one if it can be followed.
+CriticalCurvePoint Follower::trace_at(double value) {
+  known_ = {};
+  solver_ = nullptr;
+  TracedPath traced(request_.model(value), request_.analysis, request_.stop);
+  const TraceOutcome outcome = trace_first(traced);
+  CriticalCurvePoint point = point_of(outcome, traced, value);
+  if (!point.load_factor) return point;
+  const CriticalEvent& event = outcome.critical.back();
   // paths with pinned free motions or touching supports have no comparable neighbours
   if (!traced.touches() && event.cause == CriticalCause::smooth && event.multiplicity == 1 &&
       !event.point.holds)
@@ -208,21 +233,13 @@ void Follower::begin_at(const CriticalEvent& event, const TracedPath& traced, do
 /// Checks a followed point by its traced path; if that has another critical point, all values since `first`
 /// are traced.
 void Follower::check_from(std::size_t first, std::size_t last) {
-  KnownPoints known = std::move(known_);
-  std::unique_ptr<LocusSolver> solver = std::move(solver_);
-  const std::size_t stride = stride_;
-  const CriticalCurvePoint traced = trace_at(request_.values[last]);
+  TracedPath path(request_.model(request_.values[last]), request_.analysis, request_.stop);
+  const CriticalCurvePoint traced = point_of(trace_first(path), path, request_.values[last]);
   CriticalCurvePoint& followed = curve_.points[last];
   const bool same = traced.load_factor && traced.type == followed.type &&
                     std::abs(*traced.load_factor - *followed.load_factor) <=
                         CurveLimits::same_load * std::abs(*traced.load_factor);
-  if (same) {
-    known_ = std::move(known);
-    solver_ = std::move(solver);
-    stride_ = stride;
-    family_.set_reference(known_.reference);
-    return;
-  }
+  if (same) return;
   ++curve_.disagreed;
   for (std::size_t i = first; i < last; ++i)
     if (curve_.points[i].followed) curve_.points[i] = trace_at(request_.values[i]);

@@ -30,12 +30,12 @@ struct LocusLimits {
 
 }  // namespace
 
-bool LocusSolver::set_member() {
-  if (member_ && member_t_ == at_.t) return true;
-  member_ = family_.at(at_.t);
-  member_t_ = at_.t;
+std::shared_ptr<FamilyMember> LocusSolver::member_at(double t) {
+  if (member_ && member_t_ == t) return member_;
+  member_ = family_.at(t);
+  member_t_ = t;
   ++counts_.structures;
-  return member_ != nullptr;
+  return member_;
 }
 
 /// -F, at a bifurcation less the unfolding force.
@@ -198,9 +198,9 @@ LocusDirection LocusSolver::part(int i) const {
 
 /// Norms of the three parts, with the load and the coordinate.
 std::array<double, 3> LocusSolver::sizes() const {
-  std::array<double, 3> out{};
-  for (int i = 0; i < 3; ++i) out[i] = std::sqrt(metric_.inner(part(i), part(i)));
-  return out;
+  const double along = by_parameter_ ? metric_.path.inner(h_.motion, 0.0, h_.motion, 0.0) : 0.0;
+  return {metric_.path.norm(v_, 0.0), metric_.path.norm(q_.motion, 1.0),
+          std::sqrt(along + metric_.parameter_weight)};
 }
 
 bool LocusSolver::step() {
@@ -211,10 +211,10 @@ bool LocusSolver::step() {
   all.row(1) = rows[1];
   right[0] = -(stiffness_ + work(null_change_, p_.motion));
   right[1] = at_.bifurcation ? q_.multiplier - work(load_change_, p_.motion) : -p_.multiplier;
-  const LocusDirection start{at_.y - guess_.y + p_.motion, at_.lambda - guess_.lambda, at_.t - guess_.t};
   all.row(2) = Row3(0.0, 0.0, 1.0);
   right[2] = 0.0;
   if (in_plane_) {
+    const LocusDirection start{at_.y - guess_.y + p_.motion, at_.lambda - guess_.lambda, at_.t - guess_.t};
     for (int i = 0; i < 3; ++i) all(2, i) = metric_.inner(guess_.direction, part(i));
     right[2] = -metric_.inner(guess_.direction, start);
   }
@@ -224,15 +224,16 @@ bool LocusSolver::step() {
   VectorXd x = solve_full_pivoting(all, right);
   if (!x.allFinite()) return false;
   for (int i = 0; i < 3; ++i) x[i] /= size[i];
-  const VectorXd dy = p_.motion + x[0] * v_ + x[1] * q_.motion + (by_parameter_ ? x[2] : 0.0) * part(2).y;
+  LocusDirection change{p_.motion + x[0] * v_ + x[1] * q_.motion, x[1], x[2]};
+  if (by_parameter_) change.y += x[2] * h_.motion;
   const double before = moved_;  // zero in the first correction
   const double load_before = moved_load_;
-  moved_ = std::sqrt(metric_.inner({dy, x[1], x[2]}, {dy, x[1], x[2]}));
+  moved_ = std::sqrt(metric_.inner(change, change));
   moved_load_ = std::abs(x[1]);
   ratio_ = before > 0.0 ? moved_ / before : 1.0;
   load_ratio_ = load_before > 0.0 ? moved_load_ / load_before : 1.0;
   if (!std::isfinite(moved_)) return false;
-  at_.y += dy;
+  at_.y += change.y;
   at_.lambda += x[1];
   at_.t += x[2];
   if (at_.bifurcation)
@@ -304,7 +305,7 @@ double LocusSolver::softest_other() {
 bool LocusSolver::iterate(bool fresh) {
   moved_ = moved_load_ = 0.0;
   for (int it = 0; it < LocusLimits::iterations; ++it) {
-    if (!set_member()) return false;
+    if (!member_at(at_.t)) return false;
     if (fresh && !find_responses()) return false;
     if (!fresh) refresh();
     if (!step()) return false;
@@ -320,7 +321,6 @@ bool LocusSolver::solve(LocusSide side, const LocusOptions& options, LocusPoint&
   by_parameter_ = in_plane_;
   guess_ = point;
   at_ = point;
-  member_ = nullptr;
   if (!iterate(true)) return false;
   at_.others = negative_;
   at_.bend = A_;
@@ -334,7 +334,6 @@ bool LocusSolver::solve_with_last_factors(const LocusOptions& options, LocusPoin
   options_.directions = by_parameter_ = false;
   guess_ = point;
   at_ = point;
-  member_ = nullptr;
   if (!iterate(factored_ == nullptr)) return false;
   point = at_;
   return true;

@@ -104,6 +104,9 @@ class LocusSolver {
   /// ones where these converge slowly. The number of other negative eigenvalues, bend and direction are those
   /// of the guess while no new factors are made.
   [[nodiscard]] bool solve_with_last_factors(const LocusOptions& options, LocusPoint& point);
+  /// @brief Member of the family at a coordinate, which the next solution there uses; null: see
+  /// ModelFamily::at().
+  [[nodiscard]] std::shared_ptr<FamilyMember> member_at(double t);
   /// @brief Stiffness m.J m of the softest motion m besides the null motion, norm one, at the last solution.
   /// @pre the last solve() was successful
   [[nodiscard]] double softest_other();
@@ -114,7 +117,6 @@ class LocusSolver {
     double multiplier = 0.0;
   };
   [[nodiscard]] bool iterate(bool fresh);
-  [[nodiscard]] bool set_member();
   [[nodiscard]] bool factorise();
   [[nodiscard]] bool find_responses();
   void refresh();

@@ -1,5 +1,6 @@
 #include "solver/sweep/traced_path.h"
 
+#include <cstddef>
 #include <utility>
 
 #include "solver/analysis/analyses.h"
@@ -12,6 +13,19 @@ namespace snapthrough {
 
 bool loads_are_held(const Model& model) {
   return !has_one_sided_supports(model) || !start_refusal(model, UnilateralBalance(FreeMotions(model)));
+}
+
+bool are_held_alike(const Model& a, const Model& b) {
+  if (a.springs.size() != b.springs.size() || a.foundations.size() != b.foundations.size()) return false;
+  Model other = b;
+  other.sections = a.sections;
+  const auto take_stiffness = [](const auto& from, auto& to) {
+    for (std::size_t i = 0; i < from.size(); ++i)
+      if (from[i].stiffness > 0.0 && to[i].stiffness > 0.0) to[i].stiffness = from[i].stiffness;
+  };
+  take_stiffness(a.springs, other.springs);
+  take_stiffness(a.foundations, other.foundations);
+  return a == other;
 }
 
 TracedPath::TracedPath(Model model, const Analysis& analysis, const std::stop_token& stop,

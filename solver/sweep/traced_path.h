@@ -15,6 +15,9 @@ namespace snapthrough {
 
 /// Whether one-sided supports hold the loads of a model at the start of its path.
 [[nodiscard]] bool loads_are_held(const Model& model);
+/// Whether loads_are_held() has the same answer for both models: they differ in nothing but the stiffness of
+/// sections, and of supports that are in both.
+[[nodiscard]] bool are_held_alike(const Model& a, const Model& b);
 
 /// Path of a model on a fixed mesh.
 class TracedPath {

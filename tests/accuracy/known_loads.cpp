@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <sstream>
 #include <utility>
 
 #include "tests/verification/cases.h"
@@ -210,6 +211,191 @@ void add_frames(std::vector<KnownLoads>& out) {
                  {{true, 0, 33.8385942960}, {true, 1, 31.2270626644}}});
 }
 
+/// Numbers of a cell, separated by spaces.
+std::vector<double> numbers_of(const std::string& cell) {
+  std::istringstream in(cell);
+  std::vector<double> out;
+  for (double value = 0.0; in >> value;) out.push_back(value);
+  return out;
+}
+
+/// Columns on foundations and springs of which some react on one side of the axis (buckling_of_columns.py).
+void add_columns_on_supports(std::vector<KnownLoads>& out) {
+  const Table table("columns_on_supports.csv");
+  for (const TableRow& row : table.rows()) {
+    const std::string& ends = row.text("ends");
+    const std::string top = ends[1] == 'F' ? "" : ends[1] == 'C' ? "yr" : "y";
+    Model model = straight(1.0, 1.0, kInextensible, ends[0] == 'P' ? "xy" : "xyr", top);
+    model.loads = {force_at(at_node("b"), -1.0, 0.0)};
+    bool contact = false;
+    const auto bases = numbers_of(row.text("foundations"));  // from, to, stiffness, side
+    for (std::size_t i = 0; i < bases.size(); i += 4) {
+      const Side side = bases[i + 3] > 0.0 ? Side::left : Side::right;
+      Foundation base = bases[i + 3] == 0.0 ? winkler("m", bases[i + 2]) : one_sided("m", bases[i + 2], side);
+      base.id = "base" + std::to_string(i);
+      base.range = {bases[i], bases[i + 1]};
+      contact = contact || bases[i + 3] != 0.0;
+      model.foundations.push_back(base);
+    }
+    const auto springs = numbers_of(row.text("springs"));  // at, stiffness, side
+    for (std::size_t i = 0; i < springs.size(); i += 3) {
+      contact = true;
+      model.springs.push_back({"spring" + std::to_string(i), at_member("m", springs[i]),
+                               std::array{0.0, springs[i + 2]}, springs[i + 1], Reaction::compression_only,
+                               0.0});
+    }
+    out.push_back({"column " + ends + " on [" + row.text("foundations") + "] [" + row.text("springs") + "]",
+                   model,
+                   first_loss(),
+                   contact,
+                   {{false, 0, row.number("P")}}});
+  }
+}
+
+/// Two-parameter foundations: P = P_Winkler + G (column_two_parameter_foundation.csv).
+void add_columns_with_shear_layers(std::vector<KnownLoads>& out) {
+  const Table table("column_two_parameter_foundation.csv");
+  const auto rows = table.rows();
+  for (std::size_t i = 6; i < rows.size(); i += 13) {
+    const TableRow& row = rows[i];
+    const std::string& ends = row.text("bc");
+    Model model = straight(1.0, 1.0, kInextensible, ends == "PP" ? "xy" : "xyr", ends == "CC" ? "yr" : "y");
+    model.loads = {force_at(at_node("b"), -1.0, 0.0)};
+    model.foundations = {winkler("m", row.number("k1"), kPi * kPi * row.number("k2"))};
+    out.push_back({"column " + ends + " on two parameters " + row.text("k1") + ", " + row.text("k2"),
+                   model,
+                   first_loss(),
+                   false,
+                   {{false, 0, row.number("lambda")}}});
+  }
+}
+
+/// Root of a function that changes its sign once between two points, without a pole there.
+template <typename Function>
+double root_between(double low, double high, const Function& f) {
+  const bool rises = f(high) > 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((f(middle) > 0.0) == rises ? high : low) = middle;
+  }
+  return low;
+}
+
+/// Portals with a load on each column, u = h sqrt(P / EI), r = beam stiffness over column stiffness
+/// (I_b h) / (I_c b). The conditions are those of Timoshenko and Gere (1961, 2.2, 2.4), free of poles:
+/// sway with pinned feet u sin u = 6 r cos u, sway with clamped feet u cos u = -6 r sin u; braced with
+/// stiffness 2 r of the beam: pinned feet u^2 sin u + 2 r (sin u - u cos u) = 0, clamped feet
+/// u (sin u - u cos u) + 2 r (2 - 2 cos u - u sin u) = 0.
+void add_portals(std::vector<KnownLoads>& out) {
+  constexpr double kHeight = 2.0;
+  constexpr double kSpan = 3.0;
+  for (const double r : {0.2, 1.0, 6.0}) {
+    const struct {
+      const char* name;
+      const char* feet;
+      bool braced;
+      double u;
+    } cases[] = {
+        {"swaying, pinned", "xy", false,
+         root_between(1e-3, 0.5 * kPi, [r](double u) { return u * std::sin(u) - 6.0 * r * std::cos(u); })},
+        {"swaying, clamped", "xyr", false,
+         root_between(0.5 * kPi, kPi, [r](double u) { return u * std::cos(u) + 6.0 * r * std::sin(u); })},
+        {"braced, pinned", "xy", true,
+         root_between(
+             kPi, 1.4302966532 * kPi,
+             [r](double u) { return u * u * std::sin(u) + 2.0 * r * (std::sin(u) - u * std::cos(u)); })},
+        {"braced, clamped", "xyr", true, root_between(1.4302966532 * kPi, 2.0 * kPi, [r](double u) {
+           return u * (std::sin(u) - u * std::cos(u)) + 2.0 * r * (2.0 - 2.0 * std::cos(u) - u * std::sin(u));
+         })}};
+    for (const auto& c : cases) {
+      Model model;
+      model.nodes = {{"a", 0.0, 0.0}, {"b", 0.0, kHeight}, {"c", kSpan, kHeight}, {"d", kSpan, 0.0}};
+      model.sections = {{"column", kInextensible, 1.0, {}}, {"beam", kInextensible, r * kSpan / kHeight, {}}};
+      model.members = {{"left", "a", "b", "column", LineCurve{}, false, false},
+                       {"beam", "b", "c", "beam", LineCurve{}, false, false},
+                       {"right", "d", "c", "column", LineCurve{}, false, false}};
+      model.supports = {support("a", c.feet), support("d", c.feet)};
+      if (c.braced) model.supports.push_back(support("b", "x"));
+      model.loads = {force_at(at_node("b"), 0.0, -1.0), force_at(at_node("c"), 0.0, -1.0)};
+      out.push_back({std::string("portal ") + c.name + ", beam " + std::to_string(r),
+                     model,
+                     first_loss(),
+                     false,
+                     {{false, 0, c.u * c.u / (kHeight * kHeight)}}});
+    }
+  }
+}
+
+/// Inextensible circular arches under pressure, R = EI = 1, on bilateral foundations (pressed_arches.py).
+void add_pressed_arches(std::vector<KnownLoads>& out) {
+  const Table table("pressed_arches.csv");
+  for (const TableRow& row : table.rows()) {
+    const double half = row.number("half_angle") * kPi / 180.0;
+    const std::string fixed = row.text("ends") == "clamped" ? "xyr" : "xy";
+    Model model;
+    model.nodes = {{"a", -std::sin(half), 0.0}, {"b", std::sin(half), 0.0}};
+    model.sections = {{"s", kInextensible, 1.0, {}}};
+    model.members = {{"m", "a", "b", "s", ArcCurve{-2.0 * row.number("half_angle")}, false, false}};
+    model.supports = {support("a", fixed), support("b", fixed)};
+    if (row.number("k") > 0.0) model.foundations = {winkler("m", row.number("k"))};
+    model.loads = {PressureLoad{"m", 1.0, Side::left, Pattern::proportional}};
+    out.push_back(
+        {"pressed arch " + row.text("half_angle") + ", " + row.text("ends") + ", k " + row.text("k"),
+         model,
+         first_loss(),
+         false,
+         {{false, 0, row.number("q")}}});
+  }
+}
+
+/// Arches under a crown load or their weight, and half rings under their weight, R = EI = 1: the first limit
+/// point (limits_of_arches.py). Their foundations react on one side.
+void add_arches_and_rings(std::vector<KnownLoads>& out) {
+  const Table table("arches_and_rings_limits.csv");
+  for (const TableRow& row : table.rows()) {
+    const double half = row.number("half_angle") * kPi / 180.0;
+    const double k = row.number("k");
+    const bool is_ring = row.text("shape") == "ring";
+    Model model;
+    model.sections = {{"s", row.number("EA"), 1.0, {}}};
+    if (is_ring) {
+      model.nodes = {{"a", 0.0, -1.0}, {"b", 0.0, 1.0}};
+      model.supports = {support("a", "xr"), support("b", "xr")};
+    } else {
+      const std::string& ends = row.text("ends");
+      model.nodes = {{"a", -std::sin(half), 0.0}, {"b", std::sin(half), 0.0}};
+      model.supports = {support("a", ends == "pinned" ? "xy" : "xyr"),
+                        support("b", ends == "clamped" ? "xyr" : "xy")};
+    }
+    const double sweep = row.number("half_angle") * (is_ring ? 1.0 : -2.0);
+    model.members = {{"m", "a", "b", "s", ArcCurve{sweep}, false, false}};
+    if (k > 0.0) {
+      // the outside is on the right of a ring that turns to the left
+      const bool left = (row.text("side") == "out") != is_ring;
+      model.foundations = {one_sided("m", k, left ? Side::left : Side::right)};
+      model.foundations[0].gap = row.number("gap");
+      model.foundations[0].range = {row.number("from"), row.number("to")};
+      if (row.number("to") < 0.5) {  // the other half of the arch has the same
+        model.foundations.push_back(model.foundations[0]);
+        model.foundations[1].id = "other half";
+        model.foundations[1].range = {1.0 - row.number("to"), 1.0 - row.number("from")};
+      }
+    }
+    if (row.text("load") == "crown")
+      model.loads = {force_at(at_member("m", 0.5), 0.0, -1.0)};
+    else
+      model.loads = {
+          DistributedLoad{"m", {0.0, -1.0}, {0.0, 1.0}, LoadMeasure::length, Pattern::proportional}};
+    out.push_back({row.text("shape") + " " + row.text("half_angle") + ", " + row.text("ends") + ", " +
+                       row.text("load") + ", EA " + row.text("EA") + ", k " + row.text("k") + " " +
+                       row.text("side") + ", gap " + row.text("gap") + ", from " + row.text("from"),
+                   model,
+                   limits(1),
+                   k > 0.0,
+                   {{true, 0, row.number("limit")}}});
+  }
+}
+
 }  // namespace
 
 std::vector<KnownLoads> known_loads() {
@@ -222,6 +408,11 @@ std::vector<KnownLoads> known_loads() {
   add_pressed_rings(out);
   add_rings_in_media(out);
   add_frames(out);
+  add_columns_on_supports(out);
+  add_columns_with_shear_layers(out);
+  add_portals(out);
+  add_pressed_arches(out);
+  add_arches_and_rings(out);
   return out;
 }
 

@@ -27,13 +27,24 @@ Drawn draw(std::mt19937& random, int order) {
   return out;
 }
 
+/// A one-sided foundation of stiffness 1.
+FoundationLaw law_along(const Direction& direction, double gap) {
+  FoundationLaw out;
+  out.direction = direction;
+  out.law = {1.0, gap, true};
+  return out;
+}
+
+Direction direction_on(bool curved) {
+  return curved ? Direction{true, {}, -1.0} : Direction{false, {0.6, 0.8}, 1.0};
+}
+
 /// A strip of stiffness 1 without gap under part of an element.
 FoundationContact strip_on(int order, bool curved, std::array<double, 2> range) {
   const auto axis =
       std::make_shared<const AxisCurve>(ArcCurve{120.0}, std::array{0.0, 0.0}, std::array{2.0, 0.0});
-  const Direction direction = curved ? Direction{true, {}, -1.0} : Direction{false, {0.6, 0.8}, 1.0};
-  return FoundationContact(order, direction, {axis, 0.2 * axis->length(), 0.3 * axis->length()}, range,
-                           {1.0, 0.0, true}, 0);
+  return FoundationContact(order, law_along(direction_on(curved), 0.0),
+                           {axis, 0.2 * axis->length(), 0.3 * axis->length()}, range, 0);
 }
 
 double contact_at(const std::vector<FoundationContact::Interval>& zones, double xi) {
@@ -66,7 +77,7 @@ void expect_zones_found(bool curved) {
       for (const double at : extrema(strip, u))
         for (const double depth : {1e-3, 1e-6, -1e-3, -1e-6}) {
           const double gap = strip.penetration(at, u.ua, u.dx, u.dy) - depth;
-          const FoundationContact shifted = strip.with_gap(gap);
+          const FoundationContact shifted = strip.with_law(law_along(direction_on(curved), gap), 0);
           std::vector<FoundationContact::Interval> zones;
           shifted.contact_intervals(u.ua, u.dx, u.dy, zones);
           const bool right = contact_at(zones, at) == (depth > 0.0 ? 1.0 : 0.0);
@@ -90,7 +101,9 @@ TEST(FoundationContact, EndsOfContactAreRootsOfThePenetration) {
     const Drawn u = draw(random, order);
     const FoundationContact strip =
         strip_on(order, true, {0.1, 0.9})
-            .with_gap(strip_on(order, true, {0.1, 0.9}).penetration(0.37, u.ua, u.dx, u.dy));
+            .with_law(law_along(direction_on(true),
+                                strip_on(order, true, {0.1, 0.9}).penetration(0.37, u.ua, u.dx, u.dy)),
+                      0);
     std::vector<FoundationContact::Interval> zones;
     strip.contact_intervals(u.ua, u.dx, u.dy, zones);
     ASSERT_FALSE(zones.empty());
@@ -111,8 +124,8 @@ TEST(FoundationContact, EndsOfContactAreRootsWhereSamplesDoNotResolveTheAxis) {
   for (int n = 0; n < 200; ++n) {
     const int order = 1 + n % 8;
     const Drawn u = draw(random, order);
-    const FoundationContact strip(order, {true, {}, 1.0}, {axis, 0.0, axis->length()}, {0.05, 1.0},
-                                  {1.0, 0.02, true}, 0);
+    const FoundationContact strip(order, law_along({true, {}, 1.0}, 0.02), {axis, 0.0, axis->length()},
+                                  {0.05, 1.0}, 0);
     std::vector<FoundationContact::Interval> zones;
     strip.contact_intervals(u.ua, u.dx, u.dy, zones);
     for (const auto& zone : zones)
@@ -129,7 +142,8 @@ TEST(FoundationContact, SlopeIsTheDerivativeOfThePenetration) {
   std::mt19937 random(5);
   for (const bool curved : {false, true}) {
     const Drawn u = draw(random, 5);
-    const FoundationContact strip = strip_on(5, curved, {0.0, 1.0}).with_gap(0.1);
+    const FoundationContact strip =
+        strip_on(5, curved, {0.0, 1.0}).with_law(law_along(direction_on(curved), 0.1), 0);
     constexpr double kStep = 1e-4;
     for (const double at : {0.13, 0.5, 0.88}) {
       const double difference = (strip.penetration(at + kStep, u.ua, u.dx, u.dy) -
@@ -155,8 +169,7 @@ TEST(FoundationContact, FindsZonesBesideAClampedEnd) {
         }
         u.ua = {0.0, at_start ? 0.0 : sign * (c - 1.0)};
         for (const double rounding : {0.0, 1e-19, -1e-19}) {
-          const FoundationContact strip(3, {false, {0.0, 1.0}, 1.0}, {}, {0.0, 1.0}, {1.0, rounding, true},
-                                        0);
+          const FoundationContact strip(3, law_along({false, {0.0, 1.0}, 1.0}, rounding), {}, {0.0, 1.0}, 0);
           std::vector<FoundationContact::Interval> zones;
           strip.contact_intervals(u.ua, u.dx, u.dy, zones);
           const auto place = [at_start](double t) { return at_start ? t : 1.0 - t; };

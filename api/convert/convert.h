@@ -1,0 +1,61 @@
+#pragma once
+/// @file
+/// Conversion of soil parameters, tables and drawings into parts of a model. Every function is reentrant.
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solver/model/finding.h"
+
+namespace snapthrough::api {
+
+/// Parts of a model, or the mistakes of the input.
+struct Conversion {
+  std::shared_ptr<nlohmann::json> document;  ///< members of `model`, such as "nodes"; null with findings
+  std::vector<Finding> findings;
+};
+
+/// @brief Returns the `foundations` of a pile in layered soil: p-y laws of API RP 2GEO and Matlock by depth.
+///
+/// docs/howto/convert.md has the fields of the document and the formulas. A finding names its field by a JSON
+/// Pointer into the document.
+/// @param text UTF-8 JSON; the caller limits its size
+[[nodiscard]] Conversion convert_soil(std::string_view text);
+
+/// A table of comma-separated values with its name in messages.
+struct CsvFile {
+  std::string name;
+  std::string text;
+};
+
+/// Tables of a structure.
+struct CsvFiles {
+  CsvFile nodes;                    ///< columns id, x, y
+  CsvFile members;                  ///< columns id, start, end, section, optional sweep_degrees
+  std::optional<CsvFile> sections;  ///< columns id, optional EA, EI, GA, E, A, I, nu, shear_area
+};
+
+/// @brief Returns `nodes`, `members` and `sections` from tables (RFC 4180) whose first row names the columns.
+///
+/// Without a table of sections, `sections` lists the ids that members name. A finding names its field by
+/// file, line and column's name.
+[[nodiscard]] Conversion convert_csv(const CsvFiles& files);
+
+/// Choices for reading a drawing.
+struct DxfOptions {
+  std::vector<std::string> layers;  ///< layers to read; empty: all
+  std::optional<double> tolerance;  ///< nodes join within it, > 0; default: 1e-6 of the larger side of the
+                                    ///< rectangle around all end points
+};
+
+/// @brief Returns `nodes`, `members` and `sections` from the lines, arcs and polylines of an ASCII drawing.
+///
+/// A member is a line or an arc; the name of its layer is the id of its section. A finding names its place by
+/// the line of the file, such as "line 12".
+[[nodiscard]] Conversion convert_dxf(std::string_view text, const DxfOptions& options);
+
+}  // namespace snapthrough::api

@@ -1,0 +1,189 @@
+/// Joins the segments of a drawing to members and nodes.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "api/convert/convert.h"
+#include "api/convert/dxf_segments.h"
+#include "solver/check/check_place.h"
+#include "solver/model/limits.h"
+
+namespace snapthrough::api {
+
+namespace convert {
+namespace {
+
+using nlohmann::json;
+using Point = std::array<double, 2>;
+
+/// Part of the drawing's size within which end points join by default.
+constexpr double kRelativeTolerance = 1e-6;
+
+/// @brief Nodes of a drawing. A point within the tolerance of a node is the nearest such node, else it is a
+/// new node.
+///
+/// Cells of the size of the tolerance hold the nodes, so that only nine cells are searched for a point.
+class NodeSet {
+ public:
+  explicit NodeSet(double tolerance) : tolerance_(tolerance) {}
+
+  /// Returns the index of a point's node.
+  std::size_t index_of(const Point& point) {
+    const Cell cell{std::floor(point[0] / tolerance_), std::floor(point[1] / tolerance_)};
+    std::size_t nearest = points_.size();
+    double least = tolerance_;
+    for (const double dx : {-1.0, 0.0, 1.0}) {
+      for (const double dy : {-1.0, 0.0, 1.0}) {
+        find_nearest({cell.first + dx, cell.second + dy}, point, nearest, least);
+      }
+    }
+    if (nearest == points_.size()) {
+      points_.push_back(point);
+      cells_[cell].push_back(nearest);
+    }
+    return nearest;
+  }
+
+  [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+
+ private:
+  using Cell = std::pair<double, double>;
+
+  void find_nearest(const Cell& cell, const Point& point, std::size_t& nearest, double& least) const {
+    const auto found = cells_.find(cell);
+    if (found == cells_.end()) {
+      return;
+    }
+    for (const std::size_t i : found->second) {
+      const double distance = std::hypot(points_[i][0] - point[0], points_[i][1] - point[1]);
+      if (distance <= least) {
+        least = distance;
+        nearest = i;
+      }
+    }
+  }
+
+  double tolerance_;
+  std::vector<Point> points_;
+  std::map<Cell, std::vector<std::size_t>> cells_;
+};
+
+/// Returns the larger side of the rectangle around all end points; 0 without points.
+double size_of(const std::vector<Segment>& segments) {
+  double size = 0.0;
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+    double least = std::numeric_limits<double>::infinity();
+    double largest = -least;
+    for (const Segment& segment : segments) {
+      least = std::min({least, segment.start[axis], segment.end[axis]});
+      largest = std::max({largest, segment.start[axis], segment.end[axis]});
+    }
+    size = std::max(size, largest - least);
+  }
+  return size;
+}
+
+double tolerance_of(const DxfOptions& options, const std::vector<Segment>& segments) {
+  const double size = size_of(segments);
+  return options.tolerance.value_or(size > 0.0 ? kRelativeTolerance * size : 1.0);
+}
+
+/// Reports layers that were asked for and have no segment.
+void require_layers(const DxfOptions& options, const std::vector<Segment>& segments,
+                    std::vector<Finding>& findings) {
+  for (const std::string& layer : options.layers) {
+    if (std::none_of(segments.begin(), segments.end(),
+                     [&](const Segment& segment) { return segment.layer == layer; })) {
+      findings.push_back({"--layer", "unknown_reference",
+                          "the drawing has no line, arc or polyline on layer " + checks::in_quotes(layer)});
+    }
+  }
+  if (options.layers.empty() && segments.empty()) {
+    findings.push_back({"ENTITIES", "missing_field", "the drawing has no line, arc or polyline"});
+  }
+}
+
+json sections_of(const std::vector<Segment>& segments, std::vector<Finding>& findings) {
+  checks::Ids ids("section");
+  json sections = json::array();
+  for (const Segment& segment : segments) {
+    if (!ids.contains(segment.layer)) {
+      ids.add(checks::Place(PointerPath("line " + std::to_string(segment.line)), findings), segment.layer);
+      sections.push_back({{"id", segment.layer}});
+    }
+  }
+  return sections;
+}
+
+/// Returns ids for numbers from 1.
+std::string id_of(std::size_t index) { return std::to_string(index + 1); }
+
+json members_of(const std::vector<Segment>& segments, double tolerance, NodeSet& nodes,
+                std::vector<Finding>& findings) {
+  json members = json::array();
+  for (const Segment& segment : segments) {
+    const std::size_t start = nodes.index_of(segment.start);
+    const std::size_t end = nodes.index_of(segment.end);
+    if (start == end) {
+      findings.push_back(finding_at(
+          segment.line, "zero_length",
+          "the ends are one node, because they are within the tolerance " + checks::text(tolerance)));
+    }
+    if (segment.elevation > tolerance) {
+      findings.push_back(finding_at(segment.line, "out_of_range",
+                                    "z must be 0 within the tolerance " + checks::text(tolerance)));
+    }
+    json member{{"id", id_of(members.size())},
+                {"start", id_of(start)},
+                {"end", id_of(end)},
+                {"section", segment.layer}};
+    if (segment.sweep_degrees != 0.0) {
+      member["curve"] = {{"type", "arc"}, {"sweep_degrees", segment.sweep_degrees}};
+    }
+    members.push_back(std::move(member));
+  }
+  return members;
+}
+
+}  // namespace
+}  // namespace convert
+
+Conversion convert_dxf(std::string_view text, const DxfOptions& options) {
+  Conversion conversion;
+  std::vector<Finding>& findings = conversion.findings;
+  const std::vector<convert::Entity> entities = convert::read_entities(text, findings);
+  if (!findings.empty()) {
+    return conversion;
+  }
+  const std::vector<convert::Segment> segments = convert::read_segments(entities, options.layers, findings);
+  if (findings.empty()) {
+    convert::require_layers(options, segments, findings);
+  }
+  if (!findings.empty()) {
+    return conversion;
+  }
+  const double tolerance = convert::tolerance_of(options, segments);
+  convert::NodeSet nodes(tolerance);
+  nlohmann::json parts;
+  parts["members"] = convert::members_of(segments, tolerance, nodes, findings);
+  parts["sections"] = convert::sections_of(segments, findings);
+  parts["nodes"] = nlohmann::json::array();
+  for (std::size_t i = 0; i < nodes.points().size(); ++i) {
+    parts["nodes"].push_back(
+        {{"id", convert::id_of(i)}, {"x", nodes.points()[i][0]}, {"y", nodes.points()[i][1]}});
+  }
+  if (parts["nodes"].size() > kMaxNodes) {
+    findings.push_back(
+        {"ENTITIES", "too_many", "a drawing may give at most " + std::to_string(kMaxNodes) + " nodes"});
+  }
+  if (findings.empty()) {
+    conversion.document = std::make_shared<nlohmann::json>(std::move(parts));
+  }
+  return conversion;
+}
+
+}  // namespace snapthrough::api

@@ -1,0 +1,82 @@
+#include "api/read_law.h"
+
+namespace snapthrough::api {
+
+void read(const Value& value, AlongMember& out) {
+  if (!value.is_object()) {
+    read(value, out.constant);
+    return;
+  }
+  Object in(value);
+  in.required("along", out.points);
+  if (out.points.empty()) {
+    set_unread(out);
+  }
+  in.finish();
+}
+
+static ReactionLaw read_limited(Object& in, ReactionLaw::Type type) {
+  ReactionLaw law;
+  law.type = type;
+  in.required("stiffness", law.stiffness);
+  in.required("capacity", law.capacity);
+  return law;
+}
+
+static ReactionLaw read_tanh(Object& in) { return read_limited(in, ReactionLaw::Type::tanh); }
+static ReactionLaw read_hyperbolic(Object& in) { return read_limited(in, ReactionLaw::Type::hyperbolic); }
+
+static ReactionLaw read_power(Object& in) {
+  ReactionLaw law = read_limited(in, ReactionLaw::Type::power);
+  in.required("reference", law.reference);
+  in.required("exponent", law.exponent);
+  return law;
+}
+
+static ReactionLaw read_table(Object& in) {
+  ReactionLaw law;
+  law.type = ReactionLaw::Type::table;
+  in.required("points", law.points);
+  in.optional("factor", law.factor);
+  return law;
+}
+
+static void read(const Value& value, ReactionLaw& out) {
+  static constexpr Named<ReactionLaw (*)(Object&)> kForms[] = {
+      {"tanh", read_tanh}, {"hyperbolic", read_hyperbolic}, {"power", read_power}, {"table", read_table}};
+  read_tagged(value, kForms, out);
+}
+
+/// Reads `law` if it is there; reports when neither or both of `law` and `stiffness` are.
+static bool read_law_alone(Object& in, std::optional<ReactionLaw>& out) {
+  const auto law = in.find("law");
+  if (!law) {
+    return false;
+  }
+  if (in.find("stiffness")) {
+    law->report("ambiguous", "a law has its own stiffness: give either stiffness or law");
+  }
+  read(*law, out.emplace());
+  return true;
+}
+
+void read_law(Object& in, Spring& out) {
+  if (!read_law_alone(in, out.law)) {
+    in.required("stiffness", out.stiffness);
+  }
+}
+
+void read_law(Object& in, Foundation& out) {
+  if (read_law_alone(in, out.law)) {
+    return;
+  }
+  AlongMember stiffness;
+  in.required("stiffness", stiffness);
+  if (stiffness.varies()) {
+    out.law.emplace().stiffness = std::move(stiffness);
+  } else {
+    out.stiffness = stiffness.constant;
+  }
+}
+
+}  // namespace snapthrough::api

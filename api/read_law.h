@@ -1,0 +1,18 @@
+#pragma once
+/// @file
+/// Readers of the laws of foundations and springs. Internal to api/.
+
+#include "api/value.h"
+#include "solver/model/model.h"
+
+namespace snapthrough::api {
+
+/// Reads a number, or {"along": [[fraction, value], ...]}.
+void read(const Value& value, AlongMember& out);
+inline void set_unread(AlongMember& out) { set_unread(out.constant); }
+
+/// Reads `stiffness` or `law` of a spring or foundation, of which exactly one must be there.
+void read_law(Object& in, Spring& out);
+void read_law(Object& in, Foundation& out);
+
+}  // namespace snapthrough::api

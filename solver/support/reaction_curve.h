@@ -1,0 +1,49 @@
+#pragma once
+/// @file
+/// Shapes of reaction laws that are not linear.
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "solver/model/model.h"
+
+namespace snapthrough {
+
+/// @brief Dimensionless reaction f(x) of an elastic support with the slope 1 at x = 0. Law scales it: the
+/// force is capacity * f(stiffness * penetration / capacity). All curves are odd; arguments may have both
+/// signs.
+///
+/// `shape` is the second dimensionless number of a law, stiffness * reference / capacity. Only the power law
+/// depends on it.
+class ReactionCurve {
+ public:
+  virtual ~ReactionCurve() = default;
+  /// f, f', f'' and the integral of f from 0.
+  struct Values {
+    double force = 0.0;
+    double slope = 0.0;
+    double curvature = 0.0;
+  };
+  [[nodiscard]] virtual Values at(double x, double shape) const = 0;
+  [[nodiscard]] virtual double energy(double x, double shape) const = 0;
+
+  /// Place at which f'' or f' is not continuous.
+  struct Kink {
+    double x = 0.0;
+    double slope_change = 0.0;  ///< change of f' from below to above x
+  };
+  /// @brief Number of kinks at x >= 0. The curve has the same ones, with the opposite change, at -x.
+  [[nodiscard]] virtual int kink_count() const { return 0; }
+  /// @param index in [0, kink_count()); kinks ascend
+  [[nodiscard]] virtual Kink kink(int index, double shape) const;
+};
+
+/// @brief Curve of a law; null for a linear one.
+/// @pre the law passed check()
+[[nodiscard]] std::shared_ptr<const ReactionCurve> curve_of(const ReactionLaw& law);
+
+/// @brief Slope at the origin of the monotone cubic through the points of a table.
+[[nodiscard]] double initial_slope(const std::vector<std::array<double, 2>>& points);
+
+}  // namespace snapthrough
