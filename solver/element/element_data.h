@@ -222,7 +222,7 @@ void ElementSetOf<P>::append(typename ElementData<P>::Shape shape, const Element
   shape.first_spring = static_cast<int>(data_.springs.size());
   shape.first_contact = static_cast<int>(data_.contacts.size());
   shape.spring_count = shape.contact_count = 0;
-  shape.pressure = shape.constant_pressure = 0.0;
+  shape.pressure = shape.constant_pressure = LinePressure{};
   shape.factor = shape.shearable ? data_.shearable++ : data_.stiff++;
   data_.shapes.push_back(shape);
   data_.dofs.push_back(dofs);
