@@ -224,7 +224,7 @@ TEST(SectionData, IsMissingWhereALoadNeedsIt) {
 /// Derivatives by a dimension of a shape, the factor of a load case and the stiffness of a joint, against
 /// differences of whole analyses.
 TEST(Sensitivities, KnowTheNewFields) {
-  json document = frame_with({});
+  json document = frame_with(json::object());
   document["model"]["sections"][0] = {
       {"id", "s"}, {"E", 1e4}, {"shape", {{"type", "rectangle"}, {"width", 0.3}, {"depth", 0.1}}}};
   document["model"]["members"][0]["release"] = {{"start", {{"rotation", 2.0}}}};
