@@ -26,8 +26,19 @@ inline constexpr auto kFields<EffectiveLength> =
                field("ratio", &EffectiveLength::ratio)};
 
 template <>
-inline constexpr auto kFields<Mode> = std::tuple{
-    field("members", &Mode::members), field<kIfAny>("effective_lengths", &Mode::effective_lengths)};
+inline constexpr auto kFields<Mode> =
+    std::tuple{field("members", &Mode::members), internal(&Mode::effective_lengths)};
+
+/// Documents have effective lengths in buckling modes alone.
+struct BucklingMode {
+  std::vector<MemberMode> members;
+  std::vector<EffectiveLength> effective_lengths;
+};
+
+template <>
+inline constexpr auto kFields<BucklingMode> =
+    std::tuple{field("members", &BucklingMode::members),
+               field<kIfAny>("effective_lengths", &BucklingMode::effective_lengths)};
 
 template <>
 inline constexpr auto kFields<Softest> =
@@ -174,9 +185,15 @@ inline constexpr auto kFields<StaticTable> = std::tuple{
     field("contact_fraction", &StaticTable::contact_fraction), field("state", &StaticTable::state)};
 
 template <>
-inline constexpr auto kFields<BucklingResult> = std::tuple{
-    field("load_factors", &BucklingResult::load_factors),
-    field("error_estimates", &BucklingResult::error_estimates), field("modes", &BucklingResult::modes)};
+inline constexpr auto kFields<BucklingResult> =
+    std::tuple{field("load_factors", &BucklingResult::load_factors),
+               field("error_estimates", &BucklingResult::error_estimates), internal(&BucklingResult::modes),
+               field("modes", [](const BucklingResult& result) {
+                 std::vector<BucklingMode> modes;
+                 for (const Mode& mode : result.modes)
+                   modes.push_back({mode.members, mode.effective_lengths});
+                 return modes;
+               })};
 
 template <>
 inline constexpr auto kFields<Extreme> =
