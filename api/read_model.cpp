@@ -10,7 +10,7 @@ namespace snapthrough::api {
 
 // The functions are static, not in an unnamed namespace, so that templates of api/value.h find them.
 
-static void read(const Value& value, Pattern& out) {
+void read(const Value& value, Pattern& out) {
   static constexpr Named<Pattern> kNames[] = {{"proportional", Pattern::proportional},
                                               {"constant", Pattern::constant}};
   read_named(value, kNames, out);
@@ -23,15 +23,8 @@ static void read(const Value& value, Reaction& out) {
   read_named(value, kNames, out);
 }
 
-static void read(const Value& value, Side& out) {
+void read(const Value& value, Side& out) {
   static constexpr Named<Side> kNames[] = {{"left", Side::left}, {"right", Side::right}};
-  read_named(value, kNames, out);
-}
-
-static void read(const Value& value, LoadMeasure& out) {
-  static constexpr Named<LoadMeasure> kNames[] = {{"length", LoadMeasure::length},
-                                                  {"horizontal", LoadMeasure::horizontal},
-                                                  {"vertical", LoadMeasure::vertical}};
   read_named(value, kNames, out);
 }
 
@@ -43,7 +36,7 @@ static void read(const Value& value, Component& out) {
   read_named(value, kNames, out);
 }
 
-static void read(const Value& value, Location& out) {
+void read(const Value& value, Location& out) {
   Object in(value);
   const auto node = in.find("node");
   const auto member = in.find("member");
@@ -103,67 +96,6 @@ static void read(const Value& value, Node& out) {
   in.finish();
 }
 
-/// Reads a required positive number; NaN when it is invalid.
-static void read_positive(Object& in, std::string_view key, double& out) {
-  in.required(key, out);
-  if (!(out > 0.0 && out <= kMaxMagnitude) && out == out) {
-    in.find(key)->report("out_of_range", std::string(key) + " must be positive and finite");
-    set_unread(out);
-  }
-}
-
-/// Reads a section by material and shape: EA = E A, EI = E I, GA = shear_area E / (2 (1 + nu)).
-static void read_material_section(Object& in, Section& out) {
-  double E = 0.0, A = 0.0, I = 0.0, nu = 0.0, shear_area = 0.0;
-  read_positive(in, "E", E);
-  read_positive(in, "A", A);
-  read_positive(in, "I", I);
-  const bool has_shear = in.find("shear_area").has_value();
-  if (in.find("nu") || has_shear) {
-    in.required("nu", nu);
-  }
-  if (nu <= -1.0 || nu > 0.5) {
-    in.find("nu")->report("out_of_range", "nu must be above -1 and at most 0.5");
-    set_unread(nu);
-  }
-  if (has_shear) {
-    read_positive(in, "shear_area", shear_area);
-    out.GA = shear_area * (E / (2.0 * (1.0 + nu)));
-  }
-  out.EA = E * A;
-  out.EI = E * I;
-  const auto is_usable = [](double v) { return v > 0.0 && v <= kMaxMagnitude; };
-  const auto is_nan = [](double v) { return v != v; };
-  if (is_nan(out.EA) || is_nan(out.EI) || is_nan(out.GA.value_or(0.0))) {
-    in.value().document_report().mark_unreadable(in.value().pointer());
-  } else if (!is_usable(out.EA) || !is_usable(out.EI) || !is_usable(out.GA.value_or(1.0))) {
-    in.value().report("out_of_range", "the products E A, E I and G shear_area must be positive and finite");
-  }
-}
-
-static void read(const Value& value, Section& out) {
-  Object in(value);
-  in.required("id", out.id);
-  const auto has_any = [&in](std::initializer_list<std::string_view> keys) {
-    return std::any_of(keys.begin(), keys.end(),
-                       [&in](std::string_view key) { return in.is_readable() && in.value().member(key); });
-  };
-  const bool by_stiffness = has_any({"EA", "EI", "GA"});
-  const bool by_material = has_any({"E", "A", "I", "nu", "shear_area"});
-  if (by_stiffness && by_material) {
-    value.report("ambiguous", "a section is given by EA, EI, GA or by E, A, I, nu, shear_area, not by both");
-  }
-  if (by_stiffness || !by_material) {
-    in.required("EA", out.EA);
-    in.required("EI", out.EI);
-    in.optional("GA", out.GA);
-  }
-  if (by_material) {
-    read_material_section(in, out);
-  }
-  in.finish();
-}
-
 static Curve read_line(Object&) { return LineCurve{}; }
 
 static Curve read_arc(Object& in) {
@@ -175,6 +107,7 @@ static Curve read_arc(Object& in) {
 static Curve read_parabola(Object& in) {
   ParabolaCurve parabola;
   in.required("rise", parabola.rise);
+  in.optional("direction", parabola.direction);
   return parabola;
 }
 
@@ -200,14 +133,26 @@ static void read(const Value& value, Curve& out) {
   read_tagged(value, kForms, out);
 }
 
-static void read_release(const Value& value, Member& out) {
+/// Reads the release of a member end: a list of released components, or the stiffness of its joint.
+static void read_release(const Value& value, bool& released, double& stiffness) {
   static constexpr std::array<std::string_view, 1> kNames{"rotation"};
+  if (!value.is_object()) {
+    released = read_set(value, kNames)[0];
+    return;
+  }
+  Object in(value);
+  in.required("rotation", stiffness);
+  released = true;
+  in.finish();
+}
+
+static void read_release(const Value& value, Member& out) {
   Object in(value);
   if (const auto start = in.find("start")) {
-    out.release_start_rotation = read_set(*start, kNames)[0];
+    read_release(*start, out.release_start_rotation, out.release_start_stiffness);
   }
   if (const auto end = in.find("end")) {
-    out.release_end_rotation = read_set(*end, kNames)[0];
+    read_release(*end, out.release_end_rotation, out.release_end_stiffness);
   }
   in.finish();
 }
@@ -316,51 +261,6 @@ static void read(const Value& value, Foundation& out) {
   in.finish();
 }
 
-static Load read_point_load(Object& in) {
-  PointLoad load;
-  in.required("at", load.at);
-  in.required("force", load.force);
-  in.optional("moment", load.moment);
-  in.optional("pattern", load.pattern);
-  return load;
-}
-
-static Load read_distributed_load(Object& in) {
-  DistributedLoad load;
-  in.required("member", load.member);
-  in.required("force", load.force);
-  in.optional("range", load.range);
-  in.optional("per", load.per);
-  in.optional("pattern", load.pattern);
-  return load;
-}
-
-static Load read_pressure_load(Object& in) {
-  PressureLoad load;
-  in.required("member", load.member);
-  in.required("value", load.value);
-  in.optional("side", load.side);
-  in.optional("pattern", load.pattern);
-  return load;
-}
-
-static Load read_initial_strain(Object& in) {
-  InitialStrain load;
-  in.required("member", load.member);
-  in.optional("axial", load.axial);
-  in.optional("curvature", load.curvature);
-  in.optional("pattern", load.pattern);
-  return load;
-}
-
-static void read(const Value& value, Load& out) {
-  static constexpr Named<Load (*)(Object&)> kForms[] = {{"point", read_point_load},
-                                                        {"distributed", read_distributed_load},
-                                                        {"pressure", read_pressure_load},
-                                                        {"initial_strain", read_initial_strain}};
-  read_tagged(value, kForms, out);
-}
-
 static Imperfection read_sine_imperfection(Object& in) {
   SineImperfection imperfection;
   in.required("member", imperfection.member);
@@ -434,6 +334,9 @@ void read(const Value& value, Model& model) {
   in.optional("springs", model.springs);
   in.optional("foundations", model.foundations);
   in.optional("loads", model.loads);
+  if (const auto cases = in.find("load_cases")) {
+    read_load_cases(*cases, model);
+  }
   in.optional("imperfections", model.imperfections);
   in.optional("monitors", model.monitors);
   in.finish();

@@ -56,8 +56,15 @@ double largest_load(const Model& model) {
     } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
       take(distributed->force[0]);
       take(distributed->force[1]);
+      for (const auto& [fraction, force] : distributed->force_along) {
+        take(force[0]);
+        take(force[1]);
+      }
     } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
       take(pressure->value);
+      for (const auto& [fraction, value] : pressure->value_along) {
+        take(value);
+      }
     }
   }
   return largest > 0.0 ? largest : 1.0;
@@ -77,12 +84,15 @@ double size_of_nothing(const std::vector<std::string>& tokens, const Model& mode
   if (names("angle_degrees") || names("sweep_degrees")) {
     return kRadian;
   }
+  double bending = 0.0;
+  for (const Section& section : model.sections) {
+    bending = std::max(bending, section.EI);
+  }
   if (names("stiffness") || names("shear_stiffness")) {
-    double bending = 0.0;
-    for (const Section& section : model.sections) {
-      bending = std::max(bending, section.EI);
-    }
     return bending / (extent * extent * extent);
+  }
+  if (names("release")) {
+    return bending / extent;
   }
   if (names("curvature")) {
     return 1.0 / extent;

@@ -15,6 +15,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::string_view kModel = "model.";
+constexpr std::string_view kCaseLoads = "model.load_cases.loads";
 
 /// Returns the dotted name of a member of an object.
 std::string within(const std::string& object, std::string_view name) {
@@ -98,7 +99,8 @@ std::vector<std::string> objects_with_field(std::string_view field, std::string_
   for (const Owner& owner : index.owners_of(field)) {
     std::string name = spoken(owner.kind, owner.type);
     const bool is_own_kind = owner.type.empty() && owner.kind == kind_of(at);
-    if (!is_own_kind && std::find(found.begin(), found.end(), name) == found.end()) {
+    const bool is_repeated = owner.kind.starts_with(kCaseLoads);  // loads of cases are those of /model/loads
+    if (!is_own_kind && !is_repeated && std::find(found.begin(), found.end(), name) == found.end()) {
       found.push_back(std::move(name));
     }
   }

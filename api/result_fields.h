@@ -21,7 +21,24 @@ inline constexpr auto kFields<MemberMode> =
                field("v", &MemberMode::v), field("rotation", &MemberMode::rotation)};
 
 template <>
-inline constexpr auto kFields<Mode> = std::tuple{field("members", &Mode::members)};
+inline constexpr auto kFields<EffectiveLength> =
+    std::tuple{field<kKey>("id", &EffectiveLength::id), field("length", &EffectiveLength::length),
+               field("ratio", &EffectiveLength::ratio)};
+
+template <>
+inline constexpr auto kFields<Mode> =
+    std::tuple{field("members", &Mode::members), internal(&Mode::effective_lengths)};
+
+/// Documents have effective lengths in buckling modes alone.
+struct BucklingMode {
+  std::vector<MemberMode> members;
+  std::vector<EffectiveLength> effective_lengths;
+};
+
+template <>
+inline constexpr auto kFields<BucklingMode> =
+    std::tuple{field("members", &BucklingMode::members),
+               field<kIfAny>("effective_lengths", &BucklingMode::effective_lengths)};
 
 template <>
 inline constexpr auto kFields<Softest> =
@@ -168,9 +185,15 @@ inline constexpr auto kFields<StaticTable> = std::tuple{
     field("contact_fraction", &StaticTable::contact_fraction), field("state", &StaticTable::state)};
 
 template <>
-inline constexpr auto kFields<BucklingResult> = std::tuple{
-    field("load_factors", &BucklingResult::load_factors),
-    field("error_estimates", &BucklingResult::error_estimates), field("modes", &BucklingResult::modes)};
+inline constexpr auto kFields<BucklingResult> =
+    std::tuple{field("load_factors", &BucklingResult::load_factors),
+               field("error_estimates", &BucklingResult::error_estimates), internal(&BucklingResult::modes),
+               field("modes", [](const BucklingResult& result) {
+                 std::vector<BucklingMode> modes;
+                 for (const Mode& mode : result.modes)
+                   modes.push_back({mode.members, mode.effective_lengths});
+                 return modes;
+               })};
 
 template <>
 inline constexpr auto kFields<Extreme> =
@@ -288,11 +311,12 @@ template <class... Types>
 inline constexpr bool kAllHaveEveryMember = (has_every_member<Types>() && ...);
 
 static_assert(
-    kAllHaveEveryMember<MemberMode, Mode, Softest, AtCritical, Summary, MeshAnswer, Sensitivity,
-                        KoiterCoefficients, CriticalPoint, NodeMotion, NeutralMotion, ContactEvent, Branch,
-                        Resultant, MemberState, SupportState, SpringState, FoundationState, State,
-                        StaticTable, BucklingResult, Extreme, ExtremeRange, MemberExtremes, Warning,
-                        MeshReport, Diagnostics, MemberOffsets, WorstOffset, Failure, Result>,
+    kAllHaveEveryMember<MemberMode, EffectiveLength, Mode, Softest, AtCritical, Summary, MeshAnswer,
+                        Sensitivity, KoiterCoefficients, CriticalPoint, NodeMotion, NeutralMotion,
+                        ContactEvent, Branch, Resultant, MemberState, SupportState, SpringState,
+                        FoundationState, State, StaticTable, BucklingResult, Extreme, ExtremeRange,
+                        MemberExtremes, Warning, MeshReport, Diagnostics, MemberOffsets, WorstOffset, Failure,
+                        Result>,
     "A member of solver/result.h has no line in its table: add field(...), or internal(...) where documents "
     "do not have it.");
 

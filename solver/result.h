@@ -68,10 +68,18 @@ struct MemberMode {
   std::string id;
   std::vector<double> s, u, v, rotation;
 };
+/// Length of a pinned column with the bending stiffness of a member and its axial force at a buckling load.
+struct EffectiveLength {
+  std::string id;                ///< member
+  std::optional<double> length;  ///< pi sqrt(EI / N); empty: tension or little compression
+  std::optional<double> ratio;   ///< length over the length of the member's axis
+};
+
 /// Buckling mode or direction of a path: largest displacement hypot(u, v) 1, first large component positive;
 /// rotations in the same scale.
 struct Mode {
   std::vector<MemberMode> members;
+  std::vector<EffectiveLength> effective_lengths = {};  ///< buckling modes have them; empty for other motions
 };
 
 struct CriticalPoint {

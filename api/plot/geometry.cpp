@@ -28,6 +28,18 @@ Curve over_chord(Point start, Point end, std::function<double(double)> offset) {
   };
 }
 
+/// Returns the curve whose offset from the chord is along a direction.
+Curve parabola(double rise, const std::vector<double>& direction, Point start, Point end) {
+  const double size = std::hypot(direction[0], direction[1]);
+  const double ux = size > 0 ? direction[0] / size : 0;
+  const double uy = size > 0 ? direction[1] / size : 0;
+  return [=](double t) {
+    const double offset = 4 * rise * t * (1 - t);
+    return Point{start.x + t * (end.x - start.x) + offset * ux,
+                 start.y + t * (end.y - start.y) + offset * uy};
+  };
+}
+
 Curve arc(double sweep, Point start, Point end) {
   const double chord = std::hypot(end.x - start.x, end.y - start.y);
   const double direction = std::atan2(end.y - start.y, end.x - start.x);
@@ -121,6 +133,9 @@ Drawn curve_of(const std::optional<Field>& field, Point start, Point end) {
   }
   if (type == "parabola") {
     const double rise = field->at("rise").number();
+    if (const std::optional<Field> direction = field->find("direction")) {
+      return {parabola(rise, direction->numbers(2), start, end), 64};
+    }
     return {over_chord(start, end, [rise](double t) { return 4 * rise * t * (1 - t); }), 64};
   }
   if (type == "sine") {

@@ -98,18 +98,19 @@ void point_arrow(const ModelLoad& load, const LoadScene& all, Arrows& arrows) {
   }
 }
 
-/// Draws arrows along a member. `pull` returns the load at a point in model axes, relative to the largest
-/// load. Returns the highest tail.
+/// Draws arrows along a member. `pull` returns the load at a place and a fraction in model axes, relative to
+/// the largest load. Returns the highest tail.
 std::optional<Pixel> line_arrows(const DrawnMember& member, std::pair<double, double> range,
-                                 const LoadScene& all, const std::function<Point(const Place&)>& pull,
+                                 const LoadScene& all, const std::function<Point(const Place&, double)>& pull,
                                  Arrows& arrows) {
   const double length = member.s.back();
   const double pixels = (range.second - range.first) * length * all.view.scale;
   const double count = std::clamp(std::round(pixels / kLineSpacing), 2.0, 60.0);
   std::optional<Pixel> highest;
   for (double i = 0; i <= count; ++i) {
-    const Place place = place_on(member, (range.first + (range.second - range.first) * i / count) * length);
-    const Point q = pull(place);
+    const double fraction = range.first + (range.second - range.first) * i / count;
+    const Place place = place_on(member, fraction * length);
+    const Point q = pull(place, fraction);
     const Pixel tip = to_pixel(all.view, place.moved);
     const Pixel tail{tip.x - kLineArrow * q.x, tip.y + kLineArrow * q.y};
     arrows.add(tail, {tip.x - 2.5 * q.x, tip.y + 2.5 * q.y});
@@ -120,6 +121,20 @@ std::optional<Pixel> line_arrows(const DrawnMember& member, std::pair<double, do
   return highest;
 }
 
+/// Returns the force of a distributed load at a fraction of its member, in the axes of the load.
+Point force_at(const ModelLoad& load, double fraction) {
+  if (load.force_along.empty()) {
+    return load.force;
+  }
+  const auto next = std::find_if(load.force_along.begin(), load.force_along.end(),
+                                 [fraction](const auto& point) { return point[0] > fraction; });
+  const auto& after = next == load.force_along.end() ? load.force_along.back() : *next;
+  const auto& before = next == load.force_along.begin() ? after : *(next - 1);
+  const double width = after[0] - before[0];
+  const double share = width > 0 ? (fraction - before[0]) / width : 0;
+  return {before[1] + share * (after[1] - before[1]), before[2] + share * (after[2] - before[2])};
+}
+
 void distributed_arrows(const ModelLoad& load, const LoadScene& all, Arrows& arrows) {
   const DrawnMember* member = all.scene.member(load.at.member);
   const double size = std::hypot(load.force.x, load.force.y);
@@ -127,11 +142,15 @@ void distributed_arrows(const ModelLoad& load, const LoadScene& all, Arrows& arr
     return;
   }
   const double scale = all.sense(load) * std::max(0.5, size / all.largest_line) / size;
-  const auto pull = [&](const Place& place) {
+  const auto pull = [&](const Place& place, double fraction) {
     const double share = load.per == "horizontal" ? std::abs(place.normal.y)
                          : load.per == "vertical" ? std::abs(place.normal.x)
                                                   : 1;
-    return Point{share * scale * load.force.x, share * scale * load.force.y};
+    Point q = force_at(load, fraction);
+    if (load.member_axes) {
+      q = {q.x * place.tangent.x + q.y * place.normal.x, q.x * place.tangent.y + q.y * place.normal.y};
+    }
+    return Point{share * scale * q.x, share * scale * q.y};
   };
   if (const std::optional<Pixel> top = line_arrows(*member, load.range, all, pull, arrows)) {
     arrows.notes.push_back({*top, all.text(std::abs(all.factor(load)) * size, Quantity::line_load), size});
@@ -146,8 +165,9 @@ void pressure_arrows(const ModelLoad& load, const LoadScene& all, Arrows& arrows
   // a pressure on the left side pushes along the right normal (ty, -tx)
   const double scale = load.side * all.sense(load) * (load.value < 0 ? -1 : 1) *
                        std::max(0.5, std::abs(load.value) / all.largest_line);
-  const auto pull = [&](const Place& place) {
-    return Point{scale * place.tangent.y, -scale * place.tangent.x};
+  const auto pull = [&](const Place& place, double fraction) {
+    const double share = load.force_along.empty() ? 1 : force_at(load, fraction).x / load.value;
+    return Point{share * scale * place.tangent.y, -share * scale * place.tangent.x};
   };
   if (const std::optional<Pixel> top = line_arrows(*member, {0, 1}, all, pull, arrows)) {
     arrows.notes.push_back(
@@ -161,13 +181,15 @@ void strain_note(const ModelLoad& load, const LoadScene& all, Arrows& arrows) {
     return;
   }
   std::string text;
-  if (load.axial != 0) {
-    text = "initial strain " + format_number(all.factor(load) * load.axial, 3);
-  }
-  if (load.curvature != 0) {
-    text += (text.empty() ? "" : ", ") +
-            ("initial curvature " + format_number(all.factor(load) * load.curvature, 3));
-  }
+  const auto add = [&](const std::string& name, double value) {
+    if (value != 0) {
+      text += (text.empty() ? "" : ", ") + name +
+              (std::isnan(value) ? " that varies" : " " + format_number(all.factor(load) * value, 3));
+    }
+  };
+  const bool is_strain = load.type == ModelLoad::Type::initial_strain;
+  add(is_strain ? "initial strain" : "temperature", load.axial);
+  add(is_strain ? "initial curvature" : "temperature gradient", load.curvature);
   arrows.notes.push_back({to_pixel(all.view, place_on(*member, 0.35 * member->s.back()).moved), text, 0});
 }
 
@@ -222,7 +244,10 @@ Part load_part(const Scene& scene, const View& view, Occupancy& taken) {
         pressure_arrows(load, all, arrows);
         break;
       case ModelLoad::Type::initial_strain:
+      case ModelLoad::Type::temperature:
         strain_note(load, all, arrows);
+        break;
+      case ModelLoad::Type::self_weight:
         break;
     }
   }

@@ -45,7 +45,7 @@ std::pair<double, double> read_range(const Field& field) {
 bool has_hinge(const Field& member, std::string_view end) {
   const std::optional<Field> release = member.find("release");
   const std::optional<Field> list = release ? release->find(end) : std::nullopt;
-  return list && list->size() > 0;
+  return list && (list->json().is_object() || list->size() > 0);
 }
 
 ModelMember read_member(const Field& field, const Model& model) {
@@ -121,6 +121,48 @@ ModelFoundation read_foundation(const Field& field) {
   return foundation;
 }
 
+/// Reads a force per length: one for the whole member, or [fraction, force] pairs.
+void read_force(const Field& field, ModelLoad& load) {
+  const std::optional<Field> along = field.json().is_object() ? field.find("along") : std::nullopt;
+  if (!along) {
+    load.force = read_point(field);
+    return;
+  }
+  for (std::size_t i = 0; i < along->size(); ++i) {
+    const Field point = along->item(i);
+    if (point.size() != 2) {
+      point.fail("must be [fraction, force]");
+    }
+    const Point force = read_point(point.item(1));
+    load.force_along.push_back({point.item(0).number(), force.x, force.y});
+    if (std::hypot(force.x, force.y) > std::hypot(load.force.x, load.force.y)) {
+      load.force = force;
+    }
+  }
+}
+
+/// Reads a pressure: one for the whole member, or [fraction, pressure] pairs.
+void read_pressure(const Field& field, ModelLoad& load) {
+  const std::optional<Field> along = field.json().is_object() ? field.find("along") : std::nullopt;
+  if (!along) {
+    load.value = field.number();
+    return;
+  }
+  for (std::size_t i = 0; i < along->size(); ++i) {
+    const std::vector<double> point = along->item(i).numbers(2);
+    load.force_along.push_back({point[0], point[1], 0});
+    if (std::abs(point[1]) > std::abs(load.value)) {
+      load.value = point[1];
+    }
+  }
+}
+
+/// Returns a number, NaN for one that varies along the member.
+double amount_or_zero(const Field& field, std::string_view key) {
+  const std::optional<Field> value = field.find(key);
+  return value && value->json().is_object() ? kNone : number_or(field, key, 0);
+}
+
 ModelLoad read_load(const Field& field) {
   ModelLoad load;
   const std::string type = field.at("type").text();
@@ -132,24 +174,52 @@ ModelLoad read_load(const Field& field) {
     load.moment = number_or(field, "moment", 0);
     return load;
   }
+  if (type == "self_weight") {
+    load.type = ModelLoad::Type::self_weight;
+    return load;
+  }
   load.at.member = field.at("member").text();
   load.range = read_range(field);
   if (type == "distributed") {
     load.type = ModelLoad::Type::distributed;
-    load.force = read_point(field.at("force"));
+    read_force(field.at("force"), load);
     load.per = text_or(field, "per", "length");
+    load.member_axes = text_or(field, "axes", "global") == "member";
   } else if (type == "pressure") {
     load.type = ModelLoad::Type::pressure;
-    load.value = field.at("value").number();
+    read_pressure(field.at("value"), load);
     load.side = text_or(field, "side", "left") == "right" ? -1 : 1;
   } else if (type == "initial_strain") {
     load.type = ModelLoad::Type::initial_strain;
-    load.axial = number_or(field, "axial", 0);
-    load.curvature = number_or(field, "curvature", 0);
+    load.axial = amount_or_zero(field, "axial");
+    load.curvature = amount_or_zero(field, "curvature");
+  } else if (type == "temperature") {
+    load.type = ModelLoad::Type::temperature;
+    load.axial = amount_or_zero(field, "change");
+    load.curvature = amount_or_zero(field, "gradient");
   } else {
     field.at("type").fail("is a type of load that no figure knows");
   }
   return load;
+}
+
+/// Appends the loads of a load case, with its factor.
+void read_load_case(const Field& field, Model& model) {
+  const double factor = number_or(field, "factor", 1);
+  const std::optional<Field> grows = field.find("grows");
+  const bool constant = !(grows && grows->flag());
+  for_each(field, "loads", [&](const Field& one) {
+    ModelLoad& load = model.loads.emplace_back(read_load(one));
+    load.constant = constant;
+    for (double* amount :
+         {&load.force.x, &load.force.y, &load.moment, &load.value, &load.axial, &load.curvature}) {
+      *amount *= factor;
+    }
+    for (auto& point : load.force_along) {
+      point[1] *= factor;
+      point[2] *= factor;
+    }
+  });
 }
 
 }  // namespace
@@ -190,6 +260,7 @@ Model read_model(const nlohmann::json& request) {
   for_each(field, "foundations",
            [&](const Field& one) { model.foundations.push_back(read_foundation(one)); });
   for_each(field, "loads", [&](const Field& one) { model.loads.push_back(read_load(one)); });
+  for_each(field, "load_cases", [&](const Field& one) { read_load_case(one, model); });
   for_each(field, "monitors", [&](const Field& one) {
     model.monitors.push_back({one.at("id").text(), read_location(one.at("at")), one.at("component").text()});
   });

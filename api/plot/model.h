@@ -2,6 +2,7 @@
 /// @file
 /// The parts of a request's model that figures draw.
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -54,7 +55,7 @@ struct ModelFoundation {
 };
 
 struct ModelLoad {
-  enum class Type { point, distributed, pressure, initial_strain };
+  enum class Type { point, distributed, pressure, initial_strain, temperature, self_weight };
   Type type = Type::point;
   Location at;  ///< location of a point load; other loads: only its member is set
   Point force;  ///< force of a point load; per length for a distributed one
@@ -63,9 +64,13 @@ struct ModelLoad {
   double side = 1;   ///< pressure acts on the left (1) or right (-1) side
   std::pair<double, double> range = {0, 1};
   std::string per;  ///< reference length of a distributed load: "length", "horizontal", "vertical"
-  double axial = 0;
-  double curvature = 0;
-  bool constant = false;  ///< true: the load factor does not multiply the load
+  /// [fraction, x component, y component] of a force, [fraction, pressure, 0] of a pressure that varies;
+  /// empty: the same everywhere. `force` or `value` is then the largest.
+  std::vector<std::array<double, 3>> force_along;
+  bool member_axes = false;  ///< a distributed load in axes of its member
+  double axial = 0;          ///< strain, or change of temperature; NaN: varies along the member
+  double curvature = 0;      ///< curvature, or gradient of temperature
+  bool constant = false;     ///< true: the load factor does not multiply the load
 };
 
 struct ModelMonitor {

@@ -108,12 +108,12 @@ class Contract:
         return alternative.get("properties", {}).get("type", {}).get("const")
 
     def alternative_name(self, owner, alternative, others):
-        """`ArcCurve` by its type, else `SectionWithEA` by the first field that not all alternatives require."""
+        """`ArcCurve` by its type, else `SectionWithEA` by the first field that it alone requires or has."""
         if self.tag(alternative):
             return camel(self.tag(alternative)) + owner
         mine = alternative.get("properties", {})
         required = [name for name in alternative.get("required", [])
-                    if not all(name in other.get("required", []) for other in others)]
+                    if not any(name in other.get("required", []) for other in others)]
         unique = [name for name in mine if not any(name in other.get("properties", {}) for other in others)]
         names = required or unique
         return f"{owner}With{camel(names[0])}" if names else owner + "Plain"
@@ -177,7 +177,8 @@ class Documents(Types):
             return scalar
         if schema["type"] == "array":
             if "prefixItems" in schema:
-                return "Sequence[float]"
+                items = [self.type_of(item, name + "Item") for item in schema["prefixItems"]]
+                return f"Sequence[{self.union(items)}]"
             return f"Sequence[{self.type_of(schema['items'], name + 'Item')}]"
         if "properties" in schema:
             return self.define_object(name, schema)

@@ -151,11 +151,17 @@ void report_errors(const Analysis& analysis, Result& result) {
 FoundLoads found_loads(const Model& model, const Analysis& analysis, const BucklingLoads& loads) {
   const LinearBuckling& buckling = loads.buckling;
   FoundLoads found{{}, {}, loads.errors, buckling.negative_at_start};
+  std::vector<double> lengths;
+  for (const auto& axis : loads.structure->axes) lengths.push_back(axis->length());
   for (std::size_t i = 0; i < buckling.loads.size(); ++i) {
     found.loads.push_back(buckling.loads[i] / loads.structure->scales.load);
     found.modes.push_back(
         mode_displacements(*loads.structure, model, buckling.modes[i], analysis.output.points_per_member));
     scale_to_largest(found.modes.back());
+    std::vector<double> compressions;
+    for (const double force : buckling.compressions[i])
+      compressions.push_back(force * loads.structure->scales.force);
+    found.modes.back().effective_lengths = effective_lengths(model, lengths, compressions);
   }
   return found;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -45,6 +46,17 @@ Mode sample(const ColumnLine& line, const ColumnMode& mode, const Model& model,
   return out;
 }
 
+/// Largest compression of each member at a load factor.
+std::vector<double> compressions_of(const ColumnLine& line, const Model& model, double load) {
+  std::vector<double> out(model.members.size(), -std::numeric_limits<double>::infinity());
+  for (const ColumnSpan& span : line.spans) {
+    double& largest = out[static_cast<std::size_t>(span.member)];
+    const double scaled = span.constant + load * span.proportional;
+    largest = std::max(largest, scaled * line.stiffness / (line.length * line.length));
+  }
+  return out;
+}
+
 /// Buckling loads of a column with their modes.
 struct Solution {
   ColumnBuckling buckling;
@@ -60,9 +72,11 @@ std::optional<Solution> solve_column(const ColumnLine& line, const Model& model,
   const std::vector<ColumnMode> modes = column_modes(line, buckling->loads);
   if (modes.size() != buckling->loads.size()) return std::nullopt;
   FoundLoads found{buckling->loads, {}, {}, buckling->negative_at_start};
-  for (const ColumnMode& mode : modes) {
-    found.modes.push_back(sample(line, mode, model, lengths, analysis.output.points_per_member));
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    found.modes.push_back(sample(line, modes[i], model, lengths, analysis.output.points_per_member));
     scale_to_largest(found.modes.back());
+    found.modes.back().effective_lengths =
+        effective_lengths(model, lengths, compressions_of(line, model, buckling->loads[i]));
   }
   found.errors.assign(buckling->errors.begin(), buckling->errors.end());
   return Solution{*std::move(buckling), std::move(found)};

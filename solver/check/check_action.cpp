@@ -19,6 +19,27 @@ void check_force(const Place& place, const std::array<double, 2>& force) {
   require_finite(place / 1, force[1]);
 }
 
+void check_value(const Place& place, double value) { require_finite(place, value); }
+void check_value(const Place& place, const std::array<double, 2>& force) { check_force(place, force); }
+
+/// Requires ascending fractions and finite values.
+template <class T>
+void check_along(const Place& field, const Along<T>& along) {
+  const Place place = field / "along";
+  require_count(place, along.size(), kMaxCurvePoints);
+  double previous = -1.0;
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    const auto& [fraction, value] = along[i];
+    if (require_between(place / i / 0, fraction, 0.0, 1.0) && !(fraction - previous > kMinRelativeChord)) {
+      (place / i / 0)
+          .report("not_increasing", "fractions must increase by more than " + text(kMinRelativeChord) +
+                                        ", got " + text(fraction) + " after " + text(previous));
+    }
+    check_value(place / i / 1, value);
+    previous = fraction;
+  }
+}
+
 void check_load(const Place& place, const PointLoad& load, const Names& names) {
   check_location(place / "at", load.at, names);
   check_force(place / "force", load.force);
@@ -28,28 +49,56 @@ void check_load(const Place& place, const PointLoad& load, const Names& names) {
 void check_load(const Place& place, const DistributedLoad& load, const Names& names) {
   names.members.require(place / "member", load.member);
   check_force(place / "force", load.force);
+  check_along(place / "force", load.force_along);
   require_fractions(place / "range", load.range);
 }
 
 void check_load(const Place& place, const PressureLoad& load, const Names& names) {
   names.members.require(place / "member", load.member);
   require_finite(place / "value", load.value);
+  check_along(place / "value", load.value_along);
 }
 
 void check_load(const Place& place, const InitialStrain& load, const Names& names) {
   names.members.require(place / "member", load.member);
   require_finite(place / "axial", load.axial);
   require_finite(place / "curvature", load.curvature);
+  check_along(place / "axial", load.axial_along);
+  check_along(place / "curvature", load.curvature_along);
+}
+
+void check_load(const Place& place, const SelfWeight& load, const Names&) {
+  check_force(place / "gravity", load.gravity);
+}
+
+void check_load(const Place& place, const TemperatureLoad& load, const Names& names) {
+  names.members.require(place / "member", load.member);
+  require_finite(place / "change", load.change);
+  require_finite(place / "gradient", load.gradient);
+  check_along(place / "change", load.change_along);
+  check_along(place / "gradient", load.gradient_along);
 }
 
 // NaN counts as an amount, because another finding reports it.
 bool is_amount(double value) { return !(value == 0.0); }
 bool is_amount(const std::array<double, 2>& v) { return is_amount(v[0]) || is_amount(v[1]); }
+template <class T>
+bool is_amount(const Along<T>& along) {
+  return std::any_of(along.begin(), along.end(), [](const auto& point) { return is_amount(point.second); });
+}
 
 bool has_amount(const PointLoad& load) { return is_amount(load.force) || is_amount(load.moment); }
-bool has_amount(const DistributedLoad& load) { return is_amount(load.force); }
-bool has_amount(const PressureLoad& load) { return is_amount(load.value); }
-bool has_amount(const InitialStrain& load) { return is_amount(load.axial) || is_amount(load.curvature); }
+bool has_amount(const DistributedLoad& load) { return is_amount(load.force) || is_amount(load.force_along); }
+bool has_amount(const PressureLoad& load) { return is_amount(load.value) || is_amount(load.value_along); }
+bool has_amount(const InitialStrain& load) {
+  return is_amount(load.axial) || is_amount(load.curvature) || is_amount(load.axial_along) ||
+         is_amount(load.curvature_along);
+}
+bool has_amount(const SelfWeight& load) { return is_amount(load.gravity); }
+bool has_amount(const TemperatureLoad& load) {
+  return is_amount(load.change) || is_amount(load.gradient) || is_amount(load.change_along) ||
+         is_amount(load.gradient_along);
+}
 
 bool grows(const Load& load) {
   return std::visit([](const auto& l) { return l.pattern == Pattern::proportional && has_amount(l); }, load);
@@ -101,8 +150,8 @@ std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
   std::unordered_set<std::string> nodes;
   for (const Member& member : model.members) nodes.insert({member.start, member.end});
   for (const Member& member : model.members) {
-    if (!member.release_start_rotation) nodes.erase(member.start);
-    if (!member.release_end_rotation) nodes.erase(member.end);
+    if (!is_hinged_at_start(member)) nodes.erase(member.start);
+    if (!is_hinged_at_end(member)) nodes.erase(member.end);
   }
   for (const Support& support : model.supports)
     if (support.rotation) nodes.erase(support.node);
@@ -138,13 +187,61 @@ void check_rotations(const Place& monitors, const Model& data) {
   }
 }
 
+/// Places of loads in the request: in the list of loads, or in that of their load case.
+class LoadPlaces {
+ public:
+  LoadPlaces(const Place& model, const Model& data) : model_(model) {
+    std::size_t first = data.loads.size();
+    for (const LoadCase& one : data.load_cases) first -= one.loads;
+    for (const LoadCase& one : data.load_cases) {
+      starts_.push_back(first);
+      first += one.loads;
+    }
+  }
+  [[nodiscard]] Place of(std::size_t load) const {
+    const auto next = std::upper_bound(starts_.begin(), starts_.end(), load);
+    if (next == starts_.begin()) return model_ / "loads" / load;
+    const auto number = static_cast<std::size_t>(next - starts_.begin()) - 1;
+    return model_ / "load_cases" / number / "loads" / (load - starts_[number]);
+  }
+
+ private:
+  Place model_;
+  std::vector<std::size_t> starts_;  ///< first load of each case
+};
+
+/// Reports sections without the mass or the expansion that the loads need.
+void check_section_data(const Place& model, const Model& data, const Names& names) {
+  bool is_weighed = false;
+  std::unordered_set<std::string> heated;
+  for (const Load& load : data.loads) {
+    is_weighed = is_weighed || std::holds_alternative<SelfWeight>(load);
+    if (const auto* temperature = std::get_if<TemperatureLoad>(&load)) heated.insert(temperature->member);
+  }
+  std::unordered_set<std::string> reported;
+  for (const Member& member : data.members) {
+    if (!names.sections.contains(member.section)) continue;
+    const std::size_t index = names.sections.index(member.section);
+    const Place place = model / "sections" / index;
+    if (is_weighed && !data.sections[index].mass && reported.insert("mass " + member.section).second)
+      (place / "mass")
+          .report("missing_field",
+                  "self_weight needs the mass or the density of section " + in_quotes(member.section));
+    if (heated.contains(member.id) && !data.sections[index].expansion &&
+        reported.insert("expansion " + member.section).second)
+      (place / "expansion")
+          .report("missing_field",
+                  "a temperature load needs the expansion of section " + in_quotes(member.section));
+  }
+}
+
 /// Reports moments on nodes whose rotation nothing resists.
-void check_moments(const Place& loads, const Model& data) {
+void check_moments(const LoadPlaces& places, const Model& data) {
   const auto free = nodes_free_to_turn(data);
   for (std::size_t i = 0; i < data.loads.size(); ++i) {
     const auto* load = std::get_if<PointLoad>(&data.loads[i]);
     if (load == nullptr || load->moment == 0.0 || !free.contains(load->at.node)) continue;
-    (loads / i / "moment")
+    (places.of(i) / "moment")
         .report("mechanism", "the moment turns node \"" + load->at.node +
                                  "\" without deforming anything: all members are released there, and no "
                                  "support or rotational spring holds its rotation");
@@ -154,12 +251,19 @@ void check_moments(const Place& loads, const Model& data) {
 }  // namespace
 
 void check_loads(const Place& model, const Model& data, const Names& names) {
-  const Place loads = model / "loads";
-  require_count(loads, data.loads.size(), kMaxLoads);
-  for (std::size_t i = 0; i < data.loads.size(); ++i) {
-    std::visit([&, place = loads / i](const auto& load) { check_load(place, load, names); }, data.loads[i]);
+  const LoadPlaces places(model, data);
+  require_count(model / "loads", data.loads.size(), kMaxLoads);
+  require_count(model / "load_cases", data.load_cases.size(), kMaxLoads);
+  Ids cases("load case");
+  for (std::size_t i = 0; i < data.load_cases.size(); ++i) {
+    cases.add(model / "load_cases" / i / "id", data.load_cases[i].id);
   }
-  check_moments(loads, data);
+  for (std::size_t i = 0; i < data.loads.size(); ++i) {
+    std::visit([&, place = places.of(i)](const auto& load) { check_load(place, load, names); },
+               data.loads[i]);
+  }
+  check_moments(places, data);
+  check_section_data(model, data, names);
 }
 
 void check_something_proportional(const Place& model, const Model& data, const Analysis& analysis) {

@@ -56,6 +56,9 @@ void check_curve(const Place& place, const ArcCurve& arc) {
 
 void check_curve(const Place& place, const ParabolaCurve& parabola) {
   require_finite(place / "rise", parabola.rise);
+  if (parabola.direction) {
+    require_direction(place / "direction", *parabola.direction);
+  }
 }
 
 void check_curve(const Place& place, const SineCurve& sine) {
@@ -88,6 +91,12 @@ void check_spline_points(const Place& place, const PointsCurve& curve, const Poi
   }
 }
 
+/// @return false for directions that are zero or not finite
+bool is_parallel(const Point& a, const Point& b) {
+  const double size = std::hypot(a[0], a[1]) * std::hypot(b[0], b[1]);
+  return size > 0.0 && std::abs(a[0] * b[1] - a[1] * b[0]) <= kMinRelativeChord * size;
+}
+
 void check_member_geometry(const Place& place, const Member& member, const Node& start, const Node& end,
                            double zero) {
   if (!is_bounded(start) || !is_bounded(end)) {
@@ -98,6 +107,12 @@ void check_member_geometry(const Place& place, const Member& member, const Node&
                                     in_quotes(start.id) + " and " + in_quotes(end.id) +
                                     " are at the same place");
     return;
+  }
+  const Point chord{end.x - start.x, end.y - start.y};
+  const auto* parabola = std::get_if<ParabolaCurve>(&member.curve);
+  if (parabola != nullptr && parabola->direction && is_parallel(*parabola->direction, chord)) {
+    (place / "curve" / "direction")
+        .report("out_of_range", "direction must not be that of the line from start to end");
   }
   if (const auto* spline = std::get_if<PointsCurve>(&member.curve)) {
     check_spline_points(place / "curve" / "points", *spline, position(start), position(end), zero);
@@ -148,6 +163,12 @@ void check_sections(const Place& model, const Model& data, Names& names) {
     if (section.GA) {
       require_positive(place / "GA", *section.GA);
     }
+    if (section.mass) {
+      require_not_negative(place / "mass", *section.mass);
+    }
+    if (section.expansion) {
+      require_finite(place / "expansion", *section.expansion);
+    }
   }
 }
 
@@ -166,6 +187,8 @@ void check_members(const Place& model, const Model& data, Names& names) {
     const bool start_known = names.nodes.require(place / "start", member.start);
     const bool end_known = names.nodes.require(place / "end", member.end);
     names.sections.require(place / "section", member.section);
+    require_not_negative(place / "release" / "start" / "rotation", member.release_start_stiffness);
+    require_not_negative(place / "release" / "end" / "rotation", member.release_end_stiffness);
     std::visit([&place](const auto& curve) { check_curve(place / "curve", curve); }, member.curve);
     if (start_known && end_known) {
       check_member_geometry(place, member, data.nodes[names.nodes.index(member.start)],

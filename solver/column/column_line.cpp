@@ -10,6 +10,7 @@
 
 #include "solver/geometry/axes.h"
 #include "solver/model/id_index.h"
+#include "solver/model/member_loads.h"
 #include "solver/numeric/rounding.h"
 #include "solver/support/joined_supports.h"
 
@@ -27,6 +28,12 @@ struct LineLimits {
 double dot(const Vec2& a, const Vec2& b) { return a[0] * b[0] + a[1] * b[1]; }
 
 enum class Way { along, across, neither };
+
+/// Whether a joint of the member is an elastic hinge.
+bool is_semi_rigid(const Member& member) {
+  return (member.release_start_rotation && !is_hinged_at_start(member)) ||
+         (member.release_end_rotation && !is_hinged_at_end(member));
+}
 
 /// Reads a model as a column; each step returns false if the model is none.
 class LineReader {
@@ -65,6 +72,7 @@ class LineReader {
   [[nodiscard]] bool add_foundations();
   [[nodiscard]] bool add_loads();
   [[nodiscard]] bool add_point_load(const PointLoad& load);
+  [[nodiscard]] bool add_strain(const InitialStrain& strain);
   [[nodiscard]] bool add_prestress();
   void add_forces_between(std::size_t first, std::size_t second, int pattern);
   [[nodiscard]] bool has_release(int member, bool at_end) const;
@@ -92,7 +100,7 @@ bool LineReader::is_simple() const {
     if (const auto* sine = std::get_if<SineImperfection>(&imperfection); !sine || sine->amplitude != 0.0)
       return false;
   for (const Member& member : model_.members)
-    if (!std::holds_alternative<LineCurve>(member.curve) ||
+    if (!std::holds_alternative<LineCurve>(member.curve) || is_semi_rigid(member) ||
         model_.sections[index_of(model_.sections, member.section)].GA)
       return false;
   for (const Spring& spring : model_.springs)
@@ -336,20 +344,28 @@ bool LineReader::add_point_load(const PointLoad& load) {
   return true;
 }
 
+bool LineReader::add_strain(const InitialStrain& strain) {
+  if (strain.curvature != 0.0 || !strain.axial_along.empty() || !strain.curvature_along.empty()) return false;
+  const Link& link = link_of(strain.member);
+  for (std::size_t i = 0; i + 1 < link.cuts.size(); ++i)
+    axial_.strains[link.first_joint + i][strain.pattern == Pattern::proportional ? 0 : 1] += strain.axial;
+  return true;
+}
+
 bool LineReader::add_loads() {
   for (const Load& load : model_.loads) {
     if (const auto* point = std::get_if<PointLoad>(&load)) {
       if (!add_point_load(*point)) return false;
     } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
-      if (distributed->force != Vec2{0.0, 0.0}) return false;
+      if (distributed->force != Vec2{0.0, 0.0} || !distributed->force_along.empty()) return false;
     } else if (const auto* pressure = std::get_if<PressureLoad>(&load)) {
-      if (pressure->value != 0.0) return false;
-    } else {
-      const auto& strain = std::get<InitialStrain>(load);
-      if (strain.curvature != 0.0) return false;
-      const Link& link = link_of(strain.member);
-      for (std::size_t i = 0; i + 1 < link.cuts.size(); ++i)
-        axial_.strains[link.first_joint + i][strain.pattern == Pattern::proportional ? 0 : 1] += strain.axial;
+      if (pressure->value != 0.0 || !pressure->value_along.empty()) return false;
+    } else if (const auto* strain = std::get_if<InitialStrain>(&load)) {
+      if (!add_strain(*strain)) return false;
+    } else if (const auto* temperature = std::get_if<TemperatureLoad>(&load)) {
+      if (!add_strain(strain_of(model_, *temperature))) return false;
+    } else if (std::get<SelfWeight>(load).gravity != Vec2{0.0, 0.0}) {
+      return false;
     }
   }
   return true;

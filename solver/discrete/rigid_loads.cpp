@@ -4,10 +4,22 @@
 #include <cstddef>
 #include <variant>
 
+#include "solver/model/member_loads.h"
 #include "solver/numeric/gauss_rule.h"
 
 namespace snapthrough {
 namespace {
+
+/// Varying pressure as a load across the undeformed axis.
+DistributedLoad across(const PressureLoad& load) {
+  DistributedLoad out;
+  out.member = load.member;
+  out.axes = LoadAxes::member;
+  const double sense = load.side == Side::left ? -1.0 : 1.0;
+  for (const auto& [fraction, value] : load.value_along)
+    out.force_along.emplace_back(fraction, std::array{0.0, sense * value});
+  return out;
+}
 
 /// Sums the work of one load.
 class Summing {
@@ -18,6 +30,10 @@ class Summing {
   void add(const DistributedLoad& load);
   void add(const PressureLoad& load);
   void add(const InitialStrain&) {}
+  void add(const SelfWeight& load) {
+    for (const Member& member : parts_.model().members) add(weight_of(parts_.model(), member, load));
+  }
+  void add(const TemperatureLoad&) {}
   LoadWork work;
 
  private:
@@ -52,22 +68,29 @@ void Summing::add(const DistributedLoad& load) {
   const int member = parts_.member(load.member);
   const AxisCurve& axis = *parts_.axes()[static_cast<std::size_t>(member)];
   const Quadrature gauss = gauss_legendre(axis.straight() ? 2 : 8);
-  const int pieces = axis.straight() ? 1 : 4;
-  const double width = (load.range[1] - load.range[0]) / pieces;
-  for (int piece = 0; piece < pieces; ++piece) {
-    for (std::size_t i = 0; i < gauss.points.size(); ++i) {
-      const AxisPoint at = parts_.place(member, load.range[0] + width * (piece + gauss.points[i]));
-      double w = axis.length() * width * gauss.weights[i];
-      if (load.per == LoadMeasure::horizontal) w *= std::abs(std::cos(at.angle));
-      if (load.per == LoadMeasure::vertical) w *= std::abs(std::sin(at.angle));
-      add(member, {at.x, at.y}, w * load.force[0], w * load.force[1]);
+  const int intervals = axis.straight() ? 1 : 4;
+  for (const LinePiece& piece : pieces_of(load)) {
+    const double width = (piece.range[1] - piece.range[0]) / intervals;
+    for (std::size_t i = 0; i < gauss.points.size() * static_cast<std::size_t>(intervals); ++i) {
+      const std::size_t q = i % gauss.points.size();
+      const auto interval = static_cast<double>(i / gauss.points.size());
+      const double fraction = piece.range[0] + width * (interval + gauss.points[q]);
+      const AxisPoint at = parts_.place(member, fraction);
+      const double w = axis.length() * width * gauss.weights[q] * measure_of(load.per, at.angle);
+      const auto force = global_force(load.axes, piece.at(fraction), at.angle);
+      add(member, {at.x, at.y}, w * force[0], w * force[1]);
     }
   }
 }
 
-/// Replaces pressure by pressure on the chord: with the right normal n = (t_y, -t_x), int n ds is the chord
-/// turned by -90 degrees, and the moment about the start is int (x - x_a) x n ds = -|x_b - x_a|^2 / 2.
+/// Replaces a constant pressure by pressure on the chord: with the right normal n = (t_y, -t_x), int n ds is
+/// the chord turned by -90 degrees, and the moment about the start is int (x - x_a) x n ds = -|x_b - x_a|^2
+/// / 2.
 void Summing::add(const PressureLoad& load) {
+  if (!load.value_along.empty()) {
+    add(across(load));
+    return;
+  }
   const int member = parts_.member(load.member);
   const AxisPoint a = parts_.place(member, 0.0);
   const AxisPoint b = parts_.place(member, 1.0);

@@ -44,9 +44,9 @@ void RigidParts::find_bodies() {
   std::vector<char> turned(nodes_.size(), 0);  // true: some member is not released there
   for (std::size_t m = 0; m < ends_.size(); ++m) {
     const Member& member = model_.members[m];
-    if (!member.release_start_rotation) turned[ends_[m][0]] = 1;
-    if (!member.release_end_rotation) turned[ends_[m][1]] = 1;
-    if (!member.release_start_rotation && !member.release_end_rotation)
+    if (!is_hinged_at_start(member)) turned[ends_[m][0]] = 1;
+    if (!is_hinged_at_end(member)) turned[ends_[m][1]] = 1;
+    if (!is_hinged_at_start(member) && !is_hinged_at_end(member))
       parent[root_of(parent, ends_[m][0])] = root_of(parent, ends_[m][1]);
   }
   std::vector<int> body_of_root(nodes_.size(), -1);
@@ -62,9 +62,9 @@ void RigidParts::find_bodies() {
   }
   for (std::size_t m = 0; m < ends_.size(); ++m) {
     const Member& member = model_.members[m];
-    body_of_member_.push_back(!member.release_start_rotation ? turns_with_[ends_[m][0]]
-                              : !member.release_end_rotation ? turns_with_[ends_[m][1]]
-                                                             : -1);
+    body_of_member_.push_back(!is_hinged_at_start(member) ? turns_with_[ends_[m][0]]
+                              : !is_hinged_at_end(member) ? turns_with_[ends_[m][1]]
+                                                          : -1);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "solver/geometry/axes.h"
 #include "solver/geometry/stress_free_axis.h"
 #include "solver/model/id_index.h"
+#include "solver/model/member_loads.h"
 #include "solver/numeric/max_order.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/rounding.h"
@@ -22,6 +23,13 @@ namespace snapthrough {
 namespace {
 
 using Vec3 = std::array<double, 3>;
+
+/// Largest magnitude of a value that may vary along a member.
+double largest_of(double constant, const Along<double>& along) {
+  double largest = along.empty() ? std::abs(constant) : 0.0;
+  for (const auto& point : along) largest = std::max(largest, std::abs(point.second));
+  return largest;
+}
 
 /// A structure with the same scales, whose parts are taken over where they do not differ, and its model.
 struct Neighbour {
@@ -54,6 +62,13 @@ class Builder {
   void finish() { out_.elements = std::move(elements_); }
 
  private:
+  /// Scaled follower pressure of an element, proportional and constant part; needs the load scale.
+  struct ElementPressure {
+    int element;
+    LinePressure proportional;
+    LinePressure constant;
+  };
+
   void add_shape(int element);
   /// Supports of an element: indices of foundations of the model, and of foundations and springs of `laws_`.
   struct Here {
@@ -83,14 +98,8 @@ class Builder {
   [[nodiscard]] double size_of_loads() const;
   void scale_other_actions();
   void find_follower_ends(double load_scale);
+  void add_follower_changes(const ElementPressure& pressure, double load_scale);
   [[nodiscard]] double element_length(int element) const { return length_of_element(out_, element); }
-
-  /// Scaled follower pressure of an element, proportional and constant part; needs the load scale.
-  struct ElementPressure {
-    int element;
-    double proportional;
-    double constant;
-  };
 
   const Model& model_;
   const Model& laws_;
@@ -179,9 +188,17 @@ void Builder::number_unknowns() {
   out_.nodes = static_cast<int>(model_.nodes.size());
   int next = 3 * out_.nodes;
   std::vector<std::array<int, 2>> released(model_.members.size(), {-1, -1});
+  const auto release = [&](bool is_released, const std::string& node, double stiffness, int& end) {
+    if (!is_released) return;
+    end = next++;
+    if (stiffness > 0.0)
+      out_.joints.push_back(
+          {3 * index_of(model_.nodes, node) + 2, end, out_.scales.scaled_rotational(stiffness)});
+  };
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
-    if (model_.members[m].release_start_rotation) released[m][0] = next++;
-    if (model_.members[m].release_end_rotation) released[m][1] = next++;
+    const Member& member = model_.members[m];
+    release(member.release_start_rotation, member.start, member.release_start_stiffness, released[m][0]);
+    release(member.release_end_rotation, member.end, member.release_end_stiffness, released[m][1]);
   }
   out_.releases = next - 3 * out_.nodes;
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
@@ -422,18 +439,21 @@ void Builder::add_distributed(const DistributedLoad& load) {
   const int member = index_of(model_.members, load.member);
   const AxisCurve& axis = *out_.axes[member];
   const Quadrature gauss = gauss_legendre(out_.mesh.order + 1);
-  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
-    const MeshElement& cell = out_.mesh.elements[e];
-    const auto range = part_of(cell, load.range);
-    if (range[1] <= range[0]) continue;
-    const double width = range[1] - range[0];
-    for (std::size_t i = 0; i < gauss.points.size(); ++i) {
-      const double xi = range[0] + width * gauss.points[i];
-      double w = element_length(e) * width * out_.scales.scaled_line_load(gauss.weights[i]);
-      const double angle = axis.at(axis.length() * (cell.from + xi * (cell.to - cell.from))).angle;
-      if (load.per == LoadMeasure::horizontal) w *= std::abs(std::cos(angle));
-      if (load.per == LoadMeasure::vertical) w *= std::abs(std::sin(angle));
-      add_point_action(pattern(load.pattern), e, xi, {w * load.force[0], w * load.force[1], 0.0});
+  for (const LinePiece& piece : pieces_of(load)) {
+    for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
+      const MeshElement& cell = out_.mesh.elements[e];
+      const auto range = part_of(cell, piece.range);
+      if (range[1] <= range[0]) continue;
+      const double width = range[1] - range[0];
+      for (std::size_t i = 0; i < gauss.points.size(); ++i) {
+        const double xi = range[0] + width * gauss.points[i];
+        const double fraction = cell.from + xi * (cell.to - cell.from);
+        const double angle = axis.at(axis.length() * fraction).angle;
+        const double w = element_length(e) * width * out_.scales.scaled_line_load(gauss.weights[i]) *
+                         measure_of(load.per, angle);
+        const auto force = global_force(load.axes, piece.at(fraction), angle);
+        add_point_action(pattern(load.pattern), e, xi, {w * force[0], w * force[1], 0.0});
+      }
     }
   }
 }
@@ -455,13 +475,26 @@ void Builder::add_dead_load(const Load& load) {
     add_distributed(*distributed);
   } else if (const auto* strain = std::get_if<InitialStrain>(&load)) {
     add_initial_strain(*strain);
+  } else if (const auto* weight = std::get_if<SelfWeight>(&load)) {
+    for (const Member& member : model_.members) add_distributed(weight_of(model_, member, *weight));
+  } else if (const auto* temperature = std::get_if<TemperatureLoad>(&load)) {
+    add_initial_strain(strain_of(model_, *temperature));
   }
+}
+
+/// Whether the load vector of a model is that of another with the same mesh.
+bool has_same_loads(const Model& a, const Model& b) {
+  const auto follows_sections = [](const Load& load) {
+    return std::holds_alternative<SelfWeight>(load) || std::holds_alternative<TemperatureLoad>(load);
+  };
+  return a.loads == b.loads &&
+         (a.sections == b.sections || std::none_of(a.loads.begin(), a.loads.end(), follows_sections));
 }
 
 void Builder::add_loads(std::optional<double> load_scale) {
   for (const Load& load : model_.loads)
     if (const auto* pressure = std::get_if<PressureLoad>(&load)) add_pressure(*pressure);
-  const bool known = like_ != nullptr && model_.loads == like_->model.loads;
+  const bool known = like_ != nullptr && has_same_loads(model_, like_->model);
   if (known) {
     out_.proportional_load = like_->structure.proportional_load;
     out_.constant_load = like_->structure.constant_load;
@@ -476,27 +509,37 @@ void Builder::add_loads(std::optional<double> load_scale) {
 void Builder::add_pressure(const PressureLoad& load) {
   const int member = index_of(model_.members, load.member);
   // a medium on the left pushes along the right normal
-  const double value = (load.side == Side::left ? 1.0 : -1.0) * out_.scales.scaled_line_load(load.value);
+  const double sense = load.side == Side::left ? 1.0 : -1.0;
   const bool proportional = load.pattern == Pattern::proportional;
-  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e)
-    pressures_.push_back({e, proportional ? value : 0.0, proportional ? 0.0 : value});
+  const auto at = [&](double fraction) {
+    return sense * out_.scales.scaled_line_load(value_at(load.value, load.value_along, fraction));
+  };
+  for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
+    const double from = at(out_.mesh.elements[e].from);
+    const double to = load.value_along.empty() ? from : at(out_.mesh.elements[e].to);
+    const LinePressure pressure{load.value_along.empty() ? from : 0.5 * (from + to), to - from};
+    pressures_.push_back(
+        {e, proportional ? pressure : LinePressure{}, proportional ? LinePressure{} : pressure});
+  }
 }
 
 void Builder::add_initial_strain(const InitialStrain& load) {
   const int member = index_of(model_.members, load.member);
   const int p = out_.mesh.order;
-  const double curvature = out_.scales.scaled_curvature(load.curvature);
   const Section& section = model_.sections[index_of(model_.sections, model_.members[member].section)];
   if (load.pattern == Pattern::proportional)
-    strain_size_ += out_.scales.scaled_force(std::abs(load.axial) * section.EA) +
-                    out_.scales.scaled_moment(std::abs(load.curvature) * section.EI);
+    strain_size_ += out_.scales.scaled_force(largest_of(load.axial, load.axial_along) * section.EA) +
+                    out_.scales.scaled_moment(largest_of(load.curvature, load.curvature_along) * section.EI);
   for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
     const CollocationRule& rule = CollocationRule::of(p);
     const ElementShape shape = shape_of_element(out_, model_, e);
     for (int q = 0; q < p; ++q) {
+      const MeshElement& cell = out_.mesh.elements[e];
+      const double fraction = cell.from + rule.point(q) * (cell.to - cell.from);
       const double length = shape.length * rule.weight(q) * std::hypot(shape.t[q][0], shape.t[q][1]);
-      pattern(load.pattern)[out_.dofs[e].s + q] += length * load.axial;
-      pattern(load.pattern)[out_.dofs[e].s + 2 * p + q] += length * curvature;
+      const double curvature = value_at(load.curvature, load.curvature_along, fraction);
+      pattern(load.pattern)[out_.dofs[e].s + q] += length * value_at(load.axial, load.axial_along, fraction);
+      pattern(load.pattern)[out_.dofs[e].s + 2 * p + q] += length * out_.scales.scaled_curvature(curvature);
     }
   }
 }
@@ -510,7 +553,9 @@ double Builder::size_of_loads() const {
       for (const int i : dofs.a) total += std::abs(out_.proportional_load[i]);
   for (const NodeSupport& support : out_.supports)
     for (const double value : support.proportional) total += std::abs(value);
-  for (const ElementPressure& p : pressures_) total += std::abs(p.proportional) * element_length(p.element);
+  for (const ElementPressure& p : pressures_)
+    total += std::max(std::abs(p.proportional.at(0.0)), std::abs(p.proportional.at(1.0))) *
+             element_length(p.element);
   return total == 0.0 ? 1.0 : total;
 }
 
@@ -520,14 +565,14 @@ void Builder::scale_other_actions() {
   for (NodeSupport& support : out_.supports)
     for (double& value : support.proportional) value /= total;
   for (const ElementPressure& p : pressures_)
-    elements_->set_pressure(p.element, p.proportional / total, p.constant);
+    elements_->set_pressure(p.element, p.proportional.times(1.0 / total), p.constant);
   find_follower_ends(total);
 }
 
 /// Whether constant actions cause displacements, and not only reactions of rigid supports.
 bool Builder::is_moved_by_constant_actions() const {
   for (const ElementPressure& p : pressures_)
-    if (p.constant != 0.0) return true;
+    if (p.constant.acts()) return true;
   Eigen::VectorXd free = out_.constant_load;
   for (int node = 0; node < out_.nodes; ++node) {
     const NodeSupport& support = out_.supports[static_cast<std::size_t>(node)];
@@ -542,6 +587,24 @@ bool Builder::is_moved_by_constant_actions() const {
          Rounding::last_places * out_.constant_load.lpNorm<Eigen::Infinity>();
 }
 
+/// Adds the Gauss points of an element whose pressure changes.
+void Builder::add_follower_changes(const ElementPressure& pressure, double load_scale) {
+  if (pressure.proportional.change == 0.0 && pressure.constant.change == 0.0) return;
+  const ElementDofs& dofs = out_.dofs[pressure.element];
+  const CollocationRule& rule = CollocationRule::of(out_.mesh.order);
+  const int p = rule.order();
+  for (int q = 0; q < p; ++q) {
+    FollowerEnd& point = out_.follower_ends.emplace_back();
+    point.terms.push_back({dofs.a[0], dofs.a[1]});
+    for (int r = 0; r < p; ++r)
+      point.terms.push_back(
+          {dofs.v + r, dofs.v + p + r, element_length(pressure.element) * rule.integral(q, r)});
+    const double weight = -0.5 * rule.weight(q);
+    point.proportional = weight * pressure.proportional.change / load_scale;
+    point.constant = weight * pressure.constant.change;
+  }
+}
+
 /// Finds movable nodes where the pressures of the adjacent lines do not cancel.
 void Builder::find_follower_ends(double load_scale) {
   std::vector<FollowerEnd> sums(static_cast<std::size_t>(out_.nodes));
@@ -550,13 +613,14 @@ void Builder::find_follower_ends(double load_scale) {
     for (const auto& [node, half] : {std::pair{dofs.a, -0.5}, std::pair{dofs.b, 0.5}}) {
       if (node[0] >= 3 * out_.nodes) continue;
       FollowerEnd& end = sums[node[0] / 3];
-      end.proportional += half * p.proportional / load_scale;
-      end.constant += half * p.constant;
+      end.proportional += half * p.proportional.at(0.5 + half) / load_scale;
+      end.constant += half * p.constant.at(0.5 + half);
     }
+    if (out_.geometry == Geometry::nonlinear) add_follower_changes(p, load_scale);
   }
   for (int j = 0; j < out_.nodes && out_.geometry == Geometry::nonlinear; ++j) {
     const NodeSupport& support = out_.supports[j];
-    sums[j].node = j;
+    sums[j].terms = {{3 * j, 3 * j + 1}};
     if (!support.fixed[0] && !support.fixed[1] && (sums[j].proportional != 0.0 || sums[j].constant != 0.0))
       out_.follower_ends.push_back(sums[j]);
   }
@@ -609,6 +673,15 @@ std::vector<std::string> without_stiffness(const Model& model) {
   for (const Spring& spring : model.springs)
     if (initial_stiffness(spring) == 0.0) out.push_back("spring " + spring.id + ": stiffness 0");
   return out;
+}
+
+void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen::VectorXd>& y,
+                       Eigen::Ref<Eigen::VectorXd> f) {
+  for (const JointSpring& joint : structure.joints) {
+    const double moment = joint.stiffness * (y[joint.node_rotation] - y[joint.end_rotation]);
+    f[joint.node_rotation] += moment;
+    f[joint.end_rotation] -= moment;
+  }
 }
 
 FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element) {

@@ -40,6 +40,13 @@ struct NodeSpring {
   int spring = -1;  ///< index among the springs
 };
 
+/// Rotational spring between a node and a released member end: a semi-rigid joint.
+struct JointSpring {
+  int node_rotation = 0;  ///< unknown of the node
+  int end_rotation = 0;   ///< unknown of the member end
+  double stiffness = 0.0;
+};
+
 /// @brief One-sided supports that touch without pressure, and which of them the critical motion moves into.
 ///
 /// Indices are those of with_joined_supports(), or of the model if no supports are joined.
@@ -101,6 +108,7 @@ struct Structure {
   std::vector<ElementDofs> dofs;      ///< one per element
   std::vector<NodeSupport> supports;  ///< one per node
   std::vector<NodeSpring> node_springs;
+  std::vector<JointSpring> joints;
   std::vector<FoundationLaw> foundation_laws;  ///< one per foundation of the model
   std::vector<SpringLaw> spring_laws;          ///< one per spring of the model
   /// Largest stiffness of a one-sided foundation on each element, for `Mesh::decay_lengths`.
@@ -125,6 +133,10 @@ struct Structure {
   /// Node motions (x, y, rotation each, scaled) that only one-sided supports can resist; orthonormal columns.
   Eigen::MatrixXd free_motions;
 };
+
+/// Adds the moments of semi-rigid joints at the unknowns y to the rows of a residual.
+void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen::VectorXd>& y,
+                       Eigen::Ref<Eigen::VectorXd> f);
 
 /// Law of a foundation on an element, with its stiffness bounded by Structure::stiffest.
 [[nodiscard]] FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element);

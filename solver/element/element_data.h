@@ -33,7 +33,7 @@ struct ElementData {
     int first_contact = 0, contact_count = 0;
     bool curved = false;  ///< some support has a law with a curve
     /// Force per deformed length along the deformed right normal.
-    double pressure = 0.0, constant_pressure = 0.0;
+    LinePressure pressure, constant_pressure;
     int factor = 0;  ///< index among the unshearable or among the shearable elements
   };
   /// Linear functional of an element's displacements, with the law of the support that it drives.
@@ -94,7 +94,7 @@ class ElementSetOf final : public ElementSet {
   void add_like(const ElementSet& other, int element, const ElementDofs& dofs) override;
   void add_spring(const SupportSpring& support) override;
   void add_contact(int element, FoundationContact contact, Touch touch) override;
-  void set_pressure(int element, double proportional, double constant) override;
+  void set_pressure(int element, const LinePressure& proportional, const LinePressure& constant) override;
   [[nodiscard]] std::unique_ptr<ElementWork> make_work() const override;
   void freeze_contact(const Eigen::VectorXd& y, double tolerance, FrozenContact& out) const override;
   [[nodiscard]] MovingZones moving_zones(const Eigen::VectorXd& y,
@@ -222,7 +222,7 @@ void ElementSetOf<P>::append(typename ElementData<P>::Shape shape, const Element
   shape.first_spring = static_cast<int>(data_.springs.size());
   shape.first_contact = static_cast<int>(data_.contacts.size());
   shape.spring_count = shape.contact_count = 0;
-  shape.pressure = shape.constant_pressure = 0.0;
+  shape.pressure = shape.constant_pressure = LinePressure{};
   shape.factor = shape.shearable ? data_.shearable++ : data_.stiff++;
   data_.shapes.push_back(shape);
   data_.dofs.push_back(dofs);
@@ -262,9 +262,13 @@ void ElementSetOf<P>::add_contact(int element, FoundationContact contact, Touch 
 }
 
 template <int P>
-void ElementSetOf<P>::set_pressure(int element, double proportional, double constant) {
-  data_.shapes[element].pressure += proportional;
-  data_.shapes[element].constant_pressure += constant;
+void ElementSetOf<P>::set_pressure(int element, const LinePressure& proportional,
+                                   const LinePressure& constant) {
+  auto& shape = data_.shapes[element];
+  shape.pressure.middle += proportional.middle;
+  shape.pressure.change += proportional.change;
+  shape.constant_pressure.middle += constant.middle;
+  shape.constant_pressure.change += constant.change;
   data_.pressed = true;
 }
 

@@ -42,6 +42,16 @@ struct ElementDofs {
   int m = 0;               ///< first of 3 multipliers
 };
 
+/// Follower pressure along an element, a linear function of the undeformed length.
+struct LinePressure {
+  double middle = 0.0;
+  double change = 0.0;  ///< from the start of the element to its end
+
+  [[nodiscard]] double at(double xi) const { return middle + (xi - 0.5) * change; }
+  [[nodiscard]] bool acts() const { return middle != 0.0 || change != 0.0; }
+  [[nodiscard]] LinePressure times(double factor) const { return {factor * middle, factor * change}; }
+};
+
 /// Stress-free geometry and section of an element; vectors have one entry per Gauss point.
 struct ElementShape {
   double length = 0.0;
@@ -165,7 +175,7 @@ class ElementSet {
   virtual void add_contact(int element, FoundationContact contact, Touch touch) = 0;
   /// @brief Sets the follower pressure of an element, force per deformed length along its deformed right
   /// normal (a medium on the left pushes), as a part proportional to the load factor and a constant part.
-  virtual void set_pressure(int element, double proportional, double constant) = 0;
+  virtual void set_pressure(int element, const LinePressure& proportional, const LinePressure& constant) = 0;
   /// @brief Makes the working memory for evaluations. @pre the set outlives the returned object
   [[nodiscard]] virtual std::unique_ptr<ElementWork> make_work() const = 0;
 

@@ -130,14 +130,17 @@ class ElementWorkOf final : public ElementWork {
   template <int N>
   void add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S);
   void collect_rows(int element, const double* y, double* residual);
-  [[nodiscard]] double pressure_of(const Shape& shape) const {
-    return factors_.proportional * shape.pressure + factors_.constant * shape.constant_pressure;
+  [[nodiscard]] LinePressure pressure_of(const Shape& shape) const {
+    const LinePressure& p = shape.pressure;
+    const LinePressure& c = shape.constant_pressure;
+    return {factors_.proportional * p.middle + factors_.constant * c.middle,
+            factors_.proportional * p.change + factors_.constant * c.change};
   }
-  void add_pressure(const Shape& shape, const ElementDofs& dofs, double pressure, const double* y,
-                    double* load) const;
-  void collect_pressure(const Shape& shape, double pressure);
+  void add_pressure(const Shape& shape, const ElementDofs& dofs, const LinePressure& pressure,
+                    const double* y, double* load) const;
+  void collect_pressure(const Shape& shape, const LinePressure& pressure);
   void add_acting_product(const ElementDofs& dofs, const double* direction, double* out) const;
-  void add_pressure_product(const Shape& shape, const ElementDofs& dofs, double pressure,
+  void add_pressure_product(const Shape& shape, const ElementDofs& dofs, const LinePressure& pressure,
                             const double* direction, double* out) const;
   [[nodiscard]] bool acts(const Functional& f, std::size_t support, const ElementDofs& dofs,
                           const double* y) const;
@@ -432,8 +435,8 @@ void ElementWorkOf<P>::collect_rows(int element, const double* y, double* residu
   const Shape& shape = shapes_[element];
   acting_.clear();
   if (shape.spring_count > 0 || shape.contact_count > 0) add_support_residual(element, y, residual, true);
-  if (const double pressure = pressure_of(shape); pressure != 0.0) {
-    add_pressure(shape, dofs_[element], -pressure, y, residual);
+  if (const LinePressure pressure = pressure_of(shape); pressure.acts()) {
+    add_pressure(shape, dofs_[element], pressure.times(-1.0), y, residual);
     if (!linear_) collect_pressure(shape, pressure);
   }
   Tangent& t = tangents_[element];
@@ -498,8 +501,8 @@ void ElementWorkOf<P>::add_residual(const Eigen::VectorXd& y, const LoadFactors&
   for (int e = 0; e < size(); ++e) {
     const Kinematics& kin = kinematics_[e];
     add_strain_residual(shapes_[e], dofs_[e], kin, y.data(), residual.data());
-    if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
-      add_pressure(shapes_[e], dofs_[e], -pressure, y.data(), residual.data());
+    if (const LinePressure pressure = pressure_of(shapes_[e]); pressure.acts())
+      add_pressure(shapes_[e], dofs_[e], pressure.times(-1.0), y.data(), residual.data());
     if (shapes_[e].spring_count > 0 || shapes_[e].contact_count > 0)
       add_support_residual(e, y.data(), residual.data(), false);
   }
@@ -581,14 +584,14 @@ void ElementWorkOf<P>::add_tangent_products(const Eigen::VectorXd& y, const Load
   for (int e = 0; e < size(); ++e) {
     const ElementDofs& dofs = dofs_[e];
     const Kinematics& kin = kinematics_[e];
-    const double pressure = linear_ ? 0.0 : pressure_of(shapes_[e]);
+    const LinePressure pressure = linear_ ? LinePressure{} : pressure_of(shapes_[e]);
     acting_.clear();
     if (unused.size() > 0) add_support_residual(e, y.data(), unused.data(), true);
     for (Eigen::Index i = 0; i < directions.cols(); ++i) {
       const double* direction = directions.col(i).data();
       double* product = out.col(i).data();
       add_strain_product(shapes_[e], dofs, kin, y.data(), direction, product);
-      if (pressure != 0.0) add_pressure_product(shapes_[e], dofs, pressure, direction, product);
+      if (pressure.acts()) add_pressure_product(shapes_[e], dofs, pressure, direction, product);
       add_acting_product(dofs, direction, product);
     }
   }

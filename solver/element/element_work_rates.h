@@ -128,12 +128,12 @@ void ElementWorkOf<P>::add_tangent_changes(const Eigen::VectorXd& y, const LoadF
     const Kinematics& kin = kinematics_[e];
     const StrainChange change = strain_change(shape, dofs, kin, along.data());
     collect_support_rates(e, y.data(), along.data());
-    const double pressure = linear_ ? 0.0 : pressure_of(shape);
+    const LinePressure pressure = linear_ ? LinePressure{} : pressure_of(shape);
     for (Eigen::Index i = 0; i < directions.cols(); ++i) {
       const double* direction = directions.col(i).data();
       double* product = out.col(i).data();
       if (!linear_) add_strain_rate(shape, dofs, kin, y.data(), change, direction, product);
-      if (pressure != 0.0) add_pressure_product(shape, dofs, pressure, direction, product);
+      if (pressure.acts()) add_pressure_product(shape, dofs, pressure, direction, product);
       add_acting_product(dofs, direction, product);
     }
   }
@@ -145,8 +145,8 @@ void ElementWorkOf<P>::add_pressure_change(const LoadFactors& factors, const Eig
   begin(factors, {});
   if (!data_.pressed) return;
   for (int e = 0; e < size(); ++e)
-    if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
-      add_pressure_product(shapes_[e], dofs_[e], -pressure, along.data(), out.data());
+    if (const LinePressure pressure = pressure_of(shapes_[e]); pressure.acts())
+      add_pressure_product(shapes_[e], dofs_[e], pressure.times(-1.0), along.data(), out.data());
 }
 
 }  // namespace snapthrough

@@ -160,9 +160,12 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
 ///
 /// The force is the derivative of pressure times the area 1/2 int (x y' - y x') ds swept by the element,
 /// minus the surplus of that derivative at the element ends: nodal forces, which cancel between neighbours
-/// with equal pressure or are carried by supports. The symmetric tangent is therefore exact inside elements.
+/// with equal pressure or are carried by supports. Where the pressure changes, 1/2 p' (-y, x) is added: with
+/// u = (x, y) and the variation v, int p (y' v_x - x' v_y) = d(area) - 1/2 [p (x v_y - y v_x)] + 1/2 int p'
+/// (x v_y
+/// - y v_x). The tangent of the last term is skew and not among the element's (discrete/follower_ends.h).
 template <int P>
-void ElementWorkOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs, double pressure,
+void ElementWorkOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs, const LinePressure& pressure,
                                     const double* y, double* load) const {
   Gauss xp;  // derivative of the axis
   Gauss yp;
@@ -182,9 +185,10 @@ void ElementWorkOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs,
     }
   }
   for (int q = 0; q < P; ++q) {
-    const double w = 0.5 * pressure * shape.hb[q];
-    const double fx = w * yp[q];
-    const double fy = -w * xp[q];
+    const double w = 0.5 * pressure.at(data_.rule->point(q)) * shape.hb[q];
+    const double skew = 0.5 * pressure.change * data_.b[q];
+    const double fx = w * yp[q] - skew * place[1][q];
+    const double fy = -w * xp[q] + skew * place[0][q];
     load[dofs.a[0]] += fx;
     load[dofs.a[1]] += fy;
     load[dofs.v + q] -= w * place[1][q];
@@ -198,8 +202,9 @@ void ElementWorkOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs,
     const auto& node = sign < 0.0 ? dofs.a : dofs.b;
     const double x = (linear_ ? 0.0 : y[node[0]]) + (sign < 0.0 ? 0.0 : chord[0]);
     const double z = (linear_ ? 0.0 : y[node[1]]) + (sign < 0.0 ? 0.0 : chord[1]);
-    load[node[0]] += 0.5 * sign * pressure * z;
-    load[node[1]] -= 0.5 * sign * pressure * x;
+    const double half = 0.5 * sign * pressure.at(sign < 0.0 ? 0.0 : 1.0);
+    load[node[0]] += half * z;
+    load[node[1]] -= half * x;
   }
 }
 
@@ -211,7 +216,7 @@ void ElementWorkOf<P>::add_pressure_load(const Eigen::VectorXd& y, const LoadFac
   begin(factors, regime);
   if (!data_.pressed) return;
   for (int e = 0; e < size(); ++e)
-    if (const double pressure = pressure_of(shapes_[e]); pressure != 0.0)
+    if (const LinePressure pressure = pressure_of(shapes_[e]); pressure.acts())
       add_pressure(shapes_[e], dofs_[e], pressure, y.data(), out.data());
 }
 
@@ -219,15 +224,16 @@ void ElementWorkOf<P>::add_pressure_load(const Eigen::VectorXd& y, const LoadFac
 /// 1/2 int (x y' - y x') ds, to acting_ as squares: 4 a b = (a + b)^2 - (a - b)^2. The remaining part belongs
 /// to the element ends, cancels between neighbours with equal pressure, and vanishes at fixed ends.
 template <int P>
-void ElementWorkOf<P>::collect_pressure(const Shape& shape, double pressure) {
+void ElementWorkOf<P>::collect_pressure(const Shape& shape, const LinePressure& pressure) {
   for (int q = 0; q < P; ++q) {
+    const double at_q = pressure.at(data_.rule->point(q));
     for (const int c : {0, 1}) {
       for (const double sign : {1.0, -1.0}) {
         Functional f;
         f.a[c] = 1.0;
         for (int r = 0; r < P; ++r) f.v[c][r] = shape.h * a_[q][r];
         f.v[1 - c][q] = sign;
-        f.tangent = (c == 0 ? -0.25 : 0.25) * sign * pressure * shape.hb[q];
+        f.tangent = (c == 0 ? -0.25 : 0.25) * sign * at_q * shape.hb[q];
         acting_.push_back(f);
       }
     }
@@ -235,15 +241,16 @@ void ElementWorkOf<P>::collect_pressure(const Shape& shape, double pressure) {
 }
 
 template <int P>
-void ElementWorkOf<P>::add_pressure_product(const Shape& shape, const ElementDofs& dofs, double pressure,
-                                            const double* direction, double* out) const {
+void ElementWorkOf<P>::add_pressure_product(const Shape& shape, const ElementDofs& dofs,
+                                            const LinePressure& pressure, const double* direction,
+                                            double* out) const {
   const double* dv = direction + dofs.v;
   double* fv = out + dofs.v;
   for (int q = 0; q < P; ++q) {
     double u[2] = {direction[dofs.a[0]], direction[dofs.a[1]]};
     for (int r = 0; r < P; ++r)
       for (int c = 0; c < 2; ++c) u[c] += shape.h * a_[q][r] * dv[c * P + r];
-    const double w = -0.5 * pressure * shape.hb[q];
+    const double w = -0.5 * pressure.at(data_.rule->point(q)) * shape.hb[q];
     const double place[2] = {w * dv[P + q], -w * dv[q]};
     fv[q] -= w * u[1];
     fv[P + q] += w * u[0];

@@ -1,10 +1,13 @@
 #include "solver/events/buckling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "solver/events/buckling_pencil.h"
@@ -12,6 +15,7 @@
 #include "solver/newton/corrector.h"
 #include "solver/numeric/bracket.h"
 #include "solver/numeric/dense.h"
+#include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/pseudo_random.h"
 
 namespace snapthrough {
@@ -223,6 +227,27 @@ void find_loads(Pencil& pencil, Index size, int count, LinearBuckling& out) {
   }
 }
 
+/// Largest compression of each member at the Gauss points and the ends of its elements.
+std::vector<double> compressions_of(const Structure& structure, const VectorXd& stress) {
+  const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
+  const auto p = static_cast<std::size_t>(rule.order());
+  std::array<std::array<double, kMaxOrder>, 2> at_end{};  // polynomial through the Gauss points, at 0 and 1
+  for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+    rule.values_at(static_cast<double>(end), std::span(at_end[end]).first(p));
+  std::vector<double> out;
+  for (std::size_t m = 0; m + 1 < structure.mesh.first.size(); ++m) {
+    double least = std::numeric_limits<double>::infinity();  // axial force
+    for (int e = structure.mesh.first[m]; e < structure.mesh.first[m + 1]; ++e) {
+      const double* axial = stress.data() + structure.dofs[static_cast<std::size_t>(e)].s;
+      for (const auto& weights : at_end)
+        least = std::min(least, std::inner_product(axial, axial + p, weights.begin(), 0.0));
+      least = std::min(least, *std::min_element(axial, axial + p));
+    }
+    out.push_back(-least);
+  }
+  return out;
+}
+
 PieceSolver solver_of(Pencil& pencil, Index size) {
   PieceSolver solver;
   solver.lowest = [&pencil, size]() -> std::optional<Piece> {
@@ -251,6 +276,8 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
   if (out.touches)
     out.piece = set_least_piece(problem, solver_of(pencil, problem.size()), marks, near, pencil.contact());
   find_loads(pencil, problem.size(), count, out);
+  for (const double load : out.loads)
+    out.compressions.push_back(compressions_of(structure, pencil.stress(load)));
   out.factorizations = pencil.factorizations();
   out.marks = marks;
   out.contact = std::move(pencil.contact());

@@ -19,8 +19,10 @@ enum class LoadSense { as_given, reversed };
 struct LinearBuckling {
   std::vector<double> loads;           ///< scaled load factors; fewer than requested when no more exist
   std::vector<Eigen::VectorXd> modes;  ///< modes in the problem's unknowns, largest displacement one
-  int negative_at_start = 0;           ///< negative eigenvalues under the constant actions alone
-  SharedHolds holds;                   ///< artificial springs on motions without stiffness
+  /// For each load the largest compression of each member in the linear prestress, scaled; negative: tension.
+  std::vector<std::vector<double>> compressions;
+  int negative_at_start = 0;  ///< negative eigenvalues under the constant actions alone
+  SharedHolds holds;          ///< artificial springs on motions without stiffness
   /// A free motion is driven by the actions or resisted by their stresses alone, so that no linear reference
   /// state exists; `loads` is then empty.
   bool is_mechanism = false;

@@ -29,6 +29,8 @@ class BucklingPencil {
   [[nodiscard]] double quotient(const Eigen::VectorXd& x) {
     return -x.dot(product(0.0, x)) / x.dot(geometric(x));
   }
+  /// Section forces of the linear prestress at a load factor; other unknowns are zero.
+  [[nodiscard]] Eigen::VectorXd stress(double lambda) const;
   [[nodiscard]] double scale() const { return problem_.critical_load_scale(proportional_); }
   [[nodiscard]] int factorizations() const { return factorizations_; }
   /// Whether the held motions have neither stiffness nor displacement at a load factor.
@@ -43,7 +45,6 @@ class BucklingPencil {
   [[nodiscard]] Eigen::VectorXd linear_response(StructuralProblem::Stage stage, double lambda, Regime regime);
   void drop_rounding(double least, Eigen::VectorXd& response) const;
   void freeze_contact(double reference);
-  [[nodiscard]] Eigen::VectorXd stress(double lambda) const;
 
   const Structure& structure_;
   StructuralProblem& problem_;

@@ -34,6 +34,11 @@ Chord chord_of(std::array<double, 2> a, std::array<double, 2> b) {
   return {a, {dx, dy}, {-dy / length, dx / length}};
 }
 
+std::array<double, 2> unit(const std::array<double, 2>& v) {
+  const double size = std::hypot(v[0], v[1]);
+  return {v[0] / size, v[1] / size};
+}
+
 /// Splines of x and y over cumulative chord length, through start, interior points and end.
 struct PlaneSpline {
   CubicSpline x;
@@ -82,11 +87,11 @@ AxisCurve::AxisCurve(const Curve& curve, std::array<double, 2> start, std::array
     start_angle_ -= 0.5 * sweep;
   } else if (const auto* parabola = std::get_if<ParabolaCurve>(&curve)) {
     const double rise = parabola->rise;
+    const std::array<double, 2> n = parabola->direction ? unit(*parabola->direction) : chord.normal;
     set_parametric(
-        [chord, rise](double t) {
+        [chord, rise, n](double t) {
           const double eta = 4.0 * rise * t * (1.0 - t);
           const double d = 4.0 * rise * (1.0 - 2.0 * t);
-          const auto& n = chord.normal;
           return Jet{chord.start[0] + t * chord.vector[0] + eta * n[0],
                      chord.start[1] + t * chord.vector[1] + eta * n[1],
                      chord.vector[0] + d * n[0],

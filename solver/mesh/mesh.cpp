@@ -29,6 +29,9 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
   const auto add_location = [&](const Location& location) {
     if (location.member == id) at.push_back(location.fraction);
   };
+  const auto add_kinks = [&at](const auto& along) {
+    for (const auto& point : along) at.push_back(point.first);
+  };
   for (const Spring& spring : model.springs) add_location(spring.at);
   for (const Foundation& foundation : model.foundations) {
     if (foundation.member != id) continue;
@@ -38,8 +41,22 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
   for (const Load& load : model.loads) {
     if (const auto* point = std::get_if<PointLoad>(&load)) add_location(point->at);
     const auto* distributed = std::get_if<DistributedLoad>(&load);
-    if (distributed != nullptr && distributed->member == id)
+    if (distributed != nullptr && distributed->member == id) {
       at.insert(at.end(), distributed->range.begin(), distributed->range.end());
+      add_kinks(distributed->force_along);
+    }
+    const auto* pressure = std::get_if<PressureLoad>(&load);
+    if (pressure != nullptr && pressure->member == id) add_kinks(pressure->value_along);
+    const auto* strain = std::get_if<InitialStrain>(&load);
+    if (strain != nullptr && strain->member == id) {
+      add_kinks(strain->axial_along);
+      add_kinks(strain->curvature_along);
+    }
+    const auto* temperature = std::get_if<TemperatureLoad>(&load);
+    if (temperature != nullptr && temperature->member == id) {
+      add_kinks(temperature->change_along);
+      add_kinks(temperature->gradient_along);
+    }
   }
   for (const double knot : axis.knots()) at.push_back(knot / axis.length());
   std::sort(at.begin(), at.end());

@@ -7,6 +7,7 @@
 /// t; its left normal n is t turned by +90 degrees. Fractions refer to the member's undeformed length.
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,11 +26,18 @@ enum class Reaction { bilateral, compression_only, tension_only };
 enum class Side { left, right };
 /// Length to which a distributed load refers.
 enum class LoadMeasure { length, horizontal, vertical };
+/// Axes of a force: global x and y, or the initial tangent and left normal of its member.
+enum class LoadAxes { global, member };
 /// Displacement component; `normal` is along the initial left normal and needs a location on a member.
 enum class Component { x, y, rotation, normal };
 
 /// Distance of fractions of a member's length that counts as zero.
 inline constexpr double kOnePlace = 1e-9;
+
+/// Values at ascending fractions of a member's length, linear between, constant before the first and after
+/// the last. Empty: the value does not vary, and the field beside it has it.
+template <class T>
+using Along = std::vector<std::pair<double, T>>;
 
 /// Location on the structure: a node, or a point of a member. Exactly one of `node`, `member` is not empty.
 struct Location {
@@ -49,9 +57,11 @@ struct Node {
 /// Elastic section. No GA means unshearable (the limit GA -> infinity is taken exactly).
 struct Section {
   std::string id;
-  double EA = 0.0;           ///< axial stiffness, > 0
-  double EI = 0.0;           ///< bending stiffness, > 0
-  std::optional<double> GA;  ///< shear stiffness (shear area included), > 0
+  double EA = 0.0;                       ///< axial stiffness, > 0
+  double EI = 0.0;                       ///< bending stiffness, > 0
+  std::optional<double> GA;              ///< shear stiffness (shear area included), > 0
+  std::optional<double> mass = {};       ///< mass per undeformed length, >= 0; needed by self weight
+  std::optional<double> expansion = {};  ///< thermal strain per degree; needed by temperature loads
   bool operator==(const Section&) const = default;
 };
 
@@ -63,9 +73,11 @@ struct ArcCurve {
   double sweep_degrees = 0.0;
   bool operator==(const ArcCurve&) const = default;
 };
-/// Parabola over the chord, `rise` along the chord's left normal.
+/// Offset 4 rise xi (1 - xi) from the chord along `direction`, xi in [0, 1] along the chord. Every piece of a
+/// parabola has this form with the direction of the parabola's axis.
 struct ParabolaCurve {
   double rise = 0.0;
+  std::optional<std::array<double, 2>> direction = {};  ///< empty: left normal of the chord
   bool operator==(const ParabolaCurve&) const = default;
 };
 /// Offset rise * sin(half_waves * pi * xi) along the chord's left normal, xi in [0, 1] along the chord.
@@ -89,8 +101,18 @@ struct Member {
   Curve curve;
   bool release_start_rotation = false;
   bool release_end_rotation = false;
+  /// Moment per radian of relative rotation of a released end and its node, >= 0; 0: hinge.
+  double release_start_stiffness = 0.0;
+  double release_end_stiffness = 0.0;
   bool operator==(const Member&) const = default;
 };
+/// Whether the start of a member turns without resistance of its node.
+[[nodiscard]] inline bool is_hinged_at_start(const Member& member) {
+  return member.release_start_rotation && member.release_start_stiffness == 0.0;
+}
+[[nodiscard]] inline bool is_hinged_at_end(const Member& member) {
+  return member.release_end_rotation && member.release_end_stiffness == 0.0;
+}
 
 struct PrescribedDisplacement {
   double x = 0.0;
@@ -176,6 +198,8 @@ struct DistributedLoad {
   std::array<double, 2> range{0.0, 1.0};
   LoadMeasure per = LoadMeasure::length;
   Pattern pattern = Pattern::proportional;
+  LoadAxes axes = LoadAxes::global;
+  Along<std::array<double, 2>> force_along = {};
   bool operator==(const DistributedLoad&) const = default;
 };
 /// Follower pressure per deformed length, pushing from `side`.
@@ -184,6 +208,7 @@ struct PressureLoad {
   double value = 0.0;
   Side side = Side::left;
   Pattern pattern = Pattern::proportional;
+  Along<double> value_along = {};
   bool operator==(const PressureLoad&) const = default;
 };
 struct InitialStrain {
@@ -191,9 +216,34 @@ struct InitialStrain {
   double axial = 0.0;
   double curvature = 0.0;
   Pattern pattern = Pattern::proportional;
+  Along<double> axial_along = {};
+  Along<double> curvature_along = {};
   bool operator==(const InitialStrain&) const = default;
 };
-using Load = std::variant<PointLoad, DistributedLoad, PressureLoad, InitialStrain>;
+/// Weight of all members: `Section::mass` times `gravity`, a dead load per undeformed length.
+struct SelfWeight {
+  std::array<double, 2> gravity{0.0, 0.0};  ///< acceleration in global axes
+  Pattern pattern = Pattern::proportional;
+  bool operator==(const SelfWeight&) const = default;
+};
+/// Strain by temperature: axial expansion * change, curvature -expansion * gradient.
+struct TemperatureLoad {
+  std::string member;
+  double change = 0.0;    ///< change of temperature of the axis
+  double gradient = 0.0;  ///< change per length along the left normal
+  Pattern pattern = Pattern::proportional;
+  Along<double> change_along = {};
+  Along<double> gradient_along = {};
+  bool operator==(const TemperatureLoad&) const = default;
+};
+using Load =
+    std::variant<PointLoad, DistributedLoad, PressureLoad, InitialStrain, SelfWeight, TemperatureLoad>;
+/// Named group of loads. Their amounts contain its factor, and their pattern says whether it grows.
+struct LoadCase {
+  std::string id;
+  std::size_t loads = 0;  ///< number of its loads
+  bool operator==(const LoadCase&) const = default;
+};
 
 /// Stress-free offset amplitude * sin(half_waves pi s / L) along the left normal.
 struct SineImperfection {
@@ -241,7 +291,8 @@ struct Model {
   std::vector<Support> supports;
   std::vector<Spring> springs;
   std::vector<Foundation> foundations;
-  std::vector<Load> loads;
+  std::vector<Load> loads;  ///< loads of load cases stand last, case by case
+  std::vector<LoadCase> load_cases;
   std::vector<Imperfection> imperfections;
   std::vector<Monitor> monitors;
   bool operator==(const Model&) const = default;

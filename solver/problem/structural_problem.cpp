@@ -78,6 +78,7 @@ StructuralProblem::StructuralProblem(const Structure& structure)
   }
   for (const NodeSpring& spring : structure.node_springs)
     if (spring.row[2] != 0.0) free_rotation_[spring.node] = 0;
+  for (const JointSpring& joint : structure.joints) free_rotation_[joint.node_rotation / 3] = 0;
   const Index n = 3 * structure.nodes + structure.releases + 3 * static_cast<Index>(members_);
   for (Index i = 0; i < n; ++i) (is_fixed(i) ? fixed_ : free_).push_back(i);
   largest_load_ = force_norm(structure.proportional_load);
@@ -149,6 +150,7 @@ void StructuralProblem::add_node_springs(const VectorXd& y, const Regime& regime
     const double force = node_spring_force(i, y, regime);
     for (int c = 0; c < 3; ++c) f[3 * spring.node + c] += force * spring.row[c];
   }
+  add_joint_moments(structure_, y, f);
 }
 
 void StructuralProblem::force_along(const VectorXd& motion, VectorXd& out) const {
@@ -280,7 +282,7 @@ void StructuralProblem::fill_member(std::size_t member, MatrixXd& block) const {
   block.bottomRightCorner<3, 3>() = -ends.F;
 }
 
-/// Collects the rows that each block of the node system couples: members, node springs, held nodes.
+/// Collects the rows that each block of the node system couples: members, node springs, joints, held nodes.
 void StructuralProblem::plan_nodes() {
   node_rows_.clear();
   for (std::size_t m = 0; m < members_; ++m) {
@@ -291,6 +293,8 @@ void StructuralProblem::plan_nodes() {
   }
   for (const NodeSpring& spring : structure_.node_springs)
     node_rows_.push_back({3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2});
+  for (const JointSpring& joint : structure_.joints)
+    node_rows_.push_back({joint.node_rotation, joint.end_rotation});
   const auto scalars = static_cast<int>(multiplier(members_));
   const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
   for (int node = 0; holds > 0 && node < structure_.nodes; ++node) {
@@ -318,7 +322,12 @@ void StructuralProblem::assemble_nodes() {
         axes_of(dofs).transpose() * Eigen::Vector3d(spring.row[0], spring.row[1], spring.row[2]);
     node_blocks_[members_ + i] = spring_stiffness_[i] * row * row.transpose();
   }
-  const std::size_t first_hold = members_ + structure_.node_springs.size();
+  const std::size_t first_joint = members_ + structure_.node_springs.size();
+  for (std::size_t i = 0; i < structure_.joints.size(); ++i) {
+    const double k = structure_.joints[i].stiffness;
+    node_blocks_[first_joint + i] = (MatrixXd(2, 2) << k, -k, -k, k).finished();
+  }
+  const std::size_t first_hold = first_joint + structure_.joints.size();
   for (std::size_t i = first_hold; i < node_blocks_.size(); ++i) {
     const Index holds = hold_rows_.cols();
     MatrixXd& block = node_blocks_[i];
@@ -359,8 +368,10 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
 /// its divergence stability where its determinant changes sign; the count is changed to match that parity.
 void StructuralProblem::add_follower_ends(double lambda, TangentReport& report) {
   const auto [proportional, constant] = factors(lambda);
-  const double det = follower_ends_.prepare(proportional, constant, size(),
-                                            [this](Eigen::Ref<MatrixXd> x) { solve_symmetric(x); });
+  const double det = follower_ends_.prepare(proportional, constant, size(), [this](Eigen::Ref<MatrixXd> x) {
+    for (Index i = 0; i < x.cols(); ++i) release_rows(x.col(i));
+    solve_symmetric(x);
+  });
   report.log_abs_det += std::log(std::max(std::abs(det), std::numeric_limits<double>::min()));
   if (det < 0.0) report.negative += report.negative > 0 ? -1 : 1;
   report.parity_only = true;
@@ -620,6 +631,10 @@ double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) co
     for (int c = 0; c < 3; ++c) size += std::abs(spring.row[c] * y[3 * spring.node + c]);
     largest = std::max(largest, stiffness * size * std::numeric_limits<double>::epsilon());
   }
+  for (const JointSpring& joint : structure_.joints) {
+    const double size = std::abs(y[joint.node_rotation]) + std::abs(y[joint.end_rotation]);
+    largest = std::max(largest, joint.stiffness * size * std::numeric_limits<double>::epsilon());
+  }
   const double force = force_scale(y, lambda);
   return force > 0.0 ? std::min(0.5 * largest / force, ProblemTolerances::most_rounding) : 0.0;
 }
@@ -712,6 +727,7 @@ void StructuralProblem::add_node_products(double lambda, const Eigen::Ref<const 
     for (int c = 0; c < 3; ++c) w += spring.row[c] * direction[3 * spring.node + c];
     for (int c = 0; c < 3; ++c) out[3 * spring.node + c] += stiffness * w * spring.row[c];
   }
+  add_joint_moments(structure_, direction, out);
   if (holds_) {
     const Eigen::MatrixXd& H = holds_->motions;
     out.head(H.rows()) += holds_->stiffness * (H * (H.transpose() * direction.head(H.rows())));

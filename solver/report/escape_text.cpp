@@ -172,6 +172,10 @@ std::string name_of(const Load& load) {
     std::string operator()(const InitialStrain& l) const {
       return "the initial strain of member \"" + l.member + "\"";
     }
+    std::string operator()(const SelfWeight&) const { return "the self weight"; }
+    std::string operator()(const TemperatureLoad& l) const {
+      return "the temperature of member \"" + l.member + "\"";
+    }
   };
   return std::visit(Namer{}, load);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -21,7 +22,8 @@ struct ModeLimits {
   /// agree to six digits.
   static constexpr double larger = 1.0 + 1e-6;
   static constexpr double alone = 0.9;  ///< least share of strain energy of a member that buckles alone
-  static constexpr int points_per_element = 8;  ///< points of the spline through a mode
+  static constexpr double small_compression = 1e-2;  ///< over the largest, below which a member has no length
+  static constexpr int points_per_element = 8;       ///< points of the spline through a mode
 };
 
 }  // namespace
@@ -74,6 +76,21 @@ double scale_to_largest(Mode& mode) {
     for (auto* values : {&member.u, &member.v, &member.rotation})
       for (double& value : *values) value *= scale;
   return scale;
+}
+
+std::vector<EffectiveLength> effective_lengths(const Model& model, const std::vector<double>& lengths,
+                                               const std::vector<double>& compressions) {
+  const double largest = *std::max_element(compressions.begin(), compressions.end());
+  std::vector<EffectiveLength> out;
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    EffectiveLength& one = out.emplace_back();
+    one.id = model.members[m].id;
+    if (!(compressions[m] > ModeLimits::small_compression * largest)) continue;
+    const double EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
+    one.length = std::numbers::pi * std::sqrt(EI / compressions[m]);
+    one.ratio = *one.length / lengths[m];
+  }
+  return out;
 }
 
 std::string motion_text(const Mode& mode, const Model& model) {

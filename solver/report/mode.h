@@ -25,6 +25,13 @@ namespace snapthrough {
 /// @return the factor applied
 double scale_to_largest(Mode& mode);
 
+/// @brief Effective length of each member at a buckling load.
+/// @param lengths of the axes, one per member
+/// @param compressions largest compression of each member, in the model's units
+[[nodiscard]] std::vector<EffectiveLength> effective_lengths(const Model& model,
+                                                             const std::vector<double>& lengths,
+                                                             const std::vector<double>& compressions);
+
 /// @brief End of a sentence on the place and direction of a mode's largest displacement: "is largest at node
 /// ..., along (x, y)".
 [[nodiscard]] std::string motion_text(const Mode& mode, const Model& model);

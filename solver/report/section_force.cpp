@@ -24,7 +24,7 @@ SectionForces::SectionForces(const Structure& structure, const Model& model, con
       gauss_(gauss_legendre(structure.mesh.order + 2)) {
   for (int c = 0; c < 3; ++c) end_[c] = y[structure.dofs[element].m + c];
   add_loads(lambda / structure.scales.load, 1.0);
-  if (pressure_ != 0.0) release_end_of_pressure(y);
+  if (pressure_.acts()) release_end_of_pressure(y);
   add_foundations();
   add_springs();
 }
@@ -42,8 +42,8 @@ void SectionForces::release_end_of_pressure(const Eigen::VectorXd& y) {
     x += y[structure_.dofs[element_].b[0]];
     z += y[structure_.dofs[element_].b[1]];
   }
-  end_[0] -= 0.5 * pressure_ * z;
-  end_[1] += 0.5 * pressure_ * x;
+  end_[0] -= 0.5 * pressure_.at(1.0) * z;
+  end_[1] += 0.5 * pressure_.at(1.0) * x;
 }
 
 void SectionForces::add_loads(double proportional, double constant) {
@@ -64,16 +64,25 @@ void SectionForces::add_load(const Load& load, double factor) {
            {scales.scaled_force(factor * point->force[0]), scales.scaled_force(factor * point->force[1]),
             scales.scaled_moment(factor * point->moment)}});
   }
-  if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == member) {
-    const Vec2 range = part_of(cell_, d->range);
-    if (range[1] > range[0])
-      dead_.push_back(
-          {{scales.scaled_line_load(factor * d->force[0]), scales.scaled_line_load(factor * d->force[1])},
-           d->per,
-           range});
+  if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == member)
+    add_dead(*d, factor);
+  if (const auto* weight = std::get_if<SelfWeight>(&load))
+    add_dead(weight_of(model_, model_.members[cell_.member], *weight), factor);
+  if (const auto* p = std::get_if<PressureLoad>(&load); p != nullptr && p->member == member) {
+    const double sense = (p->side == Side::left ? 1.0 : -1.0) * scales.scaled_line_load(factor);
+    const double from = sense * value_at(p->value, p->value_along, cell_.from);
+    const double to = sense * value_at(p->value, p->value_along, cell_.to);
+    pressure_.middle += 0.5 * (from + to);
+    pressure_.change += to - from;
   }
-  if (const auto* p = std::get_if<PressureLoad>(&load); p != nullptr && p->member == member)
-    pressure_ += (p->side == Side::left ? 1.0 : -1.0) * scales.scaled_line_load(factor * p->value);
+}
+
+void SectionForces::add_dead(const DistributedLoad& load, double factor) {
+  for (const LinePiece& piece : pieces_of(load)) {
+    const Vec2 range = part_of(cell_, piece.range);
+    if (range[1] > range[0])
+      dead_.push_back({piece, structure_.scales.scaled_line_load(factor), load.per, load.axes, range});
+  }
 }
 
 void SectionForces::add_foundations() {
@@ -138,6 +147,16 @@ Vec2 SectionForces::position(double xi) const {
   return {x + u[0], y + u[1]};
 }
 
+Vec2 SectionForces::slope(double xi) const {
+  const StressFreeAxis& axis = *structure_.stress_free[cell_.member];
+  const StressFreePoint p =
+      axis.at(axis.perfect().length() * (cell_.from + xi * (cell_.to - cell_.from)), axis_at(xi));
+  const Vec2 t{p.stretch * std::cos(p.angle), p.stretch * std::sin(p.angle)};
+  if (structure_.geometry == Geometry::linear) return t;
+  const auto du = reader_.derivative(xi);
+  return {t[0] + du[0], t[1] + du[1]};
+}
+
 Law SectionForces::law_at(const FoundationLaw& foundation, double xi) const {
   return foundation.at(cell_.from + xi * (cell_.to - cell_.from));
 }
@@ -152,10 +171,18 @@ Vec2 SectionForces::density(double xi) const {
   Vec2 f{0.0, 0.0};
   for (const DeadLoad& load : dead_) {
     if (xi < load.range[0] || xi > load.range[1]) continue;
-    double measure = 1.0;
-    if (load.per == LoadMeasure::horizontal) measure = std::abs(std::cos(axis_at(xi).angle));
-    if (load.per == LoadMeasure::vertical) measure = std::abs(std::sin(axis_at(xi).angle));
-    for (int c = 0; c < 2; ++c) f[c] += measure * load.force[c];
+    const bool is_plain = load.per == LoadMeasure::length && load.axes == LoadAxes::global;
+    const double angle = is_plain ? 0.0 : axis_at(xi).angle;
+    const double measure = load.factor * measure_of(load.per, angle);
+    const Vec2 force =
+        global_force(load.axes, load.piece.at(cell_.from + xi * (cell_.to - cell_.from)), angle);
+    for (int c = 0; c < 2; ++c) f[c] += measure * force[c];
+  }
+  if (pressure_.change != 0.0) {  // the difference to the pressure in the middle
+    const double difference = (xi - 0.5) * pressure_.change;
+    const Vec2 tangent = slope(xi);
+    f[0] += difference * tangent[1];
+    f[1] -= difference * tangent[0];
   }
   for (const FoundationHere& foundation : foundations_) {
     if (foundation.lumped || xi < foundation.range[0] || xi > foundation.range[1]) continue;
@@ -234,15 +261,16 @@ std::array<double, 3> SectionForces::at(double xi) const {
     add(position(point.xi), point.action[0], point.action[1]);
     sum[2] += point.action[2];
   }
-  if (pressure_ != 0.0) {  // int (y', -x') ds and its moment about x0 are exact: chord and half its square
+  if (pressure_.acts()) {  // int (y', -x') ds and its moment about x0 are exact: chord and half its square
     const double dx = xb[0] - x0[0];
     const double dy = xb[1] - x0[1];
-    sum[0] += pressure_ * dy;
-    sum[1] -= pressure_ * dx;
-    sum[2] -= 0.5 * pressure_ * (dx * dx + dy * dy);
+    sum[0] += pressure_.middle * dy;
+    sum[1] -= pressure_.middle * dx;
+    sum[2] -= 0.5 * pressure_.middle * (dx * dx + dy * dy);
   }
   const std::vector<double> breaks = breaks_beyond(xi);
-  for (std::size_t b = 0; b + 1 < breaks.size() && (!dead_.empty() || !foundations_.empty()); ++b) {
+  const bool has_density = !dead_.empty() || !foundations_.empty() || pressure_.change != 0.0;
+  for (std::size_t b = 0; b + 1 < breaks.size() && has_density; ++b) {
     const double width = breaks[b + 1] - breaks[b];
     for (std::size_t i = 0; i < gauss_.points.size(); ++i) {
       const double at = breaks[b] + width * gauss_.points[i];

@@ -8,6 +8,7 @@
 
 #include "solver/discrete/element_reader.h"
 #include "solver/discrete/structure.h"
+#include "solver/model/member_loads.h"
 #include "solver/model/model.h"
 
 namespace snapthrough {
@@ -32,8 +33,10 @@ class SectionForces {
  private:
   using Vec2 = std::array<double, 2>;
   struct DeadLoad {
-    Vec2 force;
+    LinePiece piece;
+    double factor;  ///< from forces of the piece to scaled forces of the state
     LoadMeasure per;
+    LoadAxes axes;
     Vec2 range;  ///< part of the element, in [0, 1]
   };
   struct FoundationHere {
@@ -49,6 +52,7 @@ class SectionForces {
 
   void add_loads(double proportional, double constant);
   void add_load(const Load& load, double factor);
+  void add_dead(const DistributedLoad& load, double factor);
   void release_end_of_pressure(const Eigen::VectorXd& y);
   void add_foundations();
   void add_springs();
@@ -56,6 +60,8 @@ class SectionForces {
   /// Perfect axis at xi; the last value is cached.
   [[nodiscard]] const AxisPoint& axis_at(double xi) const;
   [[nodiscard]] Vec2 position(double xi) const;
+  /// Derivative of the position by the scaled arc length of the perfect axis.
+  [[nodiscard]] Vec2 slope(double xi) const;
   /// Unit direction into the foundation's medium, and its derivative with respect to s.
   [[nodiscard]] Vec2 normal_into(const FoundationLaw& foundation, double xi) const {
     return foundation.direction.at(axis_at(xi).angle);
@@ -85,7 +91,7 @@ class SectionForces {
   std::vector<DeadLoad> dead_;
   std::vector<FoundationHere> foundations_;
   std::vector<PointAction> points_;
-  double pressure_ = 0.0;  ///< pressure along the deformed right normal
+  LinePressure pressure_;  ///< pressure along the deformed right normal
 };
 
 }  // namespace snapthrough

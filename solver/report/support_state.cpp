@@ -82,6 +82,7 @@ VectorXd held_forces(const Structure& structure, ElementWork& elements, const Ve
   Regime regime;
   regime.small_displacements = structure.geometry == Geometry::linear;
   elements.add_residual(y, {lambda, 1.0}, regime, f);
+  add_joint_moments(structure, y, f);
   return f.head(3 * structure.nodes) - springs;
 }
 

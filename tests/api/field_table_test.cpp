@@ -33,8 +33,10 @@ TEST(FieldTable, HasRangesDefaultsAndAlternatives) {
           "\n| `model.foundations[].range` ? | [number >= 0, < 1, number > 0, <= 1]; default `[0,1]` |"));
   EXPECT_THAT(
       text,
-      HasSubstr("\n| `model.loads[].force` | [number, number] | force; force per length | Force [fx, fy] in "
-                "global axes / Load [qx, qy] in global axes |"));
+      HasSubstr(
+          "\n| `model.loads[].force` | [number, number] or [number, number] or object | force; force per "
+          "length | Force [fx, fy] in global axes / Load per length, the same everywhere or varying along "
+          "the member |"));
 }
 
 TEST(FieldTable, DocumentsWithoutAPlaceStay) {

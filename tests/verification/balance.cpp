@@ -44,6 +44,7 @@ class Body {
     Vec2 X, dX;  ///< initial place and tangent
     Vec2 x, dx;  ///< place and tangent in which equilibrium is stated
     double curvature;
+    double s;  ///< arc length of the initial axis
   };
   [[nodiscard]] Place at(double s) const;
   /// Adds the integral over [from, to] of a function of place, weight ds, split at element ends.
@@ -115,6 +116,7 @@ Body::Place Body::at(double s) const {
   place.X = {p.x, p.y};
   place.dX = {std::cos(p.angle), std::sin(p.angle)};
   place.curvature = p.curvature;
+  place.s = s;
   const double moved = geometry_ == Geometry::linear ? 0.0 : 1.0;
   for (int c = 0; c < 2; ++c) {
     place.x[c] = place.X[c] + moved * place.u[c];
@@ -181,7 +183,32 @@ Vec2 layer_force(const Model& model, const Member& member, const Body& body, boo
   return sum;
 }
 
-void add_load(const Load& load, const Member& member, const Body& body, double lambda, Wrench& sum) {
+/// Force of a distributed load at a place, in global axes.
+Vec2 force_at(const DistributedLoad& load, const Body::Place& at, double fraction) {
+  Vec2 q = load.force;
+  for (std::size_t i = 0; i < load.force_along.size(); ++i) {
+    const auto& [to, after] = load.force_along[i];
+    const auto& [from, before] = load.force_along[i > 0 ? i - 1 : 0];
+    if (i > 0 && fraction < from) break;
+    q = after;
+    if (i > 0 && fraction < to)
+      for (std::size_t c = 0; c < 2; ++c)
+        q[c] = (before[c] * (to - fraction) + after[c] * (fraction - from)) / (to - from);
+  }
+  if (load.axes == LoadAxes::global) return q;
+  return {q[0] * at.dX[0] - q[1] * at.dX[1], q[0] * at.dX[1] + q[1] * at.dX[0]};
+}
+
+/// Pressure at a fraction of the member, of two places where it varies.
+double pressure_at(const PressureLoad& load, double fraction) {
+  if (load.value_along.empty()) return load.value;
+  const auto& [from, before] = load.value_along.front();
+  const auto& [to, after] = load.value_along.back();
+  return before + (after - before) * std::clamp((fraction - from) / (to - from), 0.0, 1.0);
+}
+
+void add_load(const Load& load, const std::vector<Section>& sections, const Member& member, const Body& body,
+              double lambda, Wrench& sum) {
   const auto factor = [lambda](Pattern pattern) { return pattern == Pattern::constant ? 1.0 : lambda; };
   if (const auto* point = std::get_if<PointLoad>(&load); point && point->at.member == member.id) {
     const double f = factor(point->pattern);
@@ -194,14 +221,24 @@ void add_load(const Load& load, const Member& member, const Body& body, double l
       double weight = f * ds;
       if (spread->per == LoadMeasure::horizontal) weight *= std::abs(at.dX[0]);
       if (spread->per == LoadMeasure::vertical) weight *= std::abs(at.dX[1]);
-      sum.add(at.x, {weight * spread->force[0], weight * spread->force[1]});
+      const Vec2 q = force_at(*spread, at, at.s / body.length());
+      sum.add(at.x, {weight * q[0], weight * q[1]});
     };
     body.integrate(spread->range[0] * body.length(), spread->range[1] * body.length(), add);
   }
-  if (const auto* pressure = std::get_if<PressureLoad>(&load); pressure && pressure->member == member.id) {
-    const double p =
-        factor(pressure->pattern) * pressure->value * (pressure->side == Side::left ? 1.0 : -1.0);
+  if (const auto* weight = std::get_if<SelfWeight>(&load)) {
+    const Section& section = *std::find_if(sections.begin(), sections.end(),
+                                           [&](const Section& s) { return s.id == member.section; });
+    const double f = factor(weight->pattern) * *section.mass;
     const auto add = [&](const Body::Place& at, double ds) {
+      sum.add(at.x, {ds * f * weight->gravity[0], ds * f * weight->gravity[1]});
+    };
+    body.integrate(0.0, body.length(), add);
+  }
+  if (const auto* pressure = std::get_if<PressureLoad>(&load); pressure && pressure->member == member.id) {
+    const double sense = factor(pressure->pattern) * (pressure->side == Side::left ? 1.0 : -1.0);
+    const auto add = [&](const Body::Place& at, double ds) {
+      const double p = sense * pressure_at(*pressure, at.s / body.length());
       sum.add(at.x, {p * ds * at.dx[1], -p * ds * at.dx[0]});
     };
     body.integrate(0.0, body.length(), add);
@@ -324,7 +361,7 @@ Wrench member_sum(const Model& model, const State& state, std::size_t m, const B
     sum.add(body.at(last ? body.length() : 0.0).x,
             {sign * (force[0] + layer[0]), sign * (force[1] + layer[1])}, sign * moment);
   }
-  for (const Load& load : model.loads) add_load(load, member, body, state.load_factor, sum);
+  for (const Load& load : model.loads) add_load(load, model.sections, member, body, state.load_factor, sum);
   for (std::size_t f = 0; f < model.foundations.size(); ++f)
     if (model.foundations[f].member == member.id)
       add_base(model.foundations[f], state.foundations[f], body, sum);
@@ -382,7 +419,8 @@ struct Rebuilt {
 void rebuild_on_member(const Model& model, const State& state, std::size_t m, const Body& body,
                        Rebuilt& out) {
   const Member& member = model.members[m];
-  for (const Load& load : model.loads) add_load(load, member, body, state.load_factor, out.loads);
+  for (const Load& load : model.loads)
+    add_load(load, model.sections, member, body, state.load_factor, out.loads);
   for (std::size_t f = 0; f < model.foundations.size(); ++f)
     if (model.foundations[f].member == member.id)
       add_base(model.foundations[f], state.foundations[f], body, out.foundations[f]);

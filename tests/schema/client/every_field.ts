@@ -6,15 +6,24 @@ type Schemas = components['schemas'];
 
 const location: Schemas['Location'][] = [{node: 'a'}, {member: 'beam', fraction: 0.5}];
 
+const shapes: Schemas['Shape'][] = [
+  {type: 'rectangle', width: 0.3, depth: 0.5},
+  {type: 'tube', diameter: 0.5, thickness: 0.01},
+  {type: 'i_section', depth: 0.3, width: 0.15, web: 0.007, flange: 0.011, root_radius: 0.015},
+  {type: 'wall', thickness: 0.4, plane_strain: true, nu: 0.2},
+];
+
 const sections: Schemas['Section'][] = [
-  {id: 'stiffness', EA: 1e6, EI: 10, GA: 1e5},
-  {id: 'material', E: 2e8, A: 1e-2, I: 1e-5, nu: 0.3, shear_area: 8e-3},
+  {id: 'stiffness', EA: 1e6, EI: 10, GA: 1e5, mass: 0.1, expansion: 1e-5},
+  {id: 'material', E: 2e8, A: 1e-2, I: 1e-5, nu: 0.3, shear_area: 8e-3, density: 7.85, expansion: 1e-5},
+  {id: 'profile', E: 2.1e8, profile: 'IPE 300', unit: 'm', nu: 0.3, mass: 0.0422, expansion: 1e-5},
+  ...shapes.map((shape, i): Schemas['Section'] => ({id: `shape ${i}`, E: 3e7, shape, G: 1.2e7, density: 2.5, expansion: 1e-5})),
 ];
 
 const curves: Schemas['Curve'][] = [
   {type: 'line'},
   {type: 'arc', sweep_degrees: -90},
-  {type: 'parabola', rise: 1},
+  {type: 'parabola', rise: 1, direction: [0, 1]},
   {type: 'sine', rise: 1, half_waves: 2},
   {type: 'points', points: [[1, 0.5], [2, 0.7]]},
 ];
@@ -60,7 +69,16 @@ const loads: Schemas['Load'][] = [
   {type: 'point', at: {node: 'b'}, force: [0, -1], moment: 0.1, pattern: 'constant'},
   {type: 'distributed', member: 'beam', force: [0, -1], range: [0, 1], per: 'horizontal', pattern: 'proportional'},
   {type: 'pressure', member: 'beam', value: 1, side: 'left', pattern: 'proportional'},
+  {type: 'distributed', member: 'beam', force: {along: [[0, [0, 0]], [1, [0, -2]]]}, axes: 'member'},
   {type: 'initial_strain', member: 'beam', axial: 1e-4, curvature: 0, pattern: 'constant'},
+  {type: 'pressure', member: 'beam', value: {along: [[0, 0], [1, 10]]}, side: 'right'},
+  {type: 'initial_strain', member: 'beam', axial: {along: [[0, 0], [1, 1e-4]]}, curvature: {along: [[0, 0], [1, 1e-3]]}},
+  {type: 'self_weight', gravity: [0, -9.81], pattern: 'constant'},
+  {type: 'temperature', member: 'beam', change: 30, gradient: {along: [[0, 5], [1, 10]]}, pattern: 'proportional'},
+];
+
+const loadCases: Schemas['LoadCase'][] = [
+  {id: 'snow', factor: 1.5, grows: true, loads: [{type: 'distributed', member: 'beam', force: [0, -1], per: 'horizontal'}]},
 ];
 
 const imperfections: Schemas['Imperfection'][] = [
@@ -76,8 +94,8 @@ const model: Schemas['Model'] = {
   sections,
   members: curves.map((curve, i) => ({
     id: `beam ${i}`, start: 'a', end: 'b', section: 'stiffness', curve,
-    release: {start: ['rotation'], end: []}})),
-  supports, springs, foundations, loads, imperfections,
+    release: {start: ['rotation'], end: {rotation: 5000}}})),
+  supports, springs, foundations, loads, load_cases: loadCases, imperfections,
   monitors: location.map((at, i) => ({id: `m${i}`, at, component: 'y'})),
 };
 

@@ -15,6 +15,9 @@ export function randomNumbers(seed) {
 
 const kLetters = ['a', 'b', 'c', 'd', '/', '~', ' ', '"', 'ä', '梁', '🌉', '\u0080'];
 
+/** Loads of a model, those of its load cases among them. */
+const loadsOf = (model) => [...(model.loads ?? []), ...(model.load_cases ?? []).flatMap((one) => one.loads)];
+
 export class Drawer {
   constructor(seed) { this.random = randomNumbers(seed); }
 
@@ -100,7 +103,7 @@ export class Drawer {
     const {model, analysis} = request;
     const often = (change) => { if (this.random() < 29 / 30) change(); };
     const size = () => (this.random() - 0.5) * 20;
-    for (const list of ['nodes', 'sections', 'members', 'springs', 'foundations', 'monitors']) {
+    for (const list of ['nodes', 'sections', 'members', 'springs', 'foundations', 'load_cases', 'monitors']) {
       often(() => (model[list] ?? []).forEach((one, i) => { one.id = `${[...one.id].slice(0, 190).join('')}#${i}`; }));
     }
     while (model.nodes.length < 2) model.nodes.push({id: `n${model.nodes.length}`, x: 0, y: 0});
@@ -114,10 +117,12 @@ export class Drawer {
     const locate = (at) => { if ('node' in at) at.node = node(); else at.member = member(); };
     often(() => { (model.supports ??= []).forEach((one, i) => { one.node = model.nodes[i % model.nodes.length].id; }); });
     often(() => this.hold(model));
-    often(() => [...(model.springs ?? []), ...(model.monitors ?? []), ...(model.loads ?? [])].forEach((one) => one.at && locate(one.at)));
-    for (const list of ['foundations', 'loads', 'imperfections']) {
-      often(() => (model[list] ?? []).forEach((one) => { if ('member' in one) one.member = member(); }));
+    const loads = loadsOf(model);
+    often(() => [...(model.springs ?? []), ...(model.monitors ?? []), ...loads].forEach((one) => one.at && locate(one.at)));
+    for (const list of [model.foundations ?? [], loads, model.imperfections ?? []]) {
+      often(() => list.forEach((one) => { if ('member' in one) one.member = member(); }));
     }
+    often(() => this.agreeSections(model));
     often(() => this.agree(model, analysis));
     return request;
   }
@@ -131,6 +136,22 @@ export class Drawer {
     for (const one of model.members) delete one.release;
   }
 
+  /** Dimensions that go together, one of two fields, what the loads need. */
+  agreeSections(model) {
+    for (const one of model.sections) {
+      if ('mass' in one) delete one.density;
+      if ('nu' in one) delete one.G;
+      if (one.shape?.type === 'tube') one.shape.thickness = one.shape.diameter / 4 || one.shape.diameter;
+      if (one.shape?.type === 'i_section') {
+        Object.assign(one.shape, {web: one.shape.width / 4 || one.shape.width, flange: one.shape.depth / 4 || one.shape.depth});
+        delete one.shape.root_radius;
+      }
+      if (!('density' in one)) one.mass ??= 1;
+      one.expansion ??= 1e-5;
+    }
+    for (const one of (model.load_cases ?? []).flatMap(({loads}) => loads)) delete one.pattern;
+  }
+
   /** What goes with what between fields. */
   agree(model, analysis) {
     const order = (pair) => { if (pair) pair.sort((a, b) => a - b); if (pair && pair[0] === pair[1]) pair[0] -= 0.5; };
@@ -138,7 +159,11 @@ export class Drawer {
       if (one.reaction !== 'compression_only' && one.reaction !== 'tension_only') delete one.gap;
       else delete one.shear_stiffness;
     }
-    for (const one of [...(model.foundations ?? []), ...(model.loads ?? [])]) if (one.range) order(one.range);
+    const loads = loadsOf(model);
+    for (const one of [...(model.foundations ?? []), ...loads]) if (one.range) order(one.range);
+    for (const value of loads.flatMap((one) => Object.values(one))) {
+      if (value.along) value.along = value.along.map(([, amount], i) => [i / value.along.length, amount]);
+    }
     for (const one of model.monitors ?? []) if ('node' in one.at && one.component === 'normal') one.component = 'x';
     (model.loads ??= []).push({type: 'point', at: {node: model.nodes.at(-1).id}, force: [0, -1]});
     for (const one of model.imperfections ?? []) {

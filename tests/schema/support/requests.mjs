@@ -59,6 +59,19 @@ const ring = () => ({
 const fixed = {elements: 12, order: 3};
 const rule = {limit_points: 2};
 
+/** A portal of a profile with semi-rigid joints, weight, temperature and a load case. */
+const portal = () => ({
+  nodes: [{id: 'a', x: 0, y: 0}, {id: 'b', x: 0, y: 4}, {id: 'c', x: 6, y: 4}, {id: 'd', x: 6, y: 0}],
+  sections: [{id: 's', E: 2.1e8, profile: 'HEB 200', unit: 'm', density: 7.85, expansion: 1.2e-5}],
+  members: [{id: 'left', start: 'a', end: 'b', section: 's'},
+            {id: 'beam', start: 'b', end: 'c', section: 's', release: {start: {rotation: 5000}, end: {rotation: 5000}}},
+            {id: 'right', start: 'd', end: 'c', section: 's'}],
+  supports: [{node: 'a', fixed: ['x', 'y']}, {node: 'd', fixed: ['x', 'y']}],
+  loads: [{type: 'self_weight', gravity: [0, -9.81], pattern: 'constant'},
+          {type: 'temperature', member: 'beam', change: 20, pattern: 'constant'}],
+  load_cases: [{id: 'roof', grows: true, loads: [{type: 'distributed', member: 'beam', force: {along: [[0, [0, -1]], [1, [0, -2]]]}}]}],
+});
+
 /** A request whose structure may move without stiffness beside the path: answered with that motion, or with a failure. */
 export const loose = () => ({model: ring(), analysis: {type: 'critical'}});
 
@@ -95,6 +108,7 @@ export function answerable() {
   add('strains too large for the theory', {...column(), sections: [{id: 'shaft', EA: 10, EI: 100}]},
       {type: 'path', stop: {load_factor: [-1, 2]}});
   add('buckling, arch', arch(), {type: 'buckling', modes: 2});
+  add('buckling, portal', portal(), {type: 'buckling', modes: 2});
   add('buckling, opposite actions', arch(), {type: 'buckling', modes: 2, reversed: true});
   add('path, falling load', arch(), {type: 'path', step: {direction: -1}, stop: {steps: 5}});
   add('static, unstable', arch(), {type: 'static', load_factors: [1, 24], unstable: 'follow'});

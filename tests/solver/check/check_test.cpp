@@ -56,6 +56,13 @@ SineImperfection& sine_imperfection(Model& m) { return std::get<SineImperfection
 void use_curve(Model& m, Curve curve) { m.members[0].curve = std::move(curve); }
 void use_load(Model& m, Load load) { m.loads.push_back(std::move(load)); }
 
+DistributedLoad varying(Along<std::array<double, 2>> force) {
+  DistributedLoad load;
+  load.member = "ab";
+  load.force_along = std::move(force);
+  return load;
+}
+
 void use_worst(Model& m) { m.imperfections[0] = WorstImperfection{OffsetNorm::rms, 1e-3}; }
 
 void start_with_a_state(const Model& m, Analysis& a) {
@@ -202,6 +209,41 @@ const Case kSupportCases[] = {
      "/model/foundations/0/direction", "zero_direction"},
 };
 INSTANTIATE_TEST_SUITE_P(Support, CheckRule, ::testing::ValuesIn(kSupportCases), case_name);
+
+const Case kMemberCases[] = {
+    {"MassNegative", SPOIL(m.sections[0].mass = -1.0), "/model/sections/0/mass", "out_of_range"},
+    {"ExpansionNan", SPOIL(m.sections[0].expansion = kNan), "/model/sections/0/expansion", "out_of_range"},
+    {"JointStiffnessNegative", SPOIL(m.members[1].release_end_stiffness = -1.0),
+     "/model/members/1/release/end/rotation", "out_of_range"},
+    {"ParabolaDirectionZero", SPOIL(use_curve(m, ParabolaCurve{0.5, std::array{0.0, 0.0}})),
+     "/model/members/0/curve/direction", "zero_direction"},
+    {"ParabolaAlongItsChord",
+     SPOIL(use_curve(
+         m, ParabolaCurve{0.5, std::array{m.nodes[0].x - m.nodes[1].x, m.nodes[0].y - m.nodes[1].y}})),
+     "/model/members/0/curve/direction", "out_of_range"},
+    {"VaryingForceNan", SPOIL(use_load(m, varying({{0.0, {0.0, 1.0}}, {1.0, {kNan, 1.0}}}))),
+     "/model/loads/2/force/along/1/1/0", "out_of_range"},
+    {"VaryingForceOutside", SPOIL(use_load(m, varying({{0.0, {0.0, 1.0}}, {1.5, {0.0, 1.0}}}))),
+     "/model/loads/2/force/along/1/0", "out_of_range"},
+    {"VaryingForceTwiceAtAPlace", SPOIL(use_load(m, varying({{0.5, {0.0, 1.0}}, {0.5, {0.0, 1.0}}}))),
+     "/model/loads/2/force/along/1/0", "not_increasing"},
+    {"WeightWithoutMass", SPOIL(use_load(m, SelfWeight{{0.0, -10.0}, Pattern::constant})),
+     "/model/sections/0/mass", "missing_field"},
+    {"GravityInfinite",
+     SPOIL(m.sections[0].mass = 1.0; use_load(m, SelfWeight{{kInf, 0.0}, Pattern::constant})),
+     "/model/loads/2/gravity/0", "out_of_range"},
+    {"TemperatureWithoutExpansion",
+     SPOIL(use_load(m, TemperatureLoad{"ab", 1.0, 0.0, Pattern::constant, {}, {}})),
+     "/model/sections/0/expansion", "missing_field"},
+    {"TemperatureMemberUnknown",
+     SPOIL(use_load(m, TemperatureLoad{"z", 1.0, 0.0, Pattern::constant, {}, {}})), "/model/loads/2/member",
+     "unknown_reference"},
+    {"LoadCaseIdTwice", SPOIL(m.load_cases = {{"one", 0}, {"one", 0}}), "/model/load_cases/1/id",
+     "duplicate_id"},
+    {"LoadOfACase", SPOIL(m.load_cases = {{"one", m.loads.size()}}; point_load(m).force[1] = kNan),
+     "/model/load_cases/0/loads/0/force/1", "out_of_range"},
+};
+INSTANTIATE_TEST_SUITE_P(Members, CheckRule, ::testing::ValuesIn(kMemberCases), case_name);
 
 const Case kActionCases[] = {
     {"LoadNodeUnknown", SPOIL(point_load(m).at.node = "z"), "/model/loads/0/at/node", "unknown_reference"},

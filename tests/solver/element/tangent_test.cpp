@@ -142,15 +142,26 @@ void make_compatible(const Structure& structure, Eigen::VectorXd& x) {
   }
 }
 
-/// The tangent holds the symmetric part of a follower pressure's derivative. The rest belongs to the ends of
-/// elements and does no work on continuous motions that vanish at supports: on these the tangent is that of
-/// the residual.
-TEST_P(Tangent, OfFollowerPressureMatchesOnContinuousMotions) {
-  const auto [order, shearable, rule] = GetParam();
+std::vector<Load> even_pressure() {
+  return {PressureLoad{"left", 40.0, Side::left, Pattern::proportional},
+          PressureLoad{"right", 40.0, Side::left, Pattern::proportional}};
+}
+
+/// Pressure that changes along both members and jumps between them.
+std::vector<Load> varying_pressure() {
+  return {PressureLoad{"left", 0.0, Side::left, Pattern::proportional, {{0.0, 40.0}, {0.5, 90.0}}},
+          PressureLoad{"right", 0.0, Side::left, Pattern::constant, {{0.0, 60.0}, {1.0, -50.0}}}};
+}
+
+/// The tangent holds the symmetric part of a follower pressure's derivative, and the skew part where the
+/// pressure changes or jumps. The rest belongs to the ends of elements and does no work on continuous motions
+/// that vanish at supports: on these the tangent is that of the residual.
+void expect_tangent_of_pressure(const std::tuple<int, bool, FoundationRule>& param,
+                                const std::vector<Load>& loads) {
+  const auto [order, shearable, rule] = param;
   std::srand(17u + static_cast<unsigned>(order));
   Model model = everything(shearable);
-  model.loads = {PressureLoad{"left", 40.0, Side::left, Pattern::proportional},
-                 PressureLoad{"right", 40.0, Side::left, Pattern::proportional}};
+  model.loads = loads;
   const Structure structure = make_structure(model, fixed_mesh(6, order, rule), Geometry::nonlinear);
   StructuralProblem problem(structure);
   for (int trial = 0; trial < 5; ++trial) {
@@ -170,6 +181,33 @@ TEST_P(Tangent, OfFollowerPressureMatchesOnContinuousMotions) {
     EXPECT_NEAR(z.dot(plus - minus) / (2.0 * kStep), exact, 1e-6 * std::abs(exact) + 1e-7)
         << "trial " << trial;
     EXPECT_GT(std::abs(exact - without), 1e-4) << "the pressure does not matter here: the test shows nothing";
+  }
+}
+
+TEST_P(Tangent, OfFollowerPressureMatchesOnContinuousMotions) {
+  expect_tangent_of_pressure(GetParam(), even_pressure());
+}
+
+TEST_P(Tangent, OfVaryingPressureMatchesOnContinuousMotions) {
+  expect_tangent_of_pressure(GetParam(), varying_pressure());
+}
+
+TEST_P(Tangent, OfVaryingPressureIsInvertedByTheElimination) {
+  const auto [order, shearable, rule] = GetParam();
+  std::srand(29u + static_cast<unsigned>(order));
+  Model model = everything(shearable);
+  model.loads = varying_pressure();
+  const Structure structure = make_structure(model, fixed_mesh(6, order, rule), Geometry::nonlinear);
+  ASSERT_GE(structure.follower_ends.size(), 9u * static_cast<std::size_t>(order));
+  StructuralProblem problem(structure);
+  for (int trial = 0; trial < 3; ++trial) {
+    const Eigen::VectorXd y = random_state(problem, 0.3);
+    const Eigen::VectorXd x = Eigen::VectorXd::Random(problem.size());
+    Eigen::VectorXd residual;
+    problem.linearise(y, 1.0, residual);
+    Eigen::VectorXd solved = problem.tangent_product(y, 1.0, x);
+    problem.solve(solved);
+    EXPECT_LT((solved - x).norm(), 1e-7 * x.norm()) << "trial " << trial;
   }
 }
 

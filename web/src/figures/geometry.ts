@@ -141,7 +141,11 @@ function parametric(curve: Curve, start: Point, end: Point): (t: number) => Poin
   });
   switch (curve.type) {
     case "line": return over(() => 0);
-    case "parabola": return over((t) => 4 * curve.rise * t * (1 - t));
+    case "parabola": {
+      const [ux, uy] = curve.direction ?? [nx, ny];
+      const rise = (4 * curve.rise) / Math.hypot(ux, uy);
+      return (t) => ({ x: start.x + t * dx + rise * t * (1 - t) * ux, y: start.y + t * dy + rise * t * (1 - t) * uy });
+    }
     case "sine": return over((t) => curve.rise * Math.sin((curve.half_waves ?? 1) * Math.PI * t));
     case "arc": return arc(curve.sweep_degrees, start, end);
     case "points": return splineCurve(curve.points, start, end);

@@ -97,9 +97,11 @@ function loadText(model: Model, factor: number): string {
     if (!("pattern" in load) || load.pattern !== "constant") {
       switch (load.type) {
         case "point": return (load.moment ?? 0) === 0 ? [[Math.hypot(...(load.force ?? [0, 0])), "force"]] : [[Number.NaN, "moment"]];
-        case "distributed": return [[Math.hypot(...load.force), "line_load"]];
-        case "pressure": return [[Math.abs(load.value), "line_load"]];
-        case "initial_strain": return [[Number.NaN, "none"]];
+        case "distributed": return "along" in load.force ? [[Number.NaN, "none"]] : [[Math.hypot(...load.force), "line_load"]];
+        case "pressure": return typeof load.value === "number" ? [[Math.abs(load.value), "line_load"]] : [[Number.NaN, "none"]];
+        case "initial_strain":
+        case "self_weight":
+        case "temperature": return [[Number.NaN, "none"]];
       }
     }
     return [];

@@ -6,6 +6,7 @@ import { at, interpolate, last, type Point } from "../geometry";
 import { placeLabel, type Occupancy } from "../labels";
 import { formatWithUnit, unitOf } from "../numbers";
 import { coordinate, group, path, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
+import { largestForce, largestPressure } from "./loads";
 import { drawnLoadFactor, intoMedium, toPixel, type DrawnMember, type Foundation, type Scene, type View } from "./scene";
 
 const kHatchSpacing = 9;
@@ -138,7 +139,7 @@ const kRounding = 1e-6;  // of the largest axial force over the structure's size
 function referenceReaction(scene: Scene): number {
   let largest = 0;
   for (const load of scene.input.model.loads ?? []) {
-    const size = load.type === "distributed" ? Math.hypot(...load.force) : load.type === "pressure" ? load.value : 0;
+    const size = load.type === "distributed" ? largestForce(load) : load.type === "pressure" ? largestPressure(load) : 0;
     largest = Math.max(largest, 0.02 * Math.abs(size * drawnLoadFactor(scene)));
   }
   for (const { axial_force: forces } of Object.values(scene.input.state?.members ?? {})) {

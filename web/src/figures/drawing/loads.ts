@@ -12,6 +12,8 @@ type Load = components["schemas"]["Load"];
 type Distributed = Extract<Load, { type: "distributed" }>;
 type Pressure = Extract<Load, { type: "pressure" }>;
 type PointLoad = Extract<Load, { type: "point" }>;
+type Strain = Extract<Load, { type: "initial_strain" | "temperature" }>;
+type Amount = NonNullable<Extract<Load, { type: "temperature" }>["change"]>;
 
 const kPointArrow = 46;
 const kLineArrow = 26;
@@ -119,10 +121,42 @@ function lineArrows(range: readonly [number, number], member: string, scene: Sce
   return highest;
 }
 
+/** Largest force per length of a distributed load. */
+export function largestForce({ force }: Distributed): number {
+  return "along" in force ? Math.max(...force.along.map(([, value]) => Math.hypot(...value))) : Math.hypot(...force);
+}
+
+/** The pressure of largest size, with its sign. */
+export function largestPressure({ value }: Pressure): number {
+  if (typeof value === "number") return value;
+  return value.along.reduce((most, [, one]) => Math.abs(one) > Math.abs(most) ? one : most, 0);
+}
+
+/** Two neighbours of a fraction among places that ascend, and its share of the way between them. */
+function between<T>(along: readonly (readonly [number, T])[], fraction: number): [T, T, number] | null {
+  const next = along.findIndex(([at]) => at > fraction);
+  const after = along[next < 0 ? along.length - 1 : next];
+  const before = along[next < 0 ? along.length - 1 : Math.max(0, next - 1)];
+  if (!before || !after) return null;
+  return [before[1], after[1], after[0] > before[0] ? (fraction - before[0]) / (after[0] - before[0]) : 0];
+}
+
+function pressureAt({ value }: Pressure, fraction: number): number {
+  if (typeof value === "number") return value;
+  const [before, after, share] = between(value.along, fraction) ?? [0, 0, 0];
+  return before + share * (after - before);
+}
+
+/** Force per length at a fraction of the member, in the axes of the load. */
+function forceAt({ force }: Distributed, fraction: number): readonly [number, number] {
+  if (!("along" in force)) return force;
+  const [before, after, share] = between(force.along, fraction) ?? [[0, 0], [0, 0], 0];
+  return [before[0] + share * (after[0] - before[0]), before[1] + share * (after[1] - before[1])];
+}
+
 function distributedArrows(load: Distributed, scene: Scene, view: View, largest: number, arrows: Arrows): void {
   const drawn = scene.members.get(load.member);
-  const [qx, qy] = load.force;
-  const size = Math.hypot(qx, qy);
+  const size = largestForce(load);
   if (!drawn || size === 0) return;
   const factor = factorOf(load, scene);
   const scale = Math.sign(senseOf(factor)) * Math.max(0.5, size / largest) / size;
@@ -131,7 +165,12 @@ function distributedArrows(load: Distributed, scene: Scene, view: View, largest:
     if (load.per === "horizontal") return Math.abs(normal.y);
     return load.per === "vertical" ? Math.abs(normal.x) : 1;
   };
-  const pull = (s: number) => ({ x: share(s) * scale * qx, y: share(s) * scale * qy });
+  const pull = (s: number) => {
+    const { tangent, normal } = placeOn(drawn, s);
+    const [a, b] = forceAt(load, s / last(drawn.s));
+    const [qx, qy] = load.axes === "member" ? [a * tangent.x + b * normal.x, a * tangent.y + b * normal.y] : [a, b];
+    return { x: share(s) * scale * qx, y: share(s) * scale * qy };
+  };
   const top = lineArrows(load.range ?? [0, 1], load.member, scene, view, pull, arrows);
   const unit = unitOf(scene.input.model.units, "line_load");
   if (top) arrows.notes.push({ at: top, text: formatWithUnit(Math.abs(factor) * size, unit), size });
@@ -139,27 +178,38 @@ function distributedArrows(load: Distributed, scene: Scene, view: View, largest:
 
 function pressureArrows(load: Pressure, scene: Scene, view: View, largest: number, arrows: Arrows): void {
   const drawn = scene.members.get(load.member);
-  if (!drawn || load.value === 0) return;
+  const most = largestPressure(load);
+  if (!drawn || most === 0) return;
   const factor = factorOf(load, scene);
   const side = load.side === "right" ? 1 : -1;
-  const scale = side * Math.sign(senseOf(factor) * load.value) * Math.max(0.5, Math.abs(load.value) / largest);
+  const scale = side * Math.sign(senseOf(factor) * most) * Math.max(0.5, Math.abs(most) / largest);
   const pull = (s: number) => {
     const { tangent } = placeOn(drawn, s);
-    return { x: -scale * tangent.y, y: scale * tangent.x };
+    const share = pressureAt(load, s / last(drawn.s)) / most;
+    return { x: -share * scale * tangent.y, y: share * scale * tangent.x };
   };
   const top = lineArrows([0, 1], load.member, scene, view, pull, arrows);
   const unit = unitOf(scene.input.model.units, "line_load");
-  const text = formatWithUnit(Math.abs(factor * load.value), unit);
-  if (top) arrows.notes.push({ at: top, text, size: Math.abs(load.value) });
+  const text = formatWithUnit(Math.abs(factor * most), unit);
+  if (top) arrows.notes.push({ at: top, text, size: Math.abs(most) });
 }
 
-function strainNote(load: Extract<Load, { type: "initial_strain" }>, scene: Scene, view: View, arrows: Arrows): void {
+function strainNote(load: Strain, scene: Scene, view: View, arrows: Arrows): void {
   const drawn = scene.members.get(load.member);
   if (!drawn) return;
   const factor = factorOf(load, scene);
   const texts: string[] = [];
-  if (load.axial) texts.push(`initial strain ${formatWithUnit(factor * load.axial, "", 3)}`);
-  if (load.curvature) texts.push(`initial curvature ${formatWithUnit(factor * load.curvature, "", 3)}`);
+  const add = (name: string, value: Amount | undefined) => {
+    if (value === undefined || value === 0) return;
+    texts.push(typeof value === "number" ? `${name} ${formatWithUnit(factor * value, "", 3)}` : `${name} that varies`);
+  };
+  if (load.type === "initial_strain") {
+    add("initial strain", load.axial);
+    add("initial curvature", load.curvature);
+  } else {
+    add("temperature", load.change);
+    add("temperature gradient", load.gradient);
+  }
   const place = toPixel(view, placeOn(drawn, 0.35 * last(drawn.s)).moved);
   arrows.notes.push({ at: place, text: texts.join(", "), size: 0 });
 }
@@ -167,8 +217,8 @@ function strainNote(load: Extract<Load, { type: "initial_strain" }>, scene: Scen
 function largestOf(loads: readonly Load[], type: "point" | "line"): number {
   const sizes = loads.map((load) => {
     if (load.type === "point") return type === "point" ? Math.hypot(...load.force) : 0;
-    if (load.type === "distributed") return type === "line" ? Math.hypot(...load.force) : 0;
-    return load.type === "pressure" && type === "line" ? Math.abs(load.value) : 0;
+    if (load.type === "distributed") return type === "line" ? largestForce(load) : 0;
+    return load.type === "pressure" && type === "line" ? Math.abs(largestPressure(load)) : 0;
   });
   return sizes.reduce((most, size) => Math.max(most, size), 0) || 1;
 }
@@ -183,7 +233,7 @@ export function loadShapes(scene: Scene, view: View, taken: Occupancy): { arrows
     if (load.type === "point") pointArrow(load, scene, view, largestPoint, arrows);
     else if (load.type === "distributed") distributedArrows(load, scene, view, largestLine, arrows);
     else if (load.type === "pressure") pressureArrows(load, scene, view, largestLine, arrows);
-    else strainNote(load, scene, view, arrows);
+    else if (load.type !== "self_weight") strainNote(load, scene, view, arrows);
   }
   for (const arrow of arrows.drawn) taken.addLine(arrow, 20);
   if (scene.mirror !== null) {

@@ -1,0 +1,236 @@
+/// Reader of sections.
+
+#include <algorithm>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/read_parts.h"
+#include "solver/model/limits.h"
+#include "solver/model/section_shape.h"
+
+namespace snapthrough::api {
+
+namespace {
+
+/// Cross section with the factor of Young's modulus: 1 / (1 - nu^2) in plane strain.
+struct Shape {
+  SectionGeometry geometry;
+  double stiffening = 1.0;
+};
+
+/// Reads a required positive number; NaN when it is invalid.
+void read_positive(Object& in, std::string_view key, double& out) {
+  in.required(key, out);
+  if (!(out > 0.0 && out <= kMaxMagnitude) && out == out) {
+    in.find(key)->report("out_of_range", std::string(key) + " must be positive and finite");
+    set_unread(out);
+  }
+}
+
+/// Reads a required Poisson's ratio; NaN when it is invalid.
+double read_nu(Object& in) {
+  double nu = 0.0;
+  in.required("nu", nu);
+  if (nu <= -1.0 || nu > 0.5) {
+    in.find("nu")->report("out_of_range", "nu must be above -1 and at most 0.5");
+    set_unread(nu);
+  }
+  return nu;
+}
+
+/// Reports a dimension that does not go with the others, and makes it NaN.
+void require(bool holds, Object& in, std::string_view key, std::string rule, double& out) {
+  if (holds || out != out) {
+    return;
+  }
+  in.find(key)->report("out_of_range", std::string(key) + " must be " + std::move(rule));
+  set_unread(out);
+}
+
+Shape read_rectangle(Object& in) {
+  double width = 0.0, depth = 0.0;
+  read_positive(in, "width", width);
+  read_positive(in, "depth", depth);
+  return {rectangle(width, depth)};
+}
+
+Shape read_tube(Object& in) {
+  double diameter = 0.0, thickness = 0.0;
+  read_positive(in, "diameter", diameter);
+  read_positive(in, "thickness", thickness);
+  require(!(thickness > 0.5 * diameter), in, "thickness", "at most half of the diameter", thickness);
+  return {tube(diameter, thickness)};
+}
+
+Shape read_i_section(Object& in) {
+  ISection out;
+  read_positive(in, "depth", out.depth);
+  read_positive(in, "width", out.width);
+  read_positive(in, "web", out.web);
+  read_positive(in, "flange", out.flange);
+  require(!(out.web > out.width), in, "web", "at most the width", out.web);
+  require(!(2.0 * out.flange >= out.depth), in, "flange", "less than half of the depth", out.flange);
+  if (in.optional("root_radius", out.root_radius)) {
+    const double most = std::min(0.5 * (out.width - out.web), 0.5 * out.depth - out.flange);
+    require(!(out.root_radius < 0.0 || out.root_radius > most), in, "root_radius",
+            "from 0 to where the fillet meets the edge of the flange or the other fillet", out.root_radius);
+  }
+  return {i_section(out)};
+}
+
+/// Wall of width 1 across the plane.
+Shape read_wall(Object& in) {
+  double thickness = 0.0;
+  bool plane_strain = false;
+  read_positive(in, "thickness", thickness);
+  const bool has_field = in.optional("plane_strain", plane_strain);
+  Shape out{rectangle(1.0, thickness)};
+  if (has_field || in.find("nu")) {
+    const double nu = read_nu(in);
+    out.stiffening = plane_strain ? 1.0 / (1.0 - nu * nu) : 1.0;
+  }
+  return out;
+}
+
+void read(const Value& value, Shape& out) {
+  static constexpr Named<Shape (*)(Object&)> kForms[] = {
+      {"rectangle", read_rectangle}, {"tube", read_tube}, {"i_section", read_i_section}, {"wall", read_wall}};
+  set_unread(out.geometry.area);
+  read_tagged(value, kForms, out);
+}
+
+/// Reads the name of a profile and the model's unit of length.
+Shape read_profile(Object& in) {
+  static constexpr Named<double> kUnits[] = {{"m", 1e-3}, {"cm", 0.1}, {"mm", 1.0}};
+  Shape out;
+  set_unread(out.geometry.area);
+  double factor = 0.0;
+  if (const auto unit = in.find_required("unit")) {
+    read_named(*unit, kUnits, factor);
+  }
+  std::vector<std::string_view> names;
+  for (const Profile& profile : profiles()) {
+    names.push_back(profile.name);
+  }
+  const auto choice = read_choice(*in.find("profile"), names);
+  if (choice && factor > 0.0) {
+    out.geometry = i_section(scaled(profiles()[*choice].section, factor));
+  }
+  return out;
+}
+
+/// Sets mass and expansion. @param area null: the section is given by its stiffness
+void read_mass(Object& in, const double* area, Section& out) {
+  in.optional("expansion", out.expansion);
+  const auto mass = in.find("mass");
+  if (mass) {
+    read(*mass, out.mass);
+  }
+  if (area == nullptr || !in.find("density")) {
+    return;
+  }
+  double density = 0.0;
+  read_positive(in, "density", density);
+  out.mass = density * *area;
+  if (mass) {
+    in.find("density")->report("ambiguous", "give mass or density, not both");
+  }
+}
+
+/// Sets the stiffness of a material and a shape.
+void set_stiffness(Object& in, double E, double G, const Shape& shape, Section& out) {
+  out.EA = E * shape.stiffening * shape.geometry.area;
+  out.EI = E * shape.stiffening * shape.geometry.second_moment;
+  if (G != 0.0) {
+    out.GA = G * shape.geometry.shear_area;
+  }
+  read_mass(in, &shape.geometry.area, out);
+  const auto is_usable = [](double v) { return v > 0.0 && v <= kMaxMagnitude; };
+  const auto is_nan = [](double v) { return v != v; };
+  if (is_nan(out.EA) || is_nan(out.EI) || is_nan(out.GA.value_or(0.0)) || is_nan(out.mass.value_or(0.0))) {
+    in.value().document_report().mark_unreadable(in.value().pointer());
+  } else if (!is_usable(out.EA) || !is_usable(out.EI) || !is_usable(out.GA.value_or(1.0)) ||
+             !(out.mass.value_or(0.0) <= kMaxMagnitude)) {
+    in.value().report("out_of_range",
+                      "the products E A, E I, G shear_area and density A must be positive and finite");
+  }
+}
+
+/// Reads a section by material and area: EA = E A, EI = E I, GA = shear_area E / (2 (1 + nu)).
+void read_material_section(Object& in, Section& out) {
+  double E = 0.0, nu = 0.0;
+  Shape shape;
+  read_positive(in, "E", E);
+  read_positive(in, "A", shape.geometry.area);
+  read_positive(in, "I", shape.geometry.second_moment);
+  const bool has_shear = in.find("shear_area").has_value();
+  if (in.find("nu") || has_shear) {
+    nu = read_nu(in);
+  }
+  if (has_shear) {
+    read_positive(in, "shear_area", shape.geometry.shear_area);
+  }
+  set_stiffness(in, E, has_shear ? E / (2.0 * (1.0 + nu)) : 0.0, shape, out);
+}
+
+/// Reads a section by material and shape or profile. It shears if nu or G is given.
+void read_shaped_section(Object& in, Section& out) {
+  double E = 0.0, G = 0.0;
+  Shape shape;
+  read_positive(in, "E", E);
+  if (const auto given = in.find("shape")) {
+    read(*given, shape);
+  } else {
+    shape = read_profile(in);
+  }
+  if (in.find("G")) {
+    read_positive(in, "G", G);
+  }
+  if (const auto nu = in.find("nu")) {
+    if (in.find("G")) {
+      nu->report("ambiguous", "give nu or G, not both: G = E / (2 (1 + nu))");
+    }
+    G = E / (2.0 * (1.0 + read_nu(in)));
+  }
+  set_stiffness(in, E, G, shape, out);
+}
+
+}  // namespace
+
+void read(const Value& value, Section& out) {
+  Object in(value);
+  in.required("id", out.id);
+  const auto has_any = [&in](std::initializer_list<std::string_view> keys) {
+    return std::any_of(keys.begin(), keys.end(),
+                       [&in](std::string_view key) { return in.is_readable() && in.value().member(key); });
+  };
+  const bool by_stiffness = has_any({"EA", "EI", "GA"});
+  const bool by_shape = has_any({"shape", "profile"});
+  const bool by_area = has_any({"A", "I", "shear_area"});
+  const bool by_material = by_shape || by_area || has_any({"E", "nu"});
+  if ((by_stiffness && by_material) || (by_shape && by_area) ||
+      (has_any({"shape"}) && has_any({"profile"}))) {
+    value.report(
+        "ambiguous",
+        "a section is given by EA, EI, GA, or by E with A, I, shear_area, or by E with a shape, or by E "
+        "with a profile, not by several of them");
+    return;
+  }
+  if (by_stiffness || !by_material) {
+    in.required("EA", out.EA);
+    in.required("EI", out.EI);
+    in.optional("GA", out.GA);
+    read_mass(in, nullptr, out);
+  }
+  if (by_shape) {
+    read_shaped_section(in, out);
+  } else if (by_material) {
+    read_material_section(in, out);
+  }
+  in.finish();
+}
+
+}  // namespace snapthrough::api

@@ -1,0 +1,41 @@
+#pragma once
+/// @file
+/// Loads of members in the forms that the equations take: forces per length, initial strains.
+
+#include <array>
+#include <vector>
+
+#include "solver/model/model.h"
+
+namespace snapthrough {
+
+/// Value at a fraction of the member; `constant` if the value does not vary.
+template <class T>
+[[nodiscard]] T value_at(const T& constant, const Along<T>& along, double fraction);
+
+/// Part of a distributed load on which its force is a linear function of the fraction.
+struct LinePiece {
+  std::array<double, 2> range{};  ///< fractions of the member
+  std::array<double, 2> from{};   ///< force at the range's start, in the axes of the load
+  std::array<double, 2> to{};
+
+  [[nodiscard]] std::array<double, 2> at(double fraction) const;
+};
+
+/// Pieces of a distributed load, ascending.
+[[nodiscard]] std::vector<LinePiece> pieces_of(const DistributedLoad& load);
+
+/// Length to which a load refers, per undeformed length of an axis at an angle.
+[[nodiscard]] double measure_of(LoadMeasure per, double angle);
+
+/// Components along global axes of a force in the axes of a load, where the member's axis has an angle.
+[[nodiscard]] std::array<double, 2> global_force(LoadAxes axes, const std::array<double, 2>& force,
+                                                 double angle);
+
+/// Weight of a member. @pre the member's section has a mass
+[[nodiscard]] DistributedLoad weight_of(const Model& model, const Member& member, const SelfWeight& load);
+
+/// Strain by temperature. @pre the member's section has an expansion
+[[nodiscard]] InitialStrain strain_of(const Model& model, const TemperatureLoad& load);
+
+}  // namespace snapthrough

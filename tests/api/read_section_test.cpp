@@ -1,0 +1,281 @@
+/// Sections by material and shape or profile, and load cases: what a request gives, and what is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+
+#include "api/api.h"
+#include "api/openapi/document.h"
+#include "solver/model/section_shape.h"
+#include "solver/solve.h"
+#include "tests/api/documents.h"
+
+namespace snapthrough::api {
+namespace {
+
+using nlohmann::json;
+
+json document_with(const json& section) {
+  json document = json::parse(R"({
+    "model": {"nodes": [{"id": "a", "x": 0, "y": 0}, {"id": "b", "x": 3, "y": 0}],
+      "members": [{"id": "m", "start": "a", "end": "b", "section": "s"}],
+      "supports": [{"node": "a", "fixed": ["x", "y", "rotation"]}],
+      "loads": [{"type": "point", "at": {"node": "b"}, "force": [0, -1]}]},
+    "analysis": {"type": "static"}})");
+  document["model"]["sections"] = json::array({section});
+  document["model"]["sections"][0]["id"] = "s";
+  return document;
+}
+
+Section section_of(const json& section) {
+  const ReadOutcome outcome = read_request(document_with(section).dump());
+  if (!outcome.request) {
+    ADD_FAILURE() << section << write_findings(outcome.findings).dump();
+    return {};
+  }
+  return outcome.request->model.sections[0];
+}
+
+TEST(ShapedSection, HasTheStiffnessOfItsShape) {
+  const Section rectangle = section_of(
+      {{"E", 200.0}, {"nu", 0.25}, {"shape", {{"type", "rectangle"}, {"width", 2}, {"depth", 3}}}});
+  EXPECT_DOUBLE_EQ(rectangle.EA, 1200.0);
+  EXPECT_DOUBLE_EQ(rectangle.EI, 200.0 * 4.5);
+  EXPECT_DOUBLE_EQ(*rectangle.GA, 80.0 * 5.0);
+  const Section bar =
+      section_of({{"E", 1.0}, {"shape", {{"type", "tube"}, {"diameter", 2}, {"thickness", 1}}}});
+  EXPECT_DOUBLE_EQ(bar.EI, std::numbers::pi / 4.0);
+  EXPECT_FALSE(bar.GA);
+  const Section i = section_of(
+      {{"E", 1.0},
+       {"G", 0.5},
+       {"shape", {{"type", "i_section"}, {"depth", 10}, {"width", 8}, {"web", 1}, {"flange", 2}}}});
+  EXPECT_DOUBLE_EQ(i.EA, 38.0);
+  EXPECT_DOUBLE_EQ(i.EI, (8.0 * 1000.0 - 7.0 * 216.0) / 12.0);
+  EXPECT_DOUBLE_EQ(*i.GA, 0.5 * i_section({10, 8, 1, 2, 0}).shear_area);
+}
+
+TEST(ShapedSection, OfAWallIsStifferInPlaneStrain) {
+  const json wall = {{"type", "wall"}, {"thickness", 0.5}, {"plane_strain", true}, {"nu", 0.2}};
+  const Section strained = section_of({{"E", 24.0}, {"shape", wall}, {"density", 3.0}, {"expansion", 1e-5}});
+  EXPECT_DOUBLE_EQ(strained.EA, 24.0 / 0.96 * 0.5);
+  EXPECT_DOUBLE_EQ(strained.EI, 24.0 / 0.96 * 0.125 / 12.0);
+  EXPECT_DOUBLE_EQ(*strained.mass, 1.5);
+  EXPECT_DOUBLE_EQ(*strained.expansion, 1e-5);
+  EXPECT_DOUBLE_EQ(section_of({{"E", 24.0}, {"shape", {{"type", "wall"}, {"thickness", 0.5}}}}).EA, 12.0);
+}
+
+TEST(ShapedSection, OfAProfileIsInTheModelsUnit) {
+  const Section m = section_of({{"E", 2.1e8}, {"profile", "IPE 300"}, {"unit", "m"}, {"mass", 42.2}});
+  const Section mm = section_of({{"E", 210.0}, {"profile", "IPE 300"}, {"unit", "mm"}});
+  EXPECT_NEAR(m.EI, 2.1e8 * 8356e-8, 2e-5 * m.EI);
+  EXPECT_NEAR(m.EA, 2.1e8 * 53.81e-4, 1e-4 * m.EA);
+  EXPECT_NEAR(mm.EI, 1e6 * m.EI, 1e-9 * mm.EI);
+  EXPECT_DOUBLE_EQ(*m.mass, 42.2);
+}
+
+TEST(ShapedSection, ProfilesAreThoseOfThePublishedInterface) {
+  const json published = json::parse(openapi_document());
+  const json& forms = published["components"]["schemas"]["Section"]["oneOf"];
+  const json& names = forms.back()["properties"]["profile"]["enum"];
+  ASSERT_EQ(names.size(), profiles().size());
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(names[i], profiles()[i].name);
+}
+
+struct Refused {
+  const char* section;
+  const char* pointer;
+  const char* code;
+};
+void PrintTo(const Refused& refused, std::ostream* out) { *out << refused.section; }
+
+class RefusedSection : public ::testing::TestWithParam<Refused> {};
+TEST_P(RefusedSection, NamesTheFieldAndTheRule) {
+  const ReadOutcome outcome = read_request(document_with(json::parse(GetParam().section)).dump());
+  ASSERT_EQ(outcome.findings.size(), 1u) << write_findings(outcome.findings).dump();
+  EXPECT_EQ(outcome.findings[0].pointer, std::string("/model/sections/0") + GetParam().pointer);
+  EXPECT_EQ(outcome.findings[0].code, GetParam().code);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Reader, RefusedSection,
+    ::testing::Values(
+        Refused{R"({"E": 1, "shape": {"type": "tube", "diameter": 2, "thickness": 1.01}})",
+                "/shape/thickness", "out_of_range"},
+        Refused{R"({"E": 1, "shape": {"type": "rectangle", "width": -2, "depth": 1}})", "/shape/width",
+                "out_of_range"},
+        Refused{
+            R"({"E": 1, "shape": {"type": "i_section", "depth": 2, "width": 1, "web": 0.1, "flange": 1}})",
+            "/shape/flange", "out_of_range"},
+        Refused{R"({"E": 1, "shape": {"type": "i_section", "depth": 4, "width": 1, "web": 2, "flange": 1}})",
+                "/shape/web", "out_of_range"},
+        Refused{
+            R"({"E": 1, "shape": {"type": "i_section", "depth": 4, "width": 1, "web": 0.1, "flange": 1, "root_radius": 0.5}})",
+            "/shape/root_radius", "out_of_range"},
+        Refused{R"({"E": 1, "shape": {"type": "wall", "thickness": 1, "plane_strain": true}})", "/shape/nu",
+                "missing_field"},
+        Refused{R"({"E": 1, "shape": {"type": "circle"}})", "/shape/type", "unknown_value"},
+        Refused{R"({"E": 1, "profile": "IPE 310", "unit": "m"})", "/profile", "unknown_value"},
+        Refused{R"({"E": 1, "profile": "IPE 300"})", "/unit", "missing_field"},
+        Refused{R"({"E": 1, "nu": 0.2, "G": 1, "profile": "IPE 300", "unit": "m"})", "/nu", "ambiguous"},
+        Refused{R"({"E": 1, "A": 1, "profile": "IPE 300", "unit": "m", "I": 1})", "", "ambiguous"},
+        Refused{R"({"E": 1, "A": 1, "I": 1, "mass": 1, "density": 1})", "/density", "ambiguous"},
+        Refused{R"({"EA": 1, "EI": 1, "density": 1})", "/density", "unknown_field"},
+        Refused{R"({"EA": 1, "EI": 1, "mass": -1})", "/mass", "out_of_range"}));
+
+json frame_with(const json& changes) {
+  json document = document_with({{"EA", 1e6}, {"EI", 1.0}, {"mass", 2.0}, {"expansion", 1e-5}});
+  document["model"].update(changes);
+  return document;
+}
+
+TEST(LoadCases, AreLoadsWithTheirFactorAndPattern) {
+  const json weight = {{"type", "self_weight"}, {"gravity", {0, -10}}};
+  const json line = {
+      {"type", "distributed"}, {"member", "m"}, {"force", {{"along", {{0, {0, 0}}, {1, {0, -2}}}}}}};
+  const json document =
+      frame_with({{"load_cases",
+                   {{{"id", "dead"}, {"factor", 1.35}, {"loads", {weight}}},
+                    {{"id", "snow"},
+                     {"factor", 1.5},
+                     {"grows", true},
+                     {"loads", {line, {{"type", "pressure"}, {"member", "m"}, {"value", 4}}}}}}}});
+  const ReadOutcome outcome = read_request(document.dump());
+  ASSERT_TRUE(outcome.request) << write_findings(outcome.findings).dump();
+  const Model& model = outcome.request->model;
+  ASSERT_EQ(model.loads.size(), 4u);
+  EXPECT_EQ(model.load_cases.size(), 2u);
+  const auto& dead = std::get<SelfWeight>(model.loads[1]);
+  EXPECT_DOUBLE_EQ(dead.gravity[1], -13.5);
+  EXPECT_EQ(dead.pattern, Pattern::constant);
+  const auto& snow = std::get<DistributedLoad>(model.loads[2]);
+  EXPECT_DOUBLE_EQ(snow.force_along[1].second[1], -3.0);
+  EXPECT_EQ(snow.pattern, Pattern::proportional);
+  EXPECT_DOUBLE_EQ(std::get<PressureLoad>(model.loads[3]).value, 6.0);
+}
+
+/// The same loads written by hand have the same result.
+TEST(LoadCases, ChangeNoAnswer) {
+  const json by_cases =
+      frame_with({{"loads", json::array()},
+                  {"load_cases",
+                   {{{"id", "one"},
+                     {"factor", 3},
+                     {"grows", true},
+                     {"loads", {{{"type", "point"}, {"at", {{"node", "b"}}}, {"force", {0, -1}}}}}},
+                    {{"id", "two"},
+                     {"factor", 2},
+                     {"loads", {{{"type", "pressure"}, {"member", "m"}, {"value", 0.1}}}}}}}});
+  const json by_hand =
+      frame_with({{"loads",
+                   {{{"type", "point"}, {"at", {{"node", "b"}}}, {"force", {0, -3}}},
+                    {{"type", "pressure"}, {"member", "m"}, {"value", 0.2}, {"pattern", "constant"}}}}});
+  const auto answer = [](const json& document) {
+    const ReadOutcome outcome = read_request(document.dump());
+    EXPECT_TRUE(outcome.request) << write_findings(outcome.findings).dump();
+    if (!outcome.request) return json();
+    auto result =
+        write_result(*outcome.request, solve(outcome.request->model, outcome.request->analysis), 0.0);
+    return json(result["states"]);
+  };
+  EXPECT_EQ(answer(by_cases), answer(by_hand));
+}
+
+TEST(LoadCases, FindingsNameThePlaceInTheCase) {
+  const auto finding_of = [](const json& changes) {
+    const ReadOutcome outcome = read_request(frame_with(changes).dump());
+    EXPECT_EQ(outcome.findings.size(), 1u) << write_findings(outcome.findings).dump();
+    return outcome.findings.empty() ? std::string()
+                                    : outcome.findings[0].pointer + " " + outcome.findings[0].code;
+  };
+  const json good = {{"type", "pressure"}, {"member", "m"}, {"value", 1}};
+  json bad = good;
+  bad["member"] = "n";
+  const auto cases = [](const json& first, const json& second) {
+    return json{
+        {"load_cases", {{{"id", "one"}, {"loads", {first}}}, {{"id", "two"}, {"loads", {first, second}}}}}};
+  };
+  EXPECT_EQ(finding_of(cases(good, bad)), "/model/load_cases/1/loads/1/member unknown_reference");
+  json with_pattern = good;
+  with_pattern["pattern"] = "constant";
+  EXPECT_EQ(finding_of(cases(good, with_pattern)), "/model/load_cases/1/loads/1/pattern ambiguous");
+  json twice = cases(good, good);
+  twice["load_cases"][1]["id"] = "one";
+  EXPECT_EQ(finding_of(twice), "/model/load_cases/1/id duplicate_id");
+  json kink = {
+      {"type", "distributed"}, {"member", "m"}, {"force", {{"along", {{0.5, {0, 1}}, {0.4, {0, 1}}}}}}};
+  EXPECT_EQ(finding_of({{"loads", {kink}}}), "/model/loads/0/force/along/1/0 not_increasing");
+  EXPECT_EQ(finding_of({{"loads", {{{"type", "temperature"}, {"member", "m"}, {"change", 1e200}}}}}),
+            "/model/loads/0/change out_of_range");
+}
+
+TEST(SectionData, IsMissingWhereALoadNeedsIt) {
+  json document = document_with({{"EA", 1e6}, {"EI", 1.0}});
+  document["model"]["loads"] = {{{"type", "self_weight"}, {"gravity", {0, -10}}},
+                                {{"type", "temperature"}, {"member", "m"}, {"change", 3}}};
+  const ReadOutcome outcome = read_request(document.dump());
+  ASSERT_EQ(outcome.findings.size(), 2u);
+  EXPECT_EQ(outcome.findings[0].pointer, "/model/sections/0/mass");
+  EXPECT_EQ(outcome.findings[1].pointer, "/model/sections/0/expansion");
+}
+
+/// Derivatives by a dimension of a shape, the factor of a load case and the stiffness of a joint, against
+/// differences of whole analyses.
+TEST(Sensitivities, KnowTheNewFields) {
+  json document = frame_with(json::object());
+  document["model"]["sections"][0] = {
+      {"id", "s"}, {"E", 1e4}, {"shape", {{"type", "rectangle"}, {"width", 0.3}, {"depth", 0.1}}}};
+  document["model"]["members"][0]["release"] = {{"start", {{"rotation", 2.0}}}};
+  document["model"]["loads"] = {{{"type", "point"}, {"at", {{"node", "b"}}}, {"force", {-1, 0}}}};
+  document["model"]["load_cases"] = {
+      {{"id", "more"},
+       {"factor", 0.5},
+       {"grows", true},
+       {"loads", {{{"type", "point"}, {"at", {{"node", "b"}}}, {"force", {-1, 0}}}}}}};
+  const json analysis = {{"type", "critical"}, {"discretization", {{"elements", 4}, {"order", 5}}}};
+  document["analysis"] = analysis;
+  const std::string pointers[] = {"/model/sections/0/shape/depth", "/model/load_cases/0/factor",
+                                  "/model/members/0/release/start/rotation"};
+  document["analysis"]["sensitivities"] = pointers;
+  const auto result_of = [](const json& request) {
+    const ReadOutcome outcome = read_request(request.dump());
+    EXPECT_TRUE(outcome.request) << write_findings(outcome.findings).dump();
+    return solve(outcome.request->model, outcome.request->analysis);
+  };
+  const Result result = result_of(document);
+  ASSERT_EQ(result.critical_points.size(), 1u);
+  document["analysis"] = analysis;
+  for (std::size_t i = 0; i < std::size(pointers); ++i) {
+    const json::json_pointer at(pointers[i]);
+    const double value = document.at(at);
+    const auto load_at = [&](double other) {
+      json changed = document;
+      changed[at] = other;
+      return *result_of(changed).summary.critical_load_factor;
+    };
+    const double expected = (load_at(1.001 * value) - load_at(0.999 * value)) / (0.002 * value);
+    EXPECT_NEAR(result.critical_points[0].sensitivities.at(i).derivative.value(), expected,
+                1e-5 * std::abs(expected))
+        << pointers[i];
+  }
+}
+
+TEST(Releases, MayBeStiff) {
+  json document = document_with({{"EA", 1e6}, {"EI", 1.0}});
+  document["model"]["members"][0]["release"] = {{"start", {{"rotation", 5.0}}}, {"end", {"rotation"}}};
+  const ReadOutcome outcome = read_request(document.dump());
+  ASSERT_TRUE(outcome.request) << write_findings(outcome.findings).dump();
+  const Member& member = outcome.request->model.members[0];
+  EXPECT_TRUE(member.release_start_rotation && member.release_end_rotation);
+  EXPECT_EQ(member.release_start_stiffness, 5.0);
+  EXPECT_EQ(member.release_end_stiffness, 0.0);
+  document["model"]["members"][0]["release"]["start"]["rotation"] = -1.0;
+  const ReadOutcome refused = read_request(document.dump());
+  ASSERT_EQ(refused.findings.size(), 1u);
+  EXPECT_EQ(refused.findings[0].pointer, "/model/members/0/release/start/rotation");
+}
+
+}  // namespace
+}  // namespace snapthrough::api
