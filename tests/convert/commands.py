@@ -95,6 +95,15 @@ class Commands(unittest.TestCase):
         deep = (active * (math.tan(b) ** 8 - 1) + 0.4 * math.tan(phi) * math.tan(b) ** 4) * 0.6 * 102
         self.assertAlmostEqual(sand["law"]["capacity"]["along"][0][1] / (0.9 * deep), 1, delta=1e-12)
 
+    def test_a_pile_is_a_valid_model(self):
+        soil = json.loads((EXAMPLES / "pile_soil.json").read_text(encoding="utf-8"))
+        for loading in ("static", "cyclic"):
+            parts = self.converted("soil", "-", text=json.dumps({**soil, "loading": loading}))
+            model = {"nodes": [{"id": "t", "x": 0, "y": -12}, {"id": "h", "x": 0, "y": 0}],
+                     "members": [{"id": "shaft", "start": "t", "end": "h", "section": "s"}],
+                     "sections": [{"id": "s", "EA": 1e6, "EI": 1e5}], **parts}
+            self.expect_valid(model, ["t"], "h")
+
     def test_mistakes_have_status_2_and_their_place(self):
         soil = json.loads((EXAMPLES / "pile_soil.json").read_text(encoding="utf-8"))
         soil["layers"][1]["phi"] = 60

@@ -1,0 +1,86 @@
+/// Places, laws and rows of a structure that is built.
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "solver/discrete/structure.h"
+#include "solver/model/id_index.h"
+#include "solver/numeric/max_order.h"
+
+namespace snapthrough {
+
+std::vector<std::string> without_stiffness(const Model& model) {
+  std::vector<std::string> out;
+  for (const Foundation& foundation : model.foundations)
+    if (initial_stiffness(foundation) == 0.0) out.push_back("foundation " + foundation.id + ": stiffness 0");
+  for (const Spring& spring : model.springs)
+    if (initial_stiffness(spring) == 0.0) out.push_back("spring " + spring.id + ": stiffness 0");
+  return out;
+}
+
+void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen::VectorXd>& y,
+                       Eigen::Ref<Eigen::VectorXd> f) {
+  for (const JointSpring& joint : structure.joints) {
+    const double moment = joint.stiffness * (y[joint.node_rotation] - y[joint.end_rotation]);
+    f[joint.node_rotation] += moment;
+    f[joint.end_rotation] -= moment;
+  }
+}
+
+FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element) {
+  FoundationLaw law = foundation;
+  if (law.law.one_sided) {
+    law.stiffest = structure.stiffest[static_cast<std::size_t>(element)];
+    law.law.bound_stiffness(law.stiffest);
+  }
+  return law;
+}
+
+double length_of_element(const Structure& structure, int element) {
+  const MeshElement& e = structure.mesh.elements[element];
+  return (e.to - e.from) * structure.axes[e.member]->length() / structure.scales.length;
+}
+
+MeshPlace place_of(const Mesh& mesh, int member, double fraction) {
+  const auto first = mesh.elements.begin() + mesh.first[member];
+  const auto last = mesh.elements.begin() + mesh.first[member + 1];
+  // the last element that begins at or before the place
+  const auto next = std::partition_point(first + 1, last, [fraction](const MeshElement& element) {
+    return element.from <= fraction + kOnePlace;
+  });
+  const int e = static_cast<int>(next - mesh.elements.begin()) - 1;
+  const MeshElement& cell = mesh.elements[e];
+  const double width = cell.to - cell.from;
+  const double one = kOnePlace / width;
+  const double xi = std::clamp((fraction - cell.from) / width, 0.0, 1.0);
+  return {e, xi < one ? 0.0 : (xi > 1.0 - one ? 1.0 : xi)};
+}
+
+SparseRow displacement_row(const Structure& structure, const Model& model, const Location& at,
+                           std::array<double, 3> row) {
+  SparseRow out;
+  const auto add = [&](Eigen::Index index, double weight) {
+    if (weight != 0.0) out.entries.emplace_back(index, weight);
+  };
+  if (at.member.empty()) {
+    const int node = index_of(model.nodes, at.node);
+    for (int c = 0; c < 3; ++c) add(3 * node + c, row[c]);
+    return out;
+  }
+  const int member = index_of(model.members, at.member);
+  const MeshPlace place = place_of(structure.mesh, member, at.fraction);
+  const ElementDofs& dofs = structure.dofs[place.element];
+  const MeshElement& cell = structure.mesh.elements[place.element];
+  const double h = (cell.to - cell.from) * structure.axes[member]->length() / structure.scales.length;
+  const int p = structure.mesh.order;
+  std::array<double, kMaxOrder> a{};
+  CollocationRule::of(p).integrals_at(place.xi, std::span(a).first(p));
+  for (int c = 0; c < 3; ++c) {
+    add(dofs.a[c], row[c]);
+    for (int q = 0; q < p; ++q) add(dofs.v + c * p + q, row[c] * h * a[q]);
+  }
+  return out;
+}
+
+}  // namespace snapthrough
