@@ -28,7 +28,7 @@ void check_along(const Place& place, const AlongMember& value) {
     const Place fraction = along / i / std::size_t{0};
     require_between(fraction, value.points[i][0], 0.0, 1.0);
     if (!(value.points[i][0] - last > kOnePlace)) {
-      fraction.report("not_ascending", "fractions must ascend");
+      fraction.report("not_increasing", "fractions must ascend");
     }
     last = value.points[i][0];
     require_not_negative(along / i / std::size_t{1}, value.points[i][1]);
@@ -55,10 +55,10 @@ void check_points(const Place& place, const std::vector<std::array<double, 2>>& 
     }
     if (!(w > last[0])) {
       (place / i / std::size_t{0})
-          .report("not_ascending", "displacements must ascend from the origin (0, 0)");
+          .report("not_increasing", "displacements must ascend from the origin (0, 0)");
     }
     if (!(p >= last[1])) {
-      (place / i / std::size_t{1}).report("not_ascending", "forces must not fall");
+      (place / i / std::size_t{1}).report("not_increasing", "forces must not fall");
     }
     if (i == first && !(p > 0.0)) {
       (place / i / std::size_t{1})

@@ -152,6 +152,24 @@ export class Drawer {
     for (const one of (model.load_cases ?? []).flatMap(({loads}) => loads)) delete one.pattern;
   }
 
+  /** Numbers along a member and points of laws that ascend; a foundation along the tangent without what it cannot have. */
+  agreeLaws(model) {
+    const ascend = (value) => {
+      if (value?.along) value.along = value.along.map(([, amount], i) => [i / value.along.length, i === 0 ? amount || 1 : amount]);
+    };
+    for (const one of [...(model.springs ?? []), ...(model.foundations ?? [])]) {
+      if (one.component === 'tangent') for (const field of ['side', 'direction', 'shear_stiffness', 'reaction', 'gap']) delete one[field];
+      if (Array.isArray(one.direction)) delete one.side;
+      ascend(one.stiffness);
+      if (!one.law) continue;
+      for (const field of ['stiffness', 'capacity', 'factor']) {
+        ascend(one.law[field]);
+        if (one.law[field] === 0) one.law[field] = 1;
+      }
+      if (one.law.points) one.law.points = one.law.points.map((unused, i) => [i + 1, i + 1]);
+    }
+  }
+
   /** What goes with what between fields. */
   agree(model, analysis) {
     const order = (pair) => { if (pair) pair.sort((a, b) => a - b); if (pair && pair[0] === pair[1]) pair[0] -= 0.5; };
@@ -159,6 +177,7 @@ export class Drawer {
       if (one.reaction !== 'compression_only' && one.reaction !== 'tension_only') delete one.gap;
       else delete one.shear_stiffness;
     }
+    this.agreeLaws(model);
     const loads = loadsOf(model);
     for (const one of [...(model.foundations ?? []), ...loads]) if (one.range) order(one.range);
     for (const value of loads.flatMap((one) => Object.values(one))) {
