@@ -124,13 +124,14 @@ Result run(const Model& model, const Analysis& analysis, const Hooks& hooks, con
 /// follows the amplitude of the worst imperfection.
 std::vector<Variation> with_shape_held(std::vector<Variation> variations, const WorstOffset& found,
                                        double amplitude) {
-  for (Variation& variation : variations)
+  for (Variation& variation : variations) {
     variation.model_at = [inner = std::move(variation.model_at), offsets = found.imperfections,
                           amplitude](double value) -> std::optional<Model> {
       const std::optional<Model> changed = inner(value);
       if (!changed) return std::nullopt;
       return with_offsets(*changed, offsets, worst_imperfection(*changed)->amplitude / amplitude);
     };
+  }
   return variations;
 }
 

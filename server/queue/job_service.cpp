@@ -94,7 +94,7 @@ StatusOr<Submission> JobService::submit(const Order& order) {
   }
   NewJob job = new_job(order, *read.request, envelope, environment_);
   if (order.reuse && !order.idempotency_key) {
-    StatusOr<std::optional<std::string>> known = store_.find_result(job.content_key, order.owner);
+    const StatusOr<std::optional<std::string>> known = store_.find_result(job.content_key, order.owner);
     if (!known.ok()) {
       return known.status();
     }

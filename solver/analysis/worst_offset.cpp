@@ -129,7 +129,7 @@ std::vector<Shape> Search::starts(const OffsetWorks& perfect) const {
 /// does not hold there, the steepest offsets of the softest motion, with the sign nearer to the shape.
 VectorXd Search::steepest_descent(const Shape& from) const {
   if (from.works->load_rate) return -space_.steepest(norm_, *from.works->load_rate);
-  VectorXd along = space_.steepest(norm_, from.works->works.col(0));
+  const VectorXd along = space_.steepest(norm_, from.works->works.col(0));
   return along.dot(from.offsets) < 0.0 ? VectorXd(-along) : along;
 }
 
@@ -165,8 +165,8 @@ bool Search::leave_saddle(Shape& shape) {
   if (!shape.works) return false;
   const OffsetWorks works = *shape.works;
   const double before = shape.load;
-  for (const double part : SearchLimits::parts)
-    for (Index j = 1; j < works.works.cols(); ++j)
+  for (const double part : SearchLimits::parts) {
+    for (Index j = 1; j < works.works.cols(); ++j) {
       for (const double sign : {1.0, -1.0}) {
         if (stop_.stop_requested()) return false;
         Shape next{shape.offsets + sign * part * space_.steepest(norm_, works.works.col(j)), shape.motion};
@@ -174,6 +174,8 @@ bool Search::leave_saddle(Shape& shape) {
         evaluate(next, true);
         if (next.load < shape.load) shape = std::move(next);
       }
+    }
+  }
   return shape.load < before;
 }
 

@@ -185,7 +185,7 @@ class ElementWorkOf final : public ElementWork {
   std::vector<Interior<2 * P>> stiff_;  ///< unshearable elements; allocated by the first linearisation
   std::vector<Interior<3 * P>> shearable_;
   // scratch
-  std::vector<FoundationContact::KinkPlace> kinks_;  ///< kinks of the current contact's law
+  std::vector<FoundationContact::KnotPlace> knots_;  ///< knots of the current contact's law
   std::vector<Functional> acting_;  ///< functionals of the acting supports of the current element
   std::vector<typename AugmentedMatrix<2 * P>::Weighted> stiff_rows_;  ///< scaled rows of the current element
   std::vector<typename AugmentedMatrix<3 * P>::Weighted> shearable_rows_;

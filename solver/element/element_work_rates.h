@@ -81,7 +81,7 @@ void ElementWorkOf<P>::collect_support_rates(int element, const double* y, const
   if (!regime_.is_frozen() && !regime_.bilateral()) add_moving_ends(shape, dofs, y, along);
 }
 
-/// Adds the change of the tangent by moving ends of contact and kinks of laws to acting_: with K the change
+/// Adds the change of the tangent by moving ends of contact and knots of laws to acting_: with K the change
 /// of stiffness there and n the functional of the penetration g, the place moves by n(along) / |g'|, and the
 /// tangent changes by K n n^T n(along) / |g'|. Ends of a foundation do not move.
 template <int P>
@@ -101,10 +101,10 @@ void ElementWorkOf<P>::add_moving_ends(const Shape& shape, const ElementDofs& do
       add(f, f.law.stiffness, contact.penetration_slope(xi, u.start, u.dx, u.dy));
     };
     if (contact.law().curve != nullptr) {
-      contact.kink_places(u.start, u.dx, u.dy, kinks_);
-      for (const auto& kink : kinks_)
-        if (kink.stiffness_change != 0.0)
-          add(data_.functional_at(contact, shape.h, kink.xi), kink.stiffness_change, kink.slope);
+      contact.knot_places(u.start, u.dx, u.dy, knots_);
+      for (const auto& knot : knots_)
+        if (knot.stiffness_change != 0.0)
+          add(data_.functional_at(contact, shape.h, knot.xi), knot.stiffness_change, knot.slope);
     }
     if (!contact.law().one_sided) continue;
     for (const ElementPart& part : parts_in_contact(i, shape, dofs, y)) {

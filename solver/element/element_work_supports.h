@@ -24,11 +24,11 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
   const ElementPart whole{contact.range()[0], contact.range()[1]};
   const bool one_sided = contact.law().one_sided;
   const double share = one_sided ? regime_.softness : 1.0;
-  kinks_.clear();
+  knots_.clear();
   if (contact.law().curve != nullptr) {
     const auto* at = regime_.linearised_at();
     const auto u = data_.displacement_of(shape, dofs, at != nullptr ? at->data() : y);
-    contact.kink_places(u.start, u.dx, u.dy, kinks_);
+    contact.knot_places(u.start, u.dx, u.dy, knots_);
   }
   if (regime_.bilateral() || !one_sided) {
     add_pieces(index, shape, whole, share, 0.0);
@@ -40,20 +40,27 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
   if (regime_.grip > 0.0 && one_sided) add_interval(index, shape, whole, regime_.grip, 0.0);
 }
 
-/// Appends the Gauss points of the pieces of an interval between the kinks of its law, in kinks_.
+/// Appends the Gauss points of the pieces of an interval between the knots of its law, in knots_. Laws with a
+/// curve have each piece in two halves, so that the tangent is the derivative of the quadrature to about ten
+/// digits.
 template <int P>
 void ElementWorkOf<P>::add_pieces(std::size_t index, const Shape& shape, const ElementPart& interval,
                                   double share, double gap) {
-  double from = interval.from;
-  if (!kinks_.empty()) {
-    std::sort(kinks_.begin(), kinks_.end(), [](const auto& a, const auto& b) { return a.xi < b.xi; });
-    for (const auto& kink : kinks_) {
-      if (!(kink.xi > from && kink.xi < interval.to)) continue;
-      add_interval(index, shape, {from, kink.xi}, share, gap);
-      from = kink.xi;
-    }
+  if (contacts_[index].law().curve == nullptr) {
+    add_interval(index, shape, interval, share, gap);
+    return;
   }
-  add_interval(index, shape, {from, interval.to}, share, gap);
+  std::sort(knots_.begin(), knots_.end(), [](const auto& a, const auto& b) { return a.xi < b.xi; });
+  double from = interval.from;
+  const auto add_to = [&](double to) {
+    const double middle = 0.5 * (from + to);
+    add_interval(index, shape, {from, middle}, share, gap);
+    add_interval(index, shape, {middle, to}, share, gap);
+    from = to;
+  };
+  for (const auto& knot : knots_)
+    if (knot.xi > from && knot.xi < interval.to) add_to(knot.xi);
+  add_to(interval.to);
 }
 
 /// Appends the Gauss points of an interval with a modulus and a gap. Functionals of the whole range, the most

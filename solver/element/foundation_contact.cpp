@@ -415,29 +415,26 @@ void FoundationContact::contact_intervals(std::array<double, 2> ua, std::span<co
     search(ExactGap(*this, ua, dx, dy, depth), g, out);
 }
 
-/// Appends the places at which the penetration is sign times that of a kink.
-/// @param g, laws penetrations and laws at the samples
-void FoundationContact::add_kink(int kink, double sign, const Values& g, const SampledLaws& laws,
-                                 std::vector<KinkPlace>& out) const {
+/// Appends the places at which the argument of the curve is sign times that of a knot.
+/// @param x arguments of the curve at the samples
+void FoundationContact::add_knot(int knot, double sign, const Values& x, std::vector<KnotPlace>& out) const {
   const auto count = static_cast<std::ptrdiff_t>(samples_->count);
-  Values beyond;  // penetration minus that of the kink
+  const double width = range_[1] - range_[0];
+  Values beyond;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const Law& law = laws[i];
-    const double at =
-        law.stiffness > 0.0 ? law_.curve->kink(kink, law.shape).x * law.capacity / law.stiffness : 0.0;
-    beyond[i] = law.stiffness > 0.0 ? g[i] - sign * at : -1.0;
+    const double shape =
+        foundation_law_.variation ? law_at(range_[0] + samples_->z[i] * width).shape : law_.shape;
+    beyond[i] = x[i] - sign * law_.curve->knot(knot, shape).x;
   }
-  const auto [least, most] = std::minmax_element(beyond.begin(), beyond.begin() + count);
-  if (*least > 0.0 || *most < 0.0) return;
   const SampledGap gap(std::span<const double>(beyond).first(count));
   std::vector<Interval> above;
   search(gap, beyond, above);
-  const double width = range_[1] - range_[0];
   const auto add = [&](double xi) {
     if (xi == range_[0] || xi == range_[1]) return;
     const Law law = law_at(xi);
-    out.push_back({xi, sign * law.stiffness * law_.curve->kink(kink, law.shape).slope_change,
-                   gap.slope((xi - range_[0]) / width) / width});
+    if (!(law.stiffness > 0.0)) return;
+    out.push_back({xi, sign * law.stiffness * law_.curve->knot(knot, law.shape).slope_change,
+                   gap.slope((xi - range_[0]) / width) / width * law.capacity / law.stiffness});
   };
   for (const Interval& part : above) {
     add(part.from);
@@ -445,18 +442,42 @@ void FoundationContact::add_kink(int kink, double sign, const Values& g, const S
   }
 }
 
-void FoundationContact::kink_places(std::array<double, 2> ua, std::span<const double> dx,
-                                    std::span<const double> dy, std::vector<KinkPlace>& out) const {
+/// Appends the places at which numbers of the law bend, for fixed meshes whose elements do not end there.
+void FoundationContact::add_bends(std::vector<KnotPlace>& out) const {
+  if (!foundation_law_.variation) return;
+  for (const AlongMember* value :
+       {&foundation_law_.variation->stiffness, &foundation_law_.variation->capacity})
+    for (const auto& [fraction, unused] : value->points) {
+      const double xi = (fraction - place_.from) / (place_.to - place_.from);
+      if (xi > range_[0] && xi < range_[1]) out.push_back({xi, 0.0, 1.0});
+    }
+}
+
+void FoundationContact::knot_places(std::array<double, 2> ua, std::span<const double> dx,
+                                    std::span<const double> dy, std::vector<KnotPlace>& out) const {
   out.clear();
   if (law_.curve == nullptr) return;
-  Values g;
-  penetrations(ua, dx, dy, law_.gap, g);
-  SampledLaws laws;
-  for (int i = 0; i < samples_->count; ++i)
-    laws[i] = law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0]));
-  for (int k = 0; k < law_.curve->kink_count(); ++k) {
-    add_kink(k, 1.0, g, laws, out);
-    if (!law_.one_sided && law_.curve->kink(k, law_.shape).x != 0.0) add_kink(k, -1.0, g, laws, out);
+  add_bends(out);
+  Values x;
+  penetrations(ua, dx, dy, law_.gap, x);
+  std::array<double, 2> shapes{law_.shape, law_.shape};  // least and largest
+  for (int i = 0; i < samples_->count; ++i) {
+    const Law law = law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0]));
+    x[i] = law.stiffness > 0.0 ? x[i] * law.stiffness / law.capacity : 0.0;
+    if (law.stiffness > 0.0) shapes = {std::min(shapes[0], law.shape), std::max(shapes[1], law.shape)};
+  }
+  const auto [least, most] = std::minmax_element(x.begin(), x.begin() + samples_->count);
+  const auto places = [&](int k) {
+    return std::array{law_.curve->knot(k, shapes[0]).x, law_.curve->knot(k, shapes[1]).x};
+  };
+  const int knots = law_.curve->knot_count();
+  for (int k = 0; k < knots; ++k) {
+    const auto at = places(k);
+    if (k + 1 < knots && places(k + 1) == at) continue;  // one place, of which the last knot has the change
+    const double low = std::min(at[0], at[1]);
+    const double high = std::max(at[0], at[1]);
+    if (high >= *least && low <= *most) add_knot(k, 1.0, x, out);
+    if (!law_.one_sided && high > 0.0 && -low >= *least && -high <= *most) add_knot(k, -1.0, x, out);
   }
 }
 
@@ -465,15 +486,15 @@ std::vector<FoundationContact::Interval> FoundationContact::smooth_pieces(std::a
                                                                           std::span<const double> dy) const {
   std::vector<Interval> parts;
   contact_intervals(ua, dx, dy, parts);
-  std::vector<KinkPlace> kinks;
-  kink_places(ua, dx, dy, kinks);
-  std::sort(kinks.begin(), kinks.end(), [](const auto& a, const auto& b) { return a.xi < b.xi; });
+  std::vector<KnotPlace> knots;
+  knot_places(ua, dx, dy, knots);
+  std::sort(knots.begin(), knots.end(), [](const auto& a, const auto& b) { return a.xi < b.xi; });
   std::vector<Interval> out;
   for (Interval part : parts) {
-    for (const KinkPlace& kink : kinks) {
-      if (!(kink.xi > part.from && kink.xi < part.to)) continue;
-      out.push_back({part.from, kink.xi});
-      part.from = kink.xi;
+    for (const KnotPlace& knot : knots) {
+      if (!(knot.xi > part.from && knot.xi < part.to)) continue;
+      out.push_back({part.from, knot.xi});
+      part.from = knot.xi;
     }
     out.push_back(part);
   }

@@ -79,17 +79,17 @@ class FoundationContact {
   void contact_intervals(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                          std::vector<Interval>& out, double depth = 0.0) const;
 
-  /// Place at which the law has a kink.
-  struct KinkPlace {
+  /// Place at which the law has a knot.
+  struct KnotPlace {
     double xi = 0.0;
-    double stiffness_change = 0.0;  ///< change of the stiffness from below to above the kink, per element
-    double slope = 0.0;             ///< d (penetration - that of the kink) / d xi
+    double stiffness_change = 0.0;  ///< change of the stiffness from below to above the knot, per element
+    double slope = 0.0;             ///< d (penetration - that of the knot) / d xi
   };
-  /// @brief Places inside the range at which the penetration passes a kink of the law, not sorted; `out` is
+  /// @brief Places inside the range at which the penetration passes a knot of the law, not sorted; `out` is
   /// overwritten. Contact ends are none.
-  void kink_places(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
-                   std::vector<KinkPlace>& out) const;
-  /// @brief Intervals in contact, cut at the kinks of the law; ascending.
+  void knot_places(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                   std::vector<KnotPlace>& out) const;
+  /// @brief Intervals in contact, cut at the knots of the law; ascending.
   [[nodiscard]] std::vector<Interval> smooth_pieces(std::array<double, 2> ua, std::span<const double> dx,
                                                     std::span<const double> dy) const;
 
@@ -97,7 +97,6 @@ class FoundationContact {
   // samples stand four to an entry of Lanes; lanes beyond the last sample are zero
   static constexpr int kMostBlocks = (ChebyshevSeries::kMostPoints + kLanes - 1) / kLanes;
   using Values = std::array<double, kLanes * kMostBlocks>;
-  using SampledLaws = std::array<Law, kLanes * kMostBlocks>;
 
   /// What follows from the axis and the range alone.
   struct Samples {
@@ -113,8 +112,8 @@ class FoundationContact {
   void penetrations(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                     double gap, Values& g) const;
   [[nodiscard]] bool resolved(const Samples& samples) const;
-  void add_kink(int kink, double sign, const Values& g, const SampledLaws& laws,
-                std::vector<KinkPlace>& out) const;
+  void add_bends(std::vector<KnotPlace>& out) const;
+  void add_knot(int knot, double sign, const Values& x, std::vector<KnotPlace>& out) const;
   template <class Gap>
   void search(const Gap& gap, const Values& g, std::vector<Interval>& out) const;
 

@@ -237,11 +237,12 @@ std::optional<CriticalEvent> solve_event(PointSolver& solver, const CriticalGues
                                          const CriticalOptions& options) {
   if (!is_limit(kind.type)) {
     // among neighbouring bifurcations, the one with the given inertia on both sides
-    for (CriticalEvent& event : bifurcations_near(solver, guess, way, -1, options))
-      if (event.negative_before == kind.negative_before && event.negative_after == kind.negative_after) {
-        event.type = kind.type;
-        return std::move(event);
-      }
+    for (CriticalEvent& event : bifurcations_near(solver, guess, way, -1, options)) {
+      if (event.negative_before != kind.negative_before || event.negative_after != kind.negative_after)
+        continue;
+      event.type = kind.type;
+      return std::move(event);
+    }
     return std::nullopt;
   }
   if (guess.null.cols() != 1) return std::nullopt;

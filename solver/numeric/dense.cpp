@@ -21,19 +21,18 @@ namespace {
 /// Eigen's decompositions need no memory from the heap; else with A.
 template <class Take>
 auto with_fixed_size(const MatrixXd& A, const Take& take) {
-  if (A.rows() == A.cols()) switch (A.rows()) {
-      case 1:
-        return take(Eigen::Matrix<double, 1, 1>(A));
-      case 2:
-        return take(Eigen::Matrix2d(A));
-      case 3:
-        return take(Eigen::Matrix3d(A));
-      case 4:
-        return take(Eigen::Matrix4d(A));
-      default:
-        break;
-    }
-  return take(A);
+  switch (A.rows() == A.cols() ? A.rows() : Index{0}) {
+    case 1:
+      return take(Eigen::Matrix<double, 1, 1>(A));
+    case 2:
+      return take(Eigen::Matrix2d(A));
+    case 3:
+      return take(Eigen::Matrix3d(A));
+    case 4:
+      return take(Eigen::Matrix4d(A));
+    default:
+      return take(A);
+  }
 }
 
 }  // namespace

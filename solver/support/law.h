@@ -35,6 +35,7 @@ struct Law {
   };
   [[nodiscard]] Response response_at(double penetration) const {
     if (curve == nullptr) return {stiffness * penetration, stiffness, 0.0};
+    if (!(capacity > 0.0)) return {};  // on an interval without length
     const auto f = curve->at(stiffness * penetration / capacity, shape);
     return {capacity * f.force, stiffness * f.slope, stiffness * stiffness / capacity * f.curvature};
   }

@@ -28,15 +28,16 @@ class ReactionCurve {
   [[nodiscard]] virtual Values at(double x, double shape) const = 0;
   [[nodiscard]] virtual double energy(double x, double shape) const = 0;
 
-  /// Place at which f'' or f' is not continuous.
-  struct Kink {
+  /// @brief Place at which integrals of f are split: f'' or f' is not continuous there, or it ends a part of
+  /// the curve that a few points of quadrature integrate.
+  struct Knot {
     double x = 0.0;
     double slope_change = 0.0;  ///< change of f' from below to above x
   };
-  /// @brief Number of kinks at x >= 0. The curve has the same ones, with the opposite change, at -x.
-  [[nodiscard]] virtual int kink_count() const { return 0; }
-  /// @param index in [0, kink_count()); kinks ascend
-  [[nodiscard]] virtual Kink kink(int index, double shape) const;
+  /// @brief Number of knots at x >= 0. The curve has the same ones, with the opposite change, at -x.
+  [[nodiscard]] virtual int knot_count() const = 0;
+  /// @param index in [0, knot_count()); knots ascend
+  [[nodiscard]] virtual Knot knot(int index, double shape) const = 0;
 };
 
 /// @brief Curve of a law; null for a linear one.

@@ -54,11 +54,12 @@ class Search {
 
 /// Whether a followed curve has a critical point.
 bool Search::is_known(std::size_t index, double load_factor) const {
-  for (const LocusCurve& curve : out_.curves)
+  for (const LocusCurve& curve : out_.curves) {
     for (const LocusLoad& load : curve.loads)
       if (load.value == index &&
           std::abs(load.load_factor - load_factor) <= LocusSearch::same_load * std::abs(load_factor))
         return true;
+  }
   return false;
 }
 

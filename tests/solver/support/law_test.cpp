@@ -103,12 +103,12 @@ TEST(ReactionLaw, DerivativesBelongTogether) {
                        return same;
                      }()));
     EXPECT_EQ(spring_with(given, Reaction::compression_only).law.reaction(-0.3), 0.0);
-    for (int i = 0; i < law.curve->kink_count(); ++i) {
-      const auto kink = law.curve->kink(i, law.shape);
-      if (i > 0 && kink.x == law.curve->kink(i - 1, law.shape).x) continue;
-      const double w = kink.x * law.capacity / law.stiffness;
+    for (int i = 0; i < law.curve->knot_count(); ++i) {
+      const auto knot = law.curve->knot(i, law.shape);
+      if (i + 1 < law.curve->knot_count() && knot.x == law.curve->knot(i + 1, law.shape).x) continue;
+      const double w = knot.x * law.capacity / law.stiffness;
       EXPECT_NEAR(law.stiffness_at(w * (1.0 + 1e-9) + 1e-12) - law.stiffness_at(w * (1.0 - 1e-9) - 1e-12),
-                  law.stiffness * kink.slope_change, 1e-4 * law.stiffness)
+                  law.stiffness * knot.slope_change, 1e-4 * law.stiffness)
           << i;
     }
   }
