@@ -65,7 +65,7 @@ JobService::JobService(Store& store, const Environment& environment, Log& log, J
     : store_(store),
       environment_(environment),
       log_(log),
-      limits_(limits),
+      limits_(std::move(limits)),
       instance_(new_id(environment)),
       sweeps_({store_.sweeps(), environment_, log_, limits_, health_, waiting_, handoffs_, completions_,
                metrics_, bell_, instance_}),

@@ -90,7 +90,7 @@ const Samples& on_whole_element(int order, bool turns) {
 }  // namespace
 
 std::shared_ptr<const FoundationContact::Samples> FoundationContact::sampled() const {
-  const auto width = static_cast<std::size_t>(2 + rule_->order());
+  const auto width = std::size_t{2} + static_cast<std::size_t>(rule_->order());
   const bool whole = range_ == std::array{0.0, 1.0};
   auto out = std::make_shared<Samples>(
       whole ? on_whole_element<Samples>(rule_->order(), direction().turns)
@@ -446,11 +446,12 @@ void FoundationContact::add_knot(int knot, double sign, const Values& x, std::ve
 void FoundationContact::add_bends(std::vector<KnotPlace>& out) const {
   if (!foundation_law_.variation) return;
   for (const AlongMember* value :
-       {&foundation_law_.variation->stiffness, &foundation_law_.variation->capacity})
+       {&foundation_law_.variation->stiffness, &foundation_law_.variation->capacity}) {
     for (const auto& [fraction, unused] : value->points) {
       const double xi = (fraction - place_.from) / (place_.to - place_.from);
       if (xi > range_[0] && xi < range_[1]) out.push_back({xi, 0.0, 1.0});
     }
+  }
 }
 
 void FoundationContact::knot_places(std::array<double, 2> ua, std::span<const double> dx,

@@ -60,7 +60,7 @@ class FoundationContact {
   [[nodiscard]] std::array<double, 2> direction_at(double xi) const;
   /// Direction x, y, then the A_r of CollocationRule, at point i of quadrature() on the whole range.
   [[nodiscard]] std::span<const double> at_point(std::size_t i) const {
-    const auto width = static_cast<std::size_t>(2 + rule_->order());
+    const auto width = std::size_t{2} + static_cast<std::size_t>(rule_->order());
     return std::span<const double>(samples_->points).subspan(i * width, width);
   }
 
