@@ -2,6 +2,7 @@
 /// The published document against what the service and the reader of requests do, in both directions.
 
 #include <gmock/gmock.h>
+#include <algorithm>
 
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,9 @@
 #include <random>
 #include <regex>
 #include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "api/api.h"
 #include "api/openapi/document.h"
@@ -78,22 +82,38 @@ bool needs_several_fields(const Finding& finding) {
   if (kCodes.contains(finding.code)) {
     return true;
   }
-  const std::string& pointer = finding.pointer;
-  const std::string field = pointer.substr(pointer.rfind('/') + 1);
-  if (finding.code == "out_of_range") {
-    static const std::regex kProducts("/model/sections/[0-9]+");  // E A, E I, G shear_area
-    static const std::regex kShapes(
-        "/analysis/start/members/.*/(u|v|rotation|axial_force|shear_force|bending_moment)");
-    return std::regex_match(pointer, kShapes) ||          // as many as places
-           field == "range" || field == "load_factor" ||  // lower and upper end
-           pointer == "/analysis/step" ||                 // min, initial, max
-           std::regex_match(pointer, kProducts);
-  }
-  return (finding.code == "empty" && pointer == "/model/supports") ||     // or springs or foundations
-         (finding.code == "too_many" && field == "points_per_member") ||  // times members
-         (finding.code == "too_many" && field == "elements") ||           // of all members
-         (finding.code == "too_many" && pointer.starts_with("/model/imperfections/")) ||  // of one type
-         finding.detail.starts_with("no number of elements for member");                  // ids of members
+  struct Rule {
+    std::string_view code;
+    std::regex pointer;  ///< the fields that the code is about; those of the rule stand in the comment
+  };
+  static const std::vector<Rule> kRules{
+      {"out_of_range", std::regex(".*/(range|load_factor)")},                       // lower and upper end
+      {"out_of_range", std::regex("/analysis/step")},                               // min, initial, max
+      {"out_of_range", std::regex("/model/sections/[0-9]+")},                       // E A, E I, G shear_area
+      {"out_of_range", std::regex(".*/shape/(thickness|web|flange|root_radius)")},  // dimensions of a shape
+      {"out_of_range", std::regex(".*/curve/direction")},  // direction and positions of nodes
+      // as many as places
+      {"out_of_range",
+       std::regex("/analysis/start/members/.*/(u|v|rotation|axial_force|shear_force|bending_moment)")},
+      // amount of a load and factor of its case
+      {"out_of_range", std::regex("/model/load_cases/[0-9]+/loads/[0-9]+/.*")},
+      // all values along a member; the first force of a table
+      {"out_of_range", std::regex("/model/foundations/[0-9]+/(law/)?(stiffness|capacity|factor)(/along)?")},
+      {"out_of_range", std::regex(".*/law/points/[0-9]+/1")},
+      {"empty", std::regex(".*/law/points")},                            // points beside the origin
+      {"empty", std::regex("/model/supports")},                          // or springs or foundations
+      {"ambiguous", std::regex("/model/sections/[0-9]+/(density|nu)")},  // mass and density; nu and G
+      {"ambiguous", std::regex("/model/load_cases/.*/pattern")},         // grows of the case and pattern
+      {"ambiguous", std::regex("/model/foundations/[0-9]+/(component|side)")},   // and direction
+      {"missing_field", std::regex("/model/sections/[0-9]+/(mass|expansion)")},  // sections and loads
+      {"too_many", std::regex(".*/(points_per_member|elements)")},  // times members, of all members
+      {"too_many", std::regex("/model/imperfections/.*")},          // of one type
+  };
+  return std::any_of(kRules.begin(), kRules.end(),
+                     [&](const Rule& rule) {
+                       return rule.code == finding.code && std::regex_match(finding.pointer, rule.pointer);
+                     }) ||
+         finding.detail.starts_with("no number of elements for member");  // ids of members
 }
 
 /// Whether the schema and the reader agree about a document, as far as a schema can.
