@@ -194,7 +194,7 @@ class Documents(Types):
         kind = self.type_of(schema, name)
         if name not in self.names:
             self.names.append(name)
-            self.lines += ["", ""] + wrapped("#: " + sentence(schema), "") + [f"{name} = {kind}"]
+            self.lines += ["", ""] + wrapped(sentence(schema), "#: ") + [f"{name} = {kind}"]
         return name
 
     def define_object(self, name, schema):
