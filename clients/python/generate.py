@@ -364,13 +364,14 @@ class Received(Types):
 class Argument:
     """A parameter of a builder."""
 
-    def __init__(self, field, kind, required, words, function=None):
+    def __init__(self, field, kind, required, words, function=None, leading=False):
         self.field = field
         self.name = attribute(field)
         self.kind = kind
         self.required = required
         self.words = words
         self.function = function
+        self.leading = leading
 
     def declared(self):
         if self.required:
@@ -422,10 +423,11 @@ class Builders:
         result = []
         for field in fields:
             required = all(field in schema.get("required", []) for schema in schemas)
+            leading = field in schemas[0].get("required", [])  # positional, too: the first alternative is the usual one
             kind, function = self.kind_of_field(owner, field, schemas)
             words = dict.fromkeys(sentence(self.contract.resolved(schema["properties"][field])) for schema in schemas
                                   if field in schema["properties"])
-            result.append(Argument(field, kind, required, " / ".join(words), function))
+            result.append(Argument(field, kind, required, " / ".join(words), function, leading))
         return sorted(result, key=lambda argument: not argument.required)
 
     def kind_of_field(self, owner, field, schemas):
@@ -445,7 +447,8 @@ class Builders:
     def method(self, name, what, arguments, target, made):
         """A method that appends an item; `made` are fields that are not parameters, as text."""
         required = [argument for argument in arguments if argument.required]
-        optional = [argument for argument in arguments if not argument.required]
+        required += [argument for argument in arguments if argument.leading and not argument.required]
+        optional = [argument for argument in arguments if argument not in required]
         declared = ["self: _Self"] + [argument.declared() for argument in required]
         declared += ["*"] * bool(optional) + [argument.declared() for argument in optional]
         head = f"    def {name}("
