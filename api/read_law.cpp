@@ -1,19 +1,10 @@
 #include "api/read_law.h"
 
+#include "api/read_along.h"
+
 namespace snapthrough::api {
 
-void read(const Value& value, AlongMember& out) {
-  if (!value.is_object()) {
-    read(value, out.constant);
-    return;
-  }
-  Object in(value);
-  in.required("along", out.points);
-  if (out.points.empty()) {
-    set_unread(out);
-  }
-  in.finish();
-}
+void read(const Value& value, AlongMember& out) { read_along(value, out.constant, out.points, 1); }
 
 static ReactionLaw read_limited(Object& in, ReactionLaw::Type type) {
   ReactionLaw law;

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "api/read_along.h"
 #include "api/read_parts.h"
 #include "solver/model/limits.h"
 
@@ -25,41 +26,13 @@ static void read(const Value& value, LoadAxes& out) {
   read_named(value, kNames, out);
 }
 
-/// Reads one [fraction, value] of a value that varies along a member.
-template <class T>
-static void read(const Value& value, std::pair<double, T>& out) {
-  set_unread(out.first);
-  set_unread(out.second);
-  if (!value.is_array() || value.size() != 2) {
-    value.report_type("[fraction, value]");
-    return;
-  }
-  read(value.item(0), out.first);
-  read(value.item(1), out.second);
-}
-
-/// Reads a value that is the same along a member, or {"along": [[fraction, value], ...]}.
-template <class T>
-static void read_along(const Value& value, T& out, Along<T>& along) {
-  if (!value.is_object()) {
-    set_unread(out);
-    read(value, out);
-    return;
-  }
-  Object in(value);
-  if (const auto points = in.find_required("along")) {
-    if (points->is_array() && points->size() < 2) {
-      points->report("empty", "along must hold at least two [fraction, value] pairs");
-    }
-    read(*points, along);
-  }
-  in.finish();
-}
+/// Least number of places at which a load that varies is given.
+static constexpr std::size_t kLeastPoints = 2;
 
 template <class T>
 static void read_along(Object& in, std::string_view key, T& out, Along<T>& along) {
   if (const auto value = in.find(key)) {
-    read_along(*value, out, along);
+    read_along(*value, out, along, kLeastPoints);
   }
 }
 
@@ -76,7 +49,7 @@ static Load read_distributed_load(Object& in) {
   DistributedLoad load;
   in.required("member", load.member);
   if (const auto force = in.find_required("force")) {
-    read_along(*force, load.force, load.force_along);
+    read_along(*force, load.force, load.force_along, kLeastPoints);
   }
   in.optional("axes", load.axes);
   in.optional("range", load.range);
@@ -89,7 +62,7 @@ static Load read_pressure_load(Object& in) {
   PressureLoad load;
   in.required("member", load.member);
   if (const auto amount = in.find_required("value")) {
-    read_along(*amount, load.value, load.value_along);
+    read_along(*amount, load.value, load.value_along, kLeastPoints);
   }
   in.optional("side", load.side);
   in.optional("pattern", load.pattern);

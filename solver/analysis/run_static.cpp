@@ -291,7 +291,7 @@ void compute(const Model& model, const Analysis& analysis, const Structure& stru
         neutral.note(holds, analysis.load_factors[i]);
       } else {
         fail(result, "no_convergence",
-             "no contact state was found at load factor " + number(analysis.load_factors[i]));
+             "no equilibrium was found at load factor " + number(analysis.load_factors[i]));
       }
     }
   } else {

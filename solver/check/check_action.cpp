@@ -30,11 +30,7 @@ void check_along(const Place& field, const Along<T>& along) {
   double previous = -1.0;
   for (std::size_t i = 0; i < along.size(); ++i) {
     const auto& [fraction, value] = along[i];
-    if (require_between(place / i / 0, fraction, 0.0, 1.0) && !(fraction - previous > kMinRelativeChord)) {
-      (place / i / 0)
-          .report("not_increasing", "fractions must increase by more than " + text(kMinRelativeChord) +
-                                        ", got " + text(fraction) + " after " + text(previous));
-    }
+    require_next_fraction(place / i / 0, fraction, previous);
     check_value(place / i / 1, value);
     previous = fraction;
   }
@@ -131,11 +127,7 @@ void check_imperfection(const Place& place, const PointsImperfection& imperfecti
   double previous = -1.0;
   for (std::size_t i = 0; i < imperfection.offsets.size(); ++i) {
     const double fraction = imperfection.offsets[i][0];
-    if (require_between(offsets / i / 0, fraction, 0.0, 1.0) && !(fraction - previous > kMinRelativeChord)) {
-      (offsets / i / 0)
-          .report("not_increasing", "fractions must increase by more than " + text(kMinRelativeChord) +
-                                        ", got " + text(fraction) + " after " + text(previous));
-    }
+    require_next_fraction(offsets / i / 0, fraction, previous);
     require_finite(offsets / i / 1, imperfection.offsets[i][1]);
     previous = fraction;
   }

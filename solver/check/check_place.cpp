@@ -75,6 +75,18 @@ bool require_between(const Place& place, int value, int lo, int hi) {
   return holds;
 }
 
+bool require_next_fraction(const Place& place, double fraction, double previous) {
+  if (!require_between(place, fraction, 0.0, 1.0)) {
+    return false;
+  }
+  const bool holds = fraction - previous > kMinRelativeChord;
+  if (!holds) {
+    place.report("not_increasing", "fractions must increase by more than " + text(kMinRelativeChord) +
+                                       ", got " + text(fraction) + " after " + text(previous));
+  }
+  return holds;
+}
+
 bool require_direction(const Place& place, const std::array<double, 2>& direction) {
   const bool finite = is_bounded(direction[0]) && is_bounded(direction[1]);
   if (!finite) {

@@ -48,6 +48,9 @@ bool require_not_negative(const Place& place, double value);
 /// Requires lo <= value <= hi.
 bool require_between(const Place& place, double value, double lo, double hi);
 bool require_between(const Place& place, int value, int lo, int hi);
+/// Requires a fraction in [0, 1] that exceeds the one before it.
+/// @param previous the fraction before; below -kMinRelativeChord for the first one
+bool require_next_fraction(const Place& place, double fraction, double previous);
 /// Requires two finite components that are not both zero.
 bool require_direction(const Place& place, const std::array<double, 2>& direction);
 /// Requires 0 <= range[0] < range[1] <= 1.

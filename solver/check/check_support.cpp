@@ -23,15 +23,12 @@ void check_along(const Place& place, const AlongMember& value) {
   }
   const Place along = place / "along";
   require_count(along, value.points.size(), kMaxPointsAlong);
-  double last = -1.0;
+  double previous = -1.0;
   for (std::size_t i = 0; i < value.points.size(); ++i) {
-    const Place fraction = along / i / std::size_t{0};
-    require_between(fraction, value.points[i][0], 0.0, 1.0);
-    if (!(value.points[i][0] - last > kOnePlace)) {
-      fraction.report("not_increasing", "fractions must ascend");
-    }
-    last = value.points[i][0];
-    require_not_negative(along / i / std::size_t{1}, value.points[i][1]);
+    const auto [fraction, number] = value.points[i];
+    require_next_fraction(along / i / std::size_t{0}, fraction, previous);
+    require_not_negative(along / i / std::size_t{1}, number);
+    previous = fraction;
   }
   if (!(value.largest() > 0.0)) {
     along.report("out_of_range", place.name() + " must be positive somewhere");

@@ -690,7 +690,6 @@ void fill(const Model& model, const Scales* scales, const Neighbour* like, Struc
   builder.add_monitors();
   builder.finish();
   const auto one_sided = [](const auto& support) { return is_one_sided(support); };
-  out.curved = !out.curves.empty();
   out.one_sided = std::any_of(laws.foundations.begin(), laws.foundations.end(), one_sided) ||
                   std::any_of(laws.springs.begin(), laws.springs.end(), one_sided);
   out.has_constant = builder.is_moved_by_constant_actions();

@@ -127,7 +127,8 @@ struct Structure {
   bool one_sided = false;                ///< some foundation or spring is not bilateral
   /// Curves to which the laws of the elements and nodes refer.
   std::vector<std::shared_ptr<const ReactionCurve>> curves;
-  bool curved = false;        ///< some foundation or spring has a law with a curve
+  /// Whether some foundation or spring has a law with a curve.
+  [[nodiscard]] bool curved() const { return !curves.empty(); }
   bool has_constant = false;  ///< constant actions cause displacements
   std::stop_token stop;       ///< cancels computations on the structure
   /// Node motions (x, y, rotation each, scaled) that only one-sided supports can resist; orthonormal columns.

@@ -50,17 +50,11 @@ void ElementWorkOf<P>::add_pieces(std::size_t index, const Shape& shape, const E
     add_interval(index, shape, interval, share, gap);
     return;
   }
-  std::sort(knots_.begin(), knots_.end(), [](const auto& a, const auto& b) { return a.xi < b.xi; });
-  double from = interval.from;
-  const auto add_to = [&](double to) {
-    const double middle = 0.5 * (from + to);
-    add_interval(index, shape, {from, middle}, share, gap);
-    add_interval(index, shape, {middle, to}, share, gap);
-    from = to;
-  };
-  for (const auto& knot : knots_)
-    if (knot.xi > from && knot.xi < interval.to) add_to(knot.xi);
-  add_to(interval.to);
+  FoundationContact::for_each_piece(knots_, interval, [&](const ElementPart& piece) {
+    const double middle = 0.5 * (piece.from + piece.to);
+    add_interval(index, shape, {piece.from, middle}, share, gap);
+    add_interval(index, shape, {middle, piece.to}, share, gap);
+  });
 }
 
 /// Appends the Gauss points of an interval with a modulus and a gap. Functionals of the whole range, the most

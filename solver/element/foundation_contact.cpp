@@ -480,6 +480,7 @@ void FoundationContact::knot_places(std::array<double, 2> ua, std::span<const do
     if (high >= *least && low <= *most) add_knot(k, 1.0, x, out);
     if (!law_.one_sided && high > 0.0 && -low >= *least && -high <= *most) add_knot(k, -1.0, x, out);
   }
+  std::sort(out.begin(), out.end(), [](const KnotPlace& a, const KnotPlace& b) { return a.xi < b.xi; });
 }
 
 std::vector<FoundationContact::Interval> FoundationContact::smooth_pieces(std::array<double, 2> ua,
@@ -489,16 +490,9 @@ std::vector<FoundationContact::Interval> FoundationContact::smooth_pieces(std::a
   contact_intervals(ua, dx, dy, parts);
   std::vector<KnotPlace> knots;
   knot_places(ua, dx, dy, knots);
-  std::sort(knots.begin(), knots.end(), [](const auto& a, const auto& b) { return a.xi < b.xi; });
   std::vector<Interval> out;
-  for (Interval part : parts) {
-    for (const KnotPlace& knot : knots) {
-      if (!(knot.xi > part.from && knot.xi < part.to)) continue;
-      out.push_back({part.from, knot.xi});
-      part.from = knot.xi;
-    }
-    out.push_back(part);
-  }
+  for (const Interval& part : parts)
+    for_each_piece(knots, part, [&out](const Interval& piece) { out.push_back(piece); });
   return out;
 }
 

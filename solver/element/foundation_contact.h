@@ -85,10 +85,20 @@ class FoundationContact {
     double stiffness_change = 0.0;  ///< change of the stiffness from below to above the knot, per element
     double slope = 0.0;             ///< d (penetration - that of the knot) / d xi
   };
-  /// @brief Places inside the range at which the penetration passes a knot of the law, not sorted; `out` is
+  /// @brief Places inside the range at which the penetration passes a knot of the law, ascending; `out` is
   /// overwritten. Contact ends are none.
   void knot_places(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                    std::vector<KnotPlace>& out) const;
+  /// Calls take(piece) for each piece of an interval between neighbouring knots, ascending.
+  template <class Take>
+  static void for_each_piece(const std::vector<KnotPlace>& knots, Interval interval, const Take& take) {
+    for (const KnotPlace& knot : knots) {
+      if (!(knot.xi > interval.from && knot.xi < interval.to)) continue;
+      take(Interval{interval.from, knot.xi});
+      interval.from = knot.xi;
+    }
+    take(interval);
+  }
   /// @brief Intervals in contact, cut at the knots of the law; ascending.
   [[nodiscard]] std::vector<Interval> smooth_pieces(std::array<double, 2> ua, std::span<const double> dx,
                                                     std::span<const double> dy) const;

@@ -22,7 +22,7 @@ constexpr double kIdle = 1e-6;
 /// linear, bilateral supports only.
 Regime BucklingPencil::regime() const {
   Regime regime;
-  if (!structure_.one_sided && !structure_.curved) return regime;
+  if (!structure_.one_sided && !structure_.curved()) return regime;
   regime.contact = Regime::Contact::frozen;
   regime.frozen = &contact_;
   return regime;
@@ -91,14 +91,14 @@ void BucklingPencil::freeze_contact(double reference) {
     }
   }
   contact_ = problem_.frozen_contact(y);
-  if (structure_.curved) contact_.linearised_at = y;
+  if (structure_.curved()) contact_.linearised_at = y;
   marks_ = problem_.marks_at(y);
 }
 
 void BucklingPencil::set_prestress(double reference) {
   const SharedHolds soft = held_softly(problem_);
   problem_.set_holds(soft);
-  if (structure_.one_sided || structure_.curved) freeze_contact(reference);
+  if (structure_.one_sided || structure_.curved()) freeze_contact(reference);
   if (soft) {
     Regime small = regime();
     small.small_displacements = true;

@@ -11,11 +11,6 @@ namespace {
 
 using Vec2 = std::array<double, 2>;
 
-double between(double from, double to, double share) { return from + share * (to - from); }
-Vec2 between(const Vec2& from, const Vec2& to, double share) {
-  return {between(from[0], to[0], share), between(from[1], to[1], share)};
-}
-
 Along<double> times(double factor, const Along<double>& along) {
   Along<double> out = along;
   for (auto& [fraction, value] : out) value *= factor;
@@ -27,20 +22,6 @@ const Section& section_of(const Model& model, const Member& member) {
 }
 
 }  // namespace
-
-template <class T>
-T value_at(const T& constant, const Along<T>& along, double fraction) {
-  if (along.empty()) return constant;
-  const auto next = std::upper_bound(along.begin(), along.end(), fraction,
-                                     [](double f, const auto& point) { return f < point.first; });
-  if (next == along.begin()) return along.front().second;
-  if (next == along.end()) return along.back().second;
-  const auto& before = *(next - 1);
-  return between(before.second, next->second, (fraction - before.first) / (next->first - before.first));
-}
-
-template double value_at(const double&, const Along<double>&, double);
-template Vec2 value_at(const Vec2&, const Along<Vec2>&, double);
 
 Vec2 LinePiece::at(double fraction) const {
   return from == to ? from : between(from, to, (fraction - range[0]) / (range[1] - range[0]));

@@ -9,10 +9,6 @@
 
 namespace snapthrough {
 
-/// Value at a fraction of the member; `constant` if the value does not vary.
-template <class T>
-[[nodiscard]] T value_at(const T& constant, const Along<T>& along, double fraction);
-
 /// Part of a distributed load on which its force is a linear function of the fraction.
 struct LinePiece {
   std::array<double, 2> range{};  ///< fractions of the member

@@ -34,11 +34,6 @@ enum class Component { x, y, rotation, normal };
 /// Distance of fractions of a member's length that counts as zero.
 inline constexpr double kOnePlace = 1e-9;
 
-/// Values at ascending fractions of a member's length, linear between, constant before the first and after
-/// the last. Empty: the value does not vary, and the field beside it has it.
-template <class T>
-using Along = std::vector<std::pair<double, T>>;
-
 /// Location on the structure: a node, or a point of a member. Exactly one of `node`, `member` is not empty.
 struct Location {
   std::string node;

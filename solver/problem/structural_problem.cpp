@@ -668,7 +668,7 @@ Eigen::MatrixXd StructuralProblem::find_products(const VectorXd& y, double lambd
 void StructuralProblem::add_spring_rates(const VectorXd& y, const VectorXd& along,
                                          const Eigen::Ref<const VectorXd>& direction,
                                          Eigen::Ref<VectorXd> out) const {
-  if (!structure_.curved) return;
+  if (!structure_.curved()) return;
   for (const NodeSpring& spring : structure_.node_springs) {
     if (spring.law.curve == nullptr || !node_spring_acts(spring, penetration(spring, y, 0.0))) continue;
     double moved = 0.0;

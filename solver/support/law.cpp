@@ -26,7 +26,7 @@ std::array<double, 2> largest_of(const ReactionLaw& law) {
 AlongMember over_largest(AlongMember value) {
   const double largest = value.largest();
   value.constant = 1.0;
-  for (auto& point : value.points) point[1] = largest > 0.0 ? point[1] / largest : 0.0;
+  for (auto& point : value.points) point.second = largest > 0.0 ? point.second / largest : 0.0;
   return value;
 }
 

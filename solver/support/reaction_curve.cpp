@@ -10,8 +10,8 @@ namespace {
 using Points = std::vector<std::array<double, 2>>;
 
 /// Parts of curves between knots. On [x, 2 x] the nearest singularity of x / (1 + x) and of a power is at
-/// three half widths from the middle, so that n Gauss points have the error 5.8^-2n; tanh x is closer to 1
-/// there than that.
+/// three half widths from the middle, so that n Gauss points have the error 5.8^-2n. The difference of tanh x
+/// from 1 falls as exp(-2 x), faster than the parts grow.
 struct CurveParts {
   static constexpr int tanh = 5;         ///< 1, 2, .. 16, beyond which 1 - tanh x is rounding
   static constexpr int hyperbolic = 51;  ///< 0, 1, 2, .. 2^49, beyond which 1 - x / (1 + x) is rounding

@@ -63,45 +63,46 @@ Model with_laws(ReactionLaw::Type type) {
   return model;
 }
 
-class LawTangent : public ::testing::TestWithParam<ReactionLaw::Type> {};
+class LawTangent : public ::testing::TestWithParam<ReactionLaw::Type> {
+ protected:
+  static constexpr double kStep = 1e-6;
+  const Structure structure_ = make_structure(with_laws(GetParam()), fixed_mesh(4, 3), Geometry::nonlinear);
+  StructuralProblem problem_{structure_};
+};
 
-/// Displacements of the size of the law's kinks, so that all branches occur.
+/// Random unknowns whose displacements are of the size of the laws' knots, so that all branches occur.
 VectorXd state_of(const StructuralProblem& problem) { return 0.1 * VectorXd::Random(problem.size()); }
 
 TEST_P(LawTangent, IsTheDerivativeOfTheResidual) {
   std::srand(3u);
-  const Structure structure = make_structure(with_laws(GetParam()), fixed_mesh(4, 3), Geometry::nonlinear);
-  StructuralProblem problem(structure);
-  constexpr double kStep = 1e-6;
   for (int draw = 0; draw < 5; ++draw) {
-    const VectorXd y = state_of(problem);
-    const VectorXd d = VectorXd::Random(problem.size());
+    const VectorXd y = state_of(problem_);
+    const VectorXd d = VectorXd::Random(problem_.size());
     VectorXd ahead;
     VectorXd behind;
-    problem.residual(y + kStep * d, 0.3, ahead);
-    problem.residual(y - kStep * d, 0.3, behind);
+    problem_.residual(y + kStep * d, 0.3, ahead);
+    problem_.residual(y - kStep * d, 0.3, behind);
     const VectorXd difference = (ahead - behind) / (2.0 * kStep);
-    const VectorXd product = problem.tangent_product(y, 0.3, d);
-    // Where kinks move inside elements, the tangent differs from the derivative of the quadrature by the
-    // error of the quadrature, which is large on a random state of order 3.
-    const double quadrature = GetParam() == ReactionLaw::Type::tanh ? 1e-7 : 2e-3;
-    EXPECT_LT((product - difference).norm(), quadrature * difference.norm()) << draw;
+    const VectorXd product = problem_.tangent_product(y, 0.3, d);
+    // Quadrature of pieces that move leaves 1e-6 at most. A power has a jump of its slope, whose place is
+    // interpolated: on the element in which the capacity bends, that place is right to some digits only.
+    const double most = GetParam() == ReactionLaw::Type::tanh    ? 1e-7
+                        : GetParam() == ReactionLaw::Type::power ? 2e-3
+                                                                 : 2e-6;
+    EXPECT_LT((product - difference).norm(), most * difference.norm()) << draw;
   }
 }
 
 TEST_P(LawTangent, ChangesByItsDerivative) {
   std::srand(7u);
-  const Structure structure = make_structure(with_laws(GetParam()), fixed_mesh(4, 3), Geometry::nonlinear);
-  StructuralProblem problem(structure);
-  constexpr double kStep = 1e-6;
   for (int draw = 0; draw < 5; ++draw) {
-    const VectorXd y = state_of(problem);
-    const VectorXd a = VectorXd::Random(problem.size());
-    const VectorXd d = VectorXd::Random(problem.size());
+    const VectorXd y = state_of(problem_);
+    const VectorXd a = VectorXd::Random(problem_.size());
+    const VectorXd d = VectorXd::Random(problem_.size());
     const VectorXd difference =
-        (problem.tangent_product(y + kStep * a, 0.3, d) - problem.tangent_product(y - kStep * a, 0.3, d)) /
+        (problem_.tangent_product(y + kStep * a, 0.3, d) - problem_.tangent_product(y - kStep * a, 0.3, d)) /
         (2.0 * kStep);
-    const VectorXd change = problem.tangent_change(y, 0.3, {a, 0.0}, d);
+    const VectorXd change = problem_.tangent_change(y, 0.3, {a, 0.0}, d);
     EXPECT_LT((change - difference).norm(), 1e-3 * difference.norm()) << draw;
   }
 }
