@@ -427,11 +427,12 @@ void StructuralProblem::reduce_member(std::size_t member, const ColumnLanes& lan
                              std::span(structure_.dofs).subspan(first, elements), lanes);
   const std::array<int, 3>& start = structure_.dofs[first].a;
   const Lanes3 ra = transposed_times(axes_of(start), ends.ra);
-  for (Index i = 0; i < count; ++i)
+  for (Index i = 0; i < count; ++i) {
     for (int c = 0; c < 3; ++c) {
       if (!is_fixed(start[c])) node_rhs_(start[c], i) += ra[c][i];
       node_rhs_(multiplier(member) + c, i) = ends.rm[c][i];
     }
+  }
 }
 
 /// Solves the node system in place. @param reduced scratch, one entry per unknown of the system
