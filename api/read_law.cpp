@@ -1,5 +1,7 @@
 #include "api/read_law.h"
 
+#include <limits>
+
 #include "api/read_along.h"
 
 namespace snapthrough::api {
@@ -51,9 +53,23 @@ static bool read_law_alone(Object& in, std::optional<ReactionLaw>& out) {
   return true;
 }
 
+/// Reads the stiffness "rigid"; false when it is another value.
+static bool read_rigid(const Value& value, double& out) {
+  if (!value.is_string()) {
+    return false;
+  }
+  static constexpr Named<double> kNames[] = {{"rigid", std::numeric_limits<double>::infinity()}};
+  read_named(value, kNames, out);
+  return true;
+}
+
 void read_law(Object& in, Spring& out) {
-  if (!read_law_alone(in, out.law)) {
-    in.required("stiffness", out.stiffness);
+  if (read_law_alone(in, out.law)) {
+    return;
+  }
+  set_unread(out.stiffness);
+  if (const auto value = in.find_required("stiffness"); value && !read_rigid(*value, out.stiffness)) {
+    read(*value, out.stiffness);
   }
 }
 
@@ -61,8 +77,13 @@ void read_law(Object& in, Foundation& out) {
   if (read_law_alone(in, out.law)) {
     return;
   }
+  set_unread(out.stiffness);
+  const auto value = in.find_required("stiffness");
+  if (!value || read_rigid(*value, out.stiffness)) {
+    return;
+  }
   AlongMember stiffness;
-  in.required("stiffness", stiffness);
+  read(*value, stiffness);
   if (stiffness.varies()) {
     out.law.emplace().stiffness = std::move(stiffness);
   } else {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "api/read_along.h"
 #include "api/read_law.h"
 #include "api/read_parts.h"
 #include "solver/model/limits.h"
@@ -226,6 +227,56 @@ static void read(const Value& value, Spring& out) {
   in.finish();
 }
 
+static Outline read_circle_outline(Object& in) {
+  static constexpr Named<bool> kMedia[] = {{"outside", false}, {"inside", true}};
+  CircleOutline out;
+  in.required("center", out.centre);
+  in.required("radius", out.radius);
+  if (const auto medium = in.find_required("medium")) {
+    read_named(*medium, kMedia, out.medium_inside);
+  }
+  return out;
+}
+
+static Outline read_line_outline(Object& in) {
+  LineOutline out;
+  in.required("through", out.through);
+  in.required("into", out.into);
+  return out;
+}
+
+static Outline read_spline_outline(Object& in) {
+  SplineOutline out;
+  in.required("points", out.points);
+  in.required("medium", out.medium);
+  return out;
+}
+
+static Outline read_polyline_outline(Object& in) {
+  PolylineOutline out;
+  in.required("points", out.points);
+  in.required("rounding", out.rounding);
+  in.required("medium", out.medium);
+  return out;
+}
+
+/// Reads the surface of the medium of a foundation.
+static void read_outline(Object& in, Foundation& out) {
+  static constexpr Named<Outline (*)(Object&)> kForms[] = {{"circle", read_circle_outline},
+                                                           {"line", read_line_outline},
+                                                           {"spline", read_spline_outline},
+                                                           {"polyline", read_polyline_outline}};
+  const auto outline = in.find("outline");
+  if (!outline) {
+    return;
+  }
+  read_tagged(*outline, kForms, out.outline.emplace());
+  if (in.find("direction") || in.find("side") || in.find("gap") || in.find("component")) {
+    outline->report("ambiguous",
+                    "an outline is the place of the medium: leave side, direction, gap and component out");
+  }
+}
+
 /// Reads whether a foundation acts along the normal or along the tangent.
 static void read_component(Object& in, Foundation& out) {
   static constexpr Named<bool> kNames[] = {{"normal", false}, {"tangent", true}};
@@ -247,7 +298,9 @@ static void read(const Value& value, Foundation& out) {
   in.optional("shear_stiffness", out.shear_stiffness);
   in.optional("reaction", out.reaction);
   in.optional("range", out.range);
-  in.optional("gap", out.gap);
+  if (const auto gap = in.find("gap")) {
+    read_along(*gap, out.gap, out.gap_along, 1);
+  }
   if (const auto direction = in.find("direction")) {
     read_direction(*direction, "normal", out.direction);
   }
@@ -258,6 +311,7 @@ static void read(const Value& value, Foundation& out) {
     }
   }
   read_component(in, out);
+  read_outline(in, out);
   in.finish();
 }
 

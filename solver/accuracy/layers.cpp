@@ -18,7 +18,7 @@ std::vector<double> bending_decays(const Structure& structure, const Model& mode
       tension = std::max(tension, y.segment(structure.dofs[e].s, structure.mesh.order).maxCoeff());
     double squared = tension * structure.scales.force / section.EI;
     for (const Foundation& foundation : model.foundations)
-      if (section.GA && foundation.member == member.id)
+      if (section.GA && foundation.member == member.id && std::isfinite(initial_stiffness(foundation)))
         squared += initial_stiffness(foundation) / *section.GA;
     decays.push_back(1.0 / std::sqrt(squared));
   }

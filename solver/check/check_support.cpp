@@ -1,6 +1,9 @@
 /// Checks of supports, springs and foundations.
 
 #include <cmath>
+#include <limits>
+#include <string>
+#include <variant>
 
 #include "solver/check/check_parts.h"
 #include "solver/model/limits.h"
@@ -9,9 +12,102 @@ namespace snapthrough::checks {
 
 namespace {
 
+/// Requires a one-sided reaction. @param what the subject of the sentence
+void require_one_sided(const Place& place, Reaction reaction, const std::string& what) {
+  if (reaction == Reaction::bilateral) {
+    place.report("needs_one_sided", what + " needs reaction compression_only or tension_only");
+  }
+}
+
 void check_gap(const Place& place, double gap, Reaction reaction) {
-  if (require_not_negative(place, gap) && gap > 0.0 && reaction == Reaction::bilateral) {
-    place.report("needs_one_sided", "gap needs reaction compression_only or tension_only");
+  if (require_not_negative(place, gap) && gap > 0.0) {
+    require_one_sided(place, reaction, "gap");
+  }
+}
+
+/// Checks a gap along a member.
+void check_gaps(const Place& place, const Along<double>& gaps, Reaction reaction) {
+  const Place along = place / "along";
+  require_count(along, gaps.size(), kMaxPointsAlong);
+  double previous = -1.0;
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    require_next_fraction(along / i / std::size_t{0}, gaps[i].first, previous);
+    require_not_negative(along / i / std::size_t{1}, gaps[i].second);
+    previous = gaps[i].first;
+  }
+  require_one_sided(place, reaction, "gap");
+}
+
+/// Checks a stiffness that may be infinite: rigid.
+void check_stiffness(const Place& place, double stiffness, Reaction reaction) {
+  if (stiffness == std::numeric_limits<double>::infinity()) {
+    require_one_sided(place, reaction, "\"rigid\"");
+  } else {
+    require_not_negative(place, stiffness);
+  }
+}
+
+/// Checks the points of an outline: at least `least`, distinct neighbours.
+void check_outline_points(const Place& place, const std::vector<std::array<double, 2>>& points,
+                          std::size_t least) {
+  require_count(place, points.size(), kMaxPointsAlong);
+  if (points.size() < least) {
+    place.report("empty", "an outline needs at least " + std::to_string(least) + " points");
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool finite = require_finite(place / i / std::size_t{0}, points[i][0]) &&
+                        require_finite(place / i / std::size_t{1}, points[i][1]);
+    if (finite && i > 0 && points[i] == points[i - 1]) {
+      (place / i).report("coincident_points", "neighbouring points of an outline must differ");
+    }
+  }
+}
+
+/// Whether the arcs at the corners of a polyline leave its sides a length.
+bool has_room(const PolylineOutline& line) {
+  const auto& points = line.points;
+  double before = 0.0;  // length that the corner before takes from the side
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double dx = points[i][0] - points[i - 1][0];
+    const double dy = points[i][1] - points[i - 1][1];
+    double after = 0.0;
+    if (i + 1 < points.size()) {
+      const double ex = points[i + 1][0] - points[i][0];
+      const double ey = points[i + 1][1] - points[i][1];
+      after = line.rounding * std::tan(0.5 * std::abs(std::atan2(dx * ey - dy * ex, dx * ex + dy * ey)));
+    }
+    if (!(before + after < std::hypot(dx, dy))) return false;
+    before = after;
+  }
+  return true;
+}
+
+void check_outline(const Place& place, const CircleOutline& circle) {
+  require_finite(place / "center" / std::size_t{0}, circle.centre[0]);
+  require_finite(place / "center" / std::size_t{1}, circle.centre[1]);
+  require_positive(place / "radius", circle.radius);
+}
+void check_outline(const Place& place, const LineOutline& line) {
+  require_finite(place / "through" / std::size_t{0}, line.through[0]);
+  require_finite(place / "through" / std::size_t{1}, line.through[1]);
+  require_direction(place / "into", line.into);
+}
+void check_outline(const Place& place, const SplineOutline& spline) {
+  check_outline_points(place / "points", spline.points, 2);
+}
+void check_outline(const Place& place, const PolylineOutline& line) {
+  check_outline_points(place / "points", line.points, 2);
+  if (require_positive(place / "rounding", line.rounding) && !has_room(line)) {
+    (place / "rounding").report("out_of_range", "rounding must leave every side between two arcs a length");
+  }
+}
+
+/// Checks the surface of a foundation, and the fields that it excludes.
+void check_outline(const Place& foundation, const Foundation& data) {
+  const Place place = foundation / "outline";
+  std::visit([&place](const auto& outline) { check_outline(place, outline); }, *data.outline);
+  if (data.reaction != Reaction::compression_only) {
+    place.report("not_supported", "a medium with an outline pushes: its reaction must be compression_only");
   }
 }
 
@@ -170,7 +266,7 @@ void check_springs(const Place& model, const Model& data, const Names& names) {
       check_law(place, *spring.law);
       check_constant(place, *spring.law);
     } else {
-      require_not_negative(place / "stiffness", spring.stiffness);
+      check_stiffness(place / "stiffness", spring.stiffness, spring.reaction);
     }
     check_gap(place / "gap", spring.gap, spring.reaction);
   }
@@ -188,14 +284,21 @@ void check_foundations(const Place& model, const Model& data, const Names& names
     if (foundation.law) {
       check_law(place, *foundation.law);
     } else {
-      require_not_negative(place / "stiffness", foundation.stiffness);
+      check_stiffness(place / "stiffness", foundation.stiffness, foundation.reaction);
     }
     if (foundation.tangential) {
       check_tangential(place, foundation);
     }
     require_not_negative(place / "shear_stiffness", foundation.shear_stiffness);
     require_fractions(place / "range", foundation.range);
-    check_gap(place / "gap", foundation.gap, foundation.reaction);
+    if (foundation.gap_along.empty()) {
+      check_gap(place / "gap", foundation.gap, foundation.reaction);
+    } else {
+      check_gaps(place / "gap", foundation.gap_along, foundation.reaction);
+    }
+    if (foundation.outline) {
+      check_outline(place, foundation);
+    }
     if (foundation.direction) {
       require_direction(place / "direction", *foundation.direction);
     }

@@ -8,37 +8,21 @@
 namespace snapthrough {
 namespace {
 
-/// Functional of the displacement into the medium at a place of an element.
+/// Spring of a foundation at a place of an element, along the direction on the initial axis, per unit length.
 SupportSpring penetration_spring(const Structure& structure, const FoundationLaw& foundation, int element,
                                  double xi) {
-  const auto d = foundation.direction.at(axis_point(structure, element, xi).angle);
-  return support_at(structure, element, xi, {d[0], d[1], 0.0});
-}
-
-/// Fraction of the member's length at a place of an element.
-double fraction_at(const Structure& structure, int element, double xi) {
-  const MeshElement& e = structure.mesh.elements[element];
-  return e.from + xi * (e.to - e.from);
-}
-
-/// Bilateral springs at the points of a quadrature rule on part of an element.
-std::vector<SupportSpring> penetration_springs(const Structure& structure, const FoundationLaw& foundation,
-                                               int element, std::array<double, 2> range,
-                                               const Quadrature& rule) {
-  std::vector<SupportSpring> out;
-  out.reserve(rule.points.size());
-  const double width = range[1] - range[0];
-  for (std::size_t i = 0; i < rule.points.size(); ++i) {
-    out.push_back(penetration_spring(structure, foundation, element, range[0] + width * rule.points[i]));
-    Law& law = out.back().law;
-    law = foundation.at(fraction_at(structure, element, range[0] + width * rule.points[i]));
-    law.gap = 0.0;
-    law.one_sided = false;
-    law.scale(length_of_element(structure, element));
-    law.scale(width);
-    law.scale(rule.weights[i]);
-  }
+  const PlaceOnAxis at = place_on_axis(structure, element, xi);
+  const auto d = foundation.initial_direction(at);
+  SupportSpring out = support_at(structure, element, xi, {d[0], d[1], 0.0});
+  out.law = foundation.at(at.fraction);
   return out;
+}
+
+/// Scales a spring to a point of a quadrature rule on a part of an element.
+void scale(const Structure& structure, int element, double width, double weight, Law& law) {
+  law.scale(length_of_element(structure, element));
+  law.scale(width);
+  law.scale(weight);
 }
 
 /// Springs at the Lobatto points of the whole element that lie in the range.
@@ -50,9 +34,7 @@ std::vector<SupportSpring> lumped_springs(const Structure& structure, const Foun
     const double xi = lobatto.points[i];
     if (xi < range[0] - kOnePlace || xi > range[1] + kOnePlace) continue;
     SupportSpring support = penetration_spring(structure, foundation, element, xi);
-    support.law = foundation.at(fraction_at(structure, element, xi));
-    support.law.scale(length_of_element(structure, element));
-    support.law.scale(lobatto.weights[i]);
+    scale(structure, element, 1.0, lobatto.weights[i], support.law);
     out.push_back(support);
   }
   return out;
@@ -79,19 +61,54 @@ AxisPoint axis_point(const Structure& structure, int element, double xi) {
   return axis.at(axis.length() * (e.from + xi * (e.to - e.from)));
 }
 
+PlaceOnAxis place_on_axis(const Structure& structure, int element, double xi) {
+  const MeshElement& e = structure.mesh.elements[element];
+  const AxisPoint at = axis_point(structure, element, xi);
+  return {{structure.scales.scaled_length(at.x), structure.scales.scaled_length(at.y)},
+          at.angle,
+          e.from + xi * (e.to - e.from)};
+}
+
 std::vector<SupportSpring> winkler_springs(const Structure& structure, const FoundationLaw& foundation,
                                            int element, std::array<double, 2> range) {
   if (structure.mesh.foundation == FoundationRule::lumped)
     return lumped_springs(structure, foundation, element, range);
-  return penetration_springs(structure, foundation, element, range, gauss_legendre(structure.mesh.order + 1));
+  const Quadrature gauss = gauss_legendre(structure.mesh.order + 1);
+  std::vector<SupportSpring> out;
+  out.reserve(gauss.points.size());
+  const double width = range[1] - range[0];
+  for (std::size_t i = 0; i < gauss.points.size(); ++i) {
+    out.push_back(penetration_spring(structure, foundation, element, range[0] + width * gauss.points[i]));
+    Law& law = out.back().law;
+    law.gap = 0.0;
+    law.one_sided = false;
+    scale(structure, element, width, gauss.weights[i], law);
+  }
+  return out;
 }
 
 std::vector<SupportSpring> contact_springs(const Structure& structure, const FoundationLaw& foundation,
-                                           int element, FoundationContact::Interval interval) {
-  std::vector<SupportSpring> out =
-      penetration_springs(structure, foundation, element, {interval.from, interval.to},
-                          FoundationContact::quadrature(structure.mesh.order));
-  for (SupportSpring& support : out) support.law.gap = foundation.law.gap;
+                                           const ElementReader& reader, int element,
+                                           FoundationContact::Interval interval) {
+  const Quadrature& rule = FoundationContact::quadrature(structure.mesh.order);
+  std::vector<SupportSpring> out;
+  out.reserve(rule.points.size());
+  const double width = interval.to - interval.from;
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    const double xi = interval.from + width * rule.points[i];
+    out.push_back(penetration_spring(structure, foundation, element, xi));
+    if (foundation.surface) {
+      const auto u = reader.displacement(xi);
+      const SurfacePoint at = foundation.penetration(place_on_axis(structure, element, xi), {u[0], u[1]});
+      const Law law = out.back().law;
+      out.back() = support_at(structure, element, xi, {at.into[0], at.into[1], 0.0});
+      out.back().law = law;
+      out.back().law.gap = at.into[0] * u[0] + at.into[1] * u[1] - at.depth;
+    }
+    Law& law = out.back().law;
+    law.one_sided = false;
+    scale(structure, element, width, rule.weights[i], law);
+  }
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "solver/discrete/element_reader.h"
 #include "solver/discrete/structure.h"
 #include "solver/support/law.h"
 
@@ -18,6 +19,9 @@ namespace snapthrough {
 /// Point of the perfect axis at a place of an element, in the model's units.
 [[nodiscard]] AxisPoint axis_point(const Structure& structure, int element, double xi);
 
+/// The same point, scaled, with the fraction of its member.
+[[nodiscard]] PlaceOnAxis place_on_axis(const Structure& structure, int element, double xi);
+
 /// @brief Winkler springs of a foundation on part of an element: at Gauss points, or at Lobatto points where
 /// the mesh lumps foundations.
 ///
@@ -28,9 +32,12 @@ namespace snapthrough {
                                                          const FoundationLaw& foundation, int element,
                                                          std::array<double, 2> range);
 
-/// @brief Springs at the Gauss points of an interval on which a one-sided foundation acts, with its gap.
+/// @brief Springs at the Gauss points of an interval on which a one-sided foundation acts, with its gap; for
+/// a surface those of its tangents under the displaced axis.
+/// @param reader displacements of the element
 [[nodiscard]] std::vector<SupportSpring> contact_springs(const Structure& structure,
-                                                         const FoundationLaw& foundation, int element,
+                                                         const FoundationLaw& foundation,
+                                                         const ElementReader& reader, int element,
                                                          FoundationContact::Interval interval);
 
 /// @brief Springs with the energy 1/2 G (dw/ds)^2 of the shear layer, at Gauss points of part of an element.

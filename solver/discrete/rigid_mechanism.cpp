@@ -94,20 +94,21 @@ void Holding::add(const Spring& spring) {
     hold(parts_.rotation(member), parts_.radius(member));
 }
 
-/// Adds the constraints of a foundation at points of its range; two points suffice on a straight axis. The
+/// Adds the constraints of a foundation at points of its range; two points suffice on a straight axis. A
+/// surface constrains motions along its normals as seen from the initial axis. The
 /// shear layer constrains the derivative of the displacement n.u along the axis: n'.u and the rotation of n.
 void Holding::add(const Foundation& foundation) {
   const int member = parts_.member(foundation.member);
   const bool straight = parts_.axes()[static_cast<std::size_t>(member)]->straight();
-  const Quadrature points = gauss_legendre(straight ? 2 : MechanismLimits::places_on_curve);
+  const bool is_uniform = straight && !foundation.outline;
+  const Quadrature points = gauss_legendre(is_uniform ? 2 : MechanismLimits::places_on_curve);
+  const FoundationLaw law = parts_.law(foundation);
   for (const double point : points.points) {
     const AxisPoint at =
         parts_.place(member, foundation.range[0] + point * (foundation.range[1] - foundation.range[0]));
     const double c = std::cos(at.angle);
     const double s = std::sin(at.angle);
-    const RigidParts::Point along =
-        foundation.tangential ? RigidParts::Point{c, s} : RigidParts::Point{-s, c};
-    const auto [x, y] = foundation.direction.value_or(along);
+    const auto [x, y] = law.initial_direction({{at.x, at.y}, at.angle, 0.0});
     hold(member, {at.x, at.y}, x, y);
     if (!(foundation.shear_stiffness > 0.0)) continue;
     const double turn = foundation.direction ? 0.0 : -at.curvature;

@@ -13,6 +13,8 @@
 #include "solver/mesh/mesh.h"
 #include "solver/model/id_index.h"
 #include "solver/model/model.h"
+#include "solver/model/scales.h"
+#include "solver/support/law.h"
 
 namespace snapthrough {
 
@@ -38,6 +40,12 @@ class RigidParts {
   [[nodiscard]] int member(const std::string& id) const { return member_index_.of(id); }
   [[nodiscard]] const Axes& axes() const { return axes_; }
   [[nodiscard]] Point place(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
+  /// Law of a foundation in the coordinates of these parts; its forces are not scaled.
+  [[nodiscard]] FoundationLaw law(const Foundation& foundation) const {
+    Scales scales;
+    scales.length = length_;
+    return law_of(foundation, scales, {model_.nodes.front().x, model_.nodes.front().y});
+  }
   /// Axis point at a fraction of a member.
   [[nodiscard]] AxisPoint place(int member, double fraction) const;
 

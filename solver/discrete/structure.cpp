@@ -48,6 +48,8 @@ class Builder {
 
   /// @param known scales of another mesh or model; null: from the model
   void set_scales(const Scales* known);
+  void add_laws(const Model& model, std::vector<FoundationLaw>& foundations,
+                std::vector<SpringLaw>& springs) const;
   void bound_stiffness();
   void add_unresolved();
   [[nodiscard]] bool is_moved_by_constant_actions() const;
@@ -69,6 +71,7 @@ class Builder {
     LinePressure constant;
   };
 
+  [[nodiscard]] double stop_stiffness(const Spring& spring, const SpringLaw& law) const;
   void add_shape(int element);
   /// Supports of an element: indices of foundations of the model, and of foundations and springs of `laws_`.
   struct Here {
@@ -82,7 +85,7 @@ class Builder {
   void add_foundation_law(int element, int index);
   void add_contacts(int element, int index);
   [[nodiscard]] Touch touch_of_spring(std::size_t index) const;
-  [[nodiscard]] const FoundationContact* known_contact(int element, const Direction& direction,
+  [[nodiscard]] const FoundationContact* known_contact(int element, const FoundationLaw& law,
                                                        std::array<double, 2> range) const;
   [[nodiscard]] FoundationContact make_contact(int element, const FoundationLaw& foundation, int index,
                                                std::array<double, 2> range) const;
@@ -156,17 +159,49 @@ void Builder::set_scales(const Scales* known) {
   out_.scales.length = length;
   out_.scales.force = bending / (length * length);
   if (known != nullptr) out_.scales = *known;
-  for (const Foundation& foundation : model_.foundations)
-    out_.foundation_laws.push_back(law_of(foundation, out_.scales));
-  for (const Spring& spring : model_.springs) out_.spring_laws.push_back(law_of(spring, out_.scales));
-  for (const Foundation& foundation : laws_.foundations)
-    foundation_laws_.push_back(law_of(foundation, out_.scales));
-  for (const Spring& spring : laws_.springs) spring_laws_.push_back(law_of(spring, out_.scales));
+  add_laws(model_, out_.foundation_laws, out_.spring_laws);
+  add_laws(laws_, foundation_laws_, spring_laws_);
   const auto keep = [this](const auto& law) {
     if (law.curve) out_.curves.push_back(law.curve);
   };
   std::for_each(foundation_laws_.begin(), foundation_laws_.end(), keep);
   std::for_each(spring_laws_.begin(), spring_laws_.end(), keep);
+}
+
+void Builder::add_laws(const Model& model, std::vector<FoundationLaw>& foundations,
+                       std::vector<SpringLaw>& springs) const {
+  for (const Foundation& foundation : model.foundations) {
+    foundations.push_back(law_of(foundation, out_.scales, out_.origin));
+    foundations.back().fixed_tangents = out_.geometry == Geometry::linear;
+  }
+  for (const Spring& spring : model.springs) {
+    SpringLaw& law = springs.emplace_back(law_of(spring, out_.scales));
+    if (!std::isfinite(law.law.stiffness)) law.law.stiffness = stop_stiffness(spring, law);
+  }
+}
+
+/// Stiffness of members at their place, over which that of a stop stands: a stop gives way by 1e-8 of what
+/// the members do, and the rounding of displacements, 1e-16, leaves eight digits of its force.
+constexpr double kStopStiffness = 1e8;
+
+/// Stiffness of a spring that stands for a stop, scaled.
+double Builder::stop_stiffness(const Spring& spring, const SpringLaw& law) const {
+  double sum = 0.0;
+  for (std::size_t m = 0; m < model_.members.size(); ++m) {
+    const Member& member = model_.members[m];
+    if (spring.at.member.empty() ? member.start != spring.at.node && member.end != spring.at.node
+                                 : member.id != spring.at.member)
+      continue;
+    const Section& section = model_.sections[index_of(model_.sections, member.section)];
+    const AxisCurve& axis = *out_.axes[m];
+    const double length = out_.scales.scaled_length(axis.length());
+    const double bending = section.EI / (out_.scales.force * std::pow(out_.scales.length, 2) * length);
+    const double axial = section.EA / (out_.scales.force * length);
+    const double angle = axis.angle_at(member.end == spring.at.node ? axis.length() : 0.0);
+    const double along = law.row[0] * std::cos(angle) + law.row[1] * std::sin(angle);
+    sum += spring.direction ? along * along * axial + 12.0 * bending / (length * length) : 4.0 * bending;
+  }
+  return kStopStiffness * sum;
 }
 
 void Builder::bound_stiffness() {
@@ -175,8 +210,12 @@ void Builder::bound_stiffness() {
     const double EI = model_.sections[index_of(model_.sections, model_.members[m].section)].EI;
     for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
       const MeshElement& cell = mesh.elements[static_cast<std::size_t>(e)];
-      const double decay = (cell.to - cell.from) * out_.axes[m]->length() / mesh.decay_lengths;
-      out_.stiffest.push_back(out_.scales.scaled_modulus(4.0 * EI / std::pow(decay, 4)));
+      const double length = (cell.to - cell.from) * out_.axes[m]->length();
+      const auto at_decay = [&](double lengths) {
+        return out_.scales.scaled_modulus(4.0 * EI * std::pow(lengths / length, 4));
+      };
+      out_.stiffest.push_back(at_decay(mesh.decay_lengths));
+      out_.stiffest_rigid.push_back(at_decay(kResolvedDecays));
     }
   }
 }
@@ -226,31 +265,30 @@ void Builder::number_unknowns() {
   out_.constant_load = Eigen::VectorXd::Zero(out_.size);
 }
 
-/// A contact on the same part of an element, in the same direction; null: there is none.
+/// A contact on the same part of an element that differs by its law alone; null: there is none.
 const FoundationContact* contact_in(const std::vector<FoundationPart>& parts, int element,
-                                    const Direction& direction, std::array<double, 2> range) {
+                                    const FoundationLaw& law, std::array<double, 2> range) {
   const auto before = [](const FoundationPart& part, int e) { return part.element < e; };
   for (auto part = std::lower_bound(parts.begin(), parts.end(), element, before);
        part != parts.end() && part->element == element; ++part)
-    if (part->contact && part->contact->is_on(direction, range)) return &*part->contact;
+    if (part->contact && part->contact->is_on(law, range)) return &*part->contact;
   return nullptr;
 }
 
 /// A contact that differs by its law alone: that of the same foundation, made for results, or of the
 /// neighbour.
-const FoundationContact* Builder::known_contact(int element, const Direction& direction,
+const FoundationContact* Builder::known_contact(int element, const FoundationLaw& law,
                                                 std::array<double, 2> range) const {
-  const FoundationContact* known = contact_in(out_.foundation_parts, element, direction, range);
+  const FoundationContact* known = contact_in(out_.foundation_parts, element, law, range);
   if (known == nullptr && like_ != nullptr)
-    known = contact_in(like_->structure.foundation_parts, element, direction, range);
+    known = contact_in(like_->structure.foundation_parts, element, law, range);
   return known;
 }
 
 FoundationContact Builder::make_contact(int element, const FoundationLaw& foundation, int index,
                                         std::array<double, 2> range) const {
   const FoundationLaw law = law_on(out_, foundation, element);
-  if (const auto* known = known_contact(element, foundation.direction, range))
-    return known->with_law(law, index);
+  if (const auto* known = known_contact(element, foundation, range)) return known->with_law(law, index);
   const MeshElement& e = out_.mesh.elements[element];
   const std::shared_ptr<const AxisCurve>& axis = out_.axes[e.member];
   return FoundationContact(out_.mesh.order, law,
@@ -285,7 +323,7 @@ void Builder::add_foundation_law(int element, int index) {
   if (has_pieces && out_.mesh.foundation == FoundationRule::consistent)
     add_contacts(element, index);
   else
-    for (const SupportSpring& support : winkler_springs(out_, law, element, range))
+    for (const SupportSpring& support : winkler_springs(out_, law_on(out_, law, element), element, range))
       elements_->add_spring(support);
 }
 
@@ -393,7 +431,8 @@ void Builder::add_unresolved() {
     least[part.foundation] = std::min(least[part.foundation], acting.law.stiffness);
   }
   for (std::size_t i = 0; i < least.size(); ++i) {
-    if (!(least[i] < out_.foundation_laws[i].law.stiffness)) continue;
+    const double given = out_.foundation_laws[i].law.stiffness;
+    if (!std::isfinite(given) || !(least[i] < given)) continue;
     out_.skipped.push_back("foundation " + model_.foundations[i].id + ": stiffness beyond " +
                            rounded(least[i] / out_.scales.scaled_modulus(1.0)) +
                            ", which the elements do not resolve");
@@ -673,6 +712,15 @@ ElementShape shape_of_element(const Structure& structure, const Model& model, in
 
 namespace {
 
+/// Largest stiffness with which a foundation acts on a member.
+double stiffness_on(const Structure& structure, const Foundation& foundation, int member) {
+  const double stiffness = initial_stiffness(foundation);
+  if (std::isfinite(stiffness)) return stiffness;
+  const auto first = structure.stiffest_rigid.begin();
+  return *std::max_element(first + structure.mesh.first[member], first + structure.mesh.first[member + 1]) /
+         structure.scales.scaled_modulus(1.0);
+}
+
 /// Fills all data that follow from the model, the axes, the geometry and the mesh, which are already set.
 /// @param scales null: computed from the model
 /// @param like see Builder
@@ -701,7 +749,8 @@ void fill(const Model& model, const Scales* scales, const Neighbour* like, Struc
     double foundation_load = 0.0;
     for (const Foundation& foundation : model.foundations)
       if (foundation.member == model.members[m].id)
-        foundation_load += 2.0 * std::sqrt(initial_stiffness(foundation) * EI) + foundation.shear_stiffness;
+        foundation_load += 2.0 * std::sqrt(stiffness_on(out, foundation, static_cast<int>(m)) * EI) +
+                           foundation.shear_stiffness;
     out.foundation_loads.push_back(foundation_load / out.scales.force);
   }
   const int p = out.mesh.order;

@@ -3,6 +3,7 @@
 /// A model on a mesh in scaled units: the data of the equilibrium problem.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -113,7 +114,8 @@ struct Structure {
   std::vector<SpringLaw> spring_laws;          ///< one per spring of the model
   /// Largest stiffness of a one-sided foundation on each element, for `Mesh::decay_lengths`.
   std::vector<double> stiffest;
-  Eigen::VectorXd proportional_load;  ///< load per unit scaled load factor
+  std::vector<double> stiffest_rigid;  ///< stiffness of a rigid foundation on each element
+  Eigen::VectorXd proportional_load;   ///< load per unit scaled load factor
   Eigen::VectorXd constant_load;
   Eigen::VectorXd metric;
   std::vector<MonitorRow> monitors;
@@ -127,8 +129,11 @@ struct Structure {
   bool one_sided = false;                ///< some foundation or spring is not bilateral
   /// Curves to which the laws of the elements and nodes refer.
   std::vector<std::shared_ptr<const ReactionCurve>> curves;
-  /// Whether some foundation or spring has a law with a curve.
-  [[nodiscard]] bool curved() const { return !curves.empty(); }
+  /// Whether the tangent of some support changes with the displacements: a law with a curve, or a surface.
+  [[nodiscard]] bool curved() const {
+    return !curves.empty() || std::any_of(foundation_laws.begin(), foundation_laws.end(),
+                                          [](const FoundationLaw& law) { return law.follows_surface(); });
+  }
   bool has_constant = false;  ///< constant actions cause displacements
   std::stop_token stop;       ///< cancels computations on the structure
   /// Node motions (x, y, rotation each, scaled) that only one-sided supports can resist; orthonormal columns.
@@ -139,7 +144,8 @@ struct Structure {
 void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen::VectorXd>& y,
                        Eigen::Ref<Eigen::VectorXd> f);
 
-/// Law of a foundation on an element, with its stiffness bounded by Structure::stiffest.
+/// Law of a foundation on an element, with its stiffness bounded by Structure::stiffest; that of a rigid one
+/// is Structure::stiffest_rigid.
 [[nodiscard]] FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element);
 
 /// @brief Builds the structure of a model.

@@ -31,7 +31,9 @@ void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen:
 FoundationLaw law_on(const Structure& structure, const FoundationLaw& foundation, int element) {
   FoundationLaw law = foundation;
   if (law.law.one_sided) {
-    law.stiffest = structure.stiffest[static_cast<std::size_t>(element)];
+    const bool is_rigid = !std::isfinite(law.law.stiffness);
+    law.stiffest =
+        (is_rigid ? structure.stiffest_rigid : structure.stiffest)[static_cast<std::size_t>(element)];
     law.law.bound_stiffness(law.stiffest);
   }
   return law;

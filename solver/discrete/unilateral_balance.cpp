@@ -122,15 +122,16 @@ void UnilateralBalance::add(const Spring& spring) {
 
 Row UnilateralBalance::row_at(const CurvedSupport& support, double fraction) const {
   const AxisPoint at = motions_.parts().place(support.member, fraction);
-  return motions_.parts().displacement(support.member, {at.x, at.y}, support.direction.at(at.angle));
+  return motions_.parts().displacement(support.member, {at.x, at.y},
+                                       support.law.initial_direction({{at.x, at.y}, at.angle, fraction}));
 }
 
 void UnilateralBalance::add(const Foundation& foundation) {
   const int member = motions_.parts().member(foundation.member);
-  const CurvedSupport whole{member, foundation.range, direction_of(foundation)};
+  const CurvedSupport whole{member, foundation.range, motions_.parts().law(foundation)};
   const auto [from, to] = foundation.range;
   std::vector<Row> rows{row_at(whole, from), row_at(whole, to)};
-  if (motions_.parts().axes()[static_cast<std::size_t>(member)]->straight()) {
+  if (motions_.parts().axes()[static_cast<std::size_t>(member)]->straight() && !foundation.outline) {
     add_support(rows, nullptr);
     return;
   }

@@ -61,7 +61,7 @@ class UnilateralBalance {
   struct CurvedSupport {
     int member = 0;
     std::array<double, 2> range{};  ///< fractions of the member
-    Direction direction;
+    FoundationLaw law;
   };
   /// Forces of one pattern on a group, with the sum of their magnitudes as reference for rounding.
   struct Forces {

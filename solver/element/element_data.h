@@ -31,7 +31,7 @@ struct ElementData {
     std::array<double, kStrains> root{};  ///< square root of the compliance
     int first_spring = 0, spring_count = 0;
     int first_contact = 0, contact_count = 0;
-    bool curved = false;  ///< some support has a law with a curve
+    bool curved = false;  ///< some support has a law with a curve, or the surface of a medium
     /// Force per deformed length along the deformed right normal.
     LinePressure pressure, constant_pressure;
     int factor = 0;  ///< index among the unshearable or among the shearable elements
@@ -40,6 +40,9 @@ struct ElementData {
   struct Functional {
     Law law;
     double tangent = 0.0;  ///< stiffness of the law at the state, where the support acts
+    /// Second and third derivative of the penetration along the tangent of a surface, see SurfacePoint.
+    double bend = 0.0;
+    double bend_rate = 0.0;
     Touch touch = Touch::none;
     int spring = -1;
     std::array<double, 3> a{};
@@ -55,7 +58,11 @@ struct ElementData {
   [[nodiscard]] ContactDisplacement displacement_of(const Shape& shape, const ElementDofs& at,
                                                     const double* y) const;
   [[nodiscard]] double value(const Functional& f, const ElementDofs& at, const double* y) const;
-  [[nodiscard]] Functional functional_at(const FoundationContact& contact, double h, double xi) const;
+  [[nodiscard]] Functional functional_at(const FoundationContact& contact, double h, double xi,
+                                         const ContactDisplacement* u) const;
+  /// Functional of the displacement along the tangent (-d_y, d_x) of the surface under a functional's
+  /// direction d, without law.
+  [[nodiscard]] static Functional along_surface(const Functional& f);
   /// Functional of the penetration along d, with zero stiffness and gap. @param integrals the A_r there
   [[nodiscard]] static Functional penetration(std::array<double, 2> d, double h,
                                               std::span<const double> integrals);
@@ -166,15 +173,39 @@ bool ElementData<P>::acts(const Functional& f, const ElementDofs& at, const doub
   return f.touch != Touch::none && std::abs(w) <= Rounding::touching ? f.touch == Touch::acts : w > 0.0;
 }
 
-/// Functional of the penetration at xi of a contact, with the law there.
+/// Functional of the penetration at xi of a contact, with the law there. For a surface it is that of its
+/// tangent plane under the displaced axis, and the gap is the distance of the initial axis from that plane.
+/// @param u displacements; null: as seen from the initial axis
 template <int P>
-auto ElementData<P>::functional_at(const FoundationContact& contact, double h, double xi) const
-    -> Functional {
+auto ElementData<P>::functional_at(const FoundationContact& contact, double h, double xi,
+                                   const ContactDisplacement* u) const -> Functional {
   Gauss integrals;
   rule->integrals_at(xi, integrals);
-  Functional f = penetration(contact.direction_at(xi), h, integrals);
+  if (u == nullptr || !contact.follows_surface()) {
+    Functional f = penetration(contact.direction_at(xi), h, integrals);
+    f.law = contact.law_at(xi);
+    return f;
+  }
+  const SurfacePoint at = contact.penetration_at(xi, u->start, u->dx, u->dy);
+  const auto moved = contact.displacement(xi, u->start, u->dx, u->dy);
+  Functional f = penetration(at.into, h, integrals);
   f.law = contact.law_at(xi);
+  f.law.gap = at.into[0] * moved[0] + at.into[1] * moved[1] - at.depth;
+  f.bend = at.bend;
+  f.bend_rate = at.bend_rate;
   return f;
+}
+
+template <int P>
+auto ElementData<P>::along_surface(const Functional& f) -> Functional {
+  Functional out;
+  out.a = {-f.a[1], f.a[0], 0.0};
+  for (int q = 0; q < P; ++q) {
+    out.v[0][q] = -f.v[1][q];
+    out.v[1][q] = f.v[0][q];
+    out.v[2][q] = 0.0;
+  }
+  return out;
 }
 
 template <int P>
@@ -257,7 +288,7 @@ void ElementSetOf<P>::add_contact(int element, FoundationContact contact, Touch 
   }
   auto& shape = data_.shapes[element];
   ++shape.contact_count;
-  shape.curved = shape.curved || contact.law().curve != nullptr;
+  shape.curved = shape.curved || contact.law().curve != nullptr || contact.follows_surface();
   data_.contacts.push_back(std::move(contact));
 }
 
@@ -342,7 +373,7 @@ void ElementSetOf<P>::set_touching(const TouchingMarks& marks, const Eigen::Vect
       out.contacts[i].assign(1, {contact.range()[0], contact.range()[1]});
       if (mode.size() == 0) continue;
       const auto u = data_.displacement_of(shape, data_.dofs[e], mode.data());
-      contact.contact_intervals(u.start, u.dx, u.dy, out.contacts[i], -contact.law().gap);
+      contact.intervals_into(u.start, u.dx, u.dy, out.contacts[i]);
     }
   }
 }

@@ -110,6 +110,8 @@ class ElementWorkOf final : public ElementWork {
   void add_strain_rate(const Shape& shape, const ElementDofs& dofs, const Kinematics& kin, const double* y,
                        const StrainChange& change, const double* direction, double* out) const;
   void collect_support_rates(int element, const double* y, const double* along);
+  void add_surface_rates(const Functional& n, const Law::Response& response, double into,
+                         const ElementDofs& dofs, const double* along);
   void add_moving_ends(const Shape& shape, const ElementDofs& dofs, const double* y, const double* along);
   void collect_supports(int element, const double* y);
   [[nodiscard]] double penetration(const Functional& f, const ElementDofs& dofs, const double* y) const;
@@ -119,9 +121,9 @@ class ElementWorkOf final : public ElementWork {
   [[nodiscard]] const std::vector<ElementPart>& parts_in_contact(std::size_t index, const Shape& shape,
                                                                  const ElementDofs& dofs, const double* y);
   void add_pieces(std::size_t index, const Shape& shape, const ElementPart& interval, double share,
-                  double gap);
+                  const ContactDisplacement* u);
   void add_interval(std::size_t index, const Shape& shape, const FoundationContact::Interval& interval,
-                    double share, double gap);
+                    double share, const ContactDisplacement* u);
   void to_strain_row(const Functional& f, const Shape& shape, const Tangent& t, ZetaVector& row) const;
   template <int N>
   void add_end_columns(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S) const;

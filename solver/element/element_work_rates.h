@@ -66,7 +66,8 @@ auto ElementWorkOf<P>::strain_change(const Shape& shape, const ElementDofs& dofs
 }
 
 /// Collects the derivative of the supports' tangent along `along` as functionals in acting_: n n^T p''(w)
-/// n(along) for laws with a curve, and what moving ends of contact change.
+/// n(along) for laws with a curve, what the turning normals of surfaces change, and what moving ends of
+/// contact change.
 template <int P>
 void ElementWorkOf<P>::collect_support_rates(int element, const double* y, const double* along) {
   const Shape& shape = shapes_[element];
@@ -74,11 +75,42 @@ void ElementWorkOf<P>::collect_support_rates(int element, const double* y, const
   acting_.clear();
   if (shape.curved && regime_.linearised_at() == nullptr) {
     collect_supports(element, y);
-    std::erase_if(acting_, [](const Functional& f) { return f.law.curve == nullptr; });
-    for (Functional& f : acting_)
-      f.tangent = f.law.response_at(penetration(f, dofs, y)).rate * data_.value(f, dofs, along);
+    std::erase_if(acting_, [](const Functional& f) { return f.law.curve == nullptr && f.bend == 0.0; });
+    const std::size_t count = acting_.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const Functional f = acting_[k];
+      const Law::Response response = f.law.response_at(penetration(f, dofs, y));
+      const double into = data_.value(f, dofs, along);
+      acting_[k].tangent = response.rate * into;
+      if (f.bend != 0.0) add_surface_rates(f, response, into, dofs, along);
+    }
   }
   if (!regime_.is_frozen() && !regime_.bilateral()) add_moving_ends(shape, dofs, y, along);
+}
+
+/// Adds the change of the tangent p' n n^T + p b t t^T at a surface by its turning normal to acting_. With n
+/// and t the functionals along normal and tangent, the motion changes n by b t(along) t, t by -b t(along) n,
+/// and the bend b by b' t(along) - b^2 n(along).
+/// @param into n(along)
+template <int P>
+void ElementWorkOf<P>::add_surface_rates(const Functional& n, const Law::Response& response, double into,
+                                         const ElementDofs& dofs, const double* along) {
+  Functional t = data_.along_surface(n);
+  const double across = data_.value(t, dofs, along);
+  const double mixed =
+      (response.stiffness * n.bend - response.force * n.bend * n.bend) * across;  // of n t^T + t n^T
+  t.tangent =
+      response.stiffness * into * n.bend + response.force * (n.bend_rate * across - n.bend * n.bend * into);
+  acting_.push_back(t);
+  for (const double sign : {1.0, -1.0}) {  // 2 (n t^T + t n^T) = (n + t)(n + t)^T - (n - t)(n - t)^T
+    Functional both = n;
+    for (int c = 0; c < 3; ++c) {
+      both.a[c] += sign * t.a[c];
+      for (int q = 0; q < P; ++q) both.v[c][q] += sign * t.v[c][q];
+    }
+    both.tangent = 0.5 * sign * mixed;
+    acting_.push_back(both);
+  }
 }
 
 /// Adds the change of the tangent by moving ends of contact and knots of laws to acting_: with K the change
@@ -97,14 +129,14 @@ void ElementWorkOf<P>::add_moving_ends(const Shape& shape, const ElementDofs& do
       if (std::isfinite(f.tangent)) acting_.push_back(f);
     };
     const auto add_end = [&](double xi) {
-      const Functional f = data_.functional_at(contact, shape.h, xi);
+      const Functional f = data_.functional_at(contact, shape.h, xi, &u);
       add(f, f.law.stiffness, contact.penetration_slope(xi, u.start, u.dx, u.dy));
     };
     if (contact.law().curve != nullptr) {
       contact.knot_places(u.start, u.dx, u.dy, knots_);
       for (const auto& knot : knots_)
         if (knot.stiffness_change != 0.0)
-          add(data_.functional_at(contact, shape.h, knot.xi), knot.stiffness_change, knot.slope);
+          add(data_.functional_at(contact, shape.h, knot.xi, &u), knot.stiffness_change, knot.slope);
     }
     if (!contact.law().one_sided) continue;
     for (const ElementPart& part : parts_in_contact(i, shape, dofs, y)) {

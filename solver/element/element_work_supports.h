@@ -24,20 +24,18 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
   const ElementPart whole{contact.range()[0], contact.range()[1]};
   const bool one_sided = contact.law().one_sided;
   const double share = one_sided ? regime_.softness : 1.0;
+  const auto* at = regime_.linearised_at();
+  const auto u = data_.displacement_of(shape, dofs, at != nullptr ? at->data() : y);
   knots_.clear();
-  if (contact.law().curve != nullptr) {
-    const auto* at = regime_.linearised_at();
-    const auto u = data_.displacement_of(shape, dofs, at != nullptr ? at->data() : y);
-    contact.knot_places(u.start, u.dx, u.dy, knots_);
-  }
+  if (contact.law().curve != nullptr) contact.knot_places(u.start, u.dx, u.dy, knots_);
   if (regime_.bilateral() || !one_sided) {
-    add_pieces(index, shape, whole, share, 0.0);
+    add_pieces(index, shape, whole, share, nullptr);
   } else {
     const auto& parts =
         regime_.is_frozen() ? regime_.frozen->contacts[index] : parts_in_contact(index, shape, dofs, y);
-    for (const ElementPart& part : parts) add_pieces(index, shape, part, share, contact.law().gap);
+    for (const ElementPart& part : parts) add_pieces(index, shape, part, share, &u);
   }
-  if (regime_.grip > 0.0 && one_sided) add_interval(index, shape, whole, regime_.grip, 0.0);
+  if (regime_.grip > 0.0 && one_sided) add_interval(index, shape, whole, regime_.grip, nullptr);
 }
 
 /// Appends the Gauss points of the pieces of an interval between the knots of its law, in knots_. Laws with a
@@ -45,34 +43,38 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
 /// digits.
 template <int P>
 void ElementWorkOf<P>::add_pieces(std::size_t index, const Shape& shape, const ElementPart& interval,
-                                  double share, double gap) {
+                                  double share, const ContactDisplacement* u) {
   if (contacts_[index].law().curve == nullptr) {
-    add_interval(index, shape, interval, share, gap);
+    add_interval(index, shape, interval, share, u);
     return;
   }
   FoundationContact::for_each_piece(knots_, interval, [&](const ElementPart& piece) {
     const double middle = 0.5 * (piece.from + piece.to);
-    add_interval(index, shape, {piece.from, middle}, share, gap);
-    add_interval(index, shape, {middle, piece.to}, share, gap);
+    add_interval(index, shape, {piece.from, middle}, share, u);
+    add_interval(index, shape, {middle, piece.to}, share, u);
   });
 }
 
-/// Appends the Gauss points of an interval with a modulus and a gap. Functionals of the whole range, the most
-/// frequent case, are precomputed.
+/// Appends the Gauss points of an interval with a share of the stiffness. Functionals of the whole range, the
+/// most frequent case, are precomputed.
+/// @param u displacements; null: without gap, in the directions on the initial axis
 template <int P>
 void ElementWorkOf<P>::add_interval(std::size_t index, const Shape& shape,
-                                    const FoundationContact::Interval& interval, double share, double gap) {
+                                    const FoundationContact::Interval& interval, double share,
+                                    const ContactDisplacement* u) {
   const FoundationContact& contact = contacts_[index];
   const double width = interval.to - interval.from;
   const bool whole = interval.from == contact.range()[0] && interval.to == contact.range()[1];
+  const bool is_known = whole && (u == nullptr || !contact.follows_surface());
   for (std::size_t i = 0; i < data_.contact_quadrature.points.size(); ++i) {
-    if (whole)
+    if (is_known)
       acting_.push_back(data_.whole_contacts[index][i]);
     else
-      acting_.push_back(
-          data_.functional_at(contact, shape.h, interval.from + width * data_.contact_quadrature.points[i]));
+      acting_.push_back(data_.functional_at(contact, shape.h,
+                                            interval.from + width * data_.contact_quadrature.points[i], u));
+    if (regime_.linearised_at() != nullptr) acting_.back().bend = 0.0;
     Law& law = acting_.back().law;
-    law.gap = gap;
+    if (u == nullptr) law.gap = 0.0;
     law.scale(share);
     law.scale(width);
     law.scale(data_.contact_quadrature.weights[i]);
@@ -133,8 +135,10 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
   double at_start[3] = {0.0, 0.0, 0.0};
   for (int i = 0; i < kStrains; ++i) v[i] = y[dofs.v + i];
   double rounding = 0.0;
-  for (Functional& f : acting_) {
-    double size = f.law.gap;
+  const std::size_t count = acting_.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    Functional& f = acting_[k];
+    double size = std::abs(f.law.gap);
     for (int c = 0; c < 3; ++c) size += std::abs(f.a[c] * y[dofs.a[c]]);
     double w = -f.law.gap;
     for (int c = 0; c < 3; ++c) w += f.a[c] * y[dofs.a[c]];
@@ -150,6 +154,11 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
     rounding += f.tangent * size * std::numeric_limits<double>::epsilon();
     for (int c = 0; c < 3; ++c) at_start[c] += force * f.a[c];
     for (int i = 0; i < kStrains; ++i) forces[i] += force * row[i];
+    if (f.bend != 0.0) {
+      Functional tangential = data_.along_surface(f);
+      tangential.tangent = force * f.bend;
+      acting_.push_back(tangential);
+    }
   }
   for (int c = 0; c < 3; ++c) residual[dofs.a[c]] += at_start[c];
   for (int i = 0; i < kStrains; ++i) residual[dofs.v + i] += forces[i];

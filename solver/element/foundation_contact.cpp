@@ -105,7 +105,9 @@ std::shared_ptr<const FoundationContact::Samples> FoundationContact::sampled() c
     const auto d = towards(quadrature(rule_->order()).points[i]);
     std::copy(d.begin(), d.end(), out->points.begin() + static_cast<std::ptrdiff_t>(i * width));
   }
-  out->exact = !direction().turns || resolved(*out);
+  for (int i = 0; foundation_law_.surface && i < out->count; ++i)
+    out->axis.push_back(place_at(range_[0] + out->z[i] * (range_[1] - range_[0])).x);
+  out->exact = !direction().turns || (!foundation_law_.surface && resolved(*out));
   return out;
 }
 
@@ -143,15 +145,33 @@ FoundationContact FoundationContact::with_law(const FoundationLaw& law, int foun
 }
 
 Law FoundationContact::law_at(double xi) const {
-  if (!foundation_law_.variation) return law_;
-  Law law = foundation_law_.at(place_.from + xi * (place_.to - place_.from));
-  law.scale(place_.length);
+  Law law = law_;
+  if (foundation_law_.variation || !foundation_law_.gap_along.empty()) {
+    law = foundation_law_.at(place_.from + xi * (place_.to - place_.from));
+    law.scale(place_.length);
+  }
+  if (foundation_law_.surface) law.gap = -foundation_law_.surface->at(place_at(xi).x).depth;
   return law;
 }
 
 std::array<double, 2> FoundationContact::direction_at(double xi) const {
+  if (foundation_law_.surface) return foundation_law_.surface->at(place_at(xi).x).into;
   if (!direction().turns) return direction().fixed;
   return direction().at(place_.axis->angle_at(place_.s0 + xi * place_.ds));
+}
+
+PlaceOnAxis FoundationContact::place_at(double xi) const {
+  PlaceOnAxis out;
+  out.fraction = place_.from + xi * (place_.to - place_.from);
+  if (!foundation_law_.surface && !direction().turns) return out;
+  const double s = place_.s0 + xi * place_.ds;
+  if (!foundation_law_.surface) {
+    out.angle = place_.axis->angle_at(s);
+    return out;
+  }
+  const AxisPoint at = place_.axis->at(s);
+  const double scale = place_.length / place_.ds;
+  return {{scale * at.x, scale * at.y}, at.angle, out.fraction};
 }
 
 namespace {
@@ -168,13 +188,22 @@ std::array<double, 2> combined(std::array<double, 2> a, std::span<const double> 
 
 }  // namespace
 
-double FoundationContact::penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
-                                      std::span<const double> dy) const {
+std::array<double, 2> FoundationContact::displacement(double xi, std::array<double, 2> ua,
+                                                      std::span<const double> dx,
+                                                      std::span<const double> dy) const {
   std::array<double, kMaxOrder> a{};
   rule_->integrals_at(xi, std::span(a).first(dx.size()));
-  const auto u = combined(ua, a, dx, dy);
-  const auto d = direction_at(xi);
-  return u[0] * d[0] + u[1] * d[1] - law_.gap;
+  return combined(ua, a, dx, dy);
+}
+
+SurfacePoint FoundationContact::penetration_at(double xi, std::array<double, 2> ua,
+                                               std::span<const double> dx, std::span<const double> dy) const {
+  return foundation_law_.penetration(place_at(xi), displacement(xi, ua, dx, dy));
+}
+
+double FoundationContact::penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
+                                      std::span<const double> dy) const {
+  return penetration_at(xi, ua, dx, dy).depth;
 }
 
 double FoundationContact::penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
@@ -182,14 +211,30 @@ double FoundationContact::penetration_slope(double xi, std::array<double, 2> ua,
   std::array<double, kMaxOrder> l{};
   rule_->values_at(xi, std::span(l).first(dx.size()));
   const auto du = combined({0.0, 0.0}, l, dx, dy);
-  if (!direction().turns) return du[0] * direction().fixed[0] + du[1] * direction().fixed[1];
-  std::array<double, kMaxOrder> a{};
-  rule_->integrals_at(xi, std::span(a).first(dx.size()));
-  const auto u = combined(ua, a, dx, dy);
+  if (foundation_law_.surface) return slope_to_surface(xi, displacement(xi, ua, dx, dy), du);
+  const double gap = slope_at(foundation_law_.gap_along, place_.from + xi * (place_.to - place_.from)) *
+                     (place_.to - place_.from);
+  if (!direction().turns) return du[0] * direction().fixed[0] + du[1] * direction().fixed[1] - gap;
+  const auto u = displacement(xi, ua, dx, dy);
   const AxisPoint axis = place_.axis->at(place_.s0 + xi * place_.ds);
   const auto d = direction().at(axis.angle);
   const double turn = place_.ds * axis.curvature;
-  return du[0] * d[0] + du[1] * d[1] + turn * (u[1] * d[0] - u[0] * d[1]);
+  return du[0] * d[0] + du[1] * d[1] + turn * (u[1] * d[0] - u[0] * d[1]) - gap;
+}
+
+/// Slope of the depth below the surface. @param u, du displacement at xi and its derivative by xi
+double FoundationContact::slope_to_surface(double xi, std::array<double, 2> u,
+                                           std::array<double, 2> du) const {
+  const PlaceOnAxis at = place_at(xi);
+  const std::array<double, 2> dx{place_.length * std::cos(at.angle), place_.length * std::sin(at.angle)};
+  if (foundation_law_.follows_surface()) {
+    const auto d = foundation_law_.penetration(at, u).into;
+    return d[0] * (dx[0] + du[0]) + d[1] * (dx[1] + du[1]);
+  }
+  const SurfacePoint initial = foundation_law_.surface->at(at.x);
+  const auto d = initial.into;
+  const double turn = initial.bend * (d[0] * dx[1] - d[1] * dx[0]);  // of d, per xi
+  return d[0] * (dx[0] + du[0]) + d[1] * (dx[1] + du[1]) + turn * (d[0] * u[1] - d[1] * u[0]);
 }
 
 namespace {
@@ -348,9 +393,9 @@ void search_cell(const Gap& gap, const Sample& left, const Sample& right, double
 
 }  // namespace
 
-/// Penetrations at all samples for a given gap.
-void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const double> dx,
-                                     std::span<const double> dy, double gap, Values& g) const {
+/// Motions along direction_at() at all samples.
+void FoundationContact::motions_into(std::array<double, 2> ua, std::span<const double> dx,
+                                     std::span<const double> dy, Values& w) const {
   const std::size_t p = dx.size();
   for (int b = 0; b < samples_->blocks; ++b) {
     const Lanes* block = &samples_->rows[static_cast<std::size_t>(b) * (2 + p)];
@@ -360,16 +405,47 @@ void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const d
       ux += dx[r] * block[2 + r];
       uy += dy[r] * block[2 + r];
     }
-    const Lanes values = ux * block[0] + uy * block[1] - gap;
-    for (int i = 0; i < kLanes; ++i) g[kLanes * b + i] = values[i];
+    const Lanes values = ux * block[0] + uy * block[1];
+    for (int i = 0; i < kLanes; ++i) w[kLanes * b + i] = values[i];
   }
+}
+
+/// Depths below the surface at all samples.
+void FoundationContact::depths(std::array<double, 2> ua, std::span<const double> dx,
+                               std::span<const double> dy, Values& g) const {
+  const std::size_t p = dx.size();
+  for (int i = 0; i < samples_->count; ++i) {
+    const Lanes* block = &samples_->rows[static_cast<std::size_t>(i / kLanes) * (2 + p)];
+    const int lane = i % kLanes;
+    std::array<double, 2> u = ua;
+    for (std::size_t r = 0; r < p; ++r) {
+      u[0] += dx[r] * block[2 + r][lane];
+      u[1] += dy[r] * block[2 + r][lane];
+    }
+    g[i] = foundation_law_.surface->at(samples_->axis[i], u).depth;
+  }
+}
+
+/// Penetrations minus a depth at all samples.
+void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const double> dx,
+                                     std::span<const double> dy, double depth, Values& g) const {
+  if (follows_surface()) {
+    depths(ua, dx, dy, g);
+    for (int i = 0; i < samples_->count; ++i) g[i] -= depth;
+    return;
+  }
+  motions_into(ua, dx, dy, g);
+  const bool is_uniform = !foundation_law_.surface && foundation_law_.gap_along.empty();
+  for (int i = 0; i < samples_->count; ++i)
+    g[i] -=
+        (is_uniform ? law_.gap : law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0])).gap) + depth;
 }
 
 bool FoundationContact::is_near(std::array<double, 2> ua, std::span<const double> dx,
                                 std::span<const double> dy, double distance) const {
   if (!law_.one_sided) return false;
   Values g;
-  penetrations(ua, dx, dy, law_.gap, g);
+  penetrations(ua, dx, dy, 0.0, g);
   return std::all_of(g.begin(), g.begin() + samples_->count,
                      [distance](double w) { return std::abs(w) <= distance; });
 }
@@ -408,11 +484,23 @@ void FoundationContact::contact_intervals(std::array<double, 2> ua, std::span<co
     return;
   }
   Values g;
-  penetrations(ua, dx, dy, law_.gap + depth, g);
-  if (samples_->exact)
+  penetrations(ua, dx, dy, depth, g);
+  if (samples_->exact && foundation_law_.gap_along.empty())
     search(SampledGap(std::span<const double>(g).first(samples_->count)), g, out);
   else
     search(ExactGap(*this, ua, dx, dy, depth), g, out);
+}
+
+void FoundationContact::intervals_into(std::array<double, 2> ua, std::span<const double> dx,
+                                       std::span<const double> dy, std::vector<Interval>& out) const {
+  if (!foundation_law_.surface && foundation_law_.gap_along.empty()) {
+    contact_intervals(ua, dx, dy, out, -law_.gap);
+    return;
+  }
+  out.clear();
+  Values w;
+  motions_into(ua, dx, dy, w);
+  search(SampledGap(std::span<const double>(w).first(samples_->count)), w, out);
 }
 
 /// Appends the places at which the argument of the curve is sign times that of a knot.
@@ -460,7 +548,7 @@ void FoundationContact::knot_places(std::array<double, 2> ua, std::span<const do
   if (law_.curve == nullptr) return;
   add_bends(out);
   Values x;
-  penetrations(ua, dx, dy, law_.gap, x);
+  penetrations(ua, dx, dy, 0.0, x);
   std::array<double, 2> shapes{law_.shape, law_.shape};  // least and largest
   for (int i = 0; i < samples_->count; ++i) {
     const Law law = law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0]));

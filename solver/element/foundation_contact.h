@@ -20,7 +20,8 @@
 namespace snapthrough {
 
 /// @brief Winkler foundation on part of an element that is one-sided or has a law with a curve: reaction
-/// p(g) per undeformed length along -d, with penetration g = u.d - gap and unit direction d into the medium.
+/// p(g) per undeformed length along -d, with penetration g and unit direction d into the medium: g = u.d -
+/// gap, or the depth below a surface and its normal (FoundationLaw::penetration()).
 ///
 /// Integrals are split where g changes sign and where p is not smooth, so that they are C1 in the
 /// displacements: a moving contact end is no event and gives no spurious limit point. Immutable, thread safe.
@@ -28,7 +29,7 @@ class FoundationContact {
  public:
   /// Position of the element on its member's initial axis.
   struct Place {
-    std::shared_ptr<const AxisCurve> axis;  ///< empty when the direction is constant
+    std::shared_ptr<const AxisCurve> axis;  ///< empty when the direction is constant and there is no surface
     double s0 = 0.0;                        ///< arc length of the element's start, in the axis' units
     double ds = 0.0;                        ///< arc length of the element, in the axis' units
     double from = 0.0;                      ///< the element, in fractions of the member
@@ -38,7 +39,7 @@ class FoundationContact {
   using Interval = ElementPart;
 
   /// @param range part of the element, in [0, 1]
-  /// @pre place.axis is set when the direction turns
+  /// @pre place.axis is set when the direction turns or the law has a surface
   FoundationContact(int order, const FoundationLaw& law, Place place, std::array<double, 2> range,
                     int foundation);
 
@@ -46,19 +47,23 @@ class FoundationContact {
   [[nodiscard]] static const Quadrature& quadrature(int order);
   /// Copy with another law, for the foundation of an index; both share the samples.
   [[nodiscard]] FoundationContact with_law(const FoundationLaw& law, int foundation) const;
-  /// Whether with_law() makes the contact of a direction on a part of the same element.
-  [[nodiscard]] bool is_on(const Direction& along, std::array<double, 2> range) const {
-    return direction() == along && range_ == range;
+  /// Whether with_law() makes the contact of a law on a part of the same element.
+  [[nodiscard]] bool is_on(const FoundationLaw& law, std::array<double, 2> range) const {
+    return direction() == law.direction && foundation_law_.surface == law.surface && range_ == range;
   }
   /// @brief Law with the largest stiffness along the member, times the element's length, so that weights on
   /// [0, 1] integrate forces.
   [[nodiscard]] const Law& law() const { return law_; }
-  /// Law at xi, times the element's length.
+  /// Law at xi, times the element's length, with the gap there.
   [[nodiscard]] Law law_at(double xi) const;
+  /// Whether the direction of the reaction turns as the axis moves.
+  [[nodiscard]] bool follows_surface() const { return foundation_law_.follows_surface(); }
   [[nodiscard]] int foundation() const { return foundation_; }
   [[nodiscard]] std::array<double, 2> range() const { return range_; }
+  /// Direction into the medium on the initial axis.
   [[nodiscard]] std::array<double, 2> direction_at(double xi) const;
-  /// Direction x, y, then the A_r of CollocationRule, at point i of quadrature() on the whole range.
+  /// Direction x, y of direction_at(), then the A_r of CollocationRule, at point i of quadrature() on the
+  /// whole range.
   [[nodiscard]] std::span<const double> at_point(std::size_t i) const {
     const auto width = std::size_t{2} + static_cast<std::size_t>(rule_->order());
     return std::span<const double>(samples_->points).subspan(i * width, width);
@@ -68,6 +73,13 @@ class FoundationContact {
   /// @param ua displacement (x, y) at the element's start; dx, dy: h times u'_x, u'_y at the Gauss points
   [[nodiscard]] double penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                    std::span<const double> dy) const;
+  /// @brief Penetration at xi with its derivatives with respect to the displacement there.
+  [[nodiscard]] SurfacePoint penetration_at(double xi, std::array<double, 2> ua, std::span<const double> dx,
+                                            std::span<const double> dy) const;
+  /// Displacement at xi.
+  [[nodiscard]] std::array<double, 2> displacement(double xi, std::array<double, 2> ua,
+                                                   std::span<const double> dx,
+                                                   std::span<const double> dy) const;
   /// @brief Slope d penetration / d xi.
   [[nodiscard]] double penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                          std::span<const double> dy) const;
@@ -78,6 +90,10 @@ class FoundationContact {
   /// for a bilateral law.
   void contact_intervals(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                          std::vector<Interval>& out, double depth = 0.0) const;
+  /// @brief Intervals of the range on which a motion is directed into the medium, as seen from the initial
+  /// axis.
+  void intervals_into(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                      std::vector<Interval>& out) const;
 
   /// Place at which the law has a knot.
   struct KnotPlace {
@@ -116,11 +132,18 @@ class FoundationContact {
     std::vector<Lanes> rows;     ///< in each block: direction x, y, then the A_r of CollocationRule
     std::vector<double> points;  ///< direction and A_r at each point of quadrature()
     bool exact = true;           ///< interpolating the samples is exact to rounding
+    std::vector<std::array<double, 2>> axis;  ///< initial axis at the samples, scaled; with a surface only
   };
 
   [[nodiscard]] std::shared_ptr<const Samples> sampled() const;
+  [[nodiscard]] PlaceOnAxis place_at(double xi) const;
+  [[nodiscard]] double slope_to_surface(double xi, std::array<double, 2> u, std::array<double, 2> du) const;
+  void motions_into(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                    Values& w) const;
+  void depths(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+              Values& g) const;
   void penetrations(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
-                    double gap, Values& g) const;
+                    double depth, Values& g) const;
   [[nodiscard]] bool resolved(const Samples& samples) const;
   void add_bends(std::vector<KnotPlace>& out) const;
   void add_knot(int knot, double sign, const Values& x, std::vector<KnotPlace>& out) const;

@@ -37,6 +37,8 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
     if (foundation.member != id) continue;
     at.insert(at.end(), foundation.range.begin(), foundation.range.end());
     if (foundation.law) add_breaks(*foundation.law, foundation.range, at);
+    for (const auto& [fraction, gap] : foundation.gap_along)
+      if (fraction > foundation.range[0] && fraction < foundation.range[1]) at.push_back(fraction);
   }
   for (const Load& load : model.loads) {
     if (const auto* point = std::get_if<PointLoad>(&load)) add_location(point->at);
@@ -110,8 +112,8 @@ struct ChosenMesh {
 /// odd: an element of half a half-wave length buckles as a cantilever at the member's load, which costs most
 /// digits in its elimination; 2 n equal elements per member have this defect in the n-th mode.
 struct MeshRules {
-  static constexpr ChosenMesh first{5, 60.0, 3.0, 3.0, true};
-  static constexpr ChosenMesh path{5, 60.0, 3.0, 5.0, true};
+  static constexpr ChosenMesh first{5, 60.0, kResolvedDecays, 3.0, true};
+  static constexpr ChosenMesh path{5, 60.0, kResolvedDecays, 5.0, true};
   static constexpr ChosenMesh final{4, 25.0, 1.0, 8.0, false};
   static constexpr double elements = 4000;           ///< most elements of a piece, and of a refined mesh
   static constexpr double elements_per_member = 16;  ///< most elements over members, of models with many
@@ -126,24 +128,28 @@ double intervals_of(const PointsImperfection& points) {
 }
 
 /// Number of elements of a piece of a member, by the rule of make_mesh().
-/// @param finest bound for one-sided foundations, as a multiple of the number for the axis
+/// @param finest bounds for one-sided and for rigid foundations, as multiples of the number for the axis
 int default_count(const ChosenMesh& rule, const Model& model, int member, const AxisCurve& axis, double from,
-                  double to, double finest) {
+                  double to, std::array<double, 2> finest) {
   const Member& m = model.members[member];
   const double length = (to - from) * axis.length();
   const double turn = axis.turning(from * axis.length(), to * axis.length());
   const double turns = turn / (rule.turn * std::numbers::pi / 180.0);
-  const double enough = finest * std::max(MeshRules::first.least * (to - from), turns);
+  const double coarse = std::max(MeshRules::first.least * (to - from), turns);
   double n = std::max(rule.least * (to - from), turns);
   const double EI = model.sections[index_of(model.sections, m.section)].EI;
   for (const Foundation& foundation : model.foundations) {
     if (foundation.member != m.id || initial_stiffness(foundation) <= 0.0 || foundation.range[1] <= from ||
         foundation.range[0] >= to)
       continue;
-    const double layers =
-        length / (rule.decay_lengths * std::pow(4.0 * EI / initial_stiffness(foundation), 0.25));
+    const double stiffness = initial_stiffness(foundation);
+    if (!std::isfinite(stiffness)) {
+      n = std::max(n, finest[1] * coarse);
+      continue;
+    }
+    const double layers = length / (rule.decay_lengths * std::pow(4.0 * EI / stiffness, 0.25));
     const bool is_bounded = is_one_sided(foundation) && !foundation.direction && !foundation.law;
-    n = std::max(n, is_bounded ? std::min(layers, enough) : layers);
+    n = std::max(n, is_bounded ? std::min(layers, finest[0] * coarse) : layers);
   }
   for (const Imperfection& imperfection : model.imperfections) {
     const auto* sine = std::get_if<SineImperfection>(&imperfection);
@@ -206,8 +212,9 @@ Mesh make_mesh(const Model& model, const Discretization& discretization, const A
   mesh.foundation = discretization.fixed_mesh ? discretization.foundation : FoundationRule::consistent;
   const bool is_checked = !discretization.fixed_mesh && use != MeshUse::final;
   if (is_checked) mesh.decay_lengths = rule.decay_lengths;
-  const double finest =
-      is_checked ? std::cbrt(1.0 / discretization.accuracy) : std::numeric_limits<double>::infinity();
+  const double enough = std::cbrt(1.0 / discretization.accuracy);
+  const bool is_soft = is_checked && !discretization.full_stiffness;
+  const std::array finest{is_soft ? enough : std::numeric_limits<double>::infinity(), enough};
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const int member = static_cast<int>(m);
     mesh.first.push_back(static_cast<int>(mesh.elements.size()));

@@ -13,6 +13,9 @@
 
 namespace snapthrough {
 
+/// Decay lengths (4 EI / K)^(1/4) of contact per element up to which elements resolve a stiff foundation.
+inline constexpr double kResolvedDecays = 3.0;
+
 /// Element as a part of a member, in fractions of its undeformed length.
 struct MeshElement {
   int member = 0;
@@ -54,14 +57,15 @@ enum class MeshUse {
 /// number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of foundations, and the
 /// half waves or intervals of imperfections. If the mesh will be refined, one-sided foundations get no more
 /// elements than the accuracy needs and act with the stiffness that these resolve (`Mesh::decay_lengths`);
-/// the error in a load is of third order in their length.
+/// the error in a load is of third order in their length. Rigid foundations get them on every mesh that is
+/// not fixed.
 /// @param use purpose of the mesh, unless it is fixed
 [[nodiscard]] Mesh make_mesh(const Model& model, const Discretization& discretization, const Axes& axes,
                              MeshUse use = MeshUse::final);
 
 /// Discretization with which make_mesh() keeps the full stiffness of every foundation.
 [[nodiscard]] inline Discretization as_stiff_as_given(Discretization discretization) {
-  discretization.accuracy = 0.0;  // no stiffness exceeds the limit
+  discretization.full_stiffness = true;
   return discretization;
 }
 

@@ -33,6 +33,14 @@ template <class T>
   return between(before.second, next->second, (fraction - before.first) / (next->first - before.first));
 }
 
+/// Derivative of value_at() by the fraction; at a bend that of the part beyond.
+[[nodiscard]] inline double slope_at(const Along<double>& along, double fraction) {
+  const auto next = std::upper_bound(along.begin(), along.end(), fraction,
+                                     [](double f, const auto& point) { return f < point.first; });
+  if (next == along.begin() || next == along.end()) return 0.0;
+  return (next->second - (next - 1)->second) / (next->first - (next - 1)->first);
+}
+
 /// Number of a law that may vary along its member.
 struct AlongMember {
   double constant = 0.0;  ///< used without points

@@ -31,6 +31,7 @@ struct Discretization {
   std::vector<std::pair<std::string, int>> member_elements;  ///< numbers of elements by member id
   int order = 1;  ///< polynomial order of the elements, 1 to kMaxOrder
   FoundationRule foundation = FoundationRule::consistent;
+  bool full_stiffness = false;  ///< set by as_stiff_as_given()
 };
 
 struct Control {

@@ -155,19 +155,47 @@ struct Spring {
   std::string id;
   Location at;
   std::optional<std::array<double, 2>> direction;
-  double stiffness = 0.0;  ///< force per length, or moment per radian; >= 0
+  double stiffness = 0.0;  ///< force per length, or moment per radian; >= 0; infinite: a one-sided stop
   Reaction reaction = Reaction::bilateral;
   double gap = 0.0;  ///< displacement at which a one-sided spring begins to react, >= 0
   std::optional<ReactionLaw> law = std::nullopt;  ///< in place of `stiffness`; its numbers do not vary
   bool operator==(const Spring&) const = default;
 };
 
+/// Surfaces of a medium, in the model's coordinates.
+struct CircleOutline {
+  std::array<double, 2> centre{0.0, 0.0};
+  double radius = 0.0;         ///< > 0
+  bool medium_inside = false;  ///< false: the medium surrounds the circle
+  bool operator==(const CircleOutline&) const = default;
+};
+struct LineOutline {
+  std::array<double, 2> through{0.0, 0.0};
+  std::array<double, 2> into{0.0, 0.0};  ///< normal that points into the medium, of any length but zero
+  bool operator==(const LineOutline&) const = default;
+};
+/// C2 cubic spline through points, continued straight at both ends.
+struct SplineOutline {
+  std::vector<std::array<double, 2>> points;
+  Side medium = Side::left;  ///< side on which the medium lies, in the order of the points
+  bool operator==(const SplineOutline&) const = default;
+};
+/// Straight lines through points, continued at both ends, whose corners are arcs.
+struct PolylineOutline {
+  std::vector<std::array<double, 2>> points;
+  double rounding = 0.0;  ///< radius of the arcs, > 0
+  Side medium = Side::left;
+  bool operator==(const PolylineOutline&) const = default;
+};
+using Outline = std::variant<CircleOutline, LineOutline, SplineOutline, PolylineOutline>;
+
 /// Continuous foundation r = K w - G w'' per undeformed length, w the displacement along the initial normal
 /// (towards `side`) or along the fixed `direction` (pointing into the medium).
 struct Foundation {
   std::string id;
   std::string member;
-  double stiffness = 0.0;        ///< K, force per length squared, >= 0
+  /// K, force per length squared, >= 0; infinite: a one-sided foundation that nothing enters.
+  double stiffness = 0.0;
   double shear_stiffness = 0.0;  ///< G, force, >= 0
   Reaction reaction = Reaction::bilateral;
   Side side = Side::left;
@@ -175,6 +203,10 @@ struct Foundation {
   double gap = 0.0;
   std::optional<std::array<double, 2>> direction;
   std::optional<ReactionLaw> law = std::nullopt;  ///< in place of `stiffness`
+  Along<double> gap_along = {};
+  /// Surface of a one-sided foundation: w is the depth of each point below the surface, whose reaction is
+  /// normal to the surface at its nearest point. `side` and `direction` are not used then.
+  std::optional<Outline> outline = std::nullopt;
   bool tangential = false;  ///< w is the displacement along the initial tangent; bilateral, without G
   bool operator==(const Foundation&) const = default;
 };

@@ -24,7 +24,7 @@ void local_intervals(const Structure& structure, const FoundationPart& part, con
 
 std::vector<std::array<double, 2>> contact_intervals(const Structure& structure, const Model& model,
                                                      const Eigen::VectorXd& y, int foundation, double depth) {
-  if (model.foundations[foundation].stiffness == 0.0) return {};
+  if (initial_stiffness(model.foundations[foundation]) == 0.0) return {};
   const int member = index_of(model.members, model.foundations[foundation].member);
   const double length = structure.axes[member]->length();
   std::vector<std::array<double, 2>> joined;

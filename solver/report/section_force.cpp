@@ -107,10 +107,9 @@ void SectionForces::add_lumped(const FoundationLaw& foundation, Vec2 range) {
   for (std::size_t i = 0; i < lobatto.points.size(); ++i) {
     const double xi = lobatto.points[i];
     if (xi < range[0] - kOnePlace || xi > range[1] + kOnePlace) continue;
-    const Vec2 n = normal_into(foundation, xi);
-    const double force =
-        -reader_.length() * lobatto.weights[i] * law_at(foundation, xi).reaction(penetration(foundation, xi));
-    points_.push_back({xi, {force * n[0], force * n[1], 0.0}});
+    const Vec2 r = reaction(foundation, xi);
+    const double length = reader_.length() * lobatto.weights[i];
+    points_.push_back({xi, {length * r[0], length * r[1], 0.0}});
   }
 }
 
@@ -157,14 +156,15 @@ Vec2 SectionForces::slope(double xi) const {
   return {t[0] + du[0], t[1] + du[1]};
 }
 
-Law SectionForces::law_at(const FoundationLaw& foundation, double xi) const {
-  return foundation.at(cell_.from + xi * (cell_.to - cell_.from));
-}
-
-double SectionForces::penetration(const FoundationLaw& foundation, double xi) const {
-  const Vec2 n = normal_into(foundation, xi);
+Vec2 SectionForces::reaction(const FoundationLaw& foundation, double xi) const {
+  const AxisPoint& at = axis_at(xi);
+  const double fraction = cell_.from + xi * (cell_.to - cell_.from);
+  const Scales& scales = structure_.scales;
   const auto u = reader_.displacement(xi);
-  return u[0] * n[0] + u[1] * n[1];
+  const SurfacePoint p = foundation.penetration(
+      {{scales.scaled_length(at.x), scales.scaled_length(at.y)}, at.angle, fraction}, {u[0], u[1]});
+  const double force = -foundation.at(fraction).reaction_beyond(p.depth);
+  return {force * p.into[0], force * p.into[1]};
 }
 
 Vec2 SectionForces::density(double xi) const {
@@ -186,9 +186,8 @@ Vec2 SectionForces::density(double xi) const {
   }
   for (const FoundationHere& foundation : foundations_) {
     if (foundation.lumped || xi < foundation.range[0] || xi > foundation.range[1]) continue;
-    const Vec2 n = normal_into(foundation.law, xi);
-    const double reaction = law_at(foundation.law, xi).reaction(penetration(foundation.law, xi));
-    for (int c = 0; c < 2; ++c) f[c] -= reaction * n[c];
+    const Vec2 r = reaction(foundation.law, xi);
+    for (int c = 0; c < 2; ++c) f[c] += r[c];
   }
   return f;
 }

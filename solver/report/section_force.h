@@ -62,7 +62,7 @@ class SectionForces {
   [[nodiscard]] Vec2 position(double xi) const;
   /// Derivative of the position by the scaled arc length of the perfect axis.
   [[nodiscard]] Vec2 slope(double xi) const;
-  /// Unit direction into the foundation's medium, and its derivative with respect to s.
+  /// Unit direction into the medium of a foundation with a shear layer, and its derivative with respect to s.
   [[nodiscard]] Vec2 normal_into(const FoundationLaw& foundation, double xi) const {
     return foundation.direction.at(axis_at(xi).angle);
   }
@@ -70,9 +70,8 @@ class SectionForces {
     return foundation.direction.rate(axis_at(xi).angle,
                                      structure_.scales.scaled_curvature(axis_at(xi).curvature));
   }
-  /// Displacement into the foundation's medium.
-  [[nodiscard]] Law law_at(const FoundationLaw& foundation, double xi) const;
-  [[nodiscard]] double penetration(const FoundationLaw& foundation, double xi) const;
+  /// Reaction of a foundation per length, on the member.
+  [[nodiscard]] Vec2 reaction(const FoundationLaw& foundation, double xi) const;
   /// Force per length at a section, without shear layers.
   [[nodiscard]] Vec2 density(double xi) const;
   [[nodiscard]] double shear_layer(const FoundationLaw& foundation, double xi) const;

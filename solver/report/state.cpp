@@ -8,6 +8,7 @@
 #include <span>
 
 #include "solver/discrete/element_reader.h"
+#include "solver/discrete/foundation_springs.h"
 #include "solver/geometry/stress_free_axis.h"
 #include "solver/model/id_index.h"
 #include "solver/report/contact.h"
@@ -77,15 +78,13 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
         foundation.range[0] + (foundation.range[1] - foundation.range[0]) * i / (points - 1);
     const MeshPlace place = place_under(structure.mesh, member, foundation, fraction);
     const auto u = ElementReader(structure, y, place.element).displacement(place.xi);
-    const double angle = axis.at(fraction * axis.length()).angle;
     // results use the user's sign: a pushing medium has a positive reaction, a pulling one a negative
-    const auto d = law.direction.at(angle);
-    double w = u[0] * d[0] + u[1] * d[1];
     const Law acting = law_on(structure, law, place.element).at(fraction);
-    const double reaction = acting.reaction(w);
+    double beyond = law.penetration(place_on_axis(structure, place.element, place.xi), {u[0], u[1]}).depth;
+    const double reaction = acting.reaction_beyond(beyond);
     // displacement of the base's surface by its given stiffness, where the element has a bounded one
-    if (law.law.one_sided && acting.acts(w))
-      w = acting.gap + (w - acting.gap) * (acting.stiffness / law.at(fraction).stiffness);
+    if (law.law.one_sided && beyond > 0.0) beyond *= acting.stiffness / law.at(fraction).stiffness;
+    const double w = law.surface ? beyond : acting.gap + beyond;
     out.s.push_back(fraction * axis.length());
     out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * reaction));
     out.displacement.push_back(in_users_sense(law.sense, structure.scales.length * w));

@@ -117,7 +117,7 @@ std::vector<SupportSpring> acting_springs(const Structure& structure, const Foun
                                                      reader.gradient(0), reader.gradient(1));
   std::vector<SupportSpring> out;
   for (const auto& interval : intervals)
-    for (SupportSpring& support : contact_springs(structure, foundation, part.element, interval))
+    for (SupportSpring& support : contact_springs(structure, foundation, reader, part.element, interval))
       out.push_back(std::move(support));
   return out;
 }

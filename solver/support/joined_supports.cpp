@@ -127,7 +127,10 @@ class Joiner {
  private:
   template <class Support>
   [[nodiscard]] bool touches(const Support& support, double unit) const {
-    return is_one_sided(support) && !support.law && support.gap <= Rounding::coordinate * unit;
+    if constexpr (requires { support.outline; })
+      if (support.outline || !support.gap_along.empty()) return false;
+    return is_one_sided(support) && !support.law && std::isfinite(support.stiffness) &&
+           support.gap <= Rounding::coordinate * unit;
   }
   void join_springs();
   void join_springs_at(const std::vector<Touching>& place);

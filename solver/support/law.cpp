@@ -74,10 +74,18 @@ Law FoundationLaw::at(double fraction) const {
     }
   }
   out.bound_stiffness(stiffest);
+  out.gap = value_at(law.gap, gap_along, fraction);
   return out;
 }
 
-FoundationLaw law_of(const Foundation& foundation, const Scales& scales) {
+SurfacePoint FoundationLaw::penetration(const PlaceOnAxis& at, std::array<double, 2> u) const {
+  if (follows_surface()) return surface->at(at.x, u);
+  const auto d = initial_direction(at);
+  const double gap = surface ? -surface->at(at.x).depth : value_at(law.gap, gap_along, at.fraction);
+  return {u[0] * d[0] + u[1] * d[1] - gap, d};
+}
+
+FoundationLaw law_of(const Foundation& foundation, const Scales& scales, std::array<double, 2> origin) {
   const bool one_sided = foundation.reaction != Reaction::bilateral;
   FoundationLaw out;
   out.direction = direction_of(foundation);
@@ -85,6 +93,12 @@ FoundationLaw law_of(const Foundation& foundation, const Scales& scales) {
              one_sided ? scales.scaled_length(foundation.gap) : 0.0, one_sided};
   out.shear = scales.scaled_force(foundation.shear_stiffness);
   out.sense = sense_of(foundation.reaction);
+  for (const auto& [fraction, gap] : foundation.gap_along)
+    out.gap_along.emplace_back(fraction, scales.scaled_length(gap));
+  if (foundation.outline) {
+    out.direction = {true, {}, 1.0};
+    out.surface = make_surface(*foundation.outline, origin, scales.length);
+  }
   if (!foundation.law) return out;
   out.curve = curve_of(*foundation.law);
   out.variation = variation_of(*foundation.law);

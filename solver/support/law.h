@@ -11,6 +11,7 @@
 #include "solver/model/model.h"
 #include "solver/model/scales.h"
 #include "solver/support/reaction_curve.h"
+#include "solver/support/surface.h"
 
 namespace snapthrough {
 
@@ -62,6 +63,10 @@ struct Law {
   /// The part of w that is resisted.
   [[nodiscard]] double penetration(double w) const { return one_sided ? std::max(w - gap, 0.0) : w; }
   [[nodiscard]] double reaction(double w) const { return force_at(penetration(w)); }
+  /// Reaction at a distance beyond the gap.
+  [[nodiscard]] double reaction_beyond(double distance) const {
+    return force_at(one_sided ? std::max(distance, 0.0) : distance);
+  }
   /// d reaction / dw; zero at the kink.
   [[nodiscard]] double tangent(double w) const {
     return !one_sided || w > gap ? stiffness_at(penetration(w)) : 0.0;
@@ -123,18 +128,38 @@ struct LawVariation {
   AlongMember capacity;
 };
 
+/// Point of a member's initial axis, scaled.
+struct PlaceOnAxis {
+  std::array<double, 2> x{};
+  double angle = 0.0;     ///< angle of the axis tangent, rad
+  double fraction = 0.0;  ///< of the member's length
+};
+
 /// Reaction law of a foundation, scaled.
 struct FoundationLaw {
-  Direction direction;
-  Law law;             ///< reaction per length, with the largest stiffness and capacity along the member
-  double shear = 0.0;  ///< stiffness G of the shear layer
-  double sense = 1.0;  ///< factor on results, see sense_of()
+  Direction direction;  ///< not used with a surface
+  Law law;              ///< reaction per length, with the largest stiffness and capacity along the member
+  double shear = 0.0;   ///< stiffness G of the shear layer
+  double sense = 1.0;   ///< factor on results, see sense_of()
   std::shared_ptr<const ReactionCurve> curve;                 ///< curve of `law`; null: linear
   std::shared_ptr<const LawVariation> variation{};            ///< null: constant along the member
   double stiffest = std::numeric_limits<double>::infinity();  ///< bound of the stiffness
 
-  /// Law at a fraction of the member's length.
+  Along<double> gap_along{};                 ///< empty: the gap of `law`
+  std::shared_ptr<const Surface> surface{};  ///< surface of the medium; null: see `direction`
+  /// Whether the surface acts by its tangents at the points nearest to the initial axis: small displacements.
+  bool fixed_tangents = false;
+
+  /// Law at a fraction of the member's length, with the gap there.
   [[nodiscard]] Law at(double fraction) const;
+  /// Whether the direction of the reaction turns as the axis moves.
+  [[nodiscard]] bool follows_surface() const { return surface && !fixed_tangents; }
+  /// @brief Penetration of a point of the axis, with its derivatives with respect to the displacement u.
+  [[nodiscard]] SurfacePoint penetration(const PlaceOnAxis& at, std::array<double, 2> u) const;
+  /// Unit direction into the medium on the initial axis.
+  [[nodiscard]] std::array<double, 2> initial_direction(const PlaceOnAxis& at) const {
+    return surface ? surface->at(at.x).into : direction.at(at.angle);
+  }
 };
 /// Reaction law of a spring, scaled.
 struct SpringLaw {
@@ -144,7 +169,9 @@ struct SpringLaw {
   std::shared_ptr<const ReactionCurve> curve;  ///< curve of `law`; null: linear
 };
 
-[[nodiscard]] FoundationLaw law_of(const Foundation& foundation, const Scales& scales);
+/// @param origin of the scaled coordinates, in the model's
+[[nodiscard]] FoundationLaw law_of(const Foundation& foundation, const Scales& scales,
+                                   std::array<double, 2> origin = {});
 [[nodiscard]] SpringLaw law_of(const Spring& spring, const Scales& scales);
 
 }  // namespace snapthrough

@@ -105,6 +105,7 @@ bool needs_several_fields(const Finding& finding) {
       {"ambiguous", std::regex("/model/sections/[0-9]+/(density|nu)")},  // mass and density; nu and G
       {"ambiguous", std::regex("/model/load_cases/.*/pattern")},         // grows of the case and pattern
       {"ambiguous", std::regex("/model/foundations/[0-9]+/(component|side)")},   // and direction
+      {"out_of_range", std::regex(".*/outline/rounding")},                       // sides of a polyline
       {"missing_field", std::regex("/model/sections/[0-9]+/(mass|expansion)")},  // sections and loads
       {"too_many", std::regex(".*/(points_per_member|elements)")},  // times members, of all members
       {"too_many", std::regex("/model/imperfections/.*")},          // of one type

@@ -161,6 +161,9 @@ export class Drawer {
       if (one.component === 'tangent') for (const field of ['side', 'direction', 'shear_stiffness', 'reaction', 'gap']) delete one[field];
       if (Array.isArray(one.direction)) delete one.side;
       ascend(one.stiffness);
+      ascend(one.gap);
+      if (one.outline?.points) one.outline.points = one.outline.points.map(([, y], i) => [100 * i, y]);
+      if ('rounding' in (one.outline ?? {})) one.outline.rounding = 1e-3;
       if (!one.law) continue;
       for (const field of ['stiffness', 'capacity', 'factor']) {
         ascend(one.law[field]);
@@ -174,6 +177,7 @@ export class Drawer {
   agree(model, analysis) {
     const order = (pair) => { if (pair) pair.sort((a, b) => a - b); if (pair && pair[0] === pair[1]) pair[0] -= 0.5; };
     for (const one of [...(model.springs ?? []), ...(model.foundations ?? [])]) {
+      if (one.stiffness === 'rigid') one.reaction = 'compression_only';
       if (one.reaction !== 'compression_only' && one.reaction !== 'tension_only') delete one.gap;
       else delete one.shear_stiffness;
     }

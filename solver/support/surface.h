@@ -1,0 +1,36 @@
+#pragma once
+/// @file
+/// Surfaces of media that are fixed in the plane.
+
+#include <array>
+#include <memory>
+
+#include "solver/model/model.h"
+
+namespace snapthrough {
+
+/// Signed distance of a displaced point to a surface, with its derivatives with respect to the displacement.
+struct SurfacePoint {
+  double depth = 0.0;            ///< distance, positive inside the medium
+  std::array<double, 2> into{};  ///< gradient: unit normal into the medium at the nearest point
+  double bend = 0.0;             ///< second derivative along the tangent (-into[1], into[0])
+  double bend_rate = 0.0;        ///< derivative of `bend` along the tangent
+};
+
+/// @brief Surface of a medium. The second derivative of the distance along the normal is zero, and that of
+/// `bend` is -bend^2. Immutable, thread safe.
+class Surface {
+ public:
+  virtual ~Surface() = default;
+  /// @brief At the point x + u. The depth has the digits of u: that of x counts as zero where it is rounding.
+  [[nodiscard]] virtual SurfacePoint at(std::array<double, 2> x, std::array<double, 2> u) const = 0;
+  [[nodiscard]] SurfacePoint at(std::array<double, 2> x) const { return at(x, {0.0, 0.0}); }
+};
+
+/// @brief Surface of an outline.
+/// @param origin, length x = (X - origin) / length for a point X of the model
+/// @pre the outline passed check()
+[[nodiscard]] std::shared_ptr<const Surface> make_surface(const Outline& outline,
+                                                          std::array<double, 2> origin, double length);
+
+}  // namespace snapthrough
