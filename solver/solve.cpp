@@ -191,6 +191,11 @@ Result run_with_worst(const Model& model, const WorstImperfection& worst, const 
   return result;
 }
 
+Result run_any(const Model& model, const Analysis& analysis, const Hooks& hooks) {
+  const WorstImperfection* worst = worst_imperfection(model);
+  return worst != nullptr ? run_with_worst(model, *worst, analysis, hooks) : run(model, analysis, hooks, {});
+}
+
 }  // namespace
 
 Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
@@ -199,12 +204,10 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
   return solve_checked(model, analysis, hooks);
 }
 
-Result solve_checked(const Model& given, const Analysis& asked, const Hooks& hooks) {
-  const std::optional<Model> acting = with_rods_as_springs(given);
-  const Model& model = acting ? *acting : given;
-  const Analysis analysis = acting ? with_rods_in_variations(asked) : asked;
-  const WorstImperfection* worst = worst_imperfection(model);
-  return worst != nullptr ? run_with_worst(model, *worst, analysis, hooks) : run(model, analysis, hooks, {});
+Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& hooks) {
+  const std::optional<Model> acting = with_rods_as_springs(model);
+  return acting ? run_any(*acting, with_rods_in_variations(analysis), hooks)
+                : run_any(model, analysis, hooks);
 }
 
 }  // namespace snapthrough

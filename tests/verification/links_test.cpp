@@ -307,6 +307,9 @@ TEST(Rods, AStayedMastFallsAtItsLimitLoad) {
     ASSERT_EQ(result.critical_points.size(), 1U);
     const double expected = mast_limit(10.0, e);
     expect_relative(result.critical_points[0].load_factor, expected, 1e-6, "limit");
+    ASSERT_EQ(result.warnings.size(), 1U);
+    EXPECT_NE(result.warnings[0].detail.find("in member \"stay\""), std::string::npos)
+        << "strain of the stay";
     ASSERT_EQ(result.critical_points[0].sensitivities.size(), 1U);
     ASSERT_TRUE(result.critical_points[0].sensitivities[0].derivative);
     expect_relative(*result.critical_points[0].sensitivities[0].derivative, expected / 10.0, 1e-5, "by EA");
