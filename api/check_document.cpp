@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solver/mesh/mesh.h"
+#include "solver/support/rods.h"
 
 namespace snapthrough::api {
 namespace {
@@ -16,7 +17,7 @@ constexpr std::uint64_t kTries = 10;
 
 /// Returns the number of free displacement unknowns of the request's mesh, before any refinement.
 int unknowns_of(const Request& request) {
-  const Model& model = request.model;
+  const Model model = rods_as_springs(request.model);
   const Mesh mesh = make_mesh(model, request.analysis.discretization, make_axes(model));
   // A member of n elements of order p has n p - 1 inner nodes with three displacements each.
   int unknowns = 3 * static_cast<int>(model.nodes.size());

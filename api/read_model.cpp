@@ -168,6 +168,7 @@ static void read(const Value& value, Member& out) {
   if (const auto release = in.find("release")) {
     read_release(*release, out);
   }
+  in.optional("reaction", out.reaction);
   in.finish();
 }
 
@@ -218,6 +219,7 @@ static void read(const Value& value, Spring& out) {
   Object in(value);
   in.required("id", out.id);
   in.required("at", out.at);
+  in.optional("to", out.to);
   if (const auto direction = in.find_required("direction")) {
     read_direction(*direction, "rotation", out.direction);
   }

@@ -273,7 +273,8 @@ struct MeshReport {
   /// Number of paths followed, the last one reported. Each repeats the previous one on a mesh at least four
   /// times as fine, because finer meshes did not confirm the result.
   int paths = 1;
-  /// Element ends along each member of the reported path's mesh, as fractions; empty without a path.
+  /// Element ends along each member but rods, on the reported path's mesh, as fractions; empty without a
+  /// path.
   std::vector<std::vector<double>> ends;
 };
 

@@ -15,6 +15,7 @@
 #include "solver/report/result_parts.h"
 #include "solver/report/skipped.h"
 #include "solver/support/law.h"
+#include "solver/support/rods.h"
 
 namespace snapthrough {
 namespace {
@@ -135,6 +136,19 @@ std::vector<Variation> with_shape_held(std::vector<Variation> variations, const 
   return variations;
 }
 
+/// The analysis of a model with its rods as springs: the changed models of its sensitivities have springs
+/// too.
+Analysis with_rods_in_variations(Analysis analysis) {
+  for (Variation& variation : analysis.sensitivities) {
+    variation.model_at = [inner = std::move(variation.model_at)](double value) -> std::optional<Model> {
+      std::optional<Model> changed = inner(value);
+      if (changed) changed = rods_as_springs(*std::move(changed));
+      return changed;
+    };
+  }
+  return analysis;
+}
+
 /// Warns of a worst imperfection that does not lower the critical load.
 void warn_of_no_fall(const WorstOffset& found, Result& result) {
   if (found.load_factor && *found.load_factor < found.perfect_load_factor) return;
@@ -177,6 +191,11 @@ Result run_with_worst(const Model& model, const WorstImperfection& worst, const 
   return result;
 }
 
+Result run_any(const Model& model, const Analysis& analysis, const Hooks& hooks) {
+  const WorstImperfection* worst = worst_imperfection(model);
+  return worst != nullptr ? run_with_worst(model, *worst, analysis, hooks) : run(model, analysis, hooks, {});
+}
+
 }  // namespace
 
 Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
@@ -186,8 +205,9 @@ Result solve(const Model& model, const Analysis& analysis, const Hooks& hooks) {
 }
 
 Result solve_checked(const Model& model, const Analysis& analysis, const Hooks& hooks) {
-  const WorstImperfection* worst = worst_imperfection(model);
-  return worst != nullptr ? run_with_worst(model, *worst, analysis, hooks) : run(model, analysis, hooks, {});
+  const std::optional<Model> acting = with_rods_as_springs(model);
+  return acting ? run_any(*acting, with_rods_in_variations(analysis), hooks)
+                : run_any(model, analysis, hooks);
 }
 
 }  // namespace snapthrough

@@ -42,7 +42,13 @@ std::pair<double, double> read_range(const Field& field) {
   return {ends[0], ends[1]};
 }
 
+bool is_one_sided(const Field& field) { return text_or(field, "reaction", "bilateral") != "bilateral"; }
+
+/// One-sided members are hinged at both ends.
 bool has_hinge(const Field& member, std::string_view end) {
+  if (is_one_sided(member)) {
+    return true;
+  }
   const std::optional<Field> release = member.find("release");
   const std::optional<Field> list = release ? release->find(end) : std::nullopt;
   return list && (list->json().is_object() || list->size() > 0);
@@ -81,8 +87,6 @@ ModelSupport read_support(const Field& field) {
   return support;
 }
 
-bool is_one_sided(const Field& field) { return text_or(field, "reaction", "bilateral") != "bilateral"; }
-
 Point unit_vector(const Field& field) {
   const Point given = read_point(field);
   const double length = std::hypot(given.x, given.y);
@@ -96,6 +100,9 @@ ModelSpring read_spring(const Field& field) {
   ModelSpring spring;
   spring.id = field.at("id").text();
   spring.at = read_location(field.at("at"));
+  if (const auto to = field.find("to")) {
+    spring.to = read_location(*to);
+  }
   const Field direction = field.at("direction");
   if (!direction.json().is_string()) {
     spring.direction = unit_vector(direction);

@@ -39,6 +39,7 @@ struct ModelSupport {
 struct ModelSpring {
   std::string id;
   Location at;
+  std::optional<Location> to;      ///< other end; nullopt: the ground
   std::optional<Point> direction;  ///< unit vector into the medium; nullopt: rotational spring
   bool one_sided = false;
   double gap = 0;

@@ -131,9 +131,21 @@ Shape spiral(Pixel centre, const std::string& looks) {
   return group("spring-symbol", std::move(shapes));
 }
 
+/// A spring between two places of the structure, which both move.
+Shape shape_between(Pixel from, Pixel to, const std::string& looks, Occupancy& taken) {
+  const SymbolAxes axes = axes_at(from, std::atan2(to.y - from.y, to.x - from.x));
+  const Pixel ends[] = {from, to};
+  taken.add_line(ends, 30);
+  return group("spring-symbol", {path(looks, zigzag(axes, 0, std::hypot(to.x - from.x, to.y - from.y)))});
+}
+
+std::string looks_of(const ModelSpring& spring, bool closed) {
+  return spring.one_sided && closed ? "contact-spring" : "spring";
+}
+
 Shape spring_shape(const ModelSpring& spring, const Place& place, bool closed, const View& view,
                    Occupancy& taken) {
-  const std::string looks = spring.one_sided && closed ? "contact-spring" : "spring";
+  const std::string looks = looks_of(spring, closed);
   const Pixel tip = to_pixel(view, place.moved);
   if (!spring.direction) {
     return spiral(tip, looks);
@@ -189,7 +201,10 @@ std::vector<Shape> spring_shapes(const Scene& scene, const View& view, Occupancy
         const auto found = scene.input.state->springs.find(spring.id);
         closed = found == scene.input.state->springs.end() ? closed : found->second.closed;
       }
-      shapes.push_back(spring_shape(spring, *place, closed, view, taken));
+      const std::optional<Place> other = spring.to ? place_of(scene, *spring.to) : std::nullopt;
+      shapes.push_back(other ? shape_between(to_pixel(view, place->moved), to_pixel(view, other->moved),
+                                             looks_of(spring, closed), taken)
+                             : spring_shape(spring, *place, closed, view, taken));
     }
   }
   return shapes;

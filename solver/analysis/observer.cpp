@@ -30,11 +30,10 @@ void Observer::finish(Result& result) {
   }
   if (largest_.strain <= StrainLimits::small) return;
   result.warnings.push_back(
-      {"large_strain", "the strain reaches " + rounded(largest_.strain) + " in member \"" +
-                           model_.members[largest_.member].id + "\" at s = " + rounded(largest_.s) +
-                           ", load factor " + number(strained_load_) + " on branch " +
-                           std::to_string(strained_branch_) + ": beyond " + rounded(StrainLimits::small) +
-                           " the linear law of the sections does not hold"});
+      {"large_strain", "the strain reaches " + rounded(largest_.strain) + " in member \"" + largest_.member +
+                           "\" at s = " + rounded(largest_.s) + ", load factor " + number(strained_load_) +
+                           " on branch " + std::to_string(strained_branch_) + ": beyond " +
+                           rounded(StrainLimits::small) + " the linear law of the sections does not hold"});
 }
 
 }  // namespace snapthrough

@@ -44,7 +44,7 @@ struct GluedLength {
 /// Contact of one-sided supports by id; the parts of a divided foundation are summed.
 struct ContactShares {
   std::map<std::string, GluedLength> foundations;
-  std::map<std::string, bool> springs;
+  std::map<std::string, bool> springs;  ///< by kind and id; rods are members
 };
 
 /// @param laws the model with opposite supports joined
@@ -67,7 +67,8 @@ ContactShares shares_of(const Structure& structure, const Model& laws, const Str
                                   std::vector<char>(contact.node_springs.size(), 1)};
   for (const TouchingSupports::Spring& spring : problem.touching(all_springs, &contact).springs) {
     const Spring& law = laws.springs[static_cast<std::size_t>(spring.spring)];
-    if (is_one_sided(law)) out.springs[law.id] = spring.touch == Touch::acts;
+    if (is_one_sided(law))
+      out.springs[(law.rod ? "member " : "spring ") + law.id] = spring.touch == Touch::acts;
   }
   return out;
 }
@@ -112,9 +113,9 @@ void warn_of_changed_contact(const Structure& structure, const Model& laws, Stru
     changes += "; foundation " + id + " touches on " + percent(length.share()) +
                " of its range under the reference load and on " + percent(then) + " under the critical load";
   }
-  for (const auto& [id, acts] : reference.springs)
-    if (critical.springs.at(id) != acts)
-      changes += "; spring " + id + (acts ? " acts" : " does not act") + " under the reference load and " +
+  for (const auto& [name, acts] : reference.springs)
+    if (critical.springs.at(name) != acts)
+      changes += "; " + name + (acts ? " acts" : " does not act") + " under the reference load and " +
                  (acts ? "not" : "acts") + " under the critical load";
   if (changes.empty()) return;
   result.warnings.push_back(

@@ -43,20 +43,20 @@ void check_load(const Place& place, const PointLoad& load, const Names& names) {
 }
 
 void check_load(const Place& place, const DistributedLoad& load, const Names& names) {
-  names.members.require(place / "member", load.member);
+  require_beam(place / "member", load.member, names);
   check_force(place / "force", load.force);
   check_along(place / "force", load.force_along);
   require_fractions(place / "range", load.range);
 }
 
 void check_load(const Place& place, const PressureLoad& load, const Names& names) {
-  names.members.require(place / "member", load.member);
+  require_beam(place / "member", load.member, names);
   require_finite(place / "value", load.value);
   check_along(place / "value", load.value_along);
 }
 
 void check_load(const Place& place, const InitialStrain& load, const Names& names) {
-  names.members.require(place / "member", load.member);
+  require_beam(place / "member", load.member, names);
   require_finite(place / "axial", load.axial);
   require_finite(place / "curvature", load.curvature);
   check_along(place / "axial", load.axial_along);
@@ -68,7 +68,7 @@ void check_load(const Place& place, const SelfWeight& load, const Names&) {
 }
 
 void check_load(const Place& place, const TemperatureLoad& load, const Names& names) {
-  names.members.require(place / "member", load.member);
+  require_beam(place / "member", load.member, names);
   require_finite(place / "change", load.change);
   require_finite(place / "gradient", load.gradient);
   check_along(place / "change", load.change_along);
@@ -107,7 +107,7 @@ bool grows(const Support& support) {
 }
 
 void check_imperfection(const Place& place, const SineImperfection& imperfection, const Names& names) {
-  names.members.require(place / "member", imperfection.member);
+  require_beam(place / "member", imperfection.member, names);
   require_between(place / "half_waves", imperfection.half_waves, 1, kMaxHalfWaves);
   require_finite(place / "amplitude", imperfection.amplitude);
 }
@@ -118,7 +118,7 @@ void check_imperfection(const Place& place, const ModeImperfection& imperfection
 }
 
 void check_imperfection(const Place& place, const PointsImperfection& imperfection, const Names& names) {
-  names.members.require(place / "member", imperfection.member);
+  require_beam(place / "member", imperfection.member, names);
   const Place offsets = place / "offsets";
   require_count(offsets, imperfection.offsets.size(), kMaxCurvePoints);
   if (imperfection.offsets.size() < 2) {
@@ -135,21 +135,6 @@ void check_imperfection(const Place& place, const PointsImperfection& imperfecti
 
 void check_imperfection(const Place& place, const WorstImperfection& imperfection, const Names&) {
   require_positive(place / "amplitude", imperfection.amplitude);
-}
-
-/// Nodes whose rotation no member, support or spring resists.
-std::unordered_set<std::string> nodes_free_to_turn(const Model& model) {
-  std::unordered_set<std::string> nodes;
-  for (const Member& member : model.members) nodes.insert({member.start, member.end});
-  for (const Member& member : model.members) {
-    if (!is_hinged_at_start(member)) nodes.erase(member.start);
-    if (!is_hinged_at_end(member)) nodes.erase(member.end);
-  }
-  for (const Support& support : model.supports)
-    if (support.rotation) nodes.erase(support.node);
-  for (const Spring& spring : model.springs)
-    if (!spring.direction && initial_stiffness(spring) > 0.0) nodes.erase(spring.at.node);
-  return nodes;
 }
 
 /// Members at a node, with the verb: 'member "a" is', 'members "a", "b" and 7 more are'.

@@ -25,13 +25,16 @@ long long check_member_elements(const Place& elements, const Model& model, const
   long long total = 0;
   for (const auto& [member, count] : mesh.member_elements) {
     const Place place = elements / member;
-    names.members.require(place, member);
+    require_beam(place, member, names);
     given.add(place, member);
     if (require_between(place, count, 1, kMaxElementsPerMember)) {
       total += count;
     }
   }
   for (const Member& member : model.members) {
+    if (is_rod(member)) {
+      continue;
+    }
     if (!given.contains(member.id) && mesh.elements == 0) {
       elements.report("missing_field", "no number of elements for member " + in_quotes(member.id));
     }
@@ -146,11 +149,13 @@ void check_reversed(const Place& place, const Model& model, const Analysis& anal
     return;
   }
   const auto one_sided = [](const auto& support) { return is_one_sided(support); };
-  if (std::any_of(model.springs.begin(), model.springs.end(), one_sided) ||
+  if (std::any_of(model.members.begin(), model.members.end(), is_rod) ||
+      std::any_of(model.springs.begin(), model.springs.end(), one_sided) ||
       std::any_of(model.foundations.begin(), model.foundations.end(), one_sided)) {
-    place.report("unsupported",
-                 "reversed needs bilateral springs and foundations: the opposite load has another contact; "
-                 "change the signs of the proportional actions instead");
+    place.report(
+        "unsupported",
+        "reversed needs bilateral members, springs and foundations: the opposite load has another contact; "
+        "change the signs of the proportional actions instead");
   }
 }
 

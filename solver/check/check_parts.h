@@ -2,6 +2,9 @@
 /// @file
 /// Parts of check(): one function per list of the model, which reports its findings. Reentrant.
 
+#include <string>
+#include <unordered_set>
+
 #include "solver/check/check_place.h"
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
@@ -14,6 +17,7 @@ struct Names {
   Ids sections{"section"};
   Ids members{"member"};
   Ids monitors{"monitor"};
+  std::unordered_set<std::string> rods;  ///< one-sided members
 };
 
 // For each function, `model` is the place "/model" and `names` is complete.
@@ -31,6 +35,14 @@ void check_monitors(const Place& model, const Model& data, Names& names);
 
 /// Requires a node of the model, or a member with a fraction in [0, 1].
 void check_location(const Place& place, const Location& location, const Names& names);
+/// Requires a member of the model that is not one-sided.
+bool require_beam(const Place& place, const std::string& member, const Names& names);
+/// Requires what one-sided members cannot have to be left out.
+void check_rod(const Place& place, const Member& rod);
+/// Nodes whose rotation no member, support or spring to ground resists.
+[[nodiscard]] std::unordered_set<std::string> nodes_free_to_turn(const Model& model);
+/// @pre spring.to
+void check_other_end(const Place& place, const Spring& spring, const Model& data, const Names& names);
 
 /// Requires an action that is proportional to the load factor and not zero.
 void check_something_proportional(const Place& model, const Model& data, const Analysis& analysis);

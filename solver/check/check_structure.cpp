@@ -178,6 +178,9 @@ void check_members(const Place& model, const Model& data, Names& names) {
   if (data.members.empty()) {
     members.report("empty", "a model needs members");
   }
+  if (!data.members.empty() && std::all_of(data.members.begin(), data.members.end(), is_rod)) {
+    members.report("empty", "a model needs a member that is not one-sided");
+  }
   const double zero = zero_distance(data);
   bool all_known = true;
   for (std::size_t i = 0; i < data.members.size(); ++i) {
@@ -190,6 +193,10 @@ void check_members(const Place& model, const Model& data, Names& names) {
     require_not_negative(place / "release" / "start" / "rotation", member.release_start_stiffness);
     require_not_negative(place / "release" / "end" / "rotation", member.release_end_stiffness);
     std::visit([&place](const auto& curve) { check_curve(place / "curve", curve); }, member.curve);
+    if (is_rod(member)) {
+      names.rods.insert(member.id);
+      check_rod(place, member);
+    }
     if (start_known && end_known) {
       check_member_geometry(place, member, data.nodes[names.nodes.index(member.start)],
                             data.nodes[names.nodes.index(member.end)], zero);

@@ -231,7 +231,7 @@ void check_location(const Place& place, const Location& location, const Names& n
   } else if (!location.node.empty()) {
     names.nodes.require(place / "node", location.node);
   } else {
-    names.members.require(place / "member", location.member);
+    require_beam(place / "member", location.member, names);
     require_between(place / "fraction", location.fraction, 0.0, 1.0);
   }
 }
@@ -259,6 +259,9 @@ void check_springs(const Place& model, const Model& data, const Names& names) {
     const Spring& spring = data.springs[i];
     ids.add(place / "id", spring.id);
     check_location(place / "at", spring.at, names);
+    if (spring.to) {
+      check_other_end(place, spring, data, names);
+    }
     if (spring.direction) {
       require_direction(place / "direction", *spring.direction);
     }
@@ -280,7 +283,7 @@ void check_foundations(const Place& model, const Model& data, const Names& names
     const Place place = foundations / i;
     const Foundation& foundation = data.foundations[i];
     ids.add(place / "id", foundation.id);
-    names.members.require(place / "member", foundation.member);
+    require_beam(place / "member", foundation.member, names);
     if (foundation.law) {
       check_law(place, *foundation.law);
     } else {

@@ -104,7 +104,8 @@ bool LineReader::is_simple() const {
         model_.sections[index_of(model_.sections, member.section)].GA)
       return false;
   for (const Spring& spring : model_.springs)
-    if (spring.law || (spring.stiffness > 0.0 && spring.reaction != Reaction::bilateral)) return false;
+    if (spring.to || spring.law || (spring.stiffness > 0.0 && spring.reaction != Reaction::bilateral))
+      return false;
   for (const Foundation& foundation : model_.foundations)
     if (foundation.law || foundation.tangential ||
         (foundation.stiffness + foundation.shear_stiffness > 0.0 &&

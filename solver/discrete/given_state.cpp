@@ -54,13 +54,25 @@ void set_element(const Structure& structure, const MemberSplines& member, int el
 
 Eigen::VectorXd unknowns_of(const Structure& structure, const Model& model, const StartState& state) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(structure.size);
-  std::vector<MemberSplines> members;
-  for (std::size_t m = 0; m < model.members.size(); ++m) {
+  const auto shape_of = [&state](const std::string& id) -> const MemberShape& {
     const auto shape = std::find_if(state.members.begin(), state.members.end(),
-                                    [&](const MemberShape& one) { return one.id == model.members[m].id; });
+                                    [&id](const MemberShape& one) { return one.id == id; });
     if (shape == state.members.end()) throw std::invalid_argument("a member has no shape");
-    members.push_back(splines_of(structure, static_cast<int>(m), *shape));
+    return *shape;
+  };
+  // nodes that only rods reach
+  for (std::size_t i = 0; i < model.springs.size(); ++i) {
+    if (!model.springs[i].rod) continue;
+    const MemberShape& shape = shape_of(model.springs[i].id);
+    const NodeSpring rod = rod_of(structure, model, i);
+    for (const auto& [node, at] : {std::pair{rod.node, std::size_t{0}}, {rod.to, shape.s.size() - 1}}) {
+      y[3 * node] = shape.u[at] / structure.scales.length;
+      y[3 * node + 1] = shape.v[at] / structure.scales.length;
+    }
   }
+  std::vector<MemberSplines> members;
+  for (std::size_t m = 0; m < model.members.size(); ++m)
+    members.push_back(splines_of(structure, static_cast<int>(m), shape_of(model.members[m].id)));
   for (std::size_t e = 0; e < structure.mesh.elements.size(); ++e)
     set_element(structure, members[static_cast<std::size_t>(structure.mesh.elements[e].member)],
                 static_cast<int>(e), y);

@@ -13,6 +13,7 @@
 
 #include "solver/discrete/rigid_mechanism.h"
 #include "solver/model/id_index.h"
+#include "solver/support/rods.h"
 
 namespace snapthrough {
 namespace {
@@ -80,7 +81,7 @@ bool is_plainly_held(const Model& model) {
   for (const Member& member : model.members) {
     const Section& section = model.sections[index_of(model.sections, member.section)];
     const std::optional<double> own = length_of(model, member);
-    if (!own || member.release_start_rotation || member.release_end_rotation) return false;
+    if (!own || is_rod(member) || member.release_start_rotation || member.release_end_rotation) return false;
     length = std::max(length, *own);
     least_EI = std::min(least_EI, section.EI);
     largest_EI = std::max(largest_EI, section.EI);
@@ -91,10 +92,15 @@ bool is_plainly_held(const Model& model) {
          is_connected(model) && firmness(model, length) >= PlainlyHeldLimits::restraint;
 }
 
-bool can_move(const Model& model) { return !RigidMechanism(model, true).motions().empty(); }
+bool can_move(const Model& model) {
+  const std::optional<Model> acting = with_rods_as_springs(model);
+  return !RigidMechanism(acting ? *acting : model, true).motions().empty();
+}
 
-std::vector<Finding> find_mechanism(const Model& model) {
-  if (is_plainly_held(model)) return {};
+std::vector<Finding> find_mechanism(const Model& given) {
+  if (is_plainly_held(given)) return {};
+  const std::optional<Model> acting = with_rods_as_springs(given);
+  const Model& model = acting ? *acting : given;
   const RigidMechanism mechanism(model, true);
   if (mechanism.unknown())
     return {

@@ -78,20 +78,17 @@ void Holding::add(const Support& support) {
 }
 
 void Holding::add(const Spring& spring) {
-  if (!spring.at.node.empty()) {
-    const int node = parts_.node(spring.at.node);
-    if (spring.direction)
-      hold(node, (*spring.direction)[0], (*spring.direction)[1]);
-    else
-      hold(parts_.node_rotation(node), parts_.node_radius(node));
+  const Location& at = spring.at;
+  if (!spring.direction) {
+    hold(parts_.displacement(spring), at.member.empty() ? parts_.node_radius(parts_.node(at.node))
+                                                        : parts_.radius(parts_.member(at.member)));
     return;
   }
-  const int member = parts_.member(spring.at.member);
-  const AxisPoint at = parts_.place(member, spring.at.fraction);
-  if (spring.direction)
-    hold(member, {at.x, at.y}, (*spring.direction)[0], (*spring.direction)[1]);
-  else
-    hold(parts_.rotation(member), parts_.radius(member));
+  held.push_back(parts_.displacement(spring));
+  for (const RigidParts::Point& axis : {RigidParts::Point{1.0, 0.0}, RigidParts::Point{0.0, 1.0}}) {
+    moved.push_back(parts_.displacement(at, axis));
+    if (spring.to) moved.push_back(parts_.displacement(*spring.to, axis));
+  }
 }
 
 /// Adds the constraints of a foundation at points of its range; two points suffice on a straight axis. A

@@ -1,5 +1,6 @@
 #include "solver/discrete/rigid_parts.h"
 #include "solver/geometry/axes.h"
+#include "solver/support/law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -138,6 +139,24 @@ RigidParts::Row RigidParts::displacement(int member, Point at, Point direction) 
   const Point start = place(b.start);
   Row row = displacement(b.start, direction);
   append(row, rotation(member), (at[0] - start[0]) * direction[1] - (at[1] - start[1]) * direction[0]);
+  return row;
+}
+
+RigidParts::Row RigidParts::displacement(const Location& at, Point direction) const {
+  if (at.member.empty()) return displacement(node(at.node), direction);
+  const int index = member(at.member);
+  const AxisPoint point = place(index, at.fraction);
+  return displacement(index, {point.x, point.y}, direction);
+}
+
+RigidParts::Row RigidParts::displacement(const Spring& spring) const {
+  const auto of = [&](const Location& at) {
+    if (!spring.direction)
+      return at.member.empty() ? node_rotation(node(at.node)) : rotation(member(at.member));
+    return displacement(at, fixed_direction(*spring.direction, 1.0).fixed);
+  };
+  Row row = of(spring.at);
+  if (spring.to) append(row, of(*spring.to), -1.0);
   return row;
 }
 

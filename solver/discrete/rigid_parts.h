@@ -53,6 +53,11 @@ class RigidParts {
   [[nodiscard]] Row displacement(int node, Point direction) const;
   /// Displacement, in a direction, of a point that moves with a member.
   [[nodiscard]] Row displacement(int member, Point at, Point direction) const;
+  /// Displacement of a location in a direction.
+  [[nodiscard]] Row displacement(const Location& at, Point direction) const;
+  /// Displacement of a spring along its direction, or its rotation; relative to the node `to` where it is
+  /// given.
+  [[nodiscard]] Row displacement(const Spring& spring) const;
   /// Rotation of a member.
   [[nodiscard]] Row rotation(int member) const;
   /// Rotation of a node; empty when all members are released there.

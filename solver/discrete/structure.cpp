@@ -453,14 +453,11 @@ void Builder::add_supports() {
   for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
     const Spring& spring = laws_.springs[i];
     if (spring.at.node.empty() || initial_stiffness(spring) == 0.0) continue;
-    const SpringLaw& law = spring_laws_[i];
-    NodeSpring js;
-    js.node = index_of(model_.nodes, spring.at.node);
-    js.row = law.row;
-    js.law = law.law;
+    NodeSpring& js =
+        out_.node_springs.emplace_back(node_spring(spring_laws_[i], index_of(model_.nodes, spring.at.node),
+                                                   spring.to ? index_of(model_.nodes, spring.to->node) : -1));
     js.touch = touch_of_spring(i);
     js.spring = static_cast<int>(i);
-    out_.node_springs.push_back(js);
   }
 }
 
@@ -671,6 +668,11 @@ void Builder::set_metric() {
   const int p = rule.order();
   double total = 0.0;
   for (std::size_t e = 0; e < out_.dofs.size(); ++e) total += element_length(static_cast<int>(e));
+  for (const NodeSpring& spring : out_.node_springs) total += spring.length;
+  for (const NodeSpring& spring : out_.node_springs)
+    for (int c = 0; spring.is_rod() && c < 2; ++c)
+      for (const int node : {spring.node, spring.to})
+        out_.metric[3 * node + c] += 0.5 * spring.length / total;
   for (std::size_t e = 0; e < out_.dofs.size(); ++e) {
     const ElementDofs& dofs = out_.dofs[e];
     const double part = element_length(static_cast<int>(e)) / total;

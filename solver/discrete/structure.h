@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "solver/discrete/follower_ends.h"
+#include "solver/discrete/node_spring.h"
 #include "solver/element/element_set.h"
 #include "solver/geometry/axes.h"
 #include "solver/geometry/stress_free_axis.h"
@@ -30,15 +31,6 @@ struct NodeSupport {
   double angle = 0.0;
   std::array<double, 3> proportional{};  ///< prescribed displacement per unit scaled load factor
   std::array<double, 3> constant{};
-};
-
-/// Spring at a node, acting along `row` (x, y, rotation).
-struct NodeSpring {
-  int node = 0;
-  std::array<double, 3> row{};
-  Law law;
-  Touch touch = Touch::none;
-  int spring = -1;  ///< index among the springs
 };
 
 /// Rotational spring between a node and a released member end: a semi-rigid joint.
@@ -175,6 +167,17 @@ void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen:
 /// @param row weights of (x, y, rotation)
 [[nodiscard]] SparseRow displacement_row(const Structure& structure, const Model& model, const Location& at,
                                          std::array<double, 3> row);
+
+/// Displacement of a spring into its medium at a state, with its derivative by the unknowns.
+struct SpringReading {
+  double displacement = 0.0;
+  SparseRow row;
+};
+/// @param index index among the springs of the model
+[[nodiscard]] SpringReading reading_of(const Structure& structure, const Model& model, std::size_t index,
+                                       const Eigen::VectorXd& y);
+/// The spring that stands for a rod, see with_rods_as_springs().
+[[nodiscard]] NodeSpring rod_of(const Structure& structure, const Model& model, std::size_t index);
 
 /// @brief Stress-free geometry and compliances of an element, scaled.
 [[nodiscard]] ElementShape shape_of_element(const Structure& structure, const Model& model, int element);

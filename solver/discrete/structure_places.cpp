@@ -85,4 +85,29 @@ SparseRow displacement_row(const Structure& structure, const Model& model, const
   return out;
 }
 
+NodeSpring rod_of(const Structure& structure, const Model& model, std::size_t index) {
+  const Spring& spring = model.springs[index];
+  return node_spring(structure.spring_laws[index], index_of(model.nodes, spring.at.node),
+                     index_of(model.nodes, spring.to->node));
+}
+
+SpringReading reading_of(const Structure& structure, const Model& model, std::size_t index,
+                         const Eigen::VectorXd& y) {
+  const Spring& spring = model.springs[index];
+  SpringReading out;
+  std::array<double, 3> row = structure.spring_laws[index].row;
+  if (spring.rod) {
+    const SpringMotion motion =
+        rod_of(structure, model, index).motion(y, structure.geometry == Geometry::linear);
+    out.displacement = motion.w;
+    row = {motion.gradient[0], motion.gradient[1], 0.0};
+  }
+  out.row = displacement_row(structure, model, spring.at, row);
+  if (spring.to)
+    for (const auto& [at, weight] : displacement_row(structure, model, *spring.to, row).entries)
+      out.row.entries.emplace_back(at, -weight);
+  if (!spring.rod) out.displacement = out.row.dot(y);
+  return out;
+}
+
 }  // namespace snapthrough

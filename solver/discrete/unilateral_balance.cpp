@@ -102,21 +102,8 @@ std::optional<VectorXd> UnilateralBalance::unit_row(const Row& row) const {
 }
 
 void UnilateralBalance::add(const Spring& spring) {
-  const RigidParts& parts = motions_.parts();
-  const double sense = sense_of(spring.reaction);
-  const bool at_node = !spring.at.node.empty();
-  const int node = at_node ? parts.node(spring.at.node) : -1;
-  const int member = at_node ? -1 : parts.member(spring.at.member);
-  Row row;
-  if (spring.direction) {
-    const Direction into = fixed_direction(*spring.direction, sense);
-    const AxisPoint at = at_node ? AxisPoint{} : parts.place(member, spring.at.fraction);
-    row =
-        at_node ? parts.displacement(node, into.fixed) : parts.displacement(member, {at.x, at.y}, into.fixed);
-  } else {
-    row = at_node ? parts.node_rotation(node) : parts.rotation(member);
-    for (auto& [unknown, weight] : row) weight *= sense;
-  }
+  Row row = motions_.parts().displacement(spring);
+  for (auto& [unknown, weight] : row) weight *= sense_of(spring.reaction);
   add_support({row}, nullptr);
 }
 

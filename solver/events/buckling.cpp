@@ -290,7 +290,7 @@ std::optional<FrozenContact> linear_contact(StructuralProblem& problem, double l
   problem.set_holds(held_softly(problem));
   const auto state = find_contact_state(problem, metric, lambda, work, factorizations, nullptr, true);
   if (!state) return std::nullopt;
-  return problem.frozen_contact(state->y);
+  return problem.frozen_contact(state->y, true);
 }
 
 }  // namespace snapthrough

@@ -28,6 +28,14 @@ Regime BucklingPencil::regime() const {
   return regime;
 }
 
+Regime BucklingPencil::regime_at(double lambda) {
+  Regime out = regime();
+  if (!structure_.one_sided) return out;
+  prestress_ = constant_ + sense_ * lambda * proportional_;
+  out.prestress = &prestress_;
+  return out;
+}
+
 /// Linear response to the actions of a stage, from the unloaded state.
 VectorXd BucklingPencil::linear_response(StructuralProblem::Stage stage, double lambda, Regime regime) {
   regime.small_displacements = true;
@@ -60,7 +68,8 @@ bool BucklingPencil::holds_are_idle(double lambda) {
   if (!holds_) return true;
   ++factorizations_;
   const double bound = kIdle * std::max(1.0, std::abs(lambda));
-  const MotionStiffness held = motion_stiffness(problem_, holds_, stress(lambda), sense_ * lambda, regime());
+  const MotionStiffness held =
+      motion_stiffness(problem_, holds_, stress(lambda), sense_ * lambda, regime_at(lambda));
   const VectorXd moved = holds_->motions.transpose() *
                          (constant_ + sense_ * lambda * proportional_).head(holds_->motions.rows());
   return held.stiffness.lpNorm<Eigen::Infinity>() <= bound && moved.lpNorm<Eigen::Infinity>() <= bound;
@@ -90,9 +99,9 @@ void BucklingPencil::freeze_contact(double reference) {
       if (state) y = state->y;
     }
   }
-  contact_ = problem_.frozen_contact(y);
+  contact_ = problem_.frozen_contact(y, true);
   if (structure_.curved()) contact_.linearised_at = y;
-  marks_ = problem_.marks_at(y);
+  marks_ = problem_.marks_at(y, true);
 }
 
 void BucklingPencil::set_prestress(double reference) {
@@ -122,7 +131,7 @@ VectorXd BucklingPencil::stress(double lambda) const {
 int BucklingPencil::count(double lambda) {
   VectorXd residual;
   ++factorizations_;
-  return problem_.linearise(stress(lambda), sense_ * lambda, residual, regime()).negative;
+  return problem_.linearise(stress(lambda), sense_ * lambda, residual, regime_at(lambda)).negative;
 }
 
 VectorXd BucklingPencil::geometric(const VectorXd& x) { return product(1.0, x) - product(0.0, x); }

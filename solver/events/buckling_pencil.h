@@ -23,7 +23,7 @@ class BucklingPencil {
   void solve(Eigen::VectorXd& x) { problem_.solve(x); }
   [[nodiscard]] Eigen::VectorXd geometric(const Eigen::VectorXd& x);
   [[nodiscard]] Eigen::VectorXd product(double lambda, const Eigen::VectorXd& x) {
-    return problem_.tangent_product(stress(lambda), sense_ * lambda, x, regime());
+    return problem_.tangent_product(stress(lambda), sense_ * lambda, x, regime_at(lambda));
   }
   /// Rayleigh quotient of a motion, evaluated with the tangent and not with its factors.
   [[nodiscard]] double quotient(const Eigen::VectorXd& x) {
@@ -42,6 +42,8 @@ class BucklingPencil {
 
  private:
   [[nodiscard]] Regime regime() const;
+  /// regime() with the forces of rods in the linear prestress at a load factor; valid until the next call.
+  [[nodiscard]] Regime regime_at(double lambda);
   [[nodiscard]] Eigen::VectorXd linear_response(StructuralProblem::Stage stage, double lambda, Regime regime);
   void drop_rounding(double least, Eigen::VectorXd& response) const;
   void freeze_contact(double reference);
@@ -51,7 +53,8 @@ class BucklingPencil {
   double sense_;  ///< sign of the problem's load factor for positive lambda
   Eigen::VectorXd constant_;
   Eigen::VectorXd proportional_;
-  SharedHolds holds_;  ///< motions without stiffness, held by artificial springs
+  Eigen::VectorXd prestress_;  ///< linear response of regime_at()
+  SharedHolds holds_;          ///< motions without stiffness, held by artificial springs
   TouchingMarks marks_;
   FrozenContact contact_;
   int factorizations_ = 0;

@@ -99,14 +99,18 @@ struct Member {
   /// Moment per radian of relative rotation of a released end and its node, >= 0; 0: hinge.
   double release_start_stiffness = 0.0;
   double release_end_stiffness = 0.0;
+  /// One-sided: a rod, straight and hinged at both ends, whose axial force is a compression or a tension
+  /// only.
+  Reaction reaction = Reaction::bilateral;
   bool operator==(const Member&) const = default;
 };
+[[nodiscard]] inline bool is_rod(const Member& member) { return member.reaction != Reaction::bilateral; }
 /// Whether the start of a member turns without resistance of its node.
 [[nodiscard]] inline bool is_hinged_at_start(const Member& member) {
-  return member.release_start_rotation && member.release_start_stiffness == 0.0;
+  return is_rod(member) || (member.release_start_rotation && member.release_start_stiffness == 0.0);
 }
 [[nodiscard]] inline bool is_hinged_at_end(const Member& member) {
-  return member.release_end_rotation && member.release_end_stiffness == 0.0;
+  return is_rod(member) || (member.release_end_rotation && member.release_end_stiffness == 0.0);
 }
 
 struct PrescribedDisplacement {
@@ -150,7 +154,8 @@ struct ReactionLaw {
   bool operator==(const ReactionLaw&) const = default;
 };
 
-/// Discrete spring to ground. `direction` points into the medium; empty: rotational spring.
+/// Discrete spring to ground, or between two nodes. `direction` points into the medium, or into what `to`
+/// belongs to; empty: rotational spring.
 struct Spring {
   std::string id;
   Location at;
@@ -159,6 +164,11 @@ struct Spring {
   Reaction reaction = Reaction::bilateral;
   double gap = 0.0;  ///< displacement at which a one-sided spring begins to react, >= 0
   std::optional<ReactionLaw> law = std::nullopt;  ///< in place of `stiffness`; its numbers do not vary
+  /// Node at the other end: the spring reacts on the displacement of `at` relative to it. Empty: ground.
+  std::optional<Location> to = std::nullopt;
+  /// Index of the member that the spring stands for: see with_rods_as_springs(). `direction` is then the
+  /// vector from `at` to `to`, and turns with both.
+  std::optional<std::size_t> rod = std::nullopt;
   bool operator==(const Spring&) const = default;
 };
 

@@ -59,7 +59,8 @@ StructuralProblem::StructuralProblem(const Structure& structure)
     : structure_(structure),
       stop_(structure.stop),
       members_(structure.mesh.first.size() - 1),
-      follower_ends_(structure.follower_ends) {
+      follower_ends_(structure.follower_ends),
+      springs_(structure.node_springs) {
   condensed_.resize(structure.dofs.size());
   condensed_forces_.resize(structure.dofs.size());
   for (int j = 0; j < structure.nodes; ++j) {
@@ -69,15 +70,15 @@ StructuralProblem::StructuralProblem(const Structure& structure)
   }
   chains_.resize(members_);
   elements_ = structure.elements->make_work();
-  spring_stiffness_.assign(structure.node_springs.size(), 0.0);
-  // a node rotation is free when all members there are released and no support or spring acts on the rotation
+  // A node rotation is free when all members there are released and no support or spring to ground acts on
+  // it. check() refuses a rotational spring between nodes one of which is free without it.
   free_rotation_.assign(static_cast<std::size_t>(structure.nodes), 1);
   for (const ElementDofs& dofs : structure.dofs) {
     for (const int dof : {dofs.a[2], dofs.b[2]})
       if (dof < 3 * structure.nodes) free_rotation_[dof / 3] = 0;
   }
   for (const NodeSpring& spring : structure.node_springs)
-    if (spring.row[2] != 0.0) free_rotation_[spring.node] = 0;
+    if (spring.row[2] != 0.0 && spring.to < 0) free_rotation_[spring.node] = 0;
   for (const JointSpring& joint : structure.joints) free_rotation_[joint.node_rotation / 3] = 0;
   const Index n = 3 * structure.nodes + structure.releases + 3 * static_cast<Index>(members_);
   for (Index i = 0; i < n; ++i) (is_fixed(i) ? fixed_ : free_).push_back(i);
@@ -110,46 +111,9 @@ Matrix3d StructuralProblem::axes_of(const std::array<int, 3>& dofs) const {
   return axes;
 }
 
-double StructuralProblem::penetration(const NodeSpring& spring, const VectorXd& y, double gap) const {
-  double w = -gap;
-  for (int c = 0; c < 3; ++c) w += spring.row[c] * y[3 * spring.node + c];
-  return w;
-}
-
-/// @param w displacement along the spring's row
-bool StructuralProblem::node_spring_acts(const NodeSpring& spring, double w) {
-  const bool known = spring.touch != Touch::none && std::abs(w - spring.law.gap) <= Rounding::touching;
-  return !spring.law.one_sided || (known ? spring.touch == Touch::acts : w > spring.law.gap);
-}
-
-/// Returns the force of a node spring along its row and stores its tangent stiffness.
-double StructuralProblem::node_spring_force(std::size_t index, const VectorXd& y, const Regime& regime) {
-  const NodeSpring& spring = structure_.node_springs[index];
-  const double w = penetration(spring, y, 0.0);
-  const double gap = regime.bilateral() ? 0.0 : spring.law.gap;
-  bool acts = regime.bilateral() || node_spring_acts(spring, w);
-  if (regime.is_frozen()) acts = regime.frozen->node_springs[index] != 0;
-  Law::Response law = spring.law.response_at(w - gap);
-  if (const auto* at = regime.linearised_at(); at != nullptr && spring.law.curve != nullptr) {
-    law.stiffness = spring.law.stiffness_at(penetration(spring, *at, gap));
-    law.force = law.stiffness * (w - gap);
-  }
-  const double stiffness = law.stiffness;
-  const double force = acts ? law.force : 0.0;
-  spring_stiffness_[index] = acts ? stiffness : 0.0;
-  if (!spring.law.one_sided) return force;
-  // a share of the support acts at every displacement, without gap
-  spring_stiffness_[index] =
-      (acts ? regime.softness : 0.0) * stiffness + regime.grip * spring.law.stiffness_at(w);
-  return force * regime.softness + regime.grip * spring.law.force_at(w);
-}
-
 void StructuralProblem::add_node_springs(const VectorXd& y, const Regime& regime, VectorXd& f) {
-  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
-    const NodeSpring& spring = structure_.node_springs[i];
-    const double force = node_spring_force(i, y, regime);
-    for (int c = 0; c < 3; ++c) f[3 * spring.node + c] += force * spring.row[c];
-  }
+  springs_.evaluate(y, regime);
+  springs_.add_forces(f);
   add_joint_moments(structure_, y, f);
 }
 
@@ -282,6 +246,21 @@ void StructuralProblem::fill_member(std::size_t member, MatrixXd& block) const {
   block.bottomRightCorner<3, 3>() = -ends.F;
 }
 
+/// Writes the tangent stiffness of a spring at its node, and at the other node where it has one.
+void StructuralProblem::fill_spring(std::size_t spring, MatrixXd& block) const {
+  const NodeSpring& at = structure_.node_springs[spring];
+  const Matrix3d& tangent = springs_.tangent(spring);
+  const auto axes = [this](int node) { return axes_of({3 * node, 3 * node + 1, 3 * node + 2}); };
+  const Matrix3d here = axes(at.node);
+  block.resize(at.to < 0 ? 3 : 6, at.to < 0 ? 3 : 6);
+  block.topLeftCorner<3, 3>() = here.transpose() * tangent * here;
+  if (at.to < 0) return;
+  const Matrix3d there = axes(at.to);
+  block.topRightCorner<3, 3>() = -here.transpose() * tangent * there;
+  block.bottomLeftCorner<3, 3>() = block.topRightCorner<3, 3>().transpose();
+  block.bottomRightCorner<3, 3>() = there.transpose() * tangent * there;
+}
+
 /// Collects the rows that each block of the node system couples: members, node springs, joints, held nodes.
 void StructuralProblem::plan_nodes() {
   node_rows_.clear();
@@ -291,8 +270,11 @@ void StructuralProblem::plan_nodes() {
     const auto force = static_cast<int>(multiplier(m));
     node_rows_.push_back({a[0], a[1], a[2], b[0], b[1], b[2], force, force + 1, force + 2});
   }
-  for (const NodeSpring& spring : structure_.node_springs)
+  for (const NodeSpring& spring : structure_.node_springs) {
     node_rows_.push_back({3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2});
+    if (spring.to >= 0)
+      for (int c = 0; c < 3; ++c) node_rows_.back().push_back(3 * spring.to + c);
+  }
   for (const JointSpring& joint : structure_.joints)
     node_rows_.push_back({joint.node_rotation, joint.end_rotation});
   const auto scalars = static_cast<int>(multiplier(members_));
@@ -315,13 +297,7 @@ void StructuralProblem::plan_nodes() {
 void StructuralProblem::assemble_nodes() {
   if (!planned_) plan_nodes();
   for (std::size_t member = 0; member < members_; ++member) fill_member(member, node_blocks_[member]);
-  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
-    const NodeSpring& spring = structure_.node_springs[i];
-    const std::array<int, 3> dofs{3 * spring.node, 3 * spring.node + 1, 3 * spring.node + 2};
-    const Eigen::Vector3d row =
-        axes_of(dofs).transpose() * Eigen::Vector3d(spring.row[0], spring.row[1], spring.row[2]);
-    node_blocks_[members_ + i] = spring_stiffness_[i] * row * row.transpose();
-  }
+  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) fill_spring(i, node_blocks_[members_ + i]);
   const std::size_t first_joint = members_ + structure_.node_springs.size();
   for (std::size_t i = 0; i < structure_.joints.size(); ++i) {
     const double k = structure_.joints[i].stiffness;
@@ -474,12 +450,19 @@ TouchingDistance StructuralProblem::touching_distance(const VectorXd& y) const {
           Rounding::displacement * largest + Rounding::coordinate};
 }
 
-FrozenContact StructuralProblem::frozen_contact(const VectorXd& y) const {
+/// Displacement of a spring at a node.
+double StructuralProblem::displacement(const NodeSpring& spring, const VectorXd& y,
+                                       bool small_displacements) const {
+  return spring.motion(y, small_displacements || structure_.geometry == Geometry::linear).w;
+}
+
+FrozenContact StructuralProblem::frozen_contact(const VectorXd& y, bool small_displacements) const {
   const double tolerance = touching_distance(y).any;
   FrozenContact out;
   structure_.elements->freeze_contact(y, tolerance, out);
   for (const NodeSpring& spring : structure_.node_springs)
-    out.node_springs.push_back(!spring.law.one_sided || penetration(spring, y, spring.law.gap) > -tolerance);
+    out.node_springs.push_back(!spring.law.one_sided ||
+                               displacement(spring, y, small_displacements) - spring.law.gap > -tolerance);
   return out;
 }
 
@@ -495,17 +478,18 @@ FrozenContact StructuralProblem::freeze(const MovingZones& zones, const VectorXd
   FrozenContact out;
   structure_.elements->freeze_zones(zones, y, out);
   for (const NodeSpring& spring : structure_.node_springs)
-    out.node_springs.push_back(node_spring_acts(spring, penetration(spring, y, 0.0)));
+    out.node_springs.push_back(spring.acts(displacement(spring, y, false)));
   return out;
 }
 
-TouchingMarks StructuralProblem::marks_at(const VectorXd& y) const {
+TouchingMarks StructuralProblem::marks_at(const VectorXd& y, bool small_displacements) const {
   const TouchingDistance near = touching_distance(y);
   TouchingMarks out;
   structure_.elements->mark_touching(y, near, out);
   for (const NodeSpring& spring : structure_.node_springs)
-    out.node_springs.push_back(spring.law.one_sided && std::abs(penetration(spring, y, spring.law.gap)) <=
-                                                           near.of(spring.law.stiffness));
+    out.node_springs.push_back(spring.law.one_sided &&
+                               std::abs(displacement(spring, y, small_displacements) - spring.law.gap) <=
+                                   near.of(spring.law.stiffness));
   return out;
 }
 
@@ -518,7 +502,7 @@ void StructuralProblem::touching_displacements(const TouchingMarks& marks, const
                                                std::vector<double>& out) const {
   out.clear();
   for (std::size_t i = 0; i < marks.node_springs.size(); ++i)
-    if (marks.node_springs[i] != 0) out.push_back(penetration(structure_.node_springs[i], mode, 0.0));
+    if (marks.node_springs[i] != 0) out.push_back(structure_.node_springs[i].linear(mode));
   structure_.elements->touching_displacements(marks, mode, out);
 }
 
@@ -623,15 +607,7 @@ double StructuralProblem::force_scale(const VectorXd& y, double lambda) const {
 
 /// Relative residual that half a unit in the last place of the displacements leaves at the stiffest support.
 double StructuralProblem::residual_rounding(const VectorXd& y, double lambda) const {
-  double largest = elements_->support_rounding();
-  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
-    const NodeSpring& spring = structure_.node_springs[i];
-    const double stiffness = spring_stiffness_[i];
-    if (stiffness == 0.0) continue;
-    double size = spring.law.gap;
-    for (int c = 0; c < 3; ++c) size += std::abs(spring.row[c] * y[3 * spring.node + c]);
-    largest = std::max(largest, stiffness * size * std::numeric_limits<double>::epsilon());
-  }
+  double largest = std::max(elements_->support_rounding(), springs_.rounding(y));
   for (const JointSpring& joint : structure_.joints) {
     const double size = std::abs(y[joint.node_rotation]) + std::abs(y[joint.end_rotation]);
     largest = std::max(largest, joint.stiffness * size * std::numeric_limits<double>::epsilon());
@@ -659,28 +635,9 @@ Eigen::MatrixXd StructuralProblem::find_products(const VectorXd& y, double lambd
   const Regime regime = regime_of(asked);
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(y.size(), directions.cols());
   elements_->add_tangent_products(y, factors(lambda), regime, directions, products);
-  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i)
-    static_cast<void>(node_spring_force(i, y, regime));
+  springs_.evaluate(y, regime);
   for (Index i = 0; i < directions.cols(); ++i) add_node_products(lambda, directions.col(i), products.col(i));
   return products;
-}
-
-/// Adds the change along `along` of the tangent of springs at nodes whose law has a curve, times `direction`.
-void StructuralProblem::add_spring_rates(const VectorXd& y, const VectorXd& along,
-                                         const Eigen::Ref<const VectorXd>& direction,
-                                         Eigen::Ref<VectorXd> out) const {
-  if (!structure_.curved()) return;
-  for (const NodeSpring& spring : structure_.node_springs) {
-    if (spring.law.curve == nullptr || !node_spring_acts(spring, penetration(spring, y, 0.0))) continue;
-    double moved = 0.0;
-    double w = 0.0;
-    for (int c = 0; c < 3; ++c) {
-      moved += spring.row[c] * along[3 * spring.node + c];
-      w += spring.row[c] * direction[3 * spring.node + c];
-    }
-    const double rate = spring.law.response_at(penetration(spring, y, spring.law.gap)).rate;
-    for (int c = 0; c < 3; ++c) out[3 * spring.node + c] += rate * moved * w * spring.row[c];
-  }
 }
 
 /// Dead loads and constraints have constant tangents; the ends of pressed lines follow the load factor.
@@ -692,7 +649,7 @@ MatrixXd StructuralProblem::tangent_change(const VectorXd& y, double, const Path
   const LoadFactors rates{along.lambda * proportional, along.lambda * constant};
   elements_->add_tangent_changes(y, rates, regime_of({}), along.y, motions, change);
   for (Index i = 0; i < change.cols(); ++i) {
-    add_spring_rates(y, along.y, motions.col(i), change.col(i));
+    springs_.add_changes(y, structure_.geometry == Geometry::linear, along.y, motions.col(i), change.col(i));
     follower_ends_.add_product(rates.proportional, rates.constant, motions.col(i), change.col(i));
     release_rows(change.col(i));
   }
@@ -720,14 +677,7 @@ void StructuralProblem::add_node_products(double lambda, const Eigen::Ref<const 
                                           Eigen::Ref<VectorXd> out) const {
   const auto [proportional, constant] = factors(lambda);
   follower_ends_.add_product(proportional, constant, direction, out);
-  for (std::size_t i = 0; i < structure_.node_springs.size(); ++i) {
-    const double stiffness = spring_stiffness_[i];
-    if (stiffness == 0.0) continue;
-    const NodeSpring& spring = structure_.node_springs[i];
-    double w = 0.0;
-    for (int c = 0; c < 3; ++c) w += spring.row[c] * direction[3 * spring.node + c];
-    for (int c = 0; c < 3; ++c) out[3 * spring.node + c] += stiffness * w * spring.row[c];
-  }
+  springs_.add_products(direction, out);
   add_joint_moments(structure_, direction, out);
   if (holds_) {
     const Eigen::MatrixXd& H = holds_->motions;

@@ -14,6 +14,7 @@
 #include "solver/member/chain.h"
 #include "solver/numeric/symmetric_indefinite.h"
 #include "solver/problem/equilibrium_problem.h"
+#include "solver/problem/node_spring_work.h"
 
 namespace snapthrough {
 
@@ -76,10 +77,12 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] double work(const Eigen::Ref<const Eigen::VectorXd>& forces,
                             const Eigen::Ref<const Eigen::VectorXd>& motion) const override;
   /// @brief Contact state at y: one-sided supports act where they touch, and are absent elsewhere.
-  [[nodiscard]] FrozenContact frozen_contact(const Eigen::VectorXd& y) const;
+  /// @param small_displacements rods change their lengths by the linear part of the displacements
+  [[nodiscard]] FrozenContact frozen_contact(const Eigen::VectorXd& y,
+                                             bool small_displacements = false) const;
   /// @brief Marks the one-sided supports that touch without pressure at y: distance below 1e-9 of the largest
   /// displacement, force below 1e-6 of the largest force; foundations on their whole part of an element.
-  [[nodiscard]] TouchingMarks marks_at(const Eigen::VectorXd& y) const;
+  [[nodiscard]] TouchingMarks marks_at(const Eigen::VectorXd& y, bool small_displacements = false) const;
   /// @brief Displacement of `mode` into the medium at each marked spring; `out` is overwritten.
   void touching_displacements(const TouchingMarks& marks, const Eigen::VectorXd& mode,
                               std::vector<double>& out) const;
@@ -124,14 +127,11 @@ class StructuralProblem final : public EquilibriumProblem {
   [[nodiscard]] TouchingDistance touching_distance(const Eigen::VectorXd& y) const;
   void start_residual(double lambda, Eigen::VectorXd& f) const;
   void turn_to_supports(Eigen::Ref<Eigen::VectorXd> f) const;
-  void add_spring_rates(const Eigen::VectorXd& y, const Eigen::VectorXd& along,
-                        const Eigen::Ref<const Eigen::VectorXd>& direction,
-                        Eigen::Ref<Eigen::VectorXd> out) const;
   void add_node_products(double lambda, const Eigen::Ref<const Eigen::VectorXd>& direction,
                          Eigen::Ref<Eigen::VectorXd> out) const;
-  [[nodiscard]] double penetration(const NodeSpring& spring, const Eigen::VectorXd& y, double gap) const;
-  [[nodiscard]] static bool node_spring_acts(const NodeSpring& spring, double w);
-  double node_spring_force(std::size_t index, const Eigen::VectorXd& y, const Regime& regime);
+  [[nodiscard]] double displacement(const NodeSpring& spring, const Eigen::VectorXd& y,
+                                    bool small_displacements) const;
+  void fill_spring(std::size_t spring, Eigen::MatrixXd& block) const;
   void add_node_springs(const Eigen::VectorXd& y, const Regime& regime, Eigen::VectorXd& f);
   void add_holds(const Eigen::VectorXd& y, Eigen::VectorXd& f) const;
   /// Largest residual among the rows of forces and moments; the other rows are displacements and strains.
@@ -172,7 +172,7 @@ class StructuralProblem final : public EquilibriumProblem {
   Eigen::MatrixXd node_rhs_, free_rhs_;  ///< scratch of solve()
   FollowerEnds follower_ends_;
   std::unique_ptr<ElementWork> elements_;
-  std::vector<double> spring_stiffness_;  ///< tangent stiffness of each node spring at the last evaluation
+  NodeSpringWork springs_;
   SharedHolds holds_;
   Eigen::MatrixXd hold_rows_;  ///< sqrt(k) H in the support axes
   Stage stage_ = Stage::proportional;

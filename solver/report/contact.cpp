@@ -54,11 +54,9 @@ ContactZones::ContactZones(const Structure& structure, const Model& model)
     ids_.push_back(model.foundations[i].id);
   }
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
-    const Spring& spring = model.springs[i];
-    if (!is_one_sided(spring)) continue;
-    const SpringLaw& law = structure.spring_laws[i];
-    springs_.push_back({displacement_row(structure, model, spring.at, law.row), law.law.gap});
-    ids_.push_back(spring.id);
+    if (!is_one_sided(model.springs[i])) continue;
+    springs_.push_back(i);
+    ids_.push_back(model.springs[i].id);
   }
 }
 
@@ -67,8 +65,10 @@ void ContactZones::count(const Eigen::VectorXd& y, std::vector<int>& zones) cons
   for (const int foundation : foundations_)
     zones.push_back(
         static_cast<int>(contact_intervals(structure_, model_, y, foundation, Rounding::last_places).size()));
-  for (const SpringRow& spring : springs_)
-    zones.push_back(spring.row.dot(y) > spring.gap + Rounding::last_places ? 1 : 0);
+  for (const std::size_t i : springs_) {
+    const double moved = reading_of(structure_, model_, i, y).displacement;
+    zones.push_back(moved > structure_.spring_laws[i].law.gap + Rounding::last_places ? 1 : 0);
+  }
 }
 
 }  // namespace snapthrough

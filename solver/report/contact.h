@@ -33,14 +33,10 @@ class ContactZones {
   void count(const Eigen::VectorXd& y, std::vector<int>& zones) const;
 
  private:
-  struct SpringRow {
-    SparseRow row;  ///< displacement into the medium; the spring acts above the gap
-    double gap = 0.0;
-  };
   const Structure& structure_;
   const Model& model_;
   std::vector<int> foundations_;
-  std::vector<SpringRow> springs_;
+  std::vector<std::size_t> springs_;
   std::vector<std::string> ids_;
 };
 

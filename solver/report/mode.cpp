@@ -11,6 +11,8 @@
 #include "solver/model/id_index.h"
 #include "solver/numeric/number_text.h"
 #include "solver/numeric/rounding.h"
+#include "solver/report/rod_state.h"
+#include "solver/support/rods.h"
 
 namespace snapthrough {
 
@@ -26,26 +28,41 @@ struct ModeLimits {
   static constexpr int points_per_element = 8;       ///< points of the spline through a mode
 };
 
+MemberMode member_mode(const Structure& structure, const Model& model, std::size_t member,
+                       const Eigen::VectorXd& mode, int points) {
+  const double L = structure.scales.length;
+  MemberMode out;
+  out.id = model.members[member].id;
+  for (int i = 0; i < points; ++i) {
+    const double fraction = static_cast<double>(i) / (points - 1);
+    const MeshPlace place = place_of(structure.mesh, static_cast<int>(member), fraction);
+    const auto u = ElementReader(structure, mode, place.element).displacement(place.xi);
+    out.s.push_back(fraction * structure.axes[member]->length());
+    out.u.push_back(L * u[0]);
+    out.v.push_back(L * u[1]);
+    out.rotation.push_back(u[2]);
+  }
+  return out;
+}
+
+/// Nodes at the start and at the end of a member or rod.
+std::array<std::string, 2> ends_of(const Model& model, const std::string& id) {
+  for (const Member& member : model.members)
+    if (member.id == id) return {member.start, member.end};
+  const auto is_rod = [&id](const Spring& spring) { return spring.rod && spring.id == id; };
+  const Spring& rod = *std::find_if(model.springs.begin(), model.springs.end(), is_rod);
+  return {rod.at.node, rod.to->node};
+}
+
 }  // namespace
 
 Mode mode_displacements(const Structure& structure, const Model& model, const Eigen::VectorXd& mode,
                         int points) {
-  const double L = structure.scales.length;
   Mode out;
-  for (std::size_t m = 0; m < model.members.size(); ++m) {
-    MemberMode member;
-    member.id = model.members[m].id;
-    for (int i = 0; i < points; ++i) {
-      const double fraction = static_cast<double>(i) / (points - 1);
-      const MeshPlace place = place_of(structure.mesh, static_cast<int>(m), fraction);
-      const auto u = ElementReader(structure, mode, place.element).displacement(place.xi);
-      member.s.push_back(fraction * structure.axes[m]->length());
-      member.u.push_back(L * u[0]);
-      member.v.push_back(L * u[1]);
-      member.rotation.push_back(u[2]);
-    }
-    out.members.push_back(std::move(member));
-  }
+  for (std::size_t m = 0; m < model.members.size(); ++m)
+    out.members.push_back(member_mode(structure, model, m, mode, points));
+  const auto mode_of = [&](std::size_t spring) { return rod_mode(structure, model, spring, mode, points); };
+  insert_rods(model.springs, mode_of, out.members);
   return out;
 }
 
@@ -90,6 +107,10 @@ std::vector<EffectiveLength> effective_lengths(const Model& model, const std::ve
     one.length = std::numbers::pi * std::sqrt(EI / compressions[m]);
     one.ratio = *one.length / lengths[m];
   }
+  const auto none = [&model](std::size_t spring) {
+    return EffectiveLength{model.springs[spring].id, {}, {}};
+  };
+  insert_rods(model.springs, none, out);
   return out;
 }
 
@@ -108,8 +129,9 @@ std::string motion_text(const Mode& mode, const Model& model) {
   if (largest == 0.0) return "turns members only";
   const MemberMode& along = mode.members[moved];
   std::string where = "s = " + rounded(along.s[place]) + " of member \"" + along.id + "\"";
-  if (place == 0) where = "node \"" + model.members[moved].start + "\"";
-  if (place + 1 == along.s.size()) where = "node \"" + model.members[moved].end + "\"";
+  const auto [start, end] = ends_of(model, along.id);
+  if (place == 0) where = "node \"" + start + "\"";
+  if (place + 1 == along.s.size()) where = "node \"" + end + "\"";
   const auto component = [largest](double value) {
     return rounded(std::abs(value) < Rounding::motion * largest ? 0.0 : value);
   };
@@ -151,7 +173,7 @@ std::vector<CubicSpline> normal_offsets(const Structure& structure, const Model&
     const int points =
         ModeLimits::points_per_element * (structure.mesh.first[m + 1] - structure.mesh.first[m]) + 1;
     const AxisCurve& axis = *structure.axes[m];
-    const MemberMode member = mode_displacements(structure, model, mode, points).members[m];
+    const MemberMode member = member_mode(structure, model, m, mode, points);
     for (std::size_t i = 0; i < member.s.size(); ++i) {
       const double angle = axis.at(member.s[i]).angle;
       s[m].push_back(member.s[i]);

@@ -12,8 +12,10 @@
 #include "solver/geometry/stress_free_axis.h"
 #include "solver/model/id_index.h"
 #include "solver/report/contact.h"
+#include "solver/report/rod_state.h"
 #include "solver/report/section_force.h"
 #include "solver/report/support_state.h"
+#include "solver/support/rods.h"
 
 namespace snapthrough {
 namespace {
@@ -100,6 +102,8 @@ std::vector<MemberState> member_states(const Structure& structure, const Model& 
   std::vector<MemberState> out;
   for (std::size_t m = 0; m < model.members.size(); ++m)
     out.push_back(member_state(structure, model, y, lambda, static_cast<int>(m), points));
+  const auto state_of = [&](std::size_t spring) { return rod_state(structure, model, spring, y, points); };
+  insert_rods(model.springs, state_of, out);
   return out;
 }
 

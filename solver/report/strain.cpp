@@ -7,7 +7,8 @@
 
 namespace snapthrough {
 
-StrainGauge::StrainGauge(const Structure& structure, const Model& model) : structure_(structure) {
+StrainGauge::StrainGauge(const Structure& structure, const Model& model)
+    : structure_(structure), model_(model) {
   const double F = structure.scales.force;
   for (const Member& member : model.members) {
     const Section& section = model.sections[index_of(model.sections, member.section)];
@@ -28,9 +29,17 @@ bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const 
                                       by.bending * std::abs(forces[2 * p + q])});
       if (strain <= largest.strain) continue;
       const double fraction = cell.from + CollocationRule::of(p).point(q) * (cell.to - cell.from);
-      largest = {strain, cell.member, fraction * structure_.axes[cell.member]->length()};
+      largest = {strain, model_.members[cell.member].id, fraction * structure_.axes[cell.member]->length()};
       raised = true;
     }
+  }
+  for (std::size_t i = 0; i < model_.springs.size(); ++i) {
+    if (!model_.springs[i].rod) continue;
+    const double strain =
+        reading_of(structure_, model_, i, y).displacement / structure_.spring_laws[i].length;
+    if (strain <= largest.strain) continue;  // a slack rod has a negative displacement
+    largest = {strain, model_.springs[i].id, 0.0};
+    raised = true;
   }
   return raised;
 }

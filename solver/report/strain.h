@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "solver/discrete/structure.h"
@@ -22,17 +23,17 @@ struct StrainLimits {
 /// Largest strain of a state, with its member and position.
 struct LargestStrain {
   double strain = 0.0;
-  int member = -1;
-  double s = 0.0;  ///< arc length in the model's units
+  std::string member;  ///< id
+  double s = 0.0;      ///< arc length in the model's units
 };
 
-/// @brief Evaluates strains at the elements' Gauss points from the section forces.
+/// @brief Evaluates strains at the elements' Gauss points from the section forces, and those of rods.
 ///
 /// A strain is the largest of |N| / EA, |Q| / GA and |M| / EI sqrt(EI / EA); the last is a lower bound of the
 /// bending strain in the outer fibre, for any section depth.
 class StrainGauge {
  public:
-  /// @param structure kept by reference; must outlive this object
+  /// @param structure, model kept by reference; must outlive this object
   StrainGauge(const Structure& structure, const Model& model);
   /// Replaces `largest` if a strain at y exceeds it; returns true in that case.
   [[nodiscard]] bool raise(const Eigen::VectorXd& y, LargestStrain& largest) const;
@@ -45,6 +46,7 @@ class StrainGauge {
     double axial, shear, bending;  ///< strain per scaled section force
   };
   const Structure& structure_;
+  const Model& model_;
   std::vector<Compliance> compliances_;  ///< one per member
 };
 

@@ -39,8 +39,9 @@ struct SpringForce {
 SpringForce force_of(const Structure& structure, const Model& model, std::size_t index, const VectorXd& y) {
   const SpringLaw& spring = structure.spring_laws[index];
   SpringForce out;
-  out.row = displacement_row(structure, model, model.springs[index].at, spring.row);
-  out.displacement = out.row.dot(y);
+  SpringReading reading = reading_of(structure, model, index, y);
+  out.row = std::move(reading.row);
+  out.displacement = reading.displacement;
   out.force = spring.law.reaction(out.displacement);
   out.closed = spring.law.acts(out.displacement);
   double size = spring.law.gap;
@@ -50,7 +51,8 @@ SpringForce force_of(const Structure& structure, const Model& model, std::size_t
   return out;
 }
 
-/// Adds the springs to the state; returns their forces on the nodes, in the problem's rows.
+/// Adds the springs to the state, without those that stand for rods and follow the others; returns their
+/// forces on the nodes, in the problem's rows.
 VectorXd add_springs(const Structure& structure, const Model& model, const VectorXd& y,
                      const RigidMotions& rigid, State& state, std::vector<Bearing>& bearings) {
   VectorXd on_nodes = VectorXd::Zero(3 * structure.nodes);
@@ -64,11 +66,12 @@ VectorXd add_springs(const Structure& structure, const Model& model, const Vecto
     bearing.wrench = rigid.work(at.row);
     for (double& component : bearing.wrench) component *= -at.force;
     bearing.rounding = at.rounding;
-    state.springs.push_back({spring.id,
-                             in_users_sense(sense, at.force * (spring.direction ? F : F * L)),
-                             in_users_sense(sense, at.displacement * (spring.direction ? L : 1.0)),
-                             at.closed,
-                             {}});
+    if (!spring.rod)
+      state.springs.push_back({spring.id,
+                               in_users_sense(sense, at.force * (spring.direction ? F : F * L)),
+                               in_users_sense(sense, at.displacement * (spring.direction ? L : 1.0)),
+                               at.closed,
+                               {}});
     if (spring.at.node.empty()) continue;
     for (const auto& [index, weight] : at.row.entries) on_nodes[index] -= at.force * weight;
   }
@@ -196,8 +199,9 @@ void add_forces_on_structure(const Structure& structure, const Model& model, con
   state.loads = rigid.unscaled(rigid.work(loads));
   loads += reactions;
   balance(rigid.work(loads), largest_force(structure, y, reactions), bearings);
-  const std::size_t first = state.springs.size();
-  for (std::size_t i = 0; i < first; ++i) state.springs[i].resultant = rigid.unscaled(bearings[i].wrench);
+  const std::size_t first = model.springs.size();
+  for (std::size_t i = 0; i < state.springs.size(); ++i)
+    state.springs[i].resultant = rigid.unscaled(bearings[i].wrench);
   for (std::size_t i = 0; i < state.foundations.size(); ++i)
     state.foundations[i].resultant = rigid.unscaled(bearings[first + i].wrench);
 }

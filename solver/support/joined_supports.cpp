@@ -155,7 +155,7 @@ void Joiner::join_springs() {
   std::vector<std::pair<Place, Touching>> sorted;
   for (std::size_t i = 0; i < model_.springs.size(); ++i) {
     const Spring& spring = model_.springs[i];
-    if (!touches(spring, spring.direction ? span_ : 1.0)) continue;
+    if (spring.to || !touches(spring, spring.direction ? span_ : 1.0)) continue;
     Place place{!spring.direction, !spring.at.member.empty(), 0, spring.at.fraction};
     if (spring.at.member.empty()) {
       place = {!spring.direction, false, index_of(model_.nodes, spring.at.node), 0.0};

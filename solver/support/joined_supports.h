@@ -13,8 +13,8 @@ namespace snapthrough {
 ///   k_1 max(w, 0) - k_2 max(-w, 0)  =  k w + (k_1 - k_2) max(w, 0),    k = k_2 <= k_1:
 ///
 /// that is, a bilateral support of the smaller stiffness plus a one-sided support of the difference. Springs
-/// are combined by place and line of action; foundations of a member by line of action on each part of their
-/// ranges, which may overlap arbitrarily.
+/// to ground are combined by place and line of action; foundations of a member by line of action on each part
+/// of their ranges, which may overlap arbitrarily.
 /// @return model with combined supports, for the equations only (ids and indices of supports differ); empty:
 /// no supports are opposite
 /// @pre the model passed check()

@@ -118,6 +118,8 @@ SpringLaw law_of(const Spring& spring, const Scales& scales) {
     out.row = {direction.fixed[0], direction.fixed[1], 0.0};
     out.law = {scales.scaled_stiffness(stiffness), scales.scaled_length(gap), one_sided};
     unit = scales.scaled_force(1.0);
+    if (spring.rod)
+      out.length = scales.scaled_length(std::hypot((*spring.direction)[0], (*spring.direction)[1]));
   } else {
     out.row = {0.0, 0.0, out.sense};
     out.law = {scales.scaled_rotational(stiffness), gap, one_sided};

@@ -167,6 +167,7 @@ struct SpringLaw {
   Law law;
   double sense = 1.0;                          ///< factor on results, see sense_of()
   std::shared_ptr<const ReactionCurve> curve;  ///< curve of `law`; null: linear
+  double length = 0.0;                         ///< length of a rod (Spring::rod); 0: fixed direction
 };
 
 /// @param origin of the scaled coordinates, in the model's

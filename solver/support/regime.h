@@ -79,6 +79,9 @@ struct Regime {
   /// Additional bilateral stiffness without gap of one-sided supports, over their stiffness.
   double grip = 0.0;
   bool small_displacements = false;  ///< strains linearised about the stress-free axis
+  /// Unknowns whose small displacements give the forces with which rods resist turning; null: those of the
+  /// state.
+  const Eigen::VectorXd* prestress = nullptr;
 
   [[nodiscard]] bool bilateral() const { return contact == Contact::bilateral; }
   [[nodiscard]] bool is_frozen() const { return contact == Contact::frozen; }

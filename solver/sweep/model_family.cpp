@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "solver/analysis/analyses.h"
+#include "solver/support/rods.h"
 
 namespace snapthrough {
 
 ModelFamily::ModelFamily(std::function<Model(double)> model, Analysis analysis, bool logarithmic, double from,
                          double to)
-    : model_(std::move(model)),
+    : model_([model = std::move(model)](double value) { return rods_as_springs(model(value)); }),
       analysis_(std::move(analysis)),
       logarithmic_(logarithmic),
       lowest_(coordinate_of(std::min(from, to))),

@@ -8,6 +8,7 @@
 #include "solver/discrete/free_motions.h"
 #include "solver/events/touching.h"
 #include "solver/support/law.h"
+#include "solver/support/rods.h"
 
 namespace snapthrough {
 
@@ -28,9 +29,10 @@ bool are_held_alike(const Model& a, const Model& b) {
   return a == other;
 }
 
-TracedPath::TracedPath(Model model, const Analysis& analysis, const std::stop_token& stop,
+TracedPath::TracedPath(Model given, const Analysis& analysis, const std::stop_token& stop,
                        const FamilyMember* like)
     : steps_(analysis.step) {
+  Model model = rods_as_springs(std::move(given));
   const ModeOffsets modes = mode_offsets(model, analysis);
   Structure structure = like != nullptr ? with_changed_model(like->structure, like->model, model, modes)
                                         : make_structure(model, analysis.discretization, analysis.geometry,

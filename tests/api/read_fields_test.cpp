@@ -69,6 +69,8 @@ TEST_F(FullModel, MembersAndCurves) {
   EXPECT_EQ(std::get<ArcCurve>(model_.members[1].curve).sweep_degrees, -20.0);
   EXPECT_FALSE(model_.members[1].release_start_rotation);
   EXPECT_TRUE(model_.members[1].release_end_rotation);
+  EXPECT_EQ(m0.reaction, Reaction::bilateral);
+  EXPECT_EQ(model_.members[2].reaction, Reaction::compression_only);
   EXPECT_EQ(std::get<ParabolaCurve>(model_.members[2].curve).rise, 0.5);
   EXPECT_EQ(std::get<SineCurve>(model_.members[3].curve).rise, 0.25);
   EXPECT_EQ(std::get<SineCurve>(model_.members[3].curve).half_waves, 3);
@@ -104,6 +106,9 @@ TEST_F(FullModel, SpringsAndFoundations) {
   EXPECT_EQ(k0.gap, 0.125);
   EXPECT_EQ(model_.springs.at(1).at.node, "b");
   EXPECT_EQ(model_.springs.at(1).direction, std::nullopt);
+  EXPECT_EQ(k0.to, std::nullopt);
+  ASSERT_TRUE(model_.springs.at(1).to.has_value());
+  EXPECT_EQ(model_.springs.at(1).to->node, "a");
   const Foundation& f0 = model_.foundations.at(0);
   EXPECT_EQ(f0.id, "f0");
   EXPECT_EQ(f0.member, "m0");

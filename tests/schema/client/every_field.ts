@@ -43,6 +43,7 @@ const springLaws: Schemas['SpringLaw'][] = [
 
 const springs: Schemas['Spring'][] = [
   {id: 'prop', at: {node: 'a'}, direction: [0, -1], stiffness: 1e3, reaction: 'compression_only', gap: 0.01},
+  {id: 'tie', at: {node: 'a'}, to: {node: 'b'}, direction: [1, 0], stiffness: 20, reaction: 'tension_only'},
   {id: 'turning', at: {member: 'beam', fraction: 1}, direction: 'rotation', stiffness: 5},
   ...springLaws.map((law, i): Schemas['Spring'] => ({id: `law ${i}`, at: {node: 'a'}, direction: 'rotation', law})),
 ];
@@ -92,9 +93,12 @@ const model: Schemas['Model'] = {
   title: 'every field', units: {length: 'm', force: 'kN'},
   nodes: [{id: 'a', x: 0, y: 0}, {id: 'b', x: 5, y: 0}],
   sections,
-  members: curves.map((curve, i) => ({
-    id: `beam ${i}`, start: 'a', end: 'b', section: 'stiffness', curve,
-    release: {start: ['rotation'], end: {rotation: 5000}}})),
+  members: [
+    ...curves.map((curve, i): Schemas['Member'] => ({
+      id: `beam ${i}`, start: 'a', end: 'b', section: 'stiffness', curve,
+      release: {start: ['rotation'], end: {rotation: 5000}}})),
+    {id: 'brace', start: 'a', end: 'b', section: 'stiffness', reaction: 'tension_only'},
+  ],
   supports, springs, foundations, loads, load_cases: loadCases, imperfections,
   monitors: location.map((at, i) => ({id: `m${i}`, at, component: 'y'})),
 };

@@ -119,6 +119,9 @@ export class Drawer {
     often(() => this.hold(model));
     const loads = loadsOf(model);
     often(() => [...(model.springs ?? []), ...(model.monitors ?? []), ...loads].forEach((one) => one.at && locate(one.at)));
+    often(() => (model.springs ?? []).filter((one) => one.to).forEach((one) => {
+      Object.assign(one, {at: {node: model.nodes[0].id}, to: {node: model.nodes.at(-1).id}});
+    }));
     for (const list of [model.foundations ?? [], loads, model.imperfections ?? []]) {
       often(() => list.forEach((one) => { if ('member' in one) one.member = member(); }));
     }
@@ -133,7 +136,7 @@ export class Drawer {
     model.supports = (model.supports ?? []).filter((one, i) => one.node !== first.id && i < model.nodes.length);
     model.supports.push({node: first.id, fixed: ['x', 'y', 'rotation']});
     for (const one of model.supports) delete one.displacement, delete one.pattern;
-    for (const one of model.members) delete one.release;
+    for (const one of model.members) delete one.release, delete one.reaction;
   }
 
   /** Dimensions that go together, one of two fields, what the loads need. */

@@ -60,7 +60,8 @@ export function hingeShapes(scene: Scene, view: View): Shape {
     const drawn = scene.members.get(member.id);
     if (!drawn) continue;
     for (const end of ["start", "end"] as const) {
-      const released = member.release?.[end];
+      const rod = (member.reaction ?? "bilateral") !== "bilateral";
+      const released = rod ? ["rotation"] : member.release?.[end];
       if (released === undefined || (Array.isArray(released) && !released.includes("rotation"))) continue;
       const place = hingePlace(drawn, end, view);
       circles.push(shape("circle", { class: "hinge", cx: place.x.toFixed(2), cy: place.y.toFixed(2), r: 3.5 }));

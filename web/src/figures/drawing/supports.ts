@@ -103,7 +103,7 @@ export function supportShapes(scene: Scene, view: View, taken: Occupancy): Shape
 
 const kSpringLength = 34;
 
-/** A spring from the structure into the medium: a zigzag that ends in ground, with its gap; a spiral for rotation. */
+/** A spring: a zigzag that ends in ground, with its gap, or at another node; a spiral for rotation. */
 function springShape(spring: Spring, scene: Scene, view: View, taken: Occupancy): Shape | null {
   const place = placeOf(scene, spring.at);
   if (!place) return null;
@@ -111,6 +111,12 @@ function springShape(spring: Spring, scene: Scene, view: View, taken: Occupancy)
   const oneSided = (spring.reaction ?? "bilateral") !== "bilateral";
   const className = oneSided && state?.closed ? "spring contact-spring" : "spring";
   const tip = toPixel(view, place.moved);
+  const other = spring.to ? placeOf(scene, spring.to) : null;
+  if (other) {
+    const end = toPixel(view, other.moved);
+    const between = frame(tip, Math.atan2(end.y - tip.y, end.x - tip.x));
+    return group("spring-symbol", path(className, zigzag(between, 0, Math.hypot(end.x - tip.x, end.y - tip.y))));
+  }
   if (spring.direction === "rotation") return spiral(tip, className);
   const [dx, dy] = spring.direction;
   // the ground does not move: the far end stands where the undeformed structure says

@@ -1,0 +1,60 @@
+#include "solver/discrete/node_spring.h"
+
+#include <cmath>
+
+#include "solver/numeric/rounding.h"
+
+namespace snapthrough {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+NodeSpring::Chord NodeSpring::chord(const Vector3d& r) const {
+  Vector3d along = length * sense * direction() - r;
+  along[2] = 0.0;
+  const double now = along.norm();
+  along /= now;
+  return {along, {-along[1], along[0], 0.0}, now};
+}
+
+/// With e along the rod and n across it, dl/dr = -e and d2l/dr2 = n n^T / l.
+SpringMotion NodeSpring::motion(const Eigen::Ref<const VectorXd>& y, bool small_displacements) const {
+  const Vector3d r = relative(y);
+  SpringMotion out{direction().dot(r), direction(), Matrix3d::Zero()};
+  if (!is_rod() || small_displacements) return out;
+  const auto [e, n, l] = chord(r);
+  // L^2 - l^2 over L + l keeps the digits of small displacements
+  out.w = (2.0 * length * out.w - sense * r.head<2>().squaredNorm()) / (length + l);
+  out.gradient = sense * e;
+  out.curvature = -sense / l * n * n.transpose();
+  return out;
+}
+
+/// With a the change of r, e turns at the rate -n.a / l, and l changes at the rate -e.a.
+Matrix3d NodeSpring::curvature_change(const Eigen::Ref<const VectorXd>& y,
+                                      const Eigen::Ref<const VectorXd>& along) const {
+  const auto [e, n, l] = chord(relative(y));
+  const Vector3d a = relative(along);
+  const Matrix3d mixed = e * n.transpose();
+  return -sense / (l * l) * (e.dot(a) * (n * n.transpose()) + n.dot(a) * (mixed + mixed.transpose()));
+}
+
+bool NodeSpring::acts(double w) const {
+  if (!law.one_sided) return true;
+  const bool is_known = touch != Touch::none && std::abs(w - law.gap) <= Rounding::touching;
+  return is_known ? touch == Touch::acts : w > law.gap;
+}
+
+NodeSpring node_spring(const SpringLaw& law, int node, int to) {
+  NodeSpring out;
+  out.node = node;
+  out.to = to;
+  out.row = law.row;
+  out.sense = law.sense;
+  out.length = law.length;
+  out.law = law.law;
+  return out;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,80 @@
+#pragma once
+/// @file
+/// Springs between a node and the ground, or between two nodes.
+
+#include <Eigen/Core>
+#include <array>
+
+#include "solver/element/element_set.h"
+#include "solver/support/law.h"
+
+namespace snapthrough {
+
+/// Displacement w of a spring with its derivatives by r, see NodeSpring.
+struct SpringMotion {
+  double w = 0.0;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();  ///< second derivative
+};
+
+/// @brief Spring at a node, to the ground or to another node; lengths are scaled.
+///
+/// With r the displacement (x, y, rotation) of `node`, relative to `to` where it is given, the displacement
+/// of the spring is
+///
+///   w = row . r                                     along a fixed direction
+///   w = sense (L - l),   l = |L sense row - r|      of a rod of the length L, whose end `to` lies L sense
+///   row
+///                                                   from `node`: its shortening or lengthening
+///
+/// A rod's w is row . r too where displacements count as small.
+struct NodeSpring {
+  int node = 0;
+  int to = -1;  ///< node at the other end; -1: the ground
+  std::array<double, 3> row{};
+  double sense = 1.0;   ///< 1: w is a rod's shortening; -1: its lengthening
+  double length = 0.0;  ///< length of a rod; 0: the direction is fixed
+  Law law;
+  Touch touch = Touch::none;
+  int spring = -1;  ///< index among the springs
+
+  [[nodiscard]] bool is_rod() const { return length > 0.0; }
+  /// Displacement r in a vector of unknowns.
+  [[nodiscard]] Eigen::Vector3d relative(const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    Eigen::Vector3d r = y.segment<3>(3 * static_cast<Eigen::Index>(node));
+    if (to >= 0) r -= y.segment<3>(3 * static_cast<Eigen::Index>(to));
+    return r;
+  }
+  /// Adds a force on `node`, and its opposite on `to`, to nodal forces.
+  void add(const Eigen::Vector3d& force, Eigen::Ref<Eigen::VectorXd> forces) const {
+    forces.segment<3>(3 * static_cast<Eigen::Index>(node)) += force;
+    if (to >= 0) forces.segment<3>(3 * static_cast<Eigen::Index>(to)) -= force;
+  }
+  [[nodiscard]] Eigen::Vector3d direction() const { return {row[0], row[1], row[2]}; }
+  /// Displacement w at the unknowns y, for small displacements.
+  [[nodiscard]] double linear(const Eigen::Ref<const Eigen::VectorXd>& y) const {
+    return direction().dot(relative(y));
+  }
+  /// Displacement w at the unknowns y, with its derivatives.
+  [[nodiscard]] SpringMotion motion(const Eigen::Ref<const Eigen::VectorXd>& y,
+                                    bool small_displacements) const;
+  /// Derivative of SpringMotion::curvature along the unknowns `along`. @pre is_rod()
+  [[nodiscard]] Eigen::Matrix3d curvature_change(const Eigen::Ref<const Eigen::VectorXd>& y,
+                                                 const Eigen::Ref<const Eigen::VectorXd>& along) const;
+  /// Whether the spring reacts at a displacement w.
+  [[nodiscard]] bool acts(double w) const;
+
+ private:
+  /// Unit vector along a rod from `node` to `to`, the unit vector across it, and its length.
+  struct Chord {
+    Eigen::Vector3d along;
+    Eigen::Vector3d across;
+    double length;
+  };
+  [[nodiscard]] Chord chord(const Eigen::Vector3d& r) const;
+};
+
+/// Spring at a node, or between nodes, by its law. @param node, to as in NodeSpring
+[[nodiscard]] NodeSpring node_spring(const SpringLaw& law, int node, int to);
+
+}  // namespace snapthrough

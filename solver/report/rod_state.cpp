@@ -1,0 +1,72 @@
+#include "solver/report/rod_state.h"
+
+#include <cmath>
+
+#include "solver/model/id_index.h"
+
+namespace snapthrough {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+Vector3d displacement_of(const VectorXd& y, int node) {
+  return y.segment<3>(3 * static_cast<Eigen::Index>(node));
+}
+
+}  // namespace
+
+MemberMode rod_mode(const Structure& structure, const Model& model, std::size_t spring, const VectorXd& mode,
+                    int points) {
+  const NodeSpring rod = rod_of(structure, model, spring);
+  const double L = structure.scales.length;
+  const Vector3d from = displacement_of(mode, rod.node);
+  const Vector3d change = displacement_of(mode, rod.to) - from;
+  const Vector3d along = rod.sense * rod.direction();
+  MemberMode out;
+  out.id = model.springs[spring].id;
+  for (int i = 0; i < points; ++i) {
+    const double fraction = static_cast<double>(i) / (points - 1);
+    out.s.push_back(fraction * rod.length * L);
+    out.u.push_back(L * (from[0] + fraction * change[0]));
+    out.v.push_back(L * (from[1] + fraction * change[1]));
+    out.rotation.push_back((along[0] * change[1] - along[1] * change[0]) / rod.length);
+  }
+  return out;
+}
+
+MemberState rod_state(const Structure& structure, const Model& model, std::size_t spring, const VectorXd& y,
+                      int points) {
+  const NodeSpring rod = rod_of(structure, model, spring);
+  const bool is_linear = structure.geometry == Geometry::linear;
+  const SpringMotion motion = rod.motion(y, is_linear);
+  const double force = -in_users_sense(rod.sense, structure.scales.force * rod.law.reaction(motion.w));
+  const Vector3d turned = rod.sense * motion.gradient;
+  const Vector3d along = rod.sense * rod.direction();
+  const Node& start = model.nodes[index_of(model.nodes, model.springs[spring].at.node)];
+  const Node& end = model.nodes[index_of(model.nodes, model.springs[spring].to->node)];
+  MemberMode moved = rod_mode(structure, model, spring, y, points);
+  MemberState out;
+  out.id = moved.id;
+  out.s = std::move(moved.s);
+  out.u = std::move(moved.u);
+  out.v = std::move(moved.v);
+  out.rotation = std::move(moved.rotation);
+  if (!is_linear)
+    out.rotation.assign(out.s.size(),
+                        std::atan2(along[0] * turned[1] - along[1] * turned[0], along.dot(turned)));
+  for (std::size_t i = 0; i < out.s.size(); ++i) {
+    const double fraction = static_cast<double>(i) / (points - 1);
+    out.x0.push_back(start.x + fraction * (end.x - start.x));
+    out.y0.push_back(start.y + fraction * (end.y - start.y));
+    out.x.push_back(out.x0[i] + out.u[i]);
+    out.y.push_back(out.y0[i] + out.v[i]);
+  }
+  out.axial_force.assign(out.s.size(), force + 0.0);
+  out.shear_force.assign(out.s.size(), 0.0);
+  out.bending_moment.assign(out.s.size(), 0.0);
+  return out;
+}
+
+}  // namespace snapthrough

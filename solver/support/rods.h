@@ -1,0 +1,40 @@
+#pragma once
+/// @file
+/// One-sided members as springs between their nodes.
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "solver/model/model.h"
+
+namespace snapthrough {
+
+/// @brief Replaces each one-sided member by a spring of the stiffness EA / length between its nodes, along
+/// the line through them, and its weight by half at each node.
+///
+/// The springs follow those of the model, in the order of the members. A compression is a positive force of
+/// such a spring. Members, springs and foundations otherwise keep their order.
+/// @return empty: no member is one-sided
+/// @pre the model passed all checks but that of mechanisms
+[[nodiscard]] std::optional<Model> with_rods_as_springs(const Model& model);
+
+/// The model with_rods_as_springs(), or the model itself.
+[[nodiscard]] inline Model rods_as_springs(Model model) {
+  std::optional<Model> changed = with_rods_as_springs(model);
+  return changed ? *std::move(changed) : std::move(model);
+}
+
+/// @brief Inserts what was made for each rod, in the order of `rods`, into a list of what was made for each
+/// other member, so that both have the order of the members.
+/// @param rods springs of a model with_rods_as_springs(); others are skipped
+/// @param make called with the index of a spring that stands for a rod
+template <class T, class Make>
+void insert_rods(const std::vector<Spring>& rods, const Make& make, std::vector<T>& list) {
+  for (std::size_t i = 0; i < rods.size(); ++i)
+    if (rods[i].rod) list.insert(list.begin() + static_cast<std::ptrdiff_t>(*rods[i].rod), make(i));
+}
+
+}  // namespace snapthrough
