@@ -88,7 +88,7 @@ class Builder {
                                                std::array<double, 2> range) const;
   void add_point_spring(int element, std::size_t index);
   void add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const;
-  void add_distributed(const DistributedLoad& load);
+  void add_line_load(const LineLoad& load);
   [[nodiscard]] Eigen::VectorXd& pattern(Pattern p) {
     return p == Pattern::proportional ? out_.proportional_load : out_.constant_load;
   }
@@ -129,14 +129,14 @@ ElementShape shape_on(const Structure& out, const Model& model, int element, con
   shape.length = (e.to - e.from) * length / L;
   std::array<double, 2> chord{0.0, 0.0};
   for (int q = 0; q < rule.order(); ++q) {
-    const double s = length * (e.from + rule.point(q) * (e.to - e.from));
-    const StressFreePoint point = axis.at(s);
+    const double fraction = e.from + rule.point(q) * (e.to - e.from);
+    const StressFreePoint point = axis.at(length * fraction);
     shape.angle.push_back(point.angle);
     shape.t.push_back({point.stretch * std::cos(point.angle), point.stretch * std::sin(point.angle)});
     for (int c = 0; c < 2; ++c) chord[c] += rule.weight(q) * shape.t[q][c];
-    shape.axial_compliance.push_back(point.stretch * F / section.EA);
-    shape.shear_compliance.push_back(section.GA ? point.stretch * F / *section.GA : 0.0);
-    shape.bending_compliance.push_back(point.stretch * F * L * L / section.EI);
+    shape.axial_compliance.push_back(point.stretch * F / section.EA.at(fraction));
+    shape.shear_compliance.push_back(section.GA ? point.stretch * F / section.GA->at(fraction) : 0.0);
+    shape.bending_compliance.push_back(point.stretch * F * L * L / section.EI.at(fraction));
   }
   // close the chord exactly, so that rigid motions are free of strain
   const StressFreePoint from = axis.at(length * e.from);
@@ -152,7 +152,7 @@ void Builder::set_scales(const Scales* known) {
   double bending = 0.0;
   for (const auto& axis : out_.axes) length = std::max(length, axis->length());
   for (const Member& member : model_.members)
-    bending = std::max(bending, model_.sections[index_of(model_.sections, member.section)].EI);
+    bending = std::max(bending, model_.sections[index_of(model_.sections, member.section)].EI.largest());
   out_.scales.length = length;
   out_.scales.force = bending / (length * length);
   if (known != nullptr) out_.scales = *known;
@@ -172,11 +172,12 @@ void Builder::set_scales(const Scales* known) {
 void Builder::bound_stiffness() {
   const Mesh& mesh = out_.mesh;
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
-    const double EI = model_.sections[index_of(model_.sections, model_.members[m].section)].EI;
+    const AlongMember& EI = model_.sections[index_of(model_.sections, model_.members[m].section)].EI;
     for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
       const MeshElement& cell = mesh.elements[static_cast<std::size_t>(e)];
       const double decay = (cell.to - cell.from) * out_.axes[m]->length() / mesh.decay_lengths;
-      out_.stiffest.push_back(out_.scales.scaled_modulus(4.0 * EI / std::pow(decay, 4)));
+      const double least = std::min(EI.at(cell.from), EI.at(cell.to));
+      out_.stiffest.push_back(out_.scales.scaled_modulus(4.0 * least / std::pow(decay, 4)));
     }
   }
 }
@@ -435,11 +436,11 @@ void Builder::add_point_action(Eigen::VectorXd& load, int element, double xi, Ve
   }
 }
 
-void Builder::add_distributed(const DistributedLoad& load) {
+void Builder::add_line_load(const LineLoad& load) {
   const int member = index_of(model_.members, load.member);
   const AxisCurve& axis = *out_.axes[member];
   const Quadrature gauss = gauss_legendre(out_.mesh.order + 1);
-  for (const LinePiece& piece : pieces_of(load)) {
+  for (const LinePiece& piece : load.pieces) {
     for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
       const MeshElement& cell = out_.mesh.elements[e];
       const auto range = part_of(cell, piece.range);
@@ -472,11 +473,11 @@ void Builder::add_dead_load(const Load& load) {
       add_point_action(pattern(point->pattern), place.element, place.xi, action);
     }
   } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
-    add_distributed(*distributed);
+    add_line_load(line_load(*distributed));
   } else if (const auto* strain = std::get_if<InitialStrain>(&load)) {
     add_initial_strain(*strain);
   } else if (const auto* weight = std::get_if<SelfWeight>(&load)) {
-    for (const Member& member : model_.members) add_distributed(weight_of(model_, member, *weight));
+    for (const Member& member : model_.members) add_line_load(weight_of(model_, member, *weight));
   } else if (const auto* temperature = std::get_if<TemperatureLoad>(&load)) {
     add_initial_strain(strain_of(model_, *temperature));
   }
@@ -528,8 +529,9 @@ void Builder::add_initial_strain(const InitialStrain& load) {
   const int p = out_.mesh.order;
   const Section& section = model_.sections[index_of(model_.sections, model_.members[member].section)];
   if (load.pattern == Pattern::proportional)
-    strain_size_ += out_.scales.scaled_force(largest_of(load.axial, load.axial_along) * section.EA) +
-                    out_.scales.scaled_moment(largest_of(load.curvature, load.curvature_along) * section.EI);
+    strain_size_ +=
+        out_.scales.scaled_force(largest_of(load.axial, load.axial_along) * section.EA.largest()) +
+        out_.scales.scaled_moment(largest_of(load.curvature, load.curvature_along) * section.EI.largest());
   for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
     const CollocationRule& rule = CollocationRule::of(p);
     const ElementShape shape = shape_of_element(out_, model_, e);
@@ -694,14 +696,15 @@ void fill(const Model& model, const Scales* scales, const Neighbour* like, Struc
                   std::any_of(laws.springs.begin(), laws.springs.end(), one_sided);
   out.has_constant = builder.is_moved_by_constant_actions();
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const double EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
+    const AlongMember& EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
     const double length = out.axes[m]->length();
-    out.euler_loads.push_back(std::numbers::pi * std::numbers::pi * EI /
+    out.euler_loads.push_back(std::numbers::pi * std::numbers::pi * EI.least() /
                               (length * length * out.scales.force));
     double foundation_load = 0.0;
     for (const Foundation& foundation : model.foundations)
       if (foundation.member == model.members[m].id)
-        foundation_load += 2.0 * std::sqrt(initial_stiffness(foundation) * EI) + foundation.shear_stiffness;
+        foundation_load +=
+            2.0 * std::sqrt(initial_stiffness(foundation) * EI.largest()) + foundation.shear_stiffness;
     out.foundation_loads.push_back(foundation_load / out.scales.force);
   }
   const int p = out.mesh.order;

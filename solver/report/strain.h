@@ -45,7 +45,7 @@ class StrainGauge {
     double axial, shear, bending;  ///< strain per scaled section force
   };
   const Structure& structure_;
-  std::vector<Compliance> compliances_;  ///< one per member
+  std::vector<Compliance> compliances_;  ///< one per Gauss point, element by element
 };
 
 }  // namespace snapthrough
