@@ -24,10 +24,14 @@ void read(const Value& value, std::pair<double, T>& out) {
   read(value.item(1), out.second);
 }
 
+/// Least number of places at which a load or a number of a section that varies is given.
+inline constexpr std::size_t kLeastPoints = 2;
+
 /// Reads a value that is the same along a member, or {"along": [[fraction, value], ...]}.
 /// @param least least number of points
+/// @param power null where the form has no "power"
 template <class T>
-void read_along(const Value& value, T& out, Along<T>& along, std::size_t least) {
+void read_along(const Value& value, T& out, Along<T>& along, std::size_t least, double* power = nullptr) {
   if (!value.is_object()) {
     set_unread(out);
     read(value, out);
@@ -40,6 +44,9 @@ void read_along(const Value& value, T& out, Along<T>& along, std::size_t least) 
                                          : "along must hold at least two [fraction, value] pairs");
     }
     read(*points, along);
+  }
+  if (power != nullptr) {
+    in.optional("power", *power);
   }
   in.finish();
 }

@@ -26,9 +26,6 @@ static void read(const Value& value, LoadAxes& out) {
   read_named(value, kNames, out);
 }
 
-/// Least number of places at which a load that varies is given.
-static constexpr std::size_t kLeastPoints = 2;
-
 template <class T>
 static void read_along(Object& in, std::string_view key, T& out, Along<T>& along) {
   if (const auto value = in.find(key)) {

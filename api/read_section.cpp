@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/read_along.h"
 #include "api/read_parts.h"
 #include "solver/model/limits.h"
 #include "solver/model/section_shape.h"
@@ -122,38 +123,56 @@ Shape read_profile(Object& in) {
   return out;
 }
 
+/// Reads a number that may taper.
+void read_number(const Value& value, AlongMember& out) {
+  read_along(value, out.constant, out.points, kLeastPoints, &out.power);
+}
+
+void read_required_number(Object& in, std::string_view key, AlongMember& out) {
+  set_unread(out.constant);
+  if (const auto value = in.find_required(key)) {
+    read_number(*value, out);
+  }
+}
+
+void read_optional_number(Object& in, std::string_view key, std::optional<AlongMember>& out) {
+  if (const auto value = in.find(key)) {
+    read_number(*value, out.emplace());
+  }
+}
+
 /// Sets mass and expansion. @param area null: the section is given by its stiffness
 void read_mass(Object& in, const double* area, Section& out) {
   in.optional("expansion", out.expansion);
-  const auto mass = in.find("mass");
-  if (mass) {
-    read(*mass, out.mass);
-  }
+  read_optional_number(in, "mass", out.mass);
   if (area == nullptr || !in.find("density")) {
     return;
   }
   double density = 0.0;
   read_positive(in, "density", density);
   out.mass = density * *area;
-  if (mass) {
+  if (in.find("mass")) {
     in.find("density")->report("ambiguous", "give mass or density, not both");
   }
 }
 
 /// Sets the stiffness of a material and a shape.
 void set_stiffness(Object& in, double E, double G, const Shape& shape, Section& out) {
-  out.EA = E * shape.stiffening * shape.geometry.area;
-  out.EI = E * shape.stiffening * shape.geometry.second_moment;
+  const double EA = E * shape.stiffening * shape.geometry.area;
+  const double EI = E * shape.stiffening * shape.geometry.second_moment;
+  const double GA = G * shape.geometry.shear_area;
+  out.EA = EA;
+  out.EI = EI;
   if (G != 0.0) {
-    out.GA = G * shape.geometry.shear_area;
+    out.GA = GA;
   }
   read_mass(in, &shape.geometry.area, out);
+  const double mass = out.mass.value_or(0.0).largest();
   const auto is_usable = [](double v) { return v > 0.0 && v <= kMaxMagnitude; };
   const auto is_nan = [](double v) { return v != v; };
-  if (is_nan(out.EA) || is_nan(out.EI) || is_nan(out.GA.value_or(0.0)) || is_nan(out.mass.value_or(0.0))) {
+  if (is_nan(EA) || is_nan(EI) || is_nan(GA) || is_nan(mass)) {
     in.value().document_report().mark_unreadable(in.value().pointer());
-  } else if (!is_usable(out.EA) || !is_usable(out.EI) || !is_usable(out.GA.value_or(1.0)) ||
-             !(out.mass.value_or(0.0) <= kMaxMagnitude)) {
+  } else if (!is_usable(EA) || !is_usable(EI) || !(G == 0.0 || is_usable(GA)) || !(mass <= kMaxMagnitude)) {
     in.value().report("out_of_range",
                       "the products E A, E I, G shear_area and density A must be positive and finite");
   }
@@ -220,9 +239,9 @@ void read(const Value& value, Section& out) {
     return;
   }
   if (by_stiffness || !by_material) {
-    in.required("EA", out.EA);
-    in.required("EI", out.EI);
-    in.optional("GA", out.GA);
+    read_required_number(in, "EA", out.EA);
+    read_required_number(in, "EI", out.EI);
+    read_optional_number(in, "GA", out.GA);
     read_mass(in, nullptr, out);
   }
   if (by_shape) {

@@ -86,7 +86,7 @@ double size_of_nothing(const std::vector<std::string>& tokens, const Model& mode
   }
   double bending = 0.0;
   for (const Section& section : model.sections) {
-    bending = std::max(bending, section.EI);
+    bending = std::max(bending, section.EI.largest());
   }
   if (names("stiffness") || names("shear_stiffness")) {
     return bending / (extent * extent * extent);

@@ -43,7 +43,7 @@ BucklingLoads buckling_loads(const Model& model, const Analysis& analysis, const
   for (int level = 0;; ++level) {
     out = {now.structure, now.buckling, {}, level, factorizations};
     out.errors.resize(now.buckling.loads.size());
-    if (now.buckling.is_mechanism) break;
+    if (now.buckling.is_mechanism || now.buckling.held_share) break;
     auto mesh = finer_mesh(now.structure->mesh);
     if (!mesh) break;
     Level next = solve_on(std::make_shared<const Structure>(on_mesh(structure, model, *std::move(mesh))),

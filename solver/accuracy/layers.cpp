@@ -16,10 +16,10 @@ std::vector<double> bending_decays(const Structure& structure, const Model& mode
     double tension = 0.0;
     for (int e = structure.mesh.first[m]; e < structure.mesh.first[m + 1]; ++e)
       tension = std::max(tension, y.segment(structure.dofs[e].s, structure.mesh.order).maxCoeff());
-    double squared = tension * structure.scales.force / section.EI;
+    double squared = tension * structure.scales.force / section.EI.least();
     for (const Foundation& foundation : model.foundations)
       if (section.GA && foundation.member == member.id && std::isfinite(initial_stiffness(foundation)))
-        squared += initial_stiffness(foundation) / *section.GA;
+        squared += initial_stiffness(foundation) / section.GA->least();
     decays.push_back(1.0 / std::sqrt(squared));
   }
   return decays;

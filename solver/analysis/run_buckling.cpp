@@ -191,6 +191,13 @@ std::string reversed_text(const FoundLoads& reversed) {
              : "; the opposite actions make it buckle at load factor " + number(-reversed.loads.front());
 }
 
+/// Sentence on a reference load without an equilibrium. @param share of it that has one
+std::string unheld_reference(double share) {
+  return "no equilibrium with small displacements was found under the reference load (load factor 1), about "
+         "which buckling is linearised; the supports hold load factors up to about " +
+         rounded(share);
+}
+
 /// Sets a failure when some, but fewer than the requested modes exist.
 void require_modes(const Analysis& analysis, const FoundLoads& found, Result& result) {
   if (static_cast<int>(found.loads.size()) >= analysis.modes || found.loads.empty()) return;
@@ -238,6 +245,10 @@ void run_buckling(const Model& model, const Analysis& analysis, const Structure&
          "there is no state to linearise about");
     return;
   }
+  if (buckling.held_share) {
+    fail(result, "not_held", unheld_reference(*buckling.held_share));
+    return;
+  }
   NeutralMotionLog(structure, model, result.neutral_motion).note(buckling.holds, 0.0);
   report_mesh(structure, loads.level, result);
   FoundLoads reversed;
@@ -273,6 +284,9 @@ ModeOffsets mode_offsets(const Model& model, const Analysis& analysis, const std
   structure.stop = stop;
   StructuralProblem problem(structure);
   const LinearBuckling buckling = linear_buckling(structure, problem, highest, structure.scales.load);
+  if (buckling.held_share)
+    throw std::runtime_error("an imperfection names a buckling mode: " +
+                             unheld_reference(*buckling.held_share));
   if (static_cast<int>(buckling.loads.size()) < highest)
     throw std::runtime_error("an imperfection names buckling mode " + std::to_string(highest) +
                              ", but only " + std::to_string(buckling.loads.size()) + " exist");

@@ -22,18 +22,10 @@ void check_force(const Place& place, const std::array<double, 2>& force) {
 void check_value(const Place& place, double value) { require_finite(place, value); }
 void check_value(const Place& place, const std::array<double, 2>& force) { check_force(place, force); }
 
-/// Requires ascending fractions and finite values.
 template <class T>
-void check_along(const Place& field, const Along<T>& along) {
-  const Place place = field / "along";
-  require_count(place, along.size(), kMaxCurvePoints);
-  double previous = -1.0;
-  for (std::size_t i = 0; i < along.size(); ++i) {
-    const auto& [fraction, value] = along[i];
-    require_next_fraction(place / i / 0, fraction, previous);
-    check_value(place / i / 1, value);
-    previous = fraction;
-  }
+void check_amounts(const Place& field, const Along<T>& along) {
+  check_along(field, along, kMaxCurvePoints,
+              [](const Place& place, const T& value) { check_value(place, value); });
 }
 
 void check_load(const Place& place, const PointLoad& load, const Names& names) {
@@ -45,22 +37,22 @@ void check_load(const Place& place, const PointLoad& load, const Names& names) {
 void check_load(const Place& place, const DistributedLoad& load, const Names& names) {
   require_beam(place / "member", load.member, names);
   check_force(place / "force", load.force);
-  check_along(place / "force", load.force_along);
+  check_amounts(place / "force", load.force_along);
   require_fractions(place / "range", load.range);
 }
 
 void check_load(const Place& place, const PressureLoad& load, const Names& names) {
   require_beam(place / "member", load.member, names);
   require_finite(place / "value", load.value);
-  check_along(place / "value", load.value_along);
+  check_amounts(place / "value", load.value_along);
 }
 
 void check_load(const Place& place, const InitialStrain& load, const Names& names) {
   require_beam(place / "member", load.member, names);
   require_finite(place / "axial", load.axial);
   require_finite(place / "curvature", load.curvature);
-  check_along(place / "axial", load.axial_along);
-  check_along(place / "curvature", load.curvature_along);
+  check_amounts(place / "axial", load.axial_along);
+  check_amounts(place / "curvature", load.curvature_along);
 }
 
 void check_load(const Place& place, const SelfWeight& load, const Names&) {
@@ -71,8 +63,8 @@ void check_load(const Place& place, const TemperatureLoad& load, const Names& na
   require_beam(place / "member", load.member, names);
   require_finite(place / "change", load.change);
   require_finite(place / "gradient", load.gradient);
-  check_along(place / "change", load.change_along);
-  check_along(place / "gradient", load.gradient_along);
+  check_amounts(place / "change", load.change_along);
+  check_amounts(place / "gradient", load.gradient_along);
 }
 
 // NaN counts as an amount, because another finding reports it.

@@ -2,6 +2,7 @@
 /// @file
 /// Parts of check(): one function per list of the model, which reports its findings. Reentrant.
 
+#include <cstddef>
 #include <string>
 #include <unordered_set>
 
@@ -32,6 +33,20 @@ void check_imperfections(const Place& model, const Model& data, const Names& nam
 /// Checks a worst imperfection against the rest of the request.
 void check_worst_imperfection(const Place& root, const Model& data, const Analysis& analysis);
 void check_monitors(const Place& model, const Model& data, Names& names);
+
+/// Requires ascending fractions, at most `most` of them; `check_value(place, value)` checks each value.
+template <class T, class Check>
+void check_along(const Place& field, const Along<T>& along, std::size_t most, Check check_value) {
+  const Place place = field / "along";
+  require_count(place, along.size(), most);
+  double previous = -1.0;
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    const auto& [fraction, value] = along[i];
+    require_next_fraction(place / i / std::size_t{0}, fraction, previous);
+    check_value(place / i / std::size_t{1}, value);
+    previous = fraction;
+  }
+}
 
 /// Requires a node of the model, or a member with a fraction in [0, 1].
 void check_location(const Place& place, const Location& location, const Names& names);

@@ -148,6 +148,17 @@ void check_nodes(const Place& model, const Model& data, Names& names) {
   }
 }
 
+/// Checks a number of a section: a constant by a rule, else positive everywhere.
+template <class Rule>
+void check_number(const Place& place, const AlongMember& value, Rule rule) {
+  if (!value.varies()) {
+    rule(place, value.constant);
+    return;
+  }
+  check_along(place, value.points, kMaxPointsAlong, require_positive);
+  require_positive(place / "power", value.power);
+}
+
 void check_sections(const Place& model, const Model& data, Names& names) {
   const Place sections = model / "sections";
   require_count(sections, data.sections.size(), kMaxSections);
@@ -158,13 +169,13 @@ void check_sections(const Place& model, const Model& data, Names& names) {
     const Place place = sections / i;
     const Section& section = data.sections[i];
     names.sections.add(place / "id", section.id);
-    require_positive(place / "EA", section.EA);
-    require_positive(place / "EI", section.EI);
+    check_number(place / "EA", section.EA, require_positive);
+    check_number(place / "EI", section.EI, require_positive);
     if (section.GA) {
-      require_positive(place / "GA", *section.GA);
+      check_number(place / "GA", *section.GA, require_positive);
     }
     if (section.mass) {
-      require_not_negative(place / "mass", *section.mass);
+      check_number(place / "mass", *section.mass, require_not_negative);
     }
     if (section.expansion) {
       require_finite(place / "expansion", *section.expansion);

@@ -27,14 +27,7 @@ void check_gap(const Place& place, double gap, Reaction reaction) {
 
 /// Checks a gap along a member.
 void check_gaps(const Place& place, const Along<double>& gaps, Reaction reaction) {
-  const Place along = place / "along";
-  require_count(along, gaps.size(), kMaxPointsAlong);
-  double previous = -1.0;
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    require_next_fraction(along / i / std::size_t{0}, gaps[i].first, previous);
-    require_not_negative(along / i / std::size_t{1}, gaps[i].second);
-    previous = gaps[i].first;
-  }
+  check_along(place, gaps, kMaxPointsAlong, require_not_negative);
   require_one_sided(place, reaction, "gap");
 }
 
@@ -111,23 +104,15 @@ void check_outline(const Place& foundation, const Foundation& data) {
   }
 }
 
-/// Checks a number along a member: not negative, with at least one positive value.
-void check_along(const Place& place, const AlongMember& value) {
+/// Checks a number of a law: not negative, with at least one positive value.
+void check_number(const Place& place, const AlongMember& value) {
   if (!value.varies()) {
     require_positive(place, value.constant);
     return;
   }
-  const Place along = place / "along";
-  require_count(along, value.points.size(), kMaxPointsAlong);
-  double previous = -1.0;
-  for (std::size_t i = 0; i < value.points.size(); ++i) {
-    const auto [fraction, number] = value.points[i];
-    require_next_fraction(along / i / std::size_t{0}, fraction, previous);
-    require_not_negative(along / i / std::size_t{1}, number);
-    previous = fraction;
-  }
+  check_along(place, value.points, kMaxPointsAlong, require_not_negative);
   if (!(value.largest() > 0.0)) {
-    along.report("out_of_range", place.name() + " must be positive somewhere");
+    (place / "along").report("out_of_range", place.name() + " must be positive somewhere");
   }
 }
 
@@ -163,17 +148,17 @@ void check_points(const Place& place, const std::vector<std::array<double, 2>>& 
 
 void check_law(const Place& support, const ReactionLaw& law) {
   if (law.type == ReactionLaw::Type::linear) {
-    check_along(support / "stiffness", law.stiffness);
+    check_number(support / "stiffness", law.stiffness);
     return;
   }
   const Place place = support / "law";
   if (law.type == ReactionLaw::Type::table) {
     check_points(place / "points", law.points);
-    check_along(place / "factor", law.factor);
+    check_number(place / "factor", law.factor);
     return;
   }
-  check_along(place / "stiffness", law.stiffness);
-  check_along(place / "capacity", law.capacity);
+  check_number(place / "stiffness", law.stiffness);
+  check_number(place / "capacity", law.capacity);
   if (law.type == ReactionLaw::Type::power) {
     require_positive(place / "reference", law.reference);
     if (!(law.exponent > 0.0 && law.exponent < 1.0)) {

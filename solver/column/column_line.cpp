@@ -99,10 +99,12 @@ bool LineReader::is_simple() const {
   for (const Imperfection& imperfection : model_.imperfections)
     if (const auto* sine = std::get_if<SineImperfection>(&imperfection); !sine || sine->amplitude != 0.0)
       return false;
-  for (const Member& member : model_.members)
-    if (!std::holds_alternative<LineCurve>(member.curve) || is_semi_rigid(member) ||
-        model_.sections[index_of(model_.sections, member.section)].GA)
+  for (const Member& member : model_.members) {
+    const Section& section = model_.sections[index_of(model_.sections, member.section)];
+    if (!std::holds_alternative<LineCurve>(member.curve) || is_semi_rigid(member) || section.GA ||
+        section.EA.varies() || section.EI.varies())
       return false;
+  }
   for (const Spring& spring : model_.springs)
     if (spring.to || spring.law || (spring.stiffness > 0.0 && spring.reaction != Reaction::bilateral))
       return false;
@@ -196,19 +198,19 @@ void LineReader::add_spans() {
     line_.length = std::max(line_.length, link.length);
     const Member& member = model_.members[link.member];
     line_.stiffness =
-        std::max(line_.stiffness, model_.sections[index_of(model_.sections, member.section)].EI);
+        std::max(line_.stiffness, model_.sections[index_of(model_.sections, member.section)].EI.constant);
   }
   for (const Link& link : links_) {
     const Section& section = model_.sections[index_of(model_.sections, model_.members[link.member].section)];
     for (std::size_t i = 0; i + 1 < link.cuts.size(); ++i) {
       ColumnSpan span;
       span.length = link.length * (link.cuts[i + 1] - link.cuts[i]) / line_.length;
-      span.EI = section.EI / line_.stiffness;
+      span.EI = section.EI.constant / line_.stiffness;
       span.member = link.member;
       span.fractions = {link.cuts[i], link.cuts[i + 1]};
       if (link.backwards) span.fractions = {1.0 - link.cuts[i], 1.0 - link.cuts[i + 1]};
       line_.spans.push_back(span);
-      axial_.EA.push_back(section.EA * line_.length * line_.length / line_.stiffness);
+      axial_.EA.push_back(section.EA.constant * line_.length * line_.length / line_.stiffness);
     }
   }
   line_.joints.resize(line_.spans.size() + 1);

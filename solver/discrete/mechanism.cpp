@@ -83,9 +83,9 @@ bool is_plainly_held(const Model& model) {
     const std::optional<double> own = length_of(model, member);
     if (!own || is_rod(member) || member.release_start_rotation || member.release_end_rotation) return false;
     length = std::max(length, *own);
-    least_EI = std::min(least_EI, section.EI);
-    largest_EI = std::max(largest_EI, section.EI);
-    least_force = std::min({least_force, section.EA, section.GA.value_or(section.EA)});
+    least_EI = std::min(least_EI, section.EI.least());
+    largest_EI = std::max(largest_EI, section.EI.largest());
+    least_force = std::min({least_force, section.EA.least(), section.GA.value_or(section.EA).least()});
   }
   return least_EI >= PlainlyHeldLimits::stiffness * largest_EI &&
          least_force >= PlainlyHeldLimits::stiffness * largest_EI / (length * length) &&

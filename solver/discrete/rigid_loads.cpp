@@ -1,5 +1,6 @@
 #include "solver/discrete/rigid_loads.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <variant>
@@ -27,7 +28,8 @@ class Summing {
   explicit Summing(const RigidParts& parts) : parts_(parts) {}
 
   void add(const PointLoad& load);
-  void add(const DistributedLoad& load);
+  void add(const DistributedLoad& load) { add(line_load(load)); }
+  void add(const LineLoad& load);
   void add(const PressureLoad& load);
   void add(const InitialStrain&) {}
   void add(const SelfWeight& load) {
@@ -64,12 +66,15 @@ void Summing::add(const PointLoad& load) {
   add(parts_.rotation(member), moment);
 }
 
-void Summing::add(const DistributedLoad& load) {
+void Summing::add(const LineLoad& load) {
   const int member = parts_.member(load.member);
   const AxisCurve& axis = *parts_.axes()[static_cast<std::size_t>(member)];
-  const Quadrature gauss = gauss_legendre(axis.straight() ? 2 : 8);
-  const int intervals = axis.straight() ? 1 : 4;
-  for (const LinePiece& piece : pieces_of(load)) {
+  const bool is_linear = std::all_of(load.pieces.begin(), load.pieces.end(),
+                                     [](const LinePiece& piece) { return piece.power == 1.0; });
+  const bool is_exact = axis.straight() && is_linear;
+  const Quadrature gauss = gauss_legendre(is_exact ? 2 : 8);
+  const int intervals = is_exact ? 1 : 4;
+  for (const LinePiece& piece : load.pieces) {
     const double width = (piece.range[1] - piece.range[0]) / intervals;
     for (std::size_t i = 0; i < gauss.points.size() * static_cast<std::size_t>(intervals); ++i) {
       const std::size_t q = i % gauss.points.size();

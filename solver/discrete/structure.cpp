@@ -91,7 +91,7 @@ class Builder {
                                                std::array<double, 2> range) const;
   void add_point_spring(int element, std::size_t index);
   void add_point_action(Eigen::VectorXd& load, int element, double xi, Vec3 action) const;
-  void add_distributed(const DistributedLoad& load);
+  void add_line_load(const LineLoad& load);
   [[nodiscard]] Eigen::VectorXd& pattern(Pattern p) {
     return p == Pattern::proportional ? out_.proportional_load : out_.constant_load;
   }
@@ -132,14 +132,14 @@ ElementShape shape_on(const Structure& out, const Model& model, int element, con
   shape.length = (e.to - e.from) * length / L;
   std::array<double, 2> chord{0.0, 0.0};
   for (int q = 0; q < rule.order(); ++q) {
-    const double s = length * (e.from + rule.point(q) * (e.to - e.from));
-    const StressFreePoint point = axis.at(s);
+    const double fraction = e.from + rule.point(q) * (e.to - e.from);
+    const StressFreePoint point = axis.at(length * fraction);
     shape.angle.push_back(point.angle);
     shape.t.push_back({point.stretch * std::cos(point.angle), point.stretch * std::sin(point.angle)});
     for (int c = 0; c < 2; ++c) chord[c] += rule.weight(q) * shape.t[q][c];
-    shape.axial_compliance.push_back(point.stretch * F / section.EA);
-    shape.shear_compliance.push_back(section.GA ? point.stretch * F / *section.GA : 0.0);
-    shape.bending_compliance.push_back(point.stretch * F * L * L / section.EI);
+    shape.axial_compliance.push_back(point.stretch * F / section.EA.at(fraction));
+    shape.shear_compliance.push_back(section.GA ? point.stretch * F / section.GA->at(fraction) : 0.0);
+    shape.bending_compliance.push_back(point.stretch * F * L * L / section.EI.at(fraction));
   }
   // close the chord exactly, so that rigid motions are free of strain
   const StressFreePoint from = axis.at(length * e.from);
@@ -155,7 +155,7 @@ void Builder::set_scales(const Scales* known) {
   double bending = 0.0;
   for (const auto& axis : out_.axes) length = std::max(length, axis->length());
   for (const Member& member : model_.members)
-    bending = std::max(bending, model_.sections[index_of(model_.sections, member.section)].EI);
+    bending = std::max(bending, model_.sections[index_of(model_.sections, member.section)].EI.largest());
   out_.scales.length = length;
   out_.scales.force = bending / (length * length);
   if (known != nullptr) out_.scales = *known;
@@ -195,9 +195,11 @@ double Builder::stop_stiffness(const Spring& spring, const SpringLaw& law) const
     const Section& section = model_.sections[index_of(model_.sections, member.section)];
     const AxisCurve& axis = *out_.axes[m];
     const double length = out_.scales.scaled_length(axis.length());
-    const double bending = section.EI / (out_.scales.force * std::pow(out_.scales.length, 2) * length);
-    const double axial = section.EA / (out_.scales.force * length);
-    const double angle = axis.angle_at(member.end == spring.at.node ? axis.length() : 0.0);
+    const double at_node = member.end == spring.at.node ? 1.0 : 0.0;
+    const double fraction = spring.at.member.empty() ? at_node : spring.at.fraction;
+    const double bending = section.EI.at(fraction) / (out_.scales.force * std::pow(out_.scales.length, 2) * length);
+    const double axial = section.EA.at(fraction) / (out_.scales.force * length);
+    const double angle = axis.angle_at(fraction * axis.length());
     const double along = law.row[0] * std::cos(angle) + law.row[1] * std::sin(angle);
     sum += spring.direction ? along * along * axial + 12.0 * bending / (length * length) : 4.0 * bending;
   }
@@ -207,12 +209,13 @@ double Builder::stop_stiffness(const Spring& spring, const SpringLaw& law) const
 void Builder::bound_stiffness() {
   const Mesh& mesh = out_.mesh;
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
-    const double EI = model_.sections[index_of(model_.sections, model_.members[m].section)].EI;
+    const AlongMember& EI = model_.sections[index_of(model_.sections, model_.members[m].section)].EI;
     for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
       const MeshElement& cell = mesh.elements[static_cast<std::size_t>(e)];
       const double length = (cell.to - cell.from) * out_.axes[m]->length();
+      const double least = std::min(EI.at(cell.from), EI.at(cell.to));
       const auto at_decay = [&](double lengths) {
-        return out_.scales.scaled_modulus(4.0 * EI * std::pow(lengths / length, 4));
+        return out_.scales.scaled_modulus(4.0 * least * std::pow(lengths / length, 4));
       };
       out_.stiffest.push_back(at_decay(mesh.decay_lengths));
       out_.stiffest_rigid.push_back(at_decay(kResolvedDecays));
@@ -471,11 +474,11 @@ void Builder::add_point_action(Eigen::VectorXd& load, int element, double xi, Ve
   }
 }
 
-void Builder::add_distributed(const DistributedLoad& load) {
+void Builder::add_line_load(const LineLoad& load) {
   const int member = index_of(model_.members, load.member);
   const AxisCurve& axis = *out_.axes[member];
   const Quadrature gauss = gauss_legendre(out_.mesh.order + 1);
-  for (const LinePiece& piece : pieces_of(load)) {
+  for (const LinePiece& piece : load.pieces) {
     for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
       const MeshElement& cell = out_.mesh.elements[e];
       const auto range = part_of(cell, piece.range);
@@ -508,11 +511,11 @@ void Builder::add_dead_load(const Load& load) {
       add_point_action(pattern(point->pattern), place.element, place.xi, action);
     }
   } else if (const auto* distributed = std::get_if<DistributedLoad>(&load)) {
-    add_distributed(*distributed);
+    add_line_load(line_load(*distributed));
   } else if (const auto* strain = std::get_if<InitialStrain>(&load)) {
     add_initial_strain(*strain);
   } else if (const auto* weight = std::get_if<SelfWeight>(&load)) {
-    for (const Member& member : model_.members) add_distributed(weight_of(model_, member, *weight));
+    for (const Member& member : model_.members) add_line_load(weight_of(model_, member, *weight));
   } else if (const auto* temperature = std::get_if<TemperatureLoad>(&load)) {
     add_initial_strain(strain_of(model_, *temperature));
   }
@@ -564,8 +567,9 @@ void Builder::add_initial_strain(const InitialStrain& load) {
   const int p = out_.mesh.order;
   const Section& section = model_.sections[index_of(model_.sections, model_.members[member].section)];
   if (load.pattern == Pattern::proportional)
-    strain_size_ += out_.scales.scaled_force(largest_of(load.axial, load.axial_along) * section.EA) +
-                    out_.scales.scaled_moment(largest_of(load.curvature, load.curvature_along) * section.EI);
+    strain_size_ +=
+        out_.scales.scaled_force(largest_of(load.axial, load.axial_along) * section.EA.largest()) +
+        out_.scales.scaled_moment(largest_of(load.curvature, load.curvature_along) * section.EI.largest());
   for (int e = out_.mesh.first[member]; e < out_.mesh.first[member + 1]; ++e) {
     const CollocationRule& rule = CollocationRule::of(p);
     const ElementShape shape = shape_of_element(out_, model_, e);
@@ -744,14 +748,14 @@ void fill(const Model& model, const Scales* scales, const Neighbour* like, Struc
                   std::any_of(laws.springs.begin(), laws.springs.end(), one_sided);
   out.has_constant = builder.is_moved_by_constant_actions();
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const double EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
+    const AlongMember& EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
     const double length = out.axes[m]->length();
-    out.euler_loads.push_back(std::numbers::pi * std::numbers::pi * EI /
+    out.euler_loads.push_back(std::numbers::pi * std::numbers::pi * EI.least() /
                               (length * length * out.scales.force));
     double foundation_load = 0.0;
     for (const Foundation& foundation : model.foundations)
       if (foundation.member == model.members[m].id)
-        foundation_load += 2.0 * std::sqrt(stiffness_on(out, foundation, static_cast<int>(m)) * EI) +
+        foundation_load += 2.0 * std::sqrt(stiffness_on(out, foundation, static_cast<int>(m)) * EI.largest()) +
                            foundation.shear_stiffness;
     out.foundation_loads.push_back(foundation_load / out.scales.force);
   }

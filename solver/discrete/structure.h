@@ -115,8 +115,8 @@ struct Structure {
   std::vector<std::vector<int>> parts_of_foundation;  ///< indices of `foundation_parts`, per foundation
   std::vector<std::string> skipped;
   std::vector<FollowerEnd> follower_ends;
-  std::vector<double> euler_loads;       ///< pi^2 EI / l^2 of each member
-  std::vector<double> foundation_loads;  ///< increase of euler_loads by foundations: 2 sqrt(K EI) + G
+  std::vector<double> euler_loads;       ///< pi^2 EI / l^2 of each member by its smallest EI
+  std::vector<double> foundation_loads;  ///< increase by foundations, largest EI: 2 sqrt(K EI) + G
   TouchingSupports touching;             ///< empty unless touching supports were searched for
   bool one_sided = false;                ///< some foundation or spring is not bilateral
   /// Curves to which the laws of the elements and nodes refer.

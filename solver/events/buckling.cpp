@@ -34,6 +34,7 @@ struct BucklingLimits {
   static constexpr double converged = 1e-13;  ///< change of a load at which inverse iteration ends: rounding
   static constexpr int most_iterations = 60;  ///< inverse iterations at most
   static constexpr double beside = 1e-9;      ///< distance from a load of the counts that confirm it
+  static constexpr double held_share = 1e-3;  ///< digits of LinearBuckling::held_share
   /// Doublings of the first scale; beyond 1e13 times it the elastic stiffness is lost to rounding.
   static constexpr int doublings = 43;
 };
@@ -248,6 +249,13 @@ std::vector<double> compressions_of(const Structure& structure, const VectorXd& 
   return out;
 }
 
+/// Largest share of a load with an equilibrium of small displacements. The loads with one form an interval,
+/// because no law falls.
+double held_share(StructuralProblem& problem, double load, int& factorizations) {
+  return bisect(0.0, 1.0, BucklingLimits::held_share,
+                [&](double share) { return !linear_contact(problem, share * load, factorizations); });
+}
+
 PieceSolver solver_of(Pencil& pencil, Index size) {
   PieceSolver solver;
   solver.lowest = [&pencil, size]() -> std::optional<Piece> {
@@ -266,7 +274,11 @@ LinearBuckling linear_buckling(const Structure& structure, StructuralProblem& pr
                                double reference, const VectorXd& near, LoadSense sense) {
   LinearBuckling out;
   Pencil pencil(structure, problem, sense);
-  pencil.set_prestress(reference);
+  if (!pencil.set_prestress(reference)) {
+    out.factorizations = pencil.factorizations();
+    out.held_share = held_share(problem, reference, out.factorizations);
+    return out;
+  }
   out.holds = pencil.holds();
   out.contact = out.pressed = pencil.contact();
   out.is_mechanism = !pencil.holds_are_idle(reference);

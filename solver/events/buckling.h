@@ -26,6 +26,9 @@ struct LinearBuckling {
   /// A free motion is driven by the actions or resisted by their stresses alone, so that no linear reference
   /// state exists; `loads` is then empty.
   bool is_mechanism = false;
+  /// Largest share of the reference load with an equilibrium of small displacements, to three digits; empty:
+  /// the reference load has one. Otherwise `loads` is empty.
+  std::optional<double> held_share;
   int factorizations = 0;
   bool touches = false;   ///< some one-sided supports touch without pressure under the reference load
   LeastPiece piece;       ///< stability result of the touching supports

@@ -76,8 +76,8 @@ bool BucklingPencil::holds_are_idle(double lambda) {
 }
 
 /// Solves for the equilibrium under both kinds of actions with unilateral contact, from the bilateral
-/// response, and stores its contact.
-void BucklingPencil::freeze_contact(double reference) {
+/// response, and stores its contact; false when it was not found.
+bool BucklingPencil::freeze_contact(double reference) {
   Regime glued;
   glued.contact = Regime::Contact::bilateral;
   VectorXd y = linear_response(StructuralProblem::Stage::constant, 1.0, glued) +
@@ -96,18 +96,20 @@ void BucklingPencil::freeze_contact(double reference) {
     if (outcome.status != CorrectorStatus::converged) {
       const auto state =
           find_contact_state(problem_, metric, reference, work, factorizations_, nullptr, true);
-      if (state) y = state->y;
+      if (!state) return false;
+      y = state->y;
     }
   }
   contact_ = problem_.frozen_contact(y, true);
   if (structure_.curved()) contact_.linearised_at = y;
   marks_ = problem_.marks_at(y, true);
+  return true;
 }
 
-void BucklingPencil::set_prestress(double reference) {
+bool BucklingPencil::set_prestress(double reference) {
   const SharedHolds soft = held_softly(problem_);
   problem_.set_holds(soft);
-  if (structure_.one_sided || structure_.curved()) freeze_contact(reference);
+  if ((structure_.one_sided || structure_.curved()) && !freeze_contact(reference)) return false;
   if (soft) {
     Regime small = regime();
     small.small_displacements = true;
@@ -117,6 +119,7 @@ void BucklingPencil::set_prestress(double reference) {
   }
   constant_ = linear_response(StructuralProblem::Stage::constant, 1.0, regime());
   proportional_ = linear_response(StructuralProblem::Stage::proportional, 1.0, regime());
+  return true;
 }
 
 VectorXd BucklingPencil::stress(double lambda) const {

@@ -17,8 +17,10 @@ class BucklingPencil {
   BucklingPencil(const Structure& structure, StructuralProblem& problem, LoadSense sense)
       : structure_(structure), problem_(problem), sense_(sense == LoadSense::reversed ? -1.0 : 1.0) {}
 
-  /// Computes the linear stresses of both kinds of actions, with the contact under the reference load.
-  void set_prestress(double reference);
+  /// Computes the linear stresses of both kinds of actions, with the contact and the tangents of laws under
+  /// the reference load. Returns false when no equilibrium with small displacements was found under that
+  /// load.
+  [[nodiscard]] bool set_prestress(double reference);
   [[nodiscard]] int count(double lambda);
   void solve(Eigen::VectorXd& x) { problem_.solve(x); }
   [[nodiscard]] Eigen::VectorXd geometric(const Eigen::VectorXd& x);
@@ -46,7 +48,7 @@ class BucklingPencil {
   [[nodiscard]] Regime regime_at(double lambda);
   [[nodiscard]] Eigen::VectorXd linear_response(StructuralProblem::Stage stage, double lambda, Regime regime);
   void drop_rounding(double least, Eigen::VectorXd& response) const;
-  void freeze_contact(double reference);
+  [[nodiscard]] bool freeze_contact(double reference);
 
   const Structure& structure_;
   StructuralProblem& problem_;

@@ -60,6 +60,10 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
       add_kinks(temperature->gradient_along);
     }
   }
+  const Section& section = model.sections[index_of(model.sections, model.members[member].section)];
+  for (const AlongMember* value : {&section.EA, &section.EI}) add_kinks(value->points);
+  for (const auto* value : {&section.GA, &section.mass})
+    if (*value) add_kinks((*value)->points);
   for (const double knot : axis.knots()) at.push_back(knot / axis.length());
   std::sort(at.begin(), at.end());
   std::vector<double> unique;
@@ -137,7 +141,8 @@ int default_count(const ChosenMesh& rule, const Model& model, int member, const 
   const double turns = turn / (rule.turn * std::numbers::pi / 180.0);
   const double coarse = std::max(MeshRules::first.least * (to - from), turns);
   double n = std::max(rule.least * (to - from), turns);
-  const double EI = model.sections[index_of(model.sections, m.section)].EI;
+  const AlongMember& EI = model.sections[index_of(model.sections, m.section)].EI;
+  const double least_EI = std::min(EI.at(from), EI.at(to));
   for (const Foundation& foundation : model.foundations) {
     if (foundation.member != m.id || initial_stiffness(foundation) <= 0.0 || foundation.range[1] <= from ||
         foundation.range[0] >= to)
@@ -147,7 +152,7 @@ int default_count(const ChosenMesh& rule, const Model& model, int member, const 
       n = std::max(n, finest[1] * coarse);
       continue;
     }
-    const double layers = length / (rule.decay_lengths * std::pow(4.0 * EI / stiffness, 0.25));
+    const double layers = length / (rule.decay_lengths * std::pow(4.0 * least_EI / stiffness, 0.25));
     const bool is_bounded = is_one_sided(foundation) && !foundation.direction && !foundation.law;
     n = std::max(n, is_bounded ? std::min(layers, finest[0] * coarse) : layers);
   }

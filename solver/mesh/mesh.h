@@ -51,7 +51,8 @@ enum class MeshUse {
 
 /// @brief Makes the mesh of an analysis.
 ///
-/// Elements end at the places of loads and springs, at ends of ranges and at spline knots. A fixed number of
+/// Elements end at the places of loads and springs, at ends of ranges, at spline knots and at the points of
+/// numbers along the member. A fixed number of
 /// elements is distributed over the pieces between these places by length, at least one each; if fewer
 /// elements than pieces are given, the elements are equal and actions lie inside elements. Otherwise the
 /// number follows from the turning of the axis, the decay length (4 EI / K)^(1/4) of foundations, and the

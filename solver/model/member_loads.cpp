@@ -21,25 +21,32 @@ const Section& section_of(const Model& model, const Member& member) {
   return model.sections[static_cast<std::size_t>(index_of(model.sections, member.section))];
 }
 
+/// Pieces of a range between the fractions at which a force is given.
+/// @param force_at force at a fraction
+template <class T, class ForceAt>
+std::vector<LinePiece> pieces_between(const Vec2& range, const Along<T>& along, ForceAt force_at) {
+  std::vector<LinePiece> out;
+  double from = range[0];
+  const auto add_until = [&](double to) {
+    out.push_back({{from, to}, force_at(from), force_at(to)});
+    from = to;
+  };
+  for (const auto& [fraction, value] : along)
+    if (fraction > from + kOnePlace && fraction < range[1] - kOnePlace) add_until(fraction);
+  add_until(range[1]);
+  return out;
+}
+
 }  // namespace
 
 Vec2 LinePiece::at(double fraction) const {
-  return from == to ? from : between(from, to, (fraction - range[0]) / (range[1] - range[0]));
+  return from == to ? from : between(from, to, (fraction - range[0]) / (range[1] - range[0]), power);
 }
 
-std::vector<LinePiece> pieces_of(const DistributedLoad& load) {
-  std::vector<LinePiece> out;
-  double from = load.range[0];
-  const auto add_until = [&](double to) {
-    out.push_back({{from, to},
-                   value_at(load.force, load.force_along, from),
-                   value_at(load.force, load.force_along, to)});
-    from = to;
-  };
-  for (const auto& [fraction, force] : load.force_along)
-    if (fraction > from + kOnePlace && fraction < load.range[1] - kOnePlace) add_until(fraction);
-  add_until(load.range[1]);
-  return out;
+LineLoad line_load(const DistributedLoad& load) {
+  const auto force_at = [&load](double fraction) { return value_at(load.force, load.force_along, fraction); };
+  return {load.member, load.per, load.axes, load.pattern,
+          pieces_between(load.range, load.force_along, force_at)};
 }
 
 double measure_of(LoadMeasure per, double angle) {
@@ -54,12 +61,14 @@ Vec2 global_force(LoadAxes axes, const Vec2& force, double angle) {
   return {c * force[0] - s * force[1], s * force[0] + c * force[1]};
 }
 
-DistributedLoad weight_of(const Model& model, const Member& member, const SelfWeight& load) {
-  const double mass = *section_of(model, member).mass;
-  DistributedLoad out;
-  out.member = member.id;
-  out.force = {mass * load.gravity[0], mass * load.gravity[1]};
-  out.pattern = load.pattern;
+LineLoad weight_of(const Model& model, const Member& member, const SelfWeight& load) {
+  const AlongMember& mass = *section_of(model, member).mass;
+  const auto force_at = [&](double fraction) {
+    return Vec2{mass.at(fraction) * load.gravity[0], mass.at(fraction) * load.gravity[1]};
+  };
+  LineLoad out{member.id, LoadMeasure::length, LoadAxes::global, load.pattern,
+               pieces_between({0.0, 1.0}, mass.points, force_at)};
+  for (LinePiece& piece : out.pieces) piece.power = mass.power;
   return out;
 }
 

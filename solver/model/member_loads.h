@@ -3,23 +3,33 @@
 /// Loads of members in the forms that the equations take: forces per length, initial strains.
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "solver/model/model.h"
 
 namespace snapthrough {
 
-/// Part of a distributed load on which its force is a linear function of the fraction.
+/// Part of a line load on which its force is a smooth function of the fraction.
 struct LinePiece {
   std::array<double, 2> range{};  ///< fractions of the member
   std::array<double, 2> from{};   ///< force at the range's start, in the axes of the load
   std::array<double, 2> to{};
+  double power = 1.0;  ///< force^(1/power) is linear
 
   [[nodiscard]] std::array<double, 2> at(double fraction) const;
 };
 
-/// Pieces of a distributed load, ascending.
-[[nodiscard]] std::vector<LinePiece> pieces_of(const DistributedLoad& load);
+/// Dead load along a member.
+struct LineLoad {
+  std::string member;
+  LoadMeasure per = LoadMeasure::length;
+  LoadAxes axes = LoadAxes::global;
+  Pattern pattern = Pattern::proportional;
+  std::vector<LinePiece> pieces;  ///< ascending
+};
+
+[[nodiscard]] LineLoad line_load(const DistributedLoad& load);
 
 /// Length to which a load refers, per undeformed length of an axis at an angle.
 [[nodiscard]] double measure_of(LoadMeasure per, double angle);
@@ -29,7 +39,7 @@ struct LinePiece {
                                                  double angle);
 
 /// Weight of a member. @pre the member's section has a mass
-[[nodiscard]] DistributedLoad weight_of(const Model& model, const Member& member, const SelfWeight& load);
+[[nodiscard]] LineLoad weight_of(const Model& model, const Member& member, const SelfWeight& load);
 
 /// Strain by temperature. @pre the member's section has an expansion
 [[nodiscard]] InitialStrain strain_of(const Model& model, const TemperatureLoad& load);

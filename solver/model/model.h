@@ -49,13 +49,14 @@ struct Node {
   bool operator==(const Node&) const = default;
 };
 
-/// Elastic section. No GA means unshearable (the limit GA -> infinity is taken exactly).
+/// Elastic section, which may taper: fractions of its numbers are those of each member that has the section.
+/// No GA means unshearable (the limit GA -> infinity is taken exactly).
 struct Section {
   std::string id;
-  double EA = 0.0;                       ///< axial stiffness, > 0
-  double EI = 0.0;                       ///< bending stiffness, > 0
-  std::optional<double> GA;              ///< shear stiffness (shear area included), > 0
-  std::optional<double> mass = {};       ///< mass per undeformed length, >= 0; needed by self weight
+  AlongMember EA;                        ///< axial stiffness, > 0
+  AlongMember EI;                        ///< bending stiffness, > 0
+  std::optional<AlongMember> GA;         ///< shear stiffness (shear area included), > 0
+  std::optional<AlongMember> mass = {};  ///< mass per undeformed length, >= 0; needed by self weight
   std::optional<double> expansion = {};  ///< thermal strain per degree; needed by temperature loads
   bool operator==(const Section&) const = default;
 };
@@ -150,7 +151,7 @@ struct ReactionLaw {
   double exponent = 0.5;   ///< in (0, 1)
   std::vector<std::array<double, 2>>
       points;  ///< (w, p), both ascending from the origin, which may be left out
-  AlongMember factor{1.0, {}};
+  AlongMember factor = 1.0;
   bool operator==(const ReactionLaw&) const = default;
 };
 

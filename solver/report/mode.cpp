@@ -102,9 +102,9 @@ std::vector<EffectiveLength> effective_lengths(const Model& model, const std::ve
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     EffectiveLength& one = out.emplace_back();
     one.id = model.members[m].id;
-    if (!(compressions[m] > ModeLimits::small_compression * largest)) continue;
-    const double EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
-    one.length = std::numbers::pi * std::sqrt(EI / compressions[m]);
+    const AlongMember& EI = model.sections[index_of(model.sections, model.members[m].section)].EI;
+    if (!(compressions[m] > ModeLimits::small_compression * largest) || EI.varies()) continue;
+    one.length = std::numbers::pi * std::sqrt(EI.constant / compressions[m]);
     one.ratio = *one.length / lengths[m];
   }
   const auto none = [&model](std::size_t spring) {
@@ -151,10 +151,13 @@ std::optional<std::size_t> member_that_buckles(const Structure& structure, const
         model.sections[static_cast<std::size_t>(index_of(model.sections, model.members[member].section))];
     const double h = length_of_element(structure, static_cast<int>(e));
     const auto forces = mode.segment(structure.dofs[e].s, 3 * p);
+    const MeshElement& cell = structure.mesh.elements[e];
     for (int q = 0; q < p; ++q) {
       const double bending = length * forces[2 * p + q];
-      double density = forces[q] * forces[q] / section.EA + bending * bending / section.EI;
-      if (section.GA) density += forces[p + q] * forces[p + q] / *section.GA;
+      const double fraction = cell.from + rule.point(q) * (cell.to - cell.from);
+      double density =
+          forces[q] * forces[q] / section.EA.at(fraction) + bending * bending / section.EI.at(fraction);
+      if (section.GA) density += forces[p + q] * forces[p + q] / section.GA->at(fraction);
       energy[member] += h * rule.weight(q) * density;
     }
   }

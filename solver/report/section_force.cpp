@@ -65,7 +65,7 @@ void SectionForces::add_load(const Load& load, double factor) {
             scales.scaled_moment(factor * point->moment)}});
   }
   if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == member)
-    add_dead(*d, factor);
+    add_dead(line_load(*d), factor);
   if (const auto* weight = std::get_if<SelfWeight>(&load))
     add_dead(weight_of(model_, model_.members[cell_.member], *weight), factor);
   if (const auto* p = std::get_if<PressureLoad>(&load); p != nullptr && p->member == member) {
@@ -77,8 +77,8 @@ void SectionForces::add_load(const Load& load, double factor) {
   }
 }
 
-void SectionForces::add_dead(const DistributedLoad& load, double factor) {
-  for (const LinePiece& piece : pieces_of(load)) {
+void SectionForces::add_dead(const LineLoad& load, double factor) {
+  for (const LinePiece& piece : load.pieces) {
     const Vec2 range = part_of(cell_, piece.range);
     if (range[1] > range[0])
       dead_.push_back({piece, structure_.scales.scaled_line_load(factor), load.per, load.axes, range});

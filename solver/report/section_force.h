@@ -52,7 +52,7 @@ class SectionForces {
 
   void add_loads(double proportional, double constant);
   void add_load(const Load& load, double factor);
-  void add_dead(const DistributedLoad& load, double factor);
+  void add_dead(const LineLoad& load, double factor);
   void release_end_of_pressure(const Eigen::VectorXd& y);
   void add_foundations();
   void add_springs();

@@ -10,10 +10,18 @@ namespace snapthrough {
 StrainGauge::StrainGauge(const Structure& structure, const Model& model)
     : structure_(structure), model_(model) {
   const double F = structure.scales.force;
-  for (const Member& member : model.members) {
-    const Section& section = model.sections[index_of(model.sections, member.section)];
-    compliances_.push_back({F / section.EA, section.GA ? F / *section.GA : 0.0,
-                            F * structure.scales.length / std::sqrt(section.EI * section.EA)});
+  const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    const Section& section = model.sections[index_of(model.sections, model.members[m].section)];
+    for (int e = structure.mesh.first[m]; e < structure.mesh.first[m + 1]; ++e) {
+      const MeshElement& cell = structure.mesh.elements[static_cast<std::size_t>(e)];
+      for (int q = 0; q < rule.order(); ++q) {
+        const double fraction = cell.from + rule.point(q) * (cell.to - cell.from);
+        const double EA = section.EA.at(fraction);
+        compliances_.push_back({F / EA, section.GA ? F / section.GA->at(fraction) : 0.0,
+                                F * structure.scales.length / std::sqrt(section.EI.at(fraction) * EA)});
+      }
+    }
   }
 }
 
@@ -22,9 +30,9 @@ bool StrainGauge::raise(const Eigen::VectorXd& y, LargestStrain& largest) const 
   bool raised = false;
   for (std::size_t e = 0; e < structure_.dofs.size(); ++e) {
     const MeshElement& cell = structure_.mesh.elements[e];
-    const Compliance& by = compliances_[cell.member];
     const double* forces = y.data() + structure_.dofs[e].s;
     for (int q = 0; q < p; ++q) {
+      const Compliance& by = compliances_[e * static_cast<std::size_t>(p) + static_cast<std::size_t>(q)];
       const double strain = std::max({by.axial * std::abs(forces[q]), by.shear * std::abs(forces[p + q]),
                                       by.bending * std::abs(forces[2 * p + q])});
       if (strain <= largest.strain) continue;
@@ -48,12 +56,14 @@ bool StrainGauge::is_beyond_theory(const Eigen::VectorXd& y) const {
   const int p = structure_.mesh.order;
   for (std::size_t e = 0; e < structure_.dofs.size(); ++e) {
     const ElementDofs& dofs = structure_.dofs[e];
-    const Compliance& by = compliances_[structure_.mesh.elements[e].member];
-    const auto forces = y.segment(dofs.s, 3 * p);
-    if (std::abs(y[dofs.b[2]]) > StrainLimits::largest_rotation ||
-        by.axial * forces.head(p).lpNorm<Eigen::Infinity>() > StrainLimits::largest ||
-        by.bending * forces.tail(p).lpNorm<Eigen::Infinity>() > StrainLimits::largest)
-      return true;
+    if (std::abs(y[dofs.b[2]]) > StrainLimits::largest_rotation) return true;
+    const double* forces = y.data() + dofs.s;
+    for (int q = 0; q < p; ++q) {
+      const Compliance& by = compliances_[e * static_cast<std::size_t>(p) + static_cast<std::size_t>(q)];
+      if (by.axial * std::abs(forces[q]) > StrainLimits::largest ||
+          by.bending * std::abs(forces[2 * p + q]) > StrainLimits::largest)
+        return true;
+    }
   }
   return false;
 }

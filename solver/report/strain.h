@@ -47,7 +47,7 @@ class StrainGauge {
   };
   const Structure& structure_;
   const Model& model_;
-  std::vector<Compliance> compliances_;  ///< one per member
+  std::vector<Compliance> compliances_;  ///< one per Gauss point, element by element
 };
 
 }  // namespace snapthrough

@@ -25,9 +25,8 @@ std::array<double, 2> largest_of(const ReactionLaw& law) {
 
 AlongMember over_largest(AlongMember value) {
   const double largest = value.largest();
-  value.constant = 1.0;
-  for (auto& point : value.points) point.second = largest > 0.0 ? point.second / largest : 0.0;
-  return value;
+  if (!value.varies()) return 1.0;
+  return value *= largest > 0.0 ? 1.0 / largest : 0.0;
 }
 
 /// Variation of a law along its member; null when the law is constant.

@@ -41,39 +41,40 @@ Section section_of(const json& section) {
 TEST(ShapedSection, HasTheStiffnessOfItsShape) {
   const Section rectangle = section_of(
       {{"E", 200.0}, {"nu", 0.25}, {"shape", {{"type", "rectangle"}, {"width", 2}, {"depth", 3}}}});
-  EXPECT_DOUBLE_EQ(rectangle.EA, 1200.0);
-  EXPECT_DOUBLE_EQ(rectangle.EI, 200.0 * 4.5);
-  EXPECT_DOUBLE_EQ(*rectangle.GA, 80.0 * 5.0);
+  EXPECT_DOUBLE_EQ(rectangle.EA.constant, 1200.0);
+  EXPECT_DOUBLE_EQ(rectangle.EI.constant, 200.0 * 4.5);
+  EXPECT_DOUBLE_EQ(rectangle.GA->constant, 80.0 * 5.0);
   const Section bar =
       section_of({{"E", 1.0}, {"shape", {{"type", "tube"}, {"diameter", 2}, {"thickness", 1}}}});
-  EXPECT_DOUBLE_EQ(bar.EI, std::numbers::pi / 4.0);
+  EXPECT_DOUBLE_EQ(bar.EI.constant, std::numbers::pi / 4.0);
   EXPECT_FALSE(bar.GA);
   const Section i = section_of(
       {{"E", 1.0},
        {"G", 0.5},
        {"shape", {{"type", "i_section"}, {"depth", 10}, {"width", 8}, {"web", 1}, {"flange", 2}}}});
-  EXPECT_DOUBLE_EQ(i.EA, 38.0);
-  EXPECT_DOUBLE_EQ(i.EI, (8.0 * 1000.0 - 7.0 * 216.0) / 12.0);
-  EXPECT_DOUBLE_EQ(*i.GA, 0.5 * i_section({10, 8, 1, 2, 0}).shear_area);
+  EXPECT_DOUBLE_EQ(i.EA.constant, 38.0);
+  EXPECT_DOUBLE_EQ(i.EI.constant, (8.0 * 1000.0 - 7.0 * 216.0) / 12.0);
+  EXPECT_DOUBLE_EQ(i.GA->constant, 0.5 * i_section({10, 8, 1, 2, 0}).shear_area);
 }
 
 TEST(ShapedSection, OfAWallIsStifferInPlaneStrain) {
   const json wall = {{"type", "wall"}, {"thickness", 0.5}, {"plane_strain", true}, {"nu", 0.2}};
   const Section strained = section_of({{"E", 24.0}, {"shape", wall}, {"density", 3.0}, {"expansion", 1e-5}});
-  EXPECT_DOUBLE_EQ(strained.EA, 24.0 / 0.96 * 0.5);
-  EXPECT_DOUBLE_EQ(strained.EI, 24.0 / 0.96 * 0.125 / 12.0);
-  EXPECT_DOUBLE_EQ(*strained.mass, 1.5);
+  EXPECT_DOUBLE_EQ(strained.EA.constant, 24.0 / 0.96 * 0.5);
+  EXPECT_DOUBLE_EQ(strained.EI.constant, 24.0 / 0.96 * 0.125 / 12.0);
+  EXPECT_DOUBLE_EQ(strained.mass->constant, 1.5);
   EXPECT_DOUBLE_EQ(*strained.expansion, 1e-5);
-  EXPECT_DOUBLE_EQ(section_of({{"E", 24.0}, {"shape", {{"type", "wall"}, {"thickness", 0.5}}}}).EA, 12.0);
+  EXPECT_DOUBLE_EQ(section_of({{"E", 24.0}, {"shape", {{"type", "wall"}, {"thickness", 0.5}}}}).EA.constant,
+                   12.0);
 }
 
 TEST(ShapedSection, OfAProfileIsInTheModelsUnit) {
   const Section m = section_of({{"E", 2.1e8}, {"profile", "IPE 300"}, {"unit", "m"}, {"mass", 42.2}});
   const Section mm = section_of({{"E", 210.0}, {"profile", "IPE 300"}, {"unit", "mm"}});
-  EXPECT_NEAR(m.EI, 2.1e8 * 8356e-8, 2e-5 * m.EI);
-  EXPECT_NEAR(m.EA, 2.1e8 * 53.81e-4, 1e-4 * m.EA);
-  EXPECT_NEAR(mm.EI, 1e6 * m.EI, 1e-9 * mm.EI);
-  EXPECT_DOUBLE_EQ(*m.mass, 42.2);
+  EXPECT_NEAR(m.EI.constant, 2.1e8 * 8356e-8, 2e-5 * m.EI.constant);
+  EXPECT_NEAR(m.EA.constant, 2.1e8 * 53.81e-4, 1e-4 * m.EA.constant);
+  EXPECT_NEAR(mm.EI.constant, 1e6 * m.EI.constant, 1e-9 * mm.EI.constant);
+  EXPECT_DOUBLE_EQ(m.mass->constant, 42.2);
 }
 
 TEST(ShapedSection, ProfilesAreThoseOfThePublishedInterface) {
@@ -82,6 +83,22 @@ TEST(ShapedSection, ProfilesAreThoseOfThePublishedInterface) {
   const json& names = forms.back()["properties"]["profile"]["enum"];
   ASSERT_EQ(names.size(), profiles().size());
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(names[i], profiles()[i].name);
+}
+
+TEST(Sections, NumbersMayTaper) {
+  const Section s = section_of(json::parse(
+      R"({"EA": 5, "EI": {"along": [[0, 16], [0.5, 1]], "power": 4}, "GA": {"along": [[0, 3], [1, 1]]},
+          "mass": {"along": [[0, 4], [1, 1]], "power": 2}})"));
+  EXPECT_EQ(s.EA, 5.0);
+  EXPECT_NEAR(s.EI.at(0.25), std::pow(1.5, 4), 1e-14);
+  EXPECT_EQ(s.EI.at(0.7), 1.0);
+  ASSERT_TRUE(s.GA && s.mass);
+  EXPECT_EQ(s.GA->at(0.5), 2.0);
+  EXPECT_NEAR(s.mass->at(0.5), 2.25, 1e-15);
+  const Section shaped =
+      section_of(json::parse(R"({"E": 1, "A": 1, "I": 1, "mass": {"along": [[0, 4], [1, 1]]}})"));
+  ASSERT_TRUE(shaped.mass);
+  EXPECT_EQ(shaped.mass->at(0.5), 2.5);
 }
 
 struct Refused {
@@ -123,7 +140,15 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{R"({"E": 1, "A": 1, "profile": "IPE 300", "unit": "m", "I": 1})", "", "ambiguous"},
         Refused{R"({"E": 1, "A": 1, "I": 1, "mass": 1, "density": 1})", "/density", "ambiguous"},
         Refused{R"({"EA": 1, "EI": 1, "density": 1})", "/density", "unknown_field"},
-        Refused{R"({"EA": 1, "EI": 1, "mass": -1})", "/mass", "out_of_range"}));
+        Refused{R"({"EA": 1, "EI": 1, "mass": -1})", "/mass", "out_of_range"},
+        Refused{R"({"EA": 1, "EI": {"along": [[0, 1]]}})", "/EI/along", "empty"},
+        Refused{R"({"EA": 1, "EI": {"along": [[0, 1], [1, 0]]}})", "/EI/along/1/1", "out_of_range"},
+        Refused{R"({"EA": 1, "EI": {"along": [[0.5, 1], [0.5, 2]]}})", "/EI/along/1/0", "not_increasing"},
+        Refused{R"({"EA": {"along": [[0, 1], [1, 2]], "power": 0}, "EI": 1})", "/EA/power", "out_of_range"},
+        Refused{R"({"EA": {"along": [[0, 1], [1, 2]], "powers": 2}, "EI": 1})", "/EA/powers",
+                "unknown_field"},
+        Refused{R"({"EA": 1, "EI": 1, "mass": {"along": [[0, 0], [1, 1]]}})", "/mass/along/0/1",
+                "out_of_range"}));
 
 json frame_with(const json& changes) {
   json document = document_with({{"EA", 1e6}, {"EI", 1.0}, {"mass", 2.0}, {"expansion", 1e-5}});

@@ -109,6 +109,9 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"/model/members/1/curve", R"({"type": "parabola", "rise": 0.2, "direction": [0, 1]})"},
         Field{
             "/model/sections/1",
+            R"({"id": "e", "EA": 1e3, "EI": {"along": [[0, 2], [1, 1]], "power": 4}, "mass": 2, "expansion": 1e-3})"},
+        Field{
+            "/model/sections/1",
             R"({"id": "e", "E": 2000, "nu": 0.2, "shape": {"type": "rectangle", "width": 2, "depth": 0.2}, "density": 2, "expansion": 1e-3})"},
         Field{
             "/model/sections/1",
@@ -153,6 +156,7 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"/model/loads/4/gravity", "[0, -2e-3]"}, Field{"/model/loads/5/change", "2"},
         Field{"/model/loads/5/gradient", R"({"along": [[0, 1], [1, 2]]})"},
         Field{"/model/loads/5/member", R"("n")"}, Field{"/model/sections/0/mass", "4"},
+        Field{"/model/sections/0/mass", R"({"along": [[0, 2], [1, 1]]})"},
         Field{"/model/sections/1/density", "4"}, Field{"/model/sections/0/expansion", "2e-3"},
         Field{"/model/load_cases/0/factor", "2"}, Field{"/model/load_cases/0/grows", "true"},
         Field{"/model/load_cases/0/loads/0/value", "0.02"}, Field{"/model/imperfections/0/half_waves", "2"},

@@ -28,7 +28,7 @@ struct LongTexts {
     if (failing && model.sections.front().EI == 7.0) {
       result.failure = Failure{"no_convergence", "as it was told"};
     }
-    result.summary.critical_load_factor = model.sections.front().EI;
+    result.summary.critical_load_factor = model.sections.front().EI.constant;
     result.summary.termination = std::string(kText, 'x');
     return result;
   }

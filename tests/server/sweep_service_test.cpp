@@ -26,7 +26,7 @@ class CountingSolver {
   Result operator()(const Model& model, const Analysis&, const Hooks&) {
     ++calls;
     Result result;
-    const double stiffness = model.sections.front().EI;
+    const double stiffness = model.sections.front().EI.constant;
     if (stiffness == failing.load()) {
       result.failure = Failure{"no_convergence", "as it was told"};
     }

@@ -35,7 +35,7 @@ inline void add_soil(Model& model, double k, Side side = Side::left) {
   Foundation soil;
   soil.id = "soil";
   soil.member = "arch";
-  soil.stiffness = k * model.sections[0].EI / 1e8;
+  soil.stiffness = k * model.sections[0].EI.constant / 1e8;
   soil.reaction = Reaction::compression_only;
   soil.side = side;
   model.foundations.push_back(soil);

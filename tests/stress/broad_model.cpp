@@ -76,9 +76,11 @@ void Drawer::sections() {
   for (int i = 0; i < count; ++i) {
     Section section;
     section.id = "s" + std::to_string(i);
-    section.EI = force_ * length_ * length_ * (i == 0 ? 1.0 : random_.decades(-2.0, 2.0));
-    section.EA = section.EI / (length_ * length_) * random_.decades(1.0, 13.0);
-    if (random_.chance(0.3)) section.GA = section.EA * random_.between(0.1, 0.5);
+    const double EI = force_ * length_ * length_ * (i == 0 ? 1.0 : random_.decades(-2.0, 2.0));
+    const double EA = EI / (length_ * length_) * random_.decades(1.0, 13.0);
+    section.EI = EI;
+    section.EA = EA;
+    if (random_.chance(0.3)) section.GA = EA * random_.between(0.1, 0.5);
     model().sections.push_back(section);
   }
 }
@@ -296,7 +298,8 @@ bool Drawer::resolves_bases(const Discretization& mesh) const {
   return std::ranges::all_of(model.foundations, [&](const Foundation& base) {
     if (base.stiffness == 0.0) return true;
     const Member& member = model.members[static_cast<std::size_t>(index_of(model.members, base.member))];
-    const double EI = model.sections[static_cast<std::size_t>(index_of(model.sections, member.section))].EI;
+    const double EI =
+        model.sections[static_cast<std::size_t>(index_of(model.sections, member.section))].EI.constant;
     const Node& a = model.nodes[static_cast<std::size_t>(index_of(model.nodes, member.start))];
     const Node& b = model.nodes[static_cast<std::size_t>(index_of(model.nodes, member.end))];
     const double element = std::hypot(b.x - a.x, b.y - a.y) / mesh.elements;

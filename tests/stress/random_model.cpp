@@ -37,7 +37,7 @@ void add_members(Random& random, const Scale& scale, Model& model) {
   const double slenderness = random.decades(2.0, 12.0);
   const double EI = scale.force * scale.length * scale.length;
   Section section{"s", slenderness * scale.force, EI, {}};
-  if (random.chance(0.3)) section.GA = section.EA * random.between(0.1, 0.5);
+  if (random.chance(0.3)) section.GA = section.EA.constant * random.between(0.1, 0.5);
   model.sections.push_back(section);
   for (int m = 0; m < members; ++m) {
     const double chord = scale.length * random.between(0.3, 1.0);

@@ -32,8 +32,8 @@ Json written(const SineCurve& c) {
 Json written(const PointsCurve& c) { return {{"type", "points"}, {"points", c.points}}; }
 
 Json written(const Section& s) {
-  Json out{{"id", s.id}, {"EA", s.EA}, {"EI", s.EI}};
-  if (s.GA) out["GA"] = *s.GA;
+  Json out{{"id", s.id}, {"EA", s.EA.constant}, {"EI", s.EI.constant}};
+  if (s.GA) out["GA"] = s.GA->constant;
   return out;
 }
 

@@ -261,7 +261,7 @@ void Check::reactions() {
   double length = 0.0;
   double bending = 0.0;
   for (const auto& axis : rod_.axes) length = std::max(length, axis->length());
-  for (const Section& section : model_.sections) bending = std::max(bending, section.EI);
+  for (const Section& section : model_.sections) bending = std::max(bending, section.EI.constant);
   for (std::size_t i = 0; i < result_.states.size(); ++i) {
     const State& state = result_.states[i];
     const ReactionSum sum = reaction_sum(model_, state, analysis_.geometry);

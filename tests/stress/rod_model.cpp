@@ -55,7 +55,7 @@ void Maker::scales() {
   rod_.length = 0.0;
   double bending = 0.0;
   for (const auto& axis : rod_.axes) rod_.length = std::max(rod_.length, axis->length());
-  for (const Section& section : model_.sections) bending = std::max(bending, section.EI);
+  for (const Section& section : model_.sections) bending = std::max(bending, section.EI.constant);
   rod_.force = bending / (rod_.length * rod_.length);
   rod_.origin = {model_.nodes.front().x, model_.nodes.front().y};
 }
@@ -228,9 +228,9 @@ void Maker::members() {
       element.from = rod_.mesh.elements[e].from;
       element.to = rod_.mesh.elements[e].to;
       element.h = (element.to - element.from) * rod_.axes[m]->length() / rod_.length;
-      element.axial = rod_.force / section.EA;
-      element.shear = section.GA ? rod_.force / *section.GA : 0.0;
-      element.bending = rod_.force * rod_.length * rod_.length / section.EI;
+      element.axial = rod_.force / section.EA.constant;
+      element.shear = section.GA ? rod_.force / section.GA->constant : 0.0;
+      element.bending = rod_.force * rod_.length * rod_.length / section.EI.constant;
       for (Functional& load : element.load) load.v = MatrixXd::Zero(3, p);
       shape(element, stress_free_.back());
       element_actions(element);

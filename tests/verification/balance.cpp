@@ -199,6 +199,21 @@ Vec2 force_at(const DistributedLoad& load, const Body::Place& at, double fractio
   return {q[0] * at.dX[0] - q[1] * at.dX[1], q[0] * at.dX[1] + q[1] * at.dX[0]};
 }
 
+/// Mass per length at a fraction of the member.
+double mass_at(const AlongMember& mass, double fraction) {
+  double out = mass.varies() ? mass.points.front().second : mass.constant;
+  for (std::size_t i = 1; i < mass.points.size(); ++i) {
+    const auto& [from, before] = mass.points[i - 1];
+    const auto& [to, after] = mass.points[i];
+    const double share = std::clamp((fraction - from) / (to - from), 0.0, 1.0);
+    if (fraction > from)
+      out = std::pow(
+          (1.0 - share) * std::pow(before, 1.0 / mass.power) + share * std::pow(after, 1.0 / mass.power),
+          mass.power);
+  }
+  return out;
+}
+
 /// Pressure at a fraction of the member, of two places where it varies.
 double pressure_at(const PressureLoad& load, double fraction) {
   if (load.value_along.empty()) return load.value;
@@ -229,8 +244,8 @@ void add_load(const Load& load, const std::vector<Section>& sections, const Memb
   if (const auto* weight = std::get_if<SelfWeight>(&load)) {
     const Section& section = *std::find_if(sections.begin(), sections.end(),
                                            [&](const Section& s) { return s.id == member.section; });
-    const double f = factor(weight->pattern) * *section.mass;
     const auto add = [&](const Body::Place& at, double ds) {
+      const double f = factor(weight->pattern) * mass_at(*section.mass, at.s / body.length());
       sum.add(at.x, {ds * f * weight->gravity[0], ds * f * weight->gravity[1]});
     };
     body.integrate(0.0, body.length(), add);

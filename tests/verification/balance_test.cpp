@@ -160,7 +160,8 @@ double energy_of(const Model& model, const State& state) {
       const double N = m.axial_force[i];
       const double Q = m.shear_force[i];
       const double M = m.bending_moment[i];
-      return 0.5 * (N * N / section.EA + (section.GA ? Q * Q / *section.GA : 0.0) + M * M / section.EI);
+      return 0.5 * (N * N / section.EA.constant + (section.GA ? Q * Q / section.GA->constant : 0.0) +
+                    M * M / section.EI.constant);
     });
   for (std::size_t f = 0; f < state.foundations.size(); ++f) {
     const FoundationState& base = state.foundations[f];

@@ -105,6 +105,25 @@ TEST(Law, BucklingTakesTheTangentAtTheReferenceState) {
   }
 }
 
+/// A lateral load h P of the moment h exceeds the capacity of the spring at the load factor C / h: linearised
+/// buckling has no state to take a tangent at.
+TEST(Law, BucklingNeedsAReferenceLoadThatLawsCarry) {
+  constexpr double C = 1.0;
+  for (const Type type : {Type::tanh, Type::hyperbolic, Type::power}) {
+    for (const double h : {0.5, 2.0, 4.0}) {
+      Model model = bar_on_spring(law_with(type, 10.0, C));
+      model.loads = {force_at(at_node("head"), h, -1.0)};
+      const Result result = solve(model, buckling_on(fixed_mesh(1, 2)));
+      ASSERT_EQ(result.failure.has_value(), h > C) << h;
+      EXPECT_EQ(result.summary.critical_load_factor.has_value(), h < C);
+      if (!result.failure) continue;
+      EXPECT_EQ(result.failure->code, "not_held");
+      const std::string& text = result.failure->detail;
+      EXPECT_NEAR(std::stod(text.substr(text.rfind(' ') + 1)), C / h, 2e-3) << text;
+    }
+  }
+}
+
 /// The column of Koiter.OfAColumnOnABaseIsTheClosedForm on p = C tanh(K w / C) = K w - K^3 w^3 / (3 C^2) +
 /// ..: the energy of half a wave has - K^3 s^4 / (8 C^2) more, and b is less by K^3 / (4 C^2 k^2 P).
 TEST(Law, SofteningFoundationLowersThePostBucklingLoad) {

@@ -188,7 +188,7 @@ TEST(Invariance, UnderUnits) {
         },
         {0.0, 0.0}, false);
     model.sections[0].EA *= force;
-    model.sections[0].GA = *model.sections[0].GA * force;
+    *model.sections[0].GA *= force;
     model.sections[0].EI *= force * length * length;
     model.springs[0].stiffness *= force / length;
     for (Foundation& base : model.foundations) base.stiffness *= force / (length * length);

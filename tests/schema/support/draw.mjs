@@ -18,6 +18,11 @@ const kLetters = ['a', 'b', 'c', 'd', '/', '~', ' ', '"', 'ä', '梁', '🌉', '
 /** Loads of a model, those of its load cases among them. */
 const loadsOf = (model) => [...(model.loads ?? []), ...(model.load_cases ?? []).flatMap((one) => one.loads)];
 
+/** Gives the points of a value that varies along a member fractions that ascend. */
+const ascend = (value) => {
+  if (value?.along) value.along = value.along.map(([, amount], i) => [i / value.along.length, amount]);
+};
+
 export class Drawer {
   constructor(seed) { this.random = randomNumbers(seed); }
 
@@ -143,6 +148,7 @@ export class Drawer {
   agreeSections(model) {
     for (const one of model.sections) {
       if ('mass' in one) delete one.density;
+      for (const number of [one.EA, one.EI, one.GA, one.mass]) ascend(number);
       if ('nu' in one) delete one.G;
       if (one.shape?.type === 'tube') one.shape.thickness = one.shape.diameter / 4 || one.shape.diameter;
       if (one.shape?.type === 'i_section') {
@@ -157,19 +163,20 @@ export class Drawer {
 
   /** Numbers along a member and points of laws that ascend; a foundation along the tangent without what it cannot have. */
   agreeLaws(model) {
-    const ascend = (value) => {
-      if (value?.along) value.along = value.along.map(([, amount], i) => [i / value.along.length, i === 0 ? amount || 1 : amount]);
+    const positiveFirst = (value) => {
+      ascend(value);
+      if (value?.along) value.along[0][1] ||= 1;
     };
     for (const one of [...(model.springs ?? []), ...(model.foundations ?? [])]) {
       if (one.component === 'tangent') for (const field of ['side', 'direction', 'shear_stiffness', 'reaction', 'gap']) delete one[field];
       if (Array.isArray(one.direction)) delete one.side;
-      ascend(one.stiffness);
+      positiveFirst(one.stiffness);
       ascend(one.gap);
       if (one.outline?.points) one.outline.points = one.outline.points.map(([, y], i) => [100 * i, y]);
       if ('rounding' in (one.outline ?? {})) one.outline.rounding = 1e-3;
       if (!one.law) continue;
       for (const field of ['stiffness', 'capacity', 'factor']) {
-        ascend(one.law[field]);
+        positiveFirst(one.law[field]);
         if (one.law[field] === 0) one.law[field] = 1;
       }
       if (one.law.points) one.law.points = one.law.points.map((unused, i) => [i + 1, i + 1]);
@@ -188,7 +195,7 @@ export class Drawer {
     const loads = loadsOf(model);
     for (const one of [...(model.foundations ?? []), ...loads]) if (one.range) order(one.range);
     for (const value of loads.flatMap((one) => Object.values(one))) {
-      if (value.along) value.along = value.along.map(([, amount], i) => [i / value.along.length, amount]);
+      ascend(value);
     }
     for (const one of model.monitors ?? []) if ('node' in one.at && one.component === 'normal') one.component = 'x';
     (model.loads ??= []).push({type: 'point', at: {node: model.nodes.at(-1).id}, force: [0, -1]});

@@ -212,6 +212,12 @@ INSTANTIATE_TEST_SUITE_P(Support, CheckRule, ::testing::ValuesIn(kSupportCases),
 
 const Case kMemberCases[] = {
     {"MassNegative", SPOIL(m.sections[0].mass = -1.0), "/model/sections/0/mass", "out_of_range"},
+    {"TaperWithoutStiffness", SPOIL(m.sections[0].EI = AlongMember({{0.0, 1.0}, {1.0, 0.0}})),
+     "/model/sections/0/EI/along/1/1", "out_of_range"},
+    {"TaperBackwards", SPOIL(m.sections[0].GA = AlongMember({{1.0, 1.0}, {0.0, 2.0}})),
+     "/model/sections/0/GA/along/1/0", "not_increasing"},
+    {"TaperPowerZero", SPOIL(m.sections[0].mass = AlongMember({{0.0, 1.0}, {1.0, 2.0}}, 0.0)),
+     "/model/sections/0/mass/power", "out_of_range"},
     {"ExpansionNan", SPOIL(m.sections[0].expansion = kNan), "/model/sections/0/expansion", "out_of_range"},
     {"JointStiffnessNegative", SPOIL(m.members[1].release_end_stiffness = -1.0),
      "/model/members/1/release/end/rotation", "out_of_range"},

@@ -49,8 +49,8 @@ std::vector<std::pair<std::string, Foundation>> media() {
   out.emplace_back("yielding", medium_of(CircleOutline{{0.5, -0.4}, 0.62, false}));
   ReactionLaw law;
   law.type = ReactionLaw::Type::tanh;
-  law.stiffness = {90.0, {}};
-  law.capacity = {3.0, {}};
+  law.stiffness = 90.0;
+  law.capacity = 3.0;
   out.back().second.law = law;
   Foundation gaps = medium_of(CircleOutline{});
   gaps.outline.reset();

@@ -63,6 +63,14 @@ TEST(Mesh, HasElementsEndWhereSomethingActs) {
   }
 }
 
+TEST(Mesh, HasElementsEndWhereASectionBendsItsTaper) {
+  Model model = testing::column(4.0, 1.0, 1e6, 0.0);
+  model.sections[0].EI = AlongMember({{0.3, 1.0}, {0.7, 0.5}}, 4.0);
+  model.sections[0].GA = AlongMember({{0.0, 1.0}, {0.45, 0.5}});
+  const auto ends = ends_of(mesh_of(model, {}, MeshUse::first), 0);
+  for (const double place : {0.3, 0.45, 0.7}) EXPECT_TRUE(has_end(ends, place)) << place;
+}
+
 TEST(Mesh, HasElementsEndAtTheKnotsOfAnAxis) {
   Model model = testing::column(4.0, 1.0, 1e6, 0.0);
   model.members[0].curve = PointsCurve{{{0.8, 0.2}, {1.7, -0.1}, {2.5, 0.2}, {3.1, 0.1}}};
