@@ -220,7 +220,7 @@ ConstrainedTangent tangent_of(const RodModel& rod, const RodState& at, double lo
   add_end_actions(rod, at, load_factor, {start, end}, out);
   // the rotation of a node all of whose members are hinged is no displacement of the structure
   for (Index i = 2; i < nodes; i += 3)
-    if (K.row(i).isZero(0.0)) K(i, i) = 1.0;
+    if (K.col(i).isZero(0.0)) K(i, i) = 1.0;
   const MatrixXd upper = K.bottomLeftCorner(constraints, free).transpose();
   K.topRightCorner(free, constraints) = upper;
   return out;
