@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -113,9 +114,10 @@ class Check {
   void springs(const State& state, const RodState& at);
   void finite_series(std::span<const double> values, const std::string& what);
   [[nodiscard]] double distance(const RodState& a, const RodState& b) const;
+  /// @param what begins with the check's name and a colon; a few failures of each check are kept
   void fail(const std::string& what) {
-    constexpr std::size_t kMost = 8;
-    if (out_.failures.size() < kMost) out_.failures.push_back(what);
+    constexpr int kMost = 3;
+    if (++failed_[what.substr(0, what.find(':'))] <= kMost) out_.failures.push_back(what);
   }
 
   const Model& model_;
@@ -124,6 +126,7 @@ class Check {
   RodModel rod_;
   ResultCheck out_;
   std::optional<RodState> before_;  ///< the point before, on the same branch
+  std::map<std::string, int> failed_;
 };
 
 void Check::finite_series(std::span<const double> values, const std::string& what) {
@@ -329,11 +332,15 @@ void Check::contact_at(const FoundationState& said, const Foundation& base, std:
   if (reaction < least - rounding || reaction > most + rounding)
     fail("complementarity: base " + base.id + " reacts with " + text(reaction) + " at depth " + text(depth));
   if (!strip.one_sided) return;
-  const bool inside = std::ranges::any_of(said.contact, [&](const auto& c) {
-    return said.s[i] > c[0] + 1e-6 * length && said.s[i] < c[1] - 1e-6 * length;
-  });
+  const double near = 1e-6 * length;
+  const auto is_inside = [&](double margin) {
+    return std::ranges::any_of(
+        said.contact, [&](const auto& c) { return said.s[i] > c[0] + margin && said.s[i] < c[1] - margin; });
+  };
   if (reaction < 0.0) fail("complementarity: base " + base.id + " pulls");
-  if (inside && depth < -noise - 1e-6 * length) fail("complementarity: base " + base.id + " open in contact");
+  if (depth < -noise - near && is_inside(near)) fail("contact: base " + base.id + " is open in contact");
+  if (depth > noise + near && reaction > 0.0 && !is_inside(-near))
+    fail("contact: base " + base.id + " is pressed outside its contact");
 }
 
 /// The imperfection that a state is in equilibrium without: that of the bifurcation that it is, or that the

@@ -42,7 +42,7 @@ class MemberTangent {
 
  private:
   void add_element(int e);
-  void add_supports(const RodElement& element, const ElementState& at, const std::array<MatrixXd, 3>& v);
+  void add_supports(const ElementState& at, const std::array<MatrixXd, 3>& v);
   void add_pressure(const RodElement& element, const std::array<MatrixXd, 3>& v);
 
   const RodModel& rod_;
@@ -88,24 +88,27 @@ void MemberTangent::add_element(int e) {
     if (shearable_) cross(first + p + q, hb * at.N[q] * dg);
   }
   H_ += turns.transpose() * weight.asDiagonal() * turns;
-  add_supports(element, at, v);
+  add_supports(at, v);
   add_pressure(element, v);
   for (int c = 0; c < 3; ++c)
     for (Index q = 0; q < p; ++q) end_.row(c) += element.h * b[q] * v[c].row(q);
 }
 
-void MemberTangent::add_supports(const RodElement& element, const ElementState& at,
-                                 const std::array<MatrixXd, 3>& v) {
-  (void)element;
+/// The stiffness of all supports in u_a and u'_q first, which are fewer than points of quadrature.
+void MemberTangent::add_supports(const ElementState& at, const std::array<MatrixXd, 3>& v) {
   if (at.acting.empty()) return;
-  MatrixXd rows = MatrixXd::Zero(static_cast<Index>(at.acting.size()), size_);
-  for (std::size_t i = 0; i < at.acting.size(); ++i) {
-    const Functional& f = at.acting[i].row;
-    const auto k = static_cast<Index>(i);
-    for (int c = 0; c < 3; ++c) rows.row(k) += f.a[c] * end_.row(c) + f.v.row(c) * v[c];
-    rows.row(k) *= std::sqrt(at.acting[i].stiffness);
+  const Index p = rod_.lagrange.order();
+  MatrixXd rows(3 * (p + 1), size_);
+  rows.topRows(3) = end_;
+  for (Index c = 0; c < 3; ++c) rows.middleRows(3 + c * p, p) = v[static_cast<std::size_t>(c)];
+  MatrixXd stiffness = MatrixXd::Zero(rows.rows(), rows.rows());
+  VectorXd row(rows.rows());
+  for (const ActingSupport& support : at.acting) {
+    row.head(3) = support.row.a;
+    for (Index c = 0; c < 3; ++c) row.segment(3 + c * p, p) = support.row.v.row(c).transpose();
+    stiffness += support.stiffness * row * row.transpose();
   }
-  H_ += rows.transpose() * rows;
+  H_ += rows.transpose() * (stiffness * rows);
 }
 
 /// Follower pressure's tangent: the symmetric part, and the part by the change of the pressure.
