@@ -16,6 +16,10 @@ const char* name_of(Pattern p) { return named(p, {"proportional", "constant"}); 
 const char* name_of(Reaction r) { return named(r, {"bilateral", "compression_only", "tension_only"}); }
 const char* name_of(Side s) { return named(s, {"left", "right"}); }
 const char* name_of(LoadMeasure m) { return named(m, {"length", "horizontal", "vertical"}); }
+const char* name_of(LoadAxes a) { return named(a, {"global", "member"}); }
+const char* name_of(ReactionLaw::Type t) {
+  return named(t, {"linear", "tanh", "hyperbolic", "power", "table"});
+}
 const char* name_of(Component c) { return named(c, {"x", "y", "rotation", "normal"}); }
 
 Json written(const Location& at) {
@@ -25,7 +29,11 @@ Json written(const Location& at) {
 
 Json written(const LineCurve&) { return {{"type", "line"}}; }
 Json written(const ArcCurve& c) { return {{"type", "arc"}, {"sweep_degrees", c.sweep_degrees}}; }
-Json written(const ParabolaCurve& c) { return {{"type", "parabola"}, {"rise", c.rise}}; }
+Json written(const ParabolaCurve& c) {
+  Json out{{"type", "parabola"}, {"rise", c.rise}};
+  if (c.direction) out["direction"] = *c.direction;
+  return out;
+}
 Json written(const SineCurve& c) {
   return {{"type", "sine"}, {"rise", c.rise}, {"half_waves", c.half_waves}};
 }
@@ -34,14 +42,22 @@ Json written(const PointsCurve& c) { return {{"type", "points"}, {"points", c.po
 Json written(const Section& s) {
   Json out{{"id", s.id}, {"EA", s.EA.constant}, {"EI", s.EI.constant}};
   if (s.GA) out["GA"] = s.GA->constant;
+  if (s.mass) out["mass"] = s.mass->constant;
+  if (s.expansion) out["expansion"] = *s.expansion;
   return out;
+}
+
+/// Release of a member's end: a hinge, or a joint of a stiffness.
+Json released(double stiffness) {
+  if (stiffness == 0.0) return {"rotation"};
+  return {{"rotation", stiffness}};
 }
 
 Json written(const Member& m) {
   Json out{{"id", m.id}, {"start", m.start}, {"end", m.end}, {"section", m.section}};
   out["curve"] = std::visit([](const auto& curve) { return written(curve); }, m.curve);
-  if (m.release_start_rotation) out["release"]["start"] = {"rotation"};
-  if (m.release_end_rotation) out["release"]["end"] = {"rotation"};
+  if (m.release_start_rotation) out["release"]["start"] = released(m.release_start_stiffness);
+  if (m.release_end_rotation) out["release"]["end"] = released(m.release_end_stiffness);
   return out;
 }
 
@@ -56,8 +72,41 @@ Json written(const Support& s) {
   return out;
 }
 
+/// A value, or points along the member in its place.
+template <typename Value>
+Json written(const Value& constant, const Along<Value>& points) {
+  if (points.empty()) return constant;
+  return {{"along", points}};
+}
+Json written(const AlongMember& number) { return written(number.constant, number.points); }
+
+Json written(const ReactionLaw& law) {
+  Json out{{"type", name_of(law.type)}};
+  if (law.type == ReactionLaw::Type::table) {
+    out["points"] = law.points;
+    out["factor"] = written(law.factor);
+    return out;
+  }
+  out["stiffness"] = written(law.stiffness);
+  out["capacity"] = written(law.capacity);
+  if (law.type != ReactionLaw::Type::power) return out;
+  out["reference"] = law.reference;
+  out["exponent"] = law.exponent;
+  return out;
+}
+
+/// Adds the stiffness of a support, or its law. A law of type linear is a stiffness that varies.
+template <typename Support>
+void add_stiffness(Json& out, const Support& support) {
+  if (support.law && support.law->type != ReactionLaw::Type::linear)
+    out["law"] = written(*support.law);
+  else
+    out["stiffness"] = support.law ? written(support.law->stiffness) : Json(support.stiffness);
+}
+
 Json written(const Spring& s) {
-  Json out{{"id", s.id}, {"at", written(s.at)}, {"stiffness", s.stiffness}, {"direction", "rotation"}};
+  Json out{{"id", s.id}, {"at", written(s.at)}, {"direction", "rotation"}};
+  add_stiffness(out, s);
   if (s.direction) out["direction"] = *s.direction;
   out["reaction"] = name_of(s.reaction);
   out["gap"] = s.gap;
@@ -67,13 +116,15 @@ Json written(const Spring& s) {
 Json written(const Foundation& f) {
   Json out{{"id", f.id},
            {"member", f.member},
-           {"stiffness", f.stiffness},
            {"shear_stiffness", f.shear_stiffness},
            {"reaction", name_of(f.reaction)},
            {"range", f.range},
            {"gap", f.gap}};
+  add_stiffness(out, f);
   if (f.direction)
     out["direction"] = *f.direction;
+  else if (f.tangential)
+    out["component"] = "tangent";
   else
     out["side"] = name_of(f.side);
   return out;
@@ -83,17 +134,27 @@ Json written(const PointLoad& l) {
   return {{"type", "point"}, {"at", written(l.at)}, {"force", l.force}, {"moment", l.moment}};
 }
 Json written(const DistributedLoad& l) {
-  return {{"type", "distributed"},
-          {"member", l.member},
-          {"force", l.force},
-          {"range", l.range},
-          {"per", name_of(l.per)}};
+  return {{"type", "distributed"},   {"member", l.member}, {"force", written(l.force, l.force_along)},
+          {"axes", name_of(l.axes)}, {"range", l.range},   {"per", name_of(l.per)}};
 }
 Json written(const PressureLoad& l) {
-  return {{"type", "pressure"}, {"member", l.member}, {"value", l.value}, {"side", name_of(l.side)}};
+  return {{"type", "pressure"},
+          {"member", l.member},
+          {"value", written(l.value, l.value_along)},
+          {"side", name_of(l.side)}};
 }
 Json written(const InitialStrain& l) {
-  return {{"type", "initial_strain"}, {"member", l.member}, {"axial", l.axial}, {"curvature", l.curvature}};
+  return {{"type", "initial_strain"},
+          {"member", l.member},
+          {"axial", written(l.axial, l.axial_along)},
+          {"curvature", written(l.curvature, l.curvature_along)}};
+}
+Json written(const SelfWeight& l) { return {{"type", "self_weight"}, {"gravity", l.gravity}}; }
+Json written(const TemperatureLoad& l) {
+  return {{"type", "temperature"},
+          {"member", l.member},
+          {"change", written(l.change, l.change_along)},
+          {"gradient", written(l.gradient, l.gradient_along)}};
 }
 Json written(const Load& load) {
   return std::visit(
@@ -132,6 +193,24 @@ Json all_of(const std::vector<Item>& items) {
   return out;
 }
 
+/// Adds the loads and the load cases, whose loads stand last and have no patterns.
+void add_loads(Json& out, const Model& m) {
+  std::size_t in_cases = 0;
+  for (const LoadCase& group : m.load_cases) in_cases += group.loads;
+  auto next = m.loads.begin() + static_cast<std::ptrdiff_t>(m.loads.size() - in_cases);
+  out["loads"] = all_of(std::vector<Load>(m.loads.begin(), next));
+  for (const LoadCase& group : m.load_cases) {
+    Json of_case{{"id", group.id}, {"loads", Json::array()}};
+    for (const auto end = next + static_cast<std::ptrdiff_t>(group.loads); next != end; ++next) {
+      Json load = written(*next);
+      of_case["grows"] = load["pattern"] == "proportional";
+      load.erase("pattern");
+      of_case["loads"].push_back(load);
+    }
+    out["load_cases"].push_back(of_case);
+  }
+}
+
 Json written(const Model& m) {
   Json out;
   out["title"] = m.title;
@@ -142,7 +221,7 @@ Json written(const Model& m) {
   out["supports"] = all_of(m.supports);
   out["springs"] = all_of(m.springs);
   out["foundations"] = all_of(m.foundations);
-  out["loads"] = all_of(m.loads);
+  add_loads(out, m);
   out["imperfections"] = all_of(m.imperfections);
   out["monitors"] = all_of(m.monitors);
   return out;

@@ -26,8 +26,22 @@ class Maker {
  private:
   void shape(RodElement& element, const StressFreeAxis& axis) const;
   void base(RodElement& element, const Foundation& base) const;
+  [[nodiscard]] RodStrip sampled(const RodElement& element, RodStrip strip) const;
+  void springs_of_base(RodElement& element, const RodStrip& strip, bool lumped) const;
   void shear_layer(RodElement& element, const Foundation& base, const RodStrip& strip) const;
   void distributed(RodElement& element, const DistributedLoad& load) const;
+  void line_load(RodElement& element, const DistributedLoad& load, const std::array<double, 2>& range) const;
+  void weight(RodElement& element, const SelfWeight& load) const;
+  void pressure(RodElement& element, const PressureLoad& load) const;
+  void strain(RodElement& element, const InitialStrain& load, double axial, double curvature) const;
+  void temperature(RodElement& element, const TemperatureLoad& load) const;
+  void element_spring(RodElement& element, const Spring& spring) const;
+  void member_load(RodElement& element, const Load& load) const;
+  [[nodiscard]] RodReaction reaction_of(const Spring& spring) const;
+  [[nodiscard]] const Section& section_of(const RodElement& element) const {
+    return model_.sections[static_cast<std::size_t>(
+        index_of(model_.sections, model_.members[static_cast<std::size_t>(element.member)].section))];
+  }
   [[nodiscard]] bool holds(const RodElement& element, const Location& at) const;
   void point_load(const PointLoad& load);
 
@@ -96,8 +110,8 @@ void Maker::shear_layer(RodElement& element, const Foundation& base, const RodSt
     const double xi = strip.lo + (strip.hi - strip.lo) * rule.points[i];
     const Vector3d n = direction_of(rod_, element, strip, xi);
     RodSpring spring;
-    spring.stiffness =
-        base.shear_stiffness / rod_.force * element.h * (strip.hi - strip.lo) * rule.weights[i];
+    spring.reaction.law.stiffness = base.shear_stiffness;
+    spring.reaction.share = element.h * (strip.hi - strip.lo) * rule.weights[i] / rod_.force;
     // w = u.n, so w' = u'.n + u.n' and n' = -+ kappa t along the turning normal
     Vector3d turning = Vector3d::Zero();
     if (!base.direction) {
@@ -112,55 +126,119 @@ void Maker::shear_layer(RodElement& element, const Foundation& base, const RodSt
 }
 
 void Maker::base(RodElement& element, const Foundation& base) const {
+  RodStrip strip = strip_of(rod_, base);
   const auto [lo, hi] = part_of(element, base.range);
   if (hi <= lo) return;
-  RodStrip strip;
-  strip.modulus = acting_stiffness(rod_, element, base) * rod_.length * rod_.length / rod_.force;
-  strip.gap = base.reaction == Reaction::bilateral ? 0.0 : base.gap / rod_.length;
   strip.lo = lo;
   strip.hi = hi;
-  const int side = base.side == Side::left ? 1 : -1;
-  const int pull = base.reaction == Reaction::tension_only ? -1 : 1;
-  strip.sign = side * pull;
-  if (base.direction) {
-    const double size = std::hypot((*base.direction)[0], (*base.direction)[1]);
-    strip.fixed = {pull * (*base.direction)[0] / size, pull * (*base.direction)[1] / size};
-  }
+  strip.law = acting_law(rod_, element, base);
   if (base.shear_stiffness > 0.0) shear_layer(element, base, strip);
-  if (base.stiffness == 0.0) return;
+  if (!base.law && base.stiffness == 0.0) return;
   const bool lumped = rod_.mesh.foundation == FoundationRule::lumped;
-  if (!lumped && base.reaction != Reaction::bilateral) {
-    element.strips.push_back(strip);
-    return;
+  if (lumped || (!strip.one_sided && strip.law.is_linear()))
+    springs_of_base(element, strip, lumped);
+  else
+    element.strips.push_back(sampled(element, strip));
+}
+
+/// Samples of the displacement in cosine spacing: beside an end an extremum has samples on one side only.
+RodStrip Maker::sampled(const RodElement& element, RodStrip strip) const {
+  const int cells = 12 * rod_.lagrange.order() + 12;
+  for (int i = 0; i <= cells; ++i) {
+    const double z = 0.5 - 0.5 * std::cos(std::numbers::pi * i / cells);
+    strip.x.push_back(i == cells ? strip.hi : strip.lo + (strip.hi - strip.lo) * z);
+    strip.rows.push_back(
+        functional_at(rod_, element, strip.x.back(), direction_of(rod_, element, strip, strip.x.back())));
   }
+  return strip;
+}
+
+void Maker::springs_of_base(RodElement& element, const RodStrip& strip, bool lumped) const {
   const int n = rod_.lagrange.order() + 1;
   const Rule rule = lumped ? lobatto(n) : gauss(n);
+  const double width = strip.hi - strip.lo;
   for (std::size_t i = 0; i < rule.points.size(); ++i) {
-    const double xi = lumped ? rule.points[i] : lo + (hi - lo) * rule.points[i];
-    if (xi < lo - 1e-9 || xi > hi + 1e-9) continue;
+    const double xi = lumped ? rule.points[i] : strip.lo + width * rule.points[i];
+    if (xi < strip.lo - 1e-9 || xi > strip.hi + 1e-9) continue;
     RodSpring spring;
     spring.row = functional_at(rod_, element, xi, direction_of(rod_, element, strip, xi));
-    spring.stiffness = strip.modulus * element.h * rule.weights[i] * (lumped ? 1.0 : hi - lo);
-    spring.gap = strip.gap;
-    spring.one_sided = base.reaction != Reaction::bilateral;
+    spring.reaction = {strip.law.at(fraction_at(element, xi)), rod_.length,
+                       element.h * rule.weights[i] * (lumped ? 1.0 : width) * rod_.length / rod_.force,
+                       strip.gap, strip.one_sided};
     element.springs.push_back(spring);
   }
 }
 
+/// Adds the parts of a distributed load between the places at which its force bends.
 void Maker::distributed(RodElement& element, const DistributedLoad& load) const {
-  const auto [lo, hi] = part_of(element, load.range);
+  std::array<double, 2> range = load.range;
+  for (const auto& [fraction, force] : load.force_along) {
+    if (fraction <= range[0] || fraction >= load.range[1]) continue;
+    line_load(element, load, {range[0], fraction});
+    range[0] = fraction;
+  }
+  line_load(element, load, range);
+}
+
+void Maker::line_load(RodElement& element, const DistributedLoad& load,
+                      const std::array<double, 2>& range) const {
+  const auto [lo, hi] = part_of(element, range);
   if (hi <= lo) return;
+  std::array<std::vector<std::pair<double, double>>, 2> components;
+  for (const auto& [fraction, force] : load.force_along)
+    for (std::size_t c = 0; c < 2; ++c) components[c].emplace_back(fraction, force[c]);
   const Rule rule = gauss(rod_.lagrange.order() + 1);
   const AxisCurve& axis = *rod_.axes[element.member];
   for (std::size_t i = 0; i < rule.points.size(); ++i) {
     const double xi = lo + (hi - lo) * rule.points[i];
-    const double angle = axis.at(axis.length() * (element.from + xi * (element.to - element.from))).angle;
+    const double fraction = fraction_at(element, xi);
+    const double angle = axis.at(axis.length() * fraction).angle;
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
     double w = element.h * (hi - lo) * rule.weights[i] * rod_.length / rod_.force;
-    if (load.per == LoadMeasure::horizontal) w *= std::abs(std::cos(angle));
-    if (load.per == LoadMeasure::vertical) w *= std::abs(std::sin(angle));
+    if (load.per == LoadMeasure::horizontal) w *= std::abs(c);
+    if (load.per == LoadMeasure::vertical) w *= std::abs(s);
+    const double p = along(components[0], load.force[0], fraction);
+    const double q = along(components[1], load.force[1], fraction);
+    const bool turned = load.axes == LoadAxes::member;
     add(element.load[slot(load.pattern)],
-        functional_at(rod_, element, xi, Vector3d(w * load.force[0], w * load.force[1], 0.0)));
+        functional_at(rod_, element, xi,
+                      w * Vector3d(turned ? p * c - q * s : p, turned ? p * s + q * c : q, 0.0)));
   }
+}
+
+void Maker::weight(RodElement& element, const SelfWeight& load) const {
+  const double mass = section_of(element).mass.value_or(0.0);
+  DistributedLoad pull;
+  pull.force = {mass * load.gravity[0], mass * load.gravity[1]};
+  pull.pattern = load.pattern;
+  distributed(element, pull);
+}
+
+void Maker::pressure(RodElement& element, const PressureLoad& load) const {
+  const double unit = (load.side == Side::left ? 1.0 : -1.0) * rod_.length / rod_.force;
+  RodPressure& out = element.pressure[slot(load.pattern)];
+  out.from += unit * along(load.value_along, load.value, element.from);
+  out.to += unit * along(load.value_along, load.value, element.to);
+}
+
+/// @param axial, curvature factors of the load's numbers
+void Maker::strain(RodElement& element, const InitialStrain& load, double axial, double curvature) const {
+  const Rule& rule = rod_.lagrange.rule();
+  for (int q = 0; q < rod_.lagrange.order(); ++q) {
+    const double fraction = fraction_at(element, rule.points[static_cast<std::size_t>(q)]);
+    element.strain[slot(load.pattern)][q] += axial * along(load.axial_along, load.axial, fraction);
+    element.curvature[slot(load.pattern)][q] +=
+        curvature * rod_.length * along(load.curvature_along, load.curvature, fraction);
+  }
+}
+
+/// The warmer left side grows, so that a member bends to the right.
+void Maker::temperature(RodElement& element, const TemperatureLoad& load) const {
+  const double expansion = section_of(element).expansion.value_or(0.0);
+  strain(element,
+         {load.member, load.change, load.gradient, load.pattern, load.change_along, load.gradient_along},
+         expansion, -expansion);
 }
 
 /// A place at an element's end belongs to the element that starts there, the member's end to its last.
@@ -177,48 +255,60 @@ Vector3d spring_row(const Spring& spring) {
   return {sign * (*spring.direction)[0] / size, sign * (*spring.direction)[1] / size, 0.0};
 }
 
-void Maker::element_actions(RodElement& element) {
+RodReaction Maker::reaction_of(const Spring& spring) const {
+  RodReaction out;
+  out.law = law_of_support(spring).at(0.0);
+  out.unit = spring.direction ? rod_.length : 1.0;
+  out.share = spring.direction ? 1.0 / rod_.force : 1.0 / (rod_.force * rod_.length);
+  out.one_sided = spring.reaction != Reaction::bilateral;
+  if (out.one_sided) out.gap = spring.gap / out.unit;
+  return out;
+}
+
+double xi_of(const RodElement& element, const Location& at) {
+  return std::clamp((at.fraction - element.from) / (element.to - element.from), 0.0, 1.0);
+}
+
+void Maker::element_spring(RodElement& element, const Spring& spring) const {
+  if (!holds(element, spring.at)) return;
+  element.springs.push_back(
+      {functional_at(rod_, element, xi_of(element, spring.at), spring_row(spring)), reaction_of(spring)});
+}
+
+void Maker::member_load(RodElement& element, const Load& load) const {
   const std::string& id = model_.members[element.member].id;
-  const auto xi_of = [&element](const Location& at) {
-    return std::clamp((at.fraction - element.from) / (element.to - element.from), 0.0, 1.0);
-  };
+  if (const auto* point = std::get_if<PointLoad>(&load); point != nullptr && holds(element, point->at)) {
+    const Vector3d action(point->force[0], point->force[1], point->moment / rod_.length);
+    add(element.load[slot(point->pattern)],
+        functional_at(rod_, element, xi_of(element, point->at), action / rod_.force));
+  }
+  if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == id)
+    distributed(element, *d);
+  if (const auto* p = std::get_if<PressureLoad>(&load); p != nullptr && p->member == id)
+    pressure(element, *p);
+  if (const auto* i = std::get_if<InitialStrain>(&load); i != nullptr && i->member == id)
+    strain(element, *i, 1.0, 1.0);
+  if (const auto* t = std::get_if<TemperatureLoad>(&load); t != nullptr && t->member == id)
+    temperature(element, *t);
+  if (const auto* w = std::get_if<SelfWeight>(&load)) weight(element, *w);
+}
+
+void Maker::element_actions(RodElement& element) {
   for (const Foundation& foundation : model_.foundations)
-    if (foundation.member == id) base(element, foundation);
-  for (const Spring& spring : model_.springs) {
-    if (!holds(element, spring.at)) continue;
-    RodSpring out;
-    out.row = functional_at(rod_, element, xi_of(spring.at), spring_row(spring));
-    out.one_sided = spring.reaction != Reaction::bilateral;
-    out.stiffness = spring.stiffness * (spring.direction ? rod_.length : 1.0 / rod_.length) / rod_.force;
-    if (out.one_sided) out.gap = spring.direction ? spring.gap / rod_.length : spring.gap;
-    element.springs.push_back(out);
-  }
-  for (const Load& load : model_.loads) {
-    if (const auto* point = std::get_if<PointLoad>(&load); point != nullptr && holds(element, point->at)) {
-      const Vector3d action(point->force[0], point->force[1], point->moment / rod_.length);
-      add(element.load[slot(point->pattern)],
-          functional_at(rod_, element, xi_of(point->at), action / rod_.force));
-    }
-    if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == id)
-      distributed(element, *d);
-    if (const auto* p = std::get_if<PressureLoad>(&load); p != nullptr && p->member == id)
-      element.pressure[slot(p->pattern)] +=
-          (p->side == Side::left ? 1.0 : -1.0) * p->value * rod_.length / rod_.force;
-    if (const auto* i = std::get_if<InitialStrain>(&load); i != nullptr && i->member == id) {
-      element.strain[slot(i->pattern)] += i->axial;
-      element.curvature[slot(i->pattern)] += i->curvature * rod_.length;
-    }
-  }
+    if (foundation.member == model_.members[element.member].id) base(element, foundation);
+  for (const Spring& spring : model_.springs) element_spring(element, spring);
+  for (const Load& load : model_.loads) member_load(element, load);
 }
 
 void Maker::members() {
   const int p = rod_.lagrange.order();
+  const double turn = 1.0 / (rod_.force * rod_.length);
   for (std::size_t m = 0; m < model_.members.size(); ++m) {
     const Member& member = model_.members[m];
     rod_.members.push_back({index_of(model_.nodes, member.start),
                             index_of(model_.nodes, member.end),
-                            member.release_start_rotation,
-                            member.release_end_rotation,
+                            {member.release_start_rotation, turn * member.release_start_stiffness},
+                            {member.release_end_rotation, turn * member.release_end_stiffness},
                             {}});
     stress_free_.emplace_back(model_, static_cast<int>(m), rod_.axes[m], std::vector<CubicSpline>{});
     const Section& section = model_.sections[index_of(model_.sections, member.section)];
@@ -232,6 +322,8 @@ void Maker::members() {
       element.shear = section.GA ? rod_.force / section.GA->constant : 0.0;
       element.bending = rod_.force * rod_.length * rod_.length / section.EI.constant;
       for (Functional& load : element.load) load.v = MatrixXd::Zero(3, p);
+      element.strain.fill(VectorXd::Zero(p));
+      element.curvature.fill(VectorXd::Zero(p));
       shape(element, stress_free_.back());
       element_actions(element);
       rod_.elements.push_back(std::move(element));
@@ -259,13 +351,8 @@ void Maker::nodes() {
     if (const auto* point = std::get_if<PointLoad>(&load)) point_load(*point);
   for (const Spring& spring : model_.springs) {
     if (spring.at.node.empty()) continue;
-    NodeSpring out;
-    out.node = index_of(model_.nodes, spring.at.node);
-    out.row = spring_row(spring);
-    out.one_sided = spring.reaction != Reaction::bilateral;
-    out.stiffness = spring.stiffness * (spring.direction ? rod_.length : 1.0 / rod_.length) / rod_.force;
-    if (out.one_sided) out.gap = spring.direction ? spring.gap / rod_.length : spring.gap;
-    rod_.node_springs.push_back(out);
+    rod_.node_springs.push_back(
+        {index_of(model_.nodes, spring.at.node), spring_row(spring), reaction_of(spring)});
   }
 }
 
@@ -318,18 +405,32 @@ Functional functional_at(const RodModel& rod, const RodElement& element, double 
   return {row, row * (element.h * rod.lagrange.integrals(xi)).transpose()};
 }
 
-double acting_stiffness(const RodModel& rod, const RodElement& element, const Foundation& base) {
-  if (base.reaction == Reaction::bilateral) return base.stiffness;
+LawAlong acting_law(const RodModel& rod, const RodElement& element, const Foundation& base) {
+  if (base.law || base.reaction == Reaction::bilateral) return law_of_support(base);
   const double shortest = element.h / rod.mesh.decay_lengths;
   const double modulus = rod.force / (rod.length * rod.length);
-  return std::min(base.stiffness, 4.0 * modulus / (element.bending * std::pow(shortest, 4)));
+  return LawAlong(std::min(base.stiffness, 4.0 * modulus / (element.bending * std::pow(shortest, 4))));
+}
+
+RodStrip strip_of(const RodModel& rod, const Foundation& base) {
+  const int pull = base.reaction == Reaction::tension_only ? -1 : 1;
+  RodStrip out;
+  out.one_sided = base.reaction != Reaction::bilateral;
+  out.gap = out.one_sided ? base.gap / rod.length : 0.0;
+  out.sign = pull * (base.side == Side::left ? 1 : -1);
+  out.tangential = base.tangential;
+  if (!base.direction) return out;
+  const double size = std::hypot((*base.direction)[0], (*base.direction)[1]);
+  out.fixed = {pull * (*base.direction)[0] / size, pull * (*base.direction)[1] / size};
+  return out;
 }
 
 Eigen::Vector3d direction_of(const RodModel& rod, const RodElement& element, const RodStrip& strip,
                              double xi) {
   if (strip.fixed) return {(*strip.fixed)[0], (*strip.fixed)[1], 0.0};
   const AxisCurve& axis = *rod.axes[element.member];
-  const double angle = axis.at(axis.length() * (element.from + xi * (element.to - element.from))).angle;
+  const double angle = axis.at(axis.length() * fraction_at(element, xi)).angle;
+  if (strip.tangential) return {std::cos(angle), std::sin(angle), 0.0};
   return {-strip.sign * std::sin(angle), strip.sign * std::cos(angle), 0.0};
 }
 

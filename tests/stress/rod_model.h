@@ -13,6 +13,7 @@
 #include "solver/model/analysis.h"
 #include "solver/model/model.h"
 #include "solver/result.h"
+#include "tests/stress/rod_law.h"
 #include "tests/stress/rod_rule.h"
 
 namespace snapthrough::testing {
@@ -26,17 +27,41 @@ struct Functional {
   MatrixXd v;  ///< 3 x P
 };
 
-struct RodSpring {
-  Functional row;
-  double stiffness = 0.0, gap = 0.0;
+/// Law of a discrete support: the force is share * law(unit * penetration).
+struct RodReaction {
+  RodLaw law;
+  double unit = 1.0;   ///< model's units of one of the checker's
+  double share = 1.0;  ///< checker's force of the law's force one
+  double gap = 0.0;
   bool one_sided = false;
+
+  /// @param w displacement into the medium
+  [[nodiscard]] bool acts(double w) const { return !one_sided || w > gap; }
+  [[nodiscard]] double force(double w) const { return share * law.force(unit * (w - gap)); }
+  [[nodiscard]] double slope(double w) const { return share * unit * law.slope(unit * (w - gap)); }
 };
 
-/// One-sided base on the part [lo, hi] of an element.
+struct RodSpring {
+  Functional row;
+  RodReaction reaction;
+};
+
+/// Foundation on the part [lo, hi] of an element that is one-sided or not linear.
 struct RodStrip {
-  double modulus = 0.0, gap = 0.0, lo = 0.0, hi = 1.0;
+  LawAlong law;
+  double gap = 0.0, lo = 0.0, hi = 1.0;
+  bool one_sided = false;
   int sign = 1;                                ///< of the left normal, towards which it reacts
-  std::optional<std::array<double, 2>> fixed;  ///< instead of the normal
+  bool tangential = false;                     ///< along the tangent instead of the normal
+  std::optional<std::array<double, 2>> fixed;  ///< instead of both
+  std::vector<double> x;                       ///< places at which the displacement is sampled, ascending
+  std::vector<Functional> rows;                ///< displacements into the medium there
+};
+
+/// Follower pressure of an element, linear from its start to its end.
+struct RodPressure {
+  double from = 0.0, to = 0.0;
+  [[nodiscard]] double at(double xi) const { return from + xi * (to - from); }
 };
 
 struct RodElement {
@@ -47,10 +72,11 @@ struct RodElement {
   std::vector<RodSpring> springs;
   std::vector<RodStrip> strips;
   std::array<Functional, 2> load;  ///< proportional, constant
-  std::array<double, 2> pressure{}, strain{}, curvature{};
-  std::vector<int> samples;  ///< of the member's state
-  MatrixXd fit;              ///< (P + 1) x samples: u_a and u'_q
-  MatrixXd basis;            ///< samples x (P + 1)
+  std::array<RodPressure, 2> pressure{};
+  std::array<VectorXd, 2> strain, curvature;  ///< at the Gauss points
+  std::vector<int> samples;                   ///< of the member's state
+  MatrixXd fit;                               ///< (P + 1) x samples: u_a and u'_q
+  MatrixXd basis;                             ///< samples x (P + 1)
 };
 
 struct RodNode {
@@ -63,13 +89,18 @@ struct RodNode {
 struct NodeSpring {
   int node = 0;
   Eigen::Vector3d row = Eigen::Vector3d::Zero();
-  double stiffness = 0.0, gap = 0.0;
-  bool one_sided = false;
+  RodReaction reaction;
+};
+
+/// Joint of a member's end and its node.
+struct RodJoint {
+  bool turns = false;      ///< the end has a rotation of its own
+  double stiffness = 0.0;  ///< moment of a relative rotation of one
 };
 
 struct RodMember {
   int start = 0, end = 0;
-  bool release_start = false, release_end = false;
+  RodJoint at_start, at_end;
   std::vector<StressFreePoint> sampled;  ///< stress-free axis at the samples, in the model's units
 };
 
@@ -99,9 +130,17 @@ struct RodModel {
 [[nodiscard]] Functional functional_at(const RodModel& rod, const RodElement& element, double xi,
                                        const Eigen::Vector3d& row);
 
-/// @brief The stiffness of a base on an element, in the model's units: a one-sided one decays over no shorter
-/// length than its mesh resolves.
-[[nodiscard]] double acting_stiffness(const RodModel& rod, const RodElement& element, const Foundation& base);
+/// @brief The law of a base on an element, in the model's units: a one-sided one with a stiffness decays over
+/// no shorter length than its mesh resolves.
+[[nodiscard]] LawAlong acting_law(const RodModel& rod, const RodElement& element, const Foundation& base);
+
+/// Fraction of the member's length at xi of its element.
+[[nodiscard]] inline double fraction_at(const RodElement& element, double xi) {
+  return element.from + xi * (element.to - element.from);
+}
+
+/// @brief Direction and gap of a base, as a strip on a whole element without a law.
+[[nodiscard]] RodStrip strip_of(const RodModel& rod, const Foundation& base);
 
 /// @brief Unit direction in which a base on this strip reacts, at xi of the element.
 [[nodiscard]] Eigen::Vector3d direction_of(const RodModel& rod, const RodElement& element,

@@ -56,19 +56,38 @@ Rule lobatto(int n) {
   return rule;
 }
 
-Eigen::VectorXd Lagrange::values(double xi) const {
-  const auto& x = rule_.points;
-  Eigen::VectorXd out = Eigen::VectorXd::Ones(order());
-  for (std::size_t q = 0; q < x.size(); ++q)
-    for (std::size_t r = 0; r < x.size(); ++r)
-      if (r != q) out[static_cast<Eigen::Index>(q)] *= (xi - x[r]) / (x[q] - x[r]);
+namespace {
+
+/// Legendre polynomials of degree 0 to n at xi of [0, 1].
+Eigen::VectorXd legendre_series(int n, double xi) {
+  const double z = 2.0 * xi - 1.0;
+  Eigen::VectorXd out = Eigen::VectorXd::Ones(n + 1);
+  if (n > 0) out[1] = z;
+  for (int k = 2; k <= n; ++k) out[k] = ((2 * k - 1) * z * out[k - 1] - (k - 1) * out[k - 2]) / k;
   return out;
 }
 
+}  // namespace
+
+/// The Gauss points integrate the products of Lagrange and Legendre polynomials exactly, which are the
+/// coefficients of the series.
+Lagrange::Lagrange(int order) : rule_(gauss(order)), series_(order, order) {
+  for (int q = 0; q < order; ++q) {
+    const Eigen::VectorXd at = legendre_series(order - 1, rule_.points[static_cast<std::size_t>(q)]);
+    for (int k = 0; k < order; ++k)
+      series_(q, k) = rule_.weights[static_cast<std::size_t>(q)] * (2 * k + 1) * at[k];
+  }
+}
+
+Eigen::VectorXd Lagrange::values(double xi) const { return series_ * legendre_series(order() - 1, xi); }
+
+/// The integral of a Legendre polynomial of degree k is (P_(k+1) - P_(k-1)) / (4 k + 2) on [0, 1].
 Eigen::VectorXd Lagrange::integrals(double xi) const {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(order());
-  for (int i = 0; i < order(); ++i) out += xi * rule_.weights[i] * values(xi * rule_.points[i]);
-  return out;
+  const Eigen::VectorXd at = legendre_series(order(), xi);
+  Eigen::VectorXd integral(order());
+  integral[0] = xi;
+  for (int k = 1; k < order(); ++k) integral[k] = (at[k + 1] - at[k - 1]) / (4 * k + 2);
+  return series_ * integral;
 }
 
 }  // namespace snapthrough::testing

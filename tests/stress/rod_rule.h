@@ -19,7 +19,7 @@ struct Rule {
 /// @brief Lagrange polynomials through the P Gauss points and their integrals from 0.
 class Lagrange {
  public:
-  explicit Lagrange(int order) : rule_(gauss(order)) {}
+  explicit Lagrange(int order);
   [[nodiscard]] int order() const { return static_cast<int>(rule_.points.size()); }
   [[nodiscard]] const Rule& rule() const { return rule_; }
   [[nodiscard]] Eigen::VectorXd values(double xi) const;
@@ -27,6 +27,7 @@ class Lagrange {
 
  private:
   Rule rule_;
+  Eigen::MatrixXd series_;  ///< of the polynomials by rows, in Legendre polynomials
 };
 
 }  // namespace snapthrough::testing

@@ -22,6 +22,30 @@ constexpr double kConvergedForce = 1e-9;
 /// Positions are a sum of three terms each rounded; a few units in the last place.
 constexpr double kUlps = 4.0;
 
+/// Part [from, to] of a strip on which it acts and its law is smooth.
+struct StripPiece {
+  const RodElement& element;
+  const RodStrip& strip;
+  double from, to;
+  Rule rule;
+};
+
+/// End of a member with a rotation of its own.
+struct TurningEnd {
+  int node;
+  double stiffness;  ///< of the joint
+  double rotation;
+  double moment;  ///< derivative of the member's energy by the rotation
+  double noise;   ///< of the moment
+};
+
+/// What members and springs bring to the nodes.
+struct NodeSums {
+  std::vector<Vector3d> force;
+  std::vector<TurningEnd> ends;
+  double noise = 0.0;
+};
+
 class Evaluation {
  public:
   Evaluation(const RodModel& rod, const State& state, double closer, double imperfection)
@@ -32,10 +56,23 @@ class Evaluation {
   void shape(const RodElement& element, ElementState& out);
   void collect(const RodElement& element, ElementState& out) const;
   void collect_strip(const RodElement& element, const RodStrip& strip, ElementState& out) const;
+  void collect_piece(const StripPiece& piece, int halvings, ElementState& out) const;
+  [[nodiscard]] std::vector<ActingSupport> supports_on(const StripPiece& piece, const ElementState& at) const;
+  [[nodiscard]] double penetration(const RodElement& element, const RodStrip& strip, const Functional& row,
+                                   const ElementState& at) const;
   [[nodiscard]] double penetration(const RodElement& element, const RodStrip& strip, double xi,
                                    const ElementState& at) const;
   [[nodiscard]] double rounding_of(const RodElement& element, const Functional& row) const;
   [[nodiscard]] Functional actions(const RodElement& element, const ElementState& at) const;
+  void push(const RodElement& element, const ElementState& at, const RodPressure& pressure,
+            Functional& r) const;
+  void meet_nodes(int m, NodeSums& sums);
+  void turn_nodes(const NodeSums& sums);
+  void joint_moments(const NodeSums& sums);
+  void node_equations(std::size_t n, const NodeSums& sums);
+  [[nodiscard]] Vector3d load_of(const std::array<Vector3d, 2>& patterns) const {
+    return state_.load_factor * patterns[0] + patterns[1];
+  }
   void reported_force(int m);
   void member(int m);
   void pass();
@@ -109,7 +146,12 @@ void Evaluation::shape(const RodElement& element, ElementState& out) {
 
 double Evaluation::penetration(const RodElement& element, const RodStrip& strip, double xi,
                                const ElementState& at) const {
-  const Functional row = functional_at(rod_, element, xi, direction_of(rod_, element, strip, xi));
+  return penetration(element, strip, functional_at(rod_, element, xi, direction_of(rod_, element, strip, xi)),
+                     at);
+}
+
+double Evaluation::penetration(const RodElement& element, const RodStrip& strip, const Functional& row,
+                               const ElementState& at) const {
   const double depth = value_of(row, at.u) - strip.gap;
   return closer_ == 0.0 ? depth : depth + closer_ * rounding_of(element, row);
 }
@@ -127,30 +169,33 @@ double extremum(const Function& f, double a, double b, bool from_above) {
   return 0.5 * (a + b);
 }
 
-/// Places in [lo, hi] where f changes its sign, ascending; pairs between samples are found by the extrema.
+/// Values g of a function at ascending places x.
+struct Samples {
+  std::vector<double> x, g;
+};
+
+/// Places where f changes its sign, ascending; pairs between samples are found by the extrema.
 template <class Function>
-std::vector<double> sign_changes(const Function& f, double lo, double hi, int cells) {
-  // cosine spacing: beside an end an extremum has samples on one side only
-  std::vector<double> x;
-  for (int i = 0; i <= cells; ++i)
-    x.push_back(lo + (hi - lo) * (0.5 - 0.5 * std::cos(std::numbers::pi * i / cells)));
-  x.back() = hi;
+std::vector<double> sign_changes(const Function& f, Samples of) {
+  auto& [x, g] = of;
   for (std::size_t i = 1; i + 1 < x.size(); ++i) {
-    const double g = f(x[i]);
-    const bool above = g > 0.0;
-    if (std::abs(g) > std::min(std::abs(f(x[i - 1])), std::abs(f(x[i + 1])))) continue;
-    if ((f(x[i - 1]) > 0.0) != above || (f(x[i + 1]) > 0.0) != above) continue;
+    const bool above = g[i] > 0.0;
+    if (std::abs(g[i]) > std::min(std::abs(g[i - 1]), std::abs(g[i + 1]))) continue;
+    if ((g[i - 1] > 0.0) != above || (g[i + 1] > 0.0) != above) continue;
     const double at = extremum(f, x[i - 1], x[i + 1], above);
-    if ((f(at) > 0.0) == above) continue;
-    x.insert(x.begin() + static_cast<std::ptrdiff_t>(i) + (at > x[i] ? 1 : 0), at);
+    const double extreme = f(at);
+    if ((extreme > 0.0) == above) continue;
+    const auto place = static_cast<std::ptrdiff_t>(i) + (at > x[i] ? 1 : 0);
+    x.insert(x.begin() + place, at);
+    g.insert(g.begin() + place, extreme);
     i += 2;
   }
   std::vector<double> out;
   for (std::size_t i = 1; i < x.size(); ++i) {
+    const bool before = g[i - 1] > 0.0;
+    if ((g[i] > 0.0) == before) continue;
     double a = x[i - 1];
     double b = x[i];
-    const bool before = f(a) > 0.0;
-    if ((f(b) > 0.0) == before) continue;
     for (int it = 0; it < 60; ++it) {
       const double mid = 0.5 * (a + b);
       ((f(mid) > 0.0) == before ? a : b) = mid;
@@ -160,60 +205,164 @@ std::vector<double> sign_changes(const Function& f, double lo, double hi, int ce
   return out;
 }
 
-/// Springs at the Gauss points of the intervals in which the strip is pressed.
+/// Penetration of a law's kink at a fraction; without one, farther than displacements reach.
+double kink_at(const LawAlong& law, double fraction, std::size_t kink) {
+  const std::vector<double> at = law.at(fraction).kinks();
+  return kink < at.size() ? at[kink] : 1e300;
+}
+
+/// Parts of a strip between the places at which it begins or ceases to act or its law has a kink.
+/// @param depth displacement into the medium beyond the gap, at xi of the element; depths: at the strip's
+/// samples
+/// @param length model's units of one of the depth's
+template <class Depth>
+std::vector<std::array<double, 2>> smooth_parts(const RodElement& element, const RodStrip& strip,
+                                                const Samples& depths, const Depth& depth, double length) {
+  std::vector<double> ends{strip.lo, strip.hi};
+  const auto add = [&ends](const std::vector<double>& found) {
+    ends.insert(ends.end(), found.begin(), found.end());
+  };
+  if (strip.one_sided) add(sign_changes(depth, depths));
+  std::size_t kinks = 0;
+  for (const double xi : depths.x)
+    kinks = std::max(kinks, strip.law.at(fraction_at(element, xi)).kinks().size());
+  for (std::size_t k = 0; k < kinks; ++k)
+    for (const double sense : {1.0, -1.0}) {
+      if (strip.one_sided && sense < 0.0) continue;
+      const auto beyond = [&](double at, double xi) {
+        return sense * at - kink_at(strip.law, fraction_at(element, xi), k) / length;
+      };
+      Samples moved = depths;
+      for (std::size_t i = 0; i < moved.x.size(); ++i) moved.g[i] = beyond(depths.g[i], moved.x[i]);
+      add(sign_changes([&](double xi) { return beyond(depth(xi), xi); }, std::move(moved)));
+    }
+  std::ranges::sort(ends);
+  std::vector<std::array<double, 2>> out;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    if (ends[i + 1] > ends[i] && (!strip.one_sided || depth(0.5 * (ends[i] + ends[i + 1])) > 0.0))
+      out.push_back({ends[i], ends[i + 1]});
+  return out;
+}
+
+/// Supports at the Gauss points of the parts on which a strip acts. On a linear law the Gauss points are
+/// exact; on others the parts are halved until their forces and stiffnesses do not change.
 void Evaluation::collect_strip(const RodElement& element, const RodStrip& strip, ElementState& out) const {
   const int p = rod_.lagrange.order();
   const auto depth = [&](double xi) { return penetration(element, strip, xi, out); };
-  const bool first = depth(strip.lo) > 0.0;
-  std::vector<double> edges = sign_changes(depth, strip.lo, strip.hi, 12 * p + 12);
-  edges.insert(edges.begin(), strip.lo);
-  edges.push_back(strip.hi);
-  const Rule rule = gauss(std::max(p + 2, 5));
-  for (std::size_t k = first ? 0 : 1; k + 1 < edges.size(); k += 2) {
-    const double width = edges[k + 1] - edges[k];
-    for (std::size_t i = 0; i < rule.points.size(); ++i) {
-      const double xi = edges[k] + width * rule.points[i];
-      RodSpring spring;
-      spring.row = functional_at(rod_, element, xi, direction_of(rod_, element, strip, xi));
-      spring.stiffness = strip.modulus * element.h * width * rule.weights[i];
-      spring.gap = strip.gap;
-      out.acting.push_back(spring);
+  Samples depths{strip.x, {}};
+  for (const Functional& row : strip.rows) depths.g.push_back(penetration(element, strip, row, out));
+  constexpr int kMostHalvings = 12;
+  const Rule rule = strip.law.is_linear() ? gauss(std::max(p + 2, 5)) : gauss(p + 6);
+  for (const auto& [from, to] : smooth_parts(element, strip, depths, depth, rod_.length))
+    collect_piece({element, strip, from, to, rule}, strip.law.is_linear() ? 0 : kMostHalvings, out);
+}
+
+std::vector<ActingSupport> Evaluation::supports_on(const StripPiece& piece, const ElementState& at) const {
+  const RodElement& element = piece.element;
+  std::vector<ActingSupport> out;
+  for (std::size_t i = 0; i < piece.rule.points.size(); ++i) {
+    const double width = piece.to - piece.from;
+    const double xi = piece.from + width * piece.rule.points[i];
+    ActingSupport support;
+    support.row = functional_at(rod_, element, xi, direction_of(rod_, element, piece.strip, xi));
+    const double share = element.h * width * piece.rule.weights[i] * rod_.length / rod_.force;
+    const RodReaction reaction{piece.strip.law.at(fraction_at(element, xi)), rod_.length, share,
+                               piece.strip.gap, piece.strip.one_sided};
+    const double w = value_of(support.row, at.u);
+    support.force = reaction.force(w);
+    support.stiffness = reaction.slope(w + closer_ * rounding_of(element, support.row));
+    out.push_back(std::move(support));
+  }
+  return out;
+}
+
+/// Sums of sizes of forces and of stiffnesses.
+std::array<double, 2> sums_of(const std::vector<ActingSupport>& supports) {
+  std::array<double, 2> out{};
+  for (const ActingSupport& s : supports) {
+    out[0] += std::abs(s.force);
+    out[1] += s.stiffness;
+  }
+  return out;
+}
+
+void Evaluation::collect_piece(const StripPiece& piece, int halvings, ElementState& out) const {
+  constexpr double kSame = 1e-11;
+  std::vector<ActingSupport> whole = supports_on(piece, out);
+  if (halvings > 0) {
+    const double middle = 0.5 * (piece.from + piece.to);
+    const StripPiece left{piece.element, piece.strip, piece.from, middle, piece.rule};
+    const StripPiece right{piece.element, piece.strip, middle, piece.to, piece.rule};
+    const std::array<double, 2> once = sums_of(whole);
+    const std::array<double, 2> a = sums_of(supports_on(left, out));
+    const std::array<double, 2> b = sums_of(supports_on(right, out));
+    if (std::abs(a[0] + b[0] - once[0]) > kSame * once[0] ||
+        std::abs(a[1] + b[1] - once[1]) > kSame * once[1]) {
+      collect_piece(left, halvings - 1, out);
+      collect_piece(right, halvings - 1, out);
+      return;
     }
   }
+  std::ranges::move(whole, std::back_inserter(out.acting));
 }
 
 void Evaluation::collect(const RodElement& element, ElementState& out) const {
-  for (const RodSpring& spring : element.springs)
-    if (!spring.one_sided ||
-        value_of(spring.row, out.u) + closer_ * rounding_of(element, spring.row) > spring.gap)
-      out.acting.push_back(spring);
+  for (const RodSpring& spring : element.springs) {
+    const double w = value_of(spring.row, out.u);
+    const double moved = w + closer_ * rounding_of(element, spring.row);
+    if (spring.reaction.acts(moved))
+      out.acting.push_back({spring.row, spring.reaction.force(w), spring.reaction.slope(moved)});
+  }
   for (const RodStrip& strip : element.strips) collect_strip(element, strip, out);
+}
+
+/// @brief Subtracts the work of a follower pressure p from the left, per unit of the displacements (v, w).
+///
+/// p (y' v - x' w) per length is the derivative of p times the swept area 1/2 (x y' - y x'), less its values
+/// at the element's ends, and 1/2 p' (x w - y v). The integrals are sums over the Gauss points, as the
+/// discretisation defines them; places are relative to the element's deformed start.
+void Evaluation::push(const RodElement& element, const ElementState& at, const RodPressure& pressure,
+                      Functional& r) const {
+  const Rule& rule = rod_.lagrange.rule();
+  const Eigen::Index p = rod_.lagrange.order();
+  const VectorXd dx = element.tx + at.u.col(0).tail(p);
+  const VectorXd dy = element.ty + at.u.col(1).tail(p);
+  const auto act = [&](double xi, const Vector3d& force) {
+    const Functional f = functional_at(rod_, element, xi, force);
+    r.a -= f.a;
+    r.v -= f.v;
+  };
+  for (Eigen::Index q = 0; q < p; ++q) {
+    const double xi = rule.points[q];
+    const VectorXd a = element.h * rod_.lagrange.integrals(xi);
+    const double x = a.dot(dx);
+    const double y = a.dot(dy);
+    const double half = 0.5 * element.h * rule.weights[q] * pressure.at(xi);
+    const double change = 0.5 * rule.weights[q] * (pressure.to - pressure.from);
+    act(xi, {half * dy[q] - change * y, change * x - half * dx[q], 0.0});
+    r.v(0, q) += half * y;
+    r.v(1, q) -= half * x;
+  }
+  const VectorXd whole = element.h * Eigen::Map<const VectorXd>(rule.weights.data(), p);
+  act(1.0, 0.5 * pressure.to * Vector3d(whole.dot(dy), -whole.dot(dx), 0.0));
 }
 
 /// Gradient of supports' energy less loads' work by u_a and u'_q.
 Functional Evaluation::actions(const RodElement& element, const ElementState& at) const {
   const Eigen::Index p = rod_.lagrange.order();
   Functional r{Vector3d::Zero(), MatrixXd::Zero(3, p)};
-  double pressure = 0.0;
+  RodPressure pressure;
   for (int k = 0; k < 2; ++k) {
     r.a -= factor(k, state_.load_factor) * element.load[k].a;
     r.v -= factor(k, state_.load_factor) * element.load[k].v;
-    pressure += factor(k, state_.load_factor) * element.pressure[k];
+    pressure.from += factor(k, state_.load_factor) * element.pressure[k].from;
+    pressure.to += factor(k, state_.load_factor) * element.pressure[k].to;
   }
-  for (const RodSpring& spring : at.acting) {
-    const double force = spring.stiffness * (value_of(spring.row, at.u) - spring.gap);
-    r.a += force * spring.row.a;
-    r.v += force * spring.row.v;
+  for (const ActingSupport& support : at.acting) {
+    r.a += support.force * support.row.a;
+    r.v += support.force * support.row.v;
   }
-  if (pressure == 0.0) return r;
-  const Rule& rule = rod_.lagrange.rule();
-  for (Eigen::Index q = 0; q < p; ++q) {
-    const double w = pressure * element.h * rule.weights[q];
-    const Vector3d push(w * (element.ty[q] + at.u(q + 1, 1)), -w * (element.tx[q] + at.u(q + 1, 0)), 0.0);
-    const Functional f = functional_at(rod_, element, rule.points[q], push);
-    r.a -= f.a;
-    r.v -= f.v;
-  }
+  if (pressure.from != 0.0 || pressure.to != 0.0) push(element, at, pressure, r);
   return r;
 }
 
@@ -251,7 +400,8 @@ void Evaluation::forces(const RodElement& element, ElementState& at, Vector3d& m
   }
   for (Eigen::Index q = 0; q < p; ++q) at.M[q] -= r.v(2, q) / (element.h * rule.weights[q]);
   double noise = 0.0;
-  for (const RodSpring& spring : at.acting) noise += spring.stiffness * rounding_of(element, spring.row);
+  for (const ActingSupport& support : at.acting)
+    noise += support.stiffness * rounding_of(element, support.row);
   at.force_noise += noise + force_share_ * (m.head<2>().norm() + r.a.head<2>().norm());
   at.moment_noise += at.force_noise * element.h + force_share_ * std::abs(m[2]) +
                      m.head<2>().norm() * (noise_ + element.h * at.gradient_noise.maxCoeff());
@@ -262,21 +412,17 @@ void Evaluation::forces(const RodElement& element, ElementState& at, Vector3d& m
 
 void Evaluation::strains(const RodElement& element, const ElementState& at, int index) {
   const std::string where = " in element " + std::to_string(index);
-  double strain = 0.0;
-  double curvature = 0.0;
-  for (int k = 0; k < 2; ++k) {
-    strain += factor(k, state_.load_factor) * element.strain[k];
-    curvature += factor(k, state_.load_factor) * element.curvature[k];
-  }
+  const VectorXd strain = state_.load_factor * element.strain[0] + element.strain[1];
+  const VectorXd curvature = state_.load_factor * element.curvature[0] + element.curvature[1];
   for (Eigen::Index q = 0; q < at.N.size(); ++q) {
     const double j = element.stretch[q];
     const double size = std::hypot(element.tx[q], element.ty[q]);
     const double rounding = at.gradient_noise[q] + 10.0 * kEps * size + turn_noise_ * size;
-    note(at.E[q] - element.e0[q] - j * element.axial * at.N[q] - size * strain,
+    note(at.E[q] - element.e0[q] - j * element.axial * at.N[q] - size * strain[q],
          kConverged + rounding + j * element.axial * at.force_noise, "axial strain" + where);
     note(at.G[q] - element.g0[q] - j * element.shear * at.Q[q],
          kConverged + rounding + j * element.shear * at.force_noise, "shear strain" + where);
-    note(at.u(q + 1, 2) - j * element.bending * at.M[q] - size * curvature,
+    note(at.u(q + 1, 2) - j * element.bending * at.M[q] - size * curvature[q],
          kConverged / element.h + at.turn_noise[q] + j * element.bending * at.moment_noise,
          "bending strain" + where);
   }
@@ -343,64 +489,99 @@ void Evaluation::fit_end_forces() {
   pass();
 }
 
+/// Displacements of a member's ends meet those of its nodes, and its forces act on them.
+void Evaluation::meet_nodes(int m, NodeSums& sums) {
+  const RodMember& member = rod_.members[m];
+  const RodElement& last = rod_.elements[rod_.mesh.first[m + 1] - 1];
+  const ElementState& at = out_.elements[rod_.mesh.first[m + 1] - 1];
+  const ElementState& begin = out_.elements[rod_.mesh.first[m]];
+  const VectorXd weights =
+      last.h * Eigen::Map<const VectorXd>(rod_.lagrange.rule().weights.data(), rod_.lagrange.order());
+  const Vector3d end = at.u.row(0).transpose() + at.u.bottomRows(weights.size()).transpose() * weights;
+  const auto meet = [&](int node, const Vector3d& u, const RodJoint& joint, const Vector3d& force) {
+    Vector3d& known = out_.nodes[node];
+    for (int c = 0; c < (joint.turns ? 2 : 3); ++c) {
+      if (std::isnan(known[c])) known[c] = u[c];
+      note(known[c] - u[c], kConverged + 100.0 * (noise_ + turn_noise_), "joint " + std::to_string(node));
+    }
+    sums.force[node] += force;
+    if (joint.turns) sums.ends.push_back({node, joint.stiffness, u[2], force[2], begin.moment_noise});
+  };
+  meet(member.start, begin.u.row(0).transpose(), member.at_start, -out_.start_force[m]);
+  meet(member.end, end, member.at_end, out_.end_force[m]);
+  sums.noise = std::max(sums.noise, begin.force_noise + begin.moment_noise);
+}
+
+/// Rotations of nodes all of whose members are released: that of the support, or that with which the moments
+/// of the joints carry the node's load. Where all members are hinged nothing shows the rotation.
+void Evaluation::turn_nodes(const NodeSums& sums) {
+  for (std::size_t n = 0; n < rod_.nodes.size(); ++n) {
+    double& rotation = out_.nodes[n][2];
+    if (!std::isnan(rotation)) continue;
+    double stiffness = 0.0;
+    double moment = load_of(rod_.nodes[n].load)[2];
+    for (const TurningEnd& end : sums.ends) {
+      if (end.node != static_cast<int>(n)) continue;
+      stiffness += end.stiffness;
+      moment += end.stiffness * end.rotation;
+    }
+    if (rod_.nodes[n].fixed[2])
+      rotation = load_of(rod_.nodes[n].displacement)[2];
+    else if (stiffness > 0.0)
+      rotation = moment / stiffness;
+  }
+}
+
+/// Moments of the ends of members that turn against their nodes.
+void Evaluation::joint_moments(const NodeSums& sums) {
+  for (const TurningEnd& end : sums.ends) {
+    const double node = out_.nodes[end.node][2];
+    const double resisted = end.stiffness > 0.0 ? end.stiffness * (end.rotation - node) : 0.0;
+    note(end.moment + resisted,
+         kConverged * (1.0 + largest_force_) + end.noise + end.stiffness * turn_noise_ * 100.0,
+         "moment of a released end");
+  }
+}
+
+/// What supports hold, and equilibrium in the other directions.
+void Evaluation::node_equations(std::size_t n, const NodeSums& sums) {
+  const RodNode& node = rod_.nodes[n];
+  const Vector3d load = load_of(node.load);
+  const Vector3d held = load_of(node.displacement);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << std::cos(node.angle), std::sin(node.angle), -std::sin(node.angle),
+      std::cos(node.angle);
+  // a node whose members are all hinged has a rotation of its own that nothing shows
+  const bool turning = !std::isnan(out_.nodes[n][2]);
+  if (!turning) out_.nodes[n][2] = 0.0;
+  const Vector3d over = turn * (sums.force[n] - load);
+  const Vector3d moved = turn * out_.nodes[n];
+  for (int c = 0; c < 3; ++c) {
+    if (!turning && c == 2) continue;
+    if (node.fixed[c])
+      note(moved[c] - held[c], kConverged + 100.0 * (noise_ + turn_noise_), "support " + std::to_string(n));
+    else
+      note(over[c], kConverged * (1.0 + largest_force_ + load.norm()) + sums.noise,
+           "equilibrium of node " + std::to_string(n));
+  }
+}
+
 /// Nodes: displacements of the members that meet and of supports, equilibrium in the free directions.
 void Evaluation::joints() {
-  std::vector<Vector3d> u(rod_.nodes.size(), Vector3d::Constant(std::nan("")));
-  std::vector<Vector3d> sum(rod_.nodes.size(), Vector3d::Zero());
-  double noise = 0.0;
-  const auto meet = [&](int node, const Vector3d& at, bool released) {
-    for (int c = 0; c < (released ? 2 : 3); ++c) {
-      if (std::isnan(u[node][c])) u[node][c] = at[c];
-      note(u[node][c] - at[c], kConverged + 100.0 * (noise_ + turn_noise_), "joint " + std::to_string(node));
-    }
-  };
-  for (std::size_t m = 0; m < rod_.members.size(); ++m) {
-    const RodMember& member = rod_.members[m];
-    const RodElement& last = rod_.elements[rod_.mesh.first[m + 1] - 1];
-    const ElementState& at = out_.elements[rod_.mesh.first[m + 1] - 1];
-    const ElementState& begin = out_.elements[rod_.mesh.first[m]];
-    const VectorXd weights =
-        last.h * Eigen::Map<const VectorXd>(rod_.lagrange.rule().weights.data(), rod_.lagrange.order());
-    const Vector3d end = at.u.row(0).transpose() + at.u.bottomRows(weights.size()).transpose() * weights;
-    meet(member.start, begin.u.row(0).transpose(), member.release_start);
-    meet(member.end, end, member.release_end);
-    sum[member.start] -= out_.start_force[m];
-    sum[member.end] += out_.end_force[m];
-    noise = std::max(noise, begin.force_noise + begin.moment_noise);
-    const double scale = kConverged * (1.0 + largest_force_) + begin.moment_noise;
-    if (member.release_start) note(out_.start_force[m][2], scale, "released moment");
-    if (member.release_end) note(out_.end_force[m][2], scale, "released moment");
-  }
+  out_.nodes.assign(rod_.nodes.size(), Vector3d::Constant(std::nan("")));
+  NodeSums sums;
+  sums.force.assign(rod_.nodes.size(), Vector3d::Zero());
+  for (std::size_t m = 0; m < rod_.members.size(); ++m) meet_nodes(static_cast<int>(m), sums);
+  turn_nodes(sums);
+  joint_moments(sums);
   for (const NodeSpring& spring : rod_.node_springs) {
-    const double w = spring.row.dot(u[spring.node].array().isNaN().select(0.0, u[spring.node])) - spring.gap;
-    noise = std::max(noise, spring.stiffness * (noise_ + turn_noise_) * 100.0);
-    if (!spring.one_sided || w > 0.0) sum[spring.node] += spring.stiffness * w * spring.row;
+    const Vector3d u = out_.nodes[spring.node].array().isNaN().select(0.0, out_.nodes[spring.node]);
+    const double w = spring.row.dot(u);
+    if (!spring.reaction.acts(w)) continue;
+    sums.noise = std::max(sums.noise, spring.reaction.slope(w) * (noise_ + turn_noise_) * 100.0);
+    sums.force[spring.node] += spring.reaction.force(w) * spring.row;
   }
-  for (std::size_t n = 0; n < rod_.nodes.size(); ++n) {
-    const RodNode& node = rod_.nodes[n];
-    Vector3d load = Vector3d::Zero();
-    Vector3d held = Vector3d::Zero();
-    for (int k = 0; k < 2; ++k) {
-      load += factor(k, state_.load_factor) * node.load[k];
-      held += factor(k, state_.load_factor) * node.displacement[k];
-    }
-    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-    turn.topLeftCorner<2, 2>() << std::cos(node.angle), std::sin(node.angle), -std::sin(node.angle),
-        std::cos(node.angle);
-    // a node whose members are all released has a rotation of its own that nothing shows
-    const bool turning = !std::isnan(u[n][2]);
-    if (!turning) u[n][2] = 0.0;
-    const Vector3d over = turn * (sum[n] - load);
-    const Vector3d moved = turn * u[n];
-    for (int c = 0; c < 3; ++c) {
-      if (!turning && c == 2) continue;
-      if (node.fixed[c])
-        note(moved[c] - held[c], kConverged + 100.0 * (noise_ + turn_noise_), "support " + std::to_string(n));
-      else
-        note(over[c], kConverged * (1.0 + largest_force_ + load.norm()) + noise,
-             "equilibrium of node " + std::to_string(n));
-    }
-  }
+  for (std::size_t n = 0; n < rod_.nodes.size(); ++n) node_equations(n, sums);
 }
 
 RodState Evaluation::run() {

@@ -11,6 +11,13 @@
 
 namespace snapthrough::testing {
 
+/// A support, or a point of a foundation's quadrature, that acts in a state.
+struct ActingSupport {
+  Functional row;
+  double force = 0.0;
+  double stiffness = 0.0;  ///< derivative of the force by the displacement
+};
+
 /// An element's displacement and section forces in a state.
 struct ElementState {
   MatrixXd u;               ///< (P + 1) x 3: u_a and u'_q, columns x, y, rotation
@@ -19,13 +26,14 @@ struct ElementState {
   VectorXd cos, sin, E, G;  ///< of the section; x' along and across it
   VectorXd N, Q, M;         ///< from equilibrium with the force through the end
   double force_noise = 0.0, moment_noise = 0.0;
-  std::vector<RodSpring> acting;  ///< springs and contact quadrature that act: row, stiffness, gap
+  std::vector<ActingSupport> acting;
 };
 
 struct RodState {
   std::vector<ElementState> elements;
   std::vector<Eigen::Vector3d> start_force, end_force;  ///< of members, (force x, y, moment) through the ends
-  double residual = 0.0;                                ///< worst equation over its tolerance
+  std::vector<Eigen::Vector3d> nodes;  ///< displacements; a rotation that nothing shows is zero
+  double residual = 0.0;               ///< worst equation over its tolerance
   double roughness = 0.0;  ///< worst distance of a sample from its element's polynomial, over its tolerance
   std::string worst;
   /// Over 1: the shape is in equilibrium, but not with the section forces reported at the members' ends.

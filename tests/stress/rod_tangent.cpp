@@ -10,6 +10,12 @@ namespace {
 
 using Eigen::Index;
 
+/// Pressure on an element at a load factor.
+RodPressure pressure_at(const RodElement& element, double load_factor) {
+  return {load_factor * element.pressure[0].from + element.pressure[1].from,
+          load_factor * element.pressure[0].to + element.pressure[1].to};
+}
+
 /// Variations are written in the nodes' displacements and every Gauss point's strains: those of the section
 /// in units that make its elastic energy |strain|^2 / 2 exactly, so nothing is large where a section is
 /// stiff, and an unshearable section has no shear strain at all.
@@ -23,6 +29,7 @@ class MemberTangent {
     size_ = 3 + per_element_ * (rod.mesh.first[member + 1] - rod.mesh.first[member]);
     H_ = MatrixXd::Zero(size_, size_);
     H_.diagonal().tail(size_ - 3).setOnes();
+    rest_ = MatrixXd::Zero(size_, size_);
     end_ = MatrixXd::Zero(3, size_);
     end_.leftCols(3).setIdentity();
   }
@@ -30,11 +37,12 @@ class MemberTangent {
     for (int e = rod_.mesh.first[member_]; e < rod_.mesh.first[member_ + 1]; ++e) add_element(e);
   }
   [[nodiscard]] const MatrixXd& hessian() const { return H_; }
-  [[nodiscard]] const MatrixXd& end() const { return end_; }  ///< displacement of the member's end
+  [[nodiscard]] const MatrixXd& rest() const { return rest_; }  ///< antisymmetric part
+  [[nodiscard]] const MatrixXd& end() const { return end_; }    ///< displacement of the member's end
 
  private:
   void add_element(int e);
-  void add_supports(const RodElement& element, const ElementState& at, const std::array<MatrixXd, 3>& v);
+  void add_supports(const ElementState& at, const std::array<MatrixXd, 3>& v);
   void add_pressure(const RodElement& element, const std::array<MatrixXd, 3>& v);
 
   const RodModel& rod_;
@@ -43,7 +51,7 @@ class MemberTangent {
   double load_factor_;
   bool shearable_ = false;
   Index per_element_ = 0, size_ = 0;
-  MatrixXd H_, end_;
+  MatrixXd H_, rest_, end_;
 };
 
 void MemberTangent::add_element(int e) {
@@ -80,55 +88,82 @@ void MemberTangent::add_element(int e) {
     if (shearable_) cross(first + p + q, hb * at.N[q] * dg);
   }
   H_ += turns.transpose() * weight.asDiagonal() * turns;
-  add_supports(element, at, v);
+  add_supports(at, v);
   add_pressure(element, v);
   for (int c = 0; c < 3; ++c)
     for (Index q = 0; q < p; ++q) end_.row(c) += element.h * b[q] * v[c].row(q);
 }
 
-void MemberTangent::add_supports(const RodElement& element, const ElementState& at,
-                                 const std::array<MatrixXd, 3>& v) {
-  (void)element;
+/// The stiffness of all supports in u_a and u'_q first, which are fewer than points of quadrature.
+void MemberTangent::add_supports(const ElementState& at, const std::array<MatrixXd, 3>& v) {
   if (at.acting.empty()) return;
-  MatrixXd rows = MatrixXd::Zero(static_cast<Index>(at.acting.size()), size_);
-  for (std::size_t i = 0; i < at.acting.size(); ++i) {
-    const Functional& f = at.acting[i].row;
-    const auto k = static_cast<Index>(i);
-    for (int c = 0; c < 3; ++c) rows.row(k) += f.a[c] * end_.row(c) + f.v.row(c) * v[c];
-    rows.row(k) *= std::sqrt(at.acting[i].stiffness);
+  const Index p = rod_.lagrange.order();
+  MatrixXd rows(3 * (p + 1), size_);
+  rows.topRows(3) = end_;
+  for (Index c = 0; c < 3; ++c) rows.middleRows(3 + c * p, p) = v[static_cast<std::size_t>(c)];
+  MatrixXd stiffness = MatrixXd::Zero(rows.rows(), rows.rows());
+  VectorXd row(rows.rows());
+  for (const ActingSupport& support : at.acting) {
+    row.head(3) = support.row.a;
+    for (Index c = 0; c < 3; ++c) row.segment(3 + c * p, p) = support.row.v.row(c).transpose();
+    stiffness += support.stiffness * row * row.transpose();
   }
-  H_ += rows.transpose() * rows;
+  H_ += rows.transpose() * (stiffness * rows);
 }
 
-/// Symmetric part of the follower pressure's tangent.
+/// Follower pressure's tangent: the symmetric part, and the part by the change of the pressure.
 void MemberTangent::add_pressure(const RodElement& element, const std::array<MatrixXd, 3>& v) {
-  const double pressure = load_factor_ * element.pressure[0] + element.pressure[1];
-  if (pressure == 0.0) return;
+  const RodPressure pressure = pressure_at(element, load_factor_);
+  if (pressure.from == 0.0 && pressure.to == 0.0) return;
   const Rule& rule = rod_.lagrange.rule();
   for (Index q = 0; q < rod_.lagrange.order(); ++q) {
     const VectorXd a = element.h * rod_.lagrange.integrals(rule.points[q]);
-    const double w = 0.5 * pressure * element.h * rule.weights[q];
+    const double w = 0.5 * pressure.at(rule.points[q]) * element.h * rule.weights[q];
     const Eigen::RowVectorXd ux = end_.row(0) + a.transpose() * v[0];
     const Eigen::RowVectorXd uy = end_.row(1) + a.transpose() * v[1];
     const MatrixXd half = -w * (v[1].row(q).transpose() * ux - v[0].row(q).transpose() * uy);
     H_ += half + half.transpose();
+    if (pressure.from == pressure.to) continue;
+    const double change = 0.5 * rule.weights[q] * (pressure.to - pressure.from);
+    rest_ += change * (ux.transpose() * uy - uy.transpose() * ux);
   }
 }
 
-/// Displacement of a node, from any member that meets there.
-Eigen::Vector3d displacement_of(const RodModel& rod, const RodState& at, int node) {
-  Eigen::Vector3d u = Eigen::Vector3d::Zero();
-  for (std::size_t m = 0; m < rod.members.size(); ++m) {
-    const ElementState& first = at.elements[rod.mesh.first[m]];
-    const ElementState& last = at.elements[rod.mesh.first[m + 1] - 1];
-    if (rod.members[m].start == node) u = first.u.row(0).transpose();
-    if (rod.members[m].end != node) continue;
-    const double h = rod.elements[rod.mesh.first[m + 1] - 1].h;
-    u = last.u.row(0).transpose();
-    for (Index q = 0; q < rod.lagrange.order(); ++q)
-      u += h * rod.lagrange.rule().weights[q] * last.u.row(q + 1).transpose();
+/// Adds the stiffness of a joint between two rotations.
+void add_joint(MatrixXd& K, double stiffness, Index end, Index node) {
+  K(end, end) += stiffness;
+  K(node, node) += stiffness;
+  K(end, node) -= stiffness;
+  K(node, end) -= stiffness;
+}
+
+/// Rows of the displacements of members' ends.
+struct EndRows {
+  const std::vector<std::array<Index, 3>>&start, &end;
+};
+
+/// Adds springs at nodes, joints, and what follower pressures leave at members' ends.
+void add_end_actions(const RodModel& rod, const RodState& at, double load_factor, const EndRows& rows,
+                     ConstrainedTangent& out) {
+  MatrixXd& K = out.matrix;
+  for (const NodeSpring& spring : rod.node_springs) {
+    const double w = spring.row.dot(at.nodes[spring.node]);
+    if (spring.reaction.acts(w))
+      K.block(3L * spring.node, 3L * spring.node, 3, 3) +=
+          spring.reaction.slope(w) * spring.row * spring.row.transpose();
   }
-  return u;
+  for (std::size_t m = 0; m < rod.members.size(); ++m) {
+    const RodMember& member = rod.members[m];
+    add_joint(K, member.at_start.stiffness, rows.start[m][2], 3L * member.start + 2);
+    add_joint(K, member.at_end.stiffness, rows.end[m][2], 3L * member.end + 2);
+    const double first = pressure_at(rod.elements[rod.mesh.first[m]], load_factor).from;
+    const double last = pressure_at(rod.elements[rod.mesh.first[m + 1] - 1], load_factor).to;
+    for (const auto& [node, half] :
+         {std::pair{rows.start[m], -0.5 * first}, std::pair{rows.end[m], 0.5 * last}}) {
+      out.rest(node[0], node[1]) -= half;
+      out.rest(node[1], node[0]) += half;
+    }
+  }
 }
 
 }  // namespace
@@ -152,8 +187,8 @@ ConstrainedTangent tangent_of(const RodModel& rod, const RodState& at, double lo
     const RodMember& member = rod.members[m];
     start.push_back({3L * member.start, 3L * member.start + 1, 3L * member.start + 2});
     end.push_back({3L * member.end, 3L * member.end + 1, 3L * member.end + 2});
-    if (member.release_start) start.back()[2] = free++;
-    if (member.release_end) end.back()[2] = free++;
+    if (member.at_start.turns) start.back()[2] = free++;
+    if (member.at_end.turns) end.back()[2] = free++;
     members.emplace_back(rod, at, static_cast<int>(m), load_factor);
     members.back().build();
     strains.push_back(free);
@@ -162,13 +197,17 @@ ConstrainedTangent tangent_of(const RodModel& rod, const RodState& at, double lo
   ConstrainedTangent out;
   out.constraints = static_cast<int>(constraints);
   out.matrix = MatrixXd::Zero(free + constraints, free + constraints);
+  out.rest = out.matrix;
   MatrixXd& K = out.matrix;
   Index row = free;
   for (std::size_t m = 0; m < members.size(); ++m) {
     const MatrixXd& H = members[m].hessian();
     const auto place = [&](Index i) { return i < 3 ? start[m][i] : strains[m] + i - 3; };
     for (Index i = 0; i < H.rows(); ++i)
-      for (Index j = 0; j < H.rows(); ++j) K(place(i), place(j)) += H(i, j);
+      for (Index j = 0; j < H.rows(); ++j) {
+        K(place(i), place(j)) += H(i, j);
+        out.rest(place(i), place(j)) += members[m].rest()(i, j);
+      }
     for (int c = 0; c < 3; ++c, ++row) {
       for (Index j = 0; j < H.rows(); ++j) K(row, place(j)) += members[m].end()(c, j);
       K(row, end[m][c]) -= 1.0;
@@ -181,21 +220,10 @@ ConstrainedTangent tangent_of(const RodModel& rod, const RodState& at, double lo
     for (int k = 0; k < 3; ++k)
       if (rod.nodes[n].fixed[k]) K.block(row++, static_cast<Index>(3 * n), 1, 3) = turn.row(k);
   }
-  for (const NodeSpring& spring : rod.node_springs) {
-    const Eigen::Vector3d u = displacement_of(rod, at, spring.node);
-    if (spring.one_sided && spring.row.dot(u) <= spring.gap) continue;
-    K.block(3L * spring.node, 3L * spring.node, 3, 3) +=
-        spring.stiffness * spring.row * spring.row.transpose();
-  }
-  out.rest = MatrixXd::Zero(K.rows(), K.cols());
-  for (std::size_t m = 0; m < rod.members.size(); ++m) {
-    const RodElement& element = rod.elements[rod.mesh.first[m]];
-    const double half = 0.5 * (load_factor * element.pressure[0] + element.pressure[1]);
-    for (const auto& [node, sign] : {std::pair{start[m], -1.0}, std::pair{end[m], 1.0}}) {
-      out.rest(node[0], node[1]) -= sign * half;
-      out.rest(node[1], node[0]) += sign * half;
-    }
-  }
+  add_end_actions(rod, at, load_factor, {start, end}, out);
+  // the rotation of a node all of whose members are hinged is no displacement of the structure
+  for (Index i = 2; i < nodes; i += 3)
+    if (K.col(i).isZero(0.0)) K(i, i) = 1.0;
   const MatrixXd upper = K.bottomLeftCorner(constraints, free).transpose();
   K.topRightCorner(free, constraints) = upper;
   return out;

@@ -1,5 +1,5 @@
 /// Runs seeds and writes a line for each, for scripts/stress.sh:
-///   stress_run <first|broad> FIRST COUNT STRIDE SECONDS
+///   stress_run <first|broad|laws> FIRST COUNT STRIDE SECONDS
 /// "start seed", then "done seed reached termination points uncovered residual inertia undecided stretch
 /// seconds" and a line "fail seed what" for each failure, "note seed why" where no stop rule was reached.
 #include <sys/time.h>
@@ -33,12 +33,11 @@ void end_after(double seconds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 6) {
-    std::fprintf(stderr, "usage: stress_run first|broad FIRST COUNT STRIDE SECONDS\n");
+  const auto draw = argc == 6 ? snapthrough::testing::draw_named(argv[1]) : std::nullopt;
+  if (!draw) {
+    std::fprintf(stderr, "usage: stress_run first|broad|laws FIRST COUNT STRIDE SECONDS\n");
     return 2;
   }
-  using snapthrough::testing::Draw;
-  const Draw draw = std::string(argv[1]) == "first" ? Draw::first : Draw::broad;
   const unsigned long first = std::strtoul(argv[2], nullptr, 10);
   const unsigned long count = std::strtoul(argv[3], nullptr, 10);
   const unsigned long stride = std::strtoul(argv[4], nullptr, 10);
@@ -47,7 +46,7 @@ int main(int argc, char** argv) {
     std::printf("start %lu\n", seed);
     std::fflush(stdout);
     end_after(10.0 * bound + 60.0);  // where the solver does not listen, or its result takes long to check
-    print(seed, snapthrough::testing::run_seed(draw, seed, bound));
+    print(seed, snapthrough::testing::run_seed(*draw, seed, bound));
   }
   return 0;
 }

@@ -14,6 +14,7 @@
 #include "solver/discrete/mechanism.h"
 #include "solver/solve.h"
 #include "tests/stress/broad_model.h"
+#include "tests/stress/laws_model.h"
 #include "tests/stress/random_model.h"
 
 namespace snapthrough::testing {
@@ -80,19 +81,26 @@ std::string features_of(const RandomRequest& request) {
   for (const Member& member : m.members) {
     text += std::string(" ") + kCurves.at(member.curve.index());
     if (member.release_start_rotation || member.release_end_rotation) text += "(released)";
+    if (member.release_start_stiffness > 0.0 || member.release_end_stiffness > 0.0) text += "(joint)";
   }
   constexpr std::array kReactions{"bilateral", "compression", "tension"};
+  const auto law_of = [](const std::optional<ReactionLaw>& law) {
+    constexpr std::array kLaws{" along", " tanh", " hyperbolic", " power", " table"};
+    return std::string(law ? kLaws.at(static_cast<std::size_t>(law->type)) : "");
+  };
   for (const Foundation& f : m.foundations) {
-    text += std::string("; base ") + kReactions.at(static_cast<std::size_t>(f.reaction));
+    text += std::string("; base ") + kReactions.at(static_cast<std::size_t>(f.reaction)) + law_of(f.law);
+    if (f.tangential) text += " tangent";
     if (f.direction) text += " fixed direction";
     if (f.gap > 0.0) text += " gap";
     if (f.shear_stiffness > 0.0) text += " shear layer";
   }
   for (const Spring& s : m.springs) {
-    text += std::string("; spring ") + kReactions.at(static_cast<std::size_t>(s.reaction));
+    text += std::string("; spring ") + kReactions.at(static_cast<std::size_t>(s.reaction)) + law_of(s.law);
     text += s.at.member.empty() ? " at node" : " in member";
   }
-  constexpr std::array kLoads{"point", "distributed", "pressure", "initial strain"};
+  constexpr std::array kLoads{"point",          "distributed", "pressure",
+                              "initial strain", "self weight", "temperature"};
   for (const Load& load : m.loads) {
     text += std::string("; ") + kLoads.at(load.index());
     if (std::visit([](const auto& l) { return l.pattern == Pattern::constant; }, load)) text += " constant";
@@ -145,8 +153,19 @@ StressOutcome run_request(RandomRequest request, double time_bound_s) {
   return out;
 }
 
+std::optional<Draw> draw_named(std::string_view name) {
+  if (name == "first") return Draw::first;
+  if (name == "broad") return Draw::broad;
+  return name == "laws" ? std::optional(Draw::laws) : std::nullopt;
+}
+
+RandomRequest draw_request(Draw draw, std::uint64_t seed) {
+  if (draw == Draw::laws) return laws_request(seed);
+  return draw == Draw::broad ? broad_request(seed) : random_request(seed);
+}
+
 StressOutcome run_seed(Draw draw, std::uint64_t seed, double time_bound_s) {
-  return run_request(draw == Draw::first ? random_request(seed) : broad_request(seed), time_bound_s);
+  return run_request(draw_request(draw, seed), time_bound_s);
 }
 
 }  // namespace snapthrough::testing

@@ -3,7 +3,9 @@
 /// One model of the stress test: solve with all states, check. Or one seed: draw it first.
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/stress/random_model.h"
@@ -13,7 +15,11 @@ namespace snapthrough::testing {
 
 /// Which generator a seed belongs to. A generator is never changed, since docs/stress.md tells of its seeds:
 /// a wider one is added.
-enum class Draw { first, broad };
+enum class Draw { first, broad, laws };
+
+/// Draw of a name; empty for another text.
+[[nodiscard]] std::optional<Draw> draw_named(std::string_view name);
+[[nodiscard]] RandomRequest draw_request(Draw draw, std::uint64_t seed);
 
 struct StressOutcome {
   std::string termination;  ///< the result's own word

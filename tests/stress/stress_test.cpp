@@ -2,6 +2,7 @@
 /// mechanics written a second time. The long run is scripts/stress.sh; docs/stress.md says what is checked.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -10,8 +11,10 @@
 #include "tests/stress/broad_model.h"
 #include "tests/stress/frame_model.h"
 #include "tests/stress/inertia.h"
+#include "tests/stress/laws_model.h"
 #include "tests/stress/random_model.h"
 #include "tests/stress/request_text.h"
+#include "tests/stress/rod_law.h"
 #include "tests/stress/stress_run.h"
 
 namespace snapthrough::testing {
@@ -39,6 +42,106 @@ TEST(StressChecker, SeesAFalsePoint) {
   EXPECT_FALSE(check_result(request.model, analysis, result).failures.empty());
 }
 
+ReactionLaw law_of(ReactionLaw::Type type) {
+  ReactionLaw law;
+  law.type = type;
+  law.stiffness = {0.0, {{0.0, 200.0}, {0.4, 500.0}, {1.0, 300.0}}};
+  law.capacity = {0.0, {{0.0, 2.0}, {0.4, 4.0}, {1.0, 3.0}}};
+  law.reference = 0.02;
+  law.points = {{0.004, 1.5}, {0.01, 2.5}, {0.03, 3.0}};
+  law.factor = {0.0, {{0.0, 0.5}, {0.4, 1.5}, {1.0, 1.0}}};
+  return law;
+}
+
+/// A hinged beam of length 2 on a foundation, loaded across its middle.
+RandomRequest beam_on(const Foundation& foundation) {
+  RandomRequest out;
+  out.model.nodes = {{"a", 0.0, 0.0}, {"b", 2.0, 0.0}};
+  out.model.sections = {{"s", 1e4, 1.0, {}}};
+  out.model.members = {{.id = "beam", .start = "a", .end = "b", .section = "s", .curve = {}}};
+  out.model.supports = {{"a", true, true, false, 0.0, {}}, {"b", false, true, false, 0.0, {}}};
+  out.model.foundations = {foundation};
+  out.model.loads = {PointLoad{{"", "beam", 0.6}, {0.0, 4.0}, 0.0, Pattern::proportional}};
+  out.analysis.type = AnalysisType::path;
+  out.analysis.stop.load_factor = {{-1.0, 2.0}};
+  out.analysis.output.states = StateOutput::all;
+  out.analysis.output.points_per_member = points_needed(out.model, out.analysis);
+  return out;
+}
+
+/// A law whose force is off by 1e-5 is another law.
+TEST(StressChecker, SeesAFalseLaw) {
+  using Type = ReactionLaw::Type;
+  for (const Type type : {Type::linear, Type::tanh, Type::hyperbolic, Type::power, Type::table}) {
+    SCOPED_TRACE(static_cast<int>(type));
+    Foundation soil;
+    soil.id = "soil";
+    soil.member = "beam";
+    soil.law = law_of(type);
+    RandomRequest request = beam_on(soil);
+    const Result result = solve(request.model, request.analysis);
+    ASSERT_EQ(result.summary.termination, "load_factor") << result.summary.message;
+    for (const std::string& what : check_result(request.model, request.analysis, result).failures)
+      EXPECT_TRUE(what.starts_with("reactions:")) << what;
+    ReactionLaw& law = *request.model.foundations.front().law;
+    for (AlongMember* number : {&law.stiffness, &law.capacity, &law.factor})
+      for (auto& point : number->points) point.second *= 1.0 + 1e-5;
+    const ResultCheck check = check_result(request.model, request.analysis, result);
+    EXPECT_GT(check.residual, 1.0);
+  }
+}
+
+TEST(StressChecker, SeesAMissingContact) {
+  Foundation wall;
+  wall.id = "wall";
+  wall.member = "beam";
+  wall.stiffness = 100.0;
+  wall.reaction = Reaction::compression_only;
+  const RandomRequest request = beam_on(wall);
+  Result result = solve(request.model, request.analysis);
+  ASSERT_TRUE(check_result(request.model, request.analysis, result).failures.empty());
+  result.states.back().foundations.front().contact.clear();
+  const ResultCheck check = check_result(request.model, request.analysis, result);
+  ASSERT_FALSE(check.failures.empty());
+  EXPECT_TRUE(check.failures.front().starts_with("contact:")) << check.failures.front();
+}
+
+/// Values that the formulas of docs/requests.md have at the penetrations that scale them, and slopes.
+TEST(StressChecker, LawsAreThoseOfTheDocument) {
+  using Type = ReactionLaw::Type;
+  ReactionLaw given;
+  given.stiffness.constant = 10.0;
+  given.capacity.constant = 2.0;
+  given.reference = 1.0;
+  given.points = {{1.0, 2.0}, {3.0, 6.0}};
+  const auto law = [&given](Type type) {
+    given.type = type;
+    return LawAlong(given).at(0.0);
+  };
+  EXPECT_DOUBLE_EQ(law(Type::tanh).force(0.2), 2.0 * std::tanh(1.0));
+  EXPECT_DOUBLE_EQ(law(Type::hyperbolic).force(-0.2), -1.0);
+  EXPECT_DOUBLE_EQ(law(Type::power).force(0.25), 1.0);
+  EXPECT_DOUBLE_EQ(law(Type::power).force(0.01), 0.1);
+  EXPECT_DOUBLE_EQ(law(Type::power).force(4.0), 2.0);
+  EXPECT_DOUBLE_EQ(law(Type::table).force(2.2), 4.4);  // points on a line
+  EXPECT_DOUBLE_EQ(law(Type::table).force(5.0), 6.0);
+  given.points = {{1.0, 3.0}, {3.0, 5.0}, {4.0, 5.0}, {6.0, 9.0}};
+  for (const Type type : {Type::tanh, Type::hyperbolic, Type::power, Type::table})
+    for (const double w : {-0.15, 0.17, 1.3, 3.4, 5.0}) {
+      constexpr double kStep = 1e-6;
+      const double difference = law(type).force(w + kStep) - law(type).force(w - kStep);
+      EXPECT_NEAR(law(type).slope(w), difference / (2.0 * kStep), 1e-7);
+    }
+}
+
+void expect_checked(const StressOutcome& out, const std::string& end) {
+  EXPECT_EQ(out.termination, end) << out.detail;
+  EXPECT_TRUE(out.reached);
+  EXPECT_TRUE(out.said_where);
+  EXPECT_GT(out.check.points, 0) << "no state was checked";
+  for (const std::string& what : out.check.failures) ADD_FAILURE() << what << "\n" << out.features;
+}
+
 /// How each of the twelve ends: as it does drawn mirrored, from the other end and in another order, and,
 /// where an accuracy is asked for, at a tenth of it.
 TEST(Stress, SliceOfRandomModels) {
@@ -48,12 +151,20 @@ TEST(Stress, SliceOfRandomModels) {
       {36, "limit_points"}, {37, "load_factor"}, {38, "critical_point"}, {39, "load_factor"}};
   for (const auto& [seed, end] : ends) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const StressOutcome out = run_seed(Draw::broad, seed, 20.0);
-    EXPECT_EQ(out.termination, end) << out.detail;
-    EXPECT_TRUE(out.reached);
-    EXPECT_TRUE(out.said_where);
-    EXPECT_GT(out.check.points, 0) << "no state was checked";
-    for (const std::string& what : out.check.failures) ADD_FAILURE() << what << "\n" << out.features;
+    expect_checked(run_seed(Draw::broad, seed, 20.0), end);
+  }
+}
+
+/// Structures on laws of supports.
+TEST(Stress, SliceOfRandomLaws) {
+  const std::map<std::uint64_t, std::string> ends{
+      {700001, "critical_point"},     {700002, "displacement_bound"}, {700010, "critical_point"},
+      {700014, "load_factor"},        {700018, "displacement_bound"}, {700024, "monitor"},
+      {700027, "critical_point"},     {700030, "displacement_bound"}, {700032, "displacement_bound"},
+      {700035, "displacement_bound"}, {700036, "critical_point"},     {700039, "load_factor"}};
+  for (const auto& [seed, end] : ends) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_checked(run_seed(Draw::laws, seed, 20.0), end);
   }
 }
 
@@ -62,7 +173,7 @@ TEST(Stress, SliceOfRandomModels) {
 TEST(Stress, RequestsOfSeedsAreWrittenWhole) {
   for (std::uint64_t seed = 0; seed < 200; ++seed)
     for (const RandomRequest& drawn :
-         {random_request(seed), broad_request(seed), frame_request(seed, 1e-3)}) {
+         {random_request(seed), broad_request(seed), laws_request(seed), frame_request(seed, 1e-3)}) {
       const std::string text = request_text(drawn);
       const api::ReadOutcome read = api::read_request(text);
       ASSERT_TRUE(read.request) << seed << ": " << text;

@@ -1,0 +1,62 @@
+#pragma once
+/// @file
+/// Reaction laws of elastic supports for the checker, written from the formulas of docs/requests.md.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "solver/model/model.h"
+
+namespace snapthrough::testing {
+
+/// @brief Value at a fraction of a member: linear between the points, constant before the first and after the
+/// last; `constant` without points.
+[[nodiscard]] double along(const std::vector<std::pair<double, double>>& points, double constant,
+                           double fraction);
+
+/// Points of a table from the origin on, with the slopes of its monotone cubic.
+struct LawTable {
+  std::vector<double> w, p, slope;
+};
+[[nodiscard]] LawTable table_of(const std::vector<std::array<double, 2>>& points);
+
+/// Reaction of a support at one place, in the model's units: an odd function of the penetration w.
+struct RodLaw {
+  ReactionLaw::Type type = ReactionLaw::Type::linear;
+  double stiffness = 0.0, capacity = 0.0, reference = 1.0, exponent = 0.5;
+  double factor = 1.0;
+  std::shared_ptr<const LawTable> table;
+
+  [[nodiscard]] double force(double w) const;
+  [[nodiscard]] double slope(double w) const;
+  /// @brief Penetrations w >= 0 at which a derivative of the force jumps; the same holds at -w. Nothing where
+  /// the law is zero.
+  [[nodiscard]] std::vector<double> kinks() const;
+  /// Whether the force is proportional to w.
+  [[nodiscard]] bool is_linear() const { return type == ReactionLaw::Type::linear; }
+};
+
+/// Law along a member.
+class LawAlong {
+ public:
+  LawAlong() = default;
+  explicit LawAlong(const ReactionLaw& law);
+  explicit LawAlong(double stiffness) { constant_.stiffness = stiffness; }
+  [[nodiscard]] RodLaw at(double fraction) const;
+  [[nodiscard]] bool is_linear() const { return constant_.is_linear(); }
+
+ private:
+  RodLaw constant_;
+  std::optional<ReactionLaw> varying_;  ///< the law if its numbers vary
+};
+
+/// @brief Law of a support in place of which a stiffness may stand.
+template <class Support>
+[[nodiscard]] LawAlong law_of_support(const Support& support) {
+  return support.law ? LawAlong(*support.law) : LawAlong(support.stiffness);
+}
+
+}  // namespace snapthrough::testing
