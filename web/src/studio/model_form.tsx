@@ -5,6 +5,7 @@ import { useState } from "preact/hooks";
 import type { Finding, RequestDocument } from "../api/documents";
 import { formatNumber } from "../figures";
 import { numbersIn, segments, valueAt, withValue } from "../model/pointer";
+import { LawFigure } from "./law_figure";
 import { readNumber } from "./slider_row";
 
 const kMostItems = 30;  // of each list
@@ -133,6 +134,8 @@ function Item({ list, index, ...form }: FormProps & { list: string; index: numbe
       {choices.map(([field, options]) => (
         <ChoiceField key={field} {...form} pointer={`${at}/${field}`} name={field} options={options} />
       ))}
+      {list === "springs" || list === "foundations"
+        ? <LawFigure list={list} support={fields} units={form.request.model.units} /> : null}
       {list === "supports" ? <FixedField {...form} pointer={`${at}/fixed`} /> : null}
     </div>
   );
