@@ -106,7 +106,7 @@ export function lawTable(input: LawInput): FigureTable {
     const half = beyond.map((w): Cell[] => [sense * (gap + w), ...curves.map(({ curve }) => sense * curve.reaction(w))]);
     return sense === 1 ? half : half.reverse();
   });
-  const columns = [labels.w, ...curves.map(({ name }) => (curves.length > 1 ? `${labels.p} ${name}` : labels.p))];
+  const columns = [labels.w, ...curves.map(({ name }) => (curves.length > 1 ? `${labels.p} at ${name}` : labels.p))];
   return { columns, rows: rows.filter((row, i) => i === 0 || row[0] !== rows[i - 1]?.[0]) };
 }
 

@@ -20,7 +20,8 @@ function Curve(input: LawInput) {
   const [place, size] = useSize<HTMLDivElement>();
   const [twin, setTwin] = useState(false);
   const figure = useMemo(() => (size && size.height > 20 ? figureOf(input, size) : null), [list, support, units, size]);
-  const name = `Law of ${String(support["id"])}`;
+  const id = String(support["id"]);
+  const name = `Law of ${id}`;
   const file = fileName(name, "");
   const withFile = (act: (figure: Shape) => void) => (): void => {
     const picture = figureOf(input, kFileSize);
@@ -40,7 +41,7 @@ function Curve(input: LawInput) {
         </div>
       </div>
       <div class="law-place" ref={place}>
-        {twin ? <LongTable table={lawTable(input)} caption={name} /> : figure && shapeNode(figure)}
+        {twin ? <LongTable table={lawTable(input)} caption={`Reactions of ${id}`} /> : figure && shapeNode(figure)}
       </div>
     </section>
   );

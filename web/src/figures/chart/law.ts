@@ -22,7 +22,10 @@ export interface DrawnLaw {
   gap: number;
   /** Largest displacement beyond the gap that is drawn. */
   reach: number;
-  /** One curve; or three, at the start, the middle and the end of the range, where numbers vary along the member. */
+  /**
+   * One curve; or three, at the start, the middle and the end of the range, where numbers vary along the member. The name of each is
+   * its place in lengths L of the member.
+   */
   curves: { name: string; curve: ReactionCurve }[];
 }
 
@@ -39,6 +42,7 @@ export interface LawChart {
 const kRoom = 1.2;     // share of the largest reach of the curves that is drawn
 const kFree = 0.25;    // share of it on the side to which a one-sided support does not react
 const kPieces = 60;    // of each curve, as far as its reach and beyond
+const kTolerance = 0.05;  // px that a thinned line may be off: in a small chart corners of more are seen
 const kMostDots = 40;  // more points of a table are crowded
 
 const kSenses: Record<string, readonly (1 | -1)[]> = { bilateral: [-1, 1], compression_only: [1], tension_only: [-1] };
@@ -54,7 +58,7 @@ export function drawnLaw({ support }: LawInput): DrawnLaw | null {
   const fractions = variesAlong(support["law"]) ? [from, (from + to) / 2, to] : [from];
   const curves = fractions.flatMap((fraction) => {
     const curve = reactionCurve(support["law"], fraction);
-    return curve ? [{ name: `at fraction ${formatNumber(fraction, 3)}`, curve }] : [];
+    return curve ? [{ name: `${formatNumber(fraction, 3)}\u00a0L`, curve }] : [];
   });
   const senses = kSenses[String(support["reaction"] ?? "bilateral")];
   const gap = senses?.length === 1 ? Number(support["gap"] ?? 0) : 0;
@@ -142,7 +146,7 @@ export function lawFigure(input: LawInput, size: Size, chart: LawChart): Shape {
   const pixel = ({ w, p }: LawPoint): Pixel => ({ x: place(frame.x, w), y: place(frame.y, p) });
   const curves = chart.lines.map(({ points, dots }, i) => {
     const pixels = points.map(pixel);
-    return group(`series series-${i}`, path("series-line", thinned(pixels).flatMap((k) => pixels[k] ?? [])),
+    return group(`series series-${i}`, path("series-line", thinned(pixels, kTolerance).flatMap((k) => pixels[k] ?? [])),
                  ...dots.map(pixel).map(({ x, y }) =>
                    shape("circle", { class: "series-dot", cx: coordinate(x), cy: coordinate(y), r: 2.4 })));
   });
