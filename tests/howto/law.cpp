@@ -29,7 +29,8 @@ constexpr const char* kRequest = R"({
 /// P.
 double limit_load() {
   double most = 0.0;
-  for (double t = 1e-5; t < 1.0; t += 1e-5) {
+  for (int step = 1; step <= 100000; ++step) {
+    const double t = 1e-5 * step;
     const double moment = 10.0 * t / std::sqrt(1.0 + 100.0 * t * t);
     most = std::max(most, moment / (std::sin(t) + 0.05 * std::cos(t)));
   }
