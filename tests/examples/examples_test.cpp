@@ -168,11 +168,15 @@ TEST(Examples, SupportsOnBothSidesAreBilateral) {
   expect_relative(critical_load_factor(run_example("column_between_springs.json")), 4.0 * kPi2, 1e-3);
 }
 
-// Crookedness in the buckling shape grows by a P / (P_c - P), P_c = pi^2 EI/L^2 (m^2 + K L^4/(m^2 pi^4 EI))
-// with m = 2 (Hetenyi, Beams on Elastic Foundation, 1946). Left out there: slopes of 2 a pi / L, and the
-// strain P / EA.
-TEST(Examples, PileGrowsCrooked) {
-  const json result = run_example("pile_in_soil.json");
+// The pile in linear soil in place of its laws. Crookedness in the buckling shape grows by a P / (P_c - P),
+// P_c = pi^2 EI/L^2 (m^2 + K L^4/(m^2 pi^4 EI)) with m = 2 (Hetenyi, Beams on Elastic Foundation, 1946). Left
+// out there: slopes of 2 a pi / L, and the strain P / EA.
+TEST(Examples, PileInLinearSoilGrowsCrooked) {
+  json request = json::parse(read_text(examples_folder() / "pile_in_soil.json"));
+  request["model"]["foundations"] = json::parse(R"([{"id": "soil", "member": "shaft", "stiffness": 500}])");
+  request["analysis"] = {
+      {"type", "static"}, {"load_factors", {1, 1.5}}, {"output", {{"points_per_member", 21}}}};
+  const json result = run(request.dump());
   constexpr double kPi2 = std::numbers::pi * std::numbers::pi;
   constexpr double kCritical = kPi2 * 2000.0 / 100.0 * (4.0 + 500.0 * 1e4 / (4.0 * kPi2 * kPi2 * 2000.0));
   for (const json& state : result.at("states")) {
@@ -183,6 +187,20 @@ TEST(Examples, PileGrowsCrooked) {
     expect_relative(std::abs(u[u.size() / 4]), expected, 2.0 * strain + 1e-4);
   }
   EXPECT_EQ(result.at("states").size(), 2U);
+}
+
+// By collocation (pile_limit.py), 1e-8. The default accuracy is 1e-3.
+TEST(Examples, PileInYieldingSoilReachesItsLimitLoad) {
+  const json result = run_example("pile_in_soil.json");
+  expect_relative(critical_load_factor(result), 1.36131106, 1e-3);
+  EXPECT_EQ(result.at("summary").at("critical_type"), "limit_max");
+}
+
+// Converged: refined until the digits stood. The default accuracy is 1e-3.
+TEST(Examples, PipelineSnapsUp) {
+  const json result = run_example("pipeline_upheaval.json");
+  expect_relative(critical_load_factor(result), 99.338803, 1e-3);
+  EXPECT_EQ(result.at("summary").at("critical_type"), "limit_max");
 }
 
 // A ring on a radial base under a pressure that follows it: p = (n^2 - 1) EI/R^3 + K R/(n^2 - 1), here the

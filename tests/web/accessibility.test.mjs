@@ -208,6 +208,21 @@ for (const colorScheme of ['light', 'dark']) {
     await close(page);
   });
 
+  test(`no violation beside the curve of a law, nor of its table (${colorScheme})`, async () => {
+    const page = await openPage(browser, `${service.url}/#/studio?problem=pile_in_soil`, { colorScheme });
+    await settled(page);
+    await page.locator('.model-form summary', { hasText: 'Foundations' }).click();
+    const law = page.getByRole('region', { name: 'Law of clay', exact: true });
+    await law.locator('svg').waitFor();
+    assert.deepEqual(await violations(page), [], 'the curve');
+    await law.locator('summary').click();
+    assert.deepEqual(await violations(page), [], 'its menu');
+    await law.getByRole('button', { name: 'Show as table' }).click();
+    await law.locator('table').waitFor();
+    assert.deepEqual(await violations(page), [], 'its table');
+    await close(page);
+  });
+
   test(`no violation while a key is asked for, and when the service is gone (${colorScheme})`, async () => {
     const mortal = await startService();
     const config = join(mortal.folder, 'keys.toml');

@@ -305,3 +305,43 @@ test('any number of the model can be given a slider', async () => {
   assert.equal(await page.getByRole('slider').count(), before + 1);
   await close(page);
 });
+
+test('the curve of a law is beside its fields, follows them, and has a table', async () => {
+  const page = await studio('pile_in_soil');
+  await settled(page);
+  await page.locator('.model-form summary', { hasText: 'Foundations' }).click();
+  const law = page.getByRole('region', { name: 'Law of clay', exact: true });
+  const named = (text) => law.getByRole('img', { name: `Law of clay: tanh; reaction p (kN/m) against displacement w (m), up to ${text}` });
+  await named('13.63').waitFor();  // 14.4 tanh 1.8 at the tip
+  assert.equal(await law.locator('svg path.series-line').count(), 3);
+  const drawn = () => law.locator('svg path.series-line').evaluateAll((paths) => paths.map((path) => path.getAttribute('d')).join());
+  const before = await drawn();
+  const field = page.locator('[id="field/model/foundations/0/law/capacity/along/0/1"]');
+  await field.fill('7.2');
+  await field.press('Enter');
+  await named('7.189').waitFor();
+  assert.notEqual(await drawn(), before);
+  await field.fill('-1');
+  await field.press('Enter');
+  await page.locator('.model-form .wrong').first().waitFor();
+  assert.equal(await law.count(), 0, 'no curve of a law that is wrong');
+  await field.fill('14.4');
+  await field.press('Enter');
+  await law.locator('summary').focus();
+  await page.keyboard.press('Enter');
+  await law.getByRole('button', { name: 'Show as table' }).press('Enter');
+  await law.locator('table').waitFor();
+  assert.deepEqual(await law.locator('th').allTextContents(), [
+    'displacement w (m)', 'reaction p (kN/m) at 0\u00a0L', 'reaction p (kN/m) at 0.5\u00a0L', 'reaction p (kN/m) at 1\u00a0L']);
+  assert.ok((await law.locator('tbody tr').count()) > 10);
+  await close(page);
+});
+
+test('supports without a law have no curve', async () => {
+  const page = await studio();
+  await settled(page);
+  await page.locator('.model-form summary', { hasText: 'Foundations' }).click();
+  await page.locator('[id="field/model/foundations/0/stiffness"]').waitFor();
+  assert.equal(await page.locator('.law-figure').count(), 0);
+  await close(page);
+});

@@ -52,8 +52,13 @@ std::vector<ReactionLaw> laws() {
   using Type = ReactionLaw::Type;
   ReactionLaw table = table_of({{0.1, 1.0}, {0.25, 2.5}, {0.4, 2.6}, {0.7, 4.0}});
   table.factor.constant = 2.0;
-  return {law_with(Type::tanh, 30.0, 4.0), law_with(Type::hyperbolic, 30.0, 4.0),
-          law_with(Type::power, 200.0, 4.0), law_with(Type::power, 6.0, 4.0), table};
+  return {
+      law_with(Type::tanh, 30.0, 4.0),
+      law_with(Type::hyperbolic, 30.0, 4.0),
+      law_with(Type::power, 200.0, 4.0),
+      law_with(Type::power, 6.0, 4.0),
+      table,
+  };
 }
 
 SpringLaw spring_with(const ReactionLaw& law, Reaction reaction = Reaction::bilateral) {

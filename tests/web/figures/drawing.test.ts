@@ -144,6 +144,17 @@ function arrows(model: Model, loadFactor: number | null = null): { tail: Pixel; 
   return tips.map((tip, i) => ({ tail: must(tails[i]), tip }));
 }
 
+test("friction along a member has neither ground nor an area of reactions, and is told under the pointer", () => {
+  const input = inputOf("laws", 3);
+  const picture = drawingFigure(input, size);
+  const across = ["deep", "layers"];
+  assert.equal(withClass(picture, "ground-body").length, across.length);
+  assert.equal(withClass(picture, "reaction").length, across.length);
+  const view = drawingView(input, size);
+  const told = must(locate(input, size, toPixel(view, { x: 2, y: 6 }), view));
+  assert.deepEqual(must(told.state).reactions.map(({ foundation }) => foundation), ["shaft"]);
+});
+
 test("arrows point where loads push, with their heads on the structure", () => {
   const at = { member: "m", fraction: 0.5 };
   const [down] = arrows(beam({ loads: [{ type: "point", at, force: [0, -2] }] }));

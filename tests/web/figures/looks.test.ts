@@ -1,11 +1,20 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
-  bucklingFigure, defaultQuantities, drawingFigure, pathFigure, sectionsFigure, sweepLine, sweepMap, toText, type Shape,
+  bucklingFigure, defaultQuantities, drawingFigure, lawChart, lawFigure, pathFigure, sectionsFigure, sweepLine, sweepMap, toText,
+  type LawInput, type Shape,
 } from "../../../web/src/figures/index";
 import { classesOf, kCases, must, readCase, readTable, shapesOf, styleSheet } from "./support";
 
 const size = { width: 560, height: 420 };
+
+function lawFigures(): Shape[] {
+  const { model } = readCase("laws").request;
+  return (["springs", "foundations"] as const).flatMap((list) => (model[list] ?? []).map((support) => {
+    const input: LawInput = { list, support: { ...support }, units: model.units };
+    return lawFigure(input, size, must(lawChart(input, size)));
+  }));
+}
 
 /** Every figure of every stored result. */
 function everyFigure(): Shape[] {
@@ -23,6 +32,7 @@ function everyFigure(): Shape[] {
     figures.push(pathFigure({ result, ...defaultQuantities(result), shadows, chosen: { branch: 0, index: 1 } }, size));
     if (result.buckling) figures.push(bucklingFigure({ buckling: result.buckling, chosen: 0 }, size));
   }
+  figures.push(...lawFigures());
   const table = readTable("map");
   const value = { column: "/summary/critical_load_factor" };
   figures.push(sweepLine({ table, x: { column: "k", log: true }, y: value, series: "EI", chosen: 3 }, size));

@@ -96,9 +96,10 @@ export const kViews = {
     await page.locator('.gallery .thumb svg').last().waitFor();
   },
   form: async ({ page, url }) => {
-    await openStudio(page, url, 'portal_sway');
-    await page.locator('.model-form summary', { hasText: 'Sections' }).click();
-    await page.locator('.model-form summary', { hasText: 'Supports' }).click();
+    await openStudio(page, url, 'pile_in_soil');
+    await page.locator('.model-form summary', { hasText: 'Foundations' }).click();
+    await page.locator('.law-figure svg.law').first().scrollIntoViewIfNeeded();
+    await page.waitForTimeout(200);
   },
   'mode-of-bifurcation': async ({ page, url }) => {
     await openStudio(page, url, 'arch_no_base');
@@ -195,7 +196,7 @@ export const kViews = {
     const mortal = await startService();
     await openStudio(page, mortal.url, 'pile_in_soil');
     await mortal.kill();
-    await slide(page, 'Soil stiffness', 700);
+    await slide(page, "Clay's strength at the tip", 700);
     await page.locator('.gone-banner').waitFor();
     await rm(mortal.folder, { recursive: true, force: true });
   },

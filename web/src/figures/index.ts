@@ -16,8 +16,9 @@ export { hasStiffness, softestPoint, type SoftestPoint } from "./chart/stiffness
 export {
   kSections, sectionsChart, sectionsFigure, sectionsLocate, type SectionQuantity, type SectionsChart, type SectionsInput,
 } from "./chart/sections";
+export { drawnLaw, lawChart, lawFigure, type LawChart, type LawInput } from "./chart/law";
 export { bucklingFigure, nearestMode, type BucklingInput } from "./chart/buckling";
 export { nearestInSweep, sweepLine, sweepLineChart, type SweepLineChart, type SweepLineInput } from "./chart/sweep_line";
 export { sweepMap, sweepMapChart, sweepMapLocate, type SweepMapChart, type SweepMapInput } from "./chart/sweep_map";
 export { columnLabel, errorsOf, failureText, type SweepAxis, type Table } from "./chart/sweep";
-export { pathTable, sectionTable, sweepTable, tableCsv, tableText, type Cell, type FigureTable } from "./tables";
+export { lawTable, pathTable, sectionTable, sweepTable, tableCsv, tableText, type Cell, type FigureTable } from "./tables";

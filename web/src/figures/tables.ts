@@ -4,6 +4,7 @@ import { at } from "./geometry";
 import { exactNumber, formatNumber, unitOf, withUnit, type Units } from "./numbers";
 import type { PathInput } from "./chart/path";
 import { branchesOf, type Monitor } from "./chart/curves";
+import { drawnLaw, lawLabels, type LawInput } from "./chart/law";
 import { kSections, sectionLines, type SectionQuantity, type SectionsInput } from "./chart/sections";
 import { columnLabel, type Table } from "./chart/sweep";
 
@@ -88,6 +89,25 @@ function reactionAt(input: SectionsInput, id: string, s: number): Cell {
   if (!state) return null;
   const i = state.s.findIndex((value) => Math.abs(value - s) <= 1e-9 * Math.max(1, Math.abs(s)));
   return i < 0 ? null : state.reaction[i] ?? null;
+}
+
+const kLawRows = 20;  // equal steps of displacement, beside the ends of the curves' parts
+
+/** One row a displacement: the reaction of each curve that the chart of a law has. Empty where it has none. */
+export function lawTable(input: LawInput): FigureTable {
+  const labels = lawLabels(input);
+  const law = drawnLaw(input);
+  if (!law) return { columns: [labels.w, labels.p], rows: [] };
+  const { curves, gap, reach, senses } = law;
+  const steps = Array.from({ length: kLawRows + 1 }, (_, i) => (i * reach) / kLawRows);
+  const ends = curves.flatMap(({ curve }) => curve.ends.filter((w) => w <= reach));
+  const beyond = [...new Set([...steps, ...ends])].sort((a, b) => a - b);
+  const rows = senses.flatMap((sense) => {
+    const half = beyond.map((w): Cell[] => [sense * (gap + w), ...curves.map(({ curve }) => sense * curve.reaction(w))]);
+    return sense === 1 ? half : half.reverse();
+  });
+  const columns = [labels.w, ...curves.map(({ name }) => (curves.length > 1 ? `${labels.p} at ${name}` : labels.p))];
+  return { columns, rows: rows.filter((row, i) => i === 0 || row[0] !== rows[i - 1]?.[0]) };
 }
 
 /** The rows of a sweep as they are, with the number of each point; errors as "code: detail". */

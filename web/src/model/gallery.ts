@@ -1,6 +1,6 @@
 // The gallery: real problems, each an example of the repository (examples/NAME.json), with the sliders that matter.
 
-import type { Slider } from "./sliders";
+import type { Slider, Target } from "./sliders";
 
 /** What is chosen when a problem is opened: the first loss of stability, or a share of a branch's way. */
 export type Choice = { kind: "critical" } | { kind: "along"; branch: number; share: number };
@@ -56,19 +56,27 @@ const kTunnelArch: Problem = {
   choice: { kind: "along", branch: 0, share: 0.2 },
 };
 
+/** Numbers of the pile's laws at its tip and its head for an undrained strength of 1 kN/m² at the tip, a quarter at the head. */
+function clay(): Target[] {
+  const perStrength = [["0/law/stiffness", 100], ["0/law/capacity", 1.8], ["1/law/stiffness", 125], ["1/law/capacity", 0.625]] as const;
+  return perStrength.flatMap(([field, scale]) => [
+    { pointer: `/model/foundations/${field}/along/0/1`, scale }, { pointer: `/model/foundations/${field}/along/1/1`, scale: scale / 4 },
+  ]);
+}
+
 const kPile: Problem = {
   example: "pile_in_soil",
   heading: "Pile in soft soil",
-  text: "Soil on all sides lets the pile buckle in short waves only. A crookedness of millimetres grows with the load, and faster " +
-    "the nearer its buckling load comes.",
+  text: "Clay whose strength grows with depth holds the pile on all sides until it yields where the pile bends; there the load has its " +
+    "maximum. A crookedness of 5 mm costs a quarter of the buckling load.",
   sliders: [
-    { name: "Soil stiffness", unit: "kN/m²", targets: foundations(1, "stiffness"), min: 50, max: 5000, log: true },
+    { name: "Clay's strength at the tip", unit: "kN/m²", targets: clay(), min: 1, max: 40, log: true },
     { name: "Crookedness", unit: "mm", targets: [{ pointer: "/model/imperfections/0/amplitude", scale: 1e-3 }],
       min: 0.5, max: 50, log: true },
     { name: "Bending stiffness EI", unit: "kN m²", targets: [{ pointer: "/model/sections/0/EI" }], min: 1000, max: 8000,
       log: true },
   ],
-  choice: { kind: "along", branch: 0, share: 0.9 },
+  choice: { kind: "critical" },
 };
 
 const kWalls: Problem = {
@@ -96,6 +104,8 @@ const kPortal: Problem = {
   choice: { kind: "along", branch: 1, share: 0.55 },
 };
 
+const kFriction = 0.5;  // of the pipe on the seabed, reached within about 5 mm
+
 const kPipeline: Problem = {
   example: "pipeline_upheaval",
   heading: "Pipeline lifting off the seabed",
@@ -105,8 +115,9 @@ const kPipeline: Problem = {
     { name: "Height of the hump", unit: "m", min: 0.06, max: 0.5, log: true, targets: [
       { pointer: "/model/imperfections/0/offsets/3/1" }, { pointer: "/model/imperfections/0/offsets/2/1", scale: 0.5 },
       { pointer: "/model/imperfections/0/offsets/4/1", scale: 0.5 }] },
-    { name: "Weight and cover", unit: "kN/m", targets: [{ pointer: "/model/loads/0/force/1", scale: -1 }], min: 1, max: 15,
-      log: false, step: 0.1 },
+    { name: "Weight and cover", unit: "kN/m", min: 1, max: 15, log: false, step: 0.1, targets: [
+      { pointer: "/model/loads/0/force/1", scale: -1 }, { pointer: "/model/foundations/1/law/capacity", scale: kFriction },
+      { pointer: "/model/foundations/1/law/stiffness", scale: kFriction / 0.005 }] },
     { name: "Stiffness of the seabed", unit: "kN/m²", targets: foundations(1, "stiffness"), min: 200, max: 20000, log: true },
   ],
   choice: { kind: "along", branch: 0, share: 0.7 },

@@ -5,6 +5,7 @@ import { useState } from "preact/hooks";
 import type { Finding, RequestDocument } from "../api/documents";
 import { formatNumber } from "../figures";
 import { numbersIn, segments, valueAt, withValue } from "../model/pointer";
+import { LawFigure } from "./law_figure";
 import { readNumber } from "./slider_row";
 
 const kMostItems = 30;  // of each list
@@ -115,12 +116,18 @@ function titleOf(item: Record<string, unknown>, index: number): string {
     String(index + 1);
 }
 
+/** The choices that an item has: friction along a member is bilateral, and neither it nor a fixed direction has a side. */
+function choicesOf(list: string, fields: Record<string, unknown>): [string, readonly string[]][] {
+  if (fields["component"] === "tangent") return [];
+  return Object.entries(kChoices[list] ?? {}).filter(([field]) => field !== "side" || !Array.isArray(fields["direction"]));
+}
+
 function Item({ list, index, ...form }: FormProps & { list: string; index: number }) {
   const at = `/model/${list}/${index}`;
   const item = valueAt(form.request, at);
   if (typeof item !== "object" || item === null) return null;
   const fields = item as Record<string, unknown>;
-  const choices = Object.entries(kChoices[list] ?? {}).filter(([field]) => field !== "side" || !Array.isArray(fields["direction"]));
+  const choices = choicesOf(list, fields);
   const own = form.findings.filter((one) => one.pointer === at || (one.pointer.startsWith(`${at}/`) &&
     typeof valueAt(form.request, one.pointer) !== "number"));
   return (
@@ -133,6 +140,8 @@ function Item({ list, index, ...form }: FormProps & { list: string; index: numbe
       {choices.map(([field, options]) => (
         <ChoiceField key={field} {...form} pointer={`${at}/${field}`} name={field} options={options} />
       ))}
+      {list === "springs" || list === "foundations"
+        ? <LawFigure list={list} support={fields} units={form.request.model.units} /> : null}
       {list === "supports" ? <FixedField {...form} pointer={`${at}/fixed`} /> : null}
     </div>
   );

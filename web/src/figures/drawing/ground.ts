@@ -7,7 +7,7 @@ import { placeLabel, type Occupancy } from "../labels";
 import { formatWithUnit, unitOf } from "../numbers";
 import { coordinate, group, path, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
 import { largestForce, largestPressure } from "./loads";
-import { drawnLoadFactor, intoMedium, toPixel, type DrawnMember, type Foundation, type Scene, type View } from "./scene";
+import { drawnLoadFactor, foundationsWithGround, intoMedium, toPixel, type DrawnMember, type Foundation, type Scene, type View } from "./scene";
 
 const kHatchSpacing = 9;
 
@@ -105,7 +105,7 @@ function hatchLine(sum: number, cuts: { t: number; way: number }[]): string {
 export function groundShapes(scene: Scene, view: View, size: Size): Shape {
   const bands: Pixel[][] = [];
   const surfaces: Pixel[][] = [];
-  for (const foundation of scene.input.model.foundations ?? []) {
+  for (const foundation of foundationsWithGround(scene)) {
     const member = scene.members.get(foundation.member);
     if (!member) continue;
     const gap = Math.min(foundation.gap ?? 0, scene.extent);
@@ -145,8 +145,8 @@ function referenceReaction(scene: Scene): number {
   for (const { axial_force: forces } of Object.values(scene.input.state?.members ?? {})) {
     for (const force of forces) largest = Math.max(largest, (kRounding * Math.abs(force)) / scene.extent);
   }
-  for (const state of Object.values(scene.input.state?.foundations ?? {})) {
-    for (const value of state.reaction) largest = Math.max(largest, Math.abs(value));
+  for (const { id } of foundationsWithGround(scene)) {
+    for (const value of scene.input.state?.foundations[id]?.reaction ?? []) largest = Math.max(largest, Math.abs(value));
   }
   return largest;
 }
@@ -200,7 +200,7 @@ export function reactionShapes(scene: Scene, view: View, taken: Occupancy): { un
   const under: Shape[] = [];
   const over: Shape[] = [];
   const peaks: { at: Pixel; value: number }[] = [];
-  for (const foundation of scene.input.model.foundations ?? []) {
+  for (const foundation of foundationsWithGround(scene)) {
     const member = scene.members.get(foundation.member);
     const state = scene.input.state?.foundations[foundation.id];
     if (!member || !state) continue;

@@ -203,6 +203,11 @@ export function zoomed(view: View, factor: number, about: Pixel, moved: Pixel = 
   };
 }
 
+/** Foundations with ground beside the member: all but those along its tangent, which are friction on its surface. */
+export function foundationsWithGround(scene: Scene): Foundation[] {
+  return (scene.input.model.foundations ?? []).filter((item) => !("component" in item && item.component === "tangent"));
+}
+
 /** The unit direction into the medium of a foundation at an initial left normal. */
 export function intoMedium(foundation: Foundation, normal: Point): Point {
   if (Array.isArray(foundation.direction)) {
@@ -217,7 +222,7 @@ export function intoMedium(foundation: Foundation, normal: Point): Point {
 /** The box of the structure and its ground, mirror image included. */
 export function boxWithGround(scene: Scene): Scene["box"] {
   const box = { ...scene.box };
-  for (const foundation of scene.input.model.foundations ?? []) {
+  for (const foundation of foundationsWithGround(scene)) {
     const member = scene.members.get(foundation.member);
     if (!member) continue;
     const reach = Math.min(foundation.gap ?? 0, scene.extent) + scene.depth;
