@@ -32,8 +32,7 @@ Sum sum_of(const DrawnMember& member, const MemberState& moved, const Foundation
     const double after = i + 1 == state.s.size() ? state.s[i] : state.s[i + 1];
     const double weight = (after - before) / 2 * state.reaction[i];
     const double s = state.s[i];
-    const Point d = into_medium(
-        assumed, {interpolate(member.s, member.normal_x, s), interpolate(member.s, member.normal_y, s)});
+    const Point d = way_into(assumed, member, s).into;
     const double x = interpolate(moved.s, moved.x, s);
     const double y = interpolate(moved.s, moved.y, s);
     sum.fx -= weight * d.x;

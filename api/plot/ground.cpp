@@ -9,32 +9,33 @@ namespace {
 
 constexpr double kHatchSpacing = 9;
 
-struct Surface {
+struct GroundLine {
   std::vector<Point> points;
   std::vector<Point> directions;
 };
 
-/// Returns the undeformed ground surface: the undeformed axis, moved into the medium by the gap.
-Surface surface_of(const DrawnMember& member, const ModelFoundation& foundation, double gap) {
+/// Returns the undeformed ground surface beside the undeformed axis.
+/// @param farthest largest distance that is drawn
+GroundLine surface_of(const DrawnMember& member, const ModelFoundation& foundation, double farthest) {
   const double length = member.s.back();
   const auto [from, to] = foundation.range;
   std::vector<double> places{from * length};
   std::copy_if(member.s.begin(), member.s.end(), std::back_inserter(places),
                [&, f = from, t = to](double s) { return s > f * length && s < t * length; });
   places.push_back(to * length);
-  Surface surface;
+  GroundLine surface;
   for (const double s : places) {
-    const Point d = into_medium(
-        foundation, {interpolate(member.s, member.normal_x, s), interpolate(member.s, member.normal_y, s)});
+    const auto [d, gap] = way_into(foundation, member, s);
+    const double distance = std::min(gap, farthest);
     surface.directions.push_back(d);
-    surface.points.push_back(
-        {interpolate(member.s, member.x0, s) + gap * d.x, interpolate(member.s, member.y0, s) + gap * d.y});
+    surface.points.push_back({interpolate(member.s, member.x0, s) + distance * d.x,
+                              interpolate(member.s, member.y0, s) + distance * d.y});
   }
   return surface;
 }
 
 /// Returns the drawn depth: at most 0.7 of the radius of curvature on a concave side, at least 0.3 `depth`.
-double depth_of(const Surface& surface, double depth) {
+double depth_of(const GroundLine& surface, double depth) {
   double least = depth;
   for (std::size_t i = 1; i < surface.points.size(); ++i) {
     const double dx = surface.points[i].x - surface.points[i - 1].x;
@@ -153,8 +154,7 @@ Profile profile_of(const View& view, const ModelFoundation& foundation, const Dr
   Profile profile;
   for (std::size_t i = 0; i < state.s.size(); ++i) {
     const double s = state.s[i];
-    const Point d = into_medium(
-        foundation, {interpolate(member.s, member.normal_x, s), interpolate(member.s, member.normal_y, s)});
+    const Point d = way_into(foundation, member, s).into;
     const Point p{interpolate(member.s, member.x, s), interpolate(member.s, member.y, s)};
     const double value = state.reaction[i];
     profile.base.push_back(to_pixel(view, p));
@@ -178,7 +178,7 @@ Shape ground_shape(const Scene& scene, const View& view, Size size) {
     if (member == nullptr) {
       continue;
     }
-    const Surface surface = surface_of(*member, foundation, std::min(foundation.gap, scene.extent));
+    const GroundLine surface = surface_of(*member, foundation, scene.extent);
     const double depth = depth_of(surface, scene.depth);
     std::vector<Pixel> inner;
     std::vector<Pixel> outer;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/plot/outline.h"
 #include "api/plot/plot.h"
 
 namespace snapthrough::api::plot {
@@ -112,6 +113,21 @@ ModelSpring read_spring(const Field& field) {
   return spring;
 }
 
+/// Reads a gap: one for the whole member, or [fraction, gap] pairs.
+void read_gap(const Field& field, ModelFoundation& foundation) {
+  const std::optional<Field> gap = field.find("gap");
+  const std::optional<Field> along = gap && gap->json().is_object() ? gap->find("along") : std::nullopt;
+  if (!along) {
+    foundation.gap = std::max(0.0, number_or(field, "gap", 0));
+    return;
+  }
+  for (std::size_t i = 0; i < along->size(); ++i) {
+    const std::vector<double> pair = along->item(i).numbers(2);
+    foundation.gap_along.emplace_back(pair[0], std::max(0.0, pair[1]));
+    foundation.gap = std::max(foundation.gap, pair[1]);
+  }
+}
+
 ModelFoundation read_foundation(const Field& field) {
   ModelFoundation foundation;
   foundation.id = field.at("id").text();
@@ -123,7 +139,10 @@ ModelFoundation read_foundation(const Field& field) {
   }
   foundation.one_sided = is_one_sided(field);
   foundation.compression_only = text_or(field, "reaction", "bilateral") == "compression_only";
-  foundation.gap = std::max(0.0, number_or(field, "gap", 0));
+  read_gap(field, foundation);
+  if (const std::optional<Field> outline = field.find("outline")) {
+    foundation.surface = read_outline(*outline);
+  }
   foundation.range = read_range(field);
   return foundation;
 }
@@ -264,8 +283,11 @@ Model read_model(const nlohmann::json& request) {
   }
   for_each(field, "supports", [&](const Field& one) { model.supports.push_back(read_support(one)); });
   for_each(field, "springs", [&](const Field& one) { model.springs.push_back(read_spring(one)); });
-  for_each(field, "foundations",
-           [&](const Field& one) { model.foundations.push_back(read_foundation(one)); });
+  for_each(field, "foundations", [&](const Field& one) {
+    if (text_or(one, "component", "normal") != "tangent") {  // friction has no ground beside the member
+      model.foundations.push_back(read_foundation(one));
+    }
+  });
   for_each(field, "loads", [&](const Field& one) { model.loads.push_back(read_load(one)); });
   for_each(field, "load_cases", [&](const Field& one) { read_load_case(one, model); });
   for_each(field, "monitors", [&](const Field& one) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,8 @@
 
 #include "api/plot/geometry.h"
 #include "api/plot/numbers.h"
+#include "solver/model/along_member.h"
+#include "solver/support/surface.h"
 
 namespace snapthrough::api::plot {
 
@@ -51,7 +54,9 @@ struct ModelFoundation {
   std::optional<Point> direction;  ///< unit vector into the medium; nullopt: along the normal
   bool one_sided = false;
   bool compression_only = false;
-  double gap = 0;
+  double gap = 0;                            ///< the largest along the member
+  Along<double> gap_along;                   ///< empty: `gap` everywhere
+  std::shared_ptr<const Surface> surface;    ///< surface of the medium; null: beside the member
   std::pair<double, double> range = {0, 1};  ///< loaded part, as fractions of the member's length
 };
 

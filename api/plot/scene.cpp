@@ -230,9 +230,19 @@ std::vector<Pixel> to_pixels(const View& view, const std::vector<double>& x, con
   return pixels;
 }
 
-Point into_medium(const ModelFoundation& foundation, Point normal) {
-  return foundation.direction ? *foundation.direction
-                              : Point{foundation.side * normal.x, foundation.side * normal.y};
+Way way_into(const ModelFoundation& foundation, const DrawnMember& member, double s) {
+  if (foundation.surface) {
+    const SurfacePoint at = foundation.surface->at(
+        {interpolate(member.s, member.x0, s), interpolate(member.s, member.y0, s)});
+    return {{at.into[0], at.into[1]}, -at.depth};
+  }
+  const double gap = value_at(foundation.gap, foundation.gap_along, s / member.s.back());
+  if (foundation.direction) {
+    return {*foundation.direction, gap};
+  }
+  return {{foundation.side * interpolate(member.s, member.normal_x, s),
+           foundation.side * interpolate(member.s, member.normal_y, s)},
+          gap};
 }
 
 ModelBox box_with_ground(const Scene& scene) {
@@ -242,10 +252,10 @@ ModelBox box_with_ground(const Scene& scene) {
     if (member == nullptr) {
       continue;
     }
-    const double reach = std::min(foundation.gap, scene.extent) + scene.depth;
     const bool pulls = scene.input.state != nullptr && !foundation.compression_only;
     for (std::size_t i = 0; i < member->s.size(); ++i) {
-      const Point d = into_medium(foundation, member->normals[i]);
+      const auto [d, gap] = way_into(foundation, *member, member->s[i]);
+      const double reach = std::min(gap, scene.extent) + scene.depth;
       box.include(member->x0[i] + reach * d.x, member->y0[i] + reach * d.y);
       if (pulls) {
         const double shown = 0.8 * scene.depth;

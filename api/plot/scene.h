@@ -83,8 +83,13 @@ struct View {
 [[nodiscard]] std::vector<Pixel> to_pixels(const View& view, const std::vector<double>& x,
                                            const std::vector<double>& y);
 
-/// Returns the unit direction into the medium at a point with the undeformed left normal `normal`.
-[[nodiscard]] Point into_medium(const ModelFoundation& foundation, Point normal);
+/// The way from a point of an undeformed axis to a medium.
+struct Way {
+  Point into;      ///< unit direction
+  double gap = 0;  ///< distance to the surface, negative below it
+};
+/// @param s arc length of the undeformed axis
+[[nodiscard]] Way way_into(const ModelFoundation& foundation, const DrawnMember& member, double s);
 
 /// Returns the bounding box of structure and ground in model axes, including the mirror image.
 [[nodiscard]] ModelBox box_with_ground(const Scene& scene);

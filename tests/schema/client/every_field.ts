@@ -68,6 +68,20 @@ const foundations: Schemas['Foundation'][] = [
     id: `law ${i}`, member: 'beam', law, reaction: 'compression_only', side: 'left', direction: 'normal', gap: 0.01})),
 ];
 
+const outlines: Schemas['Outline'][] = [
+  {type: 'circle', center: [0, 1], radius: 2, medium: 'outside'},
+  {type: 'line', through: [0, -1], into: [0, -1]},
+  {type: 'spline', points: [[0, 0], [1, 0.1], [2, 0]], medium: 'right'},
+  {type: 'polyline', points: [[0, 0], [1, 0.1], [2, 0]], rounding: 0.1, medium: 'left'},
+];
+
+foundations.push(
+    {id: 'obstacle', member: 'beam', stiffness: 'rigid', reaction: 'compression_only', gap: varying},
+    ...outlines.map((outline, i): Schemas['Foundation'] => ({
+      id: `outline ${i}`, member: 'beam', stiffness: 'rigid', reaction: 'compression_only', range: [0, 1], outline})),
+    {id: 'yields', member: 'beam', law: foundationLaws[0]!, reaction: 'compression_only', range: [0, 1], outline: outlines[0]!});
+springs.push({id: 'stop', at: {node: 'a'}, direction: [1, 0], stiffness: 'rigid', reaction: 'compression_only'});
+
 const loads: Schemas['Load'][] = [
   {type: 'point', at: {node: 'b'}, force: [0, -1], moment: 0.1, pattern: 'constant'},
   {type: 'distributed', member: 'beam', force: [0, -1], range: [0, 1], per: 'horizontal', pattern: 'proportional'},

@@ -61,7 +61,8 @@ export function drawnLaw({ support }: LawInput): DrawnLaw | null {
     return curve ? [{ name: `${formatNumber(fraction, 3)}\u00a0L`, curve }] : [];
   });
   const senses = kSenses[String(support["reaction"] ?? "bilateral")];
-  const gap = senses?.length === 1 ? Number(support["gap"] ?? 0) : 0;
+  const given = support["gap"];  // a gap that varies along the member is left out
+  const gap = senses?.length === 1 && typeof given === "number" ? given : 0;
   const reach = kRoom * Math.max(0, ...curves.map(({ curve }) => curve.reach));
   if (!senses || curves.length < fractions.length || !(gap >= 0 && reach > 0 && Number.isFinite(gap + reach))) return null;
   return { senses, gap, reach, curves };

@@ -7,7 +7,7 @@ import { placeLabel, type Occupancy } from "../labels";
 import { formatWithUnit, unitOf } from "../numbers";
 import { coordinate, group, path, pathData, shape, type Pixel, type Shape, type Size } from "../shape";
 import { largestForce, largestPressure } from "./loads";
-import { drawnLoadFactor, foundationsWithGround, intoMedium, toPixel, type DrawnMember, type Foundation, type Scene, type View } from "./scene";
+import { drawnLoadFactor, foundationsWithGround, toPixel, wayFrom, type DrawnMember, type Foundation, type Scene, type View } from "./scene";
 
 const kHatchSpacing = 9;
 
@@ -24,19 +24,17 @@ interface Surface {
   directions: Point[];
 }
 
-/** The undeformed surface of the ground: the initial axis moved by the gap. */
-function surfaceOf(member: DrawnMember, foundation: Foundation, gap: number): Surface {
+/** The surface of the ground beside the initial axis. @param farthest largest distance that is drawn */
+function surfaceOf(member: DrawnMember, foundation: Foundation, farthest: number): Surface {
   const points: Point[] = [];
   const directions: Point[] = [];
-  const nx = member.normals.map((n) => n.x);
-  const ny = member.normals.map((n) => n.y);
   for (const s of rangePlaces(member, foundation)) {
-    const normal = { x: interpolate(member.s, nx, s), y: interpolate(member.s, ny, s) };
-    const d = intoMedium(foundation, normal);
-    directions.push(d);
+    const { into, gap } = wayFrom(foundation, member, s);
+    const distance = Math.min(gap, farthest);
+    directions.push(into);
     points.push({
-      x: interpolate(member.s, member.x0, s) + gap * d.x,
-      y: interpolate(member.s, member.y0, s) + gap * d.y,
+      x: interpolate(member.s, member.x0, s) + distance * into.x,
+      y: interpolate(member.s, member.y0, s) + distance * into.y,
     });
   }
   return { points, directions };
@@ -108,8 +106,7 @@ export function groundShapes(scene: Scene, view: View, size: Size): Shape {
   for (const foundation of foundationsWithGround(scene)) {
     const member = scene.members.get(foundation.member);
     if (!member) continue;
-    const gap = Math.min(foundation.gap ?? 0, scene.extent);
-    const surface = surfaceOf(member, foundation, gap);
+    const surface = surfaceOf(member, foundation, scene.extent);
     const depth = depthOf(surface, scene.depth);
     const inner = surface.points.map((p) => toPixel(view, p));
     const outer = surface.points.map((p, i) => {
@@ -162,11 +159,8 @@ interface Profile {
 function profileOf(scene: Scene, view: View, foundation: Foundation, member: DrawnMember, scale: number): Profile {
   const state = scene.input.state?.foundations[foundation.id];
   const profile: Profile = { base: [], tips: [], peak: 0, value: 0 };
-  const nx = member.normals.map((n) => n.x);
-  const ny = member.normals.map((n) => n.y);
   state?.s.forEach((s, i) => {
-    const normal = { x: interpolate(member.s, nx, s), y: interpolate(member.s, ny, s) };
-    const d = intoMedium(foundation, normal);
+    const { into: d } = wayFrom(foundation, member, s);
     const p = { x: interpolate(member.s, member.x, s), y: interpolate(member.s, member.y, s) };
     const value = at(state.reaction, i);
     if (Math.abs(value) > Math.abs(profile.value)) {

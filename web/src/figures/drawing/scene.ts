@@ -5,6 +5,7 @@ import {
   at, interpolate, last, leftNormals, memberAxis, type Axis, type Point,
 } from "../geometry";
 import type { Pixel, Size } from "../shape";
+import { largestGap, wayInto, type Way } from "./medium";
 
 type Schemas = components["schemas"];
 export type Model = Schemas["Model"];
@@ -131,7 +132,7 @@ export function makeScene(input: DrawingInput): Scene {
   for (const state of input.room ?? []) {
     for (const member of Object.values(state.members)) shapes.push({ x: member.x, y: member.y });
   }
-  const gaps = (input.model.foundations ?? []).map((item) => item.gap ?? 0).filter((gap) => gap < extent);
+  const gaps = (input.model.foundations ?? []).map(largestGap).filter((gap) => gap < extent);
   const depth = Math.max(0.13 * extent, ...gaps.map((gap) => 0.8 * gap));
   const symmetry = input.mirror === false ? null : symmetryLine(input.model, members, extent);
   const mirror = symmetry && (input.mirror || symmetry.ends > 1) ? symmetry.x : null;
@@ -208,15 +209,14 @@ export function foundationsWithGround(scene: Scene): Foundation[] {
   return (scene.input.model.foundations ?? []).filter((item) => !("component" in item && item.component === "tangent"));
 }
 
-/** The unit direction into the medium of a foundation at an initial left normal. */
-export function intoMedium(foundation: Foundation, normal: Point): Point {
-  if (Array.isArray(foundation.direction)) {
-    const [dx, dy] = foundation.direction;
-    const length = Math.hypot(dx, dy) || 1;
-    return { x: dx / length, y: dy / length };
-  }
-  const sign = "side" in foundation && foundation.side === "right" ? -1 : 1;
-  return { x: sign * normal.x, y: sign * normal.y };
+/** The way into a foundation's medium from a place of its member. @param s arc length of the initial axis */
+export function wayFrom(foundation: Foundation, member: DrawnMember, s: number): Way {
+  const of = (values: readonly number[]) => interpolate(member.s, values, s);
+  return wayInto(foundation, {
+    point: { x: of(member.x0), y: of(member.y0) },
+    normal: { x: of(member.normals.map((n) => n.x)), y: of(member.normals.map((n) => n.y)) },
+    fraction: s / (last(member.s) || 1),
+  });
 }
 
 /** The box of the structure and its ground, mirror image included. */
@@ -225,7 +225,6 @@ export function boxWithGround(scene: Scene): Scene["box"] {
   for (const foundation of foundationsWithGround(scene)) {
     const member = scene.members.get(foundation.member);
     if (!member) continue;
-    const reach = Math.min(foundation.gap ?? 0, scene.extent) + scene.depth;
     const pulls = scene.deformed && (foundation.reaction ?? "bilateral") !== "compression_only";
     const include = (x: number, y: number) => {
       box.left = Math.min(box.left, x);
@@ -233,8 +232,9 @@ export function boxWithGround(scene: Scene): Scene["box"] {
       box.bottom = Math.min(box.bottom, y);
       box.top = Math.max(box.top, y);
     };
-    member.normals.forEach((normal, i) => {
-      const d = intoMedium(foundation, normal);
+    member.s.forEach((s, i) => {
+      const { into: d, gap } = wayFrom(foundation, member, s);
+      const reach = Math.min(gap, scene.extent) + scene.depth;
       include(at(member.x0, i) + reach * d.x, at(member.y0, i) + reach * d.y);
       for (const sign of pulls ? [-1, 1] : []) {
         include(at(member.x, i) + sign * 0.8 * scene.depth * d.x, at(member.y, i) + sign * 0.8 * scene.depth * d.y);
