@@ -327,6 +327,8 @@ test('the curve of a law is beside its fields, follows them, and has a table', a
   assert.equal(await law.count(), 0, 'no curve of a law that is wrong');
   await field.fill('14.4');
   await field.press('Enter');
+  await page.locator('.trust-card .headline', { hasText: /^1\.361\s*confirmed$/ }).waitFor();
+  assert.equal(await law.count(), 1, 'the fields that were put right stay open');
   await law.locator('summary').focus();
   await page.keyboard.press('Enter');
   await law.getByRole('button', { name: 'Show as table' }).press('Enter');

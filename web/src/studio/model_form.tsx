@@ -1,7 +1,8 @@
 // The request as a form: every number of it, and the choices that people change most. What a form can't show well is edited as
 // JSON; both edit the same document.
 
-import { useState } from "preact/hooks";
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef, useState } from "preact/hooks";
 import type { Finding, RequestDocument } from "../api/documents";
 import { formatNumber } from "../figures";
 import { numbersIn, segments, valueAt, withValue } from "../model/pointer";
@@ -147,6 +148,17 @@ function Item({ list, index, ...form }: FormProps & { list: string; index: numbe
   );
 }
 
+/** A part of the form that opens where something is wrong, and stays open when it has been put right. */
+function Part({ heading, told, wrong, children }: {
+  heading: string; told: string | number; wrong: boolean; children: ComponentChildren;
+}) {
+  const place = useRef<HTMLDetailsElement>(null);
+  useEffect(() => {
+    if (wrong && place.current) place.current.open = true;
+  }, [wrong]);
+  return <details ref={place}><summary>{heading}<span>{told}</span></summary>{children}</details>;
+}
+
 export function ModelForm(form: FormProps) {
   const { request, findings } = form;
   return (
@@ -156,16 +168,14 @@ export function ModelForm(form: FormProps) {
         const wrong = findings.some((one) => one.pointer.startsWith(`/model/${list}`));
         if (items.length === 0 && !wrong) return null;
         return (
-          <details key={list} open={wrong || undefined}>
-            <summary>{heading}<span>{items.length}</span></summary>
+          <Part key={list} heading={heading} told={items.length} wrong={wrong}>
             {findingsAt(findings, `/model/${list}`).map((one) => <p class="wrong" key={one.detail}>{one.detail}</p>)}
             {items.slice(0, kMostItems).map((_, i) => <Item key={i} {...form} list={list} index={i} />)}
             {items.length > kMostItems ? <p class="hint">The first {kMostItems}; the others are in the JSON.</p> : null}
-          </details>
+          </Part>
         );
       })}
-      <details open={findings.some((one) => one.pointer.startsWith("/analysis")) || undefined}>
-        <summary>Analysis<span>{request.analysis.type}</span></summary>
+      <Part heading="Analysis" told={request.analysis.type} wrong={findings.some((one) => one.pointer.startsWith("/analysis"))}>
         <div class="item">
           <ChoiceField {...form} pointer="/analysis/type" name="type" options={["critical", "path", "buckling", "static"]} />
           {request.analysis.type === "path"
@@ -177,7 +187,7 @@ export function ModelForm(form: FormProps) {
             <NumberField key={pointer} {...form} pointer={`/analysis${pointer}`} name={fieldName(pointer, 0)} />
           ))}
         </div>
-      </details>
+      </Part>
     </div>
   );
 }
