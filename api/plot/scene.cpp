@@ -232,8 +232,8 @@ std::vector<Pixel> to_pixels(const View& view, const std::vector<double>& x, con
 
 Way way_into(const ModelFoundation& foundation, const DrawnMember& member, double s) {
   if (foundation.surface) {
-    const SurfacePoint at = foundation.surface->at(
-        {interpolate(member.s, member.x0, s), interpolate(member.s, member.y0, s)});
+    const SurfacePoint at =
+        foundation.surface->at({interpolate(member.s, member.x0, s), interpolate(member.s, member.y0, s)});
     return {{at.into[0], at.into[1]}, -at.depth};
   }
   const double gap = value_at(foundation.gap, foundation.gap_along, s / member.s.back());

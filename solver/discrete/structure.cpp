@@ -197,7 +197,8 @@ double Builder::stop_stiffness(const Spring& spring, const SpringLaw& law) const
     const double length = out_.scales.scaled_length(axis.length());
     const double at_node = member.end == spring.at.node ? 1.0 : 0.0;
     const double fraction = spring.at.member.empty() ? at_node : spring.at.fraction;
-    const double bending = section.EI.at(fraction) / (out_.scales.force * std::pow(out_.scales.length, 2) * length);
+    const double bending =
+        section.EI.at(fraction) / (out_.scales.force * std::pow(out_.scales.length, 2) * length);
     const double axial = section.EA.at(fraction) / (out_.scales.force * length);
     const double angle = axis.angle_at(fraction * axis.length());
     const double along = law.row[0] * std::cos(angle) + law.row[1] * std::sin(angle);
@@ -755,8 +756,9 @@ void fill(const Model& model, const Scales* scales, const Neighbour* like, Struc
     double foundation_load = 0.0;
     for (const Foundation& foundation : model.foundations)
       if (foundation.member == model.members[m].id)
-        foundation_load += 2.0 * std::sqrt(stiffness_on(out, foundation, static_cast<int>(m)) * EI.largest()) +
-                           foundation.shear_stiffness;
+        foundation_load +=
+            2.0 * std::sqrt(stiffness_on(out, foundation, static_cast<int>(m)) * EI.largest()) +
+            foundation.shear_stiffness;
     out.foundation_loads.push_back(foundation_load / out.scales.force);
   }
   const int p = out.mesh.order;

@@ -1,8 +1,8 @@
 /// Rigid obstacles, and media whose surface is fixed in the plane.
 ///
-/// Sources. Half a ring under its weight in a circular cavity: limit points by collocation of the free boundary
-/// problem (data/thesis_4_5_ring_winkler.csv describes the problem; the values for a medium with a true
-/// circular surface and for a rigid cavity were computed with the same program).
+/// Sources. Half a ring under its weight in a circular cavity: limit points by collocation of the free
+/// boundary problem (data/thesis_4_5_ring_winkler.csv describes the problem; the values for a medium with a
+/// true circular surface and for a rigid cavity were computed with the same program).
 #include <limits>
 #include <optional>
 #include <string>
@@ -41,7 +41,8 @@ TEST(RingInACavity, ReachesTheLoadOfARigidCavity) {
     ASSERT_TRUE(result.summary.critical_load_factor) << accuracy << ": " << result.summary.message;
     ASSERT_TRUE(result.summary.error_estimate) << accuracy;
     EXPECT_LE(*result.summary.error_estimate, accuracy);
-    expect_relative(*result.summary.critical_load_factor, 81.5574276, *result.summary.error_estimate, "rigid");
+    expect_relative(*result.summary.critical_load_factor, 81.5574276, *result.summary.error_estimate,
+                    "rigid");
   }
 }
 
