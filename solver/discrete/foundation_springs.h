@@ -19,7 +19,7 @@ namespace snapthrough {
 /// Point of the perfect axis at a place of an element, in the model's units.
 [[nodiscard]] AxisPoint axis_point(const Structure& structure, int element, double xi);
 
-/// The same point, scaled, with the fraction of its member.
+/// Point of the perfect axis at a place of an element, scaled, with the fraction of its member.
 [[nodiscard]] PlaceOnAxis place_on_axis(const Structure& structure, int element, double xi);
 
 /// @brief Winkler springs of a foundation on part of an element: at Gauss points, or at Lobatto points where

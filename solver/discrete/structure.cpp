@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "solver/discrete/foundation_springs.h"
+#include "solver/discrete/structure_laws.h"
 #include "solver/geometry/axes.h"
 #include "solver/geometry/stress_free_axis.h"
 #include "solver/model/id_index.h"
@@ -48,9 +49,6 @@ class Builder {
 
   /// @param known scales of another mesh or model; null: from the model
   void set_scales(const Scales* known);
-  void add_laws(const Model& model, std::vector<FoundationLaw>& foundations,
-                std::vector<SpringLaw>& springs) const;
-  void bound_stiffness();
   void add_unresolved();
   [[nodiscard]] bool is_moved_by_constant_actions() const;
   void number_unknowns();
@@ -71,7 +69,6 @@ class Builder {
     LinePressure constant;
   };
 
-  [[nodiscard]] double stop_stiffness(const Spring& spring, const SpringLaw& law) const;
   void add_shape(int element);
   /// Supports of an element: indices of foundations of the model, and of foundations and springs of `laws_`.
   struct Here {
@@ -159,69 +156,13 @@ void Builder::set_scales(const Scales* known) {
   out_.scales.length = length;
   out_.scales.force = bending / (length * length);
   if (known != nullptr) out_.scales = *known;
-  add_laws(model_, out_.foundation_laws, out_.spring_laws);
-  add_laws(laws_, foundation_laws_, spring_laws_);
+  add_laws(model_, model_, out_, out_.foundation_laws, out_.spring_laws);
+  add_laws(model_, laws_, out_, foundation_laws_, spring_laws_);
   const auto keep = [this](const auto& law) {
     if (law.curve) out_.curves.push_back(law.curve);
   };
   std::for_each(foundation_laws_.begin(), foundation_laws_.end(), keep);
   std::for_each(spring_laws_.begin(), spring_laws_.end(), keep);
-}
-
-void Builder::add_laws(const Model& model, std::vector<FoundationLaw>& foundations,
-                       std::vector<SpringLaw>& springs) const {
-  for (const Foundation& foundation : model.foundations) {
-    foundations.push_back(law_of(foundation, out_.scales, out_.origin));
-    foundations.back().fixed_tangents = out_.geometry == Geometry::linear;
-  }
-  for (const Spring& spring : model.springs) {
-    SpringLaw& law = springs.emplace_back(law_of(spring, out_.scales));
-    if (!std::isfinite(law.law.stiffness)) law.law.stiffness = stop_stiffness(spring, law);
-  }
-}
-
-/// Stiffness of members at their place, over which that of a stop stands: a stop gives way by 1e-8 of what
-/// the members do, and the rounding of displacements, 1e-16, leaves eight digits of its force.
-constexpr double kStopStiffness = 1e8;
-
-/// Stiffness of a spring that stands for a stop, scaled.
-double Builder::stop_stiffness(const Spring& spring, const SpringLaw& law) const {
-  double sum = 0.0;
-  for (std::size_t m = 0; m < model_.members.size(); ++m) {
-    const Member& member = model_.members[m];
-    if (spring.at.member.empty() ? member.start != spring.at.node && member.end != spring.at.node
-                                 : member.id != spring.at.member)
-      continue;
-    const Section& section = model_.sections[index_of(model_.sections, member.section)];
-    const AxisCurve& axis = *out_.axes[m];
-    const double length = out_.scales.scaled_length(axis.length());
-    const double at_node = member.end == spring.at.node ? 1.0 : 0.0;
-    const double fraction = spring.at.member.empty() ? at_node : spring.at.fraction;
-    const double bending =
-        section.EI.at(fraction) / (out_.scales.force * std::pow(out_.scales.length, 2) * length);
-    const double axial = section.EA.at(fraction) / (out_.scales.force * length);
-    const double angle = axis.angle_at(fraction * axis.length());
-    const double along = law.row[0] * std::cos(angle) + law.row[1] * std::sin(angle);
-    sum += spring.direction ? along * along * axial + 12.0 * bending / (length * length) : 4.0 * bending;
-  }
-  return kStopStiffness * sum;
-}
-
-void Builder::bound_stiffness() {
-  const Mesh& mesh = out_.mesh;
-  for (std::size_t m = 0; m < model_.members.size(); ++m) {
-    const AlongMember& EI = model_.sections[index_of(model_.sections, model_.members[m].section)].EI;
-    for (int e = mesh.first[m]; e < mesh.first[m + 1]; ++e) {
-      const MeshElement& cell = mesh.elements[static_cast<std::size_t>(e)];
-      const double length = (cell.to - cell.from) * out_.axes[m]->length();
-      const double least = std::min(EI.at(cell.from), EI.at(cell.to));
-      const auto at_decay = [&](double lengths) {
-        return out_.scales.scaled_modulus(4.0 * least * std::pow(lengths / length, 4));
-      };
-      out_.stiffest.push_back(at_decay(mesh.decay_lengths));
-      out_.stiffest_rigid.push_back(at_decay(kResolvedDecays));
-    }
-  }
 }
 
 void Builder::number_unknowns() {
@@ -719,15 +660,6 @@ ElementShape shape_of_element(const Structure& structure, const Model& model, in
 
 namespace {
 
-/// Largest stiffness with which a foundation acts on a member.
-double stiffness_on(const Structure& structure, const Foundation& foundation, int member) {
-  const double stiffness = initial_stiffness(foundation);
-  if (std::isfinite(stiffness)) return stiffness;
-  const auto first = structure.stiffest_rigid.begin();
-  return *std::max_element(first + structure.mesh.first[member], first + structure.mesh.first[member + 1]) /
-         structure.scales.scaled_modulus(1.0);
-}
-
 /// Fills all data that follow from the model, the axes, the geometry and the mesh, which are already set.
 /// @param scales null: computed from the model
 /// @param like see Builder
@@ -736,7 +668,7 @@ void fill(const Model& model, const Scales* scales, const Neighbour* like, Struc
   const Model& laws = joined ? *joined : model;
   Builder builder(model, laws, like, out);
   builder.set_scales(scales);
-  builder.bound_stiffness();
+  bound_stiffness(model, out);
   builder.number_unknowns();
   builder.add_elements();
   builder.add_supports();

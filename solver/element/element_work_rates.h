@@ -97,8 +97,8 @@ void ElementWorkOf<P>::add_surface_rates(const Functional& n, const Law::Respons
                                          const ElementDofs& dofs, const double* along) {
   Functional t = data_.along_surface(n);
   const double across = data_.value(t, dofs, along);
-  const double mixed =
-      (response.stiffness * n.bend - response.force * n.bend * n.bend) * across;  // of n t^T + t n^T
+  // factor of n t^T + t n^T
+  const double mixed = (response.stiffness * n.bend - response.force * n.bend * n.bend) * across;
   t.tangent =
       response.stiffness * into * n.bend + response.force * (n.bend_rate * across - n.bend * n.bend * into);
   acting_.push_back(t);

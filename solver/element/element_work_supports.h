@@ -38,9 +38,8 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
   if (regime_.grip > 0.0 && one_sided) add_interval(index, shape, whole, regime_.grip, nullptr);
 }
 
-/// Appends the Gauss points of the pieces of an interval between the knots of its law, in knots_. Laws with a
-/// curve have each piece in two halves, so that the tangent is the derivative of the quadrature to about ten
-/// digits.
+/// Appends the Gauss points of an interval; for a law with a curve, on the halves between its knots, in
+/// knots_.
 template <int P>
 void ElementWorkOf<P>::add_pieces(std::size_t index, const Shape& shape, const ElementPart& interval,
                                   double share, const ContactDisplacement* u) {
@@ -48,11 +47,8 @@ void ElementWorkOf<P>::add_pieces(std::size_t index, const Shape& shape, const E
     add_interval(index, shape, interval, share, u);
     return;
   }
-  FoundationContact::for_each_piece(knots_, interval, [&](const ElementPart& piece) {
-    const double middle = 0.5 * (piece.from + piece.to);
-    add_interval(index, shape, {piece.from, middle}, share, u);
-    add_interval(index, shape, {middle, piece.to}, share, u);
-  });
+  FoundationContact::for_each_half(
+      knots_, interval, [&](const ElementPart& half) { add_interval(index, shape, half, share, u); });
 }
 
 /// Appends the Gauss points of an interval with a share of the stiffness. Functionals of the whole range, the

@@ -21,6 +21,7 @@ struct ContactSearch {
   static constexpr int parts = 4;           ///< parts of a cell between two samples
   static constexpr int dip_trials = 20;     ///< points at most in the search of a minimum
   static constexpr double zero = 1e-10;     ///< |g| that is rounding, over |g| at the other end of a part
+  static constexpr double vanishing = 1e-12;  ///< number of a law that counts as zero, over its largest value
 };
 
 }  // namespace
@@ -233,7 +234,7 @@ double FoundationContact::slope_to_surface(double xi, std::array<double, 2> u,
   }
   const SurfacePoint initial = foundation_law_.surface->at(at.x);
   const auto d = initial.into;
-  const double turn = initial.bend * (d[0] * dx[1] - d[1] * dx[0]);  // of d, per xi
+  const double turn = initial.bend * (d[0] * dx[1] - d[1] * dx[0]);  // rotation of d per xi
   return d[0] * (dx[0] + du[0]) + d[1] * (dx[1] + du[1]) + turn * (d[0] * u[1] - d[1] * u[0]);
 }
 
@@ -503,17 +504,35 @@ void FoundationContact::intervals_into(std::array<double, 2> ua, std::span<const
   search(SampledGap(std::span<const double>(w).first(samples_->count)), w, out);
 }
 
-/// Appends the places at which the argument of the curve is sign times that of a knot.
-/// @param x arguments of the curve at the samples
-void FoundationContact::add_knot(int knot, double sign, const Values& x, std::vector<KnotPlace>& out) const {
+/// Stiffness, capacity and shape of a law at the samples. Where a number along the member vanishes, a very
+/// small one stands for it, so that quotients exist.
+void FoundationContact::laws_at_samples(std::array<Values, 3>& out) const {
+  const double width = range_[1] - range_[0];
+  for (int i = 0; i < samples_->count; ++i) {
+    double stiffness = 1.0;
+    double capacity = 1.0;
+    if (foundation_law_.variation) {
+      const double xi = range_[0] + samples_->z[i] * width;
+      const double fraction = place_.from + xi * (place_.to - place_.from);
+      stiffness = std::max(foundation_law_.variation->stiffness.at(fraction), ContactSearch::vanishing);
+      capacity = std::max(foundation_law_.variation->capacity.at(fraction), ContactSearch::vanishing);
+    }
+    out[0][i] = law_.stiffness * stiffness;
+    out[1][i] = law_.capacity * capacity;
+    out[2][i] = law_.shape * stiffness / capacity;
+  }
+}
+
+/// Appends the places at which the argument k w / P of the curve is sign times that of a knot, x: the roots
+/// of k w - sign x P, which is smooth where P vanishes.
+/// @param w penetrations, @param laws see laws_at_samples()
+void FoundationContact::add_knot(int knot, double sign, const Values& w, const std::array<Values, 3>& laws,
+                                 std::vector<KnotPlace>& out) const {
   const auto count = static_cast<std::ptrdiff_t>(samples_->count);
   const double width = range_[1] - range_[0];
   Values beyond;
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const double shape =
-        foundation_law_.variation ? law_at(range_[0] + samples_->z[i] * width).shape : law_.shape;
-    beyond[i] = x[i] - sign * law_.curve->knot(knot, shape).x;
-  }
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+    beyond[i] = laws[0][i] * w[i] - sign * law_.curve->knot(knot, laws[2][i]).x * laws[1][i];
   const SampledGap gap(std::span<const double>(beyond).first(count));
   std::vector<Interval> above;
   search(gap, beyond, above);
@@ -522,7 +541,7 @@ void FoundationContact::add_knot(int knot, double sign, const Values& x, std::ve
     const Law law = law_at(xi);
     if (!(law.stiffness > 0.0)) return;
     out.push_back({xi, sign * law.stiffness * law_.curve->knot(knot, law.shape).slope_change,
-                   gap.slope((xi - range_[0]) / width) / width * law.capacity / law.stiffness});
+                   gap.slope((xi - range_[0]) / width) / (width * law.stiffness)});
   };
   for (const Interval& part : above) {
     add(part.from);
@@ -547,15 +566,15 @@ void FoundationContact::knot_places(std::array<double, 2> ua, std::span<const do
   out.clear();
   if (law_.curve == nullptr) return;
   add_bends(out);
+  Values w;
   Values x;
-  penetrations(ua, dx, dy, 0.0, x);
-  std::array<double, 2> shapes{law_.shape, law_.shape};  // least and largest
-  for (int i = 0; i < samples_->count; ++i) {
-    const Law law = law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0]));
-    x[i] = law.stiffness > 0.0 ? x[i] * law.stiffness / law.capacity : 0.0;
-    if (law.stiffness > 0.0) shapes = {std::min(shapes[0], law.shape), std::max(shapes[1], law.shape)};
-  }
+  std::array<Values, 3> laws;
+  penetrations(ua, dx, dy, 0.0, w);
+  laws_at_samples(laws);
+  for (int i = 0; i < samples_->count; ++i) x[i] = laws[0][i] * w[i] / laws[1][i];
   const auto [least, most] = std::minmax_element(x.begin(), x.begin() + samples_->count);
+  const auto ends = std::minmax_element(laws[2].begin(), laws[2].begin() + samples_->count);
+  const std::array<double, 2> shapes{*ends.first, *ends.second};
   const auto places = [&](int k) {
     return std::array{law_.curve->knot(k, shapes[0]).x, law_.curve->knot(k, shapes[1]).x};
   };
@@ -565,8 +584,8 @@ void FoundationContact::knot_places(std::array<double, 2> ua, std::span<const do
     if (k + 1 < knots && places(k + 1) == at) continue;  // one place, of which the last knot has the change
     const double low = std::min(at[0], at[1]);
     const double high = std::max(at[0], at[1]);
-    if (high >= *least && low <= *most) add_knot(k, 1.0, x, out);
-    if (!law_.one_sided && high > 0.0 && -low >= *least && -high <= *most) add_knot(k, -1.0, x, out);
+    if (high >= *least && low <= *most) add_knot(k, 1.0, w, laws, out);
+    if (!law_.one_sided && high > 0.0 && -low >= *least && -high <= *most) add_knot(k, -1.0, w, laws, out);
   }
   std::sort(out.begin(), out.end(), [](const KnotPlace& a, const KnotPlace& b) { return a.xi < b.xi; });
 }
@@ -579,8 +598,13 @@ std::vector<FoundationContact::Interval> FoundationContact::smooth_pieces(std::a
   std::vector<KnotPlace> knots;
   knot_places(ua, dx, dy, knots);
   std::vector<Interval> out;
-  for (const Interval& part : parts)
-    for_each_piece(knots, part, [&out](const Interval& piece) { out.push_back(piece); });
+  const auto add = [&out](const Interval& piece) { out.push_back(piece); };
+  for (const Interval& part : parts) {
+    if (law_.curve == nullptr)
+      add(part);
+    else
+      for_each_half(knots, part, add);
+  }
   return out;
 }
 

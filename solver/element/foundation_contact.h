@@ -115,7 +115,17 @@ class FoundationContact {
     }
     take(interval);
   }
-  /// @brief Intervals in contact, cut at the knots of the law; ascending.
+  /// @brief Calls take(half) for both halves of each piece: the intervals of quadrature of laws with a curve,
+  /// on which the tangent is the derivative of the quadrature to about ten digits.
+  template <class Take>
+  static void for_each_half(const std::vector<KnotPlace>& knots, Interval interval, const Take& take) {
+    for_each_piece(knots, interval, [&take](const Interval& piece) {
+      const double middle = 0.5 * (piece.from + piece.to);
+      take(Interval{piece.from, middle});
+      take(Interval{middle, piece.to});
+    });
+  }
+  /// @brief Intervals of quadrature of the acting parts; ascending.
   [[nodiscard]] std::vector<Interval> smooth_pieces(std::array<double, 2> ua, std::span<const double> dx,
                                                     std::span<const double> dy) const;
 
@@ -146,7 +156,9 @@ class FoundationContact {
                     double depth, Values& g) const;
   [[nodiscard]] bool resolved(const Samples& samples) const;
   void add_bends(std::vector<KnotPlace>& out) const;
-  void add_knot(int knot, double sign, const Values& x, std::vector<KnotPlace>& out) const;
+  void laws_at_samples(std::array<Values, 3>& out) const;
+  void add_knot(int knot, double sign, const Values& w, const std::array<Values, 3>& laws,
+                std::vector<KnotPlace>& out) const;
   template <class Gap>
   void search(const Gap& gap, const Values& g, std::vector<Interval>& out) const;
 

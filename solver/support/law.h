@@ -132,7 +132,7 @@ struct LawVariation {
 struct PlaceOnAxis {
   std::array<double, 2> x{};
   double angle = 0.0;     ///< angle of the axis tangent, rad
-  double fraction = 0.0;  ///< of the member's length
+  double fraction = 0.0;  ///< fraction of the member's length
 };
 
 /// Reaction law of a foundation, scaled.

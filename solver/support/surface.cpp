@@ -102,7 +102,8 @@ class SplineSurface final : public Surface {
     const double depth = dot(difference(x, p.x), into);
     if (is_beyond(x, t, p)) return {depth, into, 0.0, 0.0};
     const double curvature = cross(p.rate, p.bend) / (speed * speed * speed);
-    const double stretch = 1.0 - sense_ * curvature * depth;  // of the parallel curve through x
+    const double stretch =
+        1.0 - sense_ * curvature * depth;  // ratio of lengths on the parallel curve through x
     const double change = cross(p.rate, third_derivative(t)) / (speed * speed * speed) -
                           3.0 * curvature * dot(p.rate, p.bend) / (speed * speed);
     return {depth, into, -sense_ * curvature / stretch, change / speed / (stretch * stretch * stretch)};
@@ -215,7 +216,7 @@ class RoundedPolyline final : public Surface {
       if (!(r > 0.0) || arc.side * cross(arc.first, tangent) < 0.0 ||
           arc.side * cross(tangent, arc.last) < 0.0)
         continue;
-      const double sense = -sense_ * arc.side;  // of `into` along `out`
+      const double sense = -sense_ * arc.side;  // sense of `into` along `out`
       offer(sense * beyond_circle(difference(x0, arc.centre), u, arc.radius),
             {sense * out[0], sense * out[1]}, sense / r);
     }
