@@ -101,6 +101,23 @@ TEST(Sections, NumbersMayTaper) {
   EXPECT_EQ(shaped.mass->at(0.5), 2.5);
 }
 
+TEST(Sections, PointersNameNumbersOfATaper) {
+  json document =
+      document_with(json::parse(R"({"EA": 5, "EI": {"along": [[0, 16], [0.5, 1]], "power": 4}})"));
+  document["analysis"] = {
+      {"type", "critical"},
+      {"sensitivities", {"/model/sections/0/EI/along/1/1", "/model/sections/0/EI/power"}}};
+  document["model"]["loads"][0]["force"] = {-1, 0};
+  const ReadOutcome outcome = read_request(document.dump());
+  ASSERT_TRUE(outcome.request) << write_findings(outcome.findings).dump();
+  const auto& variations = outcome.request->analysis.sensitivities;
+  ASSERT_EQ(variations.size(), 2U);
+  EXPECT_EQ(variations[0].value, 1.0);
+  EXPECT_EQ(variations[0].model_at(2.0)->sections[0].EI.points[1].second, 2.0);
+  EXPECT_FALSE(variations[0].model_at(-2.0));
+  EXPECT_EQ(variations[1].model_at(3.0)->sections[0].EI.power, 3.0);
+}
+
 struct Refused {
   const char* section;
   const char* pointer;

@@ -17,8 +17,8 @@ using testing::fixed_mesh;
 ReactionLaw law_of_type(ReactionLaw::Type type) {
   ReactionLaw law;
   law.type = type;
-  law.stiffness = {90.0, {}};
-  law.capacity = {0.0, {{0.0, 2.0}, {0.55, 5.0}, {1.0, 4.0}}};
+  law.stiffness = 90.0;
+  law.capacity = AlongMember({{0.0, 2.0}, {0.55, 5.0}, {1.0, 4.0}});
   law.reference = 0.3;
   law.exponent = 0.4;
   law.points = {{0.02, 0.6}, {0.06, 1.5}, {0.2, 2.2}, {0.5, 2.4}};
@@ -54,7 +54,7 @@ Model with_laws(ReactionLaw::Type type) {
   spring.at = {"", id, 0.41};
   spring.direction = {0.4, 1.0};
   spring.law = law_of_type(type);
-  spring.law->capacity = {3.0, {}};
+  spring.law->capacity = 3.0;
   Spring turning = spring;
   turning.id = "turning";
   turning.at = {model.nodes[0].id, "", 0.0};
