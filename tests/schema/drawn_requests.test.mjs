@@ -28,7 +28,7 @@ const kBetweenFields = {
   not_increasing: 'a fraction or a point and the one before it',
   invalid_pointer: 'a pointer, which is to something in /model',
   no_such_place: 'a pointer and the model',
-  not_supported: 'a pointer and what the model has there',
+  not_supported: 'a pointer and what the model has there; the reaction of a member and what is on it',
   too_many_findings: 'the number of findings',
   memory_limit: 'members, elements and order, against a setting of the service',
 };
@@ -50,6 +50,8 @@ const kBetweenFieldsAt = [
   ['out_of_range', /\/outline\/rounding$/, 'rounding and sides of a polyline'],
   ['ambiguous', /^\/model\/foundations\/\d+\/(component|side)$/, 'component, side and direction'],
   ['empty', /^\/model\/supports$/, 'supports, springs and foundations'],
+  ['empty', /^\/model\/members$/, 'reactions of all members'],
+  ['ambiguous', /^\/model\/springs\/\d+\/to$/, 'nodes of at and to'],
   ['too_many', /\/points_per_member$/, 'times members'],
   ['too_many', /\/elements$/, 'of all members'],
   ['too_many', /^\/model\/imperfections\/\d+$/, 'one of type worst'],
