@@ -92,7 +92,7 @@ std::vector<double> LawsDrawer::fractions() {
 
 /// Constant without places; at one of them soil may have no strength, as at its surface.
 AlongMember LawsDrawer::number(double value, const std::vector<double>& at) {
-  AlongMember out{value, {}};
+  AlongMember out(value);
   if (at.empty()) return out;
   out.constant = 0.0;
   for (const double fraction : at) out.points.emplace_back(fraction, value * random_.between(0.2, 1.0));
@@ -139,8 +139,8 @@ void LawsDrawer::sections() {
     Section section;
     section.id = "s" + std::to_string(i);
     section.EI = force_ * length_ * length_ * (i == 0 ? 1.0 : random_.decades(-1.0, 1.0));
-    section.EA = section.EI / (length_ * length_) * random_.decades(2.0, 8.0);
-    if (random_.chance(0.25)) section.GA = section.EA * random_.between(0.1, 0.5);
+    section.EA = section.EI.constant / (length_ * length_) * random_.decades(2.0, 8.0);
+    if (random_.chance(0.25)) section.GA = section.EA.constant * random_.between(0.1, 0.5);
     section.mass = force_ / length_ * random_.between(0.0, 1.0);
     section.expansion = random_.between(0.5, 2.0) * 1e-5;
     model().sections.push_back(section);
@@ -351,7 +351,7 @@ void LawsDrawer::mesh() {
   mesh.fixed_mesh = true;
   mesh.order = 1 + random_.below(6);
   const double softest =
-      std::ranges::min_element(model().sections, {}, [](const Section& s) { return s.EI; })->EI;
+      std::ranges::min_element(model().sections, {}, [](const Section& s) { return s.EI.constant; })->EI.constant;
   const double decay = stiffest_ > 0.0 ? std::pow(4.0 * softest / stiffest_, 0.25) : length_;
   mesh.elements = std::max(6 + random_.below(10), static_cast<int>(length_ / (kDecayLengths * decay)) + 1);
   if (random_.chance(0.15)) mesh.foundation = FoundationRule::lumped;

@@ -208,7 +208,7 @@ void Maker::line_load(RodElement& element, const DistributedLoad& load,
 }
 
 void Maker::weight(RodElement& element, const SelfWeight& load) const {
-  const double mass = section_of(element).mass.value_or(0.0);
+  const double mass = section_of(element).mass.value_or(0.0).constant;
   DistributedLoad pull;
   pull.force = {mass * load.gravity[0], mass * load.gravity[1]};
   pull.pattern = load.pattern;

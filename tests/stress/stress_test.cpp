@@ -45,11 +45,11 @@ TEST(StressChecker, SeesAFalsePoint) {
 ReactionLaw law_of(ReactionLaw::Type type) {
   ReactionLaw law;
   law.type = type;
-  law.stiffness = {0.0, {{0.0, 200.0}, {0.4, 500.0}, {1.0, 300.0}}};
-  law.capacity = {0.0, {{0.0, 2.0}, {0.4, 4.0}, {1.0, 3.0}}};
+  law.stiffness = AlongMember({{0.0, 200.0}, {0.4, 500.0}, {1.0, 300.0}});
+  law.capacity = AlongMember({{0.0, 2.0}, {0.4, 4.0}, {1.0, 3.0}});
   law.reference = 0.02;
   law.points = {{0.004, 1.5}, {0.01, 2.5}, {0.03, 3.0}};
-  law.factor = {0.0, {{0.0, 0.5}, {0.4, 1.5}, {1.0, 1.0}}};
+  law.factor = AlongMember({{0.0, 0.5}, {0.4, 1.5}, {1.0, 1.0}});
   return law;
 }
 

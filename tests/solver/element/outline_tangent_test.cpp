@@ -113,7 +113,7 @@ TEST_P(OutlineTangent, ChangesByItsDerivative) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Media, OutlineTangent, ::testing::ValuesIn(media()),
-                         [](const auto& info) { return info.param.first; });
+                         [](const auto& one) { return one.param.first; });
 
 }  // namespace
 }  // namespace snapthrough
