@@ -61,7 +61,7 @@ void bound_stiffness(const Model& model, Structure& structure) {
       const double length = (cell.to - cell.from) * structure.axes[m]->length();
       const double least = std::min(EI.at(cell.from), EI.at(cell.to));
       const auto at_decay = [&](double lengths) {
-        return structure.scales.scaled_modulus(4.0 * least * std::pow(lengths / length, 4));
+        return structure.scales.scaled_modulus(4.0 * least / std::pow(length / lengths, 4));
       };
       structure.stiffest.push_back(at_decay(mesh.decay_lengths));
       structure.stiffest_rigid.push_back(at_decay(kResolvedDecays));

@@ -251,7 +251,7 @@ const Case kCases[] = {
      "/model/foundations/0/outline/radius", "out_of_range"},
     {"OutlineCornerTooRound", "/model/foundations/0",
      R"({"id": "f", "member": "ab", "stiffness": 1, "reaction": "compression_only",
-         "outline": {"type": "polyline", "points": [[0, 0], [1, 0], [1, 1]], "rounding": 1, "medium": "left"}})",
+         "outline": {"type": "polyline", "points": [[0, 0], [1, 0], [1, 1]], "rounding": 1.5, "medium": "left"}})",
      "/model/foundations/0/outline/rounding", "out_of_range"},
     {"OutlinePointTwice", "/model/foundations/0",
      R"({"id": "f", "member": "ab", "stiffness": 1, "reaction": "compression_only",

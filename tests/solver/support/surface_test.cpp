@@ -35,7 +35,7 @@ const std::vector<Vec2> kPlaces{{-0.31, 0.02}, {0.05, 0.021}, {0.33, -0.2},
                                 {0.62, 0.05},  {1.3, 0.0},    {-0.9, -0.1}};
 
 TEST(Surface, HasTheDerivativesOfItsDistance) {
-  constexpr double kStep = 1e-5;
+  constexpr double kStep = 1e-6;
   for (const auto& [name, outline] : outlines()) {
     const auto surface = made(outline);
     for (const Vec2& x : kPlaces) {
