@@ -350,8 +350,9 @@ void LawsDrawer::mesh() {
   Discretization mesh;
   mesh.fixed_mesh = true;
   mesh.order = 1 + random_.below(6);
-  const double softest =
-      std::ranges::min_element(model().sections, {}, [](const Section& s) { return s.EI.constant; })->EI.constant;
+  const double softest = std::ranges::min_element(model().sections, {}, [](const Section& s) {
+                           return s.EI.constant;
+                         })->EI.constant;
   const double decay = stiffest_ > 0.0 ? std::pow(4.0 * softest / stiffest_, 0.25) : length_;
   mesh.elements = std::max(6 + random_.below(10), static_cast<int>(length_ / (kDecayLengths * decay)) + 1);
   if (random_.chance(0.15)) mesh.foundation = FoundationRule::lumped;
