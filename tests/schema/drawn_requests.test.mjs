@@ -47,6 +47,7 @@ const kBetweenFieldsAt = [
   ['out_of_range', /^\/model\/foundations\/\d+\/(law\/)?(stiffness|capacity|factor)(\/along)?$/, 'all values along a member'],
   ['out_of_range', /\/law\/points\/\d+\/1$/, 'the first force of a table'],
   ['empty', /\/law\/points$/, 'points beside the origin'],
+  ['ambiguous', /\/outline$/, 'outline and side, direction, gap or component'],
   ['out_of_range', /\/outline\/rounding$/, 'rounding and sides of a polyline'],
   ['ambiguous', /^\/model\/foundations\/\d+\/(component|side)$/, 'component, side and direction'],
   ['empty', /^\/model\/supports$/, 'supports, springs and foundations'],

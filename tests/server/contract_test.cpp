@@ -108,6 +108,8 @@ bool needs_several_fields(const Finding& finding) {
       {"ambiguous", std::regex("/model/load_cases/.*/pattern")},         // grows of the case and pattern
       {"ambiguous", std::regex("/model/foundations/[0-9]+/(component|side)")},   // and direction
       {"out_of_range", std::regex(".*/outline/rounding")},                       // sides of a polyline
+      {"ambiguous", std::regex(".*/outline")},                                   // side, direction, gap
+      {"not_supported", std::regex(".*/outline")},                               // reaction
       {"missing_field", std::regex("/model/sections/[0-9]+/(mass|expansion)")},  // sections and loads
       {"too_many", std::regex(".*/(points_per_member|elements)")},  // times members, of all members
       {"too_many", std::regex("/model/imperfections/.*")},          // of one type

@@ -172,6 +172,10 @@ export class Drawer {
       if (Array.isArray(one.direction)) delete one.side;
       positiveFirst(one.stiffness);
       ascend(one.gap);
+      if (one.outline) {
+        for (const field of ['side', 'direction', 'gap', 'component', 'shear_stiffness']) delete one[field];
+        one.reaction = 'compression_only';
+      }
       if (one.outline?.points) one.outline.points = one.outline.points.map(([, y], i) => [100 * i, y]);
       if ('rounding' in (one.outline ?? {})) one.outline.rounding = 1e-3;
       if (!one.law) continue;
