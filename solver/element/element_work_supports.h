@@ -24,10 +24,13 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
   const ElementPart whole{contact.range()[0], contact.range()[1]};
   const bool one_sided = contact.law().one_sided;
   const double share = one_sided ? regime_.softness : 1.0;
-  const auto* at = regime_.linearised_at();
-  const auto u = data_.displacement_of(shape, dofs, at != nullptr ? at->data() : y);
+  ContactDisplacement u;  // only supports whose tangent changes ask for it
   knots_.clear();
-  if (contact.law().curve != nullptr) contact.knot_places(u.start, u.dx, u.dy, knots_);
+  if (contact.law().curve != nullptr || contact.follows_surface()) {
+    const auto* at = regime_.linearised_at();
+    u = data_.displacement_of(shape, dofs, at != nullptr ? at->data() : y);
+    contact.knot_places(u.start, u.dx, u.dy, knots_);
+  }
   if (regime_.bilateral() || !one_sided) {
     add_pieces(index, shape, whole, share, nullptr);
   } else {
@@ -62,19 +65,21 @@ void ElementWorkOf<P>::add_interval(std::size_t index, const Shape& shape,
   const double width = interval.to - interval.from;
   const bool whole = interval.from == contact.range()[0] && interval.to == contact.range()[1];
   const bool is_known = whole && (u == nullptr || !contact.follows_surface());
+  const std::size_t first = acting_.size();
   for (std::size_t i = 0; i < data_.contact_quadrature.points.size(); ++i) {
     if (is_known)
       acting_.push_back(data_.whole_contacts[index][i]);
     else
       acting_.push_back(data_.functional_at(contact, shape.h,
                                             interval.from + width * data_.contact_quadrature.points[i], u));
-    if (regime_.linearised_at() != nullptr) acting_.back().bend = 0.0;
     Law& law = acting_.back().law;
     if (u == nullptr) law.gap = 0.0;
     law.scale(share);
     law.scale(width);
     law.scale(data_.contact_quadrature.weights[i]);
   }
+  if (!contact.follows_surface() || regime_.linearised_at() == nullptr) return;
+  for (std::size_t i = first; i < acting_.size(); ++i) acting_[i].bend = 0.0;
 }
 
 template <int P>

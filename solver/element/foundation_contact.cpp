@@ -204,7 +204,11 @@ SurfacePoint FoundationContact::penetration_at(double xi, std::array<double, 2> 
 
 double FoundationContact::penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                       std::span<const double> dy) const {
-  return penetration_at(xi, ua, dx, dy).depth;
+  if (foundation_law_.surface) return penetration_at(xi, ua, dx, dy).depth;
+  const auto u = displacement(xi, ua, dx, dy);
+  const auto d = direction_at(xi);
+  const double fraction = place_.from + xi * (place_.to - place_.from);
+  return u[0] * d[0] + u[1] * d[1] - value_at(law_.gap, foundation_law_.gap_along, fraction);
 }
 
 double FoundationContact::penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,
@@ -394,9 +398,9 @@ void search_cell(const Gap& gap, const Sample& left, const Sample& right, double
 
 }  // namespace
 
-/// Motions along direction_at() at all samples.
+/// Motions along direction_at(), minus a distance, at all samples.
 void FoundationContact::motions_into(std::array<double, 2> ua, std::span<const double> dx,
-                                     std::span<const double> dy, Values& w) const {
+                                     std::span<const double> dy, double less, Values& w) const {
   const std::size_t p = dx.size();
   for (int b = 0; b < samples_->blocks; ++b) {
     const Lanes* block = &samples_->rows[static_cast<std::size_t>(b) * (2 + p)];
@@ -406,7 +410,7 @@ void FoundationContact::motions_into(std::array<double, 2> ua, std::span<const d
       ux += dx[r] * block[2 + r];
       uy += dy[r] * block[2 + r];
     }
-    const Lanes values = ux * block[0] + uy * block[1];
+    const Lanes values = ux * block[0] + uy * block[1] - less;
     for (int i = 0; i < kLanes; ++i) w[kLanes * b + i] = values[i];
   }
 }
@@ -435,11 +439,11 @@ void FoundationContact::penetrations(std::array<double, 2> ua, std::span<const d
     for (int i = 0; i < samples_->count; ++i) g[i] -= depth;
     return;
   }
-  motions_into(ua, dx, dy, g);
   const bool is_uniform = !foundation_law_.surface && foundation_law_.gap_along.empty();
+  motions_into(ua, dx, dy, is_uniform ? law_.gap + depth : depth, g);
+  if (is_uniform) return;
   for (int i = 0; i < samples_->count; ++i)
-    g[i] -=
-        (is_uniform ? law_.gap : law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0])).gap) + depth;
+    g[i] -= law_at(range_[0] + samples_->z[i] * (range_[1] - range_[0])).gap;
 }
 
 bool FoundationContact::is_near(std::array<double, 2> ua, std::span<const double> dx,
@@ -500,7 +504,7 @@ void FoundationContact::intervals_into(std::array<double, 2> ua, std::span<const
   }
   out.clear();
   Values w;
-  motions_into(ua, dx, dy, w);
+  motions_into(ua, dx, dy, 0.0, w);
   search(SampledGap(std::span<const double>(w).first(samples_->count)), w, out);
 }
 

@@ -149,7 +149,7 @@ class FoundationContact {
   [[nodiscard]] PlaceOnAxis place_at(double xi) const;
   [[nodiscard]] double slope_to_surface(double xi, std::array<double, 2> u, std::array<double, 2> du) const;
   void motions_into(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
-                    Values& w) const;
+                    double less, Values& w) const;
   void depths(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
               Values& g) const;
   void penetrations(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
