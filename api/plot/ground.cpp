@@ -14,6 +14,21 @@ struct GroundLine {
   std::vector<Point> directions;
 };
 
+/// Returns a surface that has points, side by side, each with the normal into the medium.
+GroundLine surface_through(const ModelFoundation& foundation) {
+  GroundLine surface;
+  for (std::size_t i = 1; i < foundation.line.size(); ++i) {
+    const Point& a = foundation.line[i - 1];
+    const Point& b = foundation.line[i];
+    const auto into = foundation.surface->at({0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}).into;
+    for (const Point& end : {a, b}) {
+      surface.points.push_back(end);
+      surface.directions.push_back({into[0], into[1]});
+    }
+  }
+  return surface;
+}
+
 /// Returns the undeformed ground surface beside the undeformed axis.
 /// @param farthest largest distance that is drawn
 GroundLine surface_of(const DrawnMember& member, const ModelFoundation& foundation, double farthest) {
@@ -178,7 +193,8 @@ Shape ground_shape(const Scene& scene, const View& view, Size size) {
     if (member == nullptr) {
       continue;
     }
-    const GroundLine surface = surface_of(*member, foundation, scene.extent);
+    const GroundLine surface =
+        foundation.line.empty() ? surface_of(*member, foundation, scene.extent) : surface_through(foundation);
     const double depth = depth_of(surface, scene.depth);
     std::vector<Pixel> inner;
     std::vector<Pixel> outer;

@@ -142,6 +142,11 @@ ModelFoundation read_foundation(const Field& field) {
   read_gap(field, foundation);
   if (const std::optional<Field> outline = field.find("outline")) {
     foundation.surface = read_outline(*outline);
+    if (const std::optional<Field> points = outline->find("points")) {
+      for (std::size_t i = 0; i < points->size(); ++i) {
+        foundation.line.push_back(read_point(points->item(i)));
+      }
+    }
   }
   foundation.range = read_range(field);
   return foundation;

@@ -57,6 +57,7 @@ struct ModelFoundation {
   double gap = 0;                            ///< the largest along the member
   Along<double> gap_along;                   ///< empty: `gap` everywhere
   std::shared_ptr<const Surface> surface;    ///< surface of the medium; null: beside the member
+  std::vector<Point> line;                   ///< points of that surface, where it has points
   std::pair<double, double> range = {0, 1};  ///< loaded part, as fractions of the member's length
 };
 

@@ -253,6 +253,9 @@ ModelBox box_with_ground(const Scene& scene) {
       continue;
     }
     const bool pulls = scene.input.state != nullptr && !foundation.compression_only;
+    for (const Point& point : foundation.line) {
+      box.include(point.x, point.y);
+    }
     for (std::size_t i = 0; i < member->s.size(); ++i) {
       const auto [d, gap] = way_into(foundation, *member, member->s[i]);
       const double reach = std::min(gap, scene.extent) + scene.depth;

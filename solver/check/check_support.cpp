@@ -1,5 +1,6 @@
 /// Checks of supports, springs and foundations.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -40,17 +41,22 @@ void check_stiffness(const Place& place, double stiffness, Reaction reaction) {
   }
 }
 
-/// Checks the points of an outline: at least `least`, distinct neighbours.
+/// Checks the points of an outline: at least `least`, and neighbours that differ beside the largest
+/// coordinate.
 void check_outline_points(const Place& place, const std::vector<std::array<double, 2>>& points,
                           std::size_t least) {
   require_count(place, points.size(), kMaxPointsAlong);
   if (points.size() < least) {
     place.report("empty", "an outline needs at least " + std::to_string(least) + " points");
   }
+  double largest = 0.0;
+  for (const auto& [x, y] : points) largest = std::max({largest, std::abs(x), std::abs(y)});
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool finite = require_finite(place / i / std::size_t{0}, points[i][0]) &&
                         require_finite(place / i / std::size_t{1}, points[i][1]);
-    if (finite && i > 0 && points[i] == points[i - 1]) {
+    if (finite && i > 0 &&
+        std::hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]) <=
+            kMinRelativeChord * largest) {
       (place / i).report("coincident_points", "neighbouring points of an outline must differ");
     }
   }

@@ -40,6 +40,28 @@ function surfaceOf(member: DrawnMember, foundation: Foundation, farthest: number
   return { points, directions };
 }
 
+/** The surface of a medium whose outline has points, side by side. */
+function surfaceThrough(points: readonly (readonly number[])[], sense: number): Surface {
+  const surface: Surface = { points: [], directions: [] };
+  points.slice(1).forEach((b, i) => {
+    const a = points[i] ?? b;
+    const [ax = 0, ay = 0] = a;
+    const [bx = 0, by = 0] = b;
+    const length = Math.hypot(bx - ax, by - ay) || 1;
+    const into = { x: (-sense * (by - ay)) / length, y: (sense * (bx - ax)) / length };
+    surface.points.push({ x: ax, y: ay }, { x: bx, y: by });
+    surface.directions.push(into, into);
+  });
+  return surface;
+}
+
+/** The surface of the ground of a foundation. */
+function groundOf(member: DrawnMember, foundation: Foundation, farthest: number): Surface {
+  const outline = "outline" in foundation ? foundation.outline : undefined;
+  return outline && "points" in outline ? surfaceThrough(outline.points, outline.medium === "left" ? 1 : -1)
+    : surfaceOf(member, foundation, farthest);
+}
+
 /** Depth that does not run over the centre of curvature on a member's hollow side. */
 function depthOf(surface: Surface, depth: number): number {
   let least = depth;
@@ -106,7 +128,7 @@ export function groundShapes(scene: Scene, view: View, size: Size): Shape {
   for (const foundation of foundationsWithGround(scene)) {
     const member = scene.members.get(foundation.member);
     if (!member) continue;
-    const surface = surfaceOf(member, foundation, scene.extent);
+    const surface = groundOf(member, foundation, scene.extent);
     const depth = depthOf(surface, scene.depth);
     const inner = surface.points.map((p) => toPixel(view, p));
     const outer = surface.points.map((p, i) => {

@@ -232,6 +232,8 @@ export function boxWithGround(scene: Scene): Scene["box"] {
       box.bottom = Math.min(box.bottom, y);
       box.top = Math.max(box.top, y);
     };
+    const outline = "outline" in foundation ? foundation.outline : undefined;
+    if (outline && "points" in outline) for (const [x, y] of outline.points) include(x ?? 0, y ?? 0);
     member.s.forEach((s, i) => {
       const { into: d, gap } = wayFrom(foundation, member, s);
       const reach = Math.min(gap, scene.extent) + scene.depth;
