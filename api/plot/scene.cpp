@@ -89,6 +89,7 @@ void add_members(Scene& scene) {
     }
   } else {
     std::vector<std::string> ids;
+    ids.reserve(input.state->members.size());
     for (const auto& [id, state] : input.state->members) {
       ids.push_back(id);
     }
