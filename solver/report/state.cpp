@@ -85,7 +85,8 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     double beyond = law.penetration(place_on_axis(structure, place.element, place.xi), {u[0], u[1]}).depth;
     const double reaction = acting.reaction_beyond(beyond);
     // displacement of the base's surface by its given stiffness, where the element has a bounded one
-    if (law.law.one_sided && beyond > 0.0) beyond *= acting.stiffness / law.at(fraction).stiffness;
+    if (law.law.one_sided && beyond > 0.0 && acting.stiffness > 0.0)
+      beyond *= acting.stiffness / law.at(fraction).stiffness;
     const double w = law.surface ? beyond : acting.gap + beyond;
     out.s.push_back(fraction * axis.length());
     out.reaction.push_back(in_users_sense(law.sense, structure.scales.line_load() * reaction));

@@ -94,6 +94,19 @@ TEST(Stop, TakesTheForceThatABeamDoesNotCarry) {
   expect_relative(result.states[1].springs[0].displacement, 0.1, 1e-7, "displacement");
 }
 
+/// A foundation without stiffness is reported with the beam's displacement and no reaction.
+TEST(AbsentFoundation, HasFiniteResults) {
+  Model model = straight(1.0, 1.0, 1e6, "xyr", "yr");
+  model.foundations = {one_sided("m", 0.0, Side::right)};
+  model.loads = {DistributedLoad{"m", {0.0, -1.0}, {0.0, 1.0}, LoadMeasure::length, Pattern::proportional}};
+  const Result result = solve_soundly(model, static_on(fixed_mesh(4, 4), Geometry::linear, {1.0}));
+  const FoundationState& state = result.states.at(0).foundations.at(0);
+  for (std::size_t i = 0; i < state.s.size(); ++i) {
+    EXPECT_EQ(state.reaction[i], 0.0);
+    EXPECT_TRUE(std::isfinite(state.displacement[i])) << state.s[i];
+  }
+}
+
 /// A heavy beam over a rigid floor whose distance grows along it lies on the floor where the gap is small:
 /// the resultant of the floor and the supports carry the weight, and no point is below the floor by more than
 /// the pressure over the stiffness that the element resolves.
