@@ -43,12 +43,13 @@ void check_rod(const Place& place, const Member& rod) {
   require_hinge("end", rod.release_end_stiffness);
 }
 
-void check_other_end(const Place& place, const Spring& spring, const Model& data, const Names& names) {
+void check_other_end(const Place& place, const Spring& spring,
+                     const std::unordered_set<std::string>& free_to_turn, const Names& names) {
   check_location(place / "to", *spring.to, names);
   const auto check_end = [&](const Place& end, const Location& at) {
     if (!at.member.empty())
       end.report("not_supported", "a spring with two ends joins nodes: put a node there");
-    else if (!spring.direction && nodes_free_to_turn(data).contains(at.node))
+    else if (!spring.direction && free_to_turn.contains(at.node))
       end.report("needs_member", "node " + in_quotes(at.node) +
                                      " has no rotation: all members are hinged there, and no support or "
                                      "rotational spring to ground turns with it");

@@ -56,8 +56,11 @@ bool require_beam(const Place& place, const std::string& member, const Names& na
 void check_rod(const Place& place, const Member& rod);
 /// Nodes whose rotation no member, support or spring to ground resists.
 [[nodiscard]] std::unordered_set<std::string> nodes_free_to_turn(const Model& model);
+/// Checks the ends of a spring between two nodes.
+/// @param free_to_turn nodes_free_to_turn(), read for rotational springs only
 /// @pre spring.to
-void check_other_end(const Place& place, const Spring& spring, const Model& data, const Names& names);
+void check_other_end(const Place& place, const Spring& spring,
+                     const std::unordered_set<std::string>& free_to_turn, const Names& names);
 
 /// Requires an action that is proportional to the load factor and not zero.
 void check_something_proportional(const Place& model, const Model& data, const Analysis& analysis);

@@ -245,13 +245,16 @@ void check_springs(const Place& model, const Model& data, const Names& names) {
   const Place springs = model / "springs";
   require_count(springs, data.springs.size(), kMaxSprings);
   Ids ids("spring");
+  const bool turns_node = std::any_of(data.springs.begin(), data.springs.end(),
+                                      [](const Spring& spring) { return spring.to && !spring.direction; });
+  const auto free_to_turn = turns_node ? nodes_free_to_turn(data) : std::unordered_set<std::string>{};
   for (std::size_t i = 0; i < data.springs.size(); ++i) {
     const Place place = springs / i;
     const Spring& spring = data.springs[i];
     ids.add(place / "id", spring.id);
     check_location(place / "at", spring.at, names);
     if (spring.to) {
-      check_other_end(place, spring, data, names);
+      check_other_end(place, spring, free_to_turn, names);
     }
     if (spring.direction) {
       require_direction(place / "direction", *spring.direction);

@@ -8,21 +8,37 @@
 namespace snapthrough {
 namespace {
 
-/// Spring of a foundation at a place of an element, along the direction on the initial axis, per unit length.
-SupportSpring penetration_spring(const Structure& structure, const FoundationLaw& foundation, int element,
-                                 double xi) {
+/// Spring of a foundation at a place of an element, per unit length, with its gap; for a surface that of the
+/// tangent under the axis.
+/// @param reader displacements of the axis; null: the initial axis
+SupportSpring spring_at(const Structure& structure, const FoundationLaw& foundation, int element, double xi,
+                        const ElementReader* reader) {
   const PlaceOnAxis at = place_on_axis(structure, element, xi);
-  const auto d = foundation.initial_direction(at);
+  std::array<double, 2> u{0.0, 0.0};
+  if (reader != nullptr && foundation.surface) u = {reader->displacement(xi)[0], reader->displacement(xi)[1]};
+  const auto [depth, d, bend, bend_rate] = foundation.penetration(at, u);
   SupportSpring out = support_at(structure, element, xi, {d[0], d[1], 0.0});
   out.law = foundation.at(at.fraction);
+  out.law.gap = d[0] * u[0] + d[1] * u[1] - depth;
   return out;
 }
 
-/// Scales a spring to a point of a quadrature rule on a part of an element.
-void scale(const Structure& structure, int element, double width, double weight, Law& law) {
-  law.scale(length_of_element(structure, element));
-  law.scale(width);
-  law.scale(weight);
+/// Two-sided springs at the points of a quadrature rule on a part of an element; see spring_at().
+std::vector<SupportSpring> springs_on(const Structure& structure, const FoundationLaw& foundation,
+                                      int element, std::array<double, 2> range, const Quadrature& rule,
+                                      const ElementReader* reader) {
+  std::vector<SupportSpring> out;
+  out.reserve(rule.points.size());
+  const double width = range[1] - range[0];
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    out.push_back(spring_at(structure, foundation, element, range[0] + width * rule.points[i], reader));
+    Law& law = out.back().law;
+    law.one_sided = false;
+    law.scale(length_of_element(structure, element));
+    law.scale(width);
+    law.scale(rule.weights[i]);
+  }
+  return out;
 }
 
 /// Springs at the Lobatto points of the whole element that lie in the range.
@@ -33,9 +49,9 @@ std::vector<SupportSpring> lumped_springs(const Structure& structure, const Foun
   for (std::size_t i = 0; i < lobatto.points.size(); ++i) {
     const double xi = lobatto.points[i];
     if (xi < range[0] - kOnePlace || xi > range[1] + kOnePlace) continue;
-    SupportSpring support = penetration_spring(structure, foundation, element, xi);
-    scale(structure, element, 1.0, lobatto.weights[i], support.law);
-    out.push_back(support);
+    out.push_back(spring_at(structure, foundation, element, xi, nullptr));
+    out.back().law.scale(length_of_element(structure, element));
+    out.back().law.scale(lobatto.weights[i]);
   }
   return out;
 }
@@ -73,43 +89,14 @@ std::vector<SupportSpring> winkler_springs(const Structure& structure, const Fou
                                            int element, std::array<double, 2> range) {
   if (structure.mesh.foundation == FoundationRule::lumped)
     return lumped_springs(structure, foundation, element, range);
-  const Quadrature gauss = gauss_legendre(structure.mesh.order + 1);
-  std::vector<SupportSpring> out;
-  out.reserve(gauss.points.size());
-  const double width = range[1] - range[0];
-  for (std::size_t i = 0; i < gauss.points.size(); ++i) {
-    out.push_back(penetration_spring(structure, foundation, element, range[0] + width * gauss.points[i]));
-    Law& law = out.back().law;
-    law.gap = 0.0;
-    law.one_sided = false;
-    scale(structure, element, width, gauss.weights[i], law);
-  }
-  return out;
+  return springs_on(structure, foundation, element, range, gauss_legendre(structure.mesh.order + 1), nullptr);
 }
 
 std::vector<SupportSpring> contact_springs(const Structure& structure, const FoundationLaw& foundation,
                                            const ElementReader& reader, int element,
                                            FoundationContact::Interval interval) {
-  const Quadrature& rule = FoundationContact::quadrature(structure.mesh.order);
-  std::vector<SupportSpring> out;
-  out.reserve(rule.points.size());
-  const double width = interval.to - interval.from;
-  for (std::size_t i = 0; i < rule.points.size(); ++i) {
-    const double xi = interval.from + width * rule.points[i];
-    out.push_back(penetration_spring(structure, foundation, element, xi));
-    if (foundation.surface) {
-      const auto u = reader.displacement(xi);
-      const SurfacePoint at = foundation.penetration(place_on_axis(structure, element, xi), {u[0], u[1]});
-      const Law law = out.back().law;
-      out.back() = support_at(structure, element, xi, {at.into[0], at.into[1], 0.0});
-      out.back().law = law;
-      out.back().law.gap = at.into[0] * u[0] + at.into[1] * u[1] - at.depth;
-    }
-    Law& law = out.back().law;
-    law.one_sided = false;
-    scale(structure, element, width, rule.weights[i], law);
-  }
-  return out;
+  return springs_on(structure, foundation, element, {interval.from, interval.to},
+                    FoundationContact::quadrature(structure.mesh.order), &reader);
 }
 
 std::vector<SupportSpring> shear_layer_springs(const Structure& structure, const FoundationLaw& foundation,

@@ -24,7 +24,8 @@ SpringMotion NodeSpring::motion(const Eigen::Ref<const VectorXd>& y, bool small_
   SpringMotion out{direction().dot(r), direction(), Matrix3d::Zero()};
   if (!is_rod() || small_displacements) return out;
   const auto [e, n, l] = chord(r);
-  // L^2 - l^2 over L + l keeps the digits of small displacements
+  // the shortening L - l as (L^2 - l^2) / (L + l), with the initial length L and the present length l, has
+  // all digits of small displacements
   out.w = (2.0 * length * out.w - sense * r.head<2>().squaredNorm()) / (length + l);
   out.gradient = sense * e;
   out.curvature = -sense / l * n * n.transpose();

@@ -176,7 +176,9 @@ struct SpringReading {
 /// @param index index among the springs of the model
 [[nodiscard]] SpringReading reading_of(const Structure& structure, const Model& model, std::size_t index,
                                        const Eigen::VectorXd& y);
-/// The spring that stands for a rod, see with_rods_as_springs().
+/// @brief Scaled spring along the present chord between two nodes that replaces a one-sided member, see
+/// with_rods_as_springs().
+/// @param index index among the springs of the model; that spring has a `rod`
 [[nodiscard]] NodeSpring rod_of(const Structure& structure, const Model& model, std::size_t index);
 
 /// @brief Stress-free geometry and compliances of an element, scaled.

@@ -43,7 +43,8 @@ void add_laws(const Model& members, const Model& supports, const Structure& stru
               std::vector<FoundationLaw>& foundations, std::vector<SpringLaw>& springs) {
   for (const Foundation& foundation : supports.foundations) {
     foundations.push_back(law_of(foundation, structure.scales, structure.origin));
-    foundations.back().fixed_tangents = structure.geometry == Geometry::linear;
+    foundations.back().fixed_tangents =
+        structure.geometry == Geometry::linear || structure.mesh.foundation == FoundationRule::lumped;
   }
   for (const Spring& spring : supports.springs) {
     SpringLaw& law = springs.emplace_back(law_of(spring, structure.scales));

@@ -186,8 +186,8 @@ auto ElementData<P>::functional_at(const FoundationContact& contact, double h, d
     f.law = contact.law_at(xi);
     return f;
   }
-  const SurfacePoint at = contact.penetration_at(xi, u->start, u->dx, u->dy);
   const auto moved = contact.displacement(xi, u->start, u->dx, u->dy);
+  const SurfacePoint at = contact.penetration_at(xi, moved);
   Functional f = penetration(at.into, h, integrals);
   f.law = contact.law_at(xi);
   f.law.gap = at.into[0] * moved[0] + at.into[1] * moved[1] - at.depth;

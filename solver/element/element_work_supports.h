@@ -65,7 +65,6 @@ void ElementWorkOf<P>::add_interval(std::size_t index, const Shape& shape,
   const double width = interval.to - interval.from;
   const bool whole = interval.from == contact.range()[0] && interval.to == contact.range()[1];
   const bool is_known = whole && (u == nullptr || !contact.follows_surface());
-  const std::size_t first = acting_.size();
   for (std::size_t i = 0; i < data_.contact_quadrature.points.size(); ++i) {
     if (is_known)
       acting_.push_back(data_.whole_contacts[index][i]);
@@ -78,8 +77,6 @@ void ElementWorkOf<P>::add_interval(std::size_t index, const Shape& shape,
     law.scale(width);
     law.scale(data_.contact_quadrature.weights[i]);
   }
-  if (!contact.follows_surface() || regime_.linearised_at() == nullptr) return;
-  for (std::size_t i = first; i < acting_.size(); ++i) acting_[i].bend = 0.0;
 }
 
 template <int P>
@@ -155,7 +152,7 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
     rounding += f.tangent * size * std::numeric_limits<double>::epsilon();
     for (int c = 0; c < 3; ++c) at_start[c] += force * f.a[c];
     for (int i = 0; i < kStrains; ++i) forces[i] += force * row[i];
-    if (f.bend != 0.0) {
+    if (f.bend != 0.0 && regime_.linearised_at() == nullptr) {
       Functional tangential = data_.along_surface(f);
       tangential.tangent = force * f.bend;
       acting_.push_back(tangential);

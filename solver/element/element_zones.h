@@ -93,8 +93,7 @@ MovingZones ElementSetOf<P>::moving_zones(const Eigen::VectorXd& y, const Eigen:
       const auto v = data_.displacement_of(shape, data_.dofs[e], rate.data());
       const auto moves = [&](double xi, double end) {
         if (xi == end) return 0.0;
-        const auto into = contact.follows_surface() ? contact.penetration_at(xi, u.start, u.dx, u.dy).into
-                                                    : contact.direction_at(xi);
+        const auto into = contact.penetration_at(xi, contact.displacement(xi, u.start, u.dx, u.dy)).into;
         const auto motion = contact.displacement(xi, v.start, v.dx, v.dy);
         const double change = into[0] * motion[0] + into[1] * motion[1];
         const double moved = -shape.h * change / contact.penetration_slope(xi, u.start, u.dx, u.dy);

@@ -151,7 +151,7 @@ Law FoundationContact::law_at(double xi) const {
     law = foundation_law_.at(place_.from + xi * (place_.to - place_.from));
     law.scale(place_.length);
   }
-  if (foundation_law_.surface) law.gap = -foundation_law_.surface->at(place_at(xi).x).depth;
+  if (foundation_law_.surface && !follows_surface()) law.gap = -penetration_at(xi, {0.0, 0.0}).depth;
   return law;
 }
 
@@ -197,18 +197,9 @@ std::array<double, 2> FoundationContact::displacement(double xi, std::array<doub
   return combined(ua, a, dx, dy);
 }
 
-SurfacePoint FoundationContact::penetration_at(double xi, std::array<double, 2> ua,
-                                               std::span<const double> dx, std::span<const double> dy) const {
-  return foundation_law_.penetration(place_at(xi), displacement(xi, ua, dx, dy));
-}
-
 double FoundationContact::penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                       std::span<const double> dy) const {
-  if (foundation_law_.surface) return penetration_at(xi, ua, dx, dy).depth;
-  const auto u = displacement(xi, ua, dx, dy);
-  const auto d = direction_at(xi);
-  const double fraction = place_.from + xi * (place_.to - place_.from);
-  return u[0] * d[0] + u[1] * d[1] - value_at(law_.gap, foundation_law_.gap_along, fraction);
+  return penetration_at(xi, displacement(xi, ua, dx, dy)).depth;
 }
 
 double FoundationContact::penetration_slope(double xi, std::array<double, 2> ua, std::span<const double> dx,

@@ -73,9 +73,10 @@ class FoundationContact {
   /// @param ua displacement (x, y) at the element's start; dx, dy: h times u'_x, u'_y at the Gauss points
   [[nodiscard]] double penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                    std::span<const double> dy) const;
-  /// @brief Penetration at xi with its derivatives with respect to the displacement there.
-  [[nodiscard]] SurfacePoint penetration_at(double xi, std::array<double, 2> ua, std::span<const double> dx,
-                                            std::span<const double> dy) const;
+  /// @brief Penetration at xi with its derivatives with respect to the displacement u there.
+  [[nodiscard]] SurfacePoint penetration_at(double xi, std::array<double, 2> u) const {
+    return foundation_law_.penetration(place_at(xi), u);
+  }
   /// Displacement at xi.
   [[nodiscard]] std::array<double, 2> displacement(double xi, std::array<double, 2> ua,
                                                    std::span<const double> dx,

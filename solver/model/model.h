@@ -165,7 +165,8 @@ struct Spring {
   Reaction reaction = Reaction::bilateral;
   double gap = 0.0;  ///< displacement at which a one-sided spring begins to react, >= 0
   std::optional<ReactionLaw> law = std::nullopt;  ///< in place of `stiffness`; its numbers do not vary
-  /// Node at the other end: the spring reacts on the displacement of `at` relative to it. Empty: ground.
+  /// Node at the other end: the spring reacts on the displacement of `at` relative to that node. Empty: the
+  /// other end is the ground.
   std::optional<Location> to = std::nullopt;
   /// Index of the member that the spring stands for: see with_rods_as_springs(). `direction` is then the
   /// vector from `at` to `to`, and turns with both.

@@ -42,12 +42,15 @@ class StrainGauge {
   [[nodiscard]] bool is_beyond_theory(const Eigen::VectorXd& y) const;
 
  private:
+  /// Strains at a place by the section forces of one unit there.
   struct Compliance {
-    double axial, shear, bending;  ///< strain per scaled section force
+    double axial, shear, bending;
   };
+  [[nodiscard]] Compliance compliance_at(const MeshElement& cell, double fraction) const;
+
   const Structure& structure_;
   const Model& model_;
-  std::vector<Compliance> compliances_;  ///< one per Gauss point, element by element
+  std::vector<const Section*> sections_;  ///< one per member
 };
 
 }  // namespace snapthrough

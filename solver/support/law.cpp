@@ -77,11 +77,11 @@ Law FoundationLaw::at(double fraction) const {
   return out;
 }
 
-SurfacePoint FoundationLaw::penetration(const PlaceOnAxis& at, std::array<double, 2> u) const {
+SurfacePoint FoundationLaw::below_surface(const PlaceOnAxis& at, std::array<double, 2> u) const {
   if (follows_surface()) return surface->at(at.x, u);
-  const auto d = initial_direction(at);
-  const double gap = surface ? -surface->at(at.x).depth : value_at(law.gap, gap_along, at.fraction);
-  return {u[0] * d[0] + u[1] * d[1] - gap, d};
+  const SurfacePoint initial = surface->at(at.x);
+  const auto d = initial.into;
+  return {initial.depth + u[0] * d[0] + u[1] * d[1], d};
 }
 
 FoundationLaw law_of(const Foundation& foundation, const Scales& scales, std::array<double, 2> origin) {

@@ -147,7 +147,8 @@ struct FoundationLaw {
 
   Along<double> gap_along{};                 ///< empty: the gap of `law`
   std::shared_ptr<const Surface> surface{};  ///< surface of the medium; null: see `direction`
-  /// Whether the surface acts by its tangents at the points nearest to the initial axis: small displacements.
+  /// Whether the surface acts by its tangents at the points nearest to the initial axis: for small
+  /// displacements, and on meshes that lump foundations.
   bool fixed_tangents = false;
 
   /// Law at a fraction of the member's length, with the gap there.
@@ -155,11 +156,18 @@ struct FoundationLaw {
   /// Whether the direction of the reaction turns as the axis moves.
   [[nodiscard]] bool follows_surface() const { return surface && !fixed_tangents; }
   /// @brief Penetration of a point of the axis, with its derivatives with respect to the displacement u.
-  [[nodiscard]] SurfacePoint penetration(const PlaceOnAxis& at, std::array<double, 2> u) const;
+  [[nodiscard]] SurfacePoint penetration(const PlaceOnAxis& at, std::array<double, 2> u) const {
+    if (surface) return below_surface(at, u);
+    const auto d = direction.at(at.angle);
+    return {u[0] * d[0] + u[1] * d[1] - value_at(law.gap, gap_along, at.fraction), d};
+  }
   /// Unit direction into the medium on the initial axis.
   [[nodiscard]] std::array<double, 2> initial_direction(const PlaceOnAxis& at) const {
     return surface ? surface->at(at.x).into : direction.at(at.angle);
   }
+
+ private:
+  [[nodiscard]] SurfacePoint below_surface(const PlaceOnAxis& at, std::array<double, 2> u) const;
 };
 /// Reaction law of a spring, scaled.
 struct SpringLaw {

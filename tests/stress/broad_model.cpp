@@ -11,31 +11,20 @@
 #include "solver/discrete/mechanism.h"
 #include "solver/mesh/mesh.h"
 #include "solver/model/id_index.h"
-#include "tests/stress/random_numbers.h"
+#include "tests/stress/request_drawer.h"
 
 namespace snapthrough::testing {
 namespace {
 
-/// Draws one request; lengths come in a unit `length_`, forces in `force_` = EI / length^2.
-class Drawer {
+class Drawer : private RequestDrawer {
  public:
-  explicit Drawer(std::uint64_t seed)
-      : random_(Random(seed + 0xB0AD).bits()),  // seeds next to each other share nothing
-        length_(random_.decades(-3.0, 3.0)),
-        force_(random_.decades(-6.0, 9.0)) {}
+  explicit Drawer(std::uint64_t seed) : RequestDrawer(seed + 0xB0AD, {-3.0, 3.0}, {-6.0, 9.0}) {}
   RandomRequest draw();
 
  private:
-  Model& model() { return out_.model; }
-  [[nodiscard]] double component() { return force_ * random_.between(-1.0, 1.0); }
-  [[nodiscard]] const Member& any_member() {
-    return model().members[static_cast<std::size_t>(random_.below(static_cast<int>(model().members.size())))];
-  }
   [[nodiscard]] const Node& any_node() {
     return model().nodes[static_cast<std::size_t>(random_.below(static_cast<int>(model().nodes.size())))];
   }
-  /// Fractions on a grid of twentieths, so that no element is much shorter than the others.
-  [[nodiscard]] double fraction(int lo, int hi) { return 0.05 * (lo + random_.below(hi - lo + 1)); }
   [[nodiscard]] std::array<double, 2> range() {
     if (random_.chance(0.6)) return {0.0, 1.0};
     const double from = fraction(0, 9);
@@ -65,10 +54,6 @@ class Drawer {
   void analysis();
   [[nodiscard]] bool resolves_bases(const Discretization& mesh) const;
   void rules();
-
-  Random random_;
-  double length_, force_;
-  RandomRequest out_;
 };
 
 void Drawer::sections() {

@@ -11,29 +11,17 @@
 
 #include "solver/check/check.h"
 #include "solver/discrete/mechanism.h"
-#include "tests/stress/random_numbers.h"
+#include "tests/stress/request_drawer.h"
 
 namespace snapthrough::testing {
 namespace {
 
-/// Draws one request; lengths come in a unit `length_`, forces in `force_` = EI / length^2.
-class LawsDrawer {
+class LawsDrawer : private RequestDrawer {
  public:
-  explicit LawsDrawer(std::uint64_t seed)
-      : random_(Random(seed + 0x1A35).bits()),  // seeds next to each other share nothing
-        length_(random_.decades(-1.0, 2.0)),
-        force_(random_.decades(-2.0, 5.0)) {}
+  explicit LawsDrawer(std::uint64_t seed) : RequestDrawer(seed + 0x1A35, {-1.0, 2.0}, {-2.0, 5.0}) {}
   RandomRequest draw();
 
  private:
-  Model& model() { return out_.model; }
-  [[nodiscard]] const Member& any_member() {
-    return model().members[static_cast<std::size_t>(random_.below(static_cast<int>(model().members.size())))];
-  }
-  /// Component of a force.
-  [[nodiscard]] double component() { return force_ * random_.between(-1.0, 1.0); }
-  /// Fractions on a grid of twentieths, so that no element is much shorter than the others.
-  [[nodiscard]] double fraction(int lo, int hi) { return 0.05 * (lo + random_.below(hi - lo + 1)); }
   [[nodiscard]] std::array<double, 2> range() {
     if (random_.chance(0.7)) return {0.0, 1.0};
     const double from = fraction(0, 8);
@@ -77,10 +65,7 @@ class LawsDrawer {
   void path_rules();
   void mesh();
 
-  Random random_;
-  double length_, force_;
   double stiffest_ = 0.0;  ///< largest modulus of a foundation
-  RandomRequest out_;
 };
 
 std::vector<double> LawsDrawer::fractions() {

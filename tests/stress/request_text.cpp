@@ -95,7 +95,8 @@ Json written(const ReactionLaw& law) {
   return out;
 }
 
-/// Adds the stiffness of a support, or its law. A law of type linear is a stiffness that varies.
+/// Writes the field `stiffness` of a support, or its field `law`. Requests have a linear law that varies
+/// along a member as `stiffness`.
 template <typename Support>
 void add_stiffness(Json& out, const Support& support) {
   if (support.law && support.law->type != ReactionLaw::Type::linear)

@@ -111,7 +111,7 @@ void MemberTangent::add_supports(const ElementState& at, const std::array<Matrix
   H_ += rows.transpose() * (stiffness * rows);
 }
 
-/// Follower pressure's tangent: the symmetric part, and the part by the change of the pressure.
+/// Adds the tangent of a follower pressure: its symmetric part, and the skew part where the pressure varies.
 void MemberTangent::add_pressure(const RodElement& element, const std::array<MatrixXd, 3>& v) {
   const RodPressure pressure = pressure_at(element, load_factor_);
   if (pressure.from == 0.0 && pressure.to == 0.0) return;

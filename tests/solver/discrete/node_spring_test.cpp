@@ -6,6 +6,7 @@
 
 #include "solver/problem/structural_problem.h"
 #include "solver/support/rods.h"
+#include "tests/solver/central_differences.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {
@@ -66,11 +67,7 @@ TEST_P(Links, HaveTheTangentOfTheirForces) {
   for (int draw = 0; draw < 20; ++draw) {
     const VectorXd y = 0.2 * VectorXd::Random(problem_.size());
     const VectorXd d = VectorXd::Random(problem_.size());
-    VectorXd ahead;
-    VectorXd behind;
-    problem_.residual(y + kStep * d, 0.3, ahead);
-    problem_.residual(y - kStep * d, 0.3, behind);
-    const VectorXd difference = (ahead - behind) / (2.0 * kStep);
+    const VectorXd difference = testing::residual_difference(problem_, y, 0.3, d, kStep);
     EXPECT_LT((problem_.tangent_product(y, 0.3, d) - difference).norm(), 1e-7 * difference.norm()) << draw;
     // the factors are those of the same tangent
     VectorXd f;
@@ -91,9 +88,7 @@ TEST_P(Links, HaveTheDerivativeOfTheirTangent) {
     const VectorXd y = 0.2 * VectorXd::Random(problem_.size());
     const VectorXd a = VectorXd::Random(problem_.size());
     const VectorXd d = VectorXd::Random(problem_.size());
-    const VectorXd difference =
-        (problem_.tangent_product(y + kStep * a, 0.3, d) - problem_.tangent_product(y - kStep * a, 0.3, d)) /
-        (2.0 * kStep);
+    const VectorXd difference = testing::tangent_difference(problem_, y, 0.3, a, d, kStep);
     const VectorXd change = problem_.tangent_change(y, 0.3, {a, 0.0}, d);
     EXPECT_LT((change - difference).norm(), 1e-6 * (1.0 + difference.norm())) << draw;
   }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "solver/problem/structural_problem.h"
+#include "tests/solver/central_differences.h"
 #include "tests/solver/structures.h"
 
 namespace snapthrough {
@@ -78,11 +79,7 @@ TEST_P(LawTangent, IsTheDerivativeOfTheResidual) {
   for (int draw = 0; draw < 5; ++draw) {
     const VectorXd y = state_of(problem_);
     const VectorXd d = VectorXd::Random(problem_.size());
-    VectorXd ahead;
-    VectorXd behind;
-    problem_.residual(y + kStep * d, 0.3, ahead);
-    problem_.residual(y - kStep * d, 0.3, behind);
-    const VectorXd difference = (ahead - behind) / (2.0 * kStep);
+    const VectorXd difference = testing::residual_difference(problem_, y, 0.3, d, kStep);
     const VectorXd product = problem_.tangent_product(y, 0.3, d);
     // Quadrature of pieces that move leaves 1e-6 at most. A power has a jump of its slope, whose place is
     // interpolated: on the element in which the capacity bends, that place is right to some digits only.
@@ -99,9 +96,7 @@ TEST_P(LawTangent, ChangesByItsDerivative) {
     const VectorXd y = state_of(problem_);
     const VectorXd a = VectorXd::Random(problem_.size());
     const VectorXd d = VectorXd::Random(problem_.size());
-    const VectorXd difference =
-        (problem_.tangent_product(y + kStep * a, 0.3, d) - problem_.tangent_product(y - kStep * a, 0.3, d)) /
-        (2.0 * kStep);
+    const VectorXd difference = testing::tangent_difference(problem_, y, 0.3, a, d, kStep);
     const VectorXd change = problem_.tangent_change(y, 0.3, {a, 0.0}, d);
     EXPECT_LT((change - difference).norm(), 1e-3 * difference.norm()) << draw;
   }
