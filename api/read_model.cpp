@@ -226,6 +226,7 @@ static void read(const Value& value, Spring& out) {
   read_law(in, out);
   in.optional("reaction", out.reaction);
   in.optional("gap", out.gap);
+  in.optional("displacement", out.displacement);
   in.finish();
 }
 
@@ -292,6 +293,18 @@ static void read_component(Object& in, Foundation& out) {
   }
 }
 
+static void read(const Value& value, GroundDisplacement& out) {
+  Object in(value);
+  if (const auto x = in.find("x")) {
+    read_along(*x, out.x.constant, out.x.points, kLeastPoints);
+  }
+  if (const auto y = in.find("y")) {
+    read_along(*y, out.y.constant, out.y.points, kLeastPoints);
+  }
+  in.optional("pattern", out.pattern);
+  in.finish();
+}
+
 static void read(const Value& value, Foundation& out) {
   Object in(value);
   in.required("id", out.id);
@@ -314,6 +327,7 @@ static void read(const Value& value, Foundation& out) {
   }
   read_component(in, out);
   read_outline(in, out);
+  in.optional("displacement", out.displacement);
   in.finish();
 }
 

@@ -35,7 +35,7 @@ std::string nothing_found(const Model& model, const Structure& structure, const 
     return "no equilibrium was found for the first small load: contact alone may not hold the structure";
   std::size_t node = 0;
   double largest = 0.0;
-  for (int j = 0; j < structure.nodes; ++j) {
+  for (int j = 0; j < structure.first_ground; ++j) {
     const double size = motion.segment<2>(3 * j).lpNorm<Eigen::Infinity>();
     if (size <= largest) continue;
     largest = size;

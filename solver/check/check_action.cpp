@@ -98,6 +98,17 @@ bool grows(const Support& support) {
          (is_amount(d->x) || is_amount(d->y) || is_amount(d->rotation));
 }
 
+bool is_amount(const AlongMember& value) { return is_amount(value.constant) || is_amount(value.points); }
+bool grows(const Spring& spring) {
+  const auto& d = spring.displacement;
+  return d && d->pattern == Pattern::proportional &&
+         (is_amount(d->x) || is_amount(d->y) || is_amount(d->rotation));
+}
+bool grows(const Foundation& foundation) {
+  const auto& d = foundation.displacement;
+  return d && d->pattern == Pattern::proportional && (is_amount(d->x) || is_amount(d->y));
+}
+
 void check_imperfection(const Place& place, const SineImperfection& imperfection, const Names& names) {
   require_beam(place / "member", imperfection.member, names);
   require_between(place / "half_waves", imperfection.half_waves, 1, kMaxHalfWaves);
@@ -236,9 +247,11 @@ void check_loads(const Place& model, const Model& data, const Names& names) {
 }
 
 void check_something_proportional(const Place& model, const Model& data, const Analysis& analysis) {
-  const bool something =
-      std::any_of(data.loads.begin(), data.loads.end(), [](const Load& l) { return grows(l); }) ||
-      std::any_of(data.supports.begin(), data.supports.end(), [](const Support& s) { return grows(s); });
+  const auto some_grow = [](const auto& list) {
+    return std::any_of(list.begin(), list.end(), [](const auto& one) { return grows(one); });
+  };
+  const bool something = some_grow(data.loads) || some_grow(data.supports) || some_grow(data.springs) ||
+                         some_grow(data.foundations);
   if (!something && analysis.type != AnalysisType::static_) {
     (model / "loads")
         .report("no_load",

@@ -201,6 +201,37 @@ void check_prescribed(const Place& place, double value, bool fixed) {
   }
 }
 
+/// Checks the displacement of the ground under a spring.
+void check_ground(const Place& place, const Spring& spring) {
+  require_finite(place / "x", spring.displacement->x);
+  require_finite(place / "y", spring.displacement->y);
+  require_finite(place / "rotation", spring.displacement->rotation);
+  if (spring.to) {
+    place.report("ambiguous", "a spring between two nodes does not reach the ground: leave displacement out");
+  } else if (spring.direction && spring.displacement->rotation != 0.0) {
+    (place / "rotation").report("not_supported", "the ground's rotation moves rotational springs only");
+  } else if (!spring.direction && (spring.displacement->x != 0.0 || spring.displacement->y != 0.0)) {
+    place.report("not_supported", "only the ground's rotation moves a rotational spring");
+  }
+}
+
+/// Checks one component of the displacement of the ground under a foundation.
+void check_ground(const Place& place, const AlongMember& value) {
+  if (value.varies()) {
+    check_along(place, value.points, kMaxPointsAlong, require_finite);
+  } else {
+    require_finite(place, value.constant);
+  }
+}
+
+void check_ground(const Place& place, const Foundation& foundation) {
+  check_ground(place / "x", foundation.displacement->x);
+  check_ground(place / "y", foundation.displacement->y);
+  if (foundation.shear_stiffness != 0.0) {
+    place.report("not_supported", "ground that moves has no shear layer");
+  }
+}
+
 void check_support(const Place& place, const Support& support) {
   if (!support.x && !support.y && !support.rotation) {
     (place / "fixed").report("empty", "a support must fix at least one of x, y, rotation");
@@ -266,6 +297,9 @@ void check_springs(const Place& model, const Model& data, const Names& names) {
       check_stiffness(place / "stiffness", spring.stiffness, spring.reaction);
     }
     check_gap(place / "gap", spring.gap, spring.reaction);
+    if (spring.displacement) {
+      check_ground(place / "displacement", spring);
+    }
   }
 }
 
@@ -295,6 +329,9 @@ void check_foundations(const Place& model, const Model& data, const Names& names
     }
     if (foundation.outline) {
       check_outline(place, foundation);
+    }
+    if (foundation.displacement) {
+      check_ground(place / "displacement", foundation);
     }
     if (foundation.direction) {
       require_direction(place / "direction", *foundation.direction);

@@ -106,10 +106,11 @@ bool LineReader::is_simple() const {
       return false;
   }
   for (const Spring& spring : model_.springs)
-    if (spring.to || spring.law || (spring.stiffness > 0.0 && spring.reaction != Reaction::bilateral))
+    if (spring.to || spring.law || spring.displacement ||
+        (spring.stiffness > 0.0 && spring.reaction != Reaction::bilateral))
       return false;
   for (const Foundation& foundation : model_.foundations)
-    if (foundation.law || foundation.tangential ||
+    if (foundation.law || foundation.tangential || foundation.displacement ||
         (foundation.stiffness + foundation.shear_stiffness > 0.0 &&
          foundation.reaction != Reaction::bilateral))
       return false;

@@ -15,6 +15,9 @@ namespace snapthrough {
 class ElementReader {
  public:
   ElementReader(const Structure& structure, const Eigen::VectorXd& y, int element);
+  /// Reads displacements relative to the ground under a foundation.
+  ElementReader(const Structure& structure, const Eigen::VectorXd& y, int element,
+                const FoundationLaw& foundation);
 
   /// Displacement (x, y, rotation) at xi in [0, 1].
   [[nodiscard]] std::array<double, 3> displacement(double xi) const;

@@ -10,7 +10,7 @@ namespace {
 
 /// Spring of a foundation at a place of an element, per unit length, with its gap; for a surface that of the
 /// tangent under the axis.
-/// @param reader displacements of the axis; null: the initial axis
+/// @param reader displacements of the axis relative to the ground; null: the initial axis
 SupportSpring spring_at(const Structure& structure, const FoundationLaw& foundation, int element, double xi,
                         const ElementReader* reader) {
   const PlaceOnAxis at = place_on_axis(structure, element, xi);
@@ -18,6 +18,10 @@ SupportSpring spring_at(const Structure& structure, const FoundationLaw& foundat
   if (reader != nullptr && foundation.surface) u = {reader->displacement(xi)[0], reader->displacement(xi)[1]};
   const auto [depth, d, bend, bend_rate] = foundation.penetration(at, u);
   SupportSpring out = support_at(structure, element, xi, {d[0], d[1], 0.0});
+  const MeshElement& cell = structure.mesh.elements[static_cast<std::size_t>(element)];
+  const GroundMotion ground = foundation.ground_under(cell.from, cell.to);
+  out.ground = ground.unknown;
+  out.share = ground.share_at(xi);
   out.law = foundation.at(at.fraction);
   out.law.gap = d[0] * u[0] + d[1] * u[1] - depth;
   return out;

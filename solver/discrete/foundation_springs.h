@@ -34,7 +34,7 @@ namespace snapthrough {
 
 /// @brief Springs at the Gauss points of an interval on which a one-sided foundation acts, with its gap; for
 /// a surface those of its tangents under the displaced axis.
-/// @param reader displacements of the element
+/// @param reader displacements of the element relative to the ground
 [[nodiscard]] std::vector<SupportSpring> contact_springs(const Structure& structure,
                                                          const FoundationLaw& foundation,
                                                          const ElementReader& reader, int element,

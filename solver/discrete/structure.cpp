@@ -156,6 +156,7 @@ void Builder::set_scales(const Scales* known) {
   out_.scales.length = length;
   out_.scales.force = bending / (length * length);
   if (known != nullptr) out_.scales = *known;
+  out_.first_ground = static_cast<int>(model_.nodes.size());
   add_laws(model_, model_, out_, out_.foundation_laws, out_.spring_laws);
   add_laws(model_, laws_, out_, foundation_laws_, spring_laws_);
   const auto keep = [this](const auto& law) {
@@ -169,7 +170,7 @@ void Builder::number_unknowns() {
   const Mesh& mesh = out_.mesh;
   const int p = mesh.order;
   out_.dofs.reserve(mesh.elements.size());
-  out_.nodes = static_cast<int>(model_.nodes.size());
+  out_.nodes = out_.first_ground + static_cast<int>(ground_displacements(model_).size());
   int next = 3 * out_.nodes;
   std::vector<std::array<int, 2>> released(model_.members.size(), {-1, -1});
   const auto release = [&](bool is_released, const std::string& node, double stiffness, int& end) {
@@ -303,6 +304,7 @@ void Builder::add_point_spring(int element, std::size_t index) {
   const SpringLaw& law = spring_laws_[index];
   SupportSpring support = support_at(out_, element, place.xi, law.row);
   support.law = law.law;
+  support.ground = law.ground;
   support.touch = touch_of_spring(index);
   support.spring = static_cast<int>(index);
   elements_->add_spring(support);
@@ -385,22 +387,30 @@ void Builder::add_unresolved() {
 }
 
 void Builder::add_supports() {
-  out_.supports.assign(model_.nodes.size(), {});
+  out_.supports.assign(static_cast<std::size_t>(out_.nodes), {});
+  const auto prescribe = [this](NodeSupport& node, const PrescribedDisplacement& d) {
+    const Vec3 value{out_.scales.scaled_length(d.x), out_.scales.scaled_length(d.y), d.rotation};
+    (d.pattern == Pattern::proportional ? node.proportional : node.constant) = value;
+  };
   for (const Support& support : model_.supports) {
     NodeSupport& node = out_.supports[index_of(model_.nodes, support.node)];
     node.fixed = {support.x, support.y, support.rotation};
     node.angle = support.angle_degrees * std::numbers::pi / 180.0;
-    if (!support.displacement) continue;
-    const auto& d = *support.displacement;
-    const Vec3 value{out_.scales.scaled_length(d.x), out_.scales.scaled_length(d.y), d.rotation};
-    (d.pattern == Pattern::proportional ? node.proportional : node.constant) = value;
+    if (support.displacement) prescribe(node, *support.displacement);
+  }
+  int ground = out_.first_ground;
+  for (const PrescribedDisplacement& displacement : ground_displacements(model_)) {
+    NodeSupport& node = out_.supports[static_cast<std::size_t>(ground++)];
+    node.fixed = {true, true, true};
+    prescribe(node, displacement);
   }
   for (std::size_t i = 0; i < laws_.springs.size(); ++i) {
     const Spring& spring = laws_.springs[i];
     if (spring.at.node.empty() || initial_stiffness(spring) == 0.0) continue;
-    NodeSpring& js =
-        out_.node_springs.emplace_back(node_spring(spring_laws_[i], index_of(model_.nodes, spring.at.node),
-                                                   spring.to ? index_of(model_.nodes, spring.to->node) : -1));
+    int to = spring.to ? index_of(model_.nodes, spring.to->node) : -1;
+    if (spring_laws_[i].ground >= 0) to = spring_laws_[i].ground / 3;
+    NodeSpring& js = out_.node_springs.emplace_back(
+        node_spring(spring_laws_[i], index_of(model_.nodes, spring.at.node), to));
     js.touch = touch_of_spring(i);
     js.spring = static_cast<int>(i);
   }

@@ -95,11 +95,13 @@ struct Structure {
   Eigen::Index size = 0;       ///< number of unknowns of the mixed problem
   int free_displacements = 0;  ///< number of unconstrained displacements, with element interiors and releases
   int nodes = 0;
+  /// First of the nodes that stand for moving ground: they follow those of the model, and are held.
+  int first_ground = 0;
   /// Number of rotations of released member ends; their unknowns follow those of the nodes.
   int releases = 0;
   std::unique_ptr<const ElementSet> elements;
   std::vector<ElementDofs> dofs;      ///< one per element
-  std::vector<NodeSupport> supports;  ///< one per node
+  std::vector<NodeSupport> supports;  ///< one per node, those of the ground included
   std::vector<NodeSpring> node_springs;
   std::vector<JointSpring> joints;
   std::vector<FoundationLaw> foundation_laws;  ///< one per foundation of the model
@@ -131,6 +133,9 @@ struct Structure {
   /// Node motions (x, y, rotation each, scaled) that only one-sided supports can resist; orthonormal columns.
   Eigen::MatrixXd free_motions;
 };
+
+/// Prescribed displacements of the ground under springs and foundations, in the order of their nodes.
+[[nodiscard]] std::vector<PrescribedDisplacement> ground_displacements(const Model& model);
 
 /// Adds the moments of semi-rigid joints at the unknowns y to the rows of a residual.
 void add_joint_moments(const Structure& structure, const Eigen::Ref<const Eigen::VectorXd>& y,

@@ -41,16 +41,34 @@ double stop_stiffness(const Model& model, const Structure& structure, const Spri
 
 void add_laws(const Model& members, const Model& supports, const Structure& structure,
               std::vector<FoundationLaw>& foundations, std::vector<SpringLaw>& springs) {
+  int ground = 3 * structure.first_ground;
+  const auto ground_under = [&ground](const auto& support) {
+    if (!support.displacement) return -1;
+    ground += 3;
+    return ground - 3;
+  };
+  for (const Spring& spring : supports.springs) {
+    SpringLaw& law = springs.emplace_back(law_of(spring, structure.scales));
+    law.ground = ground_under(spring);
+    if (!std::isfinite(law.law.stiffness))
+      law.law.stiffness = stop_stiffness(members, structure, spring, law);
+  }
   for (const Foundation& foundation : supports.foundations) {
     foundations.push_back(law_of(foundation, structure.scales, structure.origin));
     foundations.back().fixed_tangents =
         structure.geometry == Geometry::linear || structure.mesh.foundation == FoundationRule::lumped;
+    foundations.back().ground = ground_under(foundation);
   }
-  for (const Spring& spring : supports.springs) {
-    SpringLaw& law = springs.emplace_back(law_of(spring, structure.scales));
-    if (!std::isfinite(law.law.stiffness))
-      law.law.stiffness = stop_stiffness(members, structure, spring, law);
-  }
+}
+
+std::vector<PrescribedDisplacement> ground_displacements(const Model& model) {
+  std::vector<PrescribedDisplacement> out;
+  for (const Spring& spring : model.springs)
+    if (spring.displacement) out.push_back(*spring.displacement);
+  for (const Foundation& foundation : model.foundations)
+    if (const auto& moved = foundation.displacement)
+      out.push_back({largest_size(moved->x), largest_size(moved->y), 0.0, moved->pattern});
+  return out;
 }
 
 void bound_stiffness(const Model& model, Structure& structure) {

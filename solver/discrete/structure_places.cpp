@@ -106,6 +106,8 @@ SpringReading reading_of(const Structure& structure, const Model& model, std::si
   if (spring.to)
     for (const auto& [at, weight] : displacement_row(structure, model, *spring.to, row).entries)
       out.row.entries.emplace_back(at, -weight);
+  if (const int ground = structure.spring_laws[index].ground; ground >= 0)
+    for (int c = 0; c < 3; ++c) out.row.entries.emplace_back(ground + c, -row[c]);
   if (!spring.rod) out.displacement = out.row.dot(y);
   return out;
 }

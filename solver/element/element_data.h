@@ -45,18 +45,31 @@ struct ElementData {
     double bend_rate = 0.0;
     Touch touch = Touch::none;
     int spring = -1;
+    int ground = -1;  ///< see SupportSpring
+    std::array<double, 2> share{};
     std::array<double, 3> a{};
     std::array<Gauss, 3> v{};
+    /// Part a.u_g of the ground's displacement in the functional.
+    [[nodiscard]] double of_ground(const double* y) const {
+      if (ground < 0) return 0.0;
+      return a[0] * share[0] * y[ground] + a[1] * share[1] * y[ground + 1] + a[2] * y[ground + 2];
+    }
+    /// Adds the opposite of a force along the functional to the rows of the ground.
+    void push_ground(double force, double* out) const {
+      if (ground < 0) return;
+      for (int c = 0; c < 2; ++c) out[ground + c] -= force * a[c] * share[c];
+      out[ground + 2] -= force * a[2];
+    }
   };
-  /// Displacement at the element start, and h u'_x, h u'_y at the Gauss points.
+  /// Displacement relative to the ground: at the element start, and h u'_x, h u'_y at the Gauss points.
   struct ContactDisplacement {
     std::array<double, 2> start;
     Gauss dx, dy;
   };
 
   ElementData();
-  [[nodiscard]] ContactDisplacement displacement_of(const Shape& shape, const ElementDofs& at,
-                                                    const double* y) const;
+  [[nodiscard]] ContactDisplacement displacement_of(const FoundationContact& contact, const Shape& shape,
+                                                    const ElementDofs& at, const double* y) const;
   [[nodiscard]] double value(const Functional& f, const ElementDofs& at, const double* y) const;
   [[nodiscard]] Functional functional_at(const FoundationContact& contact, double h, double xi,
                                          const ContactDisplacement* u) const;
@@ -136,12 +149,20 @@ ElementData<P>::ElementData()
 }
 
 template <int P>
-auto ElementData<P>::displacement_of(const Shape& shape, const ElementDofs& at, const double* y) const
-    -> ContactDisplacement {
+auto ElementData<P>::displacement_of(const FoundationContact& contact, const Shape& shape,
+                                     const ElementDofs& at, const double* y) const -> ContactDisplacement {
   ContactDisplacement u{{y[at.a[0]], y[at.a[1]]}, {}, {}};
   for (int q = 0; q < P; ++q) {
     u.dx[q] = shape.h * y[at.v + q];
     u.dy[q] = shape.h * y[at.v + P + q];
+  }
+  if (const GroundMotion& ground = contact.ground(); ground.moves()) {
+    const double* moved = y + ground.unknown;
+    for (int c = 0; c < 2; ++c) u.start[c] -= ground.start[c] * moved[c];
+    for (int q = 0; q < P; ++q) {
+      u.dx[q] -= ground.change[0] * moved[0];
+      u.dy[q] -= ground.change[1] * moved[1];
+    }
   }
   return u;
 }
@@ -152,7 +173,7 @@ double ElementData<P>::value(const Functional& f, const ElementDofs& at, const d
   const double* v = y + at.v;
   for (int c = 0; c < 3; ++c)
     for (int q = 0; q < P; ++q) w += f.v[c][q] * v[c * P + q];
-  return w;
+  return w - f.of_ground(y);
 }
 
 template <int P>
@@ -181,15 +202,17 @@ auto ElementData<P>::functional_at(const FoundationContact& contact, double h, d
                                    const ContactDisplacement* u) const -> Functional {
   Gauss integrals;
   rule->integrals_at(xi, integrals);
-  if (u == nullptr || !contact.follows_surface()) {
-    Functional f = penetration(contact.direction_at(xi), h, integrals);
+  const auto along = [&](std::array<double, 2> d) {
+    Functional f = penetration(d, h, integrals);
     f.law = contact.law_at(xi);
+    f.ground = contact.ground().unknown;
+    f.share = contact.ground().share_at(xi);
     return f;
-  }
+  };
+  if (u == nullptr || !contact.follows_surface()) return along(contact.direction_at(xi));
   const auto moved = contact.displacement(xi, u->start, u->dx, u->dy);
   const SurfacePoint at = contact.penetration_at(xi, moved);
-  Functional f = penetration(at.into, h, integrals);
-  f.law = contact.law_at(xi);
+  Functional f = along(at.into);
   f.law.gap = at.into[0] * moved[0] + at.into[1] * moved[1] - at.depth;
   f.bend = at.bend;
   f.bend_rate = at.bend_rate;
@@ -199,6 +222,8 @@ auto ElementData<P>::functional_at(const FoundationContact& contact, double h, d
 template <int P>
 auto ElementData<P>::along_surface(const Functional& f) -> Functional {
   Functional out;
+  out.ground = f.ground;
+  out.share = f.share;
   out.a = {-f.a[1], f.a[0], 0.0};
   for (int q = 0; q < P; ++q) {
     out.v[0][q] = -f.v[1][q];
@@ -266,6 +291,8 @@ void ElementSetOf<P>::add_spring(const SupportSpring& support) {
   f.law = support.law;
   f.touch = support.touch;
   f.spring = support.spring;
+  f.ground = support.ground;
+  f.share = support.share;
   f.a = support.a;
   for (int q = 0; q < P; ++q)
     for (int c = 0; c < 3; ++c) f.v[c][q] = support.v[q][c];
@@ -282,9 +309,12 @@ void ElementSetOf<P>::add_contact(int element, FoundationContact contact, Touch 
   whole.reserve(data_.contact_quadrature.points.size());
   for (std::size_t i = 0; i < data_.contact_quadrature.points.size(); ++i) {
     const auto at = contact.at_point(i);
+    const double xi =
+        contact.range()[0] + (contact.range()[1] - contact.range()[0]) * data_.contact_quadrature.points[i];
     whole.push_back(data_.penetration({at[0], at[1]}, data_.shapes[element].h, at.subspan(2)));
-    whole.back().law = contact.law_at(contact.range()[0] + (contact.range()[1] - contact.range()[0]) *
-                                                               data_.contact_quadrature.points[i]);
+    whole.back().law = contact.law_at(xi);
+    whole.back().ground = contact.ground().unknown;
+    whole.back().share = contact.ground().share_at(xi);
   }
   auto& shape = data_.shapes[element];
   ++shape.contact_count;
@@ -310,9 +340,10 @@ void ElementSetOf<P>::freeze_contact(const Eigen::VectorXd& y, double tolerance,
   for (int e = 0; e < size(); ++e) {
     const auto& shape = data_.shapes[e];
     const ElementDofs& dofs = data_.dofs[e];
-    const auto u = data_.displacement_of(shape, dofs, y.data());
-    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i)
+    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
+      const auto u = data_.displacement_of(data_.contacts[i], shape, dofs, y.data());
       data_.contacts[i].contact_intervals(u.start, u.dx, u.dy, out.contacts[i], -tolerance);
+    }
     for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i)
       out.element_springs[i] =
           data_.value(data_.springs[i], dofs, y.data()) > data_.springs[i].law.gap - tolerance;
@@ -326,10 +357,11 @@ void ElementSetOf<P>::mark_touching(const Eigen::VectorXd& y, const TouchingDist
   out.element_springs.assign(data_.springs.size(), 0);
   for (int e = 0; e < size(); ++e) {
     const auto& shape = data_.shapes[e];
-    const auto u = data_.displacement_of(shape, data_.dofs[e], y.data());
-    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i)
+    for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
+      const auto u = data_.displacement_of(data_.contacts[i], shape, data_.dofs[e], y.data());
       out.contacts[i] =
           data_.contacts[i].is_near(u.start, u.dx, u.dy, near.of(data_.contacts[i].law().stiffness));
+    }
     for (int i = shape.first_spring; i < shape.first_spring + shape.spring_count; ++i) {
       const auto& support = data_.springs[i];
       const double w = data_.value(support, data_.dofs[e], y.data()) - support.law.gap;
@@ -372,7 +404,7 @@ void ElementSetOf<P>::set_touching(const TouchingMarks& marks, const Eigen::Vect
       const FoundationContact& contact = data_.contacts[i];
       out.contacts[i].assign(1, {contact.range()[0], contact.range()[1]});
       if (mode.size() == 0) continue;
-      const auto u = data_.displacement_of(shape, data_.dofs[e], mode.data());
+      const auto u = data_.displacement_of(contact, shape, data_.dofs[e], mode.data());
       contact.intervals_into(u.start, u.dx, u.dy, out.contacts[i]);
     }
   }

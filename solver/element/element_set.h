@@ -67,9 +67,13 @@ struct ElementShape {
 /// taken from the critical motion, because rounding hides it. `none`: not such a support.
 enum class Touch : char { none, absent, acts };
 
-/// Spring on a linear functional of one element's displacements, w = a.u_a + sum_q v_q.(u'_q, b'_q).
+/// Spring on a linear functional of one element's displacements, w = a.u_a + sum_q v_q.(u'_q, b'_q); where
+/// the ground moves, less a.u_g with its displacement u_g: shares of the unknowns `ground` and `ground` + 1,
+/// and the rotation `ground` + 2.
 struct SupportSpring {
   int element = 0;
+  int ground = -1;  ///< -1: the ground is at rest
+  std::array<double, 2> share{1.0, 1.0};
   Law law;
   Touch touch = Touch::none;
   int spring = -1;  ///< index of the spring; -1: part of a foundation
@@ -130,6 +134,9 @@ class ElementWork {
   /// @brief Replaces the interior rows of `x` (right-hand sides on entry) by the solution, from the end
   /// displacements and multipliers already in `x`.
   virtual void recover(const ColumnLanes& x) = 0;
+  /// @brief Adds the forces on the elements' unknowns that a motion of the ground causes by the tangent of
+  /// the last linearise(). @param motion unknowns, of which those of the ground are used
+  virtual void add_ground_forces(const double* motion, double* out) const = 0;
   /// Adds the second derivative of the energy times `directions`, column by column, to `out`.
   virtual void add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors,
                                     const Regime& regime, const Eigen::Ref<const Eigen::MatrixXd>& directions,

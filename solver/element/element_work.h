@@ -48,6 +48,7 @@ class ElementWorkOf final : public ElementWork {
                  Eigen::VectorXd& residual, std::span<CondensedElement> condensed) override;
   void reduce(const ColumnLanes& rhs, std::span<CondensedForces> condensed) override;
   void recover(const ColumnLanes& x) override;
+  void add_ground_forces(const double* motion, double* out) const override;
   void add_tangent_products(const Eigen::VectorXd& y, const LoadFactors& factors, const Regime& regime,
                             const Eigen::Ref<const Eigen::MatrixXd>& directions,
                             Eigen::MatrixXd& out) override;
@@ -183,7 +184,9 @@ class ElementWorkOf final : public ElementWork {
   std::vector<char> parts_known_;
   bool kinematics_linear_ = false;  ///< whether these were for small displacements
   std::vector<Tangent> tangents_;
-  std::vector<StrainRow> rows_;         ///< rows of all elements from the last linearisation
+  std::vector<StrainRow> rows_;  ///< rows of all elements from the last linearisation
+  /// Elements and functionals of the last linearisation that moving ground pushes.
+  std::vector<std::pair<int, Functional>> on_ground_;
   std::vector<Interior<2 * P>> stiff_;  ///< unshearable elements; allocated by the first linearisation
   std::vector<Interior<3 * P>> shearable_;
   // scratch
@@ -448,6 +451,7 @@ void ElementWorkOf<P>::collect_rows(int element, const double* y, double* residu
     StrainRow& out = rows_.emplace_back();
     to_strain_row(f, shape, t, out.row);
     out.stiffness = f.tangent;
+    if (f.ground >= 0) on_ground_.emplace_back(element, f);
   }
 }
 
@@ -520,6 +524,7 @@ void ElementWorkOf<P>::linearise(const Eigen::VectorXd& y, const LoadFactors& fa
   stiff_.resize(static_cast<std::size_t>(data_.stiff));
   shearable_.resize(static_cast<std::size_t>(data_.shearable));
   rows_.clear();
+  on_ground_.clear();
   for (int e = 0; e < size(); ++e) {
     const Shape& shape = shapes_[e];
     if (shape.shearable)
@@ -609,6 +614,7 @@ void ElementWorkOf<P>::add_acting_product(const ElementDofs& dofs, const double*
       out[dofs.a[k]] += force * f.a[k];
       for (int q = 0; q < P; ++q) out[dofs.v + k * P + q] += force * f.v[k][q];
     }
+    f.push_ground(force, out);
   }
 }
 

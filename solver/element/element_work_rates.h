@@ -122,7 +122,7 @@ void ElementWorkOf<P>::add_moving_ends(const Shape& shape, const ElementDofs& do
   const auto last = static_cast<std::size_t>(shape.first_contact + shape.contact_count);
   for (auto i = static_cast<std::size_t>(shape.first_contact); i < last; ++i) {
     const FoundationContact& contact = contacts_[i];
-    const ContactDisplacement u = data_.displacement_of(shape, dofs, y);
+    const ContactDisplacement u = data_.displacement_of(contact, shape, dofs, y);
     const double share = contact.law().one_sided ? regime_.softness : 1.0;
     const auto add = [&](Functional f, double stiffness, double slope) {
       f.tangent = share * stiffness * data_.value(f, dofs, along) / std::abs(slope);

@@ -10,7 +10,7 @@ template <int P>
 auto ElementWorkOf<P>::parts_in_contact(std::size_t index, const Shape& shape, const ElementDofs& dofs,
                                         const double* y) -> const std::vector<ElementPart>& {
   if (parts_known_[index] == 0) {
-    data_.acting_parts(index, data_.displacement_of(shape, dofs, y), parts_[index]);
+    data_.acting_parts(index, data_.displacement_of(contacts_[index], shape, dofs, y), parts_[index]);
     parts_known_[index] = 1;
   }
   return parts_[index];
@@ -28,7 +28,7 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
   knots_.clear();
   if (contact.law().curve != nullptr || contact.follows_surface()) {
     const auto* at = regime_.linearised_at();
-    u = data_.displacement_of(shape, dofs, at != nullptr ? at->data() : y);
+    u = data_.displacement_of(contact, shape, dofs, at != nullptr ? at->data() : y);
     contact.knot_places(u.start, u.dx, u.dy, knots_);
   }
   if (regime_.bilateral() || !one_sided) {
@@ -125,6 +125,18 @@ Law::Response ElementWorkOf<P>::curved_response(const Functional& f, const Eleme
 }
 
 template <int P>
+void ElementWorkOf<P>::add_ground_forces(const double* motion, double* out) const {
+  for (const auto& [element, f] : on_ground_) {
+    const ElementDofs& dofs = dofs_[element];
+    const double force = -f.tangent * f.of_ground(motion);
+    for (int c = 0; c < 3; ++c) {
+      out[dofs.a[c]] += force * f.a[c];
+      for (int q = 0; q < P; ++q) out[dofs.v + c * P + q] += force * f.v[c][q];
+    }
+  }
+}
+
+template <int P>
 void ElementWorkOf<P>::add_support_residual(int element, const double* y, double* residual, bool keep) {
   collect_supports(element, y);
   const ElementDofs& dofs = dofs_[element];
@@ -138,7 +150,8 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
     Functional& f = acting_[k];
     double size = std::abs(f.law.gap);
     for (int c = 0; c < 3; ++c) size += std::abs(f.a[c] * y[dofs.a[c]]);
-    double w = -f.law.gap;
+    double w = -f.law.gap - f.of_ground(y);
+    size += std::abs(f.of_ground(y));
     for (int c = 0; c < 3; ++c) w += f.a[c] * y[dofs.a[c]];
     const double* row = f.v[0].data();
     for (int i = 0; i < kStrains; ++i) w += row[i] * v[i];
@@ -152,6 +165,7 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
     rounding += f.tangent * size * std::numeric_limits<double>::epsilon();
     for (int c = 0; c < 3; ++c) at_start[c] += force * f.a[c];
     for (int i = 0; i < kStrains; ++i) forces[i] += force * row[i];
+    f.push_ground(force, residual);
     if (f.bend != 0.0 && regime_.linearised_at() == nullptr) {
       Functional tangential = data_.along_surface(f);
       tangential.tangent = force * f.bend;

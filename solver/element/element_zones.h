@@ -60,9 +60,9 @@ double ElementSetOf<P>::missed_contact(const FrozenContact& frozen, const Eigen:
   double largest = 0.0;
   for (int e = 0; e < size(); ++e) {
     const auto& shape = data_.shapes[e];
-    const auto u = data_.displacement_of(shape, data_.dofs[e], y.data());
     for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
       const FoundationContact& contact = data_.contacts[i];
+      const auto u = data_.displacement_of(contact, shape, data_.dofs[e], y.data());
       const auto pressure = [&](const ElementPart& part) {
         return contact.law().stiffness / shape.h *
                std::abs(contact.penetration(0.5 * (part.from + part.to), u.start, u.dx, u.dy));
@@ -89,8 +89,8 @@ MovingZones ElementSetOf<P>::moving_zones(const Eigen::VectorXd& y, const Eigen:
     const auto& shape = data_.shapes[e];
     for (int i = shape.first_contact; i < shape.first_contact + shape.contact_count; ++i) {
       const FoundationContact& contact = data_.contacts[i];
-      const auto u = data_.displacement_of(shape, data_.dofs[e], y.data());
-      const auto v = data_.displacement_of(shape, data_.dofs[e], rate.data());
+      const auto u = data_.displacement_of(contact, shape, data_.dofs[e], y.data());
+      const auto v = data_.displacement_of(contact, shape, data_.dofs[e], rate.data());
       const auto moves = [&](double xi, double end) {
         if (xi == end) return 0.0;
         const auto into = contact.penetration_at(xi, contact.displacement(xi, u.start, u.dx, u.dy)).into;

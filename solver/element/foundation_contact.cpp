@@ -33,6 +33,7 @@ FoundationContact::FoundationContact(int order, const FoundationLaw& law, Place 
       place_(std::move(place)),
       range_(range),
       law_(law.law),
+      ground_(law.ground_under(place_.from, place_.to)),
       foundation_(foundation),
       samples_(sampled()) {
   law_.scale(place_.length);
@@ -141,6 +142,7 @@ FoundationContact FoundationContact::with_law(const FoundationLaw& law, int foun
   other.foundation_law_ = law;
   other.law_ = law.law;
   other.law_.scale(place_.length);
+  other.ground_ = law.ground_under(place_.from, place_.to);
   other.foundation_ = foundation;
   return other;
 }

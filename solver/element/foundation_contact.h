@@ -59,6 +59,8 @@ class FoundationContact {
   /// Whether the direction of the reaction turns as the axis moves.
   [[nodiscard]] bool follows_surface() const { return foundation_law_.follows_surface(); }
   [[nodiscard]] int foundation() const { return foundation_; }
+  /// Displacement of the ground under the element.
+  [[nodiscard]] const GroundMotion& ground() const { return ground_; }
   [[nodiscard]] std::array<double, 2> range() const { return range_; }
   /// Direction into the medium on the initial axis.
   [[nodiscard]] std::array<double, 2> direction_at(double xi) const;
@@ -70,7 +72,8 @@ class FoundationContact {
   }
 
   /// @brief Penetration at xi.
-  /// @param ua displacement (x, y) at the element's start; dx, dy: h times u'_x, u'_y at the Gauss points
+  /// @param ua displacement (x, y) relative to ground() at the element's start; dx, dy: h times its
+  /// derivatives u'_x, u'_y at the Gauss points
   [[nodiscard]] double penetration(double xi, std::array<double, 2> ua, std::span<const double> dx,
                                    std::span<const double> dy) const;
   /// @brief Penetration at xi with its derivatives with respect to the displacement u there.
@@ -170,6 +173,7 @@ class FoundationContact {
   Place place_;
   std::array<double, 2> range_;
   Law law_;
+  GroundMotion ground_;
   int foundation_;
   std::shared_ptr<const Samples> samples_;
 };

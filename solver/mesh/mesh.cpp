@@ -39,6 +39,9 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
     if (foundation.law) add_breaks(*foundation.law, foundation.range, at);
     for (const auto& [fraction, gap] : foundation.gap_along)
       if (fraction > foundation.range[0] && fraction < foundation.range[1]) at.push_back(fraction);
+    if (!foundation.displacement) continue;
+    add_kinks(foundation.displacement->x.points);
+    add_kinks(foundation.displacement->y.points);
   }
   for (const Load& load : model.loads) {
     if (const auto* point = std::get_if<PointLoad>(&load)) add_location(point->at);

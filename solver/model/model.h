@@ -168,6 +168,8 @@ struct Spring {
   /// Node at the other end: the spring reacts on the displacement of `at` relative to that node. Empty: the
   /// other end is the ground.
   std::optional<Location> to = std::nullopt;
+  /// Displacement of the ground in global axes: the spring reacts on the displacement of `at` relative to it.
+  std::optional<PrescribedDisplacement> displacement = std::nullopt;
   /// Index of the member that the spring stands for: see with_rods_as_springs(). `direction` is then the
   /// vector from `at` to `to`, and turns with both.
   std::optional<std::size_t> rod = std::nullopt;
@@ -201,6 +203,14 @@ struct PolylineOutline {
 };
 using Outline = std::variant<CircleOutline, LineOutline, SplineOutline, PolylineOutline>;
 
+/// Displacement of the ground along a member, in global axes.
+struct GroundDisplacement {
+  AlongMember x = 0.0;
+  AlongMember y = 0.0;
+  Pattern pattern = Pattern::proportional;
+  bool operator==(const GroundDisplacement&) const = default;
+};
+
 /// Continuous foundation r = K w - G w'' per undeformed length, w the displacement along the initial normal
 /// (towards `side`) or along the fixed `direction` (pointing into the medium).
 struct Foundation {
@@ -220,6 +230,8 @@ struct Foundation {
   /// normal to the surface at its nearest point. `side` and `direction` are not used then.
   std::optional<Outline> outline = std::nullopt;
   bool tangential = false;  ///< w is the displacement along the initial tangent; bilateral, without G
+  /// w is the displacement relative to this one, and an outline moves with it.
+  std::optional<GroundDisplacement> displacement = std::nullopt;
   bool operator==(const Foundation&) const = default;
 };
 

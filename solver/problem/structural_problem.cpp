@@ -78,11 +78,13 @@ StructuralProblem::StructuralProblem(const Structure& structure)
       if (dof < 3 * structure.nodes) free_rotation_[dof / 3] = 0;
   }
   for (const NodeSpring& spring : structure.node_springs)
-    if (spring.row[2] != 0.0 && spring.to < 0) free_rotation_[spring.node] = 0;
+    if (spring.row[2] != 0.0 && (spring.to < 0 || spring.to >= structure.first_ground))
+      free_rotation_[spring.node] = 0;
   for (const JointSpring& joint : structure.joints) free_rotation_[joint.node_rotation / 3] = 0;
   const Index n = 3 * structure.nodes + structure.releases + 3 * static_cast<Index>(members_);
   for (Index i = 0; i < n; ++i) (is_fixed(i) ? fixed_ : free_).push_back(i);
-  largest_load_ = force_norm(structure.proportional_load);
+  proportional_force_ = largest_load({1.0, 0.0});
+  constant_force_ = largest_load({0.0, 1.0});
   const double softest = *std::min_element(structure.euler_loads.begin(), structure.euler_loads.end());
   proportional_imposed_ =
       softest * imposed_gradient(structure, structure.proportional_load, &NodeSupport::proportional);
@@ -279,7 +281,7 @@ void StructuralProblem::plan_nodes() {
     node_rows_.push_back({joint.node_rotation, joint.end_rotation});
   const auto scalars = static_cast<int>(multiplier(members_));
   const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
-  for (int node = 0; holds > 0 && node < structure_.nodes; ++node) {
+  for (int node = 0; holds > 0 && node < structure_.first_ground; ++node) {
     node_rows_.push_back({3 * node, 3 * node + 1, 3 * node + 2});
     for (int h = 0; h < holds; ++h) node_rows_.back().push_back(scalars + h);
   }
@@ -376,7 +378,22 @@ void StructuralProblem::subtract_fixed(const Eigen::Ref<const VectorXd>& rhs,
   }
 }
 
+/// Moves what prescribed displacements of the ground do to the elements to the right-hand sides.
+void StructuralProblem::subtract_ground(Eigen::Ref<MatrixXd> x) const {
+  const Index first = 3 * structure_.first_ground;
+  const Index count = 3 * (structure_.nodes - structure_.first_ground);
+  VectorXd forces;
+  for (Index i = 0; count > 0 && i < x.cols(); ++i) {
+    if ((x.col(i).segment(first, count).array() == 0.0).all()) continue;
+    forces.setZero(size());
+    elements_->add_ground_forces(x.col(i).data(), forces.data());
+    release_rows(forces);
+    x.col(i) -= forces;
+  }
+}
+
 void StructuralProblem::solve_symmetric(Eigen::Ref<MatrixXd> x) {
+  subtract_ground(x);
   const Index displacements = 3 * structure_.nodes + structure_.releases;
   node_rhs_.resize(multiplier(members_), kLanes);
   free_rhs_.resize(factor_.size(), kLanes);
@@ -585,8 +602,18 @@ double StructuralProblem::force_norm(const VectorXd& f) const {
   return forces;
 }
 
+/// Largest force or moment of the loads with given factors on the undeformed structure.
+double StructuralProblem::largest_load(const LoadFactors& factors) {
+  VectorXd load =
+      factors.proportional * structure_.proportional_load + factors.constant * structure_.constant_load;
+  elements_->add_pressure_load(VectorXd::Zero(size()), factors, structure_.geometry == Geometry::linear,
+                               load);
+  return force_norm(load);
+}
+
 double StructuralProblem::largest_force(const VectorXd& y, double lambda) const {
-  double force = std::abs(lambda) * largest_load_;
+  const auto [proportional, constant] = factors(lambda);
+  double force = std::max(std::abs(proportional) * proportional_force_, std::abs(constant) * constant_force_);
   for (const ElementDofs& dofs : structure_.dofs)
     force = std::max(force, y.segment<3>(dofs.m).lpNorm<Eigen::Infinity>());
   return force;

@@ -136,6 +136,7 @@ class StructuralProblem final : public EquilibriumProblem {
   void add_holds(const Eigen::VectorXd& y, Eigen::VectorXd& f) const;
   /// Largest residual among the rows of forces and moments; the other rows are displacements and strains.
   [[nodiscard]] double force_norm(const Eigen::VectorXd& f) const;
+  [[nodiscard]] double largest_load(const LoadFactors& factors);
   [[nodiscard]] double largest_force(const Eigen::VectorXd& y, double lambda) const;
   [[nodiscard]] double imposed_force(double lambda) const;
   [[nodiscard]] double force_scale(const Eigen::VectorXd& y, double lambda) const;
@@ -146,6 +147,7 @@ class StructuralProblem final : public EquilibriumProblem {
   /// Moves the constrained displacements to the right-hand side.
   void subtract_fixed(const Eigen::Ref<const Eigen::VectorXd>& rhs,
                       Eigen::Ref<Eigen::VectorXd> reduced) const;
+  void subtract_ground(Eigen::Ref<Eigen::MatrixXd> x) const;
   /// First row of a member's end forces in the node system; displacement unknowns keep their index.
   [[nodiscard]] Eigen::Index multiplier(std::size_t member) const {
     return 3 * structure_.nodes + structure_.releases + 3 * static_cast<Eigen::Index>(member);
@@ -176,7 +178,9 @@ class StructuralProblem final : public EquilibriumProblem {
   SharedHolds holds_;
   Eigen::MatrixXd hold_rows_;  ///< sqrt(k) H in the support axes
   Stage stage_ = Stage::proportional;
-  double largest_load_ = 0.0;  ///< largest force or moment of the unit load, without imposed strains
+  /// Largest force or moment of the unit proportional and of the constant loads, without imposed strains.
+  double proportional_force_ = 0.0;
+  double constant_force_ = 0.0;
   /// Force scales of the unit proportional and of the constant imposed strains, see imposed_force().
   double proportional_imposed_ = 0.0;
   double constant_imposed_ = 0.0;

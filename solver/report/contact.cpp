@@ -15,7 +15,8 @@ void local_intervals(const Structure& structure, const FoundationPart& part, con
                      double depth, std::vector<FoundationContact::Interval>& out) {
   out.assign(1, {part.range[0], part.range[1]});
   if (!part.contact) return;
-  const ElementReader reader(structure, y, part.element);
+  const FoundationLaw& law = structure.foundation_laws[static_cast<std::size_t>(part.foundation)];
+  const ElementReader reader(structure, y, part.element, law);
   part.contact->contact_intervals({reader.start()[0], reader.start()[1]}, reader.gradient(0),
                                   reader.gradient(1), out, depth);
 }

@@ -39,7 +39,7 @@ MatrixXd reduced(MatrixXd motions) {
 
 NeutralMotion told(const Structure& structure, const Model& model, const Eigen::VectorXd& motion) {
   double displaced = 0.0;
-  for (int j = 0; j < structure.nodes; ++j)
+  for (int j = 0; j < structure.first_ground; ++j)
     displaced = std::max(displaced, std::hypot(motion[3 * j], motion[3 * j + 1]));
   const double turned = motion.lpNorm<Eigen::Infinity>();
   const bool turns_only = displaced <= Rounding::motion * turned;
@@ -50,7 +50,7 @@ NeutralMotion told(const Structure& structure, const Model& model, const Eigen::
   const double unit = sign * (turns_only ? turned : displaced);
   const double length = structure.scales.length;
   NeutralMotion out;
-  for (int j = 0; j < structure.nodes; ++j) {
+  for (int j = 0; j < structure.first_ground; ++j) {
     const Eigen::Vector3d d = motion.segment<3>(3 * j) / unit;
     if (d.lpNorm<Eigen::Infinity>() <= Rounding::motion) continue;
     const auto cleaned = [](double value) { return std::abs(value) <= Rounding::motion ? 0.0 : value; };

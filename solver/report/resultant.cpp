@@ -20,7 +20,7 @@ RigidMotions::RigidMotions(const Structure& structure, const Model& model, const
     rotation_[dofs[2]] = 1.0;
   };
   // nodes first, for nodes without members; the ends of members may be offset from their nodes
-  for (int j = 0; j < structure.nodes; ++j)
+  for (int j = 0; j < structure.first_ground; ++j)
     set_node({3 * j, 3 * j + 1, 3 * j + 2}, (model.nodes[j].x - structure.origin[0]) / L,
              (model.nodes[j].y - structure.origin[1]) / L);
   for (std::size_t e = structure.dofs.size(); e-- > 0;) {
@@ -59,6 +59,10 @@ RigidMotions::Reading RigidMotions::value(const SupportSpring& support, const Ei
     out.value += support.a[c] * y[dofs.a[c]];
     out.size += std::abs(support.a[c] * y[dofs.a[c]]);
     for (int q = 0; q < p; ++q) out.value += support.v[q][c] * y[dofs.v + c * p + q];
+    if (support.ground < 0) continue;
+    const double moved = support.a[c] * (c < 2 ? support.share[c] : 1.0) * y[support.ground + c];
+    out.value -= moved;
+    out.size += std::abs(moved);
   }
   return out;
 }

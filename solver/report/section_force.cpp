@@ -25,8 +25,8 @@ SectionForces::SectionForces(const Structure& structure, const Model& model, con
   for (int c = 0; c < 3; ++c) end_[c] = y[structure.dofs[element].m + c];
   add_loads(lambda / structure.scales.load, 1.0);
   if (pressure_.acts()) release_end_of_pressure(y);
-  add_foundations();
-  add_springs();
+  add_foundations(y);
+  add_springs(y);
 }
 
 /// Corrects end_ for follower pressure. The pressure's area formula (element/element_work_supports.h) adds a
@@ -85,7 +85,7 @@ void SectionForces::add_dead(const LineLoad& load, double factor) {
   }
 }
 
-void SectionForces::add_foundations() {
+void SectionForces::add_foundations(const Eigen::VectorXd& y) {
   const auto before = [](const FoundationPart& part, int element) { return part.element < element; };
   const auto& parts = structure_.foundation_parts;
   for (auto at = std::lower_bound(parts.begin(), parts.end(), element_, before);
@@ -93,16 +93,18 @@ void SectionForces::add_foundations() {
     const FoundationPart& part = *at;
     const FoundationLaw law = law_on(structure_, structure_.foundation_laws[part.foundation], element_);
     const bool lumped = structure_.mesh.foundation == FoundationRule::lumped;
-    if (lumped) add_lumped(law, part.range);
-    FoundationHere out{law, lumped, part.range, {{part.range[0], part.range[1]}}};
+    const ElementReader reader(structure_, y, element_, law);
+    FoundationHere out{law, reader, lumped, part.range, {{part.range[0], part.range[1]}}};
+    if (lumped) add_lumped(out);
     if (part.contact)
-      out.contact = part.contact->smooth_pieces({reader_.start()[0], reader_.start()[1]}, reader_.gradient(0),
-                                                reader_.gradient(1));
+      out.contact = part.contact->smooth_pieces({reader.start()[0], reader.start()[1]}, reader.gradient(0),
+                                                reader.gradient(1));
     foundations_.push_back(out);
   }
 }
 
-void SectionForces::add_lumped(const FoundationLaw& foundation, Vec2 range) {
+void SectionForces::add_lumped(const FoundationHere& foundation) {
+  const Vec2& range = foundation.range;
   const Quadrature lobatto = gauss_lobatto(structure_.mesh.order + 1);
   for (std::size_t i = 0; i < lobatto.points.size(); ++i) {
     const double xi = lobatto.points[i];
@@ -113,16 +115,15 @@ void SectionForces::add_lumped(const FoundationLaw& foundation, Vec2 range) {
   }
 }
 
-void SectionForces::add_springs() {
+void SectionForces::add_springs(const Eigen::VectorXd& y) {
   for (std::size_t i = 0; i < model_.springs.size(); ++i) {
     const Location& at = model_.springs[i].at;
     if (at.member != model_.members[cell_.member].id) continue;
     const MeshPlace place = place_of(structure_.mesh, cell_.member, at.fraction);
     if (place.element != element_) continue;
     const SpringLaw& spring = structure_.spring_laws[i];
-    const auto u = reader_.displacement(place.xi);
     const auto& row = spring.row;
-    const double force = -spring.law.reaction(row[0] * u[0] + row[1] * u[1] + row[2] * u[2]);
+    const double force = -spring.law.reaction(reading_of(structure_, model_, i, y).displacement);
     points_.push_back({place.xi, {force * row[0], force * row[1], force * row[2]}});
   }
 }
@@ -156,14 +157,14 @@ Vec2 SectionForces::slope(double xi) const {
   return {t[0] + du[0], t[1] + du[1]};
 }
 
-Vec2 SectionForces::reaction(const FoundationLaw& foundation, double xi) const {
+Vec2 SectionForces::reaction(const FoundationHere& foundation, double xi) const {
   const AxisPoint& at = axis_at(xi);
   const double fraction = cell_.from + xi * (cell_.to - cell_.from);
   const Scales& scales = structure_.scales;
-  const auto u = reader_.displacement(xi);
-  const SurfacePoint p = foundation.penetration(
+  const auto u = foundation.reader.displacement(xi);
+  const SurfacePoint p = foundation.law.penetration(
       {{scales.scaled_length(at.x), scales.scaled_length(at.y)}, at.angle, fraction}, {u[0], u[1]});
-  const double force = -foundation.at(fraction).reaction_beyond(p.depth);
+  const double force = -foundation.law.at(fraction).reaction_beyond(p.depth);
   return {force * p.into[0], force * p.into[1]};
 }
 
@@ -186,7 +187,7 @@ Vec2 SectionForces::density(double xi) const {
   }
   for (const FoundationHere& foundation : foundations_) {
     if (foundation.lumped || xi < foundation.range[0] || xi > foundation.range[1]) continue;
-    const Vec2 r = reaction(foundation.law, xi);
+    const Vec2 r = reaction(foundation, xi);
     for (int c = 0; c < 2; ++c) f[c] += r[c];
   }
   return f;

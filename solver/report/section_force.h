@@ -41,7 +41,8 @@ class SectionForces {
   };
   struct FoundationHere {
     FoundationLaw law;
-    bool lumped;  ///< true: its reaction consists of point forces
+    ElementReader reader;  ///< displacements relative to the ground
+    bool lumped;           ///< true: its reaction consists of point forces
     Vec2 range;
     std::vector<FoundationContact::Interval> contact;
   };
@@ -54,9 +55,9 @@ class SectionForces {
   void add_load(const Load& load, double factor);
   void add_dead(const LineLoad& load, double factor);
   void release_end_of_pressure(const Eigen::VectorXd& y);
-  void add_foundations();
-  void add_springs();
-  void add_lumped(const FoundationLaw& foundation, Vec2 range);
+  void add_foundations(const Eigen::VectorXd& y);
+  void add_springs(const Eigen::VectorXd& y);
+  void add_lumped(const FoundationHere& foundation);
   /// Perfect axis at xi; the last value is cached.
   [[nodiscard]] const AxisPoint& axis_at(double xi) const;
   [[nodiscard]] Vec2 position(double xi) const;
@@ -71,7 +72,7 @@ class SectionForces {
                                      structure_.scales.scaled_curvature(axis_at(xi).curvature));
   }
   /// Reaction of a foundation per length, on the member.
-  [[nodiscard]] Vec2 reaction(const FoundationLaw& foundation, double xi) const;
+  [[nodiscard]] Vec2 reaction(const FoundationHere& foundation, double xi) const;
   /// Force per length at a section, without shear layers.
   [[nodiscard]] Vec2 density(double xi) const;
   [[nodiscard]] double shear_layer(const FoundationLaw& foundation, double xi) const;

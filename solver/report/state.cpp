@@ -79,7 +79,7 @@ FoundationState foundation_state(const Structure& structure, const Model& model,
     const double fraction =
         foundation.range[0] + (foundation.range[1] - foundation.range[0]) * i / (points - 1);
     const MeshPlace place = place_under(structure.mesh, member, foundation, fraction);
-    const auto u = ElementReader(structure, y, place.element).displacement(place.xi);
+    const auto u = ElementReader(structure, y, place.element, law).displacement(place.xi);
     // results use the user's sign: a pushing medium has a positive reaction, a pulling one a negative
     const Law acting = law_on(structure, law, place.element).at(fraction);
     double beyond = law.penetration(place_on_axis(structure, place.element, place.xi), {u[0], u[1]}).depth;

@@ -115,7 +115,7 @@ std::vector<SupportSpring> acting_springs(const Structure& structure, const Foun
                                           const FoundationPart& part, const VectorXd& y) {
   if (!part.contact || structure.mesh.foundation == FoundationRule::lumped)
     return winkler_springs(structure, foundation, part.element, part.range);
-  const ElementReader reader(structure, y, part.element);
+  const ElementReader reader(structure, y, part.element, foundation);
   const auto intervals = part.contact->smooth_pieces({reader.start()[0], reader.start()[1]},
                                                      reader.gradient(0), reader.gradient(1));
   std::vector<SupportSpring> out;

@@ -129,8 +129,8 @@ class Joiner {
   [[nodiscard]] bool touches(const Support& support, double unit) const {
     if constexpr (requires { support.outline; })
       if (support.outline || !support.gap_along.empty()) return false;
-    return is_one_sided(support) && !support.law && std::isfinite(support.stiffness) &&
-           support.gap <= Rounding::coordinate * unit;
+    return is_one_sided(support) && !support.law && !support.displacement &&
+           std::isfinite(support.stiffness) && support.gap <= Rounding::coordinate * unit;
   }
   void join_springs();
   void join_springs_at(const std::vector<Touching>& place);

@@ -55,6 +55,13 @@ double stiffness_of(const Support& support) {
   return support.law ? largest_of(*support.law)[0] : support.stiffness;
 }
 
+/// Values over their largest size.
+AlongMember shape_of(AlongMember value) {
+  const double largest = largest_size(value);
+  value *= largest > 0.0 ? 1.0 / largest : 0.0;
+  return value;
+}
+
 }  // namespace
 
 double initial_stiffness(const Foundation& foundation) { return stiffness_of(foundation); }
@@ -77,12 +84,25 @@ Law FoundationLaw::at(double fraction) const {
   return out;
 }
 
+GroundMotion FoundationLaw::ground_under(double from, double to) const {
+  GroundMotion out;
+  if (ground < 0) return out;
+  out.unknown = ground;
+  for (std::size_t c = 0; c < 2; ++c) {
+    out.start[c] = (*ground_shape)[c].at(from);
+    out.change[c] = (*ground_shape)[c].at(to) - out.start[c];
+  }
+  return out;
+}
+
 SurfacePoint FoundationLaw::below_surface(const PlaceOnAxis& at, std::array<double, 2> u) const {
   if (follows_surface()) return surface->at(at.x, u);
   const SurfacePoint initial = surface->at(at.x);
   const auto d = initial.into;
   return {initial.depth + u[0] * d[0] + u[1] * d[1], d};
 }
+
+double largest_size(const AlongMember& value) { return std::max(value.largest(), -value.least()); }
 
 FoundationLaw law_of(const Foundation& foundation, const Scales& scales, std::array<double, 2> origin) {
   const bool one_sided = foundation.reaction != Reaction::bilateral;
@@ -98,6 +118,9 @@ FoundationLaw law_of(const Foundation& foundation, const Scales& scales, std::ar
     out.direction = {true, {}, 1.0};
     out.surface = make_surface(*foundation.outline, origin, scales.length);
   }
+  if (foundation.displacement)
+    out.ground_shape = std::make_shared<const std::array<AlongMember, 2>>(
+        std::array{shape_of(foundation.displacement->x), shape_of(foundation.displacement->y)});
   if (!foundation.law) return out;
   out.curve = curve_of(*foundation.law);
   out.variation = variation_of(*foundation.law);

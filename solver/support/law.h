@@ -10,6 +10,7 @@
 
 #include "solver/model/model.h"
 #include "solver/model/scales.h"
+#include "solver/support/ground_motion.h"
 #include "solver/support/reaction_curve.h"
 #include "solver/support/surface.h"
 
@@ -150,7 +151,14 @@ struct FoundationLaw {
   /// Whether the surface acts by its tangents at the points nearest to the initial axis: for small
   /// displacements, and on meshes that lump foundations.
   bool fixed_tangents = false;
+  /// Displacement (x, y) of the ground along the member, over its largest; not used where the ground is at
+  /// rest.
+  std::shared_ptr<const std::array<AlongMember, 2>> ground_shape{};
+  int ground = -1;  ///< unknown of the ground's largest displacement along x; -1: at rest
 
+  /// Displacement of the ground under a part of the member, given by fractions of its length, on which
+  /// `ground_shape` is linear.
+  [[nodiscard]] GroundMotion ground_under(double from, double to) const;
   /// Law at a fraction of the member's length, with the gap there.
   [[nodiscard]] Law at(double fraction) const;
   /// Whether the direction of the reaction turns as the axis moves.
@@ -176,7 +184,11 @@ struct SpringLaw {
   double sense = 1.0;                          ///< factor on results, see sense_of()
   std::shared_ptr<const ReactionCurve> curve;  ///< curve of `law`; null: linear
   double length = 0.0;                         ///< length of a rod (Spring::rod); 0: fixed direction
+  int ground = -1;                             ///< unknown of the ground's displacement along x; -1: at rest
 };
+
+/// Largest magnitude of a number along its member.
+[[nodiscard]] double largest_size(const AlongMember& value);
 
 /// @param origin of the scaled coordinates, in the model's
 [[nodiscard]] FoundationLaw law_of(const Foundation& foundation, const Scales& scales,

@@ -52,7 +52,7 @@ const kBetweenFieldsAt = [
   ['ambiguous', /^\/model\/foundations\/\d+\/(component|side)$/, 'component, side and direction'],
   ['empty', /^\/model\/supports$/, 'supports, springs and foundations'],
   ['empty', /^\/model\/members$/, 'reactions of all members'],
-  ['ambiguous', /^\/model\/springs\/\d+\/to$/, 'nodes of at and to'],
+  ['ambiguous', /^\/model\/springs\/\d+\/(to|displacement)$/, 'at, to and displacement'],
   ['too_many', /\/points_per_member$/, 'times members'],
   ['too_many', /\/elements$/, 'of all members'],
   ['too_many', /^\/model\/imperfections\/\d+$/, 'one of type worst'],

@@ -100,12 +100,12 @@ bool needs_several_fields(const Finding& finding) {
       // all values along a member; the first force of a table
       {"out_of_range", std::regex("/model/foundations/[0-9]+/(law/)?(stiffness|capacity|factor)(/along)?")},
       {"out_of_range", std::regex(".*/law/points/[0-9]+/1")},
-      {"empty", std::regex(".*/law/points")},                            // points beside the origin
-      {"empty", std::regex("/model/supports")},                          // or springs or foundations
-      {"empty", std::regex("/model/members")},                           // reactions of all members
-      {"ambiguous", std::regex("/model/springs/[0-9]+/to")},             // node of at and to
-      {"ambiguous", std::regex("/model/sections/[0-9]+/(density|nu)")},  // mass and density; nu and G
-      {"ambiguous", std::regex("/model/load_cases/.*/pattern")},         // grows of the case and pattern
+      {"empty", std::regex(".*/law/points")},                                // points beside the origin
+      {"empty", std::regex("/model/supports")},                              // or springs or foundations
+      {"empty", std::regex("/model/members")},                               // reactions of all members
+      {"ambiguous", std::regex("/model/springs/[0-9]+/(to|displacement)")},  // at, to and displacement
+      {"ambiguous", std::regex("/model/sections/[0-9]+/(density|nu)")},      // mass and density; nu and G
+      {"ambiguous", std::regex("/model/load_cases/.*/pattern")},             // grows of the case and pattern
       {"ambiguous", std::regex("/model/foundations/[0-9]+/(component|side)")},   // and direction
       {"out_of_range", std::regex(".*/outline/rounding")},                       // sides of a polyline
       {"ambiguous", std::regex(".*/outline")},                                   // side, direction, gap

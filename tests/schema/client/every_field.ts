@@ -76,10 +76,14 @@ const outlines: Schemas['Outline'][] = [
 ];
 
 foundations.push(
+    {id: 'settles', member: 'beam', stiffness: 1e3, direction: [0, -1],
+     displacement: {x: 0.01, y: {along: [[0, 0], [1, -0.02]]}, pattern: 'proportional'}},
     {id: 'obstacle', member: 'beam', stiffness: 'rigid', reaction: 'compression_only', gap: varying},
     ...outlines.map((outline, i): Schemas['Foundation'] => ({
       id: `outline ${i}`, member: 'beam', stiffness: 'rigid', reaction: 'compression_only', range: [0, 1], outline})),
     {id: 'yields', member: 'beam', law: foundationLaws[0]!, reaction: 'compression_only', range: [0, 1], outline: outlines[0]!});
+springs.push({id: 'follows', at: {node: 'a'}, direction: [0, 1], stiffness: 3,
+              displacement: {x: 0, y: -0.01, rotation: 0, pattern: 'constant'}});
 springs.push({id: 'stop', at: {node: 'a'}, direction: [1, 0], stiffness: 'rigid', reaction: 'compression_only'});
 
 const loads: Schemas['Load'][] = [

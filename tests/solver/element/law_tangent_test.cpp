@@ -49,6 +49,8 @@ Model with_laws(ReactionLaw::Type type) {
   Foundation along = both;
   along.id = "along";
   along.tangential = true;
+  push.displacement = GroundDisplacement{AlongMember({{0.0, 0.1}, {0.6, -0.2}}), 0.3, Pattern::proportional};
+  along.displacement = GroundDisplacement{-0.1, AlongMember({{0.2, 0.0}, {1.0, 0.4}}), Pattern::constant};
   model.foundations = {both, push, along};
   Spring spring;
   spring.id = "inside";
@@ -56,7 +58,9 @@ Model with_laws(ReactionLaw::Type type) {
   spring.direction = {0.4, 1.0};
   spring.law = law_of_type(type);
   spring.law->capacity = 3.0;
+  spring.displacement = PrescribedDisplacement{0.1, -0.3, 0.0, Pattern::proportional};
   Spring turning = spring;
+  turning.displacement = PrescribedDisplacement{0.0, 0.0, 0.2, Pattern::constant};
   turning.id = "turning";
   turning.at = {model.nodes[0].id, "", 0.0};
   turning.direction = std::nullopt;
