@@ -12,6 +12,7 @@
 #include "tests/stress/frame_model.h"
 #include "tests/stress/inertia.h"
 #include "tests/stress/laws_model.h"
+#include "tests/stress/media_model.h"
 #include "tests/stress/random_model.h"
 #include "tests/stress/request_text.h"
 #include "tests/stress/rod_law.h"
@@ -172,8 +173,8 @@ TEST(Stress, SliceOfRandomLaws) {
 /// same.
 TEST(Stress, RequestsOfSeedsAreWrittenWhole) {
   for (std::uint64_t seed = 0; seed < 200; ++seed)
-    for (const RandomRequest& drawn :
-         {random_request(seed), broad_request(seed), laws_request(seed), frame_request(seed, 1e-3)}) {
+    for (const RandomRequest& drawn : {random_request(seed), broad_request(seed), laws_request(seed),
+                                       media_request(seed), frame_request(seed, 1e-3)}) {
       const std::string text = request_text(drawn);
       const api::ReadOutcome read = api::read_request(text);
       ASSERT_TRUE(read.request) << seed << ": " << text;
