@@ -395,11 +395,27 @@ void Maker::nodes() {
   }
 }
 
+/// Mean of 1 / EA along a member, by parts between the places at which EA bends.
+double mean_compliance(const AlongMember& EA) {
+  constexpr int kParts = 16;
+  const Rule rule = gauss(8);
+  std::vector<double> ends{0.0};
+  for (const auto& point : EA.points) ends.push_back(point.first);
+  ends.push_back(1.0);
+  double out = 0.0;
+  for (std::size_t e = 0; e + 1 < ends.size(); ++e) {
+    const double width = (ends[e + 1] - ends[e]) / kParts;
+    for (int i = 0; i < kParts; ++i)
+      for (std::size_t q = 0; q < rule.points.size(); ++q)
+        out += width * rule.weights[q] /
+               along(EA.points, EA.constant, ends[e] + width * (i + rule.points[q]), EA.power);
+  }
+  return out;
+}
+
 /// Rods of the whole model, whose weight acts on their nodes. The strain of a rod is that of its mean
 /// compliance.
 void Maker::bars(const Model& whole) {
-  constexpr int kParts = 64;
-  const Rule rule = gauss(8);
   std::size_t beams = 0;
   for (std::size_t m = 0; m < whole.members.size(); ++m) {
     const Member& member = whole.members[m];
@@ -413,13 +429,7 @@ void Maker::bars(const Model& whole) {
     bar.end = index_of(whole.nodes, member.end);
     bar.along = {(whole.nodes[bar.end].x - whole.nodes[bar.start].x) / rod_.length,
                  (whole.nodes[bar.end].y - whole.nodes[bar.start].y) / rod_.length};
-    double compliance = 0.0;
-    for (int i = 0; i < kParts; ++i)
-      for (std::size_t q = 0; q < rule.points.size(); ++q)
-        compliance +=
-            rule.weights[q] / kParts /
-            along(section.EA.points, section.EA.constant, (i + rule.points[q]) / kParts, section.EA.power);
-    bar.stiffness = 1.0 / (compliance * rod_.force);
+    bar.stiffness = 1.0 / (mean_compliance(section.EA) * rod_.force);
     bar.sign = member.reaction == Reaction::tension_only ? 1 : -1;
     bar.member = m;
     rod_.bars.push_back(bar);

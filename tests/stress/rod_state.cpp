@@ -20,7 +20,8 @@ constexpr double kConverged = 1e-8;
 /// What the same criterion leaves of a force or a lever arm, relative: a residual is the tangent times the
 /// error of the displacements, and the tangent holds the section forces.
 constexpr double kConvergedForce = 1e-9;
-/// Depth in a stop, over the longest member: a hundred times what it gives way where members move by that.
+/// Depth in a stop, over the longest member, under a force of EI / length^2: a hundred times what it gives
+/// way where that force moves members by their length.
 constexpr double kStopGivesWay = 1e-6;
 /// Positions are a sum of three terms each rounded; a few units in the last place.
 constexpr double kUlps = 4.0;
@@ -313,10 +314,9 @@ void Evaluation::collect_piece(const StripPiece& piece, int halvings, ElementSta
   std::ranges::move(whole, std::back_inserter(out.acting));
 }
 
-/// Depth by which a displacement w enters a stop, which may give way by 1e-8 of what members do; a length
-/// where the stop pulls.
+/// Depth by which a displacement w enters a stop, per force; a length where the stop pulls.
 double entered(const RodReaction& stop, const ActingSupport& acting, double w) {
-  return acting.force < 0.0 ? 1.0 : std::max(w - stop.gap, 0.0);
+  return acting.force < 0.0 ? 1.0 : std::max(w - stop.gap, 0.0) / (1.0 + acting.force);
 }
 
 /// A stop as the state reports it. @param moved w, closer by some roundings
