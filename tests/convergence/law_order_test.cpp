@@ -10,9 +10,12 @@
 ///
 /// The finest mesh is the reference for the errors. The values of piles are also those of
 /// tests/verification/data/piles.py (collocation).
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "tests/convergence/fitted_slope.h"
@@ -106,6 +109,22 @@ TEST_P(LawOrder, WhereTheLawIsSmooth) {
 /// The far part of a pile whose tip is hinged moves to the other side.
 TEST_P(LawOrder, AcrossKinksOfTheLawAndEndsOfContact) {
   expect_orders(beam_on(law(), reaction(), "xy", 2.5), 6.0, 8.0);
+}
+
+TEST(LawOrderReference, IsCollocation) {
+  struct Case {
+    Type type;
+    double both, one;  ///< data/piles.py
+  };
+  for (const Case& of :
+       {Case{Type::linear, 0.087217815027, 0.097342044650}, Case{Type::tanh, 0.097713261865, 0.111518978100},
+        Case{Type::hyperbolic, 0.144808641577, 0.164101312666},
+        Case{Type::power, 0.137782102333, 0.161291338206}}) {
+    SCOPED_TRACE(static_cast<int>(of.type));
+    for (const auto& [reaction, value] :
+         {std::pair{Reaction::bilateral, of.both}, std::pair{Reaction::compression_only, of.one}})
+      expect_relative(end_of(beam_on(law_of(of.type), reaction, "xy", 2.5), 150, 8), value, 1e-11, "end");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(AllLaws, LawOrder,

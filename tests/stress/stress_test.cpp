@@ -169,6 +169,26 @@ TEST(Stress, SliceOfRandomLaws) {
   }
 }
 
+/// Structures with rods, tapers, rigid supports, outlines and gaps along members.
+TEST(Stress, SliceOfRandomMedia) {
+  const std::map<std::uint64_t, std::string> ends{{810082, "load_factor"},
+                                                  {810085, "load_factor"},
+                                                  {810086, "load_factor"},
+                                                  {810099, "critical_point"},
+                                                  {810102, "limit_points"},
+                                                  {810115, "critical_point"},
+                                                  {810122, "displacement_bound"},
+                                                  {810123, "displacement_bound"},
+                                                  {810124, "limit_points"},
+                                                  {810128, "critical_point"},
+                                                  {810133, "monitor"},
+                                                  {810135, "monitor"}};
+  for (const auto& [seed, end] : ends) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_checked(run_seed(Draw::media, seed, 20.0), end);
+  }
+}
+
 /// What `stress_request` writes is the request that was drawn: read as a user's document it is written the
 /// same.
 TEST(Stress, RequestsOfSeedsAreWrittenWhole) {
