@@ -1,5 +1,6 @@
 #include "tests/stress/request_text.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace snapthrough::testing {
@@ -39,10 +40,25 @@ Json written(const SineCurve& c) {
 }
 Json written(const PointsCurve& c) { return {{"type", "points"}, {"points", c.points}}; }
 
+/// A value, or points along the member in its place.
+template <typename Value>
+Json written(const Value& constant, const Along<Value>& points) {
+  if (points.empty()) return constant;
+  return {{"along", points}};
+}
+Json written(const AlongMember& number) { return written(number.constant, number.points); }
+
+/// A number of a section, with its power.
+Json written_taper(const AlongMember& number) {
+  Json out = written(number);
+  if (number.varies()) out["power"] = number.power;
+  return out;
+}
+
 Json written(const Section& s) {
-  Json out{{"id", s.id}, {"EA", s.EA.constant}, {"EI", s.EI.constant}};
-  if (s.GA) out["GA"] = s.GA->constant;
-  if (s.mass) out["mass"] = s.mass->constant;
+  Json out{{"id", s.id}, {"EA", written_taper(s.EA)}, {"EI", written_taper(s.EI)}};
+  if (s.GA) out["GA"] = written_taper(*s.GA);
+  if (s.mass) out["mass"] = written_taper(*s.mass);
   if (s.expansion) out["expansion"] = *s.expansion;
   return out;
 }
@@ -58,6 +74,7 @@ Json written(const Member& m) {
   out["curve"] = std::visit([](const auto& curve) { return written(curve); }, m.curve);
   if (m.release_start_rotation) out["release"]["start"] = released(m.release_start_stiffness);
   if (m.release_end_rotation) out["release"]["end"] = released(m.release_end_stiffness);
+  if (is_rod(m)) out["reaction"] = name_of(m.reaction);
   return out;
 }
 
@@ -71,14 +88,6 @@ Json written(const Support& s) {
         {"x", d->x}, {"y", d->y}, {"rotation", d->rotation}, {"pattern", name_of(d->pattern)}};
   return out;
 }
-
-/// A value, or points along the member in its place.
-template <typename Value>
-Json written(const Value& constant, const Along<Value>& points) {
-  if (points.empty()) return constant;
-  return {{"along", points}};
-}
-Json written(const AlongMember& number) { return written(number.constant, number.points); }
 
 Json written(const ReactionLaw& law) {
   Json out{{"type", name_of(law.type)}};
@@ -99,7 +108,9 @@ Json written(const ReactionLaw& law) {
 /// along a member as `stiffness`.
 template <typename Support>
 void add_stiffness(Json& out, const Support& support) {
-  if (support.law && support.law->type != ReactionLaw::Type::linear)
+  if (std::isinf(support.stiffness))
+    out["stiffness"] = "rigid";
+  else if (support.law && support.law->type != ReactionLaw::Type::linear)
     out["law"] = written(*support.law);
   else
     out["stiffness"] = support.law ? written(support.law->stiffness) : Json(support.stiffness);
@@ -114,14 +125,33 @@ Json written(const Spring& s) {
   return out;
 }
 
+Json written(const CircleOutline& o) {
+  return {{"type", "circle"},
+          {"center", o.centre},
+          {"radius", o.radius},
+          {"medium", o.medium_inside ? "inside" : "outside"}};
+}
+Json written(const LineOutline& o) { return {{"type", "line"}, {"through", o.through}, {"into", o.into}}; }
+Json written(const SplineOutline& o) {
+  return {{"type", "spline"}, {"points", o.points}, {"medium", name_of(o.medium)}};
+}
+Json written(const PolylineOutline& o) {
+  return {
+      {"type", "polyline"}, {"points", o.points}, {"rounding", o.rounding}, {"medium", name_of(o.medium)}};
+}
+
 Json written(const Foundation& f) {
   Json out{{"id", f.id},
            {"member", f.member},
            {"shear_stiffness", f.shear_stiffness},
            {"reaction", name_of(f.reaction)},
-           {"range", f.range},
-           {"gap", f.gap}};
+           {"range", f.range}};
   add_stiffness(out, f);
+  if (f.outline) {
+    out["outline"] = std::visit([](const auto& outline) { return written(outline); }, *f.outline);
+    return out;
+  }
+  out["gap"] = written(f.gap, f.gap_along);
   if (f.direction)
     out["direction"] = *f.direction;
   else if (f.tangential)

@@ -83,6 +83,7 @@ class Check {
  public:
   Check(const Model& model, const Analysis& analysis, const Result& result)
       : model_(model),
+        beams_(without_bars(model)),
         analysis_(analysis),
         result_(result),
         rod_(make_rod_model(model, analysis, result.discretization)) {}
@@ -121,6 +122,7 @@ class Check {
   }
 
   const Model& model_;
+  Model beams_;  ///< the model without rods
   const Analysis& analysis_;
   const Result& result_;
   RodModel rod_;
@@ -265,7 +267,7 @@ void Check::reactions() {
   double length = 0.0;
   double bending = 0.0;
   for (const auto& axis : rod_.axes) length = std::max(length, axis->length());
-  for (const Section& section : model_.sections) bending = std::max(bending, section.EI.constant);
+  for (const Section& section : model_.sections) bending = std::max(bending, section.EI.largest());
   for (std::size_t i = 0; i < result_.states.size(); ++i) {
     const State& state = result_.states[i];
     const ReactionSum sum = reaction_sum(model_, state, analysis_.geometry);
@@ -286,9 +288,9 @@ void Check::contact(const State& state, const RodState& at) {
     const bool one_sided = base.reaction != Reaction::bilateral;
     if (base.shear_stiffness > 0.0 || !(base.law || (one_sided && base.stiffness > 0.0))) continue;
     const FoundationState& said = state.foundations[f];
-    const int m = index_of(model_.members, base.member);
+    const int m = index_of(beams_.members, base.member);
     double x = rod_.extent;
-    for (const double v : state.members[m].x) x = std::max(x, std::abs(v) / rod_.length);
+    for (const double v : state.members[rod_.members[m].place].x) x = std::max(x, std::abs(v) / rod_.length);
     const double noise = 1e3 * kEps * x * rod_.length;  // of a fitted displacement
     for (std::size_t i = 0; i < said.s.size(); ++i) contact_at(said, base, i, noise, at);
   }
@@ -311,7 +313,7 @@ std::array<double, 2> reactions_near(const LawAlong& law, double fraction, bool 
 /// @param i sample of the foundation; noise: rounding of a displacement
 void Check::contact_at(const FoundationState& said, const Foundation& base, std::size_t i, double noise,
                        const RodState& at) {
-  const int m = index_of(model_.members, base.member);
+  const int m = index_of(beams_.members, base.member);
   const double length = rod_.axes[m]->length();
   const double fraction = std::min(1.0, said.s[i] / length);
   int e = rod_.mesh.first[m];
@@ -320,11 +322,7 @@ void Check::contact_at(const FoundationState& said, const Foundation& base, std:
   const RodElement& element = rod_.elements[e];
   const double xi = (fraction - element.from) / (element.to - element.from);
   const RodStrip strip = strip_of(rod_, base);
-  const Functional row = functional_at(rod_, element, xi, direction_of(rod_, element, strip, xi));
-  const MatrixXd& u = at.elements[e].u;
-  double w = row.a.dot(u.row(0));
-  for (Eigen::Index q = 0; q < row.v.cols(); ++q) w += row.v.col(q).dot(u.row(q + 1));
-  const double depth = (w - strip.gap) * rod_.length;
+  const double depth = depth_at(strip, site_of(rod_, element, strip, xi), at.elements[e].u) * rod_.length;
   const double reaction = (base.reaction == Reaction::tension_only ? -1.0 : 1.0) * said.reaction[i];
   const auto [least, most] =
       reactions_near(acting_law(rod_, element, base), fraction, strip.one_sided, depth, noise);

@@ -6,13 +6,18 @@
 
 namespace snapthrough::testing {
 
-double along(const std::vector<std::pair<double, double>>& points, double constant, double fraction) {
+double along(const std::vector<std::pair<double, double>>& points, double constant, double fraction,
+             double power) {
   if (points.empty()) return constant;
   if (fraction <= points.front().first) return points.front().second;
   for (std::size_t i = 1; i < points.size(); ++i) {
     const auto& [from, first] = points[i - 1];
     const auto& [to, second] = points[i];
-    if (fraction <= to) return first + (second - first) * (fraction - from) / (to - from);
+    if (fraction > to) continue;
+    const double share = (fraction - from) / (to - from);
+    if (power == 1.0) return first + (second - first) * share;
+    return std::pow((1.0 - share) * std::pow(first, 1.0 / power) + share * std::pow(second, 1.0 / power),
+                    power);
   }
   return points.back().second;
 }

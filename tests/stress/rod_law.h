@@ -14,8 +14,9 @@ namespace snapthrough::testing {
 
 /// @brief Value at a fraction of a member: linear between the points, constant before the first and after the
 /// last; `constant` without points.
+/// @param power the value to the power 1 / `power` is linear
 [[nodiscard]] double along(const std::vector<std::pair<double, double>>& points, double constant,
-                           double fraction);
+                           double fraction, double power = 1.0);
 
 /// Points of a table from the origin on, with the slopes of its monotone cubic.
 struct LawTable {

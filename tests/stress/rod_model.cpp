@@ -14,6 +14,15 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Unit direction in which a base on this strip reacts, at xi of the element.
+Vector3d direction_of(const RodModel& rod, const RodElement& element, const RodStrip& strip, double xi) {
+  if (strip.fixed) return {(*strip.fixed)[0], (*strip.fixed)[1], 0.0};
+  const AxisCurve& axis = *rod.axes[element.member];
+  const double angle = axis.at(axis.length() * fraction_at(element, xi)).angle;
+  if (strip.tangential) return {std::cos(angle), std::sin(angle), 0.0};
+  return {-strip.sign * std::sin(angle), strip.sign * std::cos(angle), 0.0};
+}
+
 class Maker {
  public:
   Maker(const Model& model, RodModel& rod) : model_(model), rod_(rod) {}
@@ -21,10 +30,12 @@ class Maker {
   void members();
   void element_actions(RodElement& element);
   void nodes();
+  void bars(const Model& whole);
   void sampling();
 
  private:
   void shape(RodElement& element, const StressFreeAxis& axis) const;
+  void section(RodElement& element, const Section& section) const;
   void base(RodElement& element, const Foundation& base) const;
   [[nodiscard]] RodStrip sampled(const RodElement& element, RodStrip strip) const;
   void springs_of_base(RodElement& element, const RodStrip& strip, bool lumped) const;
@@ -69,7 +80,7 @@ void Maker::scales() {
   rod_.length = 0.0;
   double bending = 0.0;
   for (const auto& axis : rod_.axes) rod_.length = std::max(rod_.length, axis->length());
-  for (const Section& section : model_.sections) bending = std::max(bending, section.EI.constant);
+  for (const Section& section : model_.sections) bending = std::max(bending, section.EI.largest());
   rod_.force = bending / (rod_.length * rod_.length);
   rod_.origin = {model_.nodes.front().x, model_.nodes.front().y};
 }
@@ -101,6 +112,23 @@ void Maker::shape(RodElement& element, const StressFreeAxis& axis) const {
   const VectorXd s = element.angle.array().sin();
   element.e0 = element.tx.cwiseProduct(c) + element.ty.cwiseProduct(s);
   element.g0 = element.ty.cwiseProduct(c) - element.tx.cwiseProduct(s);
+}
+
+void Maker::section(RodElement& element, const Section& section) const {
+  const auto value = [](const AlongMember& number, double fraction) {
+    return along(number.points, number.constant, fraction, number.power);
+  };
+  const double bending = rod_.force * rod_.length * rod_.length;
+  const int p = rod_.lagrange.order();
+  for (VectorXd* v : {&element.axial, &element.shear, &element.bending}) *v = VectorXd::Zero(p);
+  for (int q = 0; q < p; ++q) {
+    const double fraction = fraction_at(element, rod_.lagrange.rule().points[static_cast<std::size_t>(q)]);
+    element.axial[q] = rod_.force / value(section.EA, fraction);
+    element.bending[q] = bending / value(section.EI, fraction);
+    if (section.GA) element.shear[q] = rod_.force / value(*section.GA, fraction);
+  }
+  element.shears = section.GA.has_value();
+  element.softest = bending / std::min(value(section.EI, element.from), value(section.EI, element.to));
 }
 
 void Maker::shear_layer(RodElement& element, const Foundation& base, const RodStrip& strip) const {
@@ -146,9 +174,8 @@ RodStrip Maker::sampled(const RodElement& element, RodStrip strip) const {
   const int cells = 12 * rod_.lagrange.order() + 12;
   for (int i = 0; i <= cells; ++i) {
     const double z = 0.5 - 0.5 * std::cos(std::numbers::pi * i / cells);
-    strip.x.push_back(i == cells ? strip.hi : strip.lo + (strip.hi - strip.lo) * z);
-    strip.rows.push_back(
-        functional_at(rod_, element, strip.x.back(), direction_of(rod_, element, strip, strip.x.back())));
+    const double xi = i == cells ? strip.hi : strip.lo + (strip.hi - strip.lo) * z;
+    strip.sites.push_back(site_of(rod_, element, strip, xi));
   }
   return strip;
 }
@@ -160,11 +187,12 @@ void Maker::springs_of_base(RodElement& element, const RodStrip& strip, bool lum
   for (std::size_t i = 0; i < rule.points.size(); ++i) {
     const double xi = lumped ? rule.points[i] : strip.lo + width * rule.points[i];
     if (xi < strip.lo - 1e-9 || xi > strip.hi + 1e-9) continue;
+    const RodSite site = site_of(rod_, element, strip, xi);
     RodSpring spring;
-    spring.row = functional_at(rod_, element, xi, direction_of(rod_, element, strip, xi));
+    spring.row = functional_at(rod_, element, xi, site.direction);
     spring.reaction = {strip.law.at(fraction_at(element, xi)), rod_.length,
                        element.h * rule.weights[i] * (lumped ? 1.0 : width) * rod_.length / rod_.force,
-                       strip.gap, strip.one_sided};
+                       site.gap, strip.one_sided};
     element.springs.push_back(spring);
   }
 }
@@ -208,9 +236,11 @@ void Maker::line_load(RodElement& element, const DistributedLoad& load,
 }
 
 void Maker::weight(RodElement& element, const SelfWeight& load) const {
-  const double mass = section_of(element).mass.value_or(0.0).constant;
+  const AlongMember mass = section_of(element).mass.value_or(0.0);
+  const auto pulled = [&load](double of) { return std::array{of * load.gravity[0], of * load.gravity[1]}; };
   DistributedLoad pull;
-  pull.force = {mass * load.gravity[0], mass * load.gravity[1]};
+  pull.force = pulled(mass.constant);
+  for (const auto& [fraction, value] : mass.points) pull.force_along.emplace_back(fraction, pulled(value));
   pull.pattern = load.pattern;
   distributed(element, pull);
 }
@@ -258,6 +288,16 @@ Vector3d spring_row(const Spring& spring) {
 RodReaction Maker::reaction_of(const Spring& spring) const {
   RodReaction out;
   out.law = law_of_support(spring).at(0.0);
+  if (std::isinf(spring.stiffness)) {
+    // the stiffness of its place counts for the inertia alone
+    constexpr double kStop = 1e8;
+    double members = 0.0;
+    for (const Section& section : model_.sections)
+      members = std::max(members, (section.EA.largest() + 12.0 * rod_.force) / rod_.length);
+    out.law.stiffness = kStop * members * (spring.direction ? 1.0 : rod_.length * rod_.length);
+    out.stop = RodStop{static_cast<std::size_t>(index_of(model_.springs, spring.id)),
+                       spring.reaction == Reaction::tension_only ? -1.0 : 1.0};
+  }
   out.unit = spring.direction ? rod_.length : 1.0;
   out.share = spring.direction ? 1.0 / rod_.force : 1.0 / (rod_.force * rod_.length);
   out.one_sided = spring.reaction != Reaction::bilateral;
@@ -307,6 +347,7 @@ void Maker::members() {
     const Member& member = model_.members[m];
     rod_.members.push_back({index_of(model_.nodes, member.start),
                             index_of(model_.nodes, member.end),
+                            0,
                             {member.release_start_rotation, turn * member.release_start_stiffness},
                             {member.release_end_rotation, turn * member.release_end_stiffness},
                             {}});
@@ -318,9 +359,7 @@ void Maker::members() {
       element.from = rod_.mesh.elements[e].from;
       element.to = rod_.mesh.elements[e].to;
       element.h = (element.to - element.from) * rod_.axes[m]->length() / rod_.length;
-      element.axial = rod_.force / section.EA.constant;
-      element.shear = section.GA ? rod_.force / section.GA->constant : 0.0;
-      element.bending = rod_.force * rod_.length * rod_.length / section.EI.constant;
+      this->section(element, section);
       for (Functional& load : element.load) load.v = MatrixXd::Zero(3, p);
       element.strain.fill(VectorXd::Zero(p));
       element.curvature.fill(VectorXd::Zero(p));
@@ -353,6 +392,53 @@ void Maker::nodes() {
     if (spring.at.node.empty()) continue;
     rod_.node_springs.push_back(
         {index_of(model_.nodes, spring.at.node), spring_row(spring), reaction_of(spring)});
+  }
+}
+
+/// Mean of 1 / EA along a member, by parts between the places at which EA bends.
+double mean_compliance(const AlongMember& EA) {
+  constexpr int kParts = 16;
+  const Rule rule = gauss(8);
+  std::vector<double> ends{0.0};
+  for (const auto& point : EA.points) ends.push_back(point.first);
+  ends.push_back(1.0);
+  double out = 0.0;
+  for (std::size_t e = 0; e + 1 < ends.size(); ++e) {
+    const double width = (ends[e + 1] - ends[e]) / kParts;
+    for (int i = 0; i < kParts; ++i)
+      for (std::size_t q = 0; q < rule.points.size(); ++q)
+        out += width * rule.weights[q] /
+               along(EA.points, EA.constant, ends[e] + width * (i + rule.points[q]), EA.power);
+  }
+  return out;
+}
+
+/// Rods of the whole model, whose weight acts on their nodes. The strain of a rod is that of its mean
+/// compliance.
+void Maker::bars(const Model& whole) {
+  std::size_t beams = 0;
+  for (std::size_t m = 0; m < whole.members.size(); ++m) {
+    const Member& member = whole.members[m];
+    if (member.reaction == Reaction::bilateral) {
+      rod_.members[beams++].place = m;
+      continue;
+    }
+    const Section& section = whole.sections[index_of(whole.sections, member.section)];
+    RodBar bar;
+    bar.start = index_of(whole.nodes, member.start);
+    bar.end = index_of(whole.nodes, member.end);
+    bar.along = {(whole.nodes[bar.end].x - whole.nodes[bar.start].x) / rod_.length,
+                 (whole.nodes[bar.end].y - whole.nodes[bar.start].y) / rod_.length};
+    bar.stiffness = 1.0 / (mean_compliance(section.EA) * rod_.force);
+    bar.sign = member.reaction == Reaction::tension_only ? 1 : -1;
+    bar.member = m;
+    rod_.bars.push_back(bar);
+    const double half = 0.5 * section.mass.value_or(0.0).constant * bar.along.norm() * rod_.length;
+    for (const Load& load : whole.loads)
+      if (const auto* weight = std::get_if<SelfWeight>(&load))
+        for (const int node : {bar.start, bar.end})
+          rod_.nodes[node].load[slot(weight->pattern)] +=
+              half / rod_.force * Vector3d(weight->gravity[0], weight->gravity[1], 0.0);
   }
 }
 
@@ -407,9 +493,11 @@ Functional functional_at(const RodModel& rod, const RodElement& element, double 
 
 LawAlong acting_law(const RodModel& rod, const RodElement& element, const Foundation& base) {
   if (base.law || base.reaction == Reaction::bilateral) return law_of_support(base);
-  const double shortest = element.h / rod.mesh.decay_lengths;
+  constexpr double kRigidDecays = 3.0;  // that an element resolves (docs/theory.md, Stiff foundations)
+  const double decays = std::isinf(base.stiffness) ? kRigidDecays : rod.mesh.decay_lengths;
   const double modulus = rod.force / (rod.length * rod.length);
-  return LawAlong(std::min(base.stiffness, 4.0 * modulus / (element.bending * std::pow(shortest, 4))));
+  const double most = 4.0 * modulus / (element.softest * std::pow(element.h / decays, 4));
+  return LawAlong(std::min(base.stiffness, most));
 }
 
 RodStrip strip_of(const RodModel& rod, const Foundation& base) {
@@ -417,21 +505,58 @@ RodStrip strip_of(const RodModel& rod, const Foundation& base) {
   RodStrip out;
   out.one_sided = base.reaction != Reaction::bilateral;
   out.gap = out.one_sided ? base.gap / rod.length : 0.0;
+  for (const auto& [fraction, gap] : base.gap_along) out.gap_along.emplace_back(fraction, gap / rod.length);
   out.sign = pull * (base.side == Side::left ? 1 : -1);
   out.tangential = base.tangential;
+  if (base.outline) out.surface = surface_of(*base.outline, rod.origin, rod.length);
+  out.takes_planes = rod.mesh.foundation == FoundationRule::lumped;
   if (!base.direction) return out;
   const double size = std::hypot((*base.direction)[0], (*base.direction)[1]);
   out.fixed = {pull * (*base.direction)[0] / size, pull * (*base.direction)[1] / size};
   return out;
 }
 
-Eigen::Vector3d direction_of(const RodModel& rod, const RodElement& element, const RodStrip& strip,
-                             double xi) {
-  if (strip.fixed) return {(*strip.fixed)[0], (*strip.fixed)[1], 0.0};
+RodSite site_of(const RodModel& rod, const RodElement& element, const RodStrip& strip, double xi) {
+  RodSite out;
+  out.xi = xi;
+  out.weights = element.h * rod.lagrange.integrals(xi);
+  const double fraction = fraction_at(element, xi);
+  out.gap = along(strip.gap_along, strip.gap, fraction);
+  if (!strip.surface) {
+    out.direction = direction_of(rod, element, strip, xi);
+    return out;
+  }
   const AxisCurve& axis = *rod.axes[element.member];
-  const double angle = axis.at(axis.length() * fraction_at(element, xi)).angle;
-  if (strip.tangential) return {std::cos(angle), std::sin(angle), 0.0};
-  return {-strip.sign * std::sin(angle), strip.sign * std::cos(angle), 0.0};
+  const AxisPoint at = axis.at(axis.length() * std::min(fraction, 1.0));
+  out.x = {(at.x - rod.origin[0]) / rod.length, (at.y - rod.origin[1]) / rod.length};
+  const RodDepth initial = strip.surface->at(out.x);
+  out.direction.head<2>() = initial.into;
+  out.gap = -initial.value;
+  return out;
+}
+
+namespace {
+
+Vector3d displacement_at(const RodSite& site, const MatrixXd& u) {
+  return u.row(0).transpose() + u.bottomRows(site.weights.size()).transpose() * site.weights;
+}
+
+}  // namespace
+
+double depth_at(const RodStrip& strip, const RodSite& site, const MatrixXd& u) {
+  const Vector3d moved = displacement_at(site, u);
+  if (!strip.follows_surface()) return site.direction.dot(moved) - site.gap;
+  return strip.surface->at(site.x + moved.head<2>()).value;
+}
+
+StripDepth depth_with_derivatives(const RodStrip& strip, const RodSite& site, const MatrixXd& u) {
+  const auto row = [&site](const Vector3d& of) { return Functional{of, of * site.weights.transpose()}; };
+  const Vector3d moved = displacement_at(site, u);
+  if (!strip.follows_surface())
+    return {site.direction.dot(moved) - site.gap, row(site.direction), row(Vector3d::Zero()), 0.0};
+  const RodDepth depth = strip.surface->at(site.x + moved.head<2>());
+  return {depth.value, row({depth.into.x(), depth.into.y(), 0.0}),
+          row({-depth.into.y(), depth.into.x(), 0.0}), depth.bend};
 }
 
 namespace {
@@ -451,10 +576,11 @@ void set_elements(const std::vector<std::vector<double>>& ends, Mesh& mesh) {
 
 RodModel make_rod_model(const Model& model, const Analysis& analysis, const MeshReport& told) {
   RodModel rod;
-  Maker maker(model, rod);
+  const Model beams = without_bars(model);
+  Maker maker(beams, rod);
   maker.scales();
   const MeshUse use = mesh_use(analysis);
-  rod.mesh = make_mesh(model, analysis.discretization, rod.axes, use);
+  rod.mesh = make_mesh(beams, analysis.discretization, rod.axes, use);
   if (told.paths > 1) set_elements(told.ends, rod.mesh);
   rod.lagrange = Lagrange(rod.mesh.order);
   rod.concentrated =
@@ -462,8 +588,14 @@ RodModel make_rod_model(const Model& model, const Analysis& analysis, const Mesh
       std::ranges::any_of(model.foundations, [](const Foundation& f) { return f.shear_stiffness > 0.0; });
   maker.members();
   maker.nodes();
+  maker.bars(model);
   maker.sampling();
   return rod;
+}
+
+Model without_bars(Model model) {
+  std::erase_if(model.members, [](const Member& m) { return m.reaction != Reaction::bilateral; });
+  return model;
 }
 
 }  // namespace snapthrough::testing

@@ -5,7 +5,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "solver/geometry/stress_free_axis.h"
@@ -15,6 +17,7 @@
 #include "solver/result.h"
 #include "tests/stress/rod_law.h"
 #include "tests/stress/rod_rule.h"
+#include "tests/stress/rod_surface.h"
 
 namespace snapthrough::testing {
 
@@ -27,6 +30,12 @@ struct Functional {
   MatrixXd v;  ///< 3 x P
 };
 
+/// Rigid stop, whose force is that which a state reports.
+struct RodStop {
+  std::size_t spring = 0;  ///< of the model
+  double sense = 1.0;      ///< of the reported force
+};
+
 /// Law of a discrete support: the force is share * law(unit * penetration).
 struct RodReaction {
   RodLaw law;
@@ -34,6 +43,7 @@ struct RodReaction {
   double share = 1.0;  ///< checker's force of the law's force one
   double gap = 0.0;
   bool one_sided = false;
+  std::optional<RodStop> stop = {};
 
   /// @param w displacement into the medium
   [[nodiscard]] bool acts(double w) const { return !one_sided || w > gap; }
@@ -46,16 +56,37 @@ struct RodSpring {
   RodReaction reaction;
 };
 
+/// Place of an element on a foundation.
+struct RodSite {
+  double xi = 0.0;
+  VectorXd weights;                                     ///< of u'_q in the displacement
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< into the medium, unless a surface gives it
+  double gap = 0.0;
+  Eigen::Vector2d x = Eigen::Vector2d::Zero();  ///< of the perfect axis
+};
+
 /// Foundation on the part [lo, hi] of an element that is one-sided or not linear.
 struct RodStrip {
   LawAlong law;
   double gap = 0.0, lo = 0.0, hi = 1.0;
+  std::vector<std::pair<double, double>> gap_along;
   bool one_sided = false;
   int sign = 1;                                ///< of the left normal, towards which it reacts
   bool tangential = false;                     ///< along the tangent instead of the normal
   std::optional<std::array<double, 2>> fixed;  ///< instead of both
-  std::vector<double> x;                       ///< places at which the displacement is sampled, ascending
-  std::vector<Functional> rows;                ///< displacements into the medium there
+  std::shared_ptr<const RodSurface> surface;   ///< instead of all of them, and of the gap
+  bool takes_planes = false;   ///< of the surface it takes the planes that touch it beside the initial axis
+  std::vector<RodSite> sites;  ///< at which the depth is sampled, ascending
+
+  [[nodiscard]] bool follows_surface() const { return surface && !takes_planes; }
+};
+
+/// Displacement into a medium beyond the gap, or depth below its surface, with its derivatives.
+struct StripDepth {
+  double value = 0.0;
+  Functional row;     ///< first derivative
+  Functional across;  ///< of the displacement along the surface
+  double bend = 0.0;  ///< second derivative by that displacement
 };
 
 /// Follower pressure of an element, linear from its start to its end.
@@ -67,8 +98,10 @@ struct RodPressure {
 struct RodElement {
   int member = 0;
   double from = 0.0, to = 1.0, h = 0.0;
-  VectorXd angle, tx, ty, e0, g0, stretch;         ///< at the Gauss points
-  double axial = 0.0, shear = 0.0, bending = 0.0;  ///< compliances
+  VectorXd angle, tx, ty, e0, g0, stretch;  ///< at the Gauss points
+  VectorXd axial, shear, bending;           ///< compliances there
+  bool shears = false;                      ///< whether the section can shear
+  double softest = 0.0;                     ///< bending compliance at the end of less stiffness
   std::vector<RodSpring> springs;
   std::vector<RodStrip> strips;
   std::array<Functional, 2> load;  ///< proportional, constant
@@ -92,6 +125,15 @@ struct NodeSpring {
   RodReaction reaction;
 };
 
+/// Rod between two nodes, which takes a compression or a tension only.
+struct RodBar {
+  int start = 0, end = 0;
+  Eigen::Vector2d along = Eigen::Vector2d::Zero();  ///< from its start to its end, unloaded
+  double stiffness = 0.0;                           ///< EA
+  int sign = 1;                                     ///< of the force that it takes; 1 is a tension
+  std::size_t member = 0;                           ///< of the model
+};
+
 /// Joint of a member's end and its node.
 struct RodJoint {
   bool turns = false;      ///< the end has a rotation of its own
@@ -100,6 +142,7 @@ struct RodJoint {
 
 struct RodMember {
   int start = 0, end = 0;
+  std::size_t place = 0;  ///< in the model's list, which has rods too
   RodJoint at_start, at_end;
   std::vector<StressFreePoint> sampled;  ///< stress-free axis at the samples, in the model's units
 };
@@ -117,6 +160,7 @@ struct RodModel {
   Mesh mesh;
   std::vector<RodNode> nodes;
   std::vector<NodeSpring> node_springs;
+  std::vector<RodBar> bars;
   std::vector<RodMember> members;
   std::vector<RodElement> elements;
 };
@@ -142,8 +186,16 @@ struct RodModel {
 /// @brief Direction and gap of a base, as a strip on a whole element without a law.
 [[nodiscard]] RodStrip strip_of(const RodModel& rod, const Foundation& base);
 
-/// @brief Unit direction in which a base on this strip reacts, at xi of the element.
-[[nodiscard]] Eigen::Vector3d direction_of(const RodModel& rod, const RodElement& element,
-                                           const RodStrip& strip, double xi);
+/// Place of a strip at xi of the element.
+[[nodiscard]] RodSite site_of(const RodModel& rod, const RodElement& element, const RodStrip& strip,
+                              double xi);
+
+/// @brief Depth in a state. @param u displacements (P + 1) x 3 of the element: u_a and u'_q
+[[nodiscard]] double depth_at(const RodStrip& strip, const RodSite& site, const MatrixXd& u);
+[[nodiscard]] StripDepth depth_with_derivatives(const RodStrip& strip, const RodSite& site,
+                                                const MatrixXd& u);
+
+/// @brief The model without its one-sided members, which have no elements.
+[[nodiscard]] Model without_bars(Model model);
 
 }  // namespace snapthrough::testing

@@ -1,5 +1,6 @@
 #include "tests/stress/rod_state.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,9 @@ constexpr double kConverged = 1e-8;
 /// What the same criterion leaves of a force or a lever arm, relative: a residual is the tangent times the
 /// error of the displacements, and the tangent holds the section forces.
 constexpr double kConvergedForce = 1e-9;
+/// Depth in a stop, over the longest member, under a force of EI / length^2: a hundred times what it gives
+/// way where that force moves members by their length.
+constexpr double kStopGivesWay = 1e-6;
 /// Positions are a sum of three terms each rounded; a few units in the last place.
 constexpr double kUlps = 4.0;
 
@@ -54,14 +58,16 @@ class Evaluation {
 
  private:
   void shape(const RodElement& element, ElementState& out);
-  void collect(const RodElement& element, ElementState& out) const;
+  void collect(const RodElement& element, ElementState& out);
   void collect_strip(const RodElement& element, const RodStrip& strip, ElementState& out) const;
   void collect_piece(const StripPiece& piece, int halvings, ElementState& out) const;
   [[nodiscard]] std::vector<ActingSupport> supports_on(const StripPiece& piece, const ElementState& at) const;
-  [[nodiscard]] double penetration(const RodElement& element, const RodStrip& strip, const Functional& row,
+  [[nodiscard]] double penetration(const RodElement& element, const RodStrip& strip, const RodSite& site,
                                    const ElementState& at) const;
-  [[nodiscard]] double penetration(const RodElement& element, const RodStrip& strip, double xi,
-                                   const ElementState& at) const;
+  [[nodiscard]] ActingSupport stopped(const RodReaction& reaction, double w, double moved) const;
+  void node_springs(NodeSums& sums);
+  void bars(NodeSums& sums);
+  void anchors();
   [[nodiscard]] double rounding_of(const RodElement& element, const Functional& row) const;
   [[nodiscard]] Functional actions(const RodElement& element, const ElementState& at) const;
   void push(const RodElement& element, const ElementState& at, const RodPressure& pressure,
@@ -90,6 +96,7 @@ class Evaluation {
   double noise_ = 0.0;  ///< of a displacement
   double turn_noise_ = 0.0;
   double largest_force_ = 0.0;
+  std::vector<double> entered_;              ///< depths in the stops on elements
   std::vector<double> values_, tolerances_;  ///< of all equations in turn
 };
 
@@ -110,7 +117,7 @@ double value_of(const Functional& f, const MatrixXd& u) {
 }
 
 void Evaluation::shape(const RodElement& element, ElementState& out) {
-  const MemberState& m = state_.members[element.member];
+  const MemberState& m = state_.members[rod_.members[element.member].place];
   const auto& axis = rod_.members[element.member].sampled;
   const auto n = static_cast<Eigen::Index>(element.samples.size());
   MatrixXd sampled(n, 3);
@@ -144,16 +151,11 @@ void Evaluation::shape(const RodElement& element, ElementState& out) {
   out.G = y.cwiseProduct(out.cos) - x.cwiseProduct(out.sin);
 }
 
-double Evaluation::penetration(const RodElement& element, const RodStrip& strip, double xi,
+double Evaluation::penetration(const RodElement& element, const RodStrip& strip, const RodSite& site,
                                const ElementState& at) const {
-  return penetration(element, strip, functional_at(rod_, element, xi, direction_of(rod_, element, strip, xi)),
-                     at);
-}
-
-double Evaluation::penetration(const RodElement& element, const RodStrip& strip, const Functional& row,
-                               const ElementState& at) const {
-  const double depth = value_of(row, at.u) - strip.gap;
-  return closer_ == 0.0 ? depth : depth + closer_ * rounding_of(element, row);
+  if (closer_ == 0.0) return depth_at(strip, site, at.u);
+  const StripDepth depth = depth_with_derivatives(strip, site, at.u);
+  return depth.value + closer_ * rounding_of(element, depth.row);
 }
 
 /// Where f is extreme in [a, b] on the side of `toward` zero, by golden sections.
@@ -248,13 +250,19 @@ std::vector<std::array<double, 2>> smooth_parts(const RodElement& element, const
 /// exact; on others the parts are halved until their forces and stiffnesses do not change.
 void Evaluation::collect_strip(const RodElement& element, const RodStrip& strip, ElementState& out) const {
   const int p = rod_.lagrange.order();
-  const auto depth = [&](double xi) { return penetration(element, strip, xi, out); };
-  Samples depths{strip.x, {}};
-  for (const Functional& row : strip.rows) depths.g.push_back(penetration(element, strip, row, out));
+  const auto depth = [&](double xi) {
+    return penetration(element, strip, site_of(rod_, element, strip, xi), out);
+  };
+  Samples depths;
+  for (const RodSite& site : strip.sites) {
+    depths.x.push_back(site.xi);
+    depths.g.push_back(penetration(element, strip, site, out));
+  }
   constexpr int kMostHalvings = 12;
-  const Rule rule = strip.law.is_linear() ? gauss(std::max(p + 2, 5)) : gauss(p + 6);
+  const bool is_linear = strip.law.is_linear() && !strip.surface;
+  const Rule rule = is_linear ? gauss(std::max(p + 2, 5)) : gauss(p + 6);
   for (const auto& [from, to] : smooth_parts(element, strip, depths, depth, rod_.length))
-    collect_piece({element, strip, from, to, rule}, strip.law.is_linear() ? 0 : kMostHalvings, out);
+    collect_piece({element, strip, from, to, rule}, is_linear ? 0 : kMostHalvings, out);
 }
 
 std::vector<ActingSupport> Evaluation::supports_on(const StripPiece& piece, const ElementState& at) const {
@@ -263,15 +271,15 @@ std::vector<ActingSupport> Evaluation::supports_on(const StripPiece& piece, cons
   for (std::size_t i = 0; i < piece.rule.points.size(); ++i) {
     const double width = piece.to - piece.from;
     const double xi = piece.from + width * piece.rule.points[i];
-    ActingSupport support;
-    support.row = functional_at(rod_, element, xi, direction_of(rod_, element, piece.strip, xi));
+    const StripDepth depth =
+        depth_with_derivatives(piece.strip, site_of(rod_, element, piece.strip, xi), at.u);
     const double share = element.h * width * piece.rule.weights[i] * rod_.length / rod_.force;
-    const RodReaction reaction{piece.strip.law.at(fraction_at(element, xi)), rod_.length, share,
-                               piece.strip.gap, piece.strip.one_sided};
-    const double w = value_of(support.row, at.u);
-    support.force = reaction.force(w);
-    support.stiffness = reaction.slope(w + closer_ * rounding_of(element, support.row));
-    out.push_back(std::move(support));
+    const RodReaction reaction{piece.strip.law.at(fraction_at(element, xi)), rod_.length, share, 0.0,
+                               piece.strip.one_sided};
+    const double force = reaction.force(depth.value);
+    const double near = depth.value + closer_ * rounding_of(element, depth.row);
+    out.push_back({depth.row, force, reaction.slope(near)});
+    if (depth.bend != 0.0) out.push_back({depth.across, 0.0, force * depth.bend});
   }
   return out;
 }
@@ -281,7 +289,7 @@ std::array<double, 2> sums_of(const std::vector<ActingSupport>& supports) {
   std::array<double, 2> out{};
   for (const ActingSupport& s : supports) {
     out[0] += std::abs(s.force);
-    out[1] += s.stiffness;
+    out[1] += std::abs(s.stiffness);
   }
   return out;
 }
@@ -306,12 +314,32 @@ void Evaluation::collect_piece(const StripPiece& piece, int halvings, ElementSta
   std::ranges::move(whole, std::back_inserter(out.acting));
 }
 
-void Evaluation::collect(const RodElement& element, ElementState& out) const {
+/// Depth by which a displacement w enters a stop, per force; a length where the stop pulls.
+double entered(const RodReaction& stop, const ActingSupport& acting, double w) {
+  return acting.force < 0.0 ? 1.0 : std::max(w - stop.gap, 0.0) / (1.0 + acting.force);
+}
+
+/// A stop as the state reports it. @param moved w, closer by some roundings
+ActingSupport Evaluation::stopped(const RodReaction& reaction, double w, double moved) const {
+  ActingSupport out;
+  out.is_stop = true;
+  out.force = reaction.share * reaction.stop->sense * state_.springs[reaction.stop->spring].force;
+  const bool acts = closer_ == 0.0 ? out.force > 0.0 : moved > reaction.gap;
+  out.stiffness = acts ? reaction.slope(w) : 0.0;
+  return out;
+}
+
+void Evaluation::collect(const RodElement& element, ElementState& out) {
   for (const RodSpring& spring : element.springs) {
     const double w = value_of(spring.row, out.u);
     const double moved = w + closer_ * rounding_of(element, spring.row);
-    if (spring.reaction.acts(moved))
+    if (spring.reaction.stop) {
+      out.acting.push_back(stopped(spring.reaction, w, moved));
+      out.acting.back().row = spring.row;
+      entered_.push_back(entered(spring.reaction, out.acting.back(), w));
+    } else if (spring.reaction.acts(moved)) {
       out.acting.push_back({spring.row, spring.reaction.force(w), spring.reaction.slope(moved)});
+    }
   }
   for (const RodStrip& strip : element.strips) collect_strip(element, strip, out);
 }
@@ -401,7 +429,7 @@ void Evaluation::forces(const RodElement& element, ElementState& at, Vector3d& m
   for (Eigen::Index q = 0; q < p; ++q) at.M[q] -= r.v(2, q) / (element.h * rule.weights[q]);
   double noise = 0.0;
   for (const ActingSupport& support : at.acting)
-    noise += support.stiffness * rounding_of(element, support.row);
+    if (!support.is_stop) noise += std::abs(support.stiffness) * rounding_of(element, support.row);
   at.force_noise += noise + force_share_ * (m.head<2>().norm() + r.a.head<2>().norm());
   at.moment_noise += at.force_noise * element.h + force_share_ * std::abs(m[2]) +
                      m.head<2>().norm() * (noise_ + element.h * at.gradient_noise.maxCoeff());
@@ -418,18 +446,18 @@ void Evaluation::strains(const RodElement& element, const ElementState& at, int 
     const double j = element.stretch[q];
     const double size = std::hypot(element.tx[q], element.ty[q]);
     const double rounding = at.gradient_noise[q] + 10.0 * kEps * size + turn_noise_ * size;
-    note(at.E[q] - element.e0[q] - j * element.axial * at.N[q] - size * strain[q],
-         kConverged + rounding + j * element.axial * at.force_noise, "axial strain" + where);
-    note(at.G[q] - element.g0[q] - j * element.shear * at.Q[q],
-         kConverged + rounding + j * element.shear * at.force_noise, "shear strain" + where);
-    note(at.u(q + 1, 2) - j * element.bending * at.M[q] - size * curvature[q],
-         kConverged / element.h + at.turn_noise[q] + j * element.bending * at.moment_noise,
+    note(at.E[q] - element.e0[q] - j * element.axial[q] * at.N[q] - size * strain[q],
+         kConverged + rounding + j * element.axial[q] * at.force_noise, "axial strain" + where);
+    note(at.G[q] - element.g0[q] - j * element.shear[q] * at.Q[q],
+         kConverged + rounding + j * element.shear[q] * at.force_noise, "shear strain" + where);
+    note(at.u(q + 1, 2) - j * element.bending[q] * at.M[q] - size * curvature[q],
+         kConverged / element.h + at.turn_noise[q] + j * element.bending[q] * at.moment_noise,
          "bending strain" + where);
   }
 }
 
 void Evaluation::reported_force(int m) {
-  const MemberState& s = state_.members[m];
+  const MemberState& s = state_.members[rod_.members[m].place];
   const std::size_t i = s.x.size() - 1;
   const double th = rod_.members[m].sampled[i].angle + s.rotation[i];
   out_.end_force[m] = Vector3d(s.axial_force[i] * std::cos(th) - s.shear_force[i] * std::sin(th),
@@ -566,21 +594,64 @@ void Evaluation::node_equations(std::size_t n, const NodeSums& sums) {
   }
 }
 
+void Evaluation::node_springs(NodeSums& sums) {
+  out_.node_stiffness.assign(rod_.node_springs.size(), 0.0);
+  for (std::size_t i = 0; i < rod_.node_springs.size(); ++i) {
+    const auto& [node, row, reaction] = rod_.node_springs[i];
+    const Vector3d u = out_.nodes[node].array().isNaN().select(0.0, out_.nodes[node]);
+    const double w = row.dot(u);
+    const double noise = (noise_ + turn_noise_) * 100.0;
+    if (reaction.stop) {
+      const ActingSupport acting = stopped(reaction, w, w + closer_ * noise);
+      note(entered(reaction, acting, w), kStopGivesWay, "stop at node " + std::to_string(node));
+      sums.force[node] += acting.force * row;
+      out_.node_stiffness[i] = acting.stiffness;
+    } else if (reaction.acts(w)) {
+      out_.node_stiffness[i] = reaction.slope(w);
+      sums.noise = std::max(sums.noise, reaction.slope(w) * noise);
+      sums.force[node] += reaction.force(w) * row;
+    }
+  }
+}
+
+/// Displacements of nodes that rods alone reach: those of their supports.
+void Evaluation::anchors() {
+  for (std::size_t n = 0; n < rod_.nodes.size(); ++n) {
+    if (!std::isnan(out_.nodes[n][0])) continue;
+    const Vector3d held = load_of(rod_.nodes[n].displacement);
+    out_.nodes[n].head<2>() = Eigen::Rotation2Dd(rod_.nodes[n].angle) * Eigen::Vector2d(held.head<2>());
+  }
+}
+
+/// Forces of rods, which are also reported.
+void Evaluation::bars(NodeSums& sums) {
+  for (const RodBar& bar : rod_.bars) {
+    const Eigen::Vector2d now = bar.along + (out_.nodes[bar.end] - out_.nodes[bar.start]).head<2>();
+    const double length = bar.along.norm();
+    const double stretched = bar.stiffness * (now.norm() - length) / length;
+    const double force = bar.sign * stretched > 0.0 ? stretched : 0.0;
+    const double noise = bar.stiffness / length * 100.0 * noise_;
+    const double reported = state_.members[bar.member].axial_force.front() / rod_.force;
+    note(reported - force, noise + kConvergedForce * std::abs(force),
+         "force of rod " + std::to_string(bar.member));
+    if (force != 0.0) sums.noise = std::max(sums.noise, noise);
+    sums.force[bar.end].head<2>() += force * now.normalized();
+    sums.force[bar.start].head<2>() -= force * now.normalized();
+  }
+}
+
 /// Nodes: displacements of the members that meet and of supports, equilibrium in the free directions.
 void Evaluation::joints() {
   out_.nodes.assign(rod_.nodes.size(), Vector3d::Constant(std::nan("")));
   NodeSums sums;
   sums.force.assign(rod_.nodes.size(), Vector3d::Zero());
   for (std::size_t m = 0; m < rod_.members.size(); ++m) meet_nodes(static_cast<int>(m), sums);
+  anchors();
   turn_nodes(sums);
   joint_moments(sums);
-  for (const NodeSpring& spring : rod_.node_springs) {
-    const Vector3d u = out_.nodes[spring.node].array().isNaN().select(0.0, out_.nodes[spring.node]);
-    const double w = spring.row.dot(u);
-    if (!spring.reaction.acts(w)) continue;
-    sums.noise = std::max(sums.noise, spring.reaction.slope(w) * (noise_ + turn_noise_) * 100.0);
-    sums.force[spring.node] += spring.reaction.force(w) * spring.row;
-  }
+  for (const double depth : entered_) note(depth, kStopGivesWay, "stop in a member");
+  node_springs(sums);
+  bars(sums);
   for (std::size_t n = 0; n < rod_.nodes.size(); ++n) node_equations(n, sums);
 }
 

@@ -16,6 +16,7 @@ struct ActingSupport {
   Functional row;
   double force = 0.0;
   double stiffness = 0.0;  ///< derivative of the force by the displacement
+  bool is_stop = false;    ///< its force is the reported one, without the rounding of its displacement
 };
 
 /// An element's displacement and section forces in a state.
@@ -33,6 +34,7 @@ struct RodState {
   std::vector<ElementState> elements;
   std::vector<Eigen::Vector3d> start_force, end_force;  ///< of members, (force x, y, moment) through the ends
   std::vector<Eigen::Vector3d> nodes;  ///< displacements; a rotation that nothing shows is zero
+  std::vector<double> node_stiffness;  ///< of the springs at nodes; 0: one that does not act
   double residual = 0.0;               ///< worst equation over its tolerance
   double roughness = 0.0;  ///< worst distance of a sample from its element's polynomial, over its tolerance
   std::string worst;

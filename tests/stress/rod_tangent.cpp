@@ -24,7 +24,7 @@ class MemberTangent {
   MemberTangent(const RodModel& rod, const RodState& at, int member, double load_factor)
       : rod_(rod), at_(at), member_(member), load_factor_(load_factor) {
     const RodElement& first = rod.elements[rod.mesh.first[member]];
-    shearable_ = first.shear > 0.0;
+    shearable_ = first.shears;
     per_element_ = rod.lagrange.order() * (shearable_ ? 3 : 2);
     size_ = 3 + per_element_ * (rod.mesh.first[member + 1] - rod.mesh.first[member]);
     H_ = MatrixXd::Zero(size_, size_);
@@ -63,14 +63,14 @@ void MemberTangent::add_element(int e) {
   const auto unit = [&](Index q, double c) { return std::sqrt(c * element.stretch[q] / (element.h * b[q])); };
   std::array<MatrixXd, 3> v;  // rows of du'_q
   v.fill(MatrixXd::Zero(p, size_));
-  for (Index q = 0; q < p; ++q) v[2](q, first + per_element_ - p + q) = unit(q, element.bending);
+  for (Index q = 0; q < p; ++q) v[2](q, first + per_element_ - p + q) = unit(q, element.bending[q]);
   MatrixXd turns(p, size_);
   VectorXd weight(p);
   for (Index q = 0; q < p; ++q) {
     const VectorXd a = element.h * rod_.lagrange.integrals(rod_.lagrange.rule().points[q]);
     turns.row(q) = end_.row(2) + a.transpose() * v[2];
-    const double de = unit(q, element.axial);
-    const double dg = shearable_ ? unit(q, element.shear) : 0.0;
+    const double de = unit(q, element.axial[q]);
+    const double dg = shearable_ ? unit(q, element.shear[q]) : 0.0;
     Eigen::RowVectorXd along = -at.G[q] * turns.row(q);
     Eigen::RowVectorXd across = at.E[q] * turns.row(q);
     along[first + q] += de;
@@ -137,6 +137,22 @@ void add_joint(MatrixXd& K, double stiffness, Index end, Index node) {
   K(node, end) -= stiffness;
 }
 
+/// Adds the tangent EA / L e e^T + N / l n n^T of a rod with the force N along e, where its nodes are the
+/// length l apart.
+void add_bar(MatrixXd& K, const RodBar& bar, const RodState& at) {
+  const Eigen::Vector2d now = bar.along + (at.nodes[bar.end] - at.nodes[bar.start]).head<2>();
+  const double length = bar.along.norm();
+  const double force = bar.stiffness * (now.norm() - length) / length;
+  if (!(bar.sign * force > 0.0)) return;
+  const Eigen::Vector2d e = now.normalized();
+  const Eigen::Vector2d n(-e.y(), e.x());
+  const Eigen::Matrix2d k =
+      bar.stiffness / length * e * e.transpose() + force / now.norm() * n * n.transpose();
+  for (const int row : {bar.start, bar.end})
+    for (const int column : {bar.start, bar.end})
+      K.block(3L * row, 3L * column, 2, 2) += row == column ? k : Eigen::Matrix2d(-k);
+}
+
 /// Rows of the displacements of members' ends.
 struct EndRows {
   const std::vector<std::array<Index, 3>>&start, &end;
@@ -146,12 +162,12 @@ struct EndRows {
 void add_end_actions(const RodModel& rod, const RodState& at, double load_factor, const EndRows& rows,
                      ConstrainedTangent& out) {
   MatrixXd& K = out.matrix;
-  for (const NodeSpring& spring : rod.node_springs) {
-    const double w = spring.row.dot(at.nodes[spring.node]);
-    if (spring.reaction.acts(w))
-      K.block(3L * spring.node, 3L * spring.node, 3, 3) +=
-          spring.reaction.slope(w) * spring.row * spring.row.transpose();
+  for (std::size_t i = 0; i < rod.node_springs.size(); ++i) {
+    const NodeSpring& spring = rod.node_springs[i];
+    K.block(3L * spring.node, 3L * spring.node, 3, 3) +=
+        at.node_stiffness[i] * spring.row * spring.row.transpose();
   }
+  for (const RodBar& bar : rod.bars) add_bar(K, bar, at);
   for (std::size_t m = 0; m < rod.members.size(); ++m) {
     const RodMember& member = rod.members[m];
     add_joint(K, member.at_start.stiffness, rows.start[m][2], 3L * member.start + 2);
@@ -171,7 +187,7 @@ void add_end_actions(const RodModel& rod, const RodState& at, double load_factor
 int tangent_size(const RodModel& rod) {
   auto size = static_cast<int>(3 * rod.nodes.size() + 5 * rod.members.size());
   for (const RodNode& node : rod.nodes) size += static_cast<int>(std::ranges::count(node.fixed, true));
-  for (const RodElement& e : rod.elements) size += rod.lagrange.order() * (e.shear > 0.0 ? 3 : 2);
+  for (const RodElement& e : rod.elements) size += rod.lagrange.order() * (e.shears ? 3 : 2);
   return size;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <ctime>
 #include <mutex>
@@ -15,6 +16,7 @@
 #include "solver/solve.h"
 #include "tests/stress/broad_model.h"
 #include "tests/stress/laws_model.h"
+#include "tests/stress/media_model.h"
 #include "tests/stress/random_model.h"
 
 namespace snapthrough::testing {
@@ -65,6 +67,7 @@ bool needs_one_sided_supports(RandomRequest request) {
   std::erase_if(request.model.springs, [](const Spring& s) { return s.reaction != Reaction::bilateral; });
   std::erase_if(request.model.foundations,
                 [](const Foundation& f) { return f.reaction != Reaction::bilateral; });
+  std::erase_if(request.model.members, is_rod);
   return can_move(request.model);
 }
 
@@ -79,6 +82,10 @@ std::string features_of(const RandomRequest& request) {
   text += "; members";
   constexpr std::array kCurves{"line", "arc", "parabola", "sine", "points"};
   for (const Member& member : m.members) {
+    if (is_rod(member)) {
+      text += " rod";
+      continue;
+    }
     text += std::string(" ") + kCurves.at(member.curve.index());
     if (member.release_start_rotation || member.release_end_rotation) text += "(released)";
     if (member.release_start_stiffness > 0.0 || member.release_end_stiffness > 0.0) text += "(joint)";
@@ -93,10 +100,15 @@ std::string features_of(const RandomRequest& request) {
     if (f.tangential) text += " tangent";
     if (f.direction) text += " fixed direction";
     if (f.gap > 0.0) text += " gap";
+    if (!f.gap_along.empty()) text += " gap along";
+    if (std::isinf(f.stiffness)) text += " rigid";
+    constexpr std::array kOutlines{" circle", " line", " spline", " polyline"};
+    if (f.outline) text += kOutlines.at(f.outline->index());
     if (f.shear_stiffness > 0.0) text += " shear layer";
   }
   for (const Spring& s : m.springs) {
     text += std::string("; spring ") + kReactions.at(static_cast<std::size_t>(s.reaction)) + law_of(s.law);
+    if (std::isinf(s.stiffness)) text += " rigid";
     text += s.at.member.empty() ? " at node" : " in member";
   }
   constexpr std::array kLoads{"point",          "distributed", "pressure",
@@ -105,6 +117,8 @@ std::string features_of(const RandomRequest& request) {
     text += std::string("; ") + kLoads.at(load.index());
     if (std::visit([](const auto& l) { return l.pattern == Pattern::constant; }, load)) text += " constant";
   }
+  const auto varies = [](const Section& s) { return s.EI.varies() || s.EA.varies(); };
+  if (std::ranges::any_of(m.sections, varies)) text += "; tapers";
   for (const Support& s : m.supports)
     if (s.displacement) text += "; prescribed displacement";
   return text;
@@ -156,11 +170,13 @@ StressOutcome run_request(RandomRequest request, double time_bound_s) {
 std::optional<Draw> draw_named(std::string_view name) {
   if (name == "first") return Draw::first;
   if (name == "broad") return Draw::broad;
-  return name == "laws" ? std::optional(Draw::laws) : std::nullopt;
+  if (name == "laws") return Draw::laws;
+  return name == "media" ? std::optional(Draw::media) : std::nullopt;
 }
 
 RandomRequest draw_request(Draw draw, std::uint64_t seed) {
   if (draw == Draw::laws) return laws_request(seed);
+  if (draw == Draw::media) return media_request(seed);
   return draw == Draw::broad ? broad_request(seed) : random_request(seed);
 }
 

@@ -12,6 +12,7 @@
 #include "tests/stress/frame_model.h"
 #include "tests/stress/inertia.h"
 #include "tests/stress/laws_model.h"
+#include "tests/stress/media_model.h"
 #include "tests/stress/random_model.h"
 #include "tests/stress/request_text.h"
 #include "tests/stress/rod_law.h"
@@ -168,12 +169,32 @@ TEST(Stress, SliceOfRandomLaws) {
   }
 }
 
+/// Structures with rods, tapers, rigid supports, outlines and gaps along members.
+TEST(Stress, SliceOfRandomMedia) {
+  const std::map<std::uint64_t, std::string> ends{{810082, "load_factor"},
+                                                  {810085, "load_factor"},
+                                                  {810086, "load_factor"},
+                                                  {810099, "critical_point"},
+                                                  {810102, "limit_points"},
+                                                  {810115, "critical_point"},
+                                                  {810122, "displacement_bound"},
+                                                  {810123, "displacement_bound"},
+                                                  {810124, "limit_points"},
+                                                  {810128, "critical_point"},
+                                                  {810133, "monitor"},
+                                                  {810135, "monitor"}};
+  for (const auto& [seed, end] : ends) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_checked(run_seed(Draw::media, seed, 20.0), end);
+  }
+}
+
 /// What `stress_request` writes is the request that was drawn: read as a user's document it is written the
 /// same.
 TEST(Stress, RequestsOfSeedsAreWrittenWhole) {
   for (std::uint64_t seed = 0; seed < 200; ++seed)
-    for (const RandomRequest& drawn :
-         {random_request(seed), broad_request(seed), laws_request(seed), frame_request(seed, 1e-3)}) {
+    for (const RandomRequest& drawn : {random_request(seed), broad_request(seed), laws_request(seed),
+                                       media_request(seed), frame_request(seed, 1e-3)}) {
       const std::string text = request_text(drawn);
       const api::ReadOutcome read = api::read_request(text);
       ASSERT_TRUE(read.request) << seed << ": " << text;
