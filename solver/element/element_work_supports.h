@@ -26,7 +26,7 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
   const double share = one_sided ? regime_.softness : 1.0;
   ContactDisplacement u;  // only supports whose tangent changes ask for it
   knots_.clear();
-  if (contact.law().curve != nullptr || contact.follows_surface()) {
+  if (contact.is_curved()) {
     const auto* at = regime_.linearised_at();
     u = data_.displacement_of(contact, shape, dofs, at != nullptr ? at->data() : y);
     contact.knot_places(u.start, u.dx, u.dy, knots_);
@@ -41,12 +41,12 @@ void ElementWorkOf<P>::collect_contact(std::size_t index, const double* y, const
   if (regime_.grip > 0.0 && one_sided) add_interval(index, shape, whole, regime_.grip, nullptr);
 }
 
-/// Appends the Gauss points of an interval; for a law with a curve, on the halves between its knots, in
-/// knots_.
+/// Appends the Gauss points of an interval, on the halves between the knots in knots_ if the foundation is
+/// curved.
 template <int P>
 void ElementWorkOf<P>::add_pieces(std::size_t index, const Shape& shape, const ElementPart& interval,
                                   double share, const ContactDisplacement* u) {
-  if (contacts_[index].law().curve == nullptr) {
+  if (!contacts_[index].is_curved()) {
     add_interval(index, shape, interval, share, u);
     return;
   }

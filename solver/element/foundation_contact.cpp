@@ -558,10 +558,72 @@ void FoundationContact::add_bends(std::vector<KnotPlace>& out) const {
   }
 }
 
+/// Distance of the moved axis ahead of a seam, along the surface; on the range scaled to [0, 1].
+class AheadOfSeam {
+ public:
+  AheadOfSeam(const FoundationContact& contact, std::array<double, 2> ua, std::span<const double> dx,
+              std::span<const double> dy, const SurfaceSeam& seam)
+      : contact_(contact), ua_(ua), dx_(dx), dy_(dy), seam_(seam) {}
+
+  [[nodiscard]] double value(double z) const {
+    const double xi = at(z);
+    const auto x = contact_.place_at(xi).x;
+    const auto u = contact_.displacement(xi, ua_, dx_, dy_);
+    return (x[0] + u[0] - seam_.x[0]) * seam_.tangent[0] + (x[1] + u[1] - seam_.x[1]) * seam_.tangent[1];
+  }
+  [[nodiscard]] double slope(double z) const {
+    const double xi = at(z);
+    std::array<double, kMaxOrder> l{};
+    contact_.rule_->values_at(xi, std::span(l).first(dx_.size()));
+    const auto du = combined({0.0, 0.0}, l, dx_, dy_);
+    const double angle = contact_.place_at(xi).angle;
+    const double length = contact_.place_.length;
+    return (contact_.range_[1] - contact_.range_[0]) *
+           ((length * std::cos(angle) + du[0]) * seam_.tangent[0] +
+            (length * std::sin(angle) + du[1]) * seam_.tangent[1]);
+  }
+  [[nodiscard]] Eigen::Array4d values(const Eigen::Array4d& z) const {
+    return {value(z[0]), value(z[1]), value(z[2]), value(z[3])};
+  }
+
+ private:
+  [[nodiscard]] double at(double z) const {
+    return contact_.range_[0] + z * (contact_.range_[1] - contact_.range_[0]);
+  }
+
+  const FoundationContact& contact_;
+  std::array<double, 2> ua_;
+  std::span<const double> dx_, dy_;
+  const SurfaceSeam& seam_;
+};
+
+/// Appends the places at which the axis passes a seam of the surface. The stiffness normal to the surface does
+/// not change there.
+void FoundationContact::add_seams(std::array<double, 2> ua, std::span<const double> dx,
+                                  std::span<const double> dy, std::vector<KnotPlace>& out) const {
+  std::vector<Interval> ahead;
+  for (const SurfaceSeam& seam : foundation_law_.surface->seams()) {
+    const AheadOfSeam gap(*this, ua, dx, dy, seam);
+    Values g;
+    for (int i = 0; i < samples_->count; ++i) g[i] = gap.value(samples_->z[i]);
+    ahead.clear();
+    search(gap, g, ahead);
+    for (const Interval& part : ahead)
+      for (const double xi : {part.from, part.to})
+        if (xi != range_[0] && xi != range_[1]) out.push_back({xi, 0.0, 1.0});
+  }
+}
+
 void FoundationContact::knot_places(std::array<double, 2> ua, std::span<const double> dx,
                                     std::span<const double> dy, std::vector<KnotPlace>& out) const {
   out.clear();
-  if (law_.curve == nullptr) return;
+  if (follows_surface()) add_seams(ua, dx, dy, out);
+  if (law_.curve != nullptr) add_law_knots(ua, dx, dy, out);
+  std::sort(out.begin(), out.end(), [](const KnotPlace& a, const KnotPlace& b) { return a.xi < b.xi; });
+}
+
+void FoundationContact::add_law_knots(std::array<double, 2> ua, std::span<const double> dx,
+                                      std::span<const double> dy, std::vector<KnotPlace>& out) const {
   add_bends(out);
   Values w;
   Values x;
@@ -584,7 +646,6 @@ void FoundationContact::knot_places(std::array<double, 2> ua, std::span<const do
     if (high >= *least && low <= *most) add_knot(k, 1.0, w, laws, out);
     if (!law_.one_sided && high > 0.0 && -low >= *least && -high <= *most) add_knot(k, -1.0, w, laws, out);
   }
-  std::sort(out.begin(), out.end(), [](const KnotPlace& a, const KnotPlace& b) { return a.xi < b.xi; });
 }
 
 std::vector<FoundationContact::Interval> FoundationContact::smooth_pieces(std::array<double, 2> ua,
@@ -597,7 +658,7 @@ std::vector<FoundationContact::Interval> FoundationContact::smooth_pieces(std::a
   std::vector<Interval> out;
   const auto add = [&out](const Interval& piece) { out.push_back(piece); };
   for (const Interval& part : parts) {
-    if (law_.curve == nullptr)
+    if (!is_curved())
       add(part);
     else
       for_each_half(knots, part, add);

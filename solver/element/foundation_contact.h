@@ -105,8 +105,11 @@ class FoundationContact {
     double stiffness_change = 0.0;  ///< change of the stiffness from below to above the knot, per element
     double slope = 0.0;             ///< d (penetration - that of the knot) / d xi
   };
-  /// @brief Places inside the range at which the penetration passes a knot of the law, ascending; `out` is
-  /// overwritten. Contact ends are none.
+  /// Whether integrals are taken on halves of the pieces between knots: a law with a curve, or a depth that is
+  /// not linear in the displacement.
+  [[nodiscard]] bool is_curved() const { return law_.curve != nullptr || follows_surface(); }
+  /// @brief Places inside the range at which the penetration passes a knot of the law, or the axis a seam of
+  /// the surface, ascending; `out` is overwritten. Contact ends are none.
   void knot_places(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
                    std::vector<KnotPlace>& out) const;
   /// Calls take(piece) for each piece of an interval between neighbouring knots, ascending.
@@ -119,7 +122,7 @@ class FoundationContact {
     }
     take(interval);
   }
-  /// @brief Calls take(half) for both halves of each piece: the intervals of quadrature of laws with a curve,
+  /// @brief Calls take(half) for both halves of each piece: the intervals of quadrature if is_curved(),
   /// on which the tangent is the derivative of the quadrature to about ten digits.
   template <class Take>
   static void for_each_half(const std::vector<KnotPlace>& knots, Interval interval, const Take& take) {
@@ -150,6 +153,7 @@ class FoundationContact {
   };
 
   [[nodiscard]] std::shared_ptr<const Samples> sampled() const;
+  friend class AheadOfSeam;
   [[nodiscard]] PlaceOnAxis place_at(double xi) const;
   [[nodiscard]] double slope_to_surface(double xi, std::array<double, 2> u, std::array<double, 2> du) const;
   void motions_into(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
@@ -160,6 +164,10 @@ class FoundationContact {
                     double depth, Values& g) const;
   [[nodiscard]] bool resolved(const Samples& samples) const;
   void add_bends(std::vector<KnotPlace>& out) const;
+  void add_seams(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                 std::vector<KnotPlace>& out) const;
+  void add_law_knots(std::array<double, 2> ua, std::span<const double> dx, std::span<const double> dy,
+                     std::vector<KnotPlace>& out) const;
   void laws_at_samples(std::array<Values, 3>& out) const;
   void add_knot(int knot, double sign, const Values& w, const std::array<Values, 3>& laws,
                 std::vector<KnotPlace>& out) const;

@@ -82,6 +82,11 @@ class SplineSurface final : public Surface {
       for (int k = 0; k < kStarts; ++k) starts_.push_back(t_[i] + (t_[i + 1] - t_[i]) * k / kStarts);
     starts_.push_back(t_.back());
     for (const double t : starts_) start_points_.push_back(place(t).x);
+    for (const double t : t_) {
+      const Place p = place(t);
+      const double speed = length_of(p.rate);
+      seams_.push_back({p.x, {p.rate[0] / speed, p.rate[1] / speed}});
+    }
   }
 
   [[nodiscard]] SurfacePoint at(Vec2 x, Vec2 u) const override {
@@ -187,6 +192,8 @@ class RoundedPolyline final : public Surface {
       const double side = turn > 0.0 ? 1.0 : -1.0;
       arcs_.push_back({sum(to, radius, normal_of(tangent, side)), radius, side, tangent, next});
       from = sum(points[i + 1], radius * std::tan(0.5 * std::abs(turn)), next);
+      seams_.push_back({to, tangent});
+      seams_.push_back({from, next});
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "solver/model/model.h"
 
@@ -17,6 +18,12 @@ struct SurfacePoint {
   double bend_rate = 0.0;        ///< derivative of `bend` along the tangent
 };
 
+/// Point of a surface at which a second or third derivative of the distance jumps.
+struct SurfaceSeam {
+  std::array<double, 2> x{};
+  std::array<double, 2> tangent{};  ///< along the surface, of length one
+};
+
 /// @brief Surface of a medium. The second derivative of the distance along the normal is zero, and that of
 /// `bend` is -bend^2. Immutable, thread safe.
 class Surface {
@@ -25,6 +32,10 @@ class Surface {
   /// @brief At the point x + u. The depth has the digits of u: that of x counts as zero where it is rounding.
   [[nodiscard]] virtual SurfacePoint at(std::array<double, 2> x, std::array<double, 2> u) const = 0;
   [[nodiscard]] SurfacePoint at(std::array<double, 2> x) const { return at(x, {0.0, 0.0}); }
+  [[nodiscard]] const std::vector<SurfaceSeam>& seams() const { return seams_; }
+
+ protected:
+  std::vector<SurfaceSeam> seams_;
 };
 
 /// @brief Surface of an outline.
