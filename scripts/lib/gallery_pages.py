@@ -7,6 +7,7 @@ import textwrap
 from lib.gallery_charts import DOCS, draw_chart, draw_figure, failed_rows
 from lib.gallery_values import PAGES, Runs, page_data, page_values, quantile
 
+CASES = ("| problem | what | published | found | error at most | difference | source; why they differ |", "| --- | --- | --- | --- | --- | --- | --- |")
 HEAD = ("| what | published | found | error at most | difference | source; why they differ |", "| --- | --- | --- | --- | --- | --- |")
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
@@ -33,8 +34,8 @@ def shown_difference(value):
     return f"{'+' if value.difference > 0 else '-'}{significant(abs(100 * value.difference), 2)} %"
 
 
-def table(values):
-    yield from HEAD
+def rows(values):
+    """A row of the table for each value with a published one."""
     for value in values.values():
         if value.published is not None:
             entry = value.entry
@@ -42,6 +43,14 @@ def table(values):
             published = entry.get("printed") or significant(value.published, entry.get("published_digits", entry.get("digits", 5)))
             yield (f"| {entry['what']} | {published} | {shown(value)} | {error} | {shown_difference(value)} | {entry['source']}; "
                    f"{entry['why']} |")
+
+
+def cases(pages):
+    """All rows of {page: values} in one table, which names the page."""
+    yield from CASES
+    for name, values in pages.items():
+        title = (PAGES / f"{name}.md").read_text(encoding="utf-8").partition("\n")[0].lstrip("# ")
+        yield from (f"| [{title}]({name}.md) {row}" for row in rows(values))
 
 
 def wrapped(text):
@@ -61,12 +70,12 @@ def wrapped(text):
     return "".join(lines).rstrip("\n") + "\n"
 
 
-def filled(name, values):
-    """The page with {values} as the table and {NAME} as a value."""
+def filled(name, values, tables):
+    """The page with {NAME} as a value or as the lines of a table."""
     text = (PAGES / f"{name}.md").read_text(encoding="utf-8")
 
     def put(match):
-        return "\n".join(table(values)) if match[1] == "values" else shown(values[match[1]])
+        return "\n".join(tables[match[1]]) if match[1] in tables else shown(values[match[1]])
 
     return wrapped(re.sub(r"\{(\w+)\}", put, text))
 
@@ -87,37 +96,48 @@ def names():
     return sorted(path.stem for path in PAGES.glob("*.toml"))
 
 
-def check_page(name, runs, write):
-    """(mistakes, numbers compared) of a page; writes it and its pictures first when asked to."""
-    data = page_data(name)
-    values = page_values(data, runs)
-    wrong = [f"gallery, {name}, {value.entry['name']}: {value.wrong()}" for value in values.values() if value.wrong()]
-    for chart in data.get("chart", []):
-        wrong += failed_rows(chart, runs)
-    text = filled(name, values)
+def check_text(name, text, write):
+    """Mistakes of docs/gallery/NAME.md; writes it when asked to."""
     path = DOCS / f"{name}.md"
     if write:
         path.write_text(text, encoding="utf-8")
-        with tempfile.TemporaryDirectory() as scratch:
-            for figure in data.get("figure", []):
-                draw_figure(figure, runs, pathlib.Path(scratch))
-        for chart in data.get("chart", []):
-            draw_chart(chart, runs)
     elif not path.exists():
-        wrong.append(f"docs/gallery/{name}.md is not there")
+        yield f"docs/gallery/{name}.md is not there"
     elif found := differences(path.read_text(encoding="utf-8"), text):
-        wrong.append(f"docs/gallery/{name}.md: {found}; scripts/report.sh writes it anew")
-    return wrong, len(values)
+        yield f"docs/gallery/{name}.md: {found}; scripts/report.sh writes it anew"
+
+
+def draw(data, runs):
+    """The pictures of a page."""
+    with tempfile.TemporaryDirectory() as scratch:
+        for figure in data.get("figure", []):
+            draw_figure(figure, runs, pathlib.Path(scratch))
+    for chart in data.get("chart", []):
+        draw_chart(chart, runs)
+
+
+def check_page(name, runs, write):
+    """(mistakes, values) of a page; writes it and its pictures when asked to."""
+    data = page_data(name)
+    values = page_values(data, runs)
+    wrong = [f"gallery, {name}, {value.entry['name']}: {value.wrong()}" for value in values.values() if value.wrong()]
+    wrong += [mistake for chart in data.get("chart", []) for mistake in failed_rows(chart, runs)]
+    wrong += check_text(name, filled(name, values, {"values": [*HEAD, *rows(values)]}), write)
+    if write:
+        draw(data, runs)
+    return wrong, values
 
 
 def gallery(program, write, only=None):
     """(mistakes, numbers compared, run times) of all pages, or of one; writes them and their pictures when asked to."""
     runs = Runs(program)
-    wrong, compared = [], 0
+    wrong, pages = [], {}
     for name in [only] if only else names():
-        more_wrong, more = check_page(name, runs, write)
-        wrong, compared = wrong + more_wrong, compared + more
-    return wrong, compared, runs.seconds
+        more_wrong, pages[name] = check_page(name, runs, write)
+        wrong += more_wrong
+    if not only:
+        wrong += check_text("README", filled("README", {}, {"cases": list(cases(pages))}), write)
+    return wrong, sum(map(len, pages.values())), runs.seconds
 
 
 def gallery_self_test():
