@@ -34,7 +34,7 @@ def commands(text):
 
 def is_complete(command, folder):
     """Whether a command names a file that is there."""
-    return any((folder / word).is_file() for word in command.split() if not word.startswith("-"))
+    return any((folder / word).is_file() for word in command.split()[1:])
 
 
 def run_commands(program, text, folder):
