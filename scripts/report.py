@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
-"""Runs the sweeps of examples/thesis through the command line and compares them with the published values.
+"""Runs the examples of the thesis and of the gallery through the command line and compares them with published values.
 
-  scripts/report.py SNAPTHROUGH              writes docs/thesis/ (needs gnuplot)
-  scripts/report.py SNAPTHROUGH --check      only compares; exit status 1 when a value is off or lacking
+  scripts/report.py SNAPTHROUGH              writes docs/thesis/ (needs gnuplot) and docs/gallery/
+  scripts/report.py SNAPTHROUGH --check      only compares; exit status 1 when a value is off or lacking, or a page of the gallery
+                                             has another number than is found
+  ... --gallery [NAME]                       only the gallery, or one page of it
   scripts/report.py --self-test              checks the report itself
 
 Everything written is the same from run to run; the run times go to standard output.
 """
+import argparse
 import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from lib.gallery_pages import gallery, gallery_self_test  # noqa: E402
 from lib.thesis_data import DOCS, EXAMPLES, ROOT, SPRINGS, read_csv, run_sweep  # noqa: E402
 from lib.thesis_errata import Table44, errata_page  # noqa: E402
 from lib.thesis_figures import Runs, plot_all  # noqa: E402
@@ -70,35 +74,46 @@ def check_sensitivity(rows):
     return wrong
 
 
-def main():
-    if sys.argv[1:] == ["--self-test"]:
-        raise SystemExit("\n".join(self_test()) or None)
-    check_only = "--check" in sys.argv
-    arguments = [a for a in sys.argv[1:] if a != "--check"]
-    if len(arguments) != 1:
-        raise SystemExit(__doc__)
+def thesis(program, check_only):
+    """(mistakes, numbers compared, run times) of the examples of the thesis; writes docs/thesis/ unless it only checks."""
     results, times = {}, []
     for path in sorted(EXAMPLES.glob("*.json")):
-        results[path.stem], seconds = run_sweep(arguments[0], path)
+        results[path.stem], seconds = run_sweep(program, path)
         times.append(f"{seconds:8.2f} s  {path.name}, {len(results[path.stem])} points")
     wrong, compared = compare(results)
     wrong += check_sensitivity(results["imperfection_sensitivity_arch"])
-    runs = Runs(arguments[0])
-    springs, *of_springs = special_values(arguments[0])
-    table_4_4 = Table44(arguments[0], results)
+    runs = Runs(program)
+    springs, *of_springs = special_values(program)
+    table_4_4 = Table44(program, results)
     for more_wrong, more in (compare_published(results), check_paths(runs), of_springs, table_4_4.check()):
         wrong, compared = wrong + more_wrong, compared + more
     if compared < MINIMUM_COMPARED:
         wrong.append(f"only {compared} values were compared, {MINIMUM_COMPARED} were expected")
-    print(f"{compared} values compared, {len(wrong)} off")
     if not check_only:
         DOCS.mkdir(parents=True, exist_ok=True)
         plot_all(runs, results)
         (DOCS / "tables.md").write_text(table_page(results), encoding="utf-8")
         for page in sorted(EXAMPLES.glob("pages/*.md")):  # pages with tables; docs/thesis has the others as they are written
             (DOCS / page.name).write_text(filled(page.read_text(encoding="utf-8"), runs), encoding="utf-8")
-        (DOCS / "errata.md").write_text(errata_page(arguments[0], results, springs, table_4_4), encoding="utf-8")
-        print("\n".join(["wall time, start of the command line included:"] + times + runs.times))
+        (DOCS / "errata.md").write_text(errata_page(program, results, springs, table_4_4), encoding="utf-8")
+    return wrong, compared, times + runs.times
+
+
+def main():
+    if sys.argv[1:] == ["--self-test"]:
+        raise SystemExit("\n".join(self_test() + gallery_self_test()) or None)
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("program")
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--gallery", nargs="?", const="", metavar="NAME")
+    arguments = parser.parse_args()
+    parts = [gallery(arguments.program, not arguments.check, arguments.gallery)]
+    if arguments.gallery is None:
+        parts.append(thesis(arguments.program, arguments.check))
+    wrong = [mistake for part in parts for mistake in part[0]]
+    print(f"{sum(part[1] for part in parts)} values compared, {len(wrong)} off")
+    if not arguments.check:
+        print("\n".join(["wall time, start of the command line included:"] + [time for part in parts for time in part[2]]))
     if wrong:
         raise SystemExit("\n".join(wrong))
 

@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+"""Runs the commands of the documents' code blocks that analyse something of examples/, and compares requests with answers.
+
+  check_code_blocks.py SNAPTHROUGH   exit status 1 names the commands that fail, and the answers that are others
+  check_code_blocks.py --self-test   checks the checker
+
+A command is a line of a fenced block that begins with snapthrough check, solve, sweep, plot, convert or merge ("$ " may stand before
+it, build/release/ too). It runs when it names a file of examples/, or one that an earlier command of its document has written; the
+commands of a document share a folder. A block that holds an "analysis" and is followed by a block that holds a "summary" is a request
+with its answer: each value of that summary is the program's, numbers to 1e-8.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+DOCUMENTS = ("README.md", "docs/*.md", "docs/gallery/*.md", "docs/howto/*.md")
+FENCE = re.compile(r"^```\w*\n(.*?)^```", re.MULTILINE | re.DOTALL)
+COMMAND = re.compile(r"^(?:\$ )?(?:build/release/)?snapthrough (?:check|solve|sweep|plot|convert|merge) ")
+SAME_NUMBER = 1e-8
+MINIMUM_RUN = 20  # so that a changed style of writing cannot empty the check
+
+
+def commands(text):
+    """Command lines of the fenced blocks, without prompts and comments."""
+    for block in FENCE.findall(text):
+        for line in block.splitlines():
+            if COMMAND.match(line):
+                yield re.sub(r"\s+#.*", "", line.removeprefix("$ ").replace("build/release/", ""))
+
+
+def is_complete(command, folder):
+    """Whether a command names a file that is there."""
+    return any((folder / word).is_file() for word in command.split()[1:])
+
+
+def run_commands(program, text, folder):
+    """(commands run, mistakes) of one document."""
+    (folder / "examples").symlink_to(ROOT / "examples")
+    (folder / "snapthrough").symlink_to(pathlib.Path(program).resolve())
+    run, wrong = 0, []
+    for command in commands(text):
+        if is_complete(command, folder):
+            run += 1
+            done = subprocess.run(["bash", "-o", "pipefail", "-c", f'PATH="$PWD:$PATH"; {command}'], cwd=folder, capture_output=True,
+                                  text=True, check=False)
+            if done.returncode != 0:
+                wrong.append(f"{command}: exit status {done.returncode}: {done.stderr.strip()[-200:]}")
+    return run, wrong
+
+
+def answers(text):
+    """(request, summary) of each block with an analysis that a block with a summary follows."""
+    blocks = []
+    for block in FENCE.findall(text):
+        try:
+            blocks.append(json.loads(block))
+        except ValueError:
+            blocks.append(None)
+    for request, answer in zip(blocks, blocks[1:]):
+        if isinstance(request, dict) and isinstance(answer, dict) and "analysis" in request and "summary" in answer:
+            yield request, answer["summary"]
+
+
+def same(ours, printed):
+    if isinstance(printed, float):
+        return isinstance(ours, float) and abs(ours - printed) <= SAME_NUMBER * max(1.0, abs(printed))
+    return ours == printed
+
+
+def wrong_answers(program, text):
+    for request, summary in answers(text):
+        done = subprocess.run([program, "solve", "-"], input=json.dumps(request), capture_output=True, text=True, check=False)
+        ours = json.loads(done.stdout)["summary"] if done.returncode == 0 else {}
+        for field, printed in summary.items():
+            if not same(ours.get(field), printed):
+                yield f"summary.{field} is {ours.get(field)}, not {printed}"
+
+
+def self_test():
+    text = "```\n$ snapthrough check examples/none.json\nsnapthrough solve a.json   # why\nother\n```\nsnapthrough solve b.json\n"
+    assert list(commands(text)) == ["snapthrough check examples/none.json", "snapthrough solve a.json"]
+    assert not is_complete("snapthrough solve a.json", pathlib.Path("/nowhere"))
+    text = '```json\n{"analysis": 1}\n```\n```json\n{"summary": {"x": 1.0}}\n```\n'
+    assert list(answers(text)) == [({"analysis": 1}, {"x": 1.0})]
+    assert same(1.0 + 1e-9, 1.0) and not same(1.1, 1.0) and not same(None, 1.0) and same("a", "a")
+    print("check_code_blocks: self-test passed")
+
+
+def main():
+    if sys.argv[1:] == ["--self-test"]:
+        return self_test()
+    run, wrong = 0, []
+    for path in sorted(path for pattern in DOCUMENTS for path in ROOT.glob(pattern)):
+        text = path.read_text(encoding="utf-8")
+        with tempfile.TemporaryDirectory() as folder:
+            more, mistakes = run_commands(sys.argv[1], text, pathlib.Path(folder))
+        run += more
+        wrong += [f"{path.relative_to(ROOT)}: {mistake}" for mistake in mistakes + list(wrong_answers(sys.argv[1], text))]
+    if run < MINIMUM_RUN:
+        wrong.append(f"only {run} commands were run, {MINIMUM_RUN} were expected")
+    print("\n".join(wrong + [f"check_code_blocks: {run} commands run, {len(wrong)} mistakes"]))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
