@@ -163,8 +163,8 @@ std::string Service::Parts::metrics_text() {
   metrics.write(text);
   jobs.context().metrics.write(text);
   store->write_metrics(text);
-  if (const StatusOr<std::optional<Time>> oldest = store->oldest_waiting(); oldest.ok()) {
-    const Time now = jobs.environment().now();
+  const Time now = jobs.environment().now();
+  if (const StatusOr<std::optional<Time>> oldest = store->oldest_waiting(now); oldest.ok()) {
     write_metric(text, "snapthrough_oldest_waiting_job_seconds", "gauge",
                  "Since the oldest accepted job was handed in; 0 when none waits.",
                  std::chrono::duration<double>(now - oldest->value_or(now)).count());

@@ -80,7 +80,8 @@ class SweepWork {
   void load();
   bool load_one(const std::string& id);
   std::optional<Chunk> take();
-  Status settle(const Chunk& chunk, const std::vector<PointRow>& rows, double seconds);
+  /// Stores rows and ends the chunk. @param done units that need no more work
+  Status settle(const Chunk& chunk, const std::vector<PointRow>& rows, std::uint64_t done, double seconds);
   void stored(const SweepRecord& record, const std::vector<PointRow>& rows);
 
   const SweepSurroundings world_;

@@ -71,6 +71,33 @@ TEST_F(ClusterTest, WhoWaitsIsAnsweredWhenAnotherProcessHasTheResult) {
   EXPECT_EQ(json::parse(reply.body)["summary"]["termination"], "steps");
 }
 
+/// The time of submission is that of the database; the clock of this host is an hour ahead.
+TEST_F(ClusterTest, AgesInMetricsAreThoseOfOneClock) {
+  Environment ahead = Environment::system();
+  ahead.now = [] { return Environment::system().now() + std::chrono::hours(1); };
+  solver_->open();
+  start_worker(ahead);
+  const std::string job = submit();
+  EXPECT_EQ(when(job, [](const json& status) { return status["status"] == "successful"; })["status"],
+            "successful");
+  const auto value = [&](const char* name) {
+    const std::string text = get(worker_->port(), "/metrics").body;
+    const std::string line = "\n" + std::string(name) + " ";
+    const std::size_t found = text.find(line);
+    return found == std::string::npos ? -1.0 : std::stod(text.substr(found + line.size()));
+  };
+  EXPECT_EQ(value("snapthrough_job_waiting_seconds_count"), 1);
+  EXPECT_LT(value("snapthrough_job_waiting_seconds_sum"), 60.0);
+  EXPECT_GE(value("snapthrough_job_waiting_seconds_sum"), 0.0);
+  worker_.reset();
+  submit("waits");
+  const StatusOr<std::unique_ptr<Store>> store = open_store(location_, 1, ahead.now());
+  ASSERT_TRUE(store.ok()) << store.status().message();
+  const StatusOr<std::optional<Time>> oldest = (*store)->oldest_waiting(ahead.now());
+  ASSERT_TRUE(oldest.ok() && *oldest);
+  EXPECT_LT(ahead.now() - **oldest, std::chrono::seconds(60));
+}
+
 TEST_F(ClusterTest, EventsTellWhatAnotherProcessDoes) {
   start_worker();
   const std::string job = submit();
