@@ -81,6 +81,7 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   require(jobs.sweeps >= 1, "jobs.sweeps", "must be >= 1");
   require(jobs.sweep_points >= 1 && static_cast<std::uint64_t>(jobs.sweep_points) <= api::kMaxSweepPoints,
           "jobs.sweep_points", "must be 1 to 1000000");
+  require(jobs.json_keys >= 1, "jobs.json_keys", "must be >= 1");
   require(jobs.table_rows >= 1, "jobs.table_rows", "must be >= 1");
   check_quotas(jobs.quotas, require);
   require(jobs.longest_run.count() >= 1, "jobs.longest_run", "must be >= 1 s");

@@ -38,6 +38,7 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"buffered_bytes", number(wire.buffered_bytes)},
           {"json_depth", number(parse.depth)},
           {"json_values", number(parse.values)},
+          {"json_keys", number(config.jobs.json_keys)},
           {"nodes", number(kMaxNodes)},
           {"members", number(kMaxMembers)},
           {"elements", number(kMaxElements)},
