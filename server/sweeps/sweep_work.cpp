@@ -195,8 +195,13 @@ void SweepWork::load() {
   scheduler_.refresh();
   const StatusOr<std::vector<std::string>> ids = world_.store.with_units();
   bool all = ids.ok();
+  if (ids.ok()) {
+    std::erase_if(foreign_, [&](const std::string& id) {
+      return std::find(ids->begin(), ids->end(), id) == ids->end();
+    });
+  }
   for (const std::string& id : ids.ok() ? *ids : std::vector<std::string>()) {
-    if (scheduler_.has(id)) {
+    if (scheduler_.has(id) || foreign_.contains(id)) {
       continue;
     }
     all = scheduler_.has_room() && load_one(id) && all;
@@ -218,11 +223,23 @@ bool SweepWork::load_one(const std::string& id) {
   OpenSweep found = **open;
   const api::SweepOutcome read = api::read_sweep(found.document);
   if (!read.sweep) {
-    log_sweep(world_.log, id, "not_readable", "this version does not accept the stored document any more");
-    return dismiss(id).ok();
+    leave(id, read.findings.front());
+    return true;
   }
   scheduler_.add(std::make_shared<ActiveSweep>(id, *read.sweep, std::move(found)));
   return true;
+}
+
+/// Leaves a sweep to workers of other versions.
+void SweepWork::leave(const std::string& id, const Finding& finding) {
+  foreign_.insert(id);
+  const std::string why =
+      "a program of another version stored the document, this worker leaves it to others: " +
+      finding.pointer + ": " + finding.detail;
+  world_.log.write(LogLevel::warning, "sweep",
+                   {{"sweep", std::string_view(id)},
+                    {"status", std::string_view("not_readable")},
+                    {"detail", std::string_view(why)}});
 }
 
 std::optional<Chunk> SweepWork::take() {
