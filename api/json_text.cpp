@@ -91,6 +91,7 @@ class DocumentBuilder {
   std::vector<Open> open_;
   std::vector<Finding> findings_;
   std::size_t values_ = 0;
+  std::size_t keys_ = 0;
 };
 
 std::string DocumentBuilder::pointer() const {
@@ -138,6 +139,10 @@ bool DocumentBuilder::open(Json container) {
 
 bool DocumentBuilder::key(std::string& name) {
   open_.back().key = name;
+  if (++keys_ > limits_.keys) {
+    report("too_many_keys", "a document has at most " + std::to_string(limits_.keys) + " keys (json_keys)");
+    return false;
+  }
   if (open_.back().container->contains(name)) {
     report("duplicate_key", "the key is there twice in one object");
   }

@@ -16,12 +16,14 @@ namespace snapthrough::api {
 struct ParseLimits {
   int depth = 64;                  ///< largest nesting of arrays and objects, >= 1
   std::size_t values = 1'000'000;  ///< largest number of values, containers included, >= 1
+  std::size_t keys = 1'000'000;    ///< largest number of keys in all objects; a key takes about 100 bytes
 };
 
 /// Outcome of parsing: either `document` is not null or `findings` is not empty.
 struct ParsedText {
   std::shared_ptr<nlohmann::json> document;
-  std::vector<Finding> findings;  ///< codes "malformed", "too_deep", "too_many_values", "duplicate_key"
+  std::vector<Finding> findings;  ///< codes "malformed", "too_deep", "too_many_values", "too_many_keys",
+                                  ///< "duplicate_key"
 };
 
 /// @brief Parses RFC 8259 JSON in UTF-8, without comments, duplicate keys or numbers beyond the range of

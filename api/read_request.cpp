@@ -43,10 +43,13 @@ bool follows_from_unreadable(const Finding& finding, const Report& report) {
   return false;
 }
 
-/// Returns the findings of reading, then the findings of check() about what could be read.
-std::vector<Finding> merge_findings(const Report& report, std::vector<Finding> checked) {
-  std::vector<Finding> all = report.findings();
-  for (Finding& finding : checked) {
+/// Returns the findings of reading, then the findings of check() about what could be read, if there is room.
+std::vector<Finding> findings_about(const Request& request, const Report& report) {
+  std::vector<Finding> all = report.listed();
+  if (report.is_cut()) {
+    return all;
+  }
+  for (Finding& finding : check(request.model, request.analysis)) {
     if (!follows_from_unreadable(finding, report)) {
       all.push_back(std::move(finding));
     }
@@ -70,7 +73,7 @@ ReadOutcome read_request_document(std::shared_ptr<const nlohmann::json> document
   root.required("analysis", request.analysis);
   root.finish();
   read_sensitivities(document, request.model, request.analysis, report);
-  outcome.findings = merge_findings(report, check(request.model, request.analysis));
+  outcome.findings = findings_about(request, report);
   if (outcome.findings.empty()) {
     request.document = std::move(document);
     outcome.request = std::move(request);

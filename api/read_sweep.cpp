@@ -306,7 +306,7 @@ SweepOutcome read_sweep_document(const std::shared_ptr<const Json>& document, st
     check_distinct(*data, report);
     count_points(*data, std::min(most_points, kMaxSweepPoints), report);
   }
-  outcome.findings = report.findings();
+  outcome.findings = report.listed();
   if (outcome.findings.empty()) {
     const Sweep sweep(data);
     check_points(sweep, *data, outcome.findings);

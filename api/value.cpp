@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "api/api.h"
 #include "api/request_schema.h"
 #include "solver/check/check_place.h"
 #include "solver/model/pointer.h"
@@ -83,7 +84,26 @@ std::string_view nearest_name(std::string_view written, std::span<const std::str
   return best;
 }
 
+std::vector<Finding> Report::listed() const {
+  std::vector<Finding> all = findings_;
+  if (is_cut()) {
+    all.push_back({"", "too_many_findings", std::to_string(left_out_) + " more findings are not listed"});
+  }
+  return all;
+}
+
+void Report::add_finding(Finding finding) {
+  if (findings_.size() < kMaxFindings) {
+    findings_.push_back(std::move(finding));
+  } else {
+    ++left_out_;
+  }
+}
+
 void Report::mark_unreadable(const std::string& pointer) {
+  if (is_cut()) {
+    return;  // findings that follow from it would not be listed
+  }
   unreadable_.insert(pointer);
   for (std::size_t end = pointer.rfind('/'); end != std::string::npos && end > 0;
        end = pointer.rfind('/', end - 1)) {
@@ -94,12 +114,12 @@ void Report::mark_unreadable(const std::string& pointer) {
 }
 
 void Report::add(const std::string& pointer, std::string_view code, std::string detail) {
-  findings_.push_back({pointer, std::string(code), std::move(detail)});
+  add_finding({pointer, std::string(code), std::move(detail)});
   mark_unreadable(pointer);
 }
 
 void Report::add_unknown_field(const std::string& pointer, const std::string& meant, std::string detail) {
-  findings_.push_back({pointer, "unknown_field", std::move(detail)});
+  add_finding({pointer, "unknown_field", std::move(detail)});
   if (!meant.empty()) {
     mark_unreadable(meant);
   }

@@ -21,8 +21,9 @@
 
 namespace snapthrough::api {
 
-/// Findings about a document. Unreadable places are recorded, so that later findings that only follow from
-/// them can be left out.
+/// Findings about a document, the first kMaxFindings (api/api.h) of them: the memory that mistakes take is
+/// bounded. Unreadable places are recorded, so that later findings that only follow from them can be left
+/// out.
 class Report {
  public:
   /// Adds a finding about a value that could not be read.
@@ -37,9 +38,16 @@ class Report {
   void mark_unreadable(const std::string& pointer);
 
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
+  /// Returns whether there are more findings than findings() has.
+  [[nodiscard]] bool is_cut() const { return left_out_ > 0; }
+  /// Returns findings(), and if there are more, a finding "too_many_findings" with their number.
+  [[nodiscard]] std::vector<Finding> listed() const;
 
  private:
+  void add_finding(Finding finding);
+
   std::vector<Finding> findings_;
+  std::size_t left_out_ = 0;
   std::unordered_set<std::string> unreadable_;
   std::unordered_set<std::string> above_unreadable_;
 };

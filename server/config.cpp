@@ -39,6 +39,16 @@ void check_store(const ServiceConfig& config, const Require& require) {
 }
 
 template <class Require>
+void check_sizes(const JobLimits& jobs, const Require& require) {
+  require(jobs.queue >= 1, "jobs.queue", "must be >= 1");
+  require(jobs.sweeps >= 1, "jobs.sweeps", "must be >= 1");
+  require(jobs.sweep_points >= 1 && static_cast<std::uint64_t>(jobs.sweep_points) <= api::kMaxSweepPoints,
+          "jobs.sweep_points", "must be 1 to 1000000");
+  require(jobs.json_keys >= 1, "jobs.json_keys", "must be >= 1");
+  require(jobs.table_rows >= 1, "jobs.table_rows", "must be >= 1");
+}
+
+template <class Require>
 void check_quotas(const Quotas& quotas, const Require& require) {
   require(quotas.jobs_waiting >= 0, "jobs.quotas.jobs_waiting", "must be >= 0");
   require(quotas.points_waiting >= 0, "jobs.quotas.points_waiting", "must be >= 0");
@@ -77,11 +87,7 @@ std::vector<ConfigMistake> ServiceConfig::check() const {
   require(waits.longest_wait >= waits.default_wait, "waits.longest_wait", "must be >= waits.default_wait");
   check_store(*this, require);
   require(jobs.max_crashes >= 1, "jobs.max_crashes", "must be >= 1");
-  require(jobs.queue >= 1, "jobs.queue", "must be >= 1");
-  require(jobs.sweeps >= 1, "jobs.sweeps", "must be >= 1");
-  require(jobs.sweep_points >= 1 && static_cast<std::uint64_t>(jobs.sweep_points) <= api::kMaxSweepPoints,
-          "jobs.sweep_points", "must be 1 to 1000000");
-  require(jobs.table_rows >= 1, "jobs.table_rows", "must be >= 1");
+  check_sizes(jobs, require);
   check_quotas(jobs.quotas, require);
   require(jobs.longest_run.count() >= 1, "jobs.longest_run", "must be >= 1 s");
   require(jobs.job_memory >= kLeastJobMemory, "jobs.job_memory", "must be >= 1048576 bytes");

@@ -38,6 +38,7 @@ std::vector<std::pair<std::string, double>> published_limits(const ServiceConfig
           {"buffered_bytes", number(wire.buffered_bytes)},
           {"json_depth", number(parse.depth)},
           {"json_values", number(parse.values)},
+          {"json_keys", number(config.jobs.json_keys)},
           {"nodes", number(kMaxNodes)},
           {"members", number(kMaxMembers)},
           {"elements", number(kMaxElements)},
@@ -163,8 +164,8 @@ std::string Service::Parts::metrics_text() {
   metrics.write(text);
   jobs.context().metrics.write(text);
   store->write_metrics(text);
-  if (const StatusOr<std::optional<Time>> oldest = store->oldest_waiting(); oldest.ok()) {
-    const Time now = jobs.environment().now();
+  const Time now = jobs.environment().now();
+  if (const StatusOr<std::optional<Time>> oldest = store->oldest_waiting(now); oldest.ok()) {
     write_metric(text, "snapthrough_oldest_waiting_job_seconds", "gauge",
                  "Since the oldest accepted job was handed in; 0 when none waits.",
                  std::chrono::duration<double>(now - oldest->value_or(now)).count());

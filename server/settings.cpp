@@ -225,6 +225,10 @@ std::vector<Setting> job_settings() {
             [](ServiceConfig& c) -> int& { return c.jobs.sweeps; }),
       whole("max_sweep_points", "Points of a sweep, up to 1000000",
             [](ServiceConfig& c) -> int& { return c.jobs.sweep_points; }),
+      whole(
+          "max_json_keys",
+          "Keys in all objects of a request or sweep; memory is taken for each; the next is refused with 400",
+          [](ServiceConfig& c) -> std::size_t& { return c.jobs.json_keys; }),
       whole("max_table_rows", "Rows of a sweep's table in one response",
             [](ServiceConfig& c) -> int& { return c.jobs.table_rows; }),
       whole("quota_jobs_waiting",

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "api/api.h"
 #include "api/json_text.h"
 #include "server/jobs/callback.h"
 #include "solver/model/pointer.h"
@@ -130,10 +131,9 @@ std::size_t characters(std::string_view text) {
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-Envelope open_envelope(std::string_view text, std::string_view member,
-                       const std::vector<std::string>& callback_hosts) {
+Envelope open_envelope(std::string_view text, std::string_view member, const JobLimits& limits) {
   Envelope envelope;
-  api::ParsedText parsed = api::parse_json(text);
+  api::ParsedText parsed = api::parse_json(text, {.keys = limits.json_keys});
   if (parsed.document == nullptr) {
     envelope.malformed = true;
     envelope.findings = std::move(parsed.findings);
@@ -145,8 +145,13 @@ Envelope open_envelope(std::string_view text, std::string_view member,
     return envelope;
   }
   for (const auto& [name, value] : parsed.document->items()) {
+    if (envelope.findings.size() >= api::kMaxFindings) {
+      envelope.findings.push_back(
+          {"", "too_many_findings", "further members of the envelope are not listed"});
+      break;
+    }
     if (name != member) {
-      read_member(name, value, member, callback_hosts, envelope);
+      read_member(name, value, member, limits.callback_hosts, envelope);
     }
   }
   envelope.pointer = "/" + std::string(member);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "server/jobs/job.h"
+#include "server/jobs/limits.h"
 #include "solver/check/check.h"
 
 namespace snapthrough::server {
@@ -33,10 +34,9 @@ struct Envelope {
 /// @brief Reads a document, or an envelope `{"<member>": document}` with optional `label`, `metadata` and
 /// `callback`. An object with the member is an envelope: documents have no member of that name.
 /// @param member "request" or "sweep"
-/// @param callback_hosts see check_callback()
 /// REQUIRES: the text outlives the envelope.
 [[nodiscard]] Envelope open_envelope(std::string_view text, std::string_view member,
-                                     const std::vector<std::string>& callback_hosts = {});
+                                     const JobLimits& limits = {});
 
 /// Findings of the envelope and of the document, each with its pointer in what was handed in.
 [[nodiscard]] std::vector<Finding> in_envelope(const Envelope& envelope, std::vector<Finding> findings);

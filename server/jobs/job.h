@@ -106,7 +106,7 @@ struct Claim {
   std::string id;
   int attempt = 0;
   std::string document = {};  ///< the request
-  Time created = {};          ///< time of submission
+  Time created = {};          ///< time of submission by the clock of the caller that claims
 };
 
 /// Result of a job: the document that is served, and its parts for queries.

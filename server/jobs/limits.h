@@ -29,6 +29,7 @@ struct JobLimits {
   int sweeps = 1000;                      ///< unfinished sweeps, >= 1
   int sweep_points = 100'000;             ///< points of one sweep, 1 to api::kMaxSweepPoints
   int table_rows = 250'000;               ///< rows in one response, >= 1
+  std::size_t json_keys = 300'000;        ///< keys in a document, >= 1
   Quotas quotas;                          ///< bounds of each owner
   std::vector<std::string>
       callback_hosts;  ///< hosts that callbacks may have, `host[:port]`; see jobs/callback.h

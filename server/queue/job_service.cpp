@@ -81,7 +81,7 @@ StatusOr<Submission> JobService::submit(const Order& order) {
     return Submission{Submission::Kind::key_in_use};
   }
   const LargeDocument room(order.document.size());
-  const Envelope envelope = open_envelope(order.document, "request", limits_.callback_hosts);
+  const Envelope envelope = open_envelope(order.document, "request", limits_);
   if (envelope.malformed) {
     return Submission{Submission::Kind::malformed, envelope.findings};
   }

@@ -111,7 +111,7 @@ Response Routes::solve_component(const Request& request, const std::string& name
                           "A call has Content-Type: application/json.");
   }
   const LargeDocument room(request.body.size());
-  const api::ParsedText parsed = api::parse_json(request.body);
+  const api::ParsedText parsed = api::parse_json(request.body, {.keys = jobs_.limits().json_keys});
   if (std::vector<Finding> findings = mistakes_of(parsed); !findings.empty()) {
     return wrong_call(request, parsed.document == nullptr ? 400 : 422, std::move(findings));
   }

@@ -17,11 +17,11 @@ namespace {
 using nlohmann::ordered_json;
 
 /// Returns a request or a sweep, with or without its envelope.
-Envelope opened(std::string_view body, const std::vector<std::string>& callback_hosts) {
-  Envelope envelope = open_envelope(body, "request", callback_hosts);
+Envelope opened(std::string_view body, const JobLimits& limits) {
+  Envelope envelope = open_envelope(body, "request", limits);
   const bool sweep = envelope.document != nullptr && envelope.pointer.empty() &&
                      envelope.document->is_object() && envelope.document->contains("sweep");
-  return sweep ? open_envelope(body, "sweep", callback_hosts) : envelope;
+  return sweep ? open_envelope(body, "sweep", limits) : envelope;
 }
 
 Response fresh(Response response) {
@@ -37,7 +37,7 @@ Response Routes::check(const Request& request, const std::string& /*id*/) {
                           "A request document has Content-Type: application/json.");
   }
   const LargeDocument room(request.body.size());
-  const Envelope envelope = opened(request.body, jobs_.limits().callback_hosts);
+  const Envelope envelope = opened(request.body, jobs_.limits());
   if (envelope.malformed) {
     return problem_response({400, "malformed-json", "Malformed JSON", "The body is no acceptable JSON text.",
                              envelope.findings, "", ""},

@@ -13,10 +13,12 @@ namespace snapthrough::server {
 namespace {
 
 constexpr int kPage = 500;
-/// Largest number of units whose rows are stored at a time.
-constexpr std::uint64_t kUnitsAtOnce = 4096;
-/// Lease of a copy, which alone uses its target: longer than any copy takes.
-constexpr std::chrono::hours kLease{24 * 365 * 100};
+/// Number of points whose rows are read and stored at a time.
+constexpr std::uint64_t kPointsAtOnce = 4096;
+/// Holder of the leases of a copy. A lease ends when the work ended in the source: the copy, which stores by
+/// the times of the source, holds it until then, and a service takes back what a copy that was cut short
+/// left.
+constexpr const char* kHolder = "copy";
 
 /// Entry to copy and its place in the order of arrival.
 struct Entry {
@@ -144,37 +146,55 @@ Status copy_job(Store& from, Store& to, const Job& job) {
   const bool ended = is_final(job.state);
   if (ended) {
     copy.annotations.callback.clear();  // the source has told it
-    copy.lease = Lease{"copy", job.created + kLease};
+    copy.lease = Lease{kHolder, *job.finished};
   }
   const StatusOr<Submitted> submitted = to.submit(copy);
   return submitted.ok() && ended ? end_job(from, to, job, {job.id, 1}) : submitted.status();
 }
 
-/// Stores the rows of an ended sweep; the last ones end it in the target.
-Status copy_rows(Store& from, Store& to, const SweepRecord& sweep, std::uint64_t unit_points) {
+/// Time of the source at which rows of a sweep are stored.
+Time stored_at(const SweepRecord& sweep) {
+  return sweep.finished.value_or(sweep.started.value_or(sweep.created));
+}
+
+/// Claims on all units of a sweep in the target, a pack of points each.
+StatusOr<std::vector<UnitClaim>> claim_all(Store& to, const SweepRecord& sweep, std::uint64_t unit_points) {
   const Time started = sweep.started.value_or(sweep.created);
-  const bool whole = sweep.done() == sweep.points;
+  const std::uint64_t most = std::max<std::uint64_t>(1, kPointsAtOnce / unit_points);
   const std::uint64_t units = static_cast<std::uint64_t>(sweep.points) / unit_points;
-  for (std::uint64_t done = 0; done < units;) {
-    const StatusOr<std::optional<UnitClaim>> claim =
-        to.sweeps().claim(sweep.id, whole ? kUnitsAtOnce : units, {"copy", started + kLease}, started);
+  std::vector<UnitClaim> claims;
+  for (std::uint64_t claimed = 0; claimed < units; claimed += claims.back().units.count) {
+    StatusOr<std::optional<UnitClaim>> claim =
+        to.sweeps().claim(sweep.id, most, {kHolder, stored_at(sweep)}, started);
     if (!claim.ok() || !*claim) {
       return claim.ok() ? Status(StatusCode::conflict, "others use the target") : claim.status();
     }
-    const UnitRun& run = (*claim)->units;
+    claims.push_back(**std::move(claim));
+  }
+  return claims;
+}
+
+/// Stores the rows of a sweep. All units are claimed before rows are stored, since units without rows are
+/// given out again.
+Status copy_rows(Store& from, Store& to, const SweepRecord& sweep, std::uint64_t unit_points) {
+  const StatusOr<std::vector<UnitClaim>> claims = claim_all(to, sweep, unit_points);
+  if (!claims.ok()) {
+    return claims.status();
+  }
+  for (const UnitClaim& claim : *claims) {
+    const UnitRun& run = claim.units;
     std::vector<PointRow> rows;
-    Status read = from.sweeps().each_row(sweep.id, {run.first * unit_points, run.count * unit_points, {}},
-                                         [&](std::uint64_t point, const api::PointOutcome& outcome) {
-                                           rows.push_back({point, outcome});
-                                           return true;
-                                         });
-    if (read.ok()) {
-      read = to.sweeps().put(**claim, rows, sweep.finished.value_or(started)).status();
+    Status status = from.sweeps().each_row(sweep.id, {run.first * unit_points, run.count * unit_points, {}},
+                                           [&](std::uint64_t point, const api::PointOutcome& outcome) {
+                                             rows.push_back({point, outcome});
+                                             return true;
+                                           });
+    if (status.ok()) {
+      status = to.sweeps().put(claim, rows, stored_at(sweep)).status();
     }
-    if (!read.ok()) {
-      return read;
+    if (!status.ok()) {
+      return status;
     }
-    done += run.count;
   }
   return {};
 }
@@ -194,7 +214,7 @@ Status copy_sweep(Store& from, Store& to, const SweepRecord& sweep) {
   if (ended) {
     copy.annotations.callback.clear();
   }
-  if (const StatusOr<Submitted> submitted = to.sweeps().submit(copy); !submitted.ok() || !ended) {
+  if (const StatusOr<Submitted> submitted = to.sweeps().submit(copy); !submitted.ok()) {
     return submitted.status();
   }
   if (Status status = sweep.done() > 0 ? copy_rows(from, to, sweep, unit_points) : Status(); !status.ok()) {
@@ -204,7 +224,15 @@ Status copy_sweep(Store& from, Store& to, const SweepRecord& sweep) {
                                             : Status();
 }
 
-/// Whether the target has the entry in the same state; an entry in another state is removed.
+/// Whether an entry of the target has all that the source has.
+bool is_whole(const Job& source, const Job& target) {
+  return is_final(target.state) || !is_final(source.state);
+}
+bool is_whole(const SweepRecord& source, const SweepRecord& target) {
+  return is_final(target.state) || (!is_final(source.state) && target.done() >= source.done());
+}
+
+/// Whether the target has the whole entry; an entry that lacks something is removed.
 template <class Record, class Remove>
 StatusOr<bool> is_there(const Record& source, const StatusOr<std::optional<Record>>& target,
                         const Remove& remove) {
@@ -214,11 +242,21 @@ StatusOr<bool> is_there(const Record& source, const StatusOr<std::optional<Recor
   if (!*target) {
     return false;
   }
-  if (is_final((*target)->state) || !is_final(source.state)) {
+  if (is_whole(source, **target)) {
     return true;
   }
   const StatusOr<bool> removed = remove();
   return removed.ok() ? StatusOr<bool>(false) : removed.status();
+}
+
+StatusOr<bool> remove_from(Store& to, const std::string& id) { return to.remove(id); }
+/// Removes a sweep with its rows, so that its id is free.
+StatusOr<bool> remove_from(SweepStore& to, const std::string& id) {
+  StatusOr<bool> more = to.remove(id);
+  while (more.ok() && *more) {
+    more = to.purge(static_cast<int>(kPointsAtOnce));
+  }
+  return more;
 }
 
 /// Copies an entry; returns false when the target had it.
@@ -228,7 +266,7 @@ StatusOr<bool> copy_one(AnyStore& from, AnyStore& to, const std::string& id, con
   if (!source.ok() || !*source) {
     return source.ok() ? missing(id) : source.status();
   }
-  const StatusOr<bool> there = is_there<Record>(**source, to.get(id), [&] { return to.remove(id); });
+  const StatusOr<bool> there = is_there<Record>(**source, to.get(id), [&] { return remove_from(to, id); });
   if (!there.ok() || *there) {
     return there.ok() ? StatusOr<bool>(false) : there.status();
   }

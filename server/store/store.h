@@ -117,8 +117,8 @@ class Store {
                                                            std::string_view owner) = 0;
   /// Number of accepted jobs.
   virtual StatusOr<std::int64_t> waiting() = 0;
-  /// Time of submission of the oldest accepted job; empty when none waits.
-  virtual StatusOr<std::optional<Time>> oldest_waiting() = 0;
+  /// Time of submission of the oldest accepted job by the clock of the caller; empty when none waits.
+  virtual StatusOr<std::optional<Time>> oldest_waiting(Time now) = 0;
   /// Appends metrics of the driver in the text format of Prometheus.
   virtual void write_metrics(std::string& /*text*/) const {}
 

@@ -53,16 +53,16 @@ class SweepStore {
   /// @brief Gives at most `most` units that nobody has to the caller, and makes the sweep running. Units
   /// during which a process died come last, and fewer at a time (most_after_crashes()). Empty when no unit is
   /// free; `conflict` when the sweep is neither accepted nor running. The claim survives the death of the
-  /// process, not that of the machine.
+  /// process, not that of the machine. Points of the units may have rows: retry() joins units that failed.
   virtual StatusOr<std::optional<UnitClaim>> claim(std::string_view id, std::uint64_t most,
                                                    const Lease& lease, Time now) = 0;
   /// Renews the leases of claims that hold; returns the numbers of the others.
   virtual StatusOr<std::vector<std::int64_t>> renew(const std::vector<UnitClaim>& claims, Time until,
                                                     Time now) = 0;
-  /// @brief Stores rows and ends the claim; units without rows are given out again. A point that has a row
-  /// keeps it. The sweep ends when all points have a row. `conflict`, and nothing is stored, when the claim
-  /// does not hold or the sweep is not running.
-  /// @param rows rows of all points of some of the units
+  /// @brief Stores rows and ends the claim; units of which a point has no row are given out again. A point
+  /// that has a row keeps it. The sweep ends when all points have a row. `conflict`, and nothing is stored,
+  /// when the claim does not hold or the sweep is not running.
+  /// @param rows rows of points of the units
   virtual StatusOr<SweepRecord> put(const UnitClaim& claim, const std::vector<PointRow>& rows, Time now) = 0;
   /// @brief Ends every claim, since its process is known to be gone (see Store::recover()): units are given
   /// out again; a unit that was claimed alone at crash number `max_crashes` gets rows with the code

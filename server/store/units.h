@@ -41,9 +41,29 @@ struct RowCounts {
 
 /// Adds a unit to runs in order. @pre the unit comes after all of them
 void add_unit(std::vector<UnitRun>& runs, std::uint64_t unit);
-/// The units of a claim without rows, in order. @param rows all points of some of its units
-[[nodiscard]] std::vector<UnitRun> units_without_rows(const UnitRun& claim, const std::vector<PointRow>& rows,
-                                                      std::int64_t unit_points);
+
+/// Points of consecutive units that have a row. A unit is done when each of its points has a row.
+class UnitRows {
+ public:
+  UnitRows(const UnitRun& units, std::int64_t unit_points);
+  /// Notes that the point has a row. Points of other units are ignored.
+  void add(std::uint64_t point);
+  /// Whether the unit is done. @pre it is one of the units
+  [[nodiscard]] bool done(std::uint64_t unit) const;
+  /// The units that are not done, in order.
+  [[nodiscard]] std::vector<UnitRun> left() const;
+
+ private:
+  UnitRun units_;
+  std::uint64_t unit_points_;
+  std::vector<bool> has_row_;
+};
+
+/// @brief Joins runs of units that are near to each other; the units between them have rows. Many failures
+/// that lie apart are then tried again with few claims. A claim costs as much as reading the rows of about a
+/// thousand units.
+/// @param runs in order
+[[nodiscard]] std::vector<UnitRun> joined(const std::vector<UnitRun>& runs);
 
 /// First point of a query and the one after its last, within the range of a 64-bit integer with sign.
 [[nodiscard]] std::pair<std::int64_t, std::int64_t> points_of(const PointQuery& query);

@@ -109,15 +109,15 @@ void SweepScheduler::refresh() {
   look();
 }
 
-void SweepScheduler::give_back(const Chunk& chunk, std::uint64_t computed, double seconds) {
+void SweepScheduler::give_back(const Chunk& chunk, std::uint64_t done, double seconds) {
   const std::lock_guard guard(mutex_);
   ActiveSweep& sweep = *chunk.sweep;
-  if (computed < chunk.claim.units.count) {
+  if (done < chunk.claim.units.count) {
     ++sweep.changes_;
     sweep.exhausted_ = false;
   }
-  if (computed > 0) {
-    const double latest = seconds / static_cast<double>(computed);
+  if (done > 0) {
+    const double latest = seconds / static_cast<double>(done);
     sweep.seconds_per_unit_ =
         sweep.seconds_per_unit_ > 0.0 ? 0.5 * (sweep.seconds_per_unit_ + latest) : latest;
   }

@@ -86,8 +86,8 @@ class SweepScheduler {
   [[nodiscard]] double chunk_seconds() const;
   /// Notes how long the store took for the claim and the rows of a chunk.
   void store_took(double seconds);
-  /// Ends a chunk of which `computed` units were computed in `seconds`.
-  void give_back(const Chunk& chunk, std::uint64_t computed, double seconds);
+  /// Ends a chunk that took `seconds`. @param done units of the chunk that need no more work
+  void give_back(const Chunk& chunk, std::uint64_t done, double seconds);
   /// Removes a sweep and asks its workers in this process to stop.
   void remove(const std::string& id);
   /// Removes this object only, not a later one with its id (a sweep that was dismissed and tried again).

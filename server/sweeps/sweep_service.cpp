@@ -14,7 +14,7 @@ StatusOr<Submission> SweepService::submit(const Order& order) {
     return status;
   }
   const LargeDocument room(order.document.size());
-  const Envelope envelope = open_envelope(order.document, "sweep", world_.limits.callback_hosts);
+  const Envelope envelope = open_envelope(order.document, "sweep", world_.limits);
   if (envelope.malformed) {
     return Submission{Submission::Kind::malformed, envelope.findings};
   }

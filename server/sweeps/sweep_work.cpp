@@ -8,6 +8,7 @@
 
 #include "api/sweep_unit.h"
 #include "server/bell.h"
+#include "server/store/units.h"
 #include "server/worker/unit.h"
 
 namespace snapthrough::server {
@@ -39,15 +40,30 @@ struct Work {
   std::vector<Pending> pending;  ///< units that are neither computed nor found in the store
 };
 
-std::vector<Pending> pending_units(const Chunk& chunk) {
+/// Units of a chunk that lack a row in the store. When the store can't be read, all units: a point that has a
+/// row keeps it.
+std::vector<UnitRun> units_left(const Chunk& chunk, SweepStore& store) {
+  const UnitRun& units = chunk.claim.units;
+  const std::uint64_t size = chunk.sweep->sweep.unit_size();
+  UnitRows stored(units, static_cast<std::int64_t>(size));
+  const Status read = store.each_row(chunk.claim.sweep, {units.first * size, units.count * size, {}},
+                                     [&](std::uint64_t point, const api::PointOutcome&) {
+                                       stored.add(point);
+                                       return true;
+                                     });
+  return read.ok() ? stored.left() : std::vector<UnitRun>{units};
+}
+
+std::vector<Pending> pending_units(const Chunk& chunk, SweepStore& store) {
   const ActiveSweep& sweep = *chunk.sweep;
   std::shared_ptr<nlohmann::json> document;
   std::vector<Pending> all;
-  const UnitRun& run = chunk.claim.units;
-  for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
-    const SweepUnit unit(sweep.sweep, number);
-    std::vector<std::string> keys = unit.keys(sweep.outputs, sweep.owner, document);
-    all.push_back({number, unit, std::move(keys)});
+  for (const UnitRun& run : units_left(chunk, store)) {
+    for (std::uint64_t number = run.first; number < run.first + run.count; ++number) {
+      const SweepUnit unit(sweep.sweep, number);
+      std::vector<std::string> keys = unit.keys(sweep.outputs, sweep.owner, document);
+      all.push_back({number, unit, std::move(keys)});
+    }
   }
   return all;
 }
@@ -97,9 +113,10 @@ void add_rows(Pending& pending, std::vector<api::PointOutcome> outcomes, const S
   }
 }
 
-/// Computes pending units until about `seconds` have passed, jobs wait, or a stop is requested.
-void compute(const Chunk& chunk, double seconds, const SweepSurroundings& world, Runner& runner,
-             SweepScheduler::Watch& watch, Work& work) {
+/// Computes pending units until about `seconds` have passed, jobs wait, or a stop is requested. Returns how
+/// many were computed.
+std::size_t compute(const Chunk& chunk, double seconds, const SweepSurroundings& world, Runner& runner,
+                    SweepScheduler::Watch& watch, Work& work) {
   const double start = world.environment.monotonic_seconds();
   std::vector<std::uint64_t> units;
   units.reserve(work.pending.size());
@@ -119,6 +136,7 @@ void compute(const Chunk& chunk, double seconds, const SweepSurroundings& world,
   watch.begin(world.environment.now());
   runner.run_units(
       {chunk.sweep->id, chunk.sweep->document, chunk.sweep->sweep, units, watch.token(), late, take});
+  return next;
 }
 
 }  // namespace
@@ -177,8 +195,13 @@ void SweepWork::load() {
   scheduler_.refresh();
   const StatusOr<std::vector<std::string>> ids = world_.store.with_units();
   bool all = ids.ok();
+  if (ids.ok()) {
+    std::erase_if(foreign_, [&](const std::string& id) {
+      return std::find(ids->begin(), ids->end(), id) == ids->end();
+    });
+  }
   for (const std::string& id : ids.ok() ? *ids : std::vector<std::string>()) {
-    if (scheduler_.has(id)) {
+    if (scheduler_.has(id) || foreign_.contains(id)) {
       continue;
     }
     all = scheduler_.has_room() && load_one(id) && all;
@@ -200,11 +223,23 @@ bool SweepWork::load_one(const std::string& id) {
   OpenSweep found = **open;
   const api::SweepOutcome read = api::read_sweep(found.document);
   if (!read.sweep) {
-    log_sweep(world_.log, id, "not_readable", "this version does not accept the stored document any more");
-    return dismiss(id).ok();
+    leave(id, read.findings.front());
+    return true;
   }
   scheduler_.add(std::make_shared<ActiveSweep>(id, *read.sweep, std::move(found)));
   return true;
+}
+
+/// Leaves a sweep to workers of other versions.
+void SweepWork::leave(const std::string& id, const Finding& finding) {
+  foreign_.insert(id);
+  const std::string why =
+      "a program of another version stored the document, this worker leaves it to others: " +
+      finding.pointer + ": " + finding.detail;
+  world_.log.write(LogLevel::warning, "sweep",
+                   {{"sweep", std::string_view(id)},
+                    {"status", std::string_view("not_readable")},
+                    {"detail", std::string_view(why)}});
 }
 
 std::optional<Chunk> SweepWork::take() {
@@ -246,14 +281,15 @@ bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
   const std::stop_callback on_dismissal(chunk->sweep->stopped(), [&] { watch.stop(StopReason::dismissed); });
   const double start = world_.environment.monotonic_seconds();
   Work work;
-  work.pending = pending_units(*chunk);
+  work.pending = pending_units(*chunk, world_.store);
   look_up(*chunk, world_, work);
-  compute(*chunk, scheduler_.chunk_seconds(), world_, runner, watch, work);
+  const std::size_t computed = compute(*chunk, scheduler_.chunk_seconds(), world_, runner, watch, work);
   const double seconds = world_.environment.monotonic_seconds() - start;
-  Status status = settle(*chunk, work.rows, seconds);
+  const std::uint64_t done = chunk->claim.units.count - (work.pending.size() - computed);
+  Status status = settle(*chunk, work.rows, done, seconds);
   while (status.code() == StatusCode::unavailable && !stop.stop_requested()) {
     pause(stop, kRetryPause);
-    status = settle(*chunk, work.rows, seconds);
+    status = settle(*chunk, work.rows, done, seconds);
   }
   if (!status.ok() && status.code() != StatusCode::conflict) {
     world_.log.write(
@@ -263,7 +299,8 @@ bool SweepWork::do_next(Runner& runner, const std::stop_token& stop) {
   return true;
 }
 
-Status SweepWork::settle(const Chunk& chunk, const std::vector<PointRow>& rows, double seconds) {
+Status SweepWork::settle(const Chunk& chunk, const std::vector<PointRow>& rows, std::uint64_t done,
+                         double seconds) {
   const double start = world_.environment.monotonic_seconds();
   StatusOr<SweepRecord> record = world_.store.put(chunk.claim, rows, world_.environment.now());
   if (record.ok()) {
@@ -273,7 +310,7 @@ Status SweepWork::settle(const Chunk& chunk, const std::vector<PointRow>& rows, 
     record = world_.store.put(chunk.claim, not_stored(rows, record.status()), world_.environment.now());
   }
   if (record.ok()) {
-    scheduler_.give_back(chunk, rows.size() / chunk.sweep->sweep.unit_size(), seconds);
+    scheduler_.give_back(chunk, done, seconds);
     stored(*record, rows);
     return {};
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -52,7 +53,8 @@ class SweepWork {
   /// @brief Works on a chunk of the sweep that is next in turn: units that take about 0.1 s. Returns false
   /// without units.
   ///
-  /// A unit whose points were all computed before is not computed again. The row of a point that fails has an
+  /// A sweep whose document this version can't read is left to workers of other versions and logged once. A
+  /// unit whose points were all computed before is not computed again. The row of a point that fails has an
   /// error. A chunk ends early when jobs wait, when it takes long, or when the service stops; units without
   /// rows are given out again. While the store can't be written, the chunk waits and tries to store its rows
   /// again.
@@ -79,14 +81,17 @@ class SweepWork {
  private:
   void load();
   bool load_one(const std::string& id);
+  void leave(const std::string& id, const Finding& finding);
   std::optional<Chunk> take();
-  Status settle(const Chunk& chunk, const std::vector<PointRow>& rows, double seconds);
+  /// Stores rows and ends the chunk. @param done units that need no more work
+  Status settle(const Chunk& chunk, const std::vector<PointRow>& rows, std::uint64_t done, double seconds);
   void stored(const SweepRecord& record, const std::vector<PointRow>& rows);
 
   const SweepSurroundings world_;
   SweepScheduler scheduler_;
   ProgressTopic<SweepRecord> news_;
   std::mutex loading_;
+  std::set<std::string> foreign_;  ///< sweeps with units whose document this version can't read; by loading_
   std::atomic<bool> unloaded_ = true;  ///< the store may have sweeps that the scheduler does not have
 };
 

@@ -104,6 +104,15 @@ TEST(ParseJson, CountsValuesOfEveryKind) {
   EXPECT_EQ(refused.findings[0].pointer, "/3");
 }
 
+TEST(ParseJson, CountsTheKeysOfAllObjects) {
+  EXPECT_NE(parse_json(R"([{"a": 1}, {"b": {"c": 2}}])", {.keys = 3}).document, nullptr);
+  const ParsedText refused = parse_json(R"([{"a": 1}, {"b": {"c": 2, "d": 3}}])", {.keys = 3});
+  ASSERT_THAT(refused.findings, SizeIs(1));
+  EXPECT_EQ(refused.findings[0].code, "too_many_keys");
+  EXPECT_EQ(refused.findings[0].pointer, "/1/b/d");
+  EXPECT_THAT(refused.findings[0].detail, HasSubstr("json_keys"));
+}
+
 TEST(ParseJson, AllDuplicateKeysAreReported) {
   const ParsedText parsed = parse_json(R"({"a": 1, "a": 2, "b": {"c": 1, "c": 2}})");
   ASSERT_THAT(parsed.findings, SizeIs(2));

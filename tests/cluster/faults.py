@@ -227,6 +227,21 @@ def fail_over_without_sync(trial):
     return fail_over(trial)
 
 
+def lose_synchronous_replica(trial):
+    """The only synchronous replica dies: commits wait for it, until the operator no longer asks for it."""
+    cluster = trial.cluster
+    cluster.replica.kill()
+    cluster.replica = None
+    time.sleep(2)
+    before = len(trial.load.acknowledged)
+    time.sleep(3)
+    if len(trial.load.acknowledged) > before:
+        raise RuntimeError("jobs were acknowledged that the replica does not have")
+    cluster.database.query("ALTER SYSTEM RESET synchronous_standby_names")
+    cluster.database.query("SELECT pg_reload_conf()")
+    return trial.progress_after()
+
+
 def cut_network(trial):
     """A worker that does not reach the database past its lease, and then does again."""
     worker = trial.cluster.workers[0]
@@ -248,8 +263,9 @@ def cut_network(trial):
 
 FAULTS = {fault.__name__: fault for fault in (kill_worker, kill_two_workers, kill_front, kill_database, stop_database_for_5_s,
                                               pause_worker, hold_snapshot, add_worker_and_end_one, fail_over,
-                                              fail_over_without_sync, cut_network)}
-SURROUNDINGS = {"fail_over": {"replica": True, "synced": True}, "fail_over_without_sync": {"replica": True},
+                                              fail_over_without_sync, lose_synchronous_replica, cut_network)}
+SYNCED = {"replica": True, "synced": True}
+SURROUNDINGS = {"fail_over": SYNCED, "lose_synchronous_replica": SYNCED, "fail_over_without_sync": {"replica": True},
                 "cut_network": {"apart": True}}
 
 

@@ -125,7 +125,7 @@ class FuzzedStore final : public Store {
   }
   StatusOr<std::int64_t> waiting() override { return 0; }
   StatusOr<std::vector<std::string>> owners() override { return std::vector<std::string>(); }
-  StatusOr<std::optional<Time>> oldest_waiting() override { return std::optional<Time>(); }
+  StatusOr<std::optional<Time>> oldest_waiting(Time /*now*/) override { return std::optional<Time>(); }
   StatusOr<std::optional<Job>> get(std::string_view id) override {
     return id == kFuzzedJob ? std::optional(job()) : std::nullopt;
   }

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "api/api.h"
 #include "server/front/cross_origin.h"
 #include "server/jobs/envelope.h"
 #include "server/resources/prefer.h"
@@ -178,6 +179,16 @@ TEST_F(ClientWishes, WrongAnnotationsAreNamed) {
       json::parse(
           post(port(), "/v1/check", annotated("sweep", column_sweep(3), "")).body)["errors"][0]["pointer"],
       "/label");
+}
+
+TEST(Envelope, ManyWrongMembersDoNotFillTheMemory) {
+  json envelope{{"request", 1}};
+  for (int i = 0; i < 5000; ++i) {
+    envelope["k" + std::to_string(i)] = i;
+  }
+  const Envelope opened = open_envelope(envelope.dump(), "request");
+  ASSERT_THAT(opened.findings, testing::SizeIs(api::kMaxFindings + 1));
+  EXPECT_EQ(opened.findings.back().code, "too_many_findings");
 }
 
 TEST(Envelope, TheDocumentIsTheBytesThatCame) {

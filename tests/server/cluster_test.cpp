@@ -71,6 +71,62 @@ TEST_F(ClusterTest, WhoWaitsIsAnsweredWhenAnotherProcessHasTheResult) {
   EXPECT_EQ(json::parse(reply.body)["summary"]["termination"], "steps");
 }
 
+/// The time of submission is that of the database; the clock of this host is an hour ahead.
+TEST_F(ClusterTest, AgesInMetricsAreThoseOfOneClock) {
+  Environment ahead = Environment::system();
+  ahead.now = [] { return Environment::system().now() + std::chrono::hours(1); };
+  solver_->open();
+  start_worker(ahead);
+  const std::string job = submit();
+  EXPECT_EQ(when(job, [](const json& status) { return status["status"] == "successful"; })["status"],
+            "successful");
+  const auto value = [&](const char* name) {
+    const std::string text = get(worker_->port(), "/metrics").body;
+    const std::string line = "\n" + std::string(name) + " ";
+    const std::size_t found = text.find(line);
+    return found == std::string::npos ? -1.0 : std::stod(text.substr(found + line.size()));
+  };
+  EXPECT_EQ(value("snapthrough_job_waiting_seconds_count"), 1);
+  EXPECT_LT(value("snapthrough_job_waiting_seconds_sum"), 60.0);
+  EXPECT_GE(value("snapthrough_job_waiting_seconds_sum"), 0.0);
+  worker_.reset();
+  submit("waits");
+  const StatusOr<std::unique_ptr<Store>> store = open_store(location_, 1, ahead.now());
+  ASSERT_TRUE(store.ok()) << store.status().message();
+  const StatusOr<std::optional<Time>> oldest = (*store)->oldest_waiting(ahead.now());
+  ASSERT_TRUE(oldest.ok() && *oldest);
+  EXPECT_LT(ahead.now() - **oldest, std::chrono::seconds(60));
+}
+
+/// During an upgrade a newer host accepts documents that an older worker can't read.
+TEST_F(ClusterTest, ASweepOfANewerVersionIsLeftToOthers) {
+  const StatusOr<std::unique_ptr<Store>> store = open_store(location_, 1, Environment::system().now());
+  ASSERT_TRUE(store.ok()) << store.status().message();
+  json document = json::parse(column_sweep(2));
+  document["field_of_a_newer_version"] = 1;
+  NewSweep newer{new_id(Environment::system()), "", document.dump(), 2, Environment::system().now()};
+  ASSERT_TRUE((*store)->sweeps().submit(newer).ok());
+  solver_->open();
+  start_worker();
+  for (int i = 1; i <= 3; ++i) {  // each makes the worker look at all sweeps
+    const std::string path = submit_sweep(10 + i);
+    EXPECT_EQ(when(path, [](const json& status) { return status["progress"] == 100; })["status"],
+              "successful");
+  }
+  EXPECT_EQ((*(*store)->sweeps().get(newer.id))->state, JobState::accepted);
+  const std::string log = log_text_.text();
+  const std::size_t told = log.find("not_readable");
+  ASSERT_NE(told, std::string::npos) << log;
+  EXPECT_THAT(log.substr(told), HasSubstr("field_of_a_newer_version"));
+  EXPECT_EQ(log.find("not_readable", told + 1), std::string::npos) << "it is told once";
+  const Lease lease{"newer", Environment::system().now() + std::chrono::seconds(30)};
+  const auto claim = (*store)->sweeps().claim(newer.id, 2, lease, Environment::system().now());
+  ASSERT_TRUE(claim.ok() && claim->has_value()) << "a worker of that version takes it";
+  const api::PointOutcome outcome{"[1.0, \"steps\"]", "", ""};
+  EXPECT_EQ((*store)->sweeps().put(**claim, {{0, outcome}, {1, outcome}}, Environment::system().now())->state,
+            JobState::successful);
+}
+
 TEST_F(ClusterTest, EventsTellWhatAnotherProcessDoes) {
   start_worker();
   const std::string job = submit();

@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/server/support/samples.h"
 #include "tests/server/support/store_driver.h"
 
@@ -53,6 +55,37 @@ void fill(Store& store) {
     ASSERT_TRUE(store.sweeps().put(claim, rows, at_second(50)).ok());
     if (number == 13) {
       ASSERT_TRUE(store.sweeps().dismiss(sweep.id, at_second(60))->changed);
+    }
+  }
+}
+
+/// A running sweep of curves with many gaps: every third unit has rows, and of one unit half the rows.
+NewSweep sweep_with_gaps(Store& store) {
+  constexpr std::uint64_t kCurve = 3;
+  NewSweep sweep{id_number(15), "t", followed_sweep(kCurve), 9000 * kCurve, at_second(15)};
+  sweep.unit_points = kCurve;
+  EXPECT_TRUE(store.sweeps().submit(sweep).ok());
+  const UnitClaim claim = **store.sweeps().claim(sweep.id, 9000, kLease, at_second(40));
+  std::vector<PointRow> rows;
+  for (std::uint64_t point = 0; point < 9000 * kCurve; ++point) {
+    if (point / kCurve % 3 == 0 && point != 9 * kCurve) {
+      rows.push_back({point, {"[" + std::to_string(point) + ".25]", "", ""}});
+    }
+  }
+  EXPECT_TRUE(store.sweeps().put(claim, rows, at_second(50)).ok());
+  return sweep;
+}
+
+/// Claims of a sweep until none is left, as the units that they have.
+std::vector<bool> units_left(Store& store, const NewSweep& sweep) {
+  std::vector<bool> left(static_cast<std::size_t>(sweep.points / sweep.unit_points));
+  for (;;) {
+    const auto claim = store.sweeps().claim(sweep.id, 100'000, kLease, at_second(90));
+    if (!claim.ok() || !claim->has_value()) {
+      return left;
+    }
+    for (std::uint64_t unit = 0; unit < (*claim)->units.count; ++unit) {
+      left.at((*claim)->units.first + unit) = true;
     }
   }
 }
@@ -122,6 +155,41 @@ TEST(Copy, ToAnotherDriverAndBackKeepsJobsSweepsAndRows) {
   ASSERT_TRUE(copy_store(*first, *second, again, silent).ok());
   EXPECT_EQ(again.there, 9);
   EXPECT_EQ(again.jobs + again.sweeps, 0);
+}
+
+TEST(Copy, AnUnfinishedSweepGoesOnWithItsRows) {
+  for (const std::size_t source : {0U, 1U}) {
+    const TempDir first_folder;
+    const TempDir second_folder;
+    const auto first = *store_drivers()[source].open(first_folder);
+    const auto second = *store_drivers()[1 - source].open(second_folder);
+    const NewSweep sweep = sweep_with_gaps(*first);
+    CopyCounts counts;
+    const Status copied = copy_store(*first, *second, counts, [](const CopyCounts&) {});
+    ASSERT_TRUE(copied.ok()) << copied.message();
+    EXPECT_EQ(told(*second), told(*first));
+    const std::vector<bool> left = units_left(*second, sweep);
+    EXPECT_EQ(std::count(left.begin(), left.end(), true), 6001) << "those with rows are not computed again";
+    EXPECT_TRUE(left[9]) << "half a curve is computed wholly";
+  }
+}
+
+TEST(Copy, AnUnfinishedSweepThatWasCutShortIsCopiedAgain) {
+  const TempDir first_folder;
+  const TempDir second_folder;
+  const auto first = *store_drivers()[0].open(first_folder);
+  const auto second = *store_drivers()[1].open(second_folder);
+  NewSweep sweep = sweep_with_gaps(*first);
+  ASSERT_TRUE(second->sweeps().submit(sweep).ok());
+  const Lease cut_short{"copy", at_second(40)};
+  ASSERT_TRUE(second->sweeps().claim(sweep.id, 9000, cut_short, at_second(40)).ok());
+  CopyCounts counts;
+  ASSERT_TRUE(copy_store(*first, *second, counts, [](const CopyCounts&) {}).ok());
+  EXPECT_EQ(counts.sweeps, 1);
+  EXPECT_EQ(told(*second), told(*first));
+  CopyCounts again;
+  ASSERT_TRUE(copy_store(*first, *second, again, [](const CopyCounts&) {}).ok());
+  EXPECT_EQ(again.there, 1) << "a whole one stays";
 }
 
 TEST(Copy, OneThatWasCutShortIsMadeGood) {

@@ -39,7 +39,7 @@ class FailingStore : public Store {
   }
   StatusOr<std::vector<std::string>> owners() override { return status(); }
   StatusOr<std::int64_t> waiting() override { return status(); }
-  StatusOr<std::optional<Time>> oldest_waiting() override { return status(); }
+  StatusOr<std::optional<Time>> oldest_waiting(Time /*now*/) override { return status(); }
   Status finish(const Claim&, const JobResult&, Time) override { return status(); }
   Status fail(const Claim&, const JobFailure&, const StoredPath&, Time) override { return status(); }
   Status requeue(const Claim&) override { return status(); }

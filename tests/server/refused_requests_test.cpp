@@ -108,6 +108,21 @@ TEST_F(RefusedRequests, ABodyOverTheLimitIsNotEvenRead) {
             413);  // the sender reads it all the same
 }
 
+TEST_F(RefusedRequests, MoreKeysThanTheLimit) {
+  ServiceConfig small = config();
+  small.jobs.json_keys = 20;
+  service_ = std::make_unique<Service>(small, Environment::system(), local_runners(solve), log_);
+  ASSERT_TRUE(service_->start().ok());
+  EXPECT_EQ(json::parse(get(port(), "/v1/limits").body)["json_keys"], 20);
+  for (const char* path : {"/v1/jobs", "/v1/sweeps"}) {
+    const Reply reply = post(port(), path, document().dump());
+    EXPECT_EQ(reply.status, 400);
+    const json error = json::parse(reply.body)["errors"][0];
+    EXPECT_EQ(error["code"], "too_many_keys");
+    EXPECT_THAT(error["detail"].get<std::string>(), testing::HasSubstr("at most 20 keys (json_keys)"));
+  }
+}
+
 TEST_F(RefusedRequests, BytesThatAreNoRequest) {
   const auto answer = [&](const std::string& bytes) {
     Socket socket(port());

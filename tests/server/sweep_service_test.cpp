@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -27,7 +28,7 @@ class CountingSolver {
     ++calls;
     Result result;
     const double stiffness = model.sections.front().EI.constant;
-    if (stiffness == failing.load()) {
+    if (stiffness == failing.load() || (failing_every > 0 && std::fmod(stiffness, failing_every) == 0.0)) {
       result.failure = Failure{"no_convergence", "as it was told"};
     }
     result.summary.critical_load_factor = stiffness;
@@ -37,6 +38,7 @@ class CountingSolver {
   }
   std::atomic<int> calls = 0;
   std::atomic<double> failing = -1.0;
+  std::atomic<int> failing_every = 0;
 };
 
 std::string read_text(const std::string& path) {
@@ -119,6 +121,18 @@ TEST_F(SweepService, WhatWasComputedIsNotComputedAgain) {
   EXPECT_EQ(calls(), 700);
   ended(submit_sweep(column_sweep(300, "another model")));
   EXPECT_EQ(calls(), 1000);
+}
+
+/// They are claimed with the points between them, whose rows the store has.
+TEST_F(SweepService, OfManyFailedPointsNoOtherIsComputedAgain) {
+  start_counting();
+  solver_->failing_every = 7;
+  const std::string sweep = submit_sweep(column_sweep(700), {"Cache-Control: no-cache"});
+  EXPECT_EQ(ended(sweep)["counts"]["failed"], 100);
+  solver_->failing_every = 0;
+  EXPECT_EQ(post(port(), sweep + "/retry", "").status, 200);
+  EXPECT_EQ(ended(sweep)["counts"], json::parse(R"({"successful":700,"failed":0,"reused":0,"remaining":0})"));
+  EXPECT_EQ(calls(), 800);
 }
 
 TEST_F(SweepService, AFailedPointIsARowAndIsTriedAgain) {

@@ -169,6 +169,58 @@ TEST_P(SweepStoreConformance, FailedPointsMakeItFailedAndAreTriedAgain) {
   EXPECT_EQ(record(id).successful, 3);
 }
 
+/// Failures that lie apart are given out together: each claim costs a transaction, and may rewrite many rows.
+TEST_P(SweepStoreConformance, ManyScatteredFailuresAreTriedAgainInFewClaims) {
+  constexpr std::uint64_t kPoints = 8000;
+  const auto fails = [](std::uint64_t point) { return point % 10 == 5 && (point < 2000 || point >= 6000); };
+  const std::string id = submit(1, kPoints);
+  for (std::uint64_t first = 0; first < kPoints; first += 2000) {
+    std::vector<PointRow> all;
+    const UnitClaim part = claim(id, 2000);
+    for (std::uint64_t point = first; point < first + 2000; ++point) {
+      all.push_back(fails(point) ? bad(point) : good(point));
+    }
+    ASSERT_TRUE(sweeps().put(part, all, at_second(60)).ok());
+  }
+  ASSERT_EQ(record(id).failed, 400);
+  ASSERT_TRUE(sweeps().retry(id, {}, at_second(70))->changed);
+  for (const std::uint64_t first : {5U, 6005U}) {
+    const UnitClaim again = claim(id, kPoints);
+    EXPECT_EQ(again.units, (UnitRun{first, 1991})) << "the points between that have rows are in the claim";
+    std::vector<PointRow> rows;
+    for (std::uint64_t point = first; point < first + 1991; point += 10) {
+      rows.push_back(good(point));
+    }
+    ASSERT_TRUE(sweeps().put(again, rows, at_second(80)).ok());
+  }
+  EXPECT_TRUE(none_left(id) || record(id).state == JobState::successful);
+  EXPECT_EQ(record(id).state, JobState::successful);
+  EXPECT_EQ(record(id).successful, static_cast<std::int64_t>(kPoints));
+}
+
+TEST_P(SweepStoreConformance, OfJoinedUnitsOnlyThoseWithoutARowAreGivenOutAgain) {
+  const std::string id = submit(1, 9);
+  ASSERT_TRUE(
+      sweeps()
+          .put(claim(id, 7), {good(0), bad(1), good(2), good(3), bad(4), good(5), bad(6)}, at_second(60))
+          .ok());
+  ASSERT_TRUE(sweeps().dismiss(id, at_second(61))->changed);
+  ASSERT_TRUE(sweeps().retry(id, {}, at_second(70))->changed);
+  UnitClaim again = claim(id, 9);
+  if (again.units.first == 7) {  // a driver may give out apart the units that had no row
+    ASSERT_TRUE(sweeps().put(again, {}, at_second(75)).ok());
+    again = claim(id, 9);
+  }
+  ASSERT_EQ(again.units.first, 1U);
+  ASSERT_TRUE(sweeps().put(again, {good(4)}, at_second(80)).ok());
+  std::vector<bool> left(9);
+  for (auto next = sweeps().claim(id, 1, kLease, at_second(50)); next->has_value();
+       next = sweeps().claim(id, 1, kLease, at_second(50))) {
+    left.at((*next)->units.first) = true;
+  }
+  EXPECT_THAT(left, ElementsAre(false, true, false, false, false, false, true, true, true));
+}
+
 TEST_P(SweepStoreConformance, ADismissedSweepKeepsItsRowsAndTakesNoMore) {
   const std::string id = submit(1, 3);
   ASSERT_TRUE(sweeps().put(claim(id, 1), {good(0)}, at_second(60)).ok());

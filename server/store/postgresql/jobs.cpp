@@ -178,7 +178,7 @@ class PostgresqlStore final : public Store {
         "  RETURNING seq, id, attempt, created_us, owner, started_us),"
         " leased AS (INSERT INTO job_leases (job, worker, until_us) SELECT seq, $3, started_us + $4 FROM "
         "taken)"
-        " SELECT id, attempt, document, created_us, owner FROM taken JOIN requests ON job = seq";
+        " SELECT id, attempt, document, started_us - created_us, owner FROM taken JOIN requests ON job = seq";
     std::string last;
     {
       const std::lock_guard guard(turn_mutex_);
@@ -193,7 +193,8 @@ class PostgresqlStore final : public Store {
       }
       const std::lock_guard guard(turn_mutex_);
       last_owner_ = rows[0].text(4);
-      return std::optional(Claim{rows[0].text(0), rows[0].whole(1), rows[0].text(2), rows[0].time(3)});
+      const Time created = now - std::chrono::microseconds(rows[0].integer(3));
+      return std::optional(Claim{rows[0].text(0), rows[0].whole(1), rows[0].text(2), created});
     };
     return database_.write_at_once<std::optional<Claim>>({{kSql, wanted}}, Durability::unsynced, use);
   }
@@ -374,10 +375,13 @@ class PostgresqlStore final : public Store {
     });
   }
 
-  StatusOr<std::optional<Time>> oldest_waiting() override {
-    return database_.read<std::optional<Time>>([](Connection& connection) {
-      const Rows rows = connection.run("SELECT min(created_us) FROM jobs WHERE " + may(JobEvent::claim));
-      return rows[0].optional_time(0);
+  StatusOr<std::optional<Time>> oldest_waiting(Time now) override {
+    return database_.read<std::optional<Time>>([&](Connection& connection) -> std::optional<Time> {
+      const Rows rows = connection.run(
+          "SELECT coalesce($1, snapthrough_now()) - min(created_us) FROM jobs WHERE " + may(JobEvent::claim),
+          Parameters().add(clock_.at(now)));
+      const std::optional<std::int64_t> age = rows[0].optional_integer(0);
+      return age ? std::optional(now - std::chrono::microseconds(*age)) : std::nullopt;
     });
   }
 

@@ -50,8 +50,9 @@ Rows rows_there(Connection& connection, const HeldUnits& lease) {
 }
 
 /// Adds rows of points without a row to the stored rows; the others are removed from `rows`.
-Statement merge_rows(const Rows& there, const HeldUnits& lease, std::vector<PointRow>& rows) {
-  std::vector<PointRow> all = unpack_rows(there[0].text(1));
+/// @param all the stored rows @param first their first point
+Statement merge_rows(std::vector<PointRow> all, std::int64_t first, const HeldUnits& lease,
+                     std::vector<PointRow>& rows) {
   const auto order = [](const PointRow& a, const PointRow& b) { return a.point < b.point; };
   std::erase_if(rows,
                 [&](const PointRow& row) { return std::binary_search(all.begin(), all.end(), row, order); });
@@ -60,7 +61,7 @@ Statement merge_rows(const Rows& there, const HeldUnits& lease, std::vector<Poin
   std::inplace_merge(all.begin(), all.begin() + middle, all.end(), order);
   const std::vector<std::int64_t> keys = short_keys(rows);
   Parameters row;
-  row.add(lease.sweep).add(there[0].integer(0)).add_bytes(pack_rows(all)).add(count(all).failed);
+  row.add(lease.sweep).add(first).add_bytes(pack_rows(all)).add(count(all).failed);
   if (keys.empty()) {  // without a new key the index of keys is not rewritten
     return {"UPDATE sweep_rows SET rows = $3, failed = $4 WHERE sweep = $1 AND first = $2", std::move(row)};
   }
@@ -158,13 +159,21 @@ Statement insert_left(std::int64_t sweep, const UnitRun& run, std::int64_t crash
 void settle(Connection& connection, const HeldUnits& lease, std::vector<PointRow> rows, bool alone,
             const std::optional<std::int64_t>& now) {
   std::sort(rows.begin(), rows.end(), [](const PointRow& a, const PointRow& b) { return a.point < b.point; });
+  const Rows there = rows_there(connection, lease);
+  std::vector<PointRow> stored = there.empty() ? std::vector<PointRow>() : unpack_rows(there[0].text(1));
+  UnitRows units(lease.units, lease.unit_points);
+  for (const std::vector<PointRow>* const some : {&stored, &rows}) {
+    for (const PointRow& row : *some) {
+      units.add(row.point);
+    }
+  }
   std::vector<Statement> statements;
-  for (const UnitRun& run : units_without_rows(lease.units, rows, lease.unit_points)) {
+  for (const UnitRun& run : units.left()) {
     statements.push_back(insert_left(lease.sweep, run, lease.crashes));
   }
   if (!rows.empty()) {
-    const Rows there = rows_there(connection, lease);
-    statements.push_back(there.empty() ? insert_rows(lease, rows) : merge_rows(there, lease, rows));
+    statements.push_back(there.empty() ? insert_rows(lease, rows)
+                                       : merge_rows(std::move(stored), there[0].integer(0), lease, rows));
     statements.push_back(add_counts(lease.sweep, count(rows)));
   }
   if (alone) {

@@ -84,34 +84,38 @@ void insert_sweep(Connection& connection, const NewSweep& sweep, const Clock& cl
   }
 }
 
-/// Removes the failed rows from the rows of one lease and gives their units out again; returns the bytes that
-/// were freed.
-std::int64_t drop_failed(Connection& connection, std::int64_t sweep, std::int64_t unit_points,
-                         std::int64_t first, std::string_view stored) {
+/// @brief Removes the failed rows from a pack (the rows of one lease) and gives out the pack's units that
+/// lack a row; returns the bytes that were freed. No run of units reaches beyond the pack, so that each is
+/// stored in it. @param pack units of the pack, and number of its sweep
+std::int64_t drop_failed(Connection& connection, const HeldUnits& pack, std::string_view stored) {
   std::vector<PointRow> rows = unpack_rows(stored);
-  std::vector<UnitRun> runs;
   std::int64_t freed = 0;
   for (const PointRow& row : rows) {
-    const std::uint64_t unit = row.point / static_cast<std::uint64_t>(unit_points);
-    if (row.outcome.failed()) {
-      freed += static_cast<std::int64_t>(row.outcome.code.size() + row.outcome.detail.size());
-      if (runs.empty() || unit >= runs.back().first + runs.back().count) {
-        add_unit(runs, unit);
-      }
-    }
+    freed += row.outcome.failed()
+                 ? static_cast<std::int64_t>(row.outcome.code.size() + row.outcome.detail.size())
+                 : 0;
   }
   std::erase_if(rows, [](const PointRow& row) { return row.outcome.failed(); });
+  UnitRows units(pack.units, pack.unit_points);
+  for (const PointRow& row : rows) {
+    units.add(row.point);
+  }
   std::vector<Statement> statements{
       {"UPDATE sweep_rows SET rows = $3, failed = 0 WHERE sweep = $1 AND first = $2",
-       Parameters().add(sweep).add(first).add_bytes(pack_rows(rows))}};
-  for (const UnitRun& run : runs) {
-    statements.push_back(insert_left(sweep, run, 0));
+       Parameters().add(pack.sweep).add(pack.first_point()).add_bytes(pack_rows(rows))},
+      {"DELETE FROM sweep_left WHERE sweep = $1 AND first >= $2 AND first < $2 + $3",
+       Parameters()
+           .add(pack.sweep)
+           .add(static_cast<std::int64_t>(pack.units.first))
+           .add(static_cast<std::int64_t>(pack.units.count))}};
+  for (const UnitRun& run : joined(units.left())) {
+    statements.push_back(insert_left(pack.sweep, run, 0));
   }
   connection.run_all(statements);
   return freed;
 }
 
-/// Removes all failed rows of a sweep, gives their units out again, and makes the sweep accepted.
+/// Removes all failed rows of a sweep, gives its units out again, and makes the sweep accepted.
 void forget_failures(Connection& connection, std::int64_t sweep, std::int64_t unit_points) {
   static const std::string kAgain =
       "UPDATE sweeps SET " + becomes(SweepEvent::retry) + ", finished_us = NULL WHERE seq = $1";
@@ -119,14 +123,17 @@ void forget_failures(Connection& connection, std::int64_t sweep, std::int64_t un
   std::int64_t last = -1;
   for (;;) {
     const Rows next = connection.run(
-        "SELECT first, rows FROM sweep_rows WHERE sweep = $1 AND first > $2 AND failed > 0 ORDER BY first "
+        "SELECT first, points, rows FROM sweep_rows WHERE sweep = $1 AND first > $2 AND failed > 0 ORDER BY "
+        "first "
         "LIMIT 1",
         Parameters().add(sweep).add(last));
     if (next.empty()) {
       break;
     }
     last = next[0].integer(0);
-    freed += drop_failed(connection, sweep, unit_points, last, next[0].text(1));
+    const auto unit = static_cast<std::uint64_t>(unit_points);
+    const HeldUnits pack{sweep, {next[0].number(0) / unit, next[0].number(1) / unit}, 0, unit_points};
+    freed += drop_failed(connection, pack, next[0].text(2));
   }
   const Parameters row = Parameters().add(sweep);
   connection.run_all(std::vector<Statement>{
@@ -494,6 +501,7 @@ class PostgresqlSweepStore final : public SweepStore {
         "removed)"
         " AND first >= coalesce((SELECT first FROM sweep_rows WHERE first <= $2"
         "   AND sweep = (SELECT seq FROM sweeps WHERE id = $1) ORDER BY first DESC LIMIT 1), 0)"
+        " AND first + points > $2"
         " AND first > $3 AND first < $4 AND (failed > 0 OR NOT $5) ORDER BY first LIMIT $6";
     const auto [first, end] = points_of(query);
     std::int64_t last = -1;

@@ -375,7 +375,7 @@ class SqliteStore final : public Store {
     });
   }
 
-  StatusOr<std::optional<Time>> oldest_waiting() override {
+  StatusOr<std::optional<Time>> oldest_waiting(Time /*now*/) override {
     return database_.read<std::optional<Time>>([](const Connection& connection) {
       static const std::string kSql = "SELECT min(created_us) FROM jobs WHERE " + may(JobEvent::claim);
       Statement row = connection.prepare(kSql);

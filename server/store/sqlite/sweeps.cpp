@@ -169,17 +169,29 @@ std::int64_t take_claims_back(Connection& connection, Time ended_before, std::st
   return again;
 }
 
-/// Gives out again the units of a sweep in which a point failed.
-void insert_failed_units(Connection& connection, std::int64_t sweep) {
-  std::vector<UnitRun> runs;
-  Statement row = connection.query(
-      "SELECT DISTINCT point / unit_points FROM sweep_points JOIN sweeps ON seq = sweep"
-      " WHERE sweep = ? AND code IS NOT NULL ORDER BY 1",
-      sweep);
+/// Units of a sweep with the points that have a row.
+UnitRows stored_rows(const Connection& connection, std::int64_t sweep, const UnitRun& units,
+                     std::int64_t unit_points) {
+  UnitRows stored(units, unit_points);
+  Statement row =
+      connection.query("SELECT point FROM sweep_points WHERE sweep = ? AND point >= ? AND point < ?", sweep,
+                       static_cast<std::int64_t>(units.first) * unit_points,
+                       static_cast<std::int64_t>(units.first + units.count) * unit_points);
   while (row.step()) {
-    add_unit(runs, row.number(0));
+    stored.add(row.number(0));
   }
-  for (const UnitRun& run : runs) {
+  return stored;
+}
+
+/// Removes the failed rows of a sweep that has ended, and gives out all units that lack a row.
+void forget_failures(Connection& connection, std::int64_t sweep) {
+  connection.run("DELETE FROM sweep_points WHERE sweep = ? AND code IS NOT NULL", sweep);
+  connection.run("DELETE FROM sweep_left WHERE sweep = ?", sweep);
+  Statement row =
+      connection.query("SELECT points / unit_points, unit_points FROM sweeps WHERE seq = ?", sweep);
+  row.step();
+  const UnitRows stored = stored_rows(connection, sweep, {0, row.number(0)}, row.integer(1));
+  for (const UnitRun& run : joined(stored.left())) {
     insert_left(connection, sweep, run, 0);
   }
 }
@@ -265,10 +277,11 @@ class SqliteSweepStore final : public SweepStore {
           if (!place || !next_state(place->state, SweepEvent::finish) || !held) {
             return Status(StatusCode::conflict, "sweep " + claim.sweep + " does not run any more");
           }
-          for (const UnitRun& run : units_without_rows(held->units, rows, held->unit_points)) {
+          insert_points(connection, place->row, rows, now);
+          for (const UnitRun& run :
+               stored_rows(connection, held->sweep, held->units, held->unit_points).left()) {
             insert_left(connection, held->sweep, run, held->crashes);
           }
-          insert_points(connection, place->row, rows, now);
           Statement row = connection.query("SELECT " + columns() + " FROM sweeps WHERE seq = ?", place->row);
           row.step();
           return read_record(row);
@@ -331,9 +344,7 @@ class SqliteSweepStore final : public SweepStore {
         return status;
       }
       connection.run(kAgain, place->row);
-      insert_failed_units(connection, place->row);
-      connection.run("DELETE FROM sweep_points WHERE sweep = ? AND code IS NOT NULL", place->row);
-      connection.run("UPDATE sweep_left SET crashes = 0 WHERE sweep = ?", place->row);
+      forget_failures(connection, place->row);
       return SweepChange{place->state, true};
     });
   }
