@@ -29,7 +29,7 @@ trap tell_steps EXIT
 step "packages"
 install_packages "${BUILD_PACKAGES[@]}" "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 
-step "shape, includes, links, words, format"
+step "shape, includes, links, words, spelling, format"
 python3 scripts/check_shape.py --self-test
 python3 scripts/check_shape.py
 python3 scripts/check_includes.py --self-test
@@ -38,6 +38,8 @@ python3 scripts/check_links.py --self-test
 python3 scripts/check_links.py
 python3 scripts/check_words.py --self-test
 python3 scripts/check_words.py
+python3 scripts/check_code_blocks.py --self-test
+codespell README.md CONTRIBUTING.md CHANGELOG.md docs examples solver api server scripts
 bash scripts/format.sh --check
 
 step "build ($preset)"
@@ -70,6 +72,10 @@ bash scripts/web_test.sh "build/$preset/snapthrough"
 step "Python client"
 bash scripts/clients_python_test.sh "build/$preset"
 
-step "thesis examples"
+step "commands of the documents, and the script of the theory"
+python3 scripts/check_code_blocks.py "build/$preset/snapthrough"
+/usr/bin/python3 docs/theory/shallow_arch.py
+
+step "thesis examples and gallery"
 python3 scripts/report.py --self-test
 python3 scripts/report.py "build/$preset/snapthrough" --check

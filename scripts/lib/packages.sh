@@ -9,7 +9,8 @@ BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libeigen3-dev nlohmann-json3-de
 RUN_PACKAGES=(curl jq)
 # What scripts/test.sh needs besides.
 TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev valgrind clang-format python3 postgresql-15 procps
-  abigail-tools librsvg2-bin libreoffice-calc-nogui python3-uno man-db mandoc fish zsh openssl octave-dev)
+  abigail-tools librsvg2-bin libreoffice-calc-nogui python3-uno man-db mandoc fish zsh openssl octave-dev codespell
+  python3-numpy)
 # What scripts/schema.sh needs; not installed where another installation of node and npm is there.
 SCHEMA_PACKAGES=(nodejs npm)
 # What scripts/web_test.sh and scripts/web_pictures.sh need besides, where no other Chromium is there.

@@ -1,8 +1,8 @@
-# Turns web/dist (index.html and assets/*) and the documents for users (docs/*, with the thesis and the performance) into one
+# Turns web/dist (index.html and assets/*) and the documents for users (docs/*, with thesis, performance and gallery) into one
 # C++ source that defines what page.h declares: each file gzip'd, with the digest of its content.
 function(embed_page dist docs output)
   file(GLOB files CONFIGURE_DEPENDS ${dist}/index.html ${dist}/assets/* ${docs}/*.md ${docs}/*.svg ${docs}/thesis/*.md
-       ${docs}/thesis/*.svg ${docs}/performance/*.md ${docs}/performance/*.svg)
+       ${docs}/thesis/*.svg ${docs}/performance/*.md ${docs}/performance/*.svg ${docs}/gallery/*.md ${docs}/gallery/*.svg)
   list(SORT files)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
   set(arrays "")

@@ -115,7 +115,9 @@ void ElementWorkOf<P>::add_surface_rates(const Functional& n, const Law::Respons
 
 /// Adds the change of the tangent by moving ends of contact and knots of laws to acting_: with K the change
 /// of stiffness there and n the functional of the penetration g, the place moves by n(along) / |g'|, and the
-/// tangent changes by K n n^T n(along) / |g'|. Ends of a foundation do not move.
+/// tangent changes by K n n^T n(along) / |g'|. At the seam of a surface the bend b jumps: with t the
+/// functional along the surface, a' the slope of the distance ahead of the seam and p the reaction, the
+/// tangent changes by p [b] t t^T t(along) / |a'|. Ends of a foundation do not move.
 template <int P>
 void ElementWorkOf<P>::add_moving_ends(const Shape& shape, const ElementDofs& dofs, const double* y,
                                        const double* along) {
@@ -132,11 +134,15 @@ void ElementWorkOf<P>::add_moving_ends(const Shape& shape, const ElementDofs& do
       const Functional f = data_.functional_at(contact, shape.h, xi, &u);
       add(f, f.law.stiffness, contact.penetration_slope(xi, u.start, u.dx, u.dy));
     };
-    if (contact.law().curve != nullptr) {
+    if (contact.is_curved()) {
       contact.knot_places(u.start, u.dx, u.dy, knots_);
-      for (const auto& knot : knots_)
-        if (knot.stiffness_change != 0.0)
-          add(data_.functional_at(contact, shape.h, knot.xi, &u), knot.stiffness_change, knot.slope);
+      for (const auto& knot : knots_) {
+        if (knot.stiffness_change == 0.0 && knot.bend_change == 0.0) continue;
+        const Functional f = data_.functional_at(contact, shape.h, knot.xi, &u);
+        add(f, knot.stiffness_change, knot.slope);
+        const double depth = std::max(penetration(f, dofs, y), 0.0);
+        add(data_.along_surface(f), f.law.force_at(depth) * knot.bend_change, knot.slope);
+      }
     }
     if (!contact.law().one_sided) continue;
     for (const ElementPart& part : parts_in_contact(i, shape, dofs, y)) {

@@ -597,8 +597,8 @@ class AheadOfSeam {
   const SurfaceSeam& seam_;
 };
 
-/// Appends the places at which the axis passes a seam of the surface. The stiffness normal to the surface does
-/// not change there.
+/// Appends the places at which the axis passes a seam of the surface. The stiffness normal to the surface
+/// does not change there.
 void FoundationContact::add_seams(std::array<double, 2> ua, std::span<const double> dx,
                                   std::span<const double> dy, std::vector<KnotPlace>& out) const {
   std::vector<Interval> ahead;
@@ -608,9 +608,16 @@ void FoundationContact::add_seams(std::array<double, 2> ua, std::span<const doub
     for (int i = 0; i < samples_->count; ++i) g[i] = gap.value(samples_->z[i]);
     ahead.clear();
     search(gap, g, ahead);
-    for (const Interval& part : ahead)
-      for (const double xi : {part.from, part.to})
-        if (xi != range_[0] && xi != range_[1]) out.push_back({xi, 0.0, 1.0});
+    const double width = range_[1] - range_[0];
+    for (const Interval& part : ahead) {
+      for (const double xi : {part.from, part.to}) {
+        if (xi == range_[0] || xi == range_[1]) continue;
+        const SurfacePoint at = penetration_at(xi, displacement(xi, ua, dx, dy));
+        const double turn = at.into[0] * seam.tangent[1] - at.into[1] * seam.tangent[0];
+        out.push_back({xi, 0.0, gap.slope((xi - range_[0]) / width) / width,
+                       std::copysign(1.0, turn) * seam.bend_change(at.depth)});
+      }
+    }
   }
 }
 

@@ -103,10 +103,13 @@ class FoundationContact {
   struct KnotPlace {
     double xi = 0.0;
     double stiffness_change = 0.0;  ///< change of the stiffness from below to above the knot, per element
-    double slope = 0.0;             ///< d (penetration - that of the knot) / d xi
+    double slope = 0.0;  ///< d (penetration - that of the knot, or distance ahead of the seam) / d xi
+    /// Change of SurfacePoint::bend from behind a seam to ahead of it, ahead being the direction that follows
+    /// the normal by +90 degrees; zero for knots of laws.
+    double bend_change = 0.0;
   };
-  /// Whether integrals are taken on halves of the pieces between knots: a law with a curve, or a depth that is
-  /// not linear in the displacement.
+  /// Whether integrals are taken on halves of the pieces between knots: a law with a curve, or a depth that
+  /// is not linear in the displacement.
   [[nodiscard]] bool is_curved() const { return law_.curve != nullptr || follows_surface(); }
   /// @brief Places inside the range at which the penetration passes a knot of the law, or the axis a seam of
   /// the surface, ascending; `out` is overwritten. Contact ends are none.

@@ -192,8 +192,9 @@ class RoundedPolyline final : public Surface {
       const double side = turn > 0.0 ? 1.0 : -1.0;
       arcs_.push_back({sum(to, radius, normal_of(tangent, side)), radius, side, tangent, next});
       from = sum(points[i + 1], radius * std::tan(0.5 * std::abs(turn)), next);
-      seams_.push_back({to, tangent});
-      seams_.push_back({from, next});
+      const double bend = -sense * side / radius;
+      seams_.push_back({to, tangent, 0.0, bend});
+      seams_.push_back({from, next, bend, 0.0});
     }
   }
 
@@ -210,7 +211,9 @@ class RoundedPolyline final : public Surface {
       const Line& line = lines_[i];
       const Vec2 away = difference(x, line.from);
       const double along = dot(away, line.tangent);
-      if ((along >= 0.0 || i == 0) && (along <= line.length || i + 1 == lines_.size())) {
+      // a line overlaps the arcs beside it, so that no point falls between them by rounding
+      if ((along >= -Rounding::distance || i == 0) &&
+          (along <= line.length + Rounding::distance || i + 1 == lines_.size())) {
         const Vec2 into = normal_of(line.tangent, sense_);
         offer(settled(dot(difference(x0, line.from), into)) + dot(u, into), into, 0.0);
       }

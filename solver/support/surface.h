@@ -22,6 +22,14 @@ struct SurfacePoint {
 struct SurfaceSeam {
   std::array<double, 2> x{};
   std::array<double, 2> tangent{};  ///< along the surface, of length one
+  double curvature_behind = 0.0;    ///< SurfacePoint::bend on the surface, before and after a jump
+  double curvature_ahead = 0.0;
+
+  /// Change of SurfacePoint::bend from behind the seam to ahead of it, at a depth.
+  [[nodiscard]] double bend_change(double depth) const {
+    return curvature_ahead / (1.0 + depth * curvature_ahead) -
+           curvature_behind / (1.0 + depth * curvature_behind);
+  }
 };
 
 /// @brief Surface of a medium. The second derivative of the distance along the normal is zero, and that of

@@ -92,5 +92,26 @@ TEST(Surface, OfAPolylineIsRoundedAtItsCorner) {
   EXPECT_NEAR(surface->at({3.5, 8.0}).depth, -0.5, 1e-14);
 }
 
+/// Rounding leaves no point without a nearest piece where a line and an arc meet.
+TEST(Surface, OfAPolylineHasNoHoleBesideItsArcs) {
+  for (int k = 0; k < 500; ++k) {
+    const double turn = 0.002 * (k + 1) * (k % 2 == 0 ? 1.0 : -1.0);
+    const double angle = 0.37 * k;
+    const std::array<double, 2> corner{1.3 * std::cos(angle), 1.3 * std::sin(angle)};
+    const std::array<double, 2> end{corner[0] + std::cos(angle + turn), corner[1] + std::sin(angle + turn)};
+    const auto surface =
+        make_surface(PolylineOutline{{{0.0, 0.0}, corner, end}, 0.4, Side::right}, {0.0, 0.0}, 1.0);
+    ASSERT_EQ(surface->seams().size(), 2u);
+    for (const SurfaceSeam& seam : surface->seams())
+      for (const double depth : {-0.1, 0.03, 0.2}) {
+        const std::array<double, 2> x{seam.x[0] + depth * seam.tangent[1],
+                                      seam.x[1] - depth * seam.tangent[0]};
+        const SurfacePoint at = surface->at(x);
+        EXPECT_NEAR(at.depth, depth, 1e-14) << k;
+        EXPECT_NEAR(std::hypot(at.into[0], at.into[1]), 1.0, 1e-14) << k;
+      }
+  }
+}
+
 }  // namespace
 }  // namespace snapthrough

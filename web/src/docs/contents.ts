@@ -15,6 +15,7 @@ export const kContents: readonly Entry[] = [
   { name: "verification", heading: "Verification", text: "Which results have been compared with which sources." },
   { name: "performance", heading: "Time and accuracy", text: "What an accuracy costs, and the sizes that have been tried." },
   { name: "stress", heading: "Stress tests", text: "Random models and pairs of models that must agree, with what was found." },
+  { name: "gallery/README", heading: "Real problems", text: "Liners, piles, pipelines, tunnels and frames, each with a design chart and published values." },
   { name: "thesis/README", heading: "The examples of the thesis", text: "Figures and tables of the 2016 thesis, computed again." },
   { name: "service", heading: "The service", text: "Addresses, waiting, errors, callbacks, settings, limits and metrics." },
 ];
@@ -42,7 +43,7 @@ function resolved(from: string, path: string): string | null {
   return parts.join("/");
 }
 
-const kServed = /^([a-z0-9_]+|(thesis|performance)\/[A-Za-z0-9_]+)\.(md|svg)$/;
+const kServed = /^([a-z0-9_]+|(thesis|performance|gallery)\/[A-Za-z0-9_]+)\.(md|svg)$/;
 
 /** Where a link of docs/FROM.md leads in the page; null for files of the repository that the service does not have. */
 export function linkTarget(from: string, href: string): string | null {
