@@ -16,7 +16,7 @@ SupportSpring spring_at(const Structure& structure, const FoundationLaw& foundat
   const PlaceOnAxis at = place_on_axis(structure, element, xi);
   std::array<double, 2> u{0.0, 0.0};
   if (reader != nullptr && foundation.surface) u = {reader->displacement(xi)[0], reader->displacement(xi)[1]};
-  const auto [depth, d, bend, bend_rate] = foundation.penetration(at, u);
+  const auto [depth, d, bend, bend_rate, size] = foundation.penetration(at, u);
   SupportSpring out = support_at(structure, element, xi, {d[0], d[1], 0.0});
   const MeshElement& cell = structure.mesh.elements[static_cast<std::size_t>(element)];
   const GroundMotion ground = foundation.ground_under(cell.from, cell.to);

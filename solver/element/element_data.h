@@ -43,6 +43,7 @@ struct ElementData {
     /// Second and third derivative of the penetration along the tangent of a surface, see SurfacePoint.
     double bend = 0.0;
     double bend_rate = 0.0;
+    double size = 0.0;  ///< SurfacePoint::size
     Touch touch = Touch::none;
     int spring = -1;
     int ground = -1;  ///< see SupportSpring
@@ -216,6 +217,7 @@ auto ElementData<P>::functional_at(const FoundationContact& contact, double h, d
   f.law.gap = at.into[0] * moved[0] + at.into[1] * moved[1] - at.depth;
   f.bend = at.bend;
   f.bend_rate = at.bend_rate;
+  f.size = at.size;
   return f;
 }
 

@@ -148,7 +148,7 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
   const std::size_t count = acting_.size();
   for (std::size_t k = 0; k < count; ++k) {
     Functional& f = acting_[k];
-    double size = std::abs(f.law.gap);
+    double size = std::abs(f.law.gap) + f.size;
     for (int c = 0; c < 3; ++c) size += std::abs(f.a[c] * y[dofs.a[c]]);
     double w = -f.law.gap - f.of_ground(y);
     size += std::abs(f.of_ground(y));

@@ -99,7 +99,7 @@ SurfacePoint FoundationLaw::below_surface(const PlaceOnAxis& at, std::array<doub
   if (follows_surface()) return surface->at(at.x, u);
   const SurfacePoint initial = surface->at(at.x);
   const auto d = initial.into;
-  return {initial.depth + u[0] * d[0] + u[1] * d[1], d};
+  return {initial.depth + u[0] * d[0] + u[1] * d[1], d, 0.0, 0.0, initial.size};
 }
 
 double largest_size(const AlongMember& value) { return std::max(value.largest(), -value.least()); }

@@ -27,6 +27,11 @@ Vec2 normal_of(Vec2 tangent, double sense) { return {-sense * tangent[1], sense 
 /// Distance of an initial point from a surface; zero where it is the rounding of coordinates.
 double settled(double distance) { return std::abs(distance) <= Rounding::coordinate ? 0.0 : distance; }
 
+/// SurfacePoint::size where an initial point has a distance from a surface.
+double size_of(double distance, Vec2 x) {
+  return settled(distance) == 0.0 ? 0.0 : std::max(std::abs(x[0]), std::abs(x[1]));
+}
+
 /// Distance of x + u from a circle, positive outside, with the digits of u. @param from x minus the centre
 double beyond_circle(Vec2 from, Vec2 u, double radius) {
   const double before = length_of(from);
@@ -45,7 +50,11 @@ class Circle final : public Surface {
     const double r = length_of(to);
     const double depth = sense_ * beyond_circle(from, u, radius_);
     if (r == 0.0) return {depth, {sense_, 0.0}, 0.0, 0.0};
-    return {depth, {sense_ * to[0] / r, sense_ * to[1] / r}, sense_ / r, 0.0};
+    return {depth,
+            {sense_ * to[0] / r, sense_ * to[1] / r},
+            sense_ / r,
+            0.0,
+            size_of(length_of(from) - radius_, x)};
   }
 
  private:
@@ -59,7 +68,8 @@ class Line final : public Surface {
   /// @param into unit normal into the medium
   Line(Vec2 through, Vec2 into) : through_(through), into_(into) {}
   [[nodiscard]] SurfacePoint at(Vec2 x, Vec2 u) const override {
-    return {settled(dot(difference(x, through_), into_)) + dot(u, into_), into_, 0.0, 0.0};
+    const double before = dot(difference(x, through_), into_);
+    return {settled(before) + dot(u, into_), into_, 0.0, 0.0, size_of(before, x)};
   }
 
  private:
@@ -91,7 +101,9 @@ class SplineSurface final : public Surface {
 
   [[nodiscard]] SurfacePoint at(Vec2 x, Vec2 u) const override {
     SurfacePoint out = of_point(sum(x, 1.0, u));
-    if (const double before = of_point(x).depth; settled(before) == 0.0) out.depth -= before;
+    const double before = of_point(x).depth;
+    if (settled(before) == 0.0) out.depth -= before;
+    out.size = size_of(before, x);
     return out;
   }
 
@@ -202,10 +214,10 @@ class RoundedPolyline final : public Surface {
     const Vec2 x = sum(x0, 1.0, u);
     SurfacePoint best;
     double least = std::numeric_limits<double>::infinity();
-    const auto offer = [&](double depth, Vec2 into, double bend) {
+    const auto offer = [&](double depth, Vec2 into, double bend, double before) {
       if (!(std::abs(depth) < least)) return;
       least = std::abs(depth);
-      best = {depth, into, bend, 0.0};
+      best = {depth, into, bend, 0.0, size_of(before, x0)};
     };
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       const Line& line = lines_[i];
@@ -215,7 +227,8 @@ class RoundedPolyline final : public Surface {
       if ((along >= -Rounding::distance || i == 0) &&
           (along <= line.length + Rounding::distance || i + 1 == lines_.size())) {
         const Vec2 into = normal_of(line.tangent, sense_);
-        offer(settled(dot(difference(x0, line.from), into)) + dot(u, into), into, 0.0);
+        const double before = dot(difference(x0, line.from), into);
+        offer(settled(before) + dot(u, into), into, 0.0, before);
       }
     }
     for (const Arc& arc : arcs_) {
@@ -228,7 +241,7 @@ class RoundedPolyline final : public Surface {
         continue;
       const double sense = -sense_ * arc.side;  // sense of `into` along `out`
       offer(sense * beyond_circle(difference(x0, arc.centre), u, arc.radius),
-            {sense * out[0], sense * out[1]}, sense / r);
+            {sense * out[0], sense * out[1]}, sense / r, length_of(difference(x0, arc.centre)) - arc.radius);
     }
     return best;
   }

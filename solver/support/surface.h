@@ -16,6 +16,7 @@ struct SurfacePoint {
   std::array<double, 2> into{};  ///< gradient: unit normal into the medium at the nearest point
   double bend = 0.0;             ///< second derivative along the tangent (-into[1], into[0])
   double bend_rate = 0.0;        ///< derivative of `bend` along the tangent
+  double size = 0.0;             ///< largest coordinate whose rounding the depth has, beside that of u
 };
 
 /// Point of a surface at which a second or third derivative of the distance jumps.

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tests/solver/structures.h"
 #include "tests/verification/cases.h"
@@ -71,6 +72,32 @@ TEST(EncasedRing, InARigidHostIsThatInTheStiffestOne) {
     EXPECT_LE(*limits[0].error_estimate, accuracy);
     expect_relative(limits[0].load_factor, 35.0768836, *limits[0].error_estimate + 1e-6, "rigid host");
   }
+}
+
+/// Half of a liner that stands 1/3000 of its radius off a rigid round host: reactions have the rounding of
+/// coordinates, which exceeds that of displacements by 3000. Meshes agree within their estimates.
+TEST(LinerWithASmallGap, HasOneLimitLoadOnAllMeshes) {
+  constexpr double kRadius = 0.3;
+  Model model;
+  model.nodes = {{"invert", 0.0, -kRadius}, {"crown", 0.0, kRadius}};
+  model.sections = {{"wall", 5683.516483516483, 0.01705054945054945, {}}};
+  model.members = {{"liner", "invert", "crown", "wall", ArcCurve{180.0}, false, false}};
+  model.supports = {support("invert", "xr"), support("crown", "xr")};
+  model.foundations = {one_sided("liner", kRigid, Side::right)};
+  model.foundations[0].outline = CircleOutline{{0.0, 0.0}, kRadius + 1e-4, false};
+  PointLoad lift = force_at(at_node("crown"), 0.0, -3.9e-4);
+  lift.pattern = Pattern::constant;
+  model.loads = {PressureLoad{"liner", 1.0, Side::right, Pattern::proportional}, lift};
+  std::vector<CriticalPoint> found;
+  for (const double accuracy : {1e-2, 1e-3, 1e-4}) {
+    const auto limits = limits_of(solve_soundly(model, path_on(accurate(accuracy), 1)));
+    ASSERT_EQ(limits.size(), 1u) << accuracy;
+    ASSERT_TRUE(limits[0].error_estimate) << accuracy;
+    found.push_back(limits[0]);
+  }
+  for (const CriticalPoint& one : found)
+    expect_relative(one.load_factor, found.back().load_factor,
+                    *one.error_estimate + *found.back().error_estimate, "limit load");
 }
 
 /// A cantilever of length 2 whose tip meets a stop 0.1 below it: the stop takes what the beam does not carry
