@@ -92,21 +92,17 @@ bool grows(const Load& load) {
   return std::visit([](const auto& l) { return l.pattern == Pattern::proportional && has_amount(l); }, load);
 }
 
-bool grows(const Support& support) {
-  const auto& d = support.displacement;
-  return d && d->pattern == Pattern::proportional &&
-         (is_amount(d->x) || is_amount(d->y) || is_amount(d->rotation));
-}
-
 bool is_amount(const AlongMember& value) { return is_amount(value.constant) || is_amount(value.points); }
-bool grows(const Spring& spring) {
-  const auto& d = spring.displacement;
-  return d && d->pattern == Pattern::proportional &&
-         (is_amount(d->x) || is_amount(d->y) || is_amount(d->rotation));
+bool has_amount(const PrescribedDisplacement& d) {
+  return is_amount(d.x) || is_amount(d.y) || is_amount(d.rotation);
 }
-bool grows(const Foundation& foundation) {
-  const auto& d = foundation.displacement;
-  return d && d->pattern == Pattern::proportional && (is_amount(d->x) || is_amount(d->y));
+bool has_amount(const GroundDisplacement& d) { return is_amount(d.x) || is_amount(d.y); }
+
+/// Whether the prescribed displacement of a support, a spring or a foundation grows.
+template <class Supporting>
+bool grows(const Supporting& one) {
+  const auto& d = one.displacement;
+  return d && d->pattern == Pattern::proportional && has_amount(*d);
 }
 
 void check_imperfection(const Place& place, const SineImperfection& imperfection, const Names& names) {

@@ -18,12 +18,8 @@ ElementReader::ElementReader(const Structure& structure, const Eigen::VectorXd& 
                              const FoundationLaw& foundation)
     : ElementReader(structure, y, element) {
   const MeshElement& cell = structure.mesh.elements[static_cast<std::size_t>(element)];
-  const GroundMotion ground = foundation.ground_under(cell.from, cell.to);
-  for (int c = 0; ground.moves() && c < 2; ++c) {
-    const double moved = y[ground.unknown + c];
-    ua_[c] -= ground.start[c] * moved;
-    for (int q = 0; q < p_; ++q) dv_[c][q] -= ground.change[c] * moved;
-  }
+  foundation.ground_under(cell.from, cell.to)
+      .subtract_from(y.data(), ua_, std::span(dv_[0]).first(p_), std::span(dv_[1]).first(p_));
 }
 
 std::array<double, 3> ElementReader::displacement(double xi) const {

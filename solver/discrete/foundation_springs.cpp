@@ -19,9 +19,7 @@ SupportSpring spring_at(const Structure& structure, const FoundationLaw& foundat
   const auto [depth, d, bend, bend_rate, size] = foundation.penetration(at, u);
   SupportSpring out = support_at(structure, element, xi, {d[0], d[1], 0.0});
   const MeshElement& cell = structure.mesh.elements[static_cast<std::size_t>(element)];
-  const GroundMotion ground = foundation.ground_under(cell.from, cell.to);
-  out.ground = ground.unknown;
-  out.share = ground.share_at(xi);
+  out.ground = foundation.ground_under(cell.from, cell.to).at(xi);
   out.law = foundation.at(at.fraction);
   out.law.gap = d[0] * u[0] + d[1] * u[1] - depth;
   return out;

@@ -304,7 +304,7 @@ void Builder::add_point_spring(int element, std::size_t index) {
   const SpringLaw& law = spring_laws_[index];
   SupportSpring support = support_at(out_, element, place.xi, law.row);
   support.law = law.law;
-  support.ground = law.ground;
+  support.ground.unknown = law.ground;
   support.touch = touch_of_spring(index);
   support.spring = static_cast<int>(index);
   elements_->add_spring(support);
@@ -696,11 +696,11 @@ void fill(const Model& model, const Scales* scales, const Neighbour* like, Struc
     out.euler_loads.push_back(std::numbers::pi * std::numbers::pi * EI.least() /
                               (length * length * out.scales.force));
     double foundation_load = 0.0;
-    for (const Foundation& foundation : model.foundations)
-      if (foundation.member == model.members[m].id)
-        foundation_load +=
-            2.0 * std::sqrt(stiffness_on(out, foundation, static_cast<int>(m)) * EI.largest()) +
-            foundation.shear_stiffness;
+    for (const Foundation& foundation : model.foundations) {
+      if (foundation.member != model.members[m].id) continue;
+      foundation_load += 2.0 * std::sqrt(stiffness_on(out, foundation, static_cast<int>(m)) * EI.largest()) +
+                         foundation.shear_stiffness;
+    }
     out.foundation_loads.push_back(foundation_load / out.scales.force);
   }
   const int p = out.mesh.order;

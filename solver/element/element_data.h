@@ -46,21 +46,9 @@ struct ElementData {
     double size = 0.0;  ///< SurfacePoint::size
     Touch touch = Touch::none;
     int spring = -1;
-    int ground = -1;  ///< see SupportSpring
-    std::array<double, 2> share{};
+    GroundPlace ground;
     std::array<double, 3> a{};
     std::array<Gauss, 3> v{};
-    /// Part a.u_g of the ground's displacement in the functional.
-    [[nodiscard]] double of_ground(const double* y) const {
-      if (ground < 0) return 0.0;
-      return a[0] * share[0] * y[ground] + a[1] * share[1] * y[ground + 1] + a[2] * y[ground + 2];
-    }
-    /// Adds the opposite of a force along the functional to the rows of the ground.
-    void push_ground(double force, double* out) const {
-      if (ground < 0) return;
-      for (int c = 0; c < 2; ++c) out[ground + c] -= force * a[c] * share[c];
-      out[ground + 2] -= force * a[2];
-    }
   };
   /// Displacement relative to the ground: at the element start, and h u'_x, h u'_y at the Gauss points.
   struct ContactDisplacement {
@@ -157,14 +145,7 @@ auto ElementData<P>::displacement_of(const FoundationContact& contact, const Sha
     u.dx[q] = shape.h * y[at.v + q];
     u.dy[q] = shape.h * y[at.v + P + q];
   }
-  if (const GroundMotion& ground = contact.ground(); ground.moves()) {
-    const double* moved = y + ground.unknown;
-    for (int c = 0; c < 2; ++c) u.start[c] -= ground.start[c] * moved[c];
-    for (int q = 0; q < P; ++q) {
-      u.dx[q] -= ground.change[0] * moved[0];
-      u.dy[q] -= ground.change[1] * moved[1];
-    }
-  }
+  contact.ground().subtract_from(y, u.start, u.dx, u.dy);
   return u;
 }
 
@@ -174,7 +155,7 @@ double ElementData<P>::value(const Functional& f, const ElementDofs& at, const d
   const double* v = y + at.v;
   for (int c = 0; c < 3; ++c)
     for (int q = 0; q < P; ++q) w += f.v[c][q] * v[c * P + q];
-  return w - f.of_ground(y);
+  return w - f.ground.along(f.a, y);
 }
 
 template <int P>
@@ -206,8 +187,7 @@ auto ElementData<P>::functional_at(const FoundationContact& contact, double h, d
   const auto along = [&](std::array<double, 2> d) {
     Functional f = penetration(d, h, integrals);
     f.law = contact.law_at(xi);
-    f.ground = contact.ground().unknown;
-    f.share = contact.ground().share_at(xi);
+    f.ground = contact.ground().at(xi);
     return f;
   };
   if (u == nullptr || !contact.follows_surface()) return along(contact.direction_at(xi));
@@ -225,7 +205,6 @@ template <int P>
 auto ElementData<P>::along_surface(const Functional& f) -> Functional {
   Functional out;
   out.ground = f.ground;
-  out.share = f.share;
   out.a = {-f.a[1], f.a[0], 0.0};
   for (int q = 0; q < P; ++q) {
     out.v[0][q] = -f.v[1][q];
@@ -294,7 +273,6 @@ void ElementSetOf<P>::add_spring(const SupportSpring& support) {
   f.touch = support.touch;
   f.spring = support.spring;
   f.ground = support.ground;
-  f.share = support.share;
   f.a = support.a;
   for (int q = 0; q < P; ++q)
     for (int c = 0; c < 3; ++c) f.v[c][q] = support.v[q][c];
@@ -315,8 +293,7 @@ void ElementSetOf<P>::add_contact(int element, FoundationContact contact, Touch 
         contact.range()[0] + (contact.range()[1] - contact.range()[0]) * data_.contact_quadrature.points[i];
     whole.push_back(data_.penetration({at[0], at[1]}, data_.shapes[element].h, at.subspan(2)));
     whole.back().law = contact.law_at(xi);
-    whole.back().ground = contact.ground().unknown;
-    whole.back().share = contact.ground().share_at(xi);
+    whole.back().ground = contact.ground().at(xi);
   }
   auto& shape = data_.shapes[element];
   ++shape.contact_count;

@@ -28,6 +28,7 @@
 #include "solver/element/foundation_contact.h"
 #include "solver/numeric/gauss_rule.h"
 #include "solver/numeric/lanes.h"
+#include "solver/support/ground_motion.h"
 #include "solver/support/law.h"
 #include "solver/support/regime.h"
 
@@ -68,12 +69,10 @@ struct ElementShape {
 enum class Touch : char { none, absent, acts };
 
 /// Spring on a linear functional of one element's displacements, w = a.u_a + sum_q v_q.(u'_q, b'_q); where
-/// the ground moves, less a.u_g with its displacement u_g: shares of the unknowns `ground` and `ground` + 1,
-/// and the rotation `ground` + 2.
+/// the ground moves, less a.u_g with its displacement u_g.
 struct SupportSpring {
   int element = 0;
-  int ground = -1;  ///< -1: the ground is at rest
-  std::array<double, 2> share{1.0, 1.0};
+  GroundPlace ground;
   Law law;
   Touch touch = Touch::none;
   int spring = -1;  ///< index of the spring; -1: part of a foundation

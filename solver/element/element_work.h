@@ -185,7 +185,7 @@ class ElementWorkOf final : public ElementWork {
   bool kinematics_linear_ = false;  ///< whether these were for small displacements
   std::vector<Tangent> tangents_;
   std::vector<StrainRow> rows_;  ///< rows of all elements from the last linearisation
-  /// Elements and functionals of the last linearisation that moving ground pushes.
+  /// Element and functional of each support on moving ground that acted at the last linearisation.
   std::vector<std::pair<int, Functional>> on_ground_;
   std::vector<Interior<2 * P>> stiff_;  ///< unshearable elements; allocated by the first linearisation
   std::vector<Interior<3 * P>> shearable_;
@@ -451,7 +451,7 @@ void ElementWorkOf<P>::collect_rows(int element, const double* y, double* residu
     StrainRow& out = rows_.emplace_back();
     to_strain_row(f, shape, t, out.row);
     out.stiffness = f.tangent;
-    if (f.ground >= 0) on_ground_.emplace_back(element, f);
+    if (f.ground.moves()) on_ground_.emplace_back(element, f);
   }
 }
 
@@ -614,7 +614,7 @@ void ElementWorkOf<P>::add_acting_product(const ElementDofs& dofs, const double*
       out[dofs.a[k]] += force * f.a[k];
       for (int q = 0; q < P; ++q) out[dofs.v + k * P + q] += force * f.v[k][q];
     }
-    f.push_ground(force, out);
+    f.ground.push(force, f.a, out);
   }
 }
 

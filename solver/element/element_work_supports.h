@@ -128,7 +128,7 @@ template <int P>
 void ElementWorkOf<P>::add_ground_forces(const double* motion, double* out) const {
   for (const auto& [element, f] : on_ground_) {
     const ElementDofs& dofs = dofs_[element];
-    const double force = -f.tangent * f.of_ground(motion);
+    const double force = -f.tangent * f.ground.along(f.a, motion);
     for (int c = 0; c < 3; ++c) {
       out[dofs.a[c]] += force * f.a[c];
       for (int q = 0; q < P; ++q) out[dofs.v + c * P + q] += force * f.v[c][q];
@@ -150,8 +150,9 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
     Functional& f = acting_[k];
     double size = std::abs(f.law.gap) + f.size;
     for (int c = 0; c < 3; ++c) size += std::abs(f.a[c] * y[dofs.a[c]]);
-    double w = -f.law.gap - f.of_ground(y);
-    size += std::abs(f.of_ground(y));
+    const double moved = f.ground.along(f.a, y);
+    size += std::abs(moved);
+    double w = -f.law.gap - moved;
     for (int c = 0; c < 3; ++c) w += f.a[c] * y[dofs.a[c]];
     const double* row = f.v[0].data();
     for (int i = 0; i < kStrains; ++i) w += row[i] * v[i];
@@ -165,7 +166,7 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
     rounding += f.tangent * size * std::numeric_limits<double>::epsilon();
     for (int c = 0; c < 3; ++c) at_start[c] += force * f.a[c];
     for (int i = 0; i < kStrains; ++i) forces[i] += force * row[i];
-    f.push_ground(force, residual);
+    f.ground.push(force, f.a, residual);
     if (f.bend != 0.0 && regime_.linearised_at() == nullptr) {
       Functional tangential = data_.along_surface(f);
       tangential.tangent = force * f.bend;

@@ -59,11 +59,10 @@ RigidMotions::Reading RigidMotions::value(const SupportSpring& support, const Ei
     out.value += support.a[c] * y[dofs.a[c]];
     out.size += std::abs(support.a[c] * y[dofs.a[c]]);
     for (int q = 0; q < p; ++q) out.value += support.v[q][c] * y[dofs.v + c * p + q];
-    if (support.ground < 0) continue;
-    const double moved = support.a[c] * (c < 2 ? support.share[c] : 1.0) * y[support.ground + c];
-    out.value -= moved;
-    out.size += std::abs(moved);
   }
+  const double moved = support.ground.along(support.a, y.data());
+  out.value -= moved;
+  out.size += std::abs(moved);
   return out;
 }
 

@@ -1,9 +1,9 @@
 /// Observed orders of convergence of foundations with laws, on fixed meshes: the displacement of a beam's
 /// end.
 ///
-/// Where the law is smooth at all displacements the order is 2p. Contact ends and kinks of the law lie inside
-/// elements. At a jump of the law's slope EI w'''' has a kink: no polynomial comes nearer to w'' than h^3.
-/// The slope of the law is the stiffness in the equation of the error, whose solution no polynomial
+/// Where the law is smooth at all displacements that occur the order is 2p. Contact ends and kinks of the law
+/// lie inside elements. At a jump of the law's slope EI w'''' has a kink: no polynomial comes nearer to w''
+/// than h^3. The slope of the law is the stiffness in the equation of the error, whose solution no polynomial
 /// approaches nearer than h^2 there. Their product and the element's share h make the order min(2p, 6) of
 /// displacements; that of critical loads is min(2p, 7), see order_test.cpp. Where a kink lies in its element
 /// changes the error from mesh to mesh: the slope is that of the largest error of a mesh and all finer ones.
@@ -83,7 +83,7 @@ class LawOrder : public ::testing::TestWithParam<std::tuple<Type, Reaction>> {
   /// Expects the order of theory at each order of elements, where the errors leave the rounding over enough
   /// meshes.
   /// @param most order that kinks allow
-  /// @param range elements of the finest mesh over those of the coarsest, at least
+  /// @param range least ratio of the numbers of elements of the finest and the coarsest mesh of a fit
   static void expect_orders(const Model& model, double most, double range) {
     constexpr std::size_t kLeastMeshes = 4;
     const double exact = end_of(model, 150, 8);

@@ -109,23 +109,13 @@ TEST(TableLimits, OfARigidBarAreThoseOfTheClosedForm) {
     Random random(seed);
     const ReactionLaw law = drawn_table(random, random.between(0.2, 1.5));
     const double h = random.decades(-2.0, 0.0);
-    Model model;
-    model.nodes = {{"foot", 0.0, 0.0}, {"head", 0.0, 1.0}};
-    model.sections = {{"s", 1e13, 1e11, {}}};
-    model.members = {{"m", "foot", "head", "s", LineCurve{}, false, false}};
-    model.supports = {support("foot", "xy")};
-    Spring spring;
-    spring.id = "spring";
-    spring.at = at_node("foot");
-    spring.law = law;
-    model.springs = {spring};
+    Model model = bar_on_spring(law);
     model.loads = {force_at(at_node("head"), h, -1.0)};
     model.monitors = {{"w", at_node("head"), Component::rotation}};
     const RodLaw moment = LawAlong(law).at(0.0);
     const std::vector<double> exact =
         extrema_of([&](double t) { return moment.force(t) / (std::sin(t) + h * std::cos(t)); }, kBeyond);
     const std::vector<double> found = limits_on(model, drawn_mesh(random, 1, 4), {-kTo, kTo});
-    std::printf("bar %d %zu: %zu of %zu\n", int(seed), law.points.size(), found.size(), exact.size());
     for (const double load : found) {
       const auto near = [load](double of) { return std::abs(load / of - 1.0) < kLocated; };
       EXPECT_TRUE(std::ranges::any_of(exact, near)) << "seed " << seed << ", load factor " << load;

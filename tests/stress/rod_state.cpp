@@ -319,7 +319,8 @@ double entered(const RodReaction& stop, const ActingSupport& acting, double w) {
   return acting.force < 0.0 ? 1.0 : std::max(w - stop.gap, 0.0) / (1.0 + acting.force);
 }
 
-/// A stop as the state reports it. @param moved w, closer by some roundings
+/// Force of a stop, taken from the state under test, and its stiffness.
+/// @param moved displacement w of the stop, moved towards contact by the rounding that the check allows
 ActingSupport Evaluation::stopped(const RodReaction& reaction, double w, double moved) const {
   ActingSupport out;
   out.is_stop = true;

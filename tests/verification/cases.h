@@ -62,6 +62,21 @@ inline Model straight(double length, double EI, double EA, const std::string& st
   return model;
 }
 
+/// An upright bar of length 1, almost rigid, on a hinge with a spring in rotation.
+inline Model bar_on_spring(const ReactionLaw& law) {
+  Model model;
+  model.nodes = {{"foot", 0.0, 0.0}, {"head", 0.0, 1.0}};
+  model.sections = {{"s", 1e13, 1e11, {}}};
+  model.members = {{"m", "foot", "head", "s", LineCurve{}, false, false}};
+  model.supports = {support("foot", "xy")};
+  Spring spring;
+  spring.id = "spring";
+  spring.at = at_node("foot");
+  spring.law = law;
+  model.springs = {spring};
+  return model;
+}
+
 inline Analysis analysis_of(AnalysisType type, Discretization mesh) {
   Analysis analysis;
   analysis.type = type;

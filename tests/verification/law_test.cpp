@@ -23,21 +23,6 @@ ReactionLaw law_with(Type type, double stiffness, double capacity) {
   return law;
 }
 
-/// An upright bar of length 1, almost rigid, on a hinge with a spring in rotation.
-Model bar_on_spring(const ReactionLaw& law) {
-  Model model;
-  model.nodes = {{"foot", 0.0, 0.0}, {"head", 0.0, 1.0}};
-  model.sections = {{"s", 1e13, 1e11, {}}};
-  model.members = {{"m", "foot", "head", "s", LineCurve{}, false, false}};
-  model.supports = {support("foot", "xy")};
-  Spring spring;
-  spring.id = "spring";
-  spring.at = at_node("foot");
-  spring.law = law;
-  model.springs = {spring};
-  return model;
-}
-
 /// Largest value of f on [from, to], which has one maximum there, by golden sections.
 double largest(const std::function<double(double)>& f, double from, double to) {
   const double share = 0.5 * (std::sqrt(5.0) - 1.0);
