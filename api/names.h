@@ -26,12 +26,14 @@ struct Named {
 inline constexpr Named<AnalysisType> kAnalysisTypes[] = {{"buckling", AnalysisType::buckling},
                                                          {"critical", AnalysisType::critical},
                                                          {"path", AnalysisType::path},
-                                                         {"static", AnalysisType::static_}};
+                                                         {"static", AnalysisType::static_},
+                                                         {"vibration", AnalysisType::vibration}};
 inline constexpr Named<CriticalType> kCriticalTypes[] = {
     {"bifurcation", CriticalType::bifurcation},
     {"limit_max", CriticalType::limit_max},
     {"limit_min", CriticalType::limit_min},
-    {"broken_bifurcation", CriticalType::broken_bifurcation}};
+    {"broken_bifurcation", CriticalType::broken_bifurcation},
+    {"flutter", CriticalType::flutter}};
 inline constexpr Named<CriticalCause> kCriticalCauses[] = {{"smooth", CriticalCause::smooth},
                                                            {"contact", CriticalCause::contact}};
 

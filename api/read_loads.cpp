@@ -39,6 +39,7 @@ static Load read_point_load(Object& in) {
   in.required("force", load.force);
   in.optional("moment", load.moment);
   in.optional("pattern", load.pattern);
+  in.optional("follows", load.follows);
   return load;
 }
 

@@ -373,6 +373,21 @@ static void read(const Value& value, Imperfection& out) {
   read_tagged(value, kForms, out);
 }
 
+static void read(const Value& value, PointMass& out) {
+  Object in(value);
+  in.required("at", out.at);
+  in.optional("mass", out.mass);
+  in.optional("inertia", out.inertia);
+  in.finish();
+}
+
+static void read(const Value& value, Damping& out) {
+  Object in(value);
+  in.optional("mass", out.mass);
+  in.optional("stiffness", out.stiffness);
+  in.finish();
+}
+
 static void read(const Value& value, Monitor& out) {
   Object in(value);
   in.required("id", out.id);
@@ -408,6 +423,8 @@ void read(const Value& value, Model& model) {
     read_load_cases(*cases, model);
   }
   in.optional("imperfections", model.imperfections);
+  in.optional("masses", model.masses);
+  in.optional("damping", model.damping);
   in.optional("monitors", model.monitors);
   in.finish();
 }

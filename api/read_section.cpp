@@ -141,16 +141,20 @@ void read_optional_number(Object& in, std::string_view key, std::optional<AlongM
   }
 }
 
-/// Sets mass and expansion. @param area null: the section is given by its stiffness
-void read_mass(Object& in, const double* area, Section& out) {
+/// Sets mass, rotary inertia and expansion. @param shape null: the section is given by its stiffness
+void read_mass(Object& in, const SectionGeometry* shape, Section& out) {
   in.optional("expansion", out.expansion);
   read_optional_number(in, "mass", out.mass);
-  if (area == nullptr || !in.find("density")) {
+  read_optional_number(in, "rotary_inertia", out.rotary_inertia);
+  if (shape == nullptr || !in.find("density")) {
     return;
   }
   double density = 0.0;
   read_positive(in, "density", density);
-  out.mass = density * *area;
+  out.mass = density * shape->area;
+  if (!out.rotary_inertia) {
+    out.rotary_inertia = density * shape->second_moment;
+  }
   if (in.find("mass")) {
     in.find("density")->report("ambiguous", "give mass or density, not both");
   }
@@ -166,7 +170,7 @@ void set_stiffness(Object& in, double E, double G, const Shape& shape, Section& 
   if (G != 0.0) {
     out.GA = GA;
   }
-  read_mass(in, &shape.geometry.area, out);
+  read_mass(in, &shape.geometry, out);
   const double mass = out.mass.value_or(0.0).largest();
   const auto is_usable = [](double v) { return v > 0.0 && v <= kMaxMagnitude; };
   const auto is_nan = [](double v) { return v != v; };

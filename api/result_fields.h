@@ -121,6 +121,15 @@ inline constexpr auto kFields<ContactEvent> = std::tuple{
     field("zones_before", &ContactEvent::zones_before),
     field("zones_after", &ContactEvent::zones_after)};
 
+template <>
+inline constexpr auto kFields<Frequencies> = std::tuple{
+    field("omega_squared", &Frequencies::squares), field<kIfAny>("imaginary", &Frequencies::imaginary)};
+
+template <>
+inline constexpr auto kFields<Vibration> = std::tuple{
+    field("load_factor", &Vibration::load_factor), field("frequencies", &Vibration::frequencies),
+    field("error_estimates", &Vibration::error_estimates), field("modes", &Vibration::modes)};
+
 /// The lists have one value a point.
 template <>
 inline constexpr auto kFields<Branch> =
@@ -132,6 +141,7 @@ inline constexpr auto kFields<Branch> =
                field<kSent>("negative_eigenvalues", &Branch::negative_eigenvalues),
                field<kSent>("stiffness_ratio", &Branch::stiffness_ratio),
                field<kSent>("contact_fraction", &Branch::contact_fraction),
+               field<kStored | kIfAny | kNoColumn>("frequencies", &Branch::frequencies),
                field<kSent>("termination", &Branch::termination)};
 
 template <>
@@ -182,7 +192,8 @@ template <>
 inline constexpr auto kFields<StaticTable> = std::tuple{
     field("load_factor", &StaticTable::load_factor), field("monitors", &StaticTable::monitors),
     field("negative_eigenvalues", &StaticTable::negative_eigenvalues),
-    field("contact_fraction", &StaticTable::contact_fraction), field("state", &StaticTable::state)};
+    field("contact_fraction", &StaticTable::contact_fraction), field("state", &StaticTable::state),
+    field<kIfAny | kNoColumn>("frequencies", &StaticTable::frequencies)};
 
 template <>
 inline constexpr auto kFields<BucklingResult> =
@@ -296,6 +307,7 @@ inline constexpr auto kFields<Result> = std::tuple{
     field<kIfAny>("static", &Result::static_table),
     field("not_reached", &Result::not_reached),
     field<kIfAny>("buckling", &Result::buckling),
+    field<kIfAny>("vibrations", &Result::vibrations),
     internal(&Result::extremes),
     field<kIfAny>("extremes",
                   [](const Result& result) {
@@ -313,7 +325,7 @@ inline constexpr bool kAllHaveEveryMember = (has_every_member<Types>() && ...);
 static_assert(
     kAllHaveEveryMember<MemberMode, EffectiveLength, Mode, Softest, AtCritical, Summary, MeshAnswer,
                         Sensitivity, KoiterCoefficients, CriticalPoint, NodeMotion, NeutralMotion,
-                        ContactEvent, Branch, Resultant, MemberState, SupportState, SpringState,
+                        ContactEvent, Frequencies, Vibration, Branch, Resultant, MemberState, SupportState, SpringState,
                         FoundationState, State, StaticTable, BucklingResult, Extreme, ExtremeRange,
                         MemberExtremes, Warning, MeshReport, Diagnostics, MemberOffsets, WorstOffset, Failure,
                         Result>,

@@ -299,6 +299,8 @@ std::span<const ResultTable> tables_of(std::string_view analysis_type) {
       return kStatic;
     case AnalysisType::buckling:
       return kBuckling;
+    case AnalysisType::vibration:
+      return kStatic;
   }
   return {};
 }

@@ -57,6 +57,10 @@ void read(const Json& json, T& value) {
         read(item.value(), value.emplace_back());
       }
     }
+  } else if constexpr (kHasFields<T>) {
+    for_each_field<T>([&](const auto& one) {
+      if (json.contains(one.name)) read(json.at(std::string(one.name)), value.*one.get);
+    });
   } else {
     json.get_to(value);
   }

@@ -10,8 +10,9 @@
 
 namespace snapthrough {
 
-/// Type of a critical point. broken_bifurcation: missed by the path because of an imperfection.
-enum class CriticalType { bifurcation, limit_max, limit_min, broken_bifurcation };
+/// Type of a critical point. broken_bifurcation: missed by the path because of an imperfection. flutter: two
+/// natural frequencies meet under loads without a potential, and vibrations grow beyond.
+enum class CriticalType { bifurcation, limit_max, limit_min, broken_bifurcation, flutter };
 
 [[nodiscard]] constexpr bool is_limit(CriticalType type) {
   return type == CriticalType::limit_max || type == CriticalType::limit_min;
@@ -136,6 +137,13 @@ struct ContactEvent {
   int zones_after = 0;
 };
 
+/// Lowest eigenvalues mu = omega^2 of small free vibrations about a state, by ascending real part.
+struct Frequencies {
+  std::vector<double> squares;  ///< real parts of omega^2, (rad per unit of time)^2; negative: divergence
+  /// Imaginary parts; not zero for a pair that flutters. Empty where the loads have a potential.
+  std::vector<double> imaginary = {};
+};
+
 struct Branch {
   int id = 0;
   std::optional<int> parent;
@@ -146,6 +154,8 @@ struct Branch {
   /// Least stiffness over that of the unloaded structure at each point; empty: unknown.
   std::vector<std::optional<double>> stiffness_ratio;
   std::vector<NamedSeries> contact_fraction;  ///< foundation id, fraction of its range in contact
+  /// One for each point, if requested; empty: a support touches there without pressure.
+  std::vector<std::optional<Frequencies>> frequencies = {};
   std::string termination = {};               ///< code as in Summary
 };
 
@@ -202,6 +212,15 @@ struct StaticTable {
   std::vector<std::optional<int>> negative_eigenvalues;
   std::vector<NamedSeries> contact_fraction;  ///< foundation id, fraction of its range in contact
   std::vector<std::optional<int>> state;      ///< index into Result::states
+  std::vector<std::optional<Frequencies>> frequencies = {};  ///< as in Branch
+};
+
+/// Small free vibrations about the equilibrium at a load factor.
+struct Vibration {
+  double load_factor = 0.0;
+  Frequencies frequencies;
+  std::vector<std::optional<double>> error_estimates;  ///< absolute, of omega^2; empty: not estimated
+  std::vector<Mode> modes;  ///< of a pair that flutters the real and the imaginary part
 };
 
 /// Extreme value with its position.
@@ -321,6 +340,7 @@ struct Result {
   std::optional<StaticTable> static_table;
   std::vector<double> not_reached;  ///< requested load factors
   std::optional<BucklingResult> buckling;
+  std::optional<std::vector<Vibration>> vibrations = {};  ///< of the analysis `vibration`
   std::optional<std::vector<MemberExtremes>> extremes;  ///< if requested; empty: no state was reached
   std::optional<WorstOffset> worst_imperfection = {};   ///< if the model has a worst imperfection
   std::vector<Warning> warnings;

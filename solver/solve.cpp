@@ -38,7 +38,8 @@ void report_stop(const Hooks& hooks, Result& result) {
 
 /// Load factors with requested states or rows.
 std::vector<double> asked_load_factors(const Analysis& analysis) {
-  if (analysis.type == AnalysisType::static_) return analysis.load_factors;
+  if (analysis.type == AnalysisType::static_ || analysis.type == AnalysisType::vibration)
+    return analysis.load_factors;
   if (analysis.type == AnalysisType::buckling) return {};
   return analysis.output.at_load_factors;
 }
@@ -96,6 +97,10 @@ void analyse(const Model& model, const Analysis& analysis, const Hooks& hooks, c
       break;
     case AnalysisType::static_:
       run_static(model, analysis, structure, held.factors, hooks, result);
+      report_refused(held, result);
+      break;
+    case AnalysisType::vibration:
+      run_vibration(model, analysis, structure, held.factors, hooks, result);
       report_refused(held, result);
       break;
     case AnalysisType::buckling:

@@ -41,7 +41,7 @@ FineMesh* CriticalLoads::level(int number) {
     const Discretization& asked = analysis_.discretization;
     const double tolerance = asked.fixed_mesh ? 1e-9 : std::min(1e-7, 1e-3 * asked.accuracy);
     levels_.push_back(
-        std::make_unique<FineMesh>(with_finer_piece(model_, coarse, *mesh), follower_, tolerance));
+        std::make_unique<FineMesh>(with_finer_piece(model_, coarse, *mesh), model_, follower_, tolerance));
   }
   return levels_[number - 1].get();
 }

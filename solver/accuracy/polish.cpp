@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/discrete/transfer.h"
+#include "solver/events/flutter.h"
 #include "solver/events/locate.h"
 #include "solver/events/newton_event.h"
 #include "solver/path/segment.h"
@@ -35,8 +36,9 @@ std::optional<FoundPoint> same_as(const CriticalEvent& known, const std::vector<
 
 }  // namespace
 
-FineMesh::FineMesh(Structure structure, const PathFollower& measure, double tolerance)
+FineMesh::FineMesh(Structure structure, const Model& model, const PathFollower& measure, double tolerance)
     : structure_(std::move(structure)),
+      model_(model),
       problem_(structure_),
       follower_(problem_, patient(measure.options())),
       tolerance_(tolerance) {
@@ -83,6 +85,17 @@ std::optional<FoundPoint> FineMesh::near(const CriticalEvent& known, const PathP
   const LocatedEvents located = locate_critical_points(follower_.solver(), *before, *after, {tolerance_});
   if (!located.same_path) return std::nullopt;
   return same_as(known, located.events);
+}
+
+/// The flutter that begins within a distance of a point.
+std::optional<FoundPoint> FineMesh::flutter_near(const PathPoint& at, double reach) {
+  const auto before = corrected(at, -1.0, reach);
+  const auto after = corrected(at, 1.0, reach);
+  if (!before || !after) return std::nullopt;
+  const auto event =
+      FlutterSearch(structure_, model_).on_step(follower_.solver(), *before, *after, tolerance_).flutter;
+  if (!event) return std::nullopt;
+  return FoundPoint{*event, event->point};
 }
 
 std::optional<FoundPoint> FineMesh::follow(const CriticalEvent& known, const PathPoint& before,
@@ -134,6 +147,10 @@ std::optional<FoundPoint> FineMesh::find(const Structure& from, const CriticalEv
   const PathPoint at = transferred(from, known.point, null);
   const double path = follower_.norm().search_scale(at);
   if (!(path > 0.0)) return std::nullopt;
+  if (known.type == CriticalType::flutter) {
+    if (auto found = flutter_near(at, PolishLimits::reach * path)) return found;
+    return flutter_near(at, PolishLimits::reach * PolishLimits::widening * path);
+  }
   if (known.null.size() > 0)
     if (const auto event = by_newton(known, at, null)) return FoundPoint{*event, event->point};
   if (known.type == CriticalType::broken_bifurcation) return std::nullopt;

@@ -34,7 +34,8 @@ class FineMesh {
  public:
   /// @param measure follower that has started on a coarser mesh; its norm and load scale are used here
   /// @param tolerance relative load factor tolerance of located points
-  FineMesh(Structure structure, const PathFollower& measure, double tolerance);
+  /// @param model of the structure; kept by reference
+  FineMesh(Structure structure, const Model& model, const PathFollower& measure, double tolerance);
 
   [[nodiscard]] const Structure& structure() const { return structure_; }
   [[nodiscard]] EquilibriumProblem& problem() { return problem_; }
@@ -65,10 +66,12 @@ class FineMesh {
   [[nodiscard]] std::optional<CriticalEvent> by_newton(const CriticalEvent& known, const PathPoint& at,
                                                        Eigen::MatrixXd null);
   [[nodiscard]] std::optional<FoundPoint> near(const CriticalEvent& known, const PathPoint& at, double reach);
+  [[nodiscard]] std::optional<FoundPoint> flutter_near(const PathPoint& at, double reach);
   [[nodiscard]] std::optional<FoundPoint> follow(const CriticalEvent& known, const PathPoint& before,
                                                  double distance);
 
   Structure structure_;
+  const Model& model_;
   StructuralProblem problem_;
   PathFollower follower_;
   double tolerance_;

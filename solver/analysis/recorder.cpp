@@ -75,6 +75,11 @@ void Recorder::add_row(const PathPoint& point) {
   branch.stiffness_ratio.push_back(is_lost ? 0.0 : softest_.ratio(point));
   for (std::size_t i = 0; i < structure_.monitors.size(); ++i)
     branch.monitors[i].values.push_back(structure_.monitors[i].row.dot(point.y));
+  if (probe_) {
+    const auto found = probe_->at(point.y, point.lambda);
+    branch.frequencies.push_back(found ? std::optional(probe_->in_units(*found)) : std::nullopt);
+    if (found) result_.diagnostics.factorizations += found->factorizations;
+  }
   const auto contact = contact_fractions(structure_, model_, point.y);
   for (std::size_t i = 0; i < contact.size(); ++i) branch.contact_fraction[i].values.push_back(contact[i]);
 }
@@ -98,14 +103,15 @@ void Recorder::spread_points() {
 void Recorder::add_critical(const CriticalEvent& event) {
   CriticalPoint point = critical_point(structure_, event);
   point.branch = branch_;
-  if (event.null.size() > 0 && !is_limit(event.type)) point.imperfection = event.imperfection;
+  const bool flutters = event.type == CriticalType::flutter;
+  if (event.null.size() > 0 && !is_limit(event.type) && !flutters) point.imperfection = event.imperfection;
   // the bifurcation beside the path is no equilibrium of the imperfect structure
   const bool passed_by = event.type == CriticalType::broken_bifurcation;
   if (passed_by) point.negative_after = point.negative_before;
   if (!passed_by && analysis_.output.states != StateOutput::none &&
       analysis_.output.states != StateOutput::at_load_factors)
     point.state = add_state(event.point);
-  if (event.null.size() > 0 && point.multiplicity == 1)
+  if (event.null.size() > 0 && point.multiplicity == 1 && !flutters)
     if (const auto member = member_that_buckles(structure_, model_, event.null.col(0)))
       point.member = model_.members[*member].id;
   if (point.state && analysis_.output.modes)
@@ -117,7 +123,7 @@ void Recorder::add_critical(const CriticalEvent& event) {
     result_.summary.critical_load_factor = point.load_factor;
     result_.summary.critical_type = point.type;
     softest_.lose(event.point);
-    if (event.cause == CriticalCause::smooth) lost_ = event.point.arc_length;
+    if (event.cause == CriticalCause::smooth && !flutters) lost_ = event.point.arc_length;
     result_.summary.at_critical = at_critical(structure_, model_, event.point.y);
   }
   result_.critical_points.push_back(std::move(point));

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/analysis/frequency_probe.h"
 #include "solver/analysis/observer.h"
 #include "solver/analysis/path_points.h"
 #include "solver/analysis/softest_point.h"
@@ -32,7 +33,10 @@ class Recorder final : public PathObserver {
         zones_(structure, model),
         neutral_(structure, model, result.neutral_motion),
         observer_(model, analysis, structure),
-        reached_(analysis.output.at_load_factors.size(), 0) {}
+        reached_(analysis.output.at_load_factors.size(), 0) {
+    if (analysis.output.frequencies > 0 && analysis.type == AnalysisType::path)
+      probe_.emplace(structure, model, analysis.output.frequencies, false);
+  }
 
   /// What a path reports is recorded under `branch` from now on. To be called before each path.
   void begin_branch(int branch = 0, std::optional<int> parent = std::nullopt);
@@ -71,6 +75,7 @@ class Recorder final : public PathObserver {
   Result& result_;
   ContactZones zones_;
   NeutralMotionLog neutral_;
+  std::optional<FrequencyProbe> probe_;  ///< empty: no frequencies are requested
   Observer observer_;
   std::vector<char> reached_;  ///< requested load factors whose states were recorded
   PathPoints kept_;            ///< current branch, when `output.path_points` is requested

@@ -14,7 +14,9 @@
 #include "solver/analysis/analyses.h"
 #include "solver/analysis/monitor_watch.h"
 #include "solver/analysis/recorder.h"
+#include "solver/discrete/mass_matrix.h"
 #include "solver/events/branch.h"
+#include "solver/events/flutter.h"
 #include "solver/events/touching.h"
 #include "solver/hooks.h"
 #include "solver/numeric/cancelled.h"
@@ -117,6 +119,8 @@ const char* name_of(CriticalType type) {
       return "limit point (minimum)";
     case CriticalType::broken_bifurcation:
       return "broken bifurcation";
+    case CriticalType::flutter:
+      return "flutter";
   }
   return "";
 }
@@ -216,6 +220,15 @@ void warn_of_still_monitor(const Analysis& analysis, const MonitorWatch& watch, 
   result.warnings.push_back(
       {"monitor_still", "monitor \"" + analysis.stop.monitor->id +
                             "\" does not move on any path that was followed: its stop rule could not act"});
+}
+
+/// Warns of loads without a potential whose vibrations could not be tested.
+void warn_of_untested_flutter(const Model& model, const Structure& structure, Result& result) {
+  if (!structure.unsymmetric() || has_mass(model)) return;
+  result.warnings.push_back({"flutter_not_tested",
+                             "some loads follow the structure and have no potential: it may begin to flutter "
+                             "while it is stable by every static test. Only divergence was tested, because "
+                             "the model has no masses"});
 }
 
 /// Sets the failure of a path that finer meshes do not confirm.
@@ -373,6 +386,13 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   TraceRules rules = rules_of(model, analysis, structure);
   bound_negative(analysis, start.point->negative, watch, rules);
   if (analysis.type == AnalysisType::path) rules.zones = recorder.zone_counter();
+  std::optional<FlutterSearch> flutter;
+  if (structure.unsymmetric() && has_mass(model)) flutter.emplace(structure, model);
+  if (structure.unsymmetric())
+    rules.vibrations = [&](const PathPoint& from, const PathPoint& to) {
+      return flutter ? flutter->on_step(solver, from, to, rules.locate.tolerance)
+                     : divergence_on_step(solver, from, to);
+    };
   rules.finer_imperfection = [&loads](const CriticalEvent& event) { return loads.finer_imperfection(event); };
   for (const CriticalPoint& point : earlier)
     if (point.branch == 0) rules.expected.push_back(point.load_factor * structure.scales.load);
@@ -401,6 +421,7 @@ bool follow_on(const Model& model, const Analysis& analysis, const Structure& st
   describe_end(analysis, outcome, at, result);
   result.summary.message = loss_on_the_way(analysis, result) + result.summary.message + branches + meshes;
   warn_of_still_monitor(analysis, watch, result);
+  warn_of_untested_flutter(model, structure, result);
   recorder.finish();
   softest.report(structure, model, analysis, result);
   decays = bending_decays(structure, model, outcome.last.y);
@@ -455,7 +476,8 @@ double path_direction(const Analysis& analysis) {
 }
 
 bool is_loss_of_stability(const Analysis& analysis, const CriticalPoint& point) {
-  return point.branch == 0 && point.negative_before == 0 && point.negative_after > 0 &&
+  return point.branch == 0 && point.negative_before == 0 &&
+         (point.negative_after > 0 || point.type == CriticalType::flutter) &&
          (analysis.start || point.load_factor * path_direction(analysis) > 0.0);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/analysis/analyses.h"
+#include "solver/analysis/frequency_probe.h"
 #include "solver/analysis/observer.h"
 #include "solver/analysis/softest_point.h"
 #include "solver/events/critical_mode.h"
@@ -33,15 +34,20 @@ using Eigen::VectorXd;
 class StaticRows {
  public:
   /// @param asked whether a row is requested, one entry per load factor
+  /// @param visit may be empty
   StaticRows(const Model& model, const Analysis& analysis, const Structure& structure,
-             const std::vector<char>& asked)
+             const std::vector<char>& asked, const StateVisitor& visit)
       : model_(model),
         analysis_(analysis),
         structure_(structure),
         asked_(asked),
+        visit_(visit),
         observer_(model, analysis, structure),
         state_loads_(analysis.output.at_load_factors.begin(), analysis.output.at_load_factors.end()),
-        rows_(analysis.load_factors.size()) {}
+        rows_(analysis.load_factors.size()) {
+    if (analysis.output.frequencies > 0)
+      probe_.emplace(structure, model, analysis.output.frequencies, false);
+  }
 
   /// @param negative number of negative eigenvalues of the tangent at y
   void set(std::size_t index, const VectorXd& y, int negative);
@@ -64,6 +70,7 @@ class StaticRows {
     std::vector<double> contact;
     int negative = 0;
     std::optional<State> state;
+    std::optional<Frequencies> frequencies;
   };
   [[nodiscard]] bool wants_state(std::size_t index) const;
 
@@ -71,6 +78,8 @@ class StaticRows {
   const Analysis& analysis_;
   const Structure& structure_;
   const std::vector<char>& asked_;
+  const StateVisitor& visit_;
+  std::optional<FrequencyProbe> probe_;
   Observer observer_;
   std::set<double> state_loads_;  ///< load factors with requested states
   std::vector<std::optional<Row>> rows_;
@@ -87,9 +96,12 @@ bool StaticRows::wants_state(std::size_t index) const {
 void StaticRows::set(std::size_t index, const VectorXd& y, int negative) {
   const double lambda = analysis_.load_factors[index] * structure_.scales.load;
   Row row{VectorXd(static_cast<Eigen::Index>(structure_.monitors.size())),
-          contact_fractions(structure_, model_, y), negative, std::nullopt};
+          contact_fractions(structure_, model_, y), negative, std::nullopt, std::nullopt};
   for (std::size_t i = 0; i < structure_.monitors.size(); ++i)
     row.monitors[static_cast<Eigen::Index>(i)] = structure_.monitors[i].row.dot(y);
+  if (probe_)
+    if (const auto found = probe_->at(y, lambda)) row.frequencies = probe_->in_units(*found);
+  if (visit_) visit_(index, y, lambda);
   observer_.note_strain(y, lambda, 0);
   if (wants_state(index)) {
     row.state = make_state(structure_, model_, y, lambda, analysis_.output.points_per_member);
@@ -117,6 +129,7 @@ void StaticRows::move_to(Result& result) {
       table.monitors[m].values.push_back(row.monitors[static_cast<Eigen::Index>(m)]);
     for (std::size_t f = 0; f < table.contact_fraction.size(); ++f)
       table.contact_fraction[f].values.push_back(row.contact[f]);
+    if (probe_) table.frequencies.push_back(std::move(row.frequencies));
     table.state.emplace_back();
     if (!row.state) continue;
     table.state.back() = static_cast<int>(result.states.size());
@@ -329,8 +342,9 @@ void report_stability(const Analysis& analysis, Result& result) {
 }  // namespace
 
 void run_static(const Model& model, const Analysis& analysis, const Structure& structure,
-                const std::vector<char>& held, const Hooks& hooks, Result& result) {
-  StaticRows states(model, analysis, structure, held);
+                const std::vector<char>& held, const Hooks& hooks, Result& result,
+                const StateVisitor& visit) {
+  StaticRows states(model, analysis, structure, held, visit);
   result.summary.termination = "load_factors";
   result.summary.message = "equilibrium at " + std::to_string(analysis.load_factors.size()) + " load factors";
   if (!unless_cancelled([&] { compute(model, analysis, structure, hooks, states, result); }))

@@ -20,6 +20,7 @@ std::vector<Finding> check(const Model& model, const Analysis& analysis) {
   checks::check_something_proportional(place, model, analysis);
   checks::check_imperfections(place, model, names);
   checks::check_worst_imperfection(root, model, analysis);
+  checks::check_masses(place, model, names);
   checks::check_monitors(place, model, names);
   checks::check_analysis(root, model, analysis, names);
   checks::check_supported(root, model, analysis);

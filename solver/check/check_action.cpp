@@ -224,6 +224,20 @@ void check_moments(const LoadPlaces& places, const Model& data) {
   }
 }
 
+/// Reports following forces on nodes that have no rotation.
+void check_following(const LoadPlaces& places, const Model& data) {
+  const auto free = nodes_free_to_turn(data);
+  for (std::size_t i = 0; i < data.loads.size(); ++i) {
+    const auto* load = std::get_if<PointLoad>(&data.loads[i]);
+    if (load == nullptr || !load->follows || !free.contains(load->at.node)) continue;
+    (places.of(i) / "follows")
+        .report("needs_member", "node " + in_quotes(load->at.node) +
+                                    " has no rotation that the force could follow: " +
+                                    members_at(data, load->at.node) +
+                                    " hinged there; it needs a location on a member here");
+  }
+}
+
 }  // namespace
 
 void check_loads(const Place& model, const Model& data, const Names& names) {
@@ -239,6 +253,7 @@ void check_loads(const Place& model, const Model& data, const Names& names) {
                data.loads[i]);
   }
   check_moments(places, data);
+  check_following(places, data);
   check_section_data(model, data, names);
 }
 
@@ -248,7 +263,7 @@ void check_something_proportional(const Place& model, const Model& data, const A
   };
   const bool something = some_grow(data.loads) || some_grow(data.supports) || some_grow(data.springs) ||
                          some_grow(data.foundations);
-  if (!something && analysis.type != AnalysisType::static_) {
+  if (!something && analysis.type != AnalysisType::static_ && analysis.type != AnalysisType::vibration) {
     (model / "loads")
         .report("no_load",
                 "nothing grows with the load factor: at least one proportional load or "
@@ -262,6 +277,29 @@ void check_imperfections(const Place& model, const Model& data, const Names& nam
   for (std::size_t i = 0; i < data.imperfections.size(); ++i) {
     std::visit([&, place = imperfections / i](const auto& item) { check_imperfection(place, item, names); },
                data.imperfections[i]);
+  }
+}
+
+void check_masses(const Place& model, const Model& data, const Names& names) {
+  const Place masses = model / "masses";
+  require_count(masses, data.masses.size(), kMaxMasses);
+  require_not_negative(model / "damping" / "mass", data.damping.mass);
+  require_not_negative(model / "damping" / "stiffness", data.damping.stiffness);
+  for (std::size_t i = 0; i < data.masses.size(); ++i) {
+    const Place place = masses / i;
+    const PointMass& point = data.masses[i];
+    check_location(place / "at", point.at, names);
+    require_not_negative(place / "mass", point.mass);
+    require_not_negative(place / "inertia", point.inertia);
+    if (point.inertia == 0.0 || point.at.node.empty()) continue;
+    const bool turns = std::any_of(data.members.begin(), data.members.end(), [&](const Member& member) {
+      return (member.start == point.at.node && !is_rod(member) && !member.release_start_rotation) ||
+             (member.end == point.at.node && !is_rod(member) && !member.release_end_rotation);
+    });
+    if (!turns)
+      (place / "inertia")
+          .report("needs_member", "no member turns with node " + in_quotes(point.at.node) +
+                                      ": an inertia needs a location on a member here");
   }
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/check/check_parts.h"
+#include "solver/discrete/mass_matrix.h"
 #include "solver/model/limits.h"
 #include "solver/numeric/max_order.h"
 #include "solver/support/law.h"
@@ -199,6 +200,32 @@ void check_output(const Place& place, const Model& model, const OutputOptions& o
   }
 }
 
+/// Reports frequencies that are asked for without masses, or where no analysis gives them.
+void check_frequencies(const Place& root, const Model& model, const Analysis& analysis) {
+  const Place asked = root / "analysis" / "output" / "frequencies";
+  const bool vibrates = analysis.type == AnalysisType::vibration;
+  if (!require_between(asked, analysis.output.frequencies, 0, kMaxFrequencies)) return;
+  if (!vibrates && analysis.output.frequencies == 0) return;
+  if (vibrates && analysis.output.frequencies > 0)
+    asked.report("unsupported", "an analysis of type vibration gives as many frequencies as modes");
+  if (analysis.type == AnalysisType::critical || analysis.type == AnalysisType::buckling)
+    asked.report("unsupported", "only points of a path and states of a static analysis have frequencies");
+  if (!has_mass(model))
+    (root / "model" / "masses")
+        .report("no_mass", "frequencies need masses: give sections a mass or a density, or give point masses");
+  for (std::size_t i = 0; i < model.members.size(); ++i) {
+    const Member& member = model.members[i];
+    const auto section = std::find_if(model.sections.begin(), model.sections.end(),
+                                      [&](const Section& one) { return one.id == member.section; });
+    if (is_rod(member) && section != model.sections.end() && section->mass &&
+        section->mass->largest() > 0.0)
+      (root / "model" / "members" / i / "section")
+          .report("unsupported",
+                  "a one-sided member has no mass in vibrations: give it a section without mass, and its "
+                  "nodes point masses");
+  }
+}
+
 }  // namespace
 
 void check_analysis(const Place& root, const Model& model, const Analysis& analysis, const Names& names) {
@@ -223,6 +250,7 @@ void check_analysis(const Place& root, const Model& model, const Analysis& analy
   }
   check_output(place / "output", model, analysis.output);
   require_count(place / "sensitivities", analysis.sensitivities.size(), kMaxSensitivities);
+  check_frequencies(root, model, analysis);
   if (analysis.type == AnalysisType::static_ && analysis.output.states == StateOutput::at_load_factors) {
     check_static_states(place / "output" / "states" / "at_load_factors", analysis);
   }

@@ -32,6 +32,7 @@ void check_loads(const Place& model, const Model& data, const Names& names);
 void check_imperfections(const Place& model, const Model& data, const Names& names);
 /// Checks a worst imperfection against the rest of the request.
 void check_worst_imperfection(const Place& root, const Model& data, const Analysis& analysis);
+void check_masses(const Place& model, const Model& data, const Names& names);
 void check_monitors(const Place& model, const Model& data, Names& names);
 
 /// Requires ascending fractions, at most `most` of them; `check_value(place, value)` checks each value.

@@ -177,6 +177,9 @@ void check_sections(const Place& model, const Model& data, Names& names) {
     if (section.mass) {
       check_number(place / "mass", *section.mass, require_not_negative);
     }
+    if (section.rotary_inertia) {
+      check_number(place / "rotary_inertia", *section.rotary_inertia, require_not_negative);
+    }
     if (section.expansion) {
       require_finite(place / "expansion", *section.expansion);
     }

@@ -30,7 +30,8 @@ void report_items(const Place& root, std::string_view list, const Items& items, 
 
 /// Only static analyses are possible with linear geometry, because small displacements lose no stability.
 void find_linear_path(const Place& root, const Model&, const Analysis& analysis, const char* what) {
-  if (analysis.geometry == Geometry::linear && analysis.type != AnalysisType::static_) {
+  if (analysis.geometry == Geometry::linear && analysis.type != AnalysisType::static_ &&
+      analysis.type != AnalysisType::vibration) {
     report(root / "analysis" / "geometry", what);
   }
 }
@@ -44,7 +45,7 @@ void find_one_sided_shear_layer(const Place& root, const Model& model, const Ana
 
 constexpr Feature kNotYet[] = {
     {"a one-sided foundation with shear_stiffness", find_one_sided_shear_layer},
-    {"geometry linear with another analysis type than static", find_linear_path},
+    {"geometry linear with another analysis type than static or vibration", find_linear_path},
 };
 
 }  // namespace

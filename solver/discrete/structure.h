@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/discrete/follower_ends.h"
+#include "solver/discrete/follower_loads.h"
 #include "solver/discrete/node_spring.h"
 #include "solver/element/element_set.h"
 #include "solver/geometry/axes.h"
@@ -117,6 +117,9 @@ struct Structure {
   std::vector<std::vector<int>> parts_of_foundation;  ///< indices of `foundation_parts`, per foundation
   std::vector<std::string> skipped;
   std::vector<FollowerEnd> follower_ends;
+  std::vector<FollowerForce> follower_forces;
+  /// Whether some load has no potential, so that the tangent is not symmetric.
+  [[nodiscard]] bool unsymmetric() const { return !follower_ends.empty() || !follower_forces.empty(); }
   std::vector<double> euler_loads;       ///< pi^2 EI / l^2 of each member by its smallest EI
   std::vector<double> foundation_loads;  ///< increase by foundations, largest EI: 2 sqrt(K EI) + G
   TouchingSupports touching;             ///< empty unless touching supports were searched for

@@ -31,6 +31,7 @@
 
 #include "solver/element/augmented_factor.h"
 #include "solver/element/element_data.h"
+#include "solver/element/element_masses.h"
 #include "solver/numeric/sine_cosine.h"
 
 namespace snapthrough {
@@ -133,6 +134,7 @@ class ElementWorkOf final : public ElementWork {
   template <int N>
   void add_rows(const Shape& shape, const Tangent& t, AugmentedMatrix<N>& S);
   void collect_rows(int element, const double* y, double* residual);
+  void collect_masses(int element);
   [[nodiscard]] LinePressure pressure_of(const Shape& shape) const {
     const LinePressure& p = shape.pressure;
     const LinePressure& c = shape.constant_pressure;
@@ -444,6 +446,7 @@ void ElementWorkOf<P>::collect_rows(int element, const double* y, double* residu
     add_pressure(shape, dofs_[element], pressure.times(-1.0), y, residual);
     if (!linear_) collect_pressure(shape, pressure);
   }
+  if (regime_.masses != nullptr) collect_masses(element);
   Tangent& t = tangents_[element];
   t.first_row = static_cast<int>(rows_.size());
   t.row_count = static_cast<int>(acting_.size());

@@ -186,7 +186,7 @@ void ElementWorkOf<P>::add_support_residual(int element, const double* y, double
 /// with equal pressure or are carried by supports. Where the pressure changes, 1/2 p' (-y, x) is added: with
 /// u = (x, y) and the variation v, int p (y' v_x - x' v_y) = d(area) - 1/2 [p (x v_y - y v_x)] + 1/2 int p'
 /// (x v_y
-/// - y v_x). The tangent of the last term is skew and not among the element's (discrete/follower_ends.h).
+/// - y v_x). The tangent of the last term is skew and not among the element's (discrete/follower_loads.h).
 template <int P>
 void ElementWorkOf<P>::add_pressure(const Shape& shape, const ElementDofs& dofs, const LinePressure& pressure,
                                     const double* y, double* load) const {
@@ -260,6 +260,26 @@ void ElementWorkOf<P>::collect_pressure(const Shape& shape, const LinePressure& 
         acting_.push_back(f);
       }
     }
+  }
+}
+
+/// Appends the masses of an element to acting_, as supports of the stiffness -shift times mass.
+template <int P>
+void ElementWorkOf<P>::collect_masses(int element) {
+  const ElementMasses& masses = *regime_.masses;
+  const double h = shapes_[element].h;
+  for (int i = masses.first[element]; i < masses.first[element + 1]; ++i) {
+    const MassPlace& place = masses.places[i];
+    const auto integrals = std::span(place.integrals).first(P);
+    for (const std::array<double, 2> along : {std::array{1.0, 0.0}, std::array{0.0, 1.0}}) {
+      acting_.push_back(data_.penetration(along, h, integrals));
+      acting_.back().tangent = -regime_.shift * place.mass;
+    }
+    if (place.rotary == 0.0) continue;
+    Functional& turn = acting_.emplace_back();
+    turn.a[2] = 1.0;
+    for (int r = 0; r < P; ++r) turn.v[2][r] = h * integrals[r];
+    turn.tangent = -regime_.shift * place.rotary;
   }
 }
 

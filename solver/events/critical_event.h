@@ -29,6 +29,12 @@ struct CriticalEvent {
   double bracket_loads[2] = {};  ///< scaled load factors at the ends of the final bracket
 };
 
+/// @brief Whether a stable path loses stability at a point that it meets.
+[[nodiscard]] inline bool is_loss(const CriticalEvent& event) {
+  return event.type != CriticalType::broken_bifurcation && event.negative_before == 0 &&
+         (event.negative_after > 0 || event.type == CriticalType::flutter);
+}
+
 /// How exactly critical points are located.
 struct LocateOptions {
   double tolerance = 1e-9;  ///< on the load factor, relative

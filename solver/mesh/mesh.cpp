@@ -33,6 +33,7 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
     for (const auto& point : along) at.push_back(point.first);
   };
   for (const Spring& spring : model.springs) add_location(spring.at);
+  for (const PointMass& mass : model.masses) add_location(mass.at);
   for (const Foundation& foundation : model.foundations) {
     if (foundation.member != id) continue;
     at.insert(at.end(), foundation.range.begin(), foundation.range.end());
@@ -65,7 +66,7 @@ std::vector<double> breaks_of(const Model& model, int member, const AxisCurve& a
   }
   const Section& section = model.sections[index_of(model.sections, model.members[member].section)];
   for (const AlongMember* value : {&section.EA, &section.EI}) add_kinks(value->points);
-  for (const auto* value : {&section.GA, &section.mass})
+  for (const auto* value : {&section.GA, &section.mass, &section.rotary_inertia})
     if (*value) add_kinks((*value)->points);
   for (const double knot : axis.knots()) at.push_back(knot / axis.length());
   std::sort(at.begin(), at.end());

@@ -14,7 +14,7 @@
 
 namespace snapthrough {
 
-enum class AnalysisType { buckling, critical, path, static_ };
+enum class AnalysisType { buckling, critical, path, static_, vibration };
 enum class Geometry { nonlinear, linear };
 enum class FoundationRule { consistent, lumped };
 enum class ControlType { arc_length, load, displacement };
@@ -76,6 +76,7 @@ struct OutputOptions {
   std::optional<int> path_points;
   bool extremes = false;  ///< reports extreme section forces and displacements of each member
   bool modes = true;      ///< reports modes with the states of critical points
+  int frequencies = 0;    ///< number of natural frequencies at the points of a path and of static states
 };
 
 /// Number of the model with respect to which critical loads are differentiated.
@@ -104,7 +105,7 @@ struct StartState {
 
 struct Analysis {
   AnalysisType type = AnalysisType::critical;
-  int modes = 1;
+  int modes = 1;  ///< `buckling`: number of loads; `vibration`: number of frequencies
   bool reversed = false;  ///< `buckling`: also loads of the opposite sense, as negative load factors
   std::vector<double> load_factors{1.0};
   Unstable unstable = Unstable::refuse;

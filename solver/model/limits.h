@@ -26,6 +26,8 @@ inline constexpr std::size_t kMaxPointsAlong =
     1'000;  ///< points of a table of a law, or of a number along a member
 inline constexpr int kMaxHalfWaves = 1'000;
 inline constexpr int kMaxModes = 1'000;  ///< number of buckling modes, and of a mode imperfection
+inline constexpr std::size_t kMaxMasses = 20'000;
+inline constexpr int kMaxFrequencies = 100;  ///< natural frequencies at each point of a path
 inline constexpr int kMaxElementsPerMember = 100'000;
 inline constexpr long long kMaxElements = 1'000'000;  ///< elements of a fixed mesh, all members together
 inline constexpr int kMaxPointsPerMember = 100'001;

@@ -57,6 +57,8 @@ struct Section {
   AlongMember EI;                        ///< bending stiffness, > 0
   std::optional<AlongMember> GA;         ///< shear stiffness (shear area included), > 0
   std::optional<AlongMember> mass = {};  ///< mass per undeformed length, >= 0; needed by self weight
+  /// Moment of inertia of the mass about the section's centre, per undeformed length; empty: zero.
+  std::optional<AlongMember> rotary_inertia = {};
   std::optional<double> expansion = {};  ///< thermal strain per degree; needed by temperature loads
   bool operator==(const Section&) const = default;
 };
@@ -240,6 +242,7 @@ struct PointLoad {
   std::array<double, 2> force{0.0, 0.0};
   double moment = 0.0;
   Pattern pattern = Pattern::proportional;
+  bool follows = false;  ///< the force turns with the rotation of its place
   bool operator==(const PointLoad&) const = default;
 };
 /// Dead load per undeformed or projected length.
@@ -326,6 +329,24 @@ struct WorstImperfection {
 };
 using Imperfection = std::variant<SineImperfection, ModeImperfection, PointsImperfection, WorstImperfection>;
 
+/// Mass at a place, for vibration. Self weight does not include it.
+struct PointMass {
+  Location at;
+  double mass = 0.0;     ///< >= 0
+  double inertia = 0.0;  ///< moment of inertia about the place, >= 0
+  bool operator==(const PointMass&) const = default;
+};
+
+/// Viscous damping  mass M + stiffness K,  K the elastic stiffness of members and their joints.
+struct Damping {
+  double mass = 0.0;       ///< >= 0, per time
+  double stiffness = 0.0;  ///< >= 0, time
+  bool operator==(const Damping&) const = default;
+};
+[[nodiscard]] inline bool is_damped(const Damping& damping) {
+  return damping.mass > 0.0 || damping.stiffness > 0.0;
+}
+
 struct Monitor {
   std::string id;
   Location at;
@@ -345,6 +366,8 @@ struct Model {
   std::vector<Load> loads;  ///< loads of load cases stand last, case by case
   std::vector<LoadCase> load_cases;
   std::vector<Imperfection> imperfections;
+  std::vector<PointMass> masses;
+  Damping damping;  ///< of vibrations, where flutter is looked for
   std::vector<Monitor> monitors;
   bool operator==(const Model&) const = default;
 };

@@ -62,6 +62,11 @@ RealEigen real_eigen(const MatrixXd& A) {
   return {solver.eigenvalues().real(), solver.eigenvectors().real()};
 }
 
+ComplexEigen complex_eigen(const MatrixXd& A) {
+  const Eigen::EigenSolver<MatrixXd> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 MatrixXd inverse(const MatrixXd& A) {
   return with_fixed_size(A, [](const auto& a) { return MatrixXd(a.inverse()); });
 }

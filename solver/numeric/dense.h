@@ -34,6 +34,15 @@ struct RealEigen {
 /// @brief A x = v x for a square A whose eigenvalues are real but for rounding.
 [[nodiscard]] RealEigen real_eigen(const Eigen::MatrixXd& A);
 
+/// Eigenvalues, unsorted, and an eigenvector for each in the columns.
+struct ComplexEigen {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+};
+
+/// @brief A x = v x for a square A.
+[[nodiscard]] ComplexEigen complex_eigen(const Eigen::MatrixXd& A);
+
 /// @brief A^-1 by LU factors with row pivoting; not finite when A is singular.
 [[nodiscard]] Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
 

@@ -59,7 +59,7 @@ StructuralProblem::StructuralProblem(const Structure& structure)
     : structure_(structure),
       stop_(structure.stop),
       members_(structure.mesh.first.size() - 1),
-      follower_ends_(structure.follower_ends),
+      follower_loads_(structure.follower_ends, structure.follower_forces),
       springs_(structure.node_springs) {
   condensed_.resize(structure.dofs.size());
   condensed_forces_.resize(structure.dofs.size());
@@ -203,10 +203,12 @@ void StructuralProblem::constrain_residual(const VectorXd& y, double lambda, Vec
   }
 }
 
-/// Starts the residual with minus the dead loads.
-void StructuralProblem::start_residual(double lambda, VectorXd& f) const {
+/// Starts the residual with minus the loads at points and along members.
+void StructuralProblem::start_residual(const VectorXd& y, double lambda, const Regime& regime,
+                                       VectorXd& f) const {
   const auto [proportional, constant] = factors(lambda);
   f = -proportional * structure_.proportional_load - constant * structure_.constant_load;
+  if (!regime.small_displacements) follower_loads_.add_load(y, {-proportional, -constant}, f);
 }
 
 Regime StructuralProblem::regime_of(const Regime& asked) const {
@@ -218,7 +220,7 @@ Regime StructuralProblem::regime_of(const Regime& asked) const {
 void StructuralProblem::find_residual(const VectorXd& y, double lambda, const Regime& asked, VectorXd& f) {
   end_if_asked(stop_);
   const Regime regime = regime_of(asked);
-  start_residual(lambda, f);
+  start_residual(y, lambda, regime, f);
   elements_->add_residual(y, factors(lambda), regime, f);
   add_node_springs(y, regime, f);
   add_holds(y, f);
@@ -229,6 +231,7 @@ void StructuralProblem::load(const VectorXd& y, double, VectorXd& out) {
   const bool constant = stage_ == Stage::constant;
   out = constant ? structure_.constant_load : structure_.proportional_load;
   elements_->add_pressure_load(y, factor_rates(), structure_.geometry == Geometry::linear, out);
+  follower_loads_.add_load(y, factor_rates(), out);
   turn_to_supports(out);
   for (int j = 0; j < structure_.nodes; ++j) {
     const NodeSupport& support = structure_.supports[j];
@@ -321,7 +324,7 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
                                            VectorXd& f) {
   end_if_asked(stop_);
   const Regime regime = regime_of(asked);
-  start_residual(lambda, f);
+  start_residual(y, lambda, regime, f);
   elements_->linearise(y, factors(lambda), regime, f, condensed_);
   add_node_springs(y, regime, f);
   add_holds(y, f);
@@ -334,19 +337,19 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
     report.log_abs_det += chains_[m].ends().log_det;
   }
   assemble_nodes();
+  corrected_ = !follower_loads_.empty() && !regime.small_displacements;
   const auto holds = static_cast<int>(holds_ ? holds_->motions.cols() : 0);
   report.negative += factor_.inertia().negative - 3 * static_cast<int>(members_) - holds;
   report.log_abs_det += factor_.log_abs_det();
-  if (!follower_ends_.empty()) add_follower_ends(lambda, report);
+  if (corrected_) add_follower_loads(y, lambda, report);
   constrain_residual(y, lambda, f);
   return report;
 }
 
-/// Corrects determinant and count of the symmetric part for the follower ends. A nonsymmetric tangent changes
+/// Corrects determinant and count of the symmetric part for the follower loads. A nonsymmetric tangent changes
 /// its divergence stability where its determinant changes sign; the count is changed to match that parity.
-void StructuralProblem::add_follower_ends(double lambda, TangentReport& report) {
-  const auto [proportional, constant] = factors(lambda);
-  const double det = follower_ends_.prepare(proportional, constant, size(), [this](Eigen::Ref<MatrixXd> x) {
+void StructuralProblem::add_follower_loads(const VectorXd& y, double lambda, TangentReport& report) {
+  const double det = follower_loads_.prepare(y, factors(lambda), [this](Eigen::Ref<MatrixXd> x) {
     for (Index i = 0; i < x.cols(); ++i) release_rows(x.col(i));
     solve_symmetric(x);
   });
@@ -357,8 +360,8 @@ void StructuralProblem::add_follower_ends(double lambda, TangentReport& report) 
 
 void StructuralProblem::solve(Eigen::Ref<MatrixXd> x) {
   solve_symmetric(x);
-  if (follower_ends_.empty()) return;
-  for (Index i = 0; i < x.cols(); ++i) follower_ends_.correct(x.col(i));
+  if (!corrected_) return;
+  for (Index i = 0; i < x.cols(); ++i) follower_loads_.correct(x.col(i));
 }
 
 void StructuralProblem::subtract_fixed(const Eigen::Ref<const VectorXd>& rhs,
@@ -663,12 +666,13 @@ Eigen::MatrixXd StructuralProblem::find_products(const VectorXd& y, double lambd
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(y.size(), directions.cols());
   elements_->add_tangent_products(y, factors(lambda), regime, directions, products);
   springs_.evaluate(y, regime);
-  for (Index i = 0; i < directions.cols(); ++i) add_node_products(lambda, directions.col(i), products.col(i));
+  for (Index i = 0; i < directions.cols(); ++i) 
+    add_node_products(y, lambda, regime, directions.col(i), products.col(i));
   return products;
 }
 
 /// Dead loads and constraints have constant tangents; the ends of pressed lines follow the load factor.
-MatrixXd StructuralProblem::tangent_change(const VectorXd& y, double, const PathDirection& along,
+MatrixXd StructuralProblem::tangent_change(const VectorXd& y, double lambda, const PathDirection& along,
                                            const Eigen::Ref<const MatrixXd>& motions) {
   end_if_asked(stop_);
   MatrixXd change = MatrixXd::Zero(motions.rows(), motions.cols());
@@ -677,7 +681,7 @@ MatrixXd StructuralProblem::tangent_change(const VectorXd& y, double, const Path
   elements_->add_tangent_changes(y, rates, regime_of({}), along.y, motions, change);
   for (Index i = 0; i < change.cols(); ++i) {
     springs_.add_changes(y, structure_.geometry == Geometry::linear, along.y, motions.col(i), change.col(i));
-    follower_ends_.add_product(rates.proportional, rates.constant, motions.col(i), change.col(i));
+    follower_loads_.add_change(y, factors(lambda), rates, along.y, motions.col(i), change.col(i));
     release_rows(change.col(i));
   }
   return change;
@@ -688,7 +692,7 @@ VectorXd StructuralProblem::load_change(const VectorXd& y, double, const PathDir
   if (structure_.geometry == Geometry::linear) return change;
   const auto [proportional, constant] = factor_rates();
   elements_->add_pressure_change({proportional, constant}, along.y, change);
-  follower_ends_.add_product(-proportional, -constant, along.y, change);
+  follower_loads_.add_product(y, {-proportional, -constant}, along.y, change);
   release_rows(change);
   return change;
 }
@@ -700,10 +704,10 @@ void StructuralProblem::release_rows(Eigen::Ref<VectorXd> f) const {
 }
 
 /// Adds the tangent times `direction`, without the elements' part, in the row order of linearise().
-void StructuralProblem::add_node_products(double lambda, const Eigen::Ref<const VectorXd>& direction,
+void StructuralProblem::add_node_products(const VectorXd& y, double lambda, const Regime& regime,
+                                          const Eigen::Ref<const VectorXd>& direction,
                                           Eigen::Ref<VectorXd> out) const {
-  const auto [proportional, constant] = factors(lambda);
-  follower_ends_.add_product(proportional, constant, direction, out);
+  if (!regime.small_displacements) follower_loads_.add_product(y, factors(lambda), direction, out);
   springs_.add_products(direction, out);
   add_joint_moments(structure_, direction, out);
   if (holds_) {

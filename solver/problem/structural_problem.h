@@ -94,6 +94,14 @@ class StructuralProblem final : public EquilibriumProblem {
   /// Marked supports with the contact of set_touching(). @param frozen null: no marked support acts
   [[nodiscard]] TouchingSupports touching(const TouchingMarks& marks, const FrozenContact* frozen) const;
   [[nodiscard]] std::size_t touching_springs(const TouchingMarks& marks) const;
+  /// @brief Turns forces in global axes to the row order of linearise(), zero in constrained rows.
+  void to_rows(Eigen::Ref<Eigen::MatrixXd> forces) const {
+    for (Eigen::Index i = 0; i < forces.cols(); ++i) release_rows(forces.col(i));
+  }
+  /// @brief Whether solve() is with the transpose of the tangent, from the next linearise() on.
+  void set_transposed(bool transposed) { follower_loads_.transpose(transposed); }
+  /// Whether the tangent is not symmetric.
+  [[nodiscard]] bool is_unsymmetric() const { return !follower_loads_.empty(); }
 
  protected:
   /// Uses small displacements where the regime or the structure asks for them.
@@ -112,7 +120,7 @@ class StructuralProblem final : public EquilibriumProblem {
   void solve_nodes(Eigen::Ref<Eigen::VectorXd> rhs, Eigen::Ref<Eigen::VectorXd> reduced);
   void recover_member(std::size_t member, const ColumnLanes& lanes, Eigen::Ref<Eigen::MatrixXd> x) const;
   void turn_from_supports(Eigen::Ref<Eigen::VectorXd> x) const;
-  void add_follower_ends(double lambda, TangentReport& report);
+  void add_follower_loads(const Eigen::VectorXd& y, double lambda, TangentReport& report);
   /// Factors on the proportional and the constant actions at a load factor.
   [[nodiscard]] LoadFactors factors(double lambda) const {
     return stage_ == Stage::proportional ? LoadFactors{lambda, 1.0} : LoadFactors{0.0, lambda};
@@ -125,9 +133,11 @@ class StructuralProblem final : public EquilibriumProblem {
   void release_rows(Eigen::Ref<Eigen::VectorXd> f) const;
   [[nodiscard]] Regime regime_of(const Regime& asked) const;
   [[nodiscard]] TouchingDistance touching_distance(const Eigen::VectorXd& y) const;
-  void start_residual(double lambda, Eigen::VectorXd& f) const;
+  void start_residual(const Eigen::VectorXd& y, double lambda, const Regime& regime,
+                      Eigen::VectorXd& f) const;
   void turn_to_supports(Eigen::Ref<Eigen::VectorXd> f) const;
-  void add_node_products(double lambda, const Eigen::Ref<const Eigen::VectorXd>& direction,
+  void add_node_products(const Eigen::VectorXd& y, double lambda, const Regime& regime,
+                         const Eigen::Ref<const Eigen::VectorXd>& direction,
                          Eigen::Ref<Eigen::VectorXd> out) const;
   [[nodiscard]] double displacement(const NodeSpring& spring, const Eigen::VectorXd& y,
                                     bool small_displacements) const;
@@ -169,10 +179,11 @@ class StructuralProblem final : public EquilibriumProblem {
   std::vector<std::vector<int>> node_rows_;   ///< rows of each block of the node system
   std::vector<Eigen::MatrixXd> node_blocks_;  ///< blocks of members, node springs and held nodes
   std::vector<char> free_rotation_;  ///< node rotations without stiffness: all members are released there
+  bool corrected_ = false;  ///< solve() adds the nonsymmetric part of follower loads
   bool planned_ = false;             ///< node_rows_ and factor_ include the holds
   SymmetricIndefinite factor_;
   Eigen::MatrixXd node_rhs_, free_rhs_;  ///< scratch of solve()
-  FollowerEnds follower_ends_;
+  FollowerLoads follower_loads_;
   std::unique_ptr<ElementWork> elements_;
   NodeSpringWork springs_;
   SharedHolds holds_;

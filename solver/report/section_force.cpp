@@ -23,7 +23,7 @@ SectionForces::SectionForces(const Structure& structure, const Model& model, con
       reader_(structure, y, element),
       gauss_(gauss_legendre(structure.mesh.order + 2)) {
   for (int c = 0; c < 3; ++c) end_[c] = y[structure.dofs[element].m + c];
-  add_loads(lambda / structure.scales.load, 1.0);
+  add_loads(y, lambda / structure.scales.load, 1.0);
   if (pressure_.acts()) release_end_of_pressure(y);
   add_foundations(y);
   add_springs(y);
@@ -46,23 +46,27 @@ void SectionForces::release_end_of_pressure(const Eigen::VectorXd& y) {
   end_[1] += 0.5 * pressure_.at(1.0) * x;
 }
 
-void SectionForces::add_loads(double proportional, double constant) {
+void SectionForces::add_loads(const Eigen::VectorXd& y, double proportional, double constant) {
   for (const Load& load : model_.loads) {
     const Pattern pattern = std::visit([](const auto& l) { return l.pattern; }, load);
-    add_load(load, pattern == Pattern::proportional ? proportional : constant);
+    add_load(load, y, pattern == Pattern::proportional ? proportional : constant);
   }
 }
 
-void SectionForces::add_load(const Load& load, double factor) {
+void SectionForces::add_load(const Load& load, const Eigen::VectorXd& y, double factor) {
   const std::string& member = model_.members[cell_.member].id;
   const Scales& scales = structure_.scales;
   if (const auto* point = std::get_if<PointLoad>(&load); point != nullptr && point->at.member == member) {
     const MeshPlace place = place_of(structure_.mesh, cell_.member, point->at.fraction);
-    if (place.element == element_)
-      points_.push_back(
-          {place.xi,
-           {scales.scaled_force(factor * point->force[0]), scales.scaled_force(factor * point->force[1]),
-            scales.scaled_moment(factor * point->moment)}});
+    if (place.element == element_) {
+      const bool turns = point->follows && structure_.geometry == Geometry::nonlinear;
+      const double angle =
+          turns ? displacement_row(structure_, model_, point->at, {0.0, 0.0, 1.0}).dot(y) : 0.0;
+      const Vec2 force = global_force(LoadAxes::member, point->force, angle);
+      points_.push_back({place.xi,
+                         {scales.scaled_force(factor * force[0]), scales.scaled_force(factor * force[1]),
+                          scales.scaled_moment(factor * point->moment)}});
+    }
   }
   if (const auto* d = std::get_if<DistributedLoad>(&load); d != nullptr && d->member == member)
     add_dead(line_load(*d), factor);

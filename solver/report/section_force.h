@@ -51,8 +51,8 @@ class SectionForces {
     std::array<double, 3> action;
   };
 
-  void add_loads(double proportional, double constant);
-  void add_load(const Load& load, double factor);
+  void add_loads(const Eigen::VectorXd& y, double proportional, double constant);
+  void add_load(const Load& load, const Eigen::VectorXd& y, double factor);
   void add_dead(const LineLoad& load, double factor);
   void release_end_of_pressure(const Eigen::VectorXd& y);
   void add_foundations(const Eigen::VectorXd& y);

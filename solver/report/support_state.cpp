@@ -82,6 +82,7 @@ VectorXd add_springs(const Structure& structure, const Model& model, const Vecto
 VectorXd held_forces(const Structure& structure, ElementWork& elements, const VectorXd& y, double lambda,
                      const VectorXd& springs) {
   VectorXd f = -lambda * structure.proportional_load - structure.constant_load;
+  FollowerLoads(structure.follower_ends, structure.follower_forces).add_load(y, {-lambda, -1.0}, f);
   Regime regime;
   regime.small_displacements = structure.geometry == Geometry::linear;
   elements.add_residual(y, {lambda, 1.0}, regime, f);
@@ -196,6 +197,7 @@ void add_forces_on_structure(const Structure& structure, const Model& model, con
   add_foundations(structure, model, y, rigid, bearings);
   VectorXd loads = lambda * structure.proportional_load + structure.constant_load;
   elements->add_pressure_load(y, {lambda, 1.0}, structure.geometry == Geometry::linear, loads);
+  FollowerLoads(structure.follower_ends, structure.follower_forces).add_load(y, {lambda, 1.0}, loads);
   state.loads = rigid.unscaled(rigid.work(loads));
   loads += reactions;
   balance(rigid.work(loads), largest_force(structure, y, reactions), bearings);

@@ -23,7 +23,7 @@ std::optional<KoiterCoefficients> koiter_coefficients(const Model& model, const 
                                                       int& factorisations) {
   const CriticalEvent& event = at.event;
   if (event.type != CriticalType::bifurcation || event.cause == CriticalCause::contact ||
-      event.multiplicity > 1 || !structure.follower_ends.empty())
+      event.multiplicity > 1 || structure.unsymmetric())
     return std::nullopt;
   StructuralProblem problem(structure);
   problem.set_holds(event.point.holds);

@@ -174,7 +174,7 @@ Sensitivity VariationRate::find(double lambda) {
 std::optional<NoDerivative> refusal(const Structure& structure, const CriticalEvent& event) {
   if (event.cause == CriticalCause::contact) return NoDerivative::contact;
   if (event.multiplicity > 1) return NoDerivative::multiple;
-  if (!structure.follower_ends.empty()) return NoDerivative::unsymmetric;
+  if (structure.unsymmetric()) return NoDerivative::unsymmetric;
   return std::nullopt;
 }
 

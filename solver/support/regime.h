@@ -60,6 +60,8 @@ struct TouchingDistance {
   return any(marks.contacts) || any(marks.element_springs) || any(marks.node_springs);
 }
 
+struct ElementMasses;
+
 /// Factors on the proportional and the constant actions.
 struct LoadFactors {
   double proportional = 0.0;
@@ -82,6 +84,10 @@ struct Regime {
   /// Unknowns whose small displacements give the forces with which rods resist turning; null: those of the
   /// state.
   const Eigen::VectorXd* prestress = nullptr;
+  /// Masses M of which linearise() subtracts `shift` M from the tangent, see element/element_masses.h; null:
+  /// none. Residuals and products do not include them.
+  const ElementMasses* masses = nullptr;
+  double shift = 0.0;
 
   [[nodiscard]] bool bilateral() const { return contact == Contact::bilateral; }
   [[nodiscard]] bool is_frozen() const { return contact == Contact::frozen; }

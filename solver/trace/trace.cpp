@@ -60,6 +60,7 @@ class Tracer {
   [[nodiscard]] bool report_events(const std::vector<CriticalEvent>& events);
   [[nodiscard]] bool ends_path(const CriticalEvent& event);
   void report(const CriticalEvent& event);
+  static void add_flutter(const PathPoint& from, CriticalEvent flutter, std::vector<CriticalEvent>& events);
   void step_to_bifurcation(const std::vector<CriticalEvent>& events, const PathPoint& from, StepSize& size,
                            PathPoint& to);
   void find_modes(const PathPoint& from, PathPoint& to);
@@ -123,17 +124,27 @@ void Tracer::report(const CriticalEvent& event) {
   tell([&](PathObserver& observer) { observer.on_critical(event); });
 }
 
+/// Adds the flutter that begins on a step to its critical points.
+void Tracer::add_flutter(const PathPoint& from, CriticalEvent flutter, std::vector<CriticalEvent>& events) {
+  auto next = events.begin();
+  int count = from.negative;
+  for (; next != events.end() && next->point.arc_length <= flutter.point.arc_length; ++next)
+    if (next->type != CriticalType::broken_bifurcation) count = next->negative_after;
+  flutter.negative_before = flutter.negative_after = count;
+  events.insert(next, std::move(flutter));
+}
+
 /// Whether a critical point that was just reported ends the path.
 bool Tracer::ends_path(const CriticalEvent& event) {
   const bool passed_by = event.type == CriticalType::broken_bifurcation;
-  const bool lost = !passed_by && event.negative_before == 0 && event.negative_after > 0;
+  const bool lost = is_loss(event);
   const bool loss = rules_.first_loss_of_stability && lost;
   const bool last_limit = rules_.limit_points && limit_points_ >= *rules_.limit_points;
   const bool too_many = !passed_by && is_too_unstable(event.point, event.negative_after);
   if (!loss && !last_limit && !too_many) return false;
   PathPoint last = event.point;
   // Newton's method ends on either side of a singular tangent
-  if (too_many)
+  if (too_many || event.type == CriticalType::flutter)
     last.negative = event.negative_after;
   else if (event.null.size() > 0)
     last.negative = solver_.negative_at(last);
@@ -282,6 +293,13 @@ bool Tracer::next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& acc
     if (step.outcome == StepOutcome::step_underflow) return finish(TraceEnd::step_underflow, from);
     if (unpin_resisted_motions(solver_, from, to)) return unpinned_loses_stability(from);
     complete_step(from, size, to, step);
+  }
+  if (rules_.vibrations && step.located.same_path) {
+    StepVibrations vibrations = rules_.vibrations(from, to);
+    if (vibrations.hides_divergence && !step.onto_bifurcation)
+      step.located = {{}, false, {}};
+    else if (vibrations.flutter)
+      add_flutter(from, *std::move(vibrations.flutter), step.located.events);
   }
   const PathMetric& metric = follower_.norm().metric();
   const double cosine = metric.inner(from.tangent, from.tangent_lambda, to.tangent, to.tangent_lambda);

@@ -9,6 +9,7 @@
 
 #include "solver/events/contact_change.h"
 #include "solver/events/critical_event.h"
+#include "solver/events/flutter.h"
 #include "solver/path/path_point.h"
 
 namespace snapthrough {
@@ -52,6 +53,8 @@ struct TraceRules {
   /// Imperfection of a bifurcation on a finer mesh, to tell one that the mesh makes from a real one; none
   /// where that mesh does not have the bifurcation. Empty: there is no finer mesh.
   std::function<std::optional<double>(const CriticalEvent&)> finer_imperfection;
+  /// What following loads do on a step between two points; empty: every load has a potential.
+  std::function<StepVibrations(const PathPoint& from, const PathPoint& to)> vibrations;
   /// Largest imperfection of a bifurcation that the path passes by and that is reported.
   double most_broken = 1e-3;
 };

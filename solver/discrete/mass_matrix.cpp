@@ -1,0 +1,140 @@
+#include "solver/discrete/mass_matrix.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/model/id_index.h"
+#include "solver/numeric/gauss_rule.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::Index;
+
+const Section& section_on(const Model& model, int member) {
+  return model.sections[index_of(model.sections, model.members[member].section)];
+}
+
+/// Place on a member for a node: the end of a member that turns with the node, if there is one.
+std::pair<int, double> place_at_node(const Model& model, const std::string& node) {
+  std::pair<int, double> out{-1, 0.0};
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    const Member& member = model.members[m];
+    for (const bool at_start : {true, false}) {
+      if ((at_start ? member.start : member.end) != node) continue;
+      const bool turns = !(at_start ? member.release_start_rotation : member.release_end_rotation);
+      if (turns || out.first < 0) out = {static_cast<int>(m), at_start ? 0.0 : 1.0};
+      if (turns) return out;
+    }
+  }
+  return out;
+}
+
+MassPlace place_at(const CollocationRule& rule, double xi, double mass, double rotary) {
+  MassPlace out;
+  rule.integrals_at(xi, std::span(out.integrals).first(static_cast<std::size_t>(rule.order())));
+  out.mass = mass;
+  out.rotary = rotary;
+  return out;
+}
+
+/// Collects the places of each element, in the model's units of mass and the scaled unit of length.
+std::vector<std::vector<MassPlace>> collect_places(const Structure& structure, const Model& model) {
+  const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
+  const Quadrature gauss = gauss_legendre(rule.order() + 1);
+  const double unit = structure.scales.length;
+  std::vector<std::vector<MassPlace>> out(structure.dofs.size());
+  for (std::size_t e = 0; e < out.size(); ++e) {
+    const MeshElement& cell = structure.mesh.elements[e];
+    const Section& section = section_on(model, cell.member);
+    if (!section.mass && !section.rotary_inertia) continue;
+    const double length = length_of_element(structure, static_cast<int>(e)) * unit;
+    for (std::size_t q = 0; q < gauss.points.size(); ++q) {
+      const double at = cell.from + gauss.points[q] * (cell.to - cell.from);
+      const double weight = length * gauss.weights[q];
+      const double mass = weight * section.mass.value_or(0.0).at(at);
+      const double rotary = weight * section.rotary_inertia.value_or(0.0).at(at) / (unit * unit);
+      if (mass != 0.0 || rotary != 0.0) out[e].push_back(place_at(rule, gauss.points[q], mass, rotary));
+    }
+  }
+  for (const PointMass& point : model.masses) {
+    const auto [member, fraction] = point.at.member.empty()
+                                        ? place_at_node(model, point.at.node)
+                                        : std::pair{index_of(model.members, point.at.member), point.at.fraction};
+    if (member < 0) continue;
+    const MeshPlace place = place_of(structure.mesh, member, fraction);
+    out[static_cast<std::size_t>(place.element)].push_back(
+        place_at(rule, place.xi, point.mass, point.inertia / (unit * unit)));
+  }
+  return out;
+}
+
+}  // namespace
+
+bool has_mass(const Model& model) {
+  const auto is_heavy = [](const Section& section) { return section.mass && section.mass->largest() > 0.0; };
+  return std::any_of(model.sections.begin(), model.sections.end(), is_heavy) ||
+         std::any_of(model.masses.begin(), model.masses.end(),
+                     [](const PointMass& point) { return point.mass > 0.0 || point.inertia > 0.0; });
+}
+
+MassMatrix make_mass_matrix(const Structure& structure, const Model& model) {
+  const std::vector<std::vector<MassPlace>> places = collect_places(structure, model);
+  MassMatrix out;
+  double total = 0.0;
+  double length = 0.0;
+  out.elements.first.push_back(0);
+  for (std::size_t e = 0; e < places.size(); ++e) {
+    length += length_of_element(structure, static_cast<int>(e));
+    for (const MassPlace& place : places[e]) total += place.mass + place.rotary;
+    out.elements.places.insert(out.elements.places.end(), places[e].begin(), places[e].end());
+    out.elements.first.push_back(static_cast<int>(out.elements.places.size()));
+  }
+  // the unit of mass makes the mean mass per scaled length one
+  const double unit = total / length;
+  for (MassPlace& place : out.elements.places) {
+    place.mass /= unit;
+    place.rotary /= unit;
+  }
+  out.square = structure.scales.force / (structure.scales.length * unit);
+  out.scale = std::numeric_limits<double>::infinity();
+  for (std::size_t m = 0; m < model.members.size(); ++m) {
+    const double l = structure.axes[m]->length() / structure.scales.length;
+    out.scale = std::min(out.scale, structure.euler_loads[m] * std::numbers::pi * std::numbers::pi / (l * l));
+  }
+  return out;
+}
+
+Eigen::MatrixXd mass_products(const Structure& structure, const MassMatrix& masses,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+  const int p = structure.mesh.order;
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
+  for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
+    const ElementDofs& dofs = structure.dofs[e];
+    const double h = length_of_element(structure, static_cast<int>(e));
+    for (int i = masses.elements.first[e]; i < masses.elements.first[e + 1]; ++i) {
+      const MassPlace& place = masses.elements.places[static_cast<std::size_t>(i)];
+      for (int c = 0; c < 3; ++c) {
+        const double mass = c < 2 ? place.mass : place.rotary;
+        if (mass == 0.0) continue;
+        for (Index j = 0; j < motions.cols(); ++j) {
+          double moved = motions(dofs.a[c], j);
+          for (int r = 0; r < p; ++r) moved += h * place.integrals[r] * motions(dofs.v + c * p + r, j);
+          const double force = mass * moved;
+          out(dofs.a[c], j) += force;
+          for (int r = 0; r < p; ++r) out(dofs.v + c * p + r, j) += force * h * place.integrals[r];
+        }
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,34 @@
+#pragma once
+/// @file
+/// Masses of a structure on its mesh.
+
+#include <Eigen/Core>
+
+#include "solver/discrete/structure.h"
+#include "solver/element/element_masses.h"
+#include "solver/model/model.h"
+
+namespace snapthrough {
+
+/// Mass matrix M of a structure. Eigenvalues mu of J x = mu M x are squares of circular frequencies.
+struct MassMatrix {
+  ElementMasses elements;
+  double square = 1.0;  ///< omega^2 of mu = 1, in the model's units
+  /// Estimate of the lowest mu of a member alone: pi^4 EI / (m l^4), least over the members.
+  double scale = 1.0;
+};
+
+/// Whether any section or place has a mass that is not zero.
+[[nodiscard]] bool has_mass(const Model& model);
+
+/// @brief Masses of sections, integrated over the elements exactly for sections that do not taper, and point
+/// masses.
+/// @param model model of the structure
+/// @pre has_mass(model)
+[[nodiscard]] MassMatrix make_mass_matrix(const Structure& structure, const Model& model);
+
+/// @brief M times each column of `motions`: forces on the unknowns of the elements, in global axes.
+[[nodiscard]] Eigen::MatrixXd mass_products(const Structure& structure, const MassMatrix& masses,
+                                               const Eigen::Ref<const Eigen::MatrixXd>& motions);
+
+}  // namespace snapthrough

@@ -1,0 +1,83 @@
+#include "solver/events/damped_motions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "solver/numeric/dense.h"
+#include "solver/numeric/gauss_rule.h"
+
+namespace snapthrough {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Imaginary part of s over its magnitude below which a vibration counts as not oscillating.
+constexpr double kOscillates = 1e-6;
+
+/// Y^T K X: section forces of the motions times their strains, and moments of joints times their rotations.
+MatrixXd elastic_work(const Structure& structure, const Model& model, const MatrixXd& Y, const MatrixXd& X) {
+  const CollocationRule& rule = CollocationRule::of(structure.mesh.order);
+  const int p = rule.order();
+  MatrixXd out = MatrixXd::Zero(Y.cols(), X.cols());
+  for (std::size_t e = 0; e < structure.dofs.size(); ++e) {
+    const ElementShape shape = shape_of_element(structure, model, static_cast<int>(e));
+    const Index s = structure.dofs[e].s;
+    for (int q = 0; q < p; ++q) {
+      const double hb = shape.length * rule.weight(q);
+      const double compliance[] = {shape.axial_compliance[q], shape.shear_compliance[q],
+                                   shape.bending_compliance[q]};
+      for (int c = 0; c < 3; ++c)
+        out += hb * compliance[c] * Y.row(s + c * p + q).transpose() * X.row(s + c * p + q);
+    }
+  }
+  for (const JointSpring& joint : structure.joints)
+    out += joint.stiffness * (Y.row(joint.node_rotation) - Y.row(joint.end_rotation)).transpose() *
+           (X.row(joint.node_rotation) - X.row(joint.end_rotation));
+  return out;
+}
+
+/// B of J X = M X B for the columns of natural motions.
+MatrixXd action_of(const NaturalMotions& motions) {
+  const auto n = static_cast<Index>(motions.squares.size());
+  MatrixXd out = MatrixXd::Zero(n, n);
+  for (Index i = 0; i < n; ++i) {
+    const std::complex<double> mu = motions.squares[static_cast<std::size_t>(i)];
+    out(i, i) = mu.real();
+    const bool first = i + 1 < n && mu.imag() != 0.0 &&
+                       motions.squares[static_cast<std::size_t>(i) + 1] == std::conj(mu);
+    if (!first) continue;
+    // x = a + i b: J a = Re(mu) M a - Im(mu) M b, J b = Im(mu) M a + Re(mu) M b
+    out(i + 1, i + 1) = mu.real();
+    out(i + 1, i) = -mu.imag();
+    out(i, i + 1) = mu.imag();
+    ++i;
+  }
+  return out;
+}
+
+}  // namespace
+
+double largest_growth(const Structure& structure, const Model& model, const MassMatrix& masses,
+                      const NaturalMotions& right, const NaturalMotions& left) {
+  const MatrixXd& X = right.motions;
+  const MatrixXd& Y = left.motions;
+  const Index n = X.cols();
+  const double unit = std::sqrt(masses.square);  // of frequency
+  const MatrixXd M = Y.transpose() * mass_products(structure, masses, X);
+  const MatrixXd C = model.damping.mass / unit * M +
+                     model.damping.stiffness * unit * elastic_work(structure, model, Y, X);
+  MatrixXd companion = MatrixXd::Zero(2 * n, 2 * n);
+  companion.topRightCorner(n, n).setIdentity();
+  companion.bottomLeftCorner(n, n) = -action_of(right);
+  companion.bottomRightCorner(n, n) = -solve_row_pivoting(M, C);
+  const ComplexEigen found = complex_eigen(companion);
+  double growth = -std::numeric_limits<double>::infinity();
+  for (const std::complex<double>& s : found.values)
+    if (std::abs(s.imag()) > kOscillates * std::abs(s)) growth = std::max(growth, s.real() / std::abs(s));
+  return growth;
+}
+
+}  // namespace snapthrough

@@ -1,0 +1,244 @@
+#include "solver/events/flutter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "solver/events/damped_motions.h"
+#include "solver/path/segment.h"
+
+namespace snapthrough {
+namespace {
+
+using Squares = std::vector<std::complex<double>>;
+
+/// Limits of the search for flutter; ratios unless said otherwise.
+struct FlutterLimits {
+  static constexpr int tracked = 8;             ///< number of eigenvalues that are watched
+  static constexpr double tolerance = 1e-10;    ///< of the natural motions
+  static constexpr double real = 1e-6;          ///< imaginary part of an eigenvalue that counts as rounding
+  /// Distance of an eigenvalue in the middle of a step from the mean of the ends, over its distance from its
+  /// neighbours and from zero, beyond which the step is halved.
+  static constexpr double bend = 0.3;
+  static constexpr int halvings = 5;  ///< of one step
+  static constexpr int places = 4;    ///< pieces of a step at whose ends divergence_on_step() looks
+};
+
+bool is_real(const std::complex<double>& square) {
+  return std::abs(square.imag()) <= FlutterLimits::real * std::abs(square);
+}
+
+int pairs_in(const Squares& squares) {
+  return static_cast<int>(
+      std::count_if(squares.begin(), squares.end(),
+                    [](const auto& square) { return square.imag() > 0.0 && !is_real(square); }));
+}
+
+/// Mean and squared half difference of two eigenvalues: both are real, and smooth where the two meet.
+struct Pair {
+  double mean = 0.0;
+  double difference = 0.0;
+  std::size_t first = 0;  ///< index of the lower eigenvalue
+
+  /// Share of the mean by which the two differ, squared; negative for a conjugate pair.
+  [[nodiscard]] double relative() const { return difference / (mean * mean); }
+};
+
+Pair pair_at(const Squares& squares, std::size_t i) {
+  const std::complex<double> half = 0.5 * (squares[i + 1] - squares[i]);
+  return {0.5 * (squares[i] + squares[i + 1]).real(), (half * half).real(), i};
+}
+
+/// The pair nearest to a mean, among adjacent eigenvalues.
+Pair nearest(const Squares& squares, double mean) {
+  Pair best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < squares.size(); ++i) {
+    const Pair pair = pair_at(squares, i);
+    const double apart = (pair.mean - mean) * (pair.mean - mean) + std::abs(pair.difference);
+    if (apart < least) {
+      least = apart;
+      best = pair;
+    }
+  }
+  return best;
+}
+
+/// The pair that is complex at `to` and has no counterpart at `from`: the one farthest from those there.
+Pair new_pair(const Squares& from, const Squares& to) {
+  Pair best;
+  double most = -1.0;
+  for (std::size_t i = 0; i + 1 < to.size(); ++i) {
+    if (is_real(to[i]) || to[i + 1] != std::conj(to[i])) continue;
+    const Pair pair = pair_at(to, i);
+    double apart = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k + 1 < from.size(); ++k)
+      if (!is_real(from[k]) && from[k + 1] == std::conj(from[k]))
+        apart = std::min(apart, std::abs(pair_at(from, k).mean - pair.mean));
+    if (apart > most) {
+      most = apart;
+      best = pair;
+    }
+  }
+  return best;
+}
+
+/// Real eigenvalues below zero: motions that diverge.
+int diverging(const Squares& squares) {
+  return static_cast<int>(std::count_if(squares.begin(), squares.end(), [](const auto& square) {
+    return square.real() < 0.0 && is_real(square);
+  }));
+}
+
+/// Whether some eigenvalue in the middle of a step is so far from the mean of those at its ends that two
+/// eigenvalues may have met, or one may have passed zero, where neither end shows it.
+bool bends(const Squares& from, const Squares& middle, const Squares& to) {
+  const std::size_t n = std::min({from.size(), middle.size(), to.size()});
+  for (std::size_t i = 0; i < n; ++i) {
+    const double off = std::abs(middle[i] - 0.5 * (from[i] + to[i]));
+    double room = std::abs(middle[i]);
+    if (i > 0) room = std::min(room, std::abs(middle[i] - middle[i - 1]));
+    if (i + 1 < n) room = std::min(room, std::abs(middle[i + 1] - middle[i]));
+    if (off > FlutterLimits::bend * room) return true;
+  }
+  return false;
+}
+
+/// Whether the loads of a bracket agree.
+auto closed_by_load(double tolerance) {
+  return [tolerance](const PathPoint& a, const PathPoint& b, double) {
+    return std::abs(a.lambda - b.lambda) <= tolerance * std::max(std::abs(a.lambda), std::abs(b.lambda));
+  };
+}
+
+}  // namespace
+
+FlutterSearch::FlutterSearch(const Structure& structure, const Model& model)
+    : problem_(structure), structure_(structure), model_(model), masses_(make_mass_matrix(structure, model)) {
+  search_.count = FlutterLimits::tracked;
+  search_.tolerance = FlutterLimits::tolerance;
+  search_.counted = false;
+  left_ = search_;
+}
+
+FlutterSearch::Sample FlutterSearch::sample(const PathPoint& point) {
+  Sample out{point, natural_motions(structure_, problem_, masses_, point.y, point.lambda, search_), 0};
+  search_.near = out.motions.motions;
+  for (const auto& square : out.motions.squares)
+    search_.scale = std::max(search_.scale, std::abs(square));
+  out.pairs = pairs_in(out.motions.squares);
+  if (!is_damped(model_.damping)) return out;
+  left_.scale = search_.scale;
+  problem_.set_transposed(true);
+  const NaturalMotions left =
+      natural_motions(structure_, problem_, masses_, point.y, point.lambda, left_);
+  problem_.set_transposed(false);
+  left_.near = left.motions;
+  if (left.motions.cols() == out.motions.motions.cols())
+    out.growth = largest_growth(structure_, model_, masses_, out.motions, left);
+  return out;
+}
+
+const NaturalMotions& FlutterSearch::motions_at(const PathPoint& point) {
+  if (!last_ || last_->point.lambda != point.lambda || last_->point.y != point.y) last_ = sample(point);
+  return last_->motions;
+}
+
+StepVibrations FlutterSearch::on_step(PointSolver& solver, const PathPoint& from, const PathPoint& to,
+                                      double tolerance) {
+  static_cast<void>(motions_at(from));
+  const Sample first = *last_;
+  const Sample second = sample(to);
+  hides_divergence_ = diverging(first.motions.squares) == from.negative &&
+                      diverging(second.motions.squares) != to.negative;
+  StepVibrations out;
+  if (!hides_divergence_) out.flutter = between(solver, first, second, tolerance, 0);
+  out.hides_divergence = hides_divergence_;
+  if (!hides_divergence_) last_ = second;
+  return out;
+}
+
+/// Searches a piece of the path for flutter, in halves as long as its eigenvalues bend.
+std::optional<CriticalEvent> FlutterSearch::between(PointSolver& solver, const Sample& from, const Sample& to,
+                                                    double tolerance, int depth) {
+  const auto here = [&]() -> std::optional<CriticalEvent> {
+    if (is_damped(model_.damping))
+      return from.growth <= 0.0 && to.growth > 0.0 ? locate_growth(solver, from, to, tolerance) : std::nullopt;
+    return to.pairs > from.pairs ? locate(solver, from, to, tolerance) : std::nullopt;
+  };
+  if (depth == FlutterLimits::halvings) return here();
+  const auto point = Segment(solver, from.point, to.point).point_at(0.5);
+  if (!point) return here();
+  const Sample middle = sample(*point);
+  const int diverge = diverging(middle.motions.squares);
+  hides_divergence_ = hides_divergence_ || (from.point.negative == to.point.negative &&
+                                            diverge != diverging(from.motions.squares));
+  if (hides_divergence_) return std::nullopt;
+  if (!bends(from.motions.squares, middle.motions.squares, to.motions.squares) &&
+      middle.pairs == from.pairs && middle.pairs == to.pairs && !is_damped(model_.damping))
+    return std::nullopt;
+  if (auto found = between(solver, from, middle, tolerance, depth + 1)) return found;
+  return hides_divergence_ ? std::nullopt : between(solver, middle, to, tolerance, depth + 1);
+}
+
+StepVibrations divergence_on_step(PointSolver& solver, const PathPoint& from, const PathPoint& to) {
+  StepVibrations out;
+  if (from.negative != to.negative) return out;
+  const Segment segment(solver, from, to);
+  for (int i = 1; i < FlutterLimits::places && !out.hides_divergence; ++i) {
+    const auto point = segment.point_at(static_cast<double>(i) / FlutterLimits::places);
+    out.hides_divergence = point && (point->negative - from.negative) % 2 != 0;
+  }
+  return out;
+}
+
+/// The event at a root, with the motion of the pair nearest to a mean.
+CriticalEvent FlutterSearch::event_at(const LocatedRoot& root, const std::optional<double>& mean) {
+  CriticalEvent event;
+  event.type = CriticalType::flutter;
+  event.point = root.root;
+  event.multiplicity = 2;
+  event.bracket_loads[0] = root.before.lambda;
+  event.bracket_loads[1] = root.after.lambda;
+  const Sample at = sample(root.root);
+  const Squares& squares = at.motions.squares;
+  const Pair pair = nearest(squares, mean.value_or(squares.front().real()));
+  event.null = at.motions.motions.col(static_cast<Eigen::Index>(pair.first));
+  return event;
+}
+
+std::optional<CriticalEvent> FlutterSearch::locate_growth(PointSolver& solver, const Sample& from,
+                                                          const Sample& to, double tolerance) {
+  const RootFunction function{[&](const PathPoint& at) { return sample(at).growth; },
+                              closed_by_load(tolerance)};
+  const LocatedRoot root =
+      find_root(Segment(solver, from.point, to.point), from.growth, to.growth, function);
+  if (!root.found) return std::nullopt;
+  return event_at(root, std::nullopt);
+}
+
+std::optional<CriticalEvent> FlutterSearch::locate(PointSolver& solver, const Sample& from, const Sample& to,
+                                                   double tolerance) {
+  const Pair beyond = new_pair(from.motions.squares, to.motions.squares);
+  const Pair before = nearest(from.motions.squares, beyond.mean);
+  double mean = beyond.mean;
+  NaturalMotions motions;
+  const RootFunction function{
+      [&](const PathPoint& at) {
+        motions = sample(at).motions;
+        const Pair pair = nearest(motions.squares, mean);
+        mean = pair.mean;
+        return pair.difference;
+      },
+      closed_by_load(tolerance)};
+  const LocatedRoot root =
+      find_root(Segment(solver, from.point, to.point), before.difference, beyond.difference, function);
+  if (!root.found) return std::nullopt;
+  return event_at(root, mean);
+}
+
+}  // namespace snapthrough
