@@ -23,6 +23,7 @@ const kBetweenFields = {
   needs_member: 'component and location of a monitor',
   not_fixed: 'fixed and displacement of a support',
   no_load: 'loads, displacements of supports and type of analysis',
+  no_mass: 'masses of sections and points, and what the analysis gives',
   mechanism: 'the whole model',
   unsupported: 'geometry and type of analysis; reaction and shear_stiffness',
   not_increasing: 'a fraction or a point and the one before it',

@@ -14,7 +14,7 @@ const shapes: Schemas['Shape'][] = [
 ];
 
 const sections: Schemas['Section'][] = [
-  {id: 'stiffness', EA: 1e6, EI: 10, GA: 1e5, mass: 0.1, expansion: 1e-5},
+  {id: 'stiffness', EA: 1e6, EI: 10, GA: 1e5, mass: 0.1, rotary_inertia: 1e-4, expansion: 1e-5},
   {id: 'tapering', EA: {along: [[0, 1e6], [1, 2.5e5]], power: 2}, EI: {along: [[0, 10], [1, 0.625]], power: 4},
     GA: {along: [[0, 1e5], [1, 2.5e4]], power: 2}, mass: {along: [[0, 0.1], [1, 0.025]]}},
   {id: 'material', E: 2e8, A: 1e-2, I: 1e-5, nu: 0.3, shear_area: 8e-3, density: 7.85, expansion: 1e-5},
@@ -87,7 +87,7 @@ springs.push({id: 'follows', at: {node: 'a'}, direction: [0, 1], stiffness: 3,
 springs.push({id: 'stop', at: {node: 'a'}, direction: [1, 0], stiffness: 'rigid', reaction: 'compression_only'});
 
 const loads: Schemas['Load'][] = [
-  {type: 'point', at: {node: 'b'}, force: [0, -1], moment: 0.1, pattern: 'constant'},
+  {type: 'point', at: {node: 'b'}, force: [0, -1], moment: 0.1, pattern: 'constant', follows: true},
   {type: 'distributed', member: 'beam', force: [0, -1], range: [0, 1], per: 'horizontal', pattern: 'proportional'},
   {type: 'pressure', member: 'beam', value: 1, side: 'left', pattern: 'proportional'},
   {type: 'distributed', member: 'beam', force: {along: [[0, [0, 0]], [1, [0, -2]]]}, axes: 'member'},
@@ -120,6 +120,7 @@ const model: Schemas['Model'] = {
     {id: 'brace', start: 'a', end: 'b', section: 'stiffness', reaction: 'tension_only'},
   ],
   supports, springs, foundations, loads, load_cases: loadCases, imperfections,
+  masses: location.map((at) => ({at, mass: 2, inertia: 0.1})), damping: {mass: 0.1, stiffness: 1e-3},
   monitors: location.map((at, i) => ({id: `m${i}`, at, component: 'y'})),
 };
 
@@ -136,7 +137,7 @@ const analyses: Schemas['Analysis'][] = discretizations.flatMap((discretization)
   step: {initial: 0.1, min: 1e-6, max: 0.5, direction: -1},
   stop: {limit_points: 2, load_factor: [-1, 5], monitor: {id: 'm0', range: [-1, 1]}, steps: 100, negative_eigenvalues: 4},
   branches: {follow: 'all', limit: 3},
-  output: {states: one, points_per_member: 51, path_points: 200, extremes: true},
+  output: {states: one, points_per_member: 51, path_points: 200, extremes: true, frequencies: 3},
   sensitivities: ['/model/nodes/0/x'], koiter: true,
 })));
 
