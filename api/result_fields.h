@@ -122,13 +122,13 @@ inline constexpr auto kFields<ContactEvent> = std::tuple{
     field("zones_after", &ContactEvent::zones_after)};
 
 template <>
-inline constexpr auto kFields<Frequencies> = std::tuple{
-    field("omega_squared", &Frequencies::squares), field<kIfAny>("imaginary", &Frequencies::imaginary)};
+inline constexpr auto kFields<Frequencies> = std::tuple{field("omega_squared", &Frequencies::squares),
+                                                        field<kIfAny>("imaginary", &Frequencies::imaginary)};
 
 template <>
-inline constexpr auto kFields<Vibration> = std::tuple{
-    field("load_factor", &Vibration::load_factor), field("frequencies", &Vibration::frequencies),
-    field("error_estimates", &Vibration::error_estimates), field("modes", &Vibration::modes)};
+inline constexpr auto kFields<Vibration> =
+    std::tuple{field("load_factor", &Vibration::load_factor), field("frequencies", &Vibration::frequencies),
+               field("error_estimates", &Vibration::error_estimates), field("modes", &Vibration::modes)};
 
 /// The lists have one value a point.
 template <>
@@ -189,11 +189,13 @@ inline constexpr auto kFields<State> =
 
 /// The lists have one value a load factor.
 template <>
-inline constexpr auto kFields<StaticTable> = std::tuple{
-    field("load_factor", &StaticTable::load_factor), field("monitors", &StaticTable::monitors),
-    field("negative_eigenvalues", &StaticTable::negative_eigenvalues),
-    field("contact_fraction", &StaticTable::contact_fraction), field("state", &StaticTable::state),
-    field<kIfAny | kNoColumn>("frequencies", &StaticTable::frequencies)};
+inline constexpr auto kFields<StaticTable> =
+    std::tuple{field("load_factor", &StaticTable::load_factor),
+               field("monitors", &StaticTable::monitors),
+               field("negative_eigenvalues", &StaticTable::negative_eigenvalues),
+               field("contact_fraction", &StaticTable::contact_fraction),
+               field("state", &StaticTable::state),
+               field<kIfAny | kNoColumn>("frequencies", &StaticTable::frequencies)};
 
 template <>
 inline constexpr auto kFields<BucklingResult> =
@@ -325,10 +327,10 @@ inline constexpr bool kAllHaveEveryMember = (has_every_member<Types>() && ...);
 static_assert(
     kAllHaveEveryMember<MemberMode, EffectiveLength, Mode, Softest, AtCritical, Summary, MeshAnswer,
                         Sensitivity, KoiterCoefficients, CriticalPoint, NodeMotion, NeutralMotion,
-                        ContactEvent, Frequencies, Vibration, Branch, Resultant, MemberState, SupportState, SpringState,
-                        FoundationState, State, StaticTable, BucklingResult, Extreme, ExtremeRange,
-                        MemberExtremes, Warning, MeshReport, Diagnostics, MemberOffsets, WorstOffset, Failure,
-                        Result>,
+                        ContactEvent, Frequencies, Vibration, Branch, Resultant, MemberState, SupportState,
+                        SpringState, FoundationState, State, StaticTable, BucklingResult, Extreme,
+                        ExtremeRange, MemberExtremes, Warning, MeshReport, Diagnostics, MemberOffsets,
+                        WorstOffset, Failure, Result>,
     "A member of solver/result.h has no line in its table: add field(...), or internal(...) where documents "
     "do not have it.");
 

@@ -156,7 +156,7 @@ struct Branch {
   std::vector<NamedSeries> contact_fraction;  ///< foundation id, fraction of its range in contact
   /// One for each point, if requested; empty: a support touches there without pressure.
   std::vector<std::optional<Frequencies>> frequencies = {};
-  std::string termination = {};               ///< code as in Summary
+  std::string termination = {};  ///< code as in Summary
 };
 
 /// Force, and moment about the axes' origin, at the deformed positions (linear geometry: undeformed).
@@ -341,8 +341,8 @@ struct Result {
   std::vector<double> not_reached;  ///< requested load factors
   std::optional<BucklingResult> buckling;
   std::optional<std::vector<Vibration>> vibrations = {};  ///< of the analysis `vibration`
-  std::optional<std::vector<MemberExtremes>> extremes;  ///< if requested; empty: no state was reached
-  std::optional<WorstOffset> worst_imperfection = {};   ///< if the model has a worst imperfection
+  std::optional<std::vector<MemberExtremes>> extremes;    ///< if requested; empty: no state was reached
+  std::optional<WorstOffset> worst_imperfection = {};     ///< if the model has a worst imperfection
   std::vector<Warning> warnings;
   MeshReport discretization;
   Diagnostics diagnostics;

@@ -98,9 +98,8 @@ Vibration vibration_at(const Model& model, const Analysis& analysis, const Level
   }
   if (!unsymmetric) out.frequencies.imaginary.clear();
   for (std::size_t i = 0; i < motions.squares.size(); ++i) {
-    out.error_estimates.push_back(i < errors.size() && errors[i].error
-                                      ? std::optional(*errors[i].error * level.unit)
-                                      : std::nullopt);
+    out.error_estimates.push_back(
+        i < errors.size() && errors[i].error ? std::optional(*errors[i].error * level.unit) : std::nullopt);
     out.modes.push_back(mode_displacements(*level.structure, model,
                                            motions.motions.col(static_cast<Eigen::Index>(i)),
                                            analysis.output.points_per_member));
@@ -113,8 +112,8 @@ Vibration vibration_at(const Model& model, const Analysis& analysis, const Level
 void report_missing(const Analysis& analysis, const Level& level, Result& result) {
   for (std::size_t row = 0; row < level.rows.size(); ++row) {
     const double factor = analysis.load_factors[row];
-    const bool reached = std::find(result.not_reached.begin(), result.not_reached.end(), factor) ==
-                         result.not_reached.end();
+    const bool reached =
+        std::find(result.not_reached.begin(), result.not_reached.end(), factor) == result.not_reached.end();
     if (!level.rows[row]) {
       if (reached)
         fail(result, "no_linear_vibration",
@@ -158,9 +157,9 @@ void run_vibration(const Model& model, const Analysis& analysis, const Structure
     if (now.result.failure || hooks.stop.stop_requested()) break;
     auto mesh = finer_mesh(now.structure->mesh);
     if (!mesh) break;
-    Level next = solve_on(model, analysis,
-                          std::make_shared<const Structure>(on_mesh(structure, model, *std::move(mesh))), held,
-                          hooks);
+    Level next =
+        solve_on(model, analysis,
+                 std::make_shared<const Structure>(on_mesh(structure, model, *std::move(mesh))), held, hooks);
     factorizations += next.result.diagnostics.factorizations;
     if (next.result.failure) break;
     within = compare(now, next, accuracy, errors);
@@ -176,7 +175,8 @@ void run_vibration(const Model& model, const Analysis& analysis, const Structure
   report_mesh(*now.structure, level, result);
   report_rows(model, analysis, now, errors, result);
   if (!within && !analysis.discretization.fixed_mesh && !result.failure)
-    fail(result, "not_confirmed", "finer meshes do not confirm all frequencies within the accuracy asked for");
+    fail(result, "not_confirmed",
+         "finer meshes do not confirm all frequencies within the accuracy asked for");
 }
 
 }  // namespace snapthrough

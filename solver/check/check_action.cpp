@@ -231,10 +231,9 @@ void check_following(const LoadPlaces& places, const Model& data) {
     const auto* load = std::get_if<PointLoad>(&data.loads[i]);
     if (load == nullptr || !load->follows || !free.contains(load->at.node)) continue;
     (places.of(i) / "follows")
-        .report("needs_member", "node " + in_quotes(load->at.node) +
-                                    " has no rotation that the force could follow: " +
-                                    members_at(data, load->at.node) +
-                                    " hinged there; it needs a location on a member here");
+        .report("needs_member",
+                "node " + in_quotes(load->at.node) + " has no rotation that the force could follow: " +
+                    members_at(data, load->at.node) + " hinged there; it needs a location on a member here");
   }
 }
 

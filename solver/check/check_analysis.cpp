@@ -212,13 +212,13 @@ void check_frequencies(const Place& root, const Model& model, const Analysis& an
     asked.report("unsupported", "only points of a path and states of a static analysis have frequencies");
   if (!has_mass(model))
     (root / "model" / "masses")
-        .report("no_mass", "frequencies need masses: give sections a mass or a density, or give point masses");
+        .report("no_mass",
+                "frequencies need masses: give sections a mass or a density, or give point masses");
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     const Member& member = model.members[i];
     const auto section = std::find_if(model.sections.begin(), model.sections.end(),
                                       [&](const Section& one) { return one.id == member.section; });
-    if (is_rod(member) && section != model.sections.end() && section->mass &&
-        section->mass->largest() > 0.0)
+    if (is_rod(member) && section != model.sections.end() && section->mass && section->mass->largest() > 0.0)
       (root / "model" / "members" / i / "section")
           .report("unsupported",
                   "a one-sided member has no mass in vibrations: give it a section without mass, and its "

@@ -114,8 +114,7 @@ double FollowerLoads::prepare(const VectorXd& y, const LoadFactors& factors,
 void FollowerLoads::correct(Eigen::Ref<VectorXd> x) const { x -= W_ * (inverse_ * read(x)); }
 
 void FollowerLoads::add_product(const VectorXd& y, const LoadFactors& factors,
-                                const Eigen::Ref<const VectorXd>& direction,
-                                Eigen::Ref<VectorXd> out) const {
+                                const Eigen::Ref<const VectorXd>& direction, Eigen::Ref<VectorXd> out) const {
   for (const FollowerEnd& end : ends_) {
     const double c = amount(end, factors);
     const Vec2 u = displacement(end, direction);

@@ -67,8 +67,7 @@ class FollowerLoads {
   void correct(Eigen::Ref<Eigen::VectorXd> x) const;
   /// Adds L R^T direction at the unknowns y to `out`.
   void add_product(const Eigen::VectorXd& y, const LoadFactors& factors,
-                   const Eigen::Ref<const Eigen::VectorXd>& direction,
-                   Eigen::Ref<Eigen::VectorXd> out) const;
+                   const Eigen::Ref<const Eigen::VectorXd>& direction, Eigen::Ref<Eigen::VectorXd> out) const;
   /// @brief Adds the derivative of L R^T along a direction, times `direction`.
   /// @param rates changes of the load factors along it
   void add_change(const Eigen::VectorXd& y, const LoadFactors& factors, const LoadFactors& rates,

@@ -65,9 +65,9 @@ std::vector<std::vector<MassPlace>> collect_places(const Structure& structure, c
     }
   }
   for (const PointMass& point : model.masses) {
-    const auto [member, fraction] = point.at.member.empty()
-                                        ? place_at_node(model, point.at.node)
-                                        : std::pair{index_of(model.members, point.at.member), point.at.fraction};
+    const auto [member, fraction] =
+        point.at.member.empty() ? place_at_node(model, point.at.node)
+                                : std::pair{index_of(model.members, point.at.member), point.at.fraction};
     if (member < 0) continue;
     const MeshPlace place = place_of(structure.mesh, member, fraction);
     out[static_cast<std::size_t>(place.element)].push_back(
@@ -113,7 +113,7 @@ MassMatrix make_mass_matrix(const Structure& structure, const Model& model) {
 }
 
 Eigen::MatrixXd mass_products(const Structure& structure, const MassMatrix& masses,
-                                 const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+                              const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const int p = structure.mesh.order;
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
   for (std::size_t e = 0; e < structure.dofs.size(); ++e) {

@@ -29,6 +29,6 @@ struct MassMatrix {
 
 /// @brief M times each column of `motions`: forces on the unknowns of the elements, in global axes.
 [[nodiscard]] Eigen::MatrixXd mass_products(const Structure& structure, const MassMatrix& masses,
-                                               const Eigen::Ref<const Eigen::MatrixXd>& motions);
+                                            const Eigen::Ref<const Eigen::MatrixXd>& motions);
 
 }  // namespace snapthrough

@@ -46,8 +46,8 @@ MatrixXd action_of(const NaturalMotions& motions) {
   for (Index i = 0; i < n; ++i) {
     const std::complex<double> mu = motions.squares[static_cast<std::size_t>(i)];
     out(i, i) = mu.real();
-    const bool first = i + 1 < n && mu.imag() != 0.0 &&
-                       motions.squares[static_cast<std::size_t>(i) + 1] == std::conj(mu);
+    const bool first =
+        i + 1 < n && mu.imag() != 0.0 && motions.squares[static_cast<std::size_t>(i) + 1] == std::conj(mu);
     if (!first) continue;
     // x = a + i b: J a = Re(mu) M a - Im(mu) M b, J b = Im(mu) M a + Re(mu) M b
     out(i + 1, i + 1) = mu.real();
@@ -67,8 +67,8 @@ double largest_growth(const Structure& structure, const Model& model, const Mass
   const Index n = X.cols();
   const double unit = std::sqrt(masses.square);  // of frequency
   const MatrixXd M = Y.transpose() * mass_products(structure, masses, X);
-  const MatrixXd C = model.damping.mass / unit * M +
-                     model.damping.stiffness * unit * elastic_work(structure, model, Y, X);
+  const MatrixXd C =
+      model.damping.mass / unit * M + model.damping.stiffness * unit * elastic_work(structure, model, Y, X);
   MatrixXd companion = MatrixXd::Zero(2 * n, 2 * n);
   companion.topRightCorner(n, n).setIdentity();
   companion.bottomLeftCorner(n, n) = -action_of(right);

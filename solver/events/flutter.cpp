@@ -18,14 +18,16 @@ using Squares = std::vector<std::complex<double>>;
 
 /// Limits of the search for flutter; ratios unless said otherwise.
 struct FlutterLimits {
-  static constexpr int tracked = 8;             ///< number of eigenvalues that are watched
-  static constexpr double tolerance = 1e-10;    ///< of the natural motions
-  static constexpr double real = 1e-6;          ///< imaginary part of an eigenvalue that counts as rounding
-  /// Distance of an eigenvalue in the middle of a step from the mean of the ends, over its distance from its
-  /// neighbours and from zero, beyond which the step is halved.
-  static constexpr double bend = 0.3;
-  static constexpr int halvings = 5;  ///< of one step
-  static constexpr int places = 4;    ///< pieces of a step at whose ends divergence_on_step() looks
+  static constexpr int tracked = 8;           ///< number of eigenvalues that are watched
+  static constexpr double tolerance = 1e-10;  ///< of the natural motions
+  static constexpr double real = 1e-6;        ///< imaginary part of an eigenvalue that counts as rounding
+  /// Distance of a function in the middle of a step from the mean of the ends, over its value there (over the
+  /// larger end where the sign changes), beyond which the step is halved.
+  static constexpr double bend = 0.1;
+  static constexpr double straight = 1e-3;  ///< such a distance over the magnitude that needs no halving
+  static constexpr int halvings = 5;        ///< of one step; one that needs more is too long
+  static constexpr double shortest = 1e-6;  ///< length of a step that is not halved, over its load
+  static constexpr int places = 4;          ///< pieces of a step at whose ends divergence_on_step() looks
 };
 
 bool is_real(const std::complex<double>& square) {
@@ -33,9 +35,9 @@ bool is_real(const std::complex<double>& square) {
 }
 
 int pairs_in(const Squares& squares) {
-  return static_cast<int>(
-      std::count_if(squares.begin(), squares.end(),
-                    [](const auto& square) { return square.imag() > 0.0 && !is_real(square); }));
+  return static_cast<int>(std::count_if(squares.begin(), squares.end(), [](const auto& square) {
+    return square.imag() > 0.0 && !is_real(square);
+  }));
 }
 
 /// Mean and squared half difference of two eigenvalues: both are real, and smooth where the two meet.
@@ -43,9 +45,6 @@ struct Pair {
   double mean = 0.0;
   double difference = 0.0;
   std::size_t first = 0;  ///< index of the lower eigenvalue
-
-  /// Share of the mean by which the two differ, squared; negative for a conjugate pair.
-  [[nodiscard]] double relative() const { return difference / (mean * mean); }
 };
 
 Pair pair_at(const Squares& squares, std::size_t i) {
@@ -94,16 +93,27 @@ int diverging(const Squares& squares) {
   }));
 }
 
-/// Whether some eigenvalue in the middle of a step is so far from the mean of those at its ends that two
-/// eigenvalues may have met, or one may have passed zero, where neither end shows it.
+/// Whether a smooth function may have zeros on a step that the signs at its ends do not show.
+/// @param scale magnitude of the function where nothing is zero
+bool may_hide_zeros(double from, double middle, double to, double scale) {
+  const bool same = (from > 0.0) == (to > 0.0);
+  if (same && (middle > 0.0) != (from > 0.0)) return true;
+  const double size = same ? std::abs(middle) : std::max(std::abs(from), std::abs(to));
+  const double off = std::abs(middle - 0.5 * (from + to));
+  return off > std::max(FlutterLimits::bend * size, FlutterLimits::straight * scale);
+}
+
+/// Whether eigenvalues may have met, or one may have passed zero, where the ends of a step do not show it.
 bool bends(const Squares& from, const Squares& middle, const Squares& to) {
   const std::size_t n = std::min({from.size(), middle.size(), to.size()});
-  for (std::size_t i = 0; i < n; ++i) {
-    const double off = std::abs(middle[i] - 0.5 * (from[i] + to[i]));
-    double room = std::abs(middle[i]);
-    if (i > 0) room = std::min(room, std::abs(middle[i] - middle[i - 1]));
-    if (i + 1 < n) room = std::min(room, std::abs(middle[i + 1] - middle[i]));
-    if (off > FlutterLimits::bend * room) return true;
+  if (std::abs(diverging(from) - diverging(to)) > 1) return true;
+  for (std::size_t i = 0; i < n; ++i)
+    if (may_hide_zeros(from[i].real(), middle[i].real(), to[i].real(), std::abs(middle[i]))) return true;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const Pair pair = pair_at(middle, i);
+    if (may_hide_zeros(pair_at(from, i).difference, pair.difference, pair_at(to, i).difference,
+                       pair.mean * pair.mean))
+      return true;
   }
   return false;
 }
@@ -128,14 +138,12 @@ FlutterSearch::FlutterSearch(const Structure& structure, const Model& model)
 FlutterSearch::Sample FlutterSearch::sample(const PathPoint& point) {
   Sample out{point, natural_motions(structure_, problem_, masses_, point.y, point.lambda, search_), 0};
   search_.near = out.motions.motions;
-  for (const auto& square : out.motions.squares)
-    search_.scale = std::max(search_.scale, std::abs(square));
+  for (const auto& square : out.motions.squares) search_.scale = std::max(search_.scale, std::abs(square));
   out.pairs = pairs_in(out.motions.squares);
   if (!is_damped(model_.damping)) return out;
   left_.scale = search_.scale;
   problem_.set_transposed(true);
-  const NaturalMotions left =
-      natural_motions(structure_, problem_, masses_, point.y, point.lambda, left_);
+  const NaturalMotions left = natural_motions(structure_, problem_, masses_, point.y, point.lambda, left_);
   problem_.set_transposed(false);
   left_.near = left.motions;
   if (left.motions.cols() == out.motions.motions.cols())
@@ -153,12 +161,12 @@ StepVibrations FlutterSearch::on_step(PointSolver& solver, const PathPoint& from
   static_cast<void>(motions_at(from));
   const Sample first = *last_;
   const Sample second = sample(to);
-  hides_divergence_ = diverging(first.motions.squares) == from.negative &&
-                      diverging(second.motions.squares) != to.negative;
+  too_long_ =
+      diverging(first.motions.squares) == from.negative && diverging(second.motions.squares) != to.negative;
   StepVibrations out;
-  if (!hides_divergence_) out.flutter = between(solver, first, second, tolerance, 0);
-  out.hides_divergence = hides_divergence_;
-  if (!hides_divergence_) last_ = second;
+  if (!too_long_) out.flutter = between(solver, first, second, tolerance, 0);
+  out.is_too_long = too_long_;
+  if (!too_long_) last_ = second;
   return out;
 }
 
@@ -167,31 +175,34 @@ std::optional<CriticalEvent> FlutterSearch::between(PointSolver& solver, const S
                                                     double tolerance, int depth) {
   const auto here = [&]() -> std::optional<CriticalEvent> {
     if (is_damped(model_.damping))
-      return from.growth <= 0.0 && to.growth > 0.0 ? locate_growth(solver, from, to, tolerance) : std::nullopt;
+      return from.growth <= 0.0 && to.growth > 0.0 ? locate_growth(solver, from, to, tolerance)
+                                                   : std::nullopt;
     return to.pairs > from.pairs ? locate(solver, from, to, tolerance) : std::nullopt;
   };
-  if (depth == FlutterLimits::halvings) return here();
+  const double width = std::abs(to.point.lambda - from.point.lambda);
+  if (width <= FlutterLimits::shortest * std::max(std::abs(to.point.lambda), std::abs(from.point.lambda)))
+    return here();
   const auto point = Segment(solver, from.point, to.point).point_at(0.5);
   if (!point) return here();
   const Sample middle = sample(*point);
-  const int diverge = diverging(middle.motions.squares);
-  hides_divergence_ = hides_divergence_ || (from.point.negative == to.point.negative &&
-                                            diverge != diverging(from.motions.squares));
-  if (hides_divergence_) return std::nullopt;
-  if (!bends(from.motions.squares, middle.motions.squares, to.motions.squares) &&
-      middle.pairs == from.pairs && middle.pairs == to.pairs && !is_damped(model_.damping))
-    return std::nullopt;
+  const auto is_odd = [](int difference) { return difference % 2 != 0; };
+  too_long_ =
+      !is_odd(to.point.negative - from.point.negative) && is_odd(point->negative - from.point.negative);
+  if (too_long_) return std::nullopt;
+  if (!bends(from.motions.squares, middle.motions.squares, to.motions.squares)) return here();
+  too_long_ = depth == FlutterLimits::halvings;
+  if (too_long_) return std::nullopt;
   if (auto found = between(solver, from, middle, tolerance, depth + 1)) return found;
-  return hides_divergence_ ? std::nullopt : between(solver, middle, to, tolerance, depth + 1);
+  return too_long_ ? std::nullopt : between(solver, middle, to, tolerance, depth + 1);
 }
 
 StepVibrations divergence_on_step(PointSolver& solver, const PathPoint& from, const PathPoint& to) {
   StepVibrations out;
   if (from.negative != to.negative) return out;
   const Segment segment(solver, from, to);
-  for (int i = 1; i < FlutterLimits::places && !out.hides_divergence; ++i) {
+  for (int i = 1; i < FlutterLimits::places && !out.is_too_long; ++i) {
     const auto point = segment.point_at(static_cast<double>(i) / FlutterLimits::places);
-    out.hides_divergence = point && (point->negative - from.negative) % 2 != 0;
+    out.is_too_long = point && (point->negative - from.negative) % 2 != 0;
   }
   return out;
 }
@@ -215,9 +226,9 @@ std::optional<CriticalEvent> FlutterSearch::locate_growth(PointSolver& solver, c
                                                           const Sample& to, double tolerance) {
   const RootFunction function{[&](const PathPoint& at) { return sample(at).growth; },
                               closed_by_load(tolerance)};
-  const LocatedRoot root =
-      find_root(Segment(solver, from.point, to.point), from.growth, to.growth, function);
-  if (!root.found) return std::nullopt;
+  const LocatedRoot root = find_root(Segment(solver, from.point, to.point), from.growth, to.growth, function);
+  too_long_ = !root.found;
+  if (too_long_) return std::nullopt;
   return event_at(root, std::nullopt);
 }
 
@@ -227,17 +238,17 @@ std::optional<CriticalEvent> FlutterSearch::locate(PointSolver& solver, const Sa
   const Pair before = nearest(from.motions.squares, beyond.mean);
   double mean = beyond.mean;
   NaturalMotions motions;
-  const RootFunction function{
-      [&](const PathPoint& at) {
-        motions = sample(at).motions;
-        const Pair pair = nearest(motions.squares, mean);
-        mean = pair.mean;
-        return pair.difference;
-      },
-      closed_by_load(tolerance)};
+  const RootFunction function{[&](const PathPoint& at) {
+                                motions = sample(at).motions;
+                                const Pair pair = nearest(motions.squares, mean);
+                                mean = pair.mean;
+                                return pair.difference;
+                              },
+                              closed_by_load(tolerance)};
   const LocatedRoot root =
       find_root(Segment(solver, from.point, to.point), before.difference, beyond.difference, function);
-  if (!root.found) return std::nullopt;
+  too_long_ = !root.found;
+  if (too_long_) return std::nullopt;
   return event_at(root, mean);
 }
 

@@ -17,9 +17,10 @@ namespace snapthrough {
 /// What natural motions, or the determinant, tell of a step between two points of a path.
 struct StepVibrations {
   std::optional<CriticalEvent> flutter;  ///< the first place at which a pair begins to flutter
-  /// Stability is lost and regained by divergence between the ends, whose inertia does not show it: only the
-  /// parity of the inertia of an unsymmetric tangent is known.
-  bool hides_divergence = false;
+  /// The step is too long: stability is lost and regained by divergence between its ends, whose inertia does
+  /// not show it (only the parity of the inertia of an unsymmetric tangent is known), or the natural motions
+  /// change too much to be followed.
+  bool is_too_long = false;
 };
 
 /// @brief Looks at places between two points of a path for a determinant of another sign, without masses.
@@ -58,8 +59,8 @@ class FlutterSearch {
                                                      const Sample& to, double tolerance, int depth);
   [[nodiscard]] std::optional<CriticalEvent> locate_growth(PointSolver& solver, const Sample& from,
                                                            const Sample& to, double tolerance);
-  [[nodiscard]] std::optional<CriticalEvent> locate(PointSolver& solver, const Sample& from,
-                                                    const Sample& to, double tolerance);
+  [[nodiscard]] std::optional<CriticalEvent> locate(PointSolver& solver, const Sample& from, const Sample& to,
+                                                    double tolerance);
 
   [[nodiscard]] CriticalEvent event_at(const LocatedRoot& root, const std::optional<double>& mean);
 
@@ -70,7 +71,7 @@ class FlutterSearch {
   MotionSearch search_;
   MotionSearch left_;  ///< of the transposed tangent
   std::optional<Sample> last_;
-  bool hides_divergence_ = false;  ///< on the present step
+  bool too_long_ = false;  ///< the present step, see StepVibrations
 };
 
 }  // namespace snapthrough

@@ -17,17 +17,17 @@ using Eigen::VectorXd;
 
 /// Limits of the search; ratios unless said otherwise.
 struct SearchLimits {
-  static constexpr Index block = kLanes;       ///< columns of a block: as many as solve() takes at once
-  static constexpr Index spare = 36;           ///< vectors beyond three per wanted eigenvalue, at most
-  static constexpr double dependent = 1e-10;   ///< part of a column outside the basis that is rounding
-  static constexpr double massless = 1e-13;    ///< eigenvalue of the inverse, over the largest: no mass moves
-  static constexpr double far = 30.0;          ///< shift over the lowest eigenvalues at which it is moved
-  static constexpr double below = 0.3;         ///< moved shift over the lowest eigenvalues
-  static constexpr double first_shift = 0.1;   ///< first shift over the scale
-  static constexpr int shifts = 60;            ///< shifts that are tried
-  static constexpr int tries = 3;              ///< starts from other vectors when an eigenvalue was missed
-  static constexpr double rounding = 1e-12;    ///< rest of a motion that is rounding, over the largest theta
-  static constexpr double gap = 1e-9;          ///< distance of neighbours that one count tells apart
+  static constexpr Index block = kLanes;      ///< columns of a block: as many as solve() takes at once
+  static constexpr Index spare = 36;          ///< vectors beyond three per wanted eigenvalue, at most
+  static constexpr double dependent = 1e-10;  ///< part of a column outside the basis that is rounding
+  static constexpr double massless = 1e-13;   ///< eigenvalue of the inverse, over the largest: no mass moves
+  static constexpr double far = 30.0;         ///< shift over the lowest eigenvalues at which it is moved
+  static constexpr double below = 0.3;        ///< moved shift over the lowest eigenvalues
+  static constexpr double first_shift = 0.1;  ///< first shift over the scale
+  static constexpr int shifts = 60;           ///< shifts that are tried
+  static constexpr int tries = 3;             ///< starts from other vectors when an eigenvalue was missed
+  static constexpr double rounding = 1e-12;   ///< rest of a motion that is rounding, over the largest theta
+  static constexpr double gap = 1e-9;         ///< distance of neighbours that one count tells apart
 };
 
 /// The operator T = (J + sigma M)^-1 M, with inner product x^T M y.
@@ -45,9 +45,7 @@ class ShiftedInverse {
     ++factorizations_;
     return problem_.linearise(y_, lambda_, residual_, regime).negative;
   }
-  [[nodiscard]] MatrixXd weighted(const MatrixXd& x) const {
-    return mass_products(structure_, masses_, x);
-  }
+  [[nodiscard]] MatrixXd weighted(const MatrixXd& x) const { return mass_products(structure_, masses_, x); }
   /// T x from M x.
   [[nodiscard]] MatrixXd apply(MatrixXd weighted) {
     problem_.to_rows(weighted);
@@ -140,14 +138,14 @@ std::vector<Ritz> Basis::ritz() const {
       out.push_back({found.values[i], found.vectors.col(i).cast<std::complex<double>>(), 0.0});
   } else {
     const ComplexEigen found = complex_eigen(H);
-    for (Index i = 0; i < found.values.size(); ++i) out.push_back({found.values[i], found.vectors.col(i), 0.0});
+    for (Index i = 0; i < found.values.size(); ++i)
+      out.push_back({found.values[i], found.vectors.col(i), 0.0});
   }
   for (Ritz& pair : out) pair.rest = (beyond * pair.combination).norm();
   double largest = 0.0;
   for (const Ritz& pair : out) largest = std::max(largest, std::abs(pair.theta));
-  std::erase_if(out, [largest](const Ritz& pair) {
-    return std::abs(pair.theta) <= SearchLimits::massless * largest;
-  });
+  std::erase_if(
+      out, [largest](const Ritz& pair) { return std::abs(pair.theta) <= SearchLimits::massless * largest; });
   const auto square = [](const Ritz& pair) { return 1.0 / pair.theta; };
   std::sort(out.begin(), out.end(), [&](const Ritz& a, const Ritz& b) {
     const auto x = square(a);
@@ -181,18 +179,18 @@ void take(const Basis& basis, const std::vector<Ritz>& pairs, int count, double 
   for (std::size_t i = 0; i < n; ++i) {
     out.squares.push_back(shift + 1.0 / pairs[i].theta);
     const Eigen::VectorXcd motion = basis.motion(pairs[i]);
-    const bool second = pairs[i].theta.imag() != 0.0 && i > 0 && pairs[i - 1].theta == std::conj(pairs[i].theta);
+    const bool second =
+        pairs[i].theta.imag() != 0.0 && i > 0 && pairs[i - 1].theta == std::conj(pairs[i].theta);
     out.motions.col(static_cast<Index>(i)) = second ? VectorXd(motion.imag()) : VectorXd(motion.real());
   }
 }
 
 /// Motions to begin with: those nearby, filled up to a whole number of blocks.
 MatrixXd start_of(const MotionSearch& search, Index size, unsigned seed) {
-  const Index wanted = search.count + 1;
-  const Index blocks = (wanted + SearchLimits::block - 1) / SearchLimits::block;
+  const Index given = seed == 0 ? search.near.cols() : 0;
+  const Index blocks = given / SearchLimits::block + 1;
   MatrixXd out(size, blocks * SearchLimits::block);
-  const Index given = seed == 0 ? std::min(search.near.cols(), out.cols()) : 0;
-  if (given > 0) out.leftCols(given) = search.near.leftCols(given);
+  if (given > 0) out.leftCols(given) = search.near;
   for (Index i = given; i < out.cols(); ++i)
     out.col(i) = pseudo_random(size, seed * 1000U + static_cast<unsigned>(i) + 1U);
   return out;
@@ -235,8 +233,9 @@ bool is_complete(ShiftedInverse& inverse, const NaturalMotions& found) {
 
 }  // namespace
 
-NaturalMotions natural_motions(const Structure& structure, StructuralProblem& problem, const MassMatrix& masses,
-                               const VectorXd& y, double lambda, const MotionSearch& search) {
+NaturalMotions natural_motions(const Structure& structure, StructuralProblem& problem,
+                               const MassMatrix& masses, const VectorXd& y, double lambda,
+                               const MotionSearch& search) {
   NaturalMotions out;
   ShiftedInverse inverse(structure, problem, masses, y, lambda);
   const double scale = search.scale > 0.0 ? search.scale : masses.scale;

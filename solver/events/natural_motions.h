@@ -13,8 +13,8 @@ namespace snapthrough {
 
 /// @brief The lowest eigenvalues of J x = mu M x at an equilibrium, mu = omega^2 in scaled units.
 ///
-/// A motion x varies as exp(i omega t): it oscillates where mu > 0, grows where mu < 0 (divergence), and grows
-/// and oscillates where mu is complex (flutter; unsymmetric tangents only).
+/// A motion x varies as exp(i omega t): it oscillates where mu > 0, grows where mu < 0 (divergence), and
+/// grows and oscillates where mu is complex (flutter; unsymmetric tangents only).
 struct NaturalMotions {
   std::vector<std::complex<double>> squares;  ///< mu by ascending real part; conjugate pairs adjoin
   /// A column for each entry of `squares`; real and imaginary part of the motion for a conjugate pair.
@@ -29,21 +29,21 @@ struct MotionSearch {
   int count = 1;  ///< number of eigenvalues; the structure may have fewer
   /// Relative size of what the iteration leaves of a motion. Eigenvalues of symmetric tangents have twice
   /// its digits.
-  double tolerance = 1e-8;
-  bool counted = true;  ///< inertia counts confirm that no eigenvalue was missed (symmetric tangents)
+  double tolerance = 1e-6;
+  bool counted = true;        ///< inertia counts confirm that no eigenvalue was missed (symmetric tangents)
   Eigen::MatrixXd near = {};  ///< motions nearby, to begin with; may be empty
   double scale = 0.0;         ///< magnitude of the lowest eigenvalues; 0: unknown
 };
 
 /// @brief Finds the lowest natural motions at (y, lambda).
 ///
-/// Block Krylov subspaces of (J + sigma M)^-1 M, orthonormal in M, with sigma > 0 below all eigenvalues by the
-/// inertia of J + sigma M (Parlett, The Symmetric Eigenvalue Problem, ch. 13; Arnoldi's method where J is not
-/// symmetric). Unknowns without mass are eliminated exactly by each solution.
+/// Block Krylov subspaces of (J + sigma M)^-1 M, orthonormal in M, with sigma > 0 below all eigenvalues by
+/// the inertia of J + sigma M (Parlett, The Symmetric Eigenvalue Problem, ch. 13; Arnoldi's method where J is
+/// not symmetric). Unknowns without mass are eliminated exactly by each solution.
 /// @param problem without holds; its factors are overwritten
 /// @param y, lambda an equilibrium; one-sided supports act as they do there
 [[nodiscard]] NaturalMotions natural_motions(const Structure& structure, StructuralProblem& problem,
-                                             const MassMatrix& masses, const Eigen::VectorXd& y, double lambda,
-                                             const MotionSearch& search);
+                                             const MassMatrix& masses, const Eigen::VectorXd& y,
+                                             double lambda, const MotionSearch& search);
 
 }  // namespace snapthrough

@@ -105,7 +105,7 @@ struct StartState {
 
 struct Analysis {
   AnalysisType type = AnalysisType::critical;
-  int modes = 1;  ///< `buckling`: number of loads; `vibration`: number of frequencies
+  int modes = 1;          ///< `buckling`: number of loads; `vibration`: number of frequencies
   bool reversed = false;  ///< `buckling`: also loads of the opposite sense, as negative load factors
   std::vector<double> load_factors{1.0};
   Unstable unstable = Unstable::refuse;

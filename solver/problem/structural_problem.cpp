@@ -346,8 +346,9 @@ TangentReport StructuralProblem::factorise(const VectorXd& y, double lambda, con
   return report;
 }
 
-/// Corrects determinant and count of the symmetric part for the follower loads. A nonsymmetric tangent changes
-/// its divergence stability where its determinant changes sign; the count is changed to match that parity.
+/// Corrects determinant and count of the symmetric part for the follower loads. A nonsymmetric tangent
+/// changes its divergence stability where its determinant changes sign; the count is changed to match that
+/// parity.
 void StructuralProblem::add_follower_loads(const VectorXd& y, double lambda, TangentReport& report) {
   const double det = follower_loads_.prepare(y, factors(lambda), [this](Eigen::Ref<MatrixXd> x) {
     for (Index i = 0; i < x.cols(); ++i) release_rows(x.col(i));
@@ -666,7 +667,7 @@ Eigen::MatrixXd StructuralProblem::find_products(const VectorXd& y, double lambd
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(y.size(), directions.cols());
   elements_->add_tangent_products(y, factors(lambda), regime, directions, products);
   springs_.evaluate(y, regime);
-  for (Index i = 0; i < directions.cols(); ++i) 
+  for (Index i = 0; i < directions.cols(); ++i)
     add_node_products(y, lambda, regime, directions.col(i), products.col(i));
   return products;
 }

@@ -179,7 +179,7 @@ class StructuralProblem final : public EquilibriumProblem {
   std::vector<std::vector<int>> node_rows_;   ///< rows of each block of the node system
   std::vector<Eigen::MatrixXd> node_blocks_;  ///< blocks of members, node springs and held nodes
   std::vector<char> free_rotation_;  ///< node rotations without stiffness: all members are released there
-  bool corrected_ = false;  ///< solve() adds the nonsymmetric part of follower loads
+  bool corrected_ = false;           ///< solve() adds the nonsymmetric part of follower loads
   bool planned_ = false;             ///< node_rows_ and factor_ include the holds
   SymmetricIndefinite factor_;
   Eigen::MatrixXd node_rhs_, free_rhs_;  ///< scratch of solve()

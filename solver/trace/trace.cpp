@@ -296,7 +296,7 @@ bool Tracer::next_step(PathPoint& from, PathPoint& to, StepSize& size, bool& acc
   }
   if (rules_.vibrations && step.located.same_path) {
     StepVibrations vibrations = rules_.vibrations(from, to);
-    if (vibrations.hides_divergence && !step.onto_bifurcation)
+    if (vibrations.is_too_long && !step.onto_bifurcation)
       step.located = {{}, false, {}};
     else if (vibrations.flutter)
       add_flutter(from, *std::move(vibrations.flutter), step.located.events);

@@ -75,7 +75,7 @@ bool needs_several_fields(const Finding& finding) {
                                             "needs_member",       // component and location of a monitor
                                             "not_fixed",          // fixed and displacement of a support
                                             "no_load",           "mechanism",  // the model as a whole
-                                            "no_mass",         // masses and frequencies
+                                            "no_mass",                         // masses and frequencies
                                             "unsupported",     // pairs of fields that do not go together
                                             "not_supported",   // imperfections and the analysis
                                             "not_increasing",  // one fraction and the one before
